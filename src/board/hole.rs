@@ -1,0 +1,42 @@
+use crate::geometry::{Nm, Path, Rect};
+
+/// Whether a hole's wall is plated, and so joins the two sides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Plating {
+    /// Through-plated.
+    Plated,
+    /// Not plated.
+    NonPlated,
+    /// The file does not say.
+    Unknown,
+}
+
+/// A drilled hole, a slot, or a routed contour: a round cutter of `diameter` moved along `path`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hole {
+    /// Where the middle of the cutter goes: a path without segments is a plain hole.
+    pub path: Path,
+    /// The cutter's diameter.
+    pub diameter: Nm,
+    /// Whether the wall is plated.
+    pub plating: Plating,
+    /// The tool's number in its file.
+    pub tool: u32,
+    /// The line of the file that drilled it, from 1.
+    pub line: u32,
+}
+
+impl Hole {
+    /// Whether it is more than one plunge.
+    #[must_use]
+    pub fn is_slot(&self) -> bool {
+        !self.path.segments.is_empty()
+    }
+
+    /// A rectangle that holds it.
+    #[must_use]
+    pub fn bounds(&self) -> Rect {
+        self.path.bounds().inflate(self.diameter / 2)
+    }
+}

@@ -1,0 +1,1 @@
+//! Clear features subtracted exactly: the one place that knows the boolean library.

@@ -1,0 +1,122 @@
+use super::{Nm, Orientation, Point, Rect, Vector, orientation};
+
+/// A filled area: closed contours, of which each point counts as inside by the non-zero winding rule.
+///
+/// # Guarantees
+///
+/// Every contour has at least three points; the closing edge from last to first is implied. A polygon that comes
+/// from a boolean is simple: outer contours counter-clockwise, holes clockwise, no crossing.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Polygon {
+    contours: Vec<Vec<Point>>,
+}
+
+impl Polygon {
+    /// The area inside `contours`, less those of fewer than three points; none where nothing is left.
+    #[must_use]
+    pub fn new(mut contours: Vec<Vec<Point>>) -> Option<Self> {
+        contours.retain(|contour| contour.len() >= 3);
+        (!contours.is_empty()).then_some(Self { contours })
+    }
+
+    /// The rectangle as a polygon.
+    #[must_use]
+    pub fn rectangle(rect: Rect) -> Self {
+        Self { contours: vec![rect.corners().to_vec()] }
+    }
+
+    /// The contours, each a ring of at least three points.
+    #[must_use]
+    pub fn contours(&self) -> &[Vec<Point>] {
+        &self.contours
+    }
+
+    /// Every edge, with its direction.
+    pub fn edges(&self) -> impl Iterator<Item = (Point, Point)> {
+        self.contours
+            .iter()
+            .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&from, &to)| (from, to)))
+    }
+
+    /// A rectangle that holds it.
+    #[must_use]
+    pub fn bounds(&self) -> Rect {
+        let first = self.contours[0][0];
+        self.contours.iter().flatten().fold(Rect::new(first, first), |r, &p| r.union(Rect::new(p, p)))
+    }
+
+    /// The signed area in mm², counter-clockwise positive.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "a display figure; the sum itself is exact")]
+    pub fn area_mm2(&self) -> f64 {
+        let origin = self.contours[0][0];
+        let twice: i128 = self.edges().map(|(a, b)| i128::from((a - origin).cross(b - origin))).sum();
+        twice as f64 / 2e12
+    }
+
+    /// How often the contours wind round `p`; none where `p` lies on an edge. Exact.
+    #[must_use]
+    pub fn winding(&self, p: Point) -> Option<i32> {
+        let mut winding = 0;
+        for (a, b) in self.edges() {
+            let side = orientation(a, b, p);
+            if side == Orientation::Straight && Rect::new(a, b).contains(p) {
+                return None;
+            }
+            if a.y <= p.y && b.y > p.y && side == Orientation::Left {
+                winding += 1;
+            } else if a.y > p.y && b.y <= p.y && side == Orientation::Right {
+                winding -= 1;
+            }
+        }
+        Some(winding)
+    }
+
+    /// Whether `p` lies inside or on an edge, by the non-zero rule. Exact.
+    #[must_use]
+    pub fn contains(&self, p: Point) -> bool {
+        self.winding(p) != Some(0)
+    }
+
+    /// Moved by `way`.
+    #[must_use]
+    pub fn translated(&self, way: Vector) -> Self {
+        Self { contours: self.contours.iter().map(|ring| ring.iter().map(|&p| p + way).collect()).collect() }
+    }
+
+    /// The total length of all edges, in nanometres.
+    #[must_use]
+    pub fn perimeter(&self) -> f64 {
+        self.edges().map(|(a, b)| a.distance(b)).sum()
+    }
+
+    /// The area inside a circle, as a polygon within `tolerance` of it.
+    #[must_use]
+    pub fn disc(center: Point, radius: Nm, tolerance: Nm) -> Option<Self> {
+        let start = center + Vector::new(radius, Nm::ZERO);
+        let circle = super::Arc { start, end: start, center, turn: super::Turn::CounterClockwise };
+        Self::new(vec![circle.flatten(tolerance).collect()])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(x: i64, y: i64) -> Point {
+        Point::new(Nm::from_um(x), Nm::from_um(y))
+    }
+
+    #[test]
+    fn a_hole_is_outside_and_its_edge_is_not() {
+        let outer = Rect::new(at(0, 0), at(10, 10)).corners().to_vec();
+        let mut hole = Rect::new(at(4, 4), at(6, 6)).corners().to_vec();
+        hole.reverse();
+        let ring = Polygon::new(vec![outer, hole]).expect("two contours");
+        assert!(ring.contains(at(1, 1)), "in the copper");
+        assert!(!ring.contains(at(5, 5)), "in the hole");
+        assert!(ring.contains(at(4, 5)), "on the edge of the hole");
+        assert!(!ring.contains(at(11, 5)), "outside");
+        assert!((ring.area_mm2() - 96e-6).abs() < 1e-15, "area {}", ring.area_mm2());
+    }
+}

@@ -1,0 +1,7 @@
+//! voromill
+#![cfg_attr(not(test), warn(clippy::unwrap_used))]
+
+pub mod board;
+pub mod geometry;
+pub mod topology;
+pub mod voronoi;
