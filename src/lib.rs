@@ -3,5 +3,6 @@
 
 pub mod board;
 pub mod geometry;
+pub mod import;
 pub mod topology;
 pub mod voronoi;

@@ -1,0 +1,247 @@
+//! What can be wrong with a file, and where: errors stop the reading, [`Warnings`] are collected on the way.
+//!
+//! Both know their place as bytes of the file. Line and column are worked out only when something is reported, so
+//! the readers do not count while nothing is wrong.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
+
+use crate::board::{SourceSpan, Warning};
+
+/// Why a file could not be read.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// Something in the file is not as it must be.
+    #[error("{0}")]
+    Syntax(Box<Diagnosis>),
+    /// The file as a whole is not what it was taken for.
+    #[error("{file}: {what}; {hint}")]
+    Content {
+        /// The file's name without its folder.
+        file: String,
+        /// What is wrong with it.
+        what: String,
+        /// What to do.
+        hint: String,
+    },
+}
+
+/// One thing wrong at one place of a file, in the words of its reader.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Diagnosis {
+    /// Where, with the offending text.
+    pub span: SourceSpan,
+    /// What is wrong.
+    pub what: String,
+    /// What was expected there.
+    pub expected: String,
+    /// What to do about it; may be empty.
+    pub hint: String,
+    /// The line (or, of a long one, what surrounds the place), printable.
+    excerpt: String,
+    /// The offending text within the excerpt, in bytes.
+    marked: Range<usize>,
+}
+
+impl std::fmt::Display for Diagnosis {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let SourceSpan { file, line, column, text } = &self.span;
+        write!(f, "{file}:{line}:{column}: {} at `{text}`; expected {}", self.what, self.expected)?;
+        if self.hint.is_empty() { Ok(()) } else { write!(f, "; {}", self.hint) }
+    }
+}
+
+impl Error {
+    /// An error at the bytes `place` of the file `file` with content `bytes`. `hint` says what to do; it may be empty.
+    pub(in crate::import) fn syntax(
+        file: &str,
+        bytes: &[u8],
+        place: Range<usize>,
+        what: impl Into<String>,
+        expected: impl Into<String>,
+        hint: impl Into<String>,
+    ) -> Self {
+        let span = locate(file, bytes, place.clone());
+        let (excerpt, marked) = excerpt(bytes, place);
+        let (what, expected, hint) = (what.into(), expected.into(), hint.into());
+        Self::Syntax(Box::new(Diagnosis { span, what, expected, hint, excerpt, marked }))
+    }
+
+    /// An error about the file `file` as a whole.
+    pub(in crate::import) fn content(file: &str, what: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self::Content { file: file.to_owned(), what: what.into(), hint: hint.into() }
+    }
+
+    /// The error as a terminal shows it: the line with a marker under the offending text, what was expected, the hint.
+    #[must_use]
+    pub fn render(&self) -> String {
+        let Self::Syntax(diagnosis) = self else { return format!("error: {self}") };
+        let Diagnosis { span, what, expected, hint, excerpt, marked } = diagnosis.as_ref();
+        let snippet = Snippet::source(excerpt.as_str())
+            .line_start(span.line as usize)
+            .annotation(AnnotationKind::Primary.span(marked.clone()).label(format!("expected {expected}")));
+        let place =
+            Origin::path(span.file.as_str()).line(span.line as usize).char_column(span.column as usize);
+        let group = Level::ERROR.primary_title(what.as_str()).element(place).element(snippet);
+        let group = if hint.is_empty() { group } else { group.element(Level::HELP.message(hint.as_str())) };
+        Renderer::plain().render(&[group])
+    }
+}
+
+/// The bytes of an offending text that are shown; the rest of a longer one is cut.
+const SHOWN: usize = 60;
+
+/// The place of the bytes `place` of a file: CR, LF and CR LF each end a line.
+pub(in crate::import) fn locate(file: &str, bytes: &[u8], place: Range<usize>) -> SourceSpan {
+    let start = place.start.min(bytes.len());
+    let before = &bytes[..start];
+    let ends = |i: usize| match before[i] {
+        b'\n' => true,
+        b'\r' => bytes.get(i + 1) != Some(&b'\n'),
+        _ => false,
+    };
+    let lines = (0..start).filter(|&i| ends(i)).count();
+    let line_start = (0..start).rev().find(|&i| ends(i)).map_or(0, |i| i + 1);
+    let shown = place.end.clamp(start, bytes.len()).min(start + SHOWN);
+    SourceSpan {
+        file: file.to_owned(),
+        line: u32::try_from(lines + 1).unwrap_or(u32::MAX),
+        column: u32::try_from(start - line_start + 1).unwrap_or(u32::MAX),
+        text: printable(&bytes[start..shown]).trim_end().to_owned(),
+    }
+}
+
+/// The line around `place`, at most [`SHOWN`] bytes of it on either side, and where in it the place is.
+fn excerpt(bytes: &[u8], place: Range<usize>) -> (String, Range<usize>) {
+    let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
+    let start = place.start.min(bytes.len());
+    let end = place.end.clamp(start, bytes.len()).min(start + SHOWN);
+    let from = bytes[..start].iter().rposition(is_end).map_or(0, |i| i + 1).max(start.saturating_sub(SHOWN));
+    let line_end = bytes[start..].iter().position(is_end).map_or(bytes.len(), |i| start + i);
+    let to = line_end.min(end + SHOWN);
+    let end = end.min(to).max(start);
+    let before = printable(&bytes[from..start]);
+    let marked = printable(&bytes[start..end]);
+    let after = printable(&bytes[end..to]);
+    let range = before.len()..before.len() + marked.len();
+    (before + &marked + &after, range)
+}
+
+/// The bytes as text: Latin-1, with a middle dot for what cannot be seen.
+pub(in crate::import) fn printable(bytes: &[u8]) -> String {
+    bytes
+        .iter()
+        .map(|&b| match b {
+            b'\t' | b'\n' | b'\r' => ' ',
+            0x20..=0x7e | 0xa1..=0xff => char::from(b),
+            _ => '·',
+        })
+        .collect()
+}
+
+/// What was repaired or left out while reading one file: of each kind the first place, and how many there were.
+///
+/// A file with a habit has it on every line, and a thousand equal warnings hide the one that matters.
+#[derive(Debug)]
+pub(in crate::import) struct Warnings<'a> {
+    file: &'a str,
+    bytes: &'a [u8],
+    /// By code and message: the first place, and the count.
+    found: BTreeMap<(&'static str, String), (Range<usize>, u32)>,
+    /// How many of each code there were.
+    kinds: BTreeMap<&'static str, u32>,
+}
+
+/// How many different messages of one code are kept; the rest are only counted.
+const KEPT_OF_A_KIND: u32 = 8;
+
+impl<'a> Warnings<'a> {
+    /// None so far, for the file `file` with content `bytes`.
+    pub(in crate::import) const fn new(file: &'a str, bytes: &'a [u8]) -> Self {
+        Self { file, bytes, found: BTreeMap::new(), kinds: BTreeMap::new() }
+    }
+
+    /// Notes a warning at the bytes `place`. The same code and message again only counts.
+    pub(in crate::import) fn add(
+        &mut self,
+        code: &'static str,
+        place: Range<usize>,
+        message: impl Into<String>,
+    ) {
+        let key = (code, message.into());
+        if let Some((_, count)) = self.found.get_mut(&key) {
+            *count += 1;
+            return;
+        }
+        let kinds = self.kinds.entry(code).or_default();
+        *kinds += 1;
+        if *kinds <= KEPT_OF_A_KIND {
+            self.found.insert(key, (place, 1));
+        }
+    }
+
+    /// All warnings, in file order.
+    pub(in crate::import) fn finish(self) -> Vec<Warning> {
+        let mut found: Vec<_> = self.found.into_iter().collect();
+        found.sort_by_key(|(_, (place, _))| place.start);
+        let mut warnings: Vec<Warning> = found
+            .into_iter()
+            .map(|((code, message), (place, count))| {
+                let message =
+                    if count > 1 { format!("{message} (and {} more times)", count - 1) } else { message };
+                Warning::new(code, message).caused_by(locate(self.file, self.bytes, place))
+            })
+            .collect();
+        warnings.extend(self.kinds.into_iter().filter(|&(_, count)| count > KEPT_OF_A_KIND).map(
+            |(code, count)| {
+                let rest = count - KEPT_OF_A_KIND;
+                Warning::new(code, format!("{rest} more of this kind in {}", self.file))
+            },
+        ));
+        warnings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_of_line_end_counts_once() {
+        for text in ["a\nb\ncd", "a\rb\rcd", "a\r\nb\r\ncd"] {
+            let span = locate("f", text.as_bytes(), text.len() - 1..text.len());
+            assert_eq!((span.line, span.column, span.text.as_str()), (3, 2, "d"), "{text:?}");
+        }
+    }
+
+    #[test]
+    fn an_error_in_a_file_of_one_line_shows_its_surroundings_only() {
+        let text = format!("{}D99*{}", "X1Y1D02*".repeat(10_000), "X1Y1D01*".repeat(10_000));
+        let error = Error::syntax(
+            "top.gbr",
+            text.as_bytes(),
+            80_000..80_004,
+            "aperture D99 is not defined",
+            "an aperture that an %ADD…% defined before",
+            "",
+        );
+        let shown = error.render();
+        assert!(shown.len() < 800, "{} bytes:\n{shown}", shown.len());
+        assert!(shown.contains("top.gbr:1:80001"), "names the place:\n{shown}");
+        assert!(shown.contains("^^^^"), "marks the text:\n{shown}");
+    }
+
+    #[test]
+    fn a_habit_is_reported_once_with_a_count() {
+        let mut warnings = Warnings::new("f", b"abc");
+        for _ in 0..3 {
+            warnings.add("habit", 1..2, "does it");
+        }
+        let warnings = warnings.finish();
+        assert_eq!(warnings.len(), 1, "one entry");
+        assert_eq!(warnings[0].message, "does it (and 2 more times)", "with the count");
+    }
+}

@@ -1,0 +1,5 @@
+//! Files → [`Board`](crate::board::Board).
+
+mod error;
+
+pub use error::{Diagnosis, Error};
