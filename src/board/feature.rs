@@ -1,4 +1,6 @@
-use crate::geometry::{Arc, Nm, Point, Polygon, Rect};
+use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
+
+use super::polarity;
 
 /// The copper of one feature, its edge included.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,6 +44,55 @@ impl Shape {
             Self::Polygon(polygon) => polygon.bounds(),
         }
     }
+
+    /// The same area as a polygon, its curves within `tolerance`; none where it has no area.
+    #[must_use]
+    pub fn polygon(&self, tolerance: Nm) -> Option<Polygon> {
+        match *self {
+            Self::Polygon(ref polygon) => Some(polygon.clone()),
+            Self::Disc { radius, .. } | Self::Stroke { radius, .. } | Self::Arc { radius, .. }
+                if radius <= Nm::ZERO =>
+            {
+                None
+            }
+            Self::Disc { center, radius } => Polygon::disc(center, radius, tolerance),
+            Self::Stroke { from, to, radius } => {
+                let ends = [from, to].map(|end| Polygon::disc(end, radius, tolerance));
+                Polygon::hull(ends.iter().flatten().flat_map(|end| end.contours()[0].iter().copied()))
+            }
+            Self::Arc { ref arc, radius } => swept_arc(arc, radius, tolerance),
+        }
+    }
+}
+
+/// All points within `radius` of `arc`: the sector between its two edges, and a disc at either end.
+fn swept_arc(arc: &Arc, radius: Nm, tolerance: Nm) -> Option<Polygon> {
+    let steps = u32::try_from(arc.chords(tolerance) * 2).unwrap_or(u32::MAX);
+    let (start, sweep, (x, y)) = (arc.start_angle(), arc.sweep(), arc.center.to_f64());
+    // A stroke wider than the arc's radius reaches over the centre: what lies there belongs to the discs.
+    let edge = |out: Nm| {
+        let reach = |end: Point| (arc.center.distance(end) + out.to_f64()).max(0.0);
+        let (from, to) = (reach(arc.start), reach(arc.end));
+        (0..=steps).map(move |step| {
+            let fraction = f64::from(step) / f64::from(steps);
+            let (sin, cos) = libm::sincos(start + sweep * fraction);
+            let reach = from + (to - from) * fraction;
+            Point::from_f64(x + reach * cos, y + reach * sin)
+        })
+    };
+    let (outer, mut inner): (Vec<Point>, Vec<Point>) = (edge(radius).collect(), edge(-radius).collect());
+    inner.reverse();
+    let mut contours = if arc.start == arc.end {
+        vec![outer, inner]
+    } else {
+        vec![outer.into_iter().chain(inner).collect()]
+    };
+    if arc.turn == Turn::Clockwise {
+        contours.iter_mut().for_each(|ring| ring.reverse());
+    }
+    let ends = [arc.start, arc.end].map(|end| Polygon::disc(end, radius, tolerance));
+    contours.extend(ends.iter().flatten().map(|end| end.contours()[0].clone()));
+    polarity::clean(&contours).into_iter().next()
 }
 
 /// How a feature was drawn: the paper's vertices and approximate core medial axis (§III-A.1, III-D).

@@ -1,1 +1,253 @@
-//! Clear features subtracted exactly: the one place that knows the boolean library.
+//! Exact polygon booleans, and what clear polarity leaves of the copper: the one place that knows the boolean library.
+//!
+//! `i_overlay` works in 32-bit integers whose range is exactly that of [`Nm`]: points of the input keep their place,
+//! crossings are rounded to the nanometre, and every machine gives the same polygons. Of the libraries tried
+//! (a C++ and a Rust Clipper2, `geo`) it was the fastest by a factor of five, and the one that independent sampling
+//! sided with where they disagreed.
+
+use i_overlay::core::fill_rule::FillRule;
+use i_overlay::core::overlay::{Overlay, ShapeType};
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::i_float::int::angle::Angle;
+use i_overlay::i_float::int::point::IntPoint;
+use i_overlay::mesh::int::arc::ArcOptions;
+use i_overlay::mesh::int::outline::offset::IntOutlineOffset;
+use i_overlay::mesh::int::style::{IntLineJoin, IntOutlineStyle};
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use crate::geometry::{Nm, Point, Polygon, Rect};
+
+use super::{FLATTEN, Feature, Shape};
+
+/// Whether an object adds copper or takes away what was drawn before it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Polarity {
+    /// Adds copper.
+    Dark,
+    /// Erases the copper under it.
+    Clear,
+}
+
+impl Polarity {
+    /// The other one.
+    #[must_use]
+    pub const fn toggled(self) -> Self {
+        match self {
+            Self::Dark => Self::Clear,
+            Self::Clear => Self::Dark,
+        }
+    }
+}
+
+/// The area where `contours`, taken together, wind round a point any number of times but none: as simple polygons,
+/// one for each connected piece, holes included.
+#[must_use]
+pub fn clean(contours: &[Vec<Point>]) -> Vec<Polygon> {
+    let mut overlay = Overlay::new(contours.iter().map(Vec::len).sum());
+    let int: Vec<Vec<IntPoint<i32>>> =
+        contours.iter().map(|ring| ring.iter().copied().map(int).collect()).collect();
+    polygons(overlay.simplify_source(&int, FillRule::NonZero))
+}
+
+/// What at least one of `polygons` covers, one polygon for each connected piece.
+///
+/// Each must be simple, as [`clean`] and the other functions here return them.
+#[must_use]
+pub fn union<'a>(polygons: impl IntoIterator<Item = &'a Polygon>) -> Vec<Polygon> {
+    let mut overlay = Overlay::new(0);
+    polygons.into_iter().for_each(|polygon| add(&mut overlay, polygon, ShapeType::Subject));
+    self::polygons(overlay.overlay(OverlayRule::Subject, FillRule::NonZero))
+}
+
+/// What `subject` covers and none of `clips` does; polygons as for [`union`].
+#[must_use]
+pub fn difference<'a>(subject: &Polygon, clips: impl IntoIterator<Item = &'a Polygon>) -> Vec<Polygon> {
+    let mut overlay = Overlay::new(0);
+    add(&mut overlay, subject, ShapeType::Subject);
+    clips.into_iter().for_each(|clip| add(&mut overlay, clip, ShapeType::Clip));
+    polygons(overlay.overlay(OverlayRule::Difference, FillRule::NonZero))
+}
+
+/// What both cover; polygons as for [`union`].
+#[must_use]
+pub fn intersection(a: &Polygon, b: &Polygon) -> Vec<Polygon> {
+    let mut overlay = Overlay::new(0);
+    add(&mut overlay, a, ShapeType::Subject);
+    add(&mut overlay, b, ShapeType::Clip);
+    polygons(overlay.overlay(OverlayRule::Intersect, FillRule::NonZero))
+}
+
+/// `polygon` grown by `by` on every side, with round corners within `tolerance`; shrunk where `by` is negative.
+/// Polygons as for [`union`].
+#[must_use]
+pub fn offset(polygon: &Polygon, by: Nm, tolerance: Nm) -> Vec<Polygon> {
+    let radius = by.abs().to_f64().max(1.0);
+    let step = 2.0 * libm::acos(1.0 - (tolerance.to_f64().max(1.0) / radius).min(1.0));
+    let max_step = Angle::from_radians(step).unwrap_or(ArcOptions::MAX_STEP);
+    let join = IntLineJoin::Round(ArcOptions { max_step, ..ArcOptions::default() });
+    let style = IntOutlineStyle::new(int_length(by)).line_join(join);
+    let contours: Vec<Vec<IntPoint<i32>>> =
+        polygon.contours().iter().map(|ring| ring.iter().copied().map(int).collect()).collect();
+    polygons(contours.outline(&style).unwrap_or_default())
+}
+
+/// The copper that a sequence of objects leaves: every dark one less all clear ones after it.
+///
+/// A feature that nothing touches keeps its shape; of the others each connected piece is a polygon of its own, with
+/// the axis, attributes and line of the feature it was cut from. So the work grows with what is erased, and a layer
+/// without clear objects costs nothing.
+#[must_use]
+pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Vec<Feature> {
+    let clear: Vec<(usize, Polygon)> = objects
+        .iter()
+        .enumerate()
+        .filter(|(_, (_, polarity))| *polarity == Polarity::Clear)
+        .filter_map(|(at, (feature, _))| Some((at, feature.shape.polygon(FLATTEN)?)))
+        .collect();
+    let Some(index) = index(clear.iter().map(|(_, polygon)| polygon.bounds())) else {
+        return dark(objects).map(|(_, feature)| feature).collect();
+    };
+    let mut left = Vec::with_capacity(objects.len());
+    for (at, feature) in dark(objects) {
+        let mut over = query(&index, feature.shape.bounds());
+        over.retain(|&i| clear[i].0 > at);
+        over.sort_unstable();
+        erase(feature, over.iter().map(|&i| &clear[i].1), &mut left);
+    }
+    left
+}
+
+/// The dark objects with their places in the sequence.
+fn dark(objects: Vec<(Feature, Polarity)>) -> impl Iterator<Item = (usize, Feature)> {
+    let dark = |(at, (feature, polarity))| (polarity == Polarity::Dark).then_some((at, feature));
+    objects.into_iter().enumerate().filter_map(dark)
+}
+
+/// What `clear` leaves of `feature`, appended to `left`.
+fn erase<'a>(feature: Feature, clear: impl ExactSizeIterator<Item = &'a Polygon>, left: &mut Vec<Feature>) {
+    if clear.len() == 0 {
+        left.push(feature);
+        return;
+    }
+    // A bare line has no area, so there is nothing to erase.
+    let Some(whole) = feature.shape.polygon(FLATTEN) else {
+        left.push(feature);
+        return;
+    };
+    let pieces = difference(&whole, clear);
+    if let [piece] = pieces.as_slice()
+        && twice_area(piece) == twice_area(&whole)
+    {
+        left.push(feature);
+        return;
+    }
+    left.extend(pieces.into_iter().map(|piece| Feature { shape: Shape::Polygon(piece), ..feature.clone() }));
+}
+
+/// Twice the area, in nm²: exact, so it tells whether anything was erased.
+fn twice_area(polygon: &Polygon) -> i128 {
+    let origin = polygon.contours()[0][0];
+    polygon.edges().map(|(a, b)| i128::from((a - origin).cross(b - origin))).sum()
+}
+
+/// An index of rectangles; none for no rectangle.
+fn index(rects: impl ExactSizeIterator<Item = Rect>) -> Option<StaticAABB2DIndex<i64>> {
+    let mut builder = StaticAABB2DIndexBuilder::new(rects.len());
+    for rect in rects {
+        builder.add(rect.min().x.get(), rect.min().y.get(), rect.max().x.get(), rect.max().y.get());
+    }
+    builder.build().ok()
+}
+
+/// The rectangles of `index` that touch `rect`.
+fn query(index: &StaticAABB2DIndex<i64>, rect: Rect) -> Vec<usize> {
+    index.query(rect.min().x.get(), rect.min().y.get(), rect.max().x.get(), rect.max().y.get())
+}
+
+fn add(overlay: &mut Overlay<i32>, polygon: &Polygon, kind: ShapeType) {
+    for ring in polygon.contours() {
+        overlay.add_path_iter(ring.iter().copied().map(int), kind);
+    }
+}
+
+fn polygons(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> Vec<Polygon> {
+    let point = |p: IntPoint<i32>| Point::new(Nm::new(i64::from(p.x)), Nm::new(i64::from(p.y)));
+    let rings = |shape: Vec<Vec<_>>| shape.into_iter().map(|ring| ring.into_iter().map(point).collect());
+    shapes.into_iter().filter_map(|shape| Polygon::new(rings(shape).collect())).collect()
+}
+
+/// The library's point. Coordinates of a board are in range; those of a margin beyond it are drawn back to the range.
+fn int(p: Point) -> IntPoint<i32> {
+    IntPoint::new(int_length(p.x), int_length(p.y))
+}
+
+fn int_length(nm: Nm) -> i32 {
+    i32::try_from(nm.clamp(Nm::MIN, Nm::MAX).get()).expect("the range of Nm fits 31 bits")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Axis;
+    use super::*;
+
+    fn at(x: i64, y: i64) -> Point {
+        Point::new(Nm::from_um(x), Nm::from_um(y))
+    }
+
+    fn square(low: i64, high: i64) -> Polygon {
+        Polygon::rectangle(Rect::new(at(low, low), at(high, high)))
+    }
+
+    fn object(polygon: Polygon, polarity: Polarity) -> (Feature, Polarity) {
+        (Feature { shape: Shape::Polygon(polygon), axis: Axis::Region, attributes: 0, line: 1 }, polarity)
+    }
+
+    fn area(features: &[Feature]) -> f64 {
+        let polygon = |feature: &Feature| feature.shape.polygon(FLATTEN).map_or(0.0, |p| p.area_mm2());
+        features.iter().map(polygon).sum()
+    }
+
+    #[test]
+    fn a_clear_object_erases_what_came_before_it_only() {
+        let left = resolve(vec![
+            object(square(0, 10), Polarity::Dark),
+            object(square(2, 8), Polarity::Clear),
+            object(square(4, 6), Polarity::Dark),
+        ]);
+        assert_eq!(left.len(), 2, "a ring and a square in it");
+        assert!((area(&left) - 68e-6).abs() < 1e-15, "area {}", area(&left));
+    }
+
+    #[test]
+    fn what_nothing_touches_keeps_its_shape() {
+        let stroke = Feature {
+            shape: Shape::Stroke { from: at(0, 0), to: at(10, 10), radius: Nm::from_um(1) },
+            axis: Axis::Line(at(0, 0), at(10, 10)),
+            attributes: 0,
+            line: 1,
+        };
+        // In the rectangle round the stroke, but not on the stroke.
+        let clear = object(Polygon::rectangle(Rect::new(at(7, 0), at(10, 3))), Polarity::Clear);
+        let left = resolve(vec![(stroke.clone(), Polarity::Dark), clear]);
+        assert_eq!(left, vec![stroke], "still a stroke");
+    }
+
+    #[test]
+    fn a_cut_in_becomes_a_hole() {
+        let outline = [(0, 5), (0, 0), (10, 0), (10, 10), (0, 10), (0, 5), (3, 5)];
+        let hole = [(3, 7), (7, 7), (7, 3), (3, 3), (3, 5)];
+        let ring: Vec<Point> = outline.iter().chain(&hole).map(|&(x, y)| at(x, y)).collect();
+        let pieces = clean(&[ring]);
+        assert_eq!(pieces.len(), 1, "one piece");
+        assert_eq!(pieces[0].contours().len(), 2, "an outer contour and a hole");
+        assert!((pieces[0].area_mm2() - 84e-6).abs() < 1e-15, "area {}", pieces[0].area_mm2());
+    }
+
+    #[test]
+    fn growing_rounds_the_corners() {
+        let grown = offset(&square(0, 1000), Nm::from_um(100), Nm::new(100));
+        let expected = 1.0 + 4.0 * 0.1 + std::f64::consts::PI * 0.01;
+        assert!((grown[0].area_mm2() - expected).abs() < 1e-4, "area {}", grown[0].area_mm2());
+        assert!(offset(&square(0, 1000), Nm::from_um(-500), Nm::new(100)).is_empty(), "nothing is left");
+    }
+}

@@ -97,6 +97,30 @@ impl Polygon {
         let circle = super::Arc { start, end: start, center, turn: super::Turn::CounterClockwise };
         Self::new(vec![circle.flatten(tolerance).collect()])
     }
+
+    /// The convex hull of `points`, counter-clockwise, without points on its edges; none where it has no area. Exact.
+    pub fn hull(points: impl IntoIterator<Item = Point>) -> Option<Self> {
+        let mut points: Vec<Point> = points.into_iter().collect();
+        points.sort_unstable();
+        points.dedup();
+        // Andrew's monotone chain: the lower half from left to right, then the upper half back.
+        let mut hull: Vec<Point> = Vec::with_capacity(points.len() + 1);
+        let mut half = |points: &mut dyn Iterator<Item = Point>| {
+            let base = hull.len();
+            for p in points {
+                while hull.len() >= base + 2
+                    && orientation(hull[hull.len() - 2], hull[hull.len() - 1], p) != Orientation::Left
+                {
+                    hull.pop();
+                }
+                hull.push(p);
+            }
+            hull.pop();
+        };
+        half(&mut points.iter().copied());
+        half(&mut points.iter().rev().copied());
+        Self::new(vec![hull])
+    }
 }
 
 #[cfg(test)]
