@@ -2,7 +2,9 @@
 #![cfg_attr(not(test), warn(clippy::unwrap_used))]
 
 pub mod board;
+pub mod gcode;
 pub mod geometry;
 pub mod import;
+pub mod toolpath;
 pub mod topology;
 pub mod voronoi;

@@ -1,0 +1,20 @@
+use std::borrow::Cow::Borrowed;
+
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange};
+
+/// LinuxCNC. G64 lets it blend corners by at most 5 µm, instead of stopping at each or rounding without bound.
+pub(super) const LINUXCNC: Dialect = Dialect {
+    name: Borrowed("linuxcnc"),
+    about: Borrowed("LinuxCNC 2.8 and later"),
+    extension: Borrowed("ngc"),
+    decimals: 4,
+    arcs: Arcs::Center,
+    comments: Comments::Parentheses,
+    dwell: Dwell::SecondsP,
+    tool_change: ToolChange::M6,
+    line_numbers: LineNumbers::Off,
+    longest_line: 100,
+    start: Borrowed(&[Borrowed("G17 G21 G40 G49 G80 G90 G91.1 G94"), Borrowed("G64 P0.005")]),
+    end: Borrowed(&[Borrowed("M2")]),
+    coolant: None,
+};

@@ -1,0 +1,15 @@
+//! Toolpath ↔ text.
+//!
+//! [`write()`] puts a [`Program`](crate::toolpath::Program) into the words of a [`Dialect`], which is data, so it cannot get the
+//! motion wrong. [`read()`] is the other way, from the specification, for anybody's programs; the two share no code, so
+//! that reading back what was written says something.
+
+pub mod dialect;
+mod header;
+pub mod read;
+mod write;
+
+pub use dialect::Dialect;
+pub use header::{Header, Input};
+pub use read::{ReadError, read};
+pub use write::{write, write_each};

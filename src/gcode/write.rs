@@ -1,0 +1,372 @@
+//! Toolpath → text.
+//!
+//! Coordinates are rounded here, once, to the dialect's last digit, and everything is decided on the rounded
+//! figures: what has not moved is not written, and an arc that rounding would turn into another (a
+//! short one whose end slips behind its start would become a full circle) is written as lines.
+
+use std::fmt::Write as _;
+
+use crate::geometry::{Arc, Nm, Point, Turn};
+use crate::toolpath::{Feed, Move, Position, Program, Section, Tool};
+
+use super::dialect::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange};
+use super::header::Header;
+
+/// The whole program as text, every line ended.
+///
+/// It lifts first, has the spindle up to speed before each plunge, and ends lifted with the spindle off.
+#[must_use]
+pub fn write(program: &Program, dialect: &Dialect, header: &Header) -> String {
+    let mut writer = Writer::new(dialect);
+    writer.begin(program, header);
+    for (index, section) in program.sections.iter().enumerate() {
+        writer.section(program, section, index == 0);
+    }
+    writer.finish(program);
+    writer.text
+}
+
+/// The program in one text for each tool, for machines on which a tool cannot be changed within one; each with the
+/// tool's name and number.
+#[must_use]
+pub fn write_each(program: &Program, dialect: &Dialect, header: &Header) -> Vec<(Tool, String)> {
+    let mut tools: Vec<&Tool> = Vec::new();
+    for section in &program.sections {
+        if !tools.contains(&&section.tool) {
+            tools.push(&section.tool);
+        }
+    }
+    let only = |tool: &Tool| Program {
+        sections: program.sections.iter().filter(|section| section.tool == *tool).cloned().collect(),
+        ..program.clone()
+    };
+    tools.into_iter().map(|tool| (tool.clone(), write(&only(tool), dialect, header))).collect()
+}
+
+/// A position in whole units of the last digit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Rounded {
+    x: i64,
+    y: i64,
+    z: i64,
+}
+
+struct Writer<'a> {
+    dialect: &'a Dialect,
+    text: String,
+    /// One unit of the last digit, in nanometres.
+    unit: i64,
+    line: u32,
+    at: Option<Rounded>,
+    /// Where the plan is: what the rounded position stands for.
+    planned: Option<Position>,
+    feed: Option<Feed>,
+}
+
+impl<'a> Writer<'a> {
+    fn new(dialect: &'a Dialect) -> Self {
+        let unit = 10_i64.pow(u32::try_from(6_usize.saturating_sub(dialect.decimals)).unwrap_or(0));
+        Self { dialect, text: String::new(), unit, line: 0, at: None, planned: None, feed: None }
+    }
+
+    /// Header, start lines, and the first lift.
+    fn begin(&mut self, program: &Program, header: &Header) {
+        self.comment(&program.title);
+        for line in header.lines() {
+            self.comment(&line);
+        }
+        for note in &program.notes {
+            self.comment(note);
+        }
+        for line in self.dialect.start.iter() {
+            self.line(line);
+        }
+        self.lift(program.safe);
+    }
+
+    /// The tool change, the spindle, and the moves.
+    fn section(&mut self, program: &Program, section: &Section, first: bool) {
+        if !first {
+            self.stop();
+        }
+        self.comment(&section.label);
+        self.change(&section.tool, first);
+        self.lift(program.safe);
+        self.line(&format!("M3 S{}", section.tool.spindle));
+        if let Some((on, _)) = &self.dialect.coolant {
+            self.line(on);
+        }
+        self.dwell(SPIN_UP);
+        for step in &section.moves {
+            self.step(step);
+        }
+    }
+
+    /// The last lift, the spindle off, and the end lines.
+    fn finish(&mut self, program: &Program) {
+        self.lift(program.safe);
+        self.stop();
+        for line in self.dialect.end.iter() {
+            self.line(line);
+        }
+    }
+
+    fn stop(&mut self) {
+        if let Some((_, off)) = &self.dialect.coolant {
+            self.line(off);
+        }
+        self.line("M5");
+    }
+
+    /// Up to the safe height, whatever the height is: after a tool change nobody knows.
+    fn lift(&mut self, safe: Nm) {
+        let z = self.round(safe);
+        self.line(&format!("G0 Z{}", self.number(z)));
+        self.at = self.at.map(|at| Rounded { z, ..at });
+        self.planned = self.planned.map(|at| Position { z: safe, ..at });
+    }
+
+    fn change(&mut self, tool: &Tool, first: bool) {
+        let what = format!("tool {}: {} {}", tool.number, tool.name, tool.kind);
+        let text = if tool.name == tool.kind.to_string() {
+            format!("tool {}: {}", tool.number, tool.kind)
+        } else {
+            what
+        };
+        match self.dialect.tool_change {
+            ToolChange::M6 => {
+                self.comment(&text);
+                self.line(&format!("T{} M6", tool.number));
+            }
+            ToolChange::Pause | ToolChange::PauseWithText if first => {
+                self.comment(&format!("starts with {text}"))
+            }
+            ToolChange::Pause => {
+                self.comment(&format!("fit {text}"));
+                self.line("M0");
+            }
+            ToolChange::PauseWithText => self.line(&format!("M0 fit {}", plain(&text))),
+        }
+        self.feed = None;
+    }
+
+    fn dwell(&mut self, milliseconds: u32) {
+        let seconds = format!("{}.{:03}", milliseconds / 1000, milliseconds % 1000);
+        let seconds = seconds.trim_end_matches('0').trim_end_matches('.');
+        self.line(&match self.dialect.dwell {
+            Dwell::SecondsP => format!("G4 P{seconds}"),
+            Dwell::SecondsS => format!("G4 S{seconds}"),
+            Dwell::MillisecondsP => format!("G4 P{milliseconds}"),
+        });
+    }
+
+    fn step(&mut self, step: &Move) {
+        match *step {
+            Move::Dwell { milliseconds } => self.dwell(milliseconds),
+            Move::Rapid { to } => self.straight("G0", to, None),
+            Move::Feed { to, feed } => self.straight("G1", to, Some(feed)),
+            Move::Arc { to, center, turn, feed } => self.arc(to, center, turn, feed),
+        }
+    }
+
+    /// A line to `to`, unless that is where it is to the last digit.
+    fn straight(&mut self, word: &str, to: Position, feed: Option<Feed>) {
+        let rounded = self.position(to);
+        self.planned = Some(to);
+        if self.at == Some(rounded) {
+            return;
+        }
+        let mut line = word.to_owned();
+        let at = self.at;
+        self.coordinate(&mut line, 'X', rounded.x, at.map(|at| at.x));
+        self.coordinate(&mut line, 'Y', rounded.y, at.map(|at| at.y));
+        // Before the first level rapid only z is known, and it is the safe height.
+        if at.is_some() || feed.is_some() {
+            self.coordinate(&mut line, 'Z', rounded.z, at.map(|at| at.z));
+        }
+        if let Some(feed) = feed {
+            self.feed_word(&mut line, feed);
+        }
+        self.at = Some(rounded);
+        self.line(&line);
+    }
+
+    fn arc(&mut self, to: Position, center: Point, turn: Turn, feed: Feed) {
+        let from = self.planned.expect("an arc follows a move");
+        let arc = Arc { start: from.point(), end: to.point(), center, turn };
+        let faithful = self.dialect.arcs != Arcs::Lines && self.survives_rounding(&arc);
+        if !faithful {
+            self.chords(&arc, from.z, to, feed);
+        } else if self.dialect.arcs == Arcs::Radius {
+            self.by_radius(&arc, from.z, to, feed);
+        } else {
+            self.by_center(to, center, turn, feed);
+        }
+    }
+
+    /// Whether the arc between the rounded points round the rounded centre is still that arc: every point of it
+    /// within two units of the last digit, and the two radii as near as the controllers ask.
+    fn survives_rounding(&self, arc: &Arc) -> bool {
+        let snap =
+            |p: Point| Point::new(Nm::new(self.round(p.x) * self.unit), Nm::new(self.round(p.y) * self.unit));
+        let rounded =
+            Arc { start: snap(arc.start), end: snap(arc.end), center: snap(arc.center), turn: arc.turn };
+        if (arc.start == arc.end) != (rounded.start == rounded.end) || rounded.radius() < 1.0 {
+            return false;
+        }
+        let unit = Nm::new(self.unit).to_f64();
+        let off = (rounded.sweep() - arc.sweep()).abs() * arc.radius();
+        let radii = (rounded.radius() - rounded.center.distance(rounded.end)).abs();
+        arc.length() > 8.0 * unit && off <= 4.0 * unit && radii <= RADIUS_ERROR.to_f64().min(4.0 * unit)
+    }
+
+    /// As lines within [`CHORD`] of the arc, evenly up or down.
+    fn chords(&mut self, arc: &Arc, from: Nm, to: Position, feed: Feed) {
+        let points: Vec<Point> = arc.flatten(CHORD).collect();
+        let count = i64::try_from(points.len()).expect("at most 2¹⁶ chords");
+        for (index, point) in (1..).zip(points) {
+            let z = if index == count { to.z } else { from + Nm::new((to.z - from).get() * index / count) };
+            self.straight("G1", Position::over(point, z), Some(feed));
+        }
+    }
+
+    fn by_center(&mut self, to: Position, center: Point, turn: Turn, feed: Feed) {
+        let at = self.at.expect("an arc follows a move");
+        let rounded = self.position(to);
+        let (i, j) = (self.round(center.x) - at.x, self.round(center.y) - at.y);
+        let mut line = word(turn).to_owned();
+        let (x, y) = (self.number(rounded.x), self.number(rounded.y));
+        _ = write!(line, " X{x} Y{y}");
+        self.coordinate(&mut line, 'Z', rounded.z, Some(at.z));
+        _ = write!(line, " I{} J{}", self.number(i), self.number(j));
+        self.feed_word(&mut line, feed);
+        self.at = Some(rounded);
+        self.planned = Some(to);
+        self.line(&line);
+    }
+
+    /// In parts of less than half a turn, where the radius is unambiguous.
+    fn by_radius(&mut self, arc: &Arc, from: Nm, to: Position, feed: Feed) {
+        let parts = if arc.sweep().abs() > 1.5 { if arc.sweep().abs() > 3.0 { 4 } else { 2 } } else { 1 };
+        for part in 1..=parts {
+            let last = part == parts;
+            let (x, y) = arc.at(f64::from(part) / f64::from(parts));
+            let point = if last { to.point() } else { Point::from_f64(x, y) };
+            let z = if last {
+                to.z
+            } else {
+                from + Nm::new((to.z - from).get() * i64::from(part) / i64::from(parts))
+            };
+            let rounded = self.position(Position::over(point, z));
+            let mut line = word(arc.turn).to_owned();
+            let at = self.at.expect("an arc follows a move");
+            _ = write!(line, " X{} Y{}", self.number(rounded.x), self.number(rounded.y));
+            self.coordinate(&mut line, 'Z', rounded.z, Some(at.z));
+            _ = write!(line, " R{}", self.number(self.round(Nm::from_f64(arc.radius()))));
+            self.feed_word(&mut line, feed);
+            self.at = Some(rounded);
+            self.line(&line);
+        }
+        self.planned = Some(to);
+    }
+
+    fn coordinate(&self, line: &mut String, letter: char, value: i64, before: Option<i64>) {
+        if before != Some(value) {
+            _ = write!(line, " {letter}{}", self.number(value));
+        }
+    }
+
+    fn feed_word(&mut self, line: &mut String, feed: Feed) {
+        if self.feed != Some(feed) {
+            self.feed = Some(feed);
+            _ = write!(line, " F{}", feed.number());
+        }
+    }
+
+    fn position(&self, p: Position) -> Rounded {
+        Rounded { x: self.round(p.x), y: self.round(p.y), z: self.round(p.z) }
+    }
+
+    /// In units of the last digit, halves away from zero.
+    fn round(&self, length: Nm) -> i64 {
+        let half = self.unit / 2 * length.get().signum();
+        (length.get() + half) / self.unit
+    }
+
+    /// A rounded length in millimetres, without zeros that say nothing.
+    fn number(&self, value: i64) -> String {
+        let text = format!("{:.*}", self.dialect.decimals, Nm::new(value * self.unit));
+        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    }
+
+    /// A comment in as many lines as it needs.
+    fn comment(&mut self, text: &str) {
+        let (open, close) = match self.dialect.comments {
+            Comments::Parentheses => ("(", ")"),
+            Comments::Semicolon => ("; ", ""),
+            Comments::None => return,
+        };
+        let room = self.dialect.longest_line.saturating_sub(open.len() + close.len()).max(8);
+        for line in wrap(&plain(text), room) {
+            _ = writeln!(self.text, "{open}{line}{close}");
+        }
+    }
+
+    fn line(&mut self, text: &str) {
+        if self.dialect.line_numbers == LineNumbers::ByTens {
+            self.line += 10;
+            _ = write!(self.text, "N{} ", self.line);
+        }
+        self.text.push_str(text);
+        self.text.push('\n');
+    }
+}
+
+/// How long the spindle is given to come up to speed, in milliseconds. Chosen: what small spindles need.
+const SPIN_UP: u32 = 3000;
+
+/// How far chords may leave an arc that is written as lines.
+const CHORD: Nm = Nm::from_um(1);
+
+/// How far the radii at an arc's two ends may differ: LinuxCNC refuses more than 1.27 µm, Grbl more than 5 µm.
+const RADIUS_ERROR: Nm = Nm::new(1200);
+
+fn word(turn: Turn) -> &'static str {
+    match turn {
+        Turn::Clockwise => "G2",
+        Turn::CounterClockwise => "G3",
+    }
+}
+
+/// Text that every controller bears in a comment: printable ASCII, without what ends a comment or acts at once.
+fn plain(text: &str) -> String {
+    let mut out = String::with_capacity(text.len());
+    for c in text.chars() {
+        match c {
+            'µ' | 'μ' => out.push('u'),
+            '×' => out.push('x'),
+            '°' => out.push_str("deg"),
+            '–' | '—' => out.push('-'),
+            '(' => out.push('['),
+            ')' => out.push(']'),
+            '?' | '!' | '~' | ';' | '%' => out.push('.'),
+            ' '..='\x7d' => out.push(c),
+            _ => out.push('_'),
+        }
+    }
+    out
+}
+
+/// `text` in lines of at most `room` characters, broken at blanks where there are any. ASCII only.
+fn wrap(text: &str, room: usize) -> Vec<&str> {
+    let mut lines = Vec::new();
+    let mut rest = text;
+    while rest.len() > room {
+        let at = rest[..=room].rfind(' ').filter(|&at| at > 0).unwrap_or(room);
+        let (line, after) = rest.split_at(at);
+        lines.push(line);
+        rest = after.trim_start_matches(' ');
+    }
+    lines.push(rest);
+    lines
+}

@@ -1,0 +1,94 @@
+use crate::geometry::{Nm, Path, Point, Segment};
+
+use super::feed::Feed;
+use super::heights::Heights;
+use super::program::{Move, Position};
+
+/// The machine's head while a section is planned. Its methods are the only way to make moves, so what a
+/// [`Section`](super::Section) guarantees holds by construction: sideways below the safe height is always a feed,
+/// a rapid is level at the safe height or straight up or down, and the last move is a lift.
+pub(super) struct Head {
+    heights: Heights,
+    plunge: Feed,
+    at: Option<Position>,
+    moves: Vec<Move>,
+}
+
+impl Head {
+    /// At the safe height over an unknown place.
+    pub(super) fn new(heights: Heights, plunge: Feed) -> Self {
+        Self { heights, plunge, at: None, moves: Vec::new() }
+    }
+
+    /// To the safe height over `point`, by way of the safe height.
+    pub(super) fn over(&mut self, point: Point) {
+        self.lift();
+        let to = Position::over(point, self.heights.safe);
+        if self.at != Some(to) {
+            self.at = Some(to);
+            self.moves.push(Move::Rapid { to });
+        }
+    }
+
+    /// Straight down to `depth` below the surface: fast down to the approach height, then at the plunge feed.
+    pub(super) fn plunge(&mut self, depth: Nm) {
+        let at = self.at.expect("the head is over a point before it plunges");
+        if at.z > self.heights.approach {
+            self.rapid_to(self.heights.approach);
+        }
+        self.feed_to(Position { z: -depth, ..at }, self.plunge);
+    }
+
+    /// Straight to `to`, at `feed`.
+    pub(super) fn feed_to(&mut self, to: Position, feed: Feed) {
+        if self.at != Some(to) {
+            self.at = Some(to);
+            self.moves.push(Move::Feed { to, feed });
+        }
+    }
+
+    /// One segment from where the head is, ending at `depth` below the surface.
+    pub(super) fn cut(&mut self, segment: &Segment, depth: Nm, feed: Feed) {
+        let to = Position::over(segment.to(), -depth);
+        match *segment {
+            Segment::Line { .. } => self.feed_to(to, feed),
+            Segment::Arc { center, turn, .. } => {
+                self.at = Some(to);
+                self.moves.push(Move::Arc { to, center, turn, feed });
+            }
+        }
+    }
+
+    /// Along `path`, which begins where the head is, level at the depth the head has.
+    pub(super) fn follow(&mut self, path: &Path, feed: Feed) {
+        let depth = -self.at.expect("the head is at the path's start").z;
+        for segment in &path.segments {
+            self.cut(segment, depth, feed);
+        }
+    }
+
+    /// Straight up or down to `z` as fast as it goes; through air.
+    pub(super) fn rapid_to(&mut self, z: Nm) {
+        if let Some(at) = self.at.filter(|at| at.z != z) {
+            let to = Position { z, ..at };
+            self.at = Some(to);
+            self.moves.push(Move::Rapid { to });
+        }
+    }
+
+    /// Straight up to the safe height, if it is not there.
+    pub(super) fn lift(&mut self) {
+        self.rapid_to(self.heights.safe);
+    }
+
+    /// Stay where it is.
+    pub(super) fn dwell(&mut self, milliseconds: u32) {
+        self.moves.push(Move::Dwell { milliseconds });
+    }
+
+    /// All moves, lifted at the end.
+    pub(super) fn finish(mut self) -> Vec<Move> {
+        self.lift();
+        self.moves
+    }
+}

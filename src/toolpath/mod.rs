@@ -1,0 +1,29 @@
+//! Boundaries, holes and outline + tools → what the machine does.
+//!
+//! Every strategy plans a [`Section`]: the moves of one tool, in machine coordinates, which its
+//! planner makes so that sideways below the safe height is always a feed and everything begins and ends lifted.
+//! Sections make a [`Program`], which [`gcode`](crate::gcode) writes down. What a lift costs is counted in seconds on
+//! the [`Machine`], so re-cutting a short way, lifting, and rapid travel are compared in one currency.
+
+mod angle;
+mod feed;
+mod head;
+mod heights;
+mod machine;
+mod measure;
+mod order;
+mod placement;
+mod program;
+pub mod strategy;
+mod tool;
+mod trails;
+
+pub use angle::{Angle, ParseAngleError};
+pub use feed::{Feed, ParseFeedError};
+pub use heights::Heights;
+pub use machine::Machine;
+pub use measure::{Statistics, ToolStatistics, measure};
+pub use order::Order;
+pub use placement::{Origin, Placement};
+pub use program::{Move, Position, Program, Section};
+pub use tool::{BUILT_IN, ParseToolError, Tool, ToolKind};

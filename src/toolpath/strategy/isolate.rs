@@ -1,0 +1,255 @@
+//! Isolation: each boundary is cut once, in as few trails as the graph allows.
+
+use std::borrow::Cow;
+
+use crate::board::Warning;
+use crate::geometry::{Nm, Path, Point, Segment};
+use crate::toolpath::head::Head;
+use crate::toolpath::order::{Order, Stretch, arrange};
+use crate::toolpath::trails::{Link, Step, walk};
+use crate::toolpath::{Heights, Machine, Placement, Section, Tool};
+use crate::voronoi::{Boundaries, Boundary, Owner};
+
+/// What is done with a boundary.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// It is cut.
+    Cut,
+    /// It need not be cut, but may be where that saves a lift: where the board is cut out anyway.
+    Link,
+    /// It is left.
+    Leave,
+}
+
+/// What is done where a gap is narrower than the kerf.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Narrow {
+    /// The cut stays in the middle and takes some copper on both sides.
+    #[default]
+    Centre,
+    /// The whole boundary is left, so its two nets stay joined.
+    Skip,
+}
+
+/// How isolation is cut.
+#[derive(Clone, Copy, Debug)]
+pub struct Isolation<'a> {
+    /// The tool.
+    pub tool: &'a Tool,
+    /// How high and how deep.
+    pub heights: Heights,
+    /// From board to machine.
+    pub placement: &'a Placement,
+    /// How the trails are ordered.
+    pub order: Order,
+    /// What a lift costs.
+    pub machine: &'a Machine,
+    /// What is done where the kerf does not fit.
+    pub narrow: Narrow,
+    /// The least depth to which a V-bit may rise so that its kerf fits the gap; none keeps the full depth.
+    pub adaptive: Option<Nm>,
+}
+
+/// Cuts every boundary that `role` says to cut, once, and the closed `laps` (the frame) beside.
+///
+/// `name` says what people call an owner, for the warnings: one `gap-narrower-than-tool` per boundary whose clearance
+/// falls below half the kerf, at its narrowest place, in board coordinates.
+pub fn isolate(
+    label: impl Into<String>,
+    boundaries: &Boundaries,
+    laps: &[Path],
+    role: impl Fn(&Boundary) -> Role,
+    name: impl Fn(Owner) -> String,
+    settings: &Isolation<'_>,
+) -> (Section, Vec<Warning>) {
+    let kerf = settings.tool.width_at(settings.heights.cut);
+    let mut warnings = Vec::new();
+    let mut ways = Vec::new();
+    for boundary in &boundaries.edges {
+        let role = role(boundary);
+        if role == Role::Leave {
+            continue;
+        }
+        let contention =
+            (role == Role::Cut).then(|| contention(boundary, kerf, &name, settings.narrow)).flatten();
+        let narrow = contention.is_some();
+        warnings.extend(contention);
+        if !narrow || settings.narrow == Narrow::Centre {
+            ways.push(Way::boundary(boundary, role, settings));
+        }
+    }
+    ways.extend(laps.iter().map(|lap| Way::lap(lap, settings)));
+    (
+        Section {
+            tool: settings.tool.clone(),
+            label: label.into(),
+            moves: cut(&ways, &boundaries.nodes, settings),
+        },
+        warnings,
+    )
+}
+
+/// A boundary on the machine.
+struct Way<'a> {
+    path: Path,
+    clearance: Cow<'a, [Nm]>,
+    link: Link,
+}
+
+impl<'a> Way<'a> {
+    fn boundary(boundary: &'a Boundary, role: Role, settings: &Isolation<'_>) -> Self {
+        Self {
+            path: settings.placement.path(&boundary.path),
+            clearance: Cow::Borrowed(&boundary.clearance),
+            link: Link {
+                ends: boundary.ends.map(|(from, to)| (from.0, to.0)),
+                seconds: boundary.path.length() / settings.tool.feed.nm_per_second(),
+                must: role == Role::Cut,
+            },
+        }
+    }
+
+    fn lap(path: &Path, settings: &Isolation<'_>) -> Self {
+        Self {
+            path: settings.placement.path(path),
+            clearance: Cow::Borrowed(&[]),
+            link: Link { ends: None, seconds: 0.0, must: true },
+        }
+    }
+}
+
+/// The warning for a boundary whose gap the kerf does not fit.
+fn contention(
+    boundary: &Boundary,
+    kerf: Nm,
+    name: impl Fn(Owner) -> String,
+    narrow: Narrow,
+) -> Option<Warning> {
+    let (index, &clearance) =
+        boundary.clearance.iter().enumerate().min_by_key(|(index, nm)| (**nm, *index))?;
+    let lost = kerf / 2 - clearance;
+    if lost <= Nm::ZERO {
+        return None;
+    }
+    let at = vertex(&boundary.path, index);
+    let [left, right] = [boundary.left, boundary.right].map(&name);
+    let done = match narrow {
+        Narrow::Centre => {
+            format!("the cut stays centred and takes {:.1} µm of copper on each side", micrometres(lost))
+        }
+        Narrow::Skip => "it is not cut and the two stay joined".to_owned(),
+    };
+    let message = format!(
+        "the gap between {left} and {right} is {:.1} µm, narrower than the kerf of {:.1} µm: {done}",
+        micrometres(clearance * 2),
+        micrometres(kerf),
+    );
+    Some(Warning::new("gap-narrower-than-tool", message).at(at))
+}
+
+/// For display.
+fn micrometres(length: Nm) -> f64 {
+    length.to_f64() / 1000.0
+}
+
+/// The vertex of `path` with this index: the start, then the ends of the segments.
+fn vertex(path: &Path, index: usize) -> Point {
+    index.checked_sub(1).and_then(|before| path.segments.get(before)).map_or(path.start, Segment::to)
+}
+
+/// The moves that cut all ways that must be cut.
+fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<crate::toolpath::Move> {
+    let links: Vec<Link> = ways.iter().map(|way| way.link).collect();
+    let trails = walk(nodes.len(), &links, lift_seconds(settings));
+    let from =
+        |step: &Step| if step.backwards { ways[step.link].path.end() } else { ways[step.link].path.start };
+    let to =
+        |step: &Step| if step.backwards { ways[step.link].path.start } else { ways[step.link].path.end() };
+    let stretches: Vec<Stretch> = trails
+        .iter()
+        .filter_map(|trail| Some(Stretch { from: from(trail.first()?), to: to(trail.last()?) }))
+        .collect();
+    let mut head = Head::new(settings.heights, settings.tool.plunge);
+    for (index, reversed) in arrange(&stretches, Point::default(), settings.order) {
+        let steps = trails[index].iter().copied();
+        let steps: Vec<Step> = if reversed {
+            steps.rev().map(|step| Step { backwards: !step.backwards, ..step }).collect()
+        } else {
+            steps.collect()
+        };
+        cut_trail(&mut head, ways, &steps, settings);
+    }
+    head.finish()
+}
+
+/// One trail in all its passes: there at the first depth, and where it is open back at the next, without a lift.
+fn cut_trail(head: &mut Head, ways: &[Way<'_>], steps: &[Step], settings: &Isolation<'_>) {
+    let mut trail = Line::along(ways, steps);
+    let closed = trail.path.is_closed();
+    for (pass, depth) in settings.heights.passes().enumerate() {
+        if pass == 0 {
+            head.over(trail.path.start);
+        } else if !closed {
+            trail = trail.reversed();
+        }
+        let depths = trail.depths(depth, settings);
+        head.plunge(depths[0]);
+        for (segment, &depth) in trail.path.segments.iter().zip(&depths[1..]) {
+            head.cut(segment, depth, settings.tool.feed);
+        }
+    }
+}
+
+/// A trail as one path, with the clearance at each vertex; none along a lap.
+struct Line {
+    path: Path,
+    clearance: Vec<Option<Nm>>,
+}
+
+impl Line {
+    fn along(ways: &[Way<'_>], steps: &[Step]) -> Self {
+        let mut line: Option<Self> = None;
+        for step in steps {
+            let way = &ways[step.link];
+            let mut path = Cow::Borrowed(&way.path);
+            let mut clearance: Vec<Option<Nm>> = way.clearance.iter().copied().map(Some).collect();
+            clearance.resize(path.segments.len() + 1, None);
+            if step.backwards {
+                path = Cow::Owned(path.reversed());
+                clearance.reverse();
+            }
+            match &mut line {
+                None => line = Some(Self { path: path.into_owned(), clearance }),
+                Some(line) => {
+                    line.path.segments.extend(&path.segments);
+                    line.clearance.extend(&clearance[1..]);
+                }
+            }
+        }
+        line.expect("a trail has a step")
+    }
+
+    fn reversed(mut self) -> Self {
+        self.clearance.reverse();
+        Self { path: self.path.reversed(), clearance: self.clearance }
+    }
+
+    /// How deep the tool goes at each vertex, at most `depth`: less where it rises to fit the gap.
+    fn depths(&self, depth: Nm, settings: &Isolation<'_>) -> Vec<Nm> {
+        let fits = |clearance: Option<Nm>| match (settings.adaptive, clearance) {
+            (Some(least), Some(clearance)) => {
+                let fitting = settings.tool.depth_for(clearance * 2).unwrap_or(Nm::ZERO);
+                fitting.max(least).min(depth)
+            }
+            _ => depth,
+        };
+        self.clearance.iter().copied().map(fits).collect()
+    }
+}
+
+/// What a lift costs beside its level travel: up, down to the approach height, and the plunge.
+fn lift_seconds(settings: &Isolation<'_>) -> f64 {
+    let Heights { safe, approach, cut, .. } = settings.heights;
+    let rapid = (safe + cut + safe - approach).to_f64() / settings.machine.rapid_z.nm_per_second();
+    rapid + (approach + cut).to_f64() / settings.tool.plunge.nm_per_second()
+}

@@ -1,0 +1,278 @@
+//! The boundary graph walked in few trails: what is cut in one go without a lift.
+//!
+//! A trail passes each edge once. A connected graph with 2k nodes of odd degree needs k trails (Euler); cutting an edge a second
+//! time makes the two odd nodes at its ends even and saves a trail, so odd nodes are paired along shortest
+//! ways wherever that way takes less time than a lift (the Chinese postman's problem with an escape).
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use rustc_hash::FxHashMap;
+
+/// An edge of the graph.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Link {
+    /// The nodes at its ends; none for a loop without a node.
+    pub ends: Option<(u32, u32)>,
+    /// How long cutting it takes.
+    pub seconds: f64,
+    /// Whether it has to be cut; one that need not be serves to save lifts.
+    pub must: bool,
+}
+
+/// A link passed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Step {
+    /// The index of the link.
+    pub link: usize,
+    /// Whether from its second end to its first.
+    pub backwards: bool,
+}
+
+/// The trails, in a fixed order, that together pass every link that must be cut. A link is passed twice, or one
+/// passed that need not be, where that takes less than `lift` seconds and saves a lift.
+pub(super) fn walk(nodes: usize, links: &[Link], lift: f64) -> Vec<Vec<Step>> {
+    let mut trails: Vec<Vec<Step>> = Vec::new();
+    let mut passes: Vec<Pass> = Vec::new();
+    for (index, link) in links.iter().enumerate() {
+        match link.ends {
+            Some(ends) if link.must => passes.push(Pass { link: Some(index), ends }),
+            None if link.must => trails.push(vec![Step { link: index, backwards: false }]),
+            _ => {}
+        }
+    }
+    for index in joins(nodes, links, &passes, lift) {
+        let ends = links[index].ends.expect("only links with ends join");
+        passes.push(Pass { link: Some(index), ends });
+    }
+    close(nodes, &mut passes);
+    trails.extend(circuits(nodes, &passes).into_iter().flat_map(|circuit| split(&circuit, &passes)));
+    trails
+}
+
+/// An edge of the multigraph that is walked; without a link it stands for a lift.
+#[derive(Clone, Copy, Debug)]
+struct Pass {
+    link: Option<usize>,
+    ends: (u32, u32),
+}
+
+/// Which nodes have an odd number of passes.
+fn odd(nodes: usize, passes: &[Pass]) -> Vec<bool> {
+    let mut odd = vec![false; nodes];
+    for pass in passes {
+        odd[pass.ends.0 as usize] ^= true;
+        odd[pass.ends.1 as usize] ^= true;
+    }
+    odd
+}
+
+/// The links to be passed once more: pairs of odd nodes nearest first, as long as the way takes less than `lift`.
+/// Where two such ways share a link, passing it neither time joins the same four nodes for less.
+fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> Vec<usize> {
+    let odd = odd(nodes, passes);
+    let graph = Adjacency::new(nodes, links.iter().map(|link| link.ends));
+    let mut pairs = Vec::new();
+    for from in (0..nodes).filter(|&node| odd[node]) {
+        pairs.extend(near(from, &odd, &graph, links, lift));
+    }
+    pairs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then((a.from, a.to).cmp(&(b.from, b.to))));
+    let (mut open, mut again) = (odd, vec![false; links.len()]);
+    for pair in pairs {
+        if open[pair.from] && open[pair.to] {
+            (open[pair.from], open[pair.to]) = (false, false);
+            for link in pair.way {
+                again[link] ^= true;
+            }
+        }
+    }
+    (0..links.len()).filter(|&link| again[link]).collect()
+}
+
+/// Two odd nodes and the shortest way between them.
+struct Pair {
+    from: usize,
+    to: usize,
+    seconds: f64,
+    way: Vec<usize>,
+}
+
+/// What a search knows of the nodes it reached: how far they are, and by which link from which node.
+type Reached = FxHashMap<usize, (f64, Option<(usize, usize)>)>;
+
+/// Seconds as a key that sorts: the bits of a non-negative float sort as the float does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Seconds(u64);
+
+/// The odd nodes after `from` within `lift` seconds of it, by Dijkstra's algorithm.
+fn near(from: usize, odd: &[bool], graph: &Adjacency, links: &[Link], lift: f64) -> Vec<Pair> {
+    let mut best = Reached::default();
+    let mut queue = BinaryHeap::from([Reverse((Seconds(0), from))]);
+    best.insert(from, (0.0, None));
+    let mut pairs = Vec::new();
+    while let Some(Reverse((Seconds(bits), node))) = queue.pop() {
+        let seconds = f64::from_bits(bits);
+        if best[&node].0 < seconds {
+            continue;
+        }
+        if odd[node] && node > from {
+            pairs.push(Pair { from, to: node, seconds, way: way_back(node, &best) });
+        }
+        for &(link, next) in graph.of(node) {
+            let longer = seconds + links[link].seconds.max(0.0);
+            if longer < lift && best.get(&next).is_none_or(|known| longer < known.0) {
+                best.insert(next, (longer, Some((link, node))));
+                queue.push(Reverse((Seconds(longer.to_bits()), next)));
+            }
+        }
+    }
+    pairs
+}
+
+/// The links from `node` back to where the search began.
+fn way_back(mut node: usize, best: &Reached) -> Vec<usize> {
+    let mut way = Vec::new();
+    while let Some((link, before)) = best[&node].1 {
+        way.push(link);
+        node = before;
+    }
+    way
+}
+
+/// Which edges meet at which node, packed.
+struct Adjacency {
+    starts: Vec<usize>,
+    items: Vec<(usize, usize)>,
+}
+
+impl Adjacency {
+    /// Of edges given by their ends, in order; those without ends are left out.
+    fn new(nodes: usize, edges: impl Iterator<Item = Option<(u32, u32)>> + Clone) -> Self {
+        let both = edges.enumerate().filter_map(|(index, ends)| {
+            ends.map(|(a, b)| [(a as usize, index, b as usize), (b as usize, index, a as usize)])
+        });
+        let mut all: Vec<_> = both.flatten().collect();
+        all.sort_unstable();
+        let starts = (0..=nodes).map(|node| all.partition_point(|entry| entry.0 < node)).collect();
+        Self { starts, items: all.into_iter().map(|(_, edge, to)| (edge, to)).collect() }
+    }
+
+    /// The edges at `node`, each with the node at its other end.
+    fn of(&self, node: usize) -> &[(usize, usize)] {
+        &self.items[self.starts[node]..self.starts[node + 1]]
+    }
+}
+
+/// Adds lifts between the odd nodes of each connected part, so that all nodes are even.
+fn close(nodes: usize, passes: &mut Vec<Pass>) {
+    let mut part: Vec<usize> = (0..nodes).collect();
+    for pass in passes.iter() {
+        let (a, b) = (root(&mut part, pass.ends.0 as usize), root(&mut part, pass.ends.1 as usize));
+        part[a.max(b)] = a.min(b);
+    }
+    let odd = odd(nodes, passes);
+    let mut waiting: FxHashMap<usize, usize> = FxHashMap::default();
+    for node in (0..nodes).filter(|&node| odd[node]) {
+        let part = root(&mut part, node);
+        match waiting.remove(&part) {
+            None => _ = waiting.insert(part, node),
+            Some(other) => {
+                let ends =
+                    [other, node].map(|node| u32::try_from(node).expect("nodes are numbered in 32 bits"));
+                passes.push(Pass { link: None, ends: (ends[0], ends[1]) });
+            }
+        }
+    }
+}
+
+/// The representative of `node`'s part, halving the way to it.
+fn root(part: &mut [usize], mut node: usize) -> usize {
+    while part[node] != node {
+        part[node] = part[part[node]];
+        node = part[node];
+    }
+    node
+}
+
+/// A pass in a circuit: its index, and whether from its second end to its first.
+type Walked = (usize, bool);
+
+/// The closed walks that together take every pass once (Hierholzer), one for each connected part.
+fn circuits(nodes: usize, passes: &[Pass]) -> Vec<Vec<Walked>> {
+    let graph = Adjacency::new(nodes, passes.iter().map(|pass| Some(pass.ends)));
+    let (mut taken, mut next) = (vec![false; passes.len()], vec![0; nodes]);
+    let mut circuits = Vec::new();
+    for start in 0..nodes {
+        let mut circuit = Vec::new();
+        let mut stack: Vec<(usize, Option<Walked>)> = vec![(start, None)];
+        while let Some(&(node, arrived)) = stack.last() {
+            let edges = graph.of(node);
+            while next[node] < edges.len() && taken[edges[next[node]].0] {
+                next[node] += 1;
+            }
+            if let Some(&(pass, to)) = edges.get(next[node]) {
+                taken[pass] = true;
+                stack.push((to, Some((pass, passes[pass].ends.0 as usize != node))));
+            } else {
+                circuit.extend(arrived);
+                stack.pop();
+            }
+        }
+        circuit.reverse();
+        if !circuit.is_empty() {
+            circuits.push(circuit);
+        }
+    }
+    circuits
+}
+
+/// The trails of a circuit between its lifts.
+fn split(circuit: &[Walked], passes: &[Pass]) -> Vec<Vec<Step>> {
+    let first_lift = circuit.iter().position(|&(pass, _)| passes[pass].link.is_none());
+    let (before, after) = circuit.split_at(first_lift.unwrap_or(0));
+    let mut trails = vec![Vec::new()];
+    for &(pass, backwards) in after.iter().chain(before) {
+        match passes[pass].link {
+            Some(link) => trails.last_mut().expect("never empty").push(Step { link, backwards }),
+            None => trails.push(Vec::new()),
+        }
+    }
+    trails.retain(|trail| !trail.is_empty());
+    trails
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn link(a: u32, b: u32, seconds: f64) -> Link {
+        Link { ends: Some((a, b)), seconds, must: true }
+    }
+
+    fn times(trails: &[Vec<Step>], link: usize) -> usize {
+        trails.iter().flatten().filter(|step| step.link == link).count()
+    }
+
+    #[test]
+    fn a_star_of_three_needs_two_trails_or_a_second_cut() {
+        let star = [link(0, 1, 1.0), link(0, 2, 2.0), link(0, 3, 9.0)];
+        assert_eq!(walk(4, &star, 0.5).len(), 2, "four odd nodes, two trails");
+        let trails = walk(4, &star, 1.5);
+        assert_eq!((trails.len(), times(&trails, 0)), (1, 2), "the shortest arm is cut twice");
+    }
+
+    #[test]
+    fn a_link_that_need_not_be_cut_serves_only_to_save_a_lift() {
+        let mut square = [link(0, 1, 1.0), link(2, 3, 1.0), link(1, 2, 0.1), link(3, 0, 5.0)];
+        (square[2].must, square[3].must) = (false, false);
+        let trails = walk(4, &square, 0.5);
+        assert_eq!((trails.len(), times(&trails, 2), times(&trails, 3)), (1, 1, 0), "by the short way alone");
+    }
+
+    #[test]
+    fn a_loop_is_a_trail_of_its_own() {
+        let ring = Link { ends: None, seconds: 1.0, must: true };
+        let at_node = link(0, 0, 1.0);
+        assert_eq!(walk(1, &[ring, at_node], 1.0).len(), 2, "one with and one without a node");
+    }
+}
