@@ -1,5 +1,7 @@
 //! Files → [`Board`](crate::board::Board).
 
+mod digest;
 mod error;
+pub mod excellon;
 
 pub use error::{Diagnosis, Error};

@@ -1,3 +1,4 @@
 //! The integration tests: one module a stage, one binary.
 
+mod excellon;
 mod layering;

@@ -1,0 +1,172 @@
+//! What the header and the comments of a drill file declare.
+//!
+//! Half of it stands in comments, each program its own way: `;FILE_FORMAT=2:4` (Altium, EasyEDA, Eagle),
+//! `;FORMAT={3:3/ absolute / metric / suppress leading zeros}` and `; #@! TF.FileFunction,…` (KiCad),
+//! `;TYPE=NON_PLATED` (Altium, EasyEDA), `;Holesize 1. = 24.0 … PLATED MILS` (OrCAD and Allegro, whose tools have
+//! no `C`).
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::format::{Digits, Units, Zeros};
+use super::lex::{Kind, Line, Word};
+use crate::board::Plating;
+use crate::geometry::Nm;
+
+/// What a file says about itself; none where it does not.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Declared {
+    /// The first unit named, and where.
+    pub(super) units: Option<(Units, Range<usize>)>,
+    /// Which zeros are kept.
+    pub(super) zeros: Option<Zeros>,
+    /// Digits before and after the point.
+    pub(super) digits: Option<Digits>,
+    /// The X2 file function, `Plated,1,2,PTH`.
+    pub(super) function: Option<String>,
+    /// The program that wrote it.
+    pub(super) generator: Option<String>,
+    /// Diameters that stand in comments only, by tool.
+    pub(super) commented: BTreeMap<u32, Nm>,
+    /// Whether `M30` or `M00` ends it.
+    pub(super) ended: bool,
+}
+
+impl Declared {
+    /// Gathers what `lines` declare, wherever it stands.
+    pub(super) fn gather(lines: &[Line]) -> Self {
+        let mut declared = Self::default();
+        for line in lines {
+            match &line.kind {
+                Kind::Comment(text) => declared.comment(text),
+                Kind::Keyword(fields) => declared.keyword(fields, &line.place),
+                Kind::Words(words) => declared.words(words, &line.place),
+                Kind::Percent => {}
+            }
+        }
+        declared
+    }
+
+    fn keyword(&mut self, fields: &[String], place: &Range<usize>) {
+        let Some(units) = units_of(&fields[0]) else { return };
+        self.units.get_or_insert((units, place.clone()));
+        for field in &fields[1..] {
+            self.zeros = self.zeros.or(match field.as_str() {
+                "LZ" => Some(Zeros::Leading),
+                "TZ" => Some(Zeros::Trailing),
+                _ => None,
+            });
+            self.digits = self.digits.or_else(|| pattern(field));
+        }
+    }
+
+    fn words(&mut self, words: &[Word], place: &Range<usize>) {
+        for word in words.iter().filter(|word| word.letter == b'M') {
+            match word.number.integer() {
+                Some(71) => _ = self.units.get_or_insert((Units::Mm, place.clone())),
+                Some(72) => _ = self.units.get_or_insert((Units::Inch, place.clone())),
+                Some(0 | 30) => self.ended = true,
+                _ => {}
+            }
+        }
+    }
+
+    fn comment(&mut self, text: &str) {
+        let upper = text.to_ascii_uppercase();
+        if let Some(format) = upper.strip_prefix("FILE_FORMAT=") {
+            self.digits = self.digits.or_else(|| colon(format));
+        } else if let Some(format) = upper.strip_prefix("FORMAT={") {
+            self.kicad_format(format);
+        } else if let Some(rest) = text.strip_prefix("#@! TF.") {
+            self.attribute(rest);
+        } else if upper.starts_with("HOLESIZE") {
+            self.hole_size(&upper);
+        } else if let Some(start) = text.find("DRILL file {") {
+            let named = text[start + 12..].split('}').next().unwrap_or_default();
+            self.generator.get_or_insert_with(|| named.replace("KiCad ", "KiCad,"));
+        } else if let Some(named) = text.strip_prefix("GenerationSoftware,") {
+            self.generator.get_or_insert_with(|| named.trim_end_matches(['*', '%']).to_owned());
+        } else if upper.starts_with("EASYEDA V") {
+            self.generator.get_or_insert_with(|| text.split(',').next().unwrap_or(text).to_owned());
+        }
+    }
+
+    fn attribute(&mut self, text: &str) {
+        match text.split_once(',') {
+            Some(("FileFunction", value)) => _ = self.function.get_or_insert_with(|| value.to_owned()),
+            Some(("GenerationSoftware", value)) => self.generator = Some(value.to_owned()),
+            _ => {}
+        }
+    }
+
+    /// `3:3/ absolute / metric / suppress leading zeros}`; `-:-` with decimal points.
+    fn kicad_format(&mut self, text: &str) {
+        let mut fields = text.trim_end_matches('}').split('/').map(str::trim);
+        self.digits = self.digits.or_else(|| colon(fields.next().unwrap_or_default()));
+        for field in fields {
+            self.zeros = self.zeros.or(match field {
+                "SUPPRESS LEADING ZEROS" => Some(Zeros::Trailing),
+                "SUPPRESS TRAILING ZEROS" => Some(Zeros::Leading),
+                _ => None,
+            });
+        }
+    }
+
+    /// `HOLESIZE 1. = 24.000000 TOLERANCE = … PLATED MILS QUANTITY = 12`, `HOLESIZE 1 = 0.0120 INCH`.
+    fn hole_size(&mut self, text: &str) {
+        let mut words = text.split_whitespace().skip(1);
+        let tool = words.next().and_then(|word| word.trim_end_matches('.').parse::<u32>().ok());
+        let size = words.find(|&word| word != "=");
+        let unit = words.find_map(|word| match word {
+            "MILS" | "MIL" => Some("mil"),
+            "INCH" | "INCHES" => Some("in"),
+            "MM" | "MILLIMETERS" => Some("mm"),
+            _ => None,
+        });
+        let (Some(tool), Some(size), Some(unit)) = (tool, size, unit) else { return };
+        if let Ok(diameter) = format!("{size}{unit}").parse::<Nm>() {
+            self.commented.entry(tool).or_insert(diameter);
+        }
+    }
+}
+
+/// The units that a header command names.
+pub(super) fn units_of(keyword: &str) -> Option<Units> {
+    match keyword {
+        "INCH" | "M72" => Some(Units::Inch),
+        "METRIC" | "M71" => Some(Units::Mm),
+        _ => None,
+    }
+}
+
+/// Whether a comment says that the tools after it plate or do not.
+pub(super) fn plating_of(comment: &str) -> Option<Plating> {
+    let aperture = comment.strip_prefix("#@! TA.AperFunction,");
+    let function = aperture.or_else(|| comment.strip_prefix("#@! TF.FileFunction,"));
+    match function.map(|fields| fields.split(',').next().unwrap_or_default()) {
+        Some("Plated") => return Some(Plating::Plated),
+        Some("NonPlated") => return Some(Plating::NonPlated),
+        Some(_) => return Some(Plating::Unknown),
+        None => {}
+    }
+    match comment.to_ascii_uppercase().replace([' ', '-'], "_").as_str() {
+        "TYPE=PLATED" => Some(Plating::Plated),
+        "TYPE=NON_PLATED" | "TYPE=NONPLATED" => Some(Plating::NonPlated),
+        _ => None,
+    }
+}
+
+/// `2:4`.
+fn colon(text: &str) -> Option<Digits> {
+    let (whole, decimals) = text.trim().split_once(':')?;
+    let (whole, decimals) = (whole.trim().parse().ok()?, decimals.trim().parse().ok()?);
+    (whole <= 6 && decimals <= 6).then_some(Digits { whole, decimals })
+}
+
+/// `000.000`, `00.0000`: the digits by example.
+fn pattern(text: &str) -> Option<Digits> {
+    let (whole, decimals) = text.split_once('.')?;
+    let zeros = |s: &str| s.bytes().all(|b| b == b'0').then(|| u8::try_from(s.len()).ok())?;
+    let (whole, decimals) = (zeros(whole)?, zeros(decimals)?);
+    (whole <= 6 && decimals <= 6).then_some(Digits { whole, decimals })
+}

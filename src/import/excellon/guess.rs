@@ -1,0 +1,145 @@
+//! Which number format a file means that does not say.
+//!
+//! Drill files of thirty years name their units, their zeros and their digits in any combination, or not at all. Each
+//! reading that the file allows is tried, and the one that puts most holes on pads (and next, inside the copper)
+//! wins; among equals the formats of the Excellon manual come first.
+
+use std::collections::BTreeSet;
+
+use super::declared::Declared;
+use super::format::{Digits, NumberFormat, Units, Zeros};
+use super::lex::{Kind, Line, Number, Word};
+use crate::board::Hole;
+use crate::geometry::{Nm, Point, Rect};
+
+/// What is known of the board's copper, to judge a reading by.
+#[derive(Clone, Debug, Default)]
+pub struct Context {
+    /// The middles of flashed pads, in cells of [`NEAR`].
+    pads: BTreeSet<(i64, i64)>,
+    /// A rectangle that holds all copper.
+    bounds: Option<Rect>,
+}
+
+/// The cell that a pad fills: a hole in it or in one beside it counts as its hole, so within 0.1 mm always.
+///
+/// Chosen: above the 25 µm that rounding both to mils may part them, below the distance of any two pads.
+const NEAR: i64 = 100_000;
+
+impl Context {
+    /// A board with `pads` flashed within `bounds`.
+    #[must_use]
+    pub fn new(pads: impl IntoIterator<Item = Point>, bounds: Option<Rect>) -> Self {
+        Self { pads: pads.into_iter().map(cell).collect(), bounds }
+    }
+
+    /// Whether there is nothing to judge by.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.bounds.is_none()
+    }
+
+    fn on_pad(&self, at: Point) -> bool {
+        let (x, y) = cell(at);
+        (x - 1..=x + 1).any(|x| (y - 1..=y + 1).any(|y| self.pads.contains(&(x, y))))
+    }
+
+    /// How many of `holes` begin on a pad and within the copper.
+    pub(super) fn judge(&self, holes: &[Hole]) -> Score {
+        let starts = || holes.iter().map(|hole| hole.path.start);
+        Score {
+            on_pads: starts().filter(|&at| self.on_pad(at)).count(),
+            inside: starts().filter(|&at| self.bounds.is_some_and(|bounds| bounds.contains(at))).count(),
+            holes: holes.len(),
+        }
+    }
+}
+
+fn cell(at: Point) -> (i64, i64) {
+    (at.x.get().div_euclid(NEAR), at.y.get().div_euclid(NEAR))
+}
+
+/// How well a reading fits the copper.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Score {
+    pub(super) on_pads: usize,
+    pub(super) inside: usize,
+    pub(super) holes: usize,
+}
+
+impl Score {
+    /// The figure to compare: a hole on a pad counts twice, as chance puts many inside but few on pads.
+    pub(super) const fn points(self) -> usize {
+        2 * self.on_pads + self.inside
+    }
+}
+
+/// The readings that a file allows, the likeliest first. One alone where it says all, or writes every point.
+pub(super) fn candidates(declared: &Declared, lines: &[Line]) -> Vec<NumberFormat> {
+    let units = declared.units.as_ref().map_or_else(|| likely_units(lines), |(units, _)| vec![*units]);
+    let open = has_bare_coordinates(lines);
+    let zeros = match declared.zeros {
+        Some(zeros) => vec![zeros],
+        None if !open => vec![Zeros::Trailing],
+        None => vec![Zeros::Trailing, Zeros::Leading],
+    };
+    let mut formats = Vec::new();
+    for &units in &units {
+        let digits = match declared.digits {
+            Some(digits) => vec![digits],
+            None if !open => vec![units.default_digits()],
+            None => usual_digits(units),
+        };
+        formats.extend(
+            digits
+                .iter()
+                .flat_map(|&digits| zeros.iter().map(move |&zeros| NumberFormat { units, digits, zeros })),
+        );
+    }
+    formats
+}
+
+fn usual_digits(units: Units) -> Vec<Digits> {
+    let usual: &[(u8, u8)] = match units {
+        Units::Inch => &[(2, 4), (3, 3), (2, 3), (1, 4), (2, 5), (2, 6), (3, 5), (4, 4)],
+        Units::Mm => {
+            &[(3, 3), (4, 2), (3, 2), (2, 3), (4, 3), (3, 4), (2, 4), (4, 4), (5, 3), (3, 5), (3, 6)]
+        }
+    };
+    usual.iter().map(|&(whole, decimals)| Digits { whole, decimals }).collect()
+}
+
+/// The units by the sizes of the tools: no board has all its holes below 0.3 mm, nor one of 7 mm that is an inch wide.
+fn likely_units(lines: &[Line]) -> Vec<Units> {
+    let sizes = || words(lines).filter(|word| word.letter == b'C').filter_map(|word| value(word.number));
+    let largest = sizes().fold(0.0_f64, f64::max);
+    if largest > 0.0 && largest < 0.28 { vec![Units::Inch, Units::Mm] } else { vec![Units::Mm, Units::Inch] }
+}
+
+fn value(number: Number) -> Option<f64> {
+    let decimals = number.decimals?;
+    let digits = u32::try_from(number.digits).ok()?;
+    Some((0..decimals).fold(f64::from(digits), |value, _| value / 10.0))
+}
+
+pub(super) fn has_bare_coordinates(lines: &[Line]) -> bool {
+    words(lines).any(|word| matches!(word.letter, b'X' | b'Y') && word.number.decimals.is_none())
+}
+
+fn words(lines: &[Line]) -> impl Iterator<Item = &Word> {
+    lines.iter().flat_map(|line| match &line.kind {
+        Kind::Words(words) => words.as_slice(),
+        _ => &[],
+    })
+}
+
+/// Where some of `holes` are, spread over the file: enough to tell readings apart.
+pub(super) fn some_places(holes: &[Hole]) -> Vec<Point> {
+    holes.iter().step_by(holes.len() / 256 + 1).map(|hole| hole.path.start).collect()
+}
+
+/// Whether two readings come to the same, but for the rounding of a nanometre.
+pub(super) fn same_places(a: &[Point], b: &[Point]) -> bool {
+    let close = |a: Nm, b: Nm| (a - b).abs() <= Nm::new(1);
+    a.len() == b.len() && a.iter().zip(b).all(|(a, b)| close(a.x, b.x) && close(a.y, b.y))
+}

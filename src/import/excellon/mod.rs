@@ -1,0 +1,291 @@
+//! Excellon drill files, versions 1 and 2, as thirty years of programs wrote them.
+//!
+//! There is no standard that all of them follow: the manual of the Excellon CNC-7 machines (header `M48` to `%`,
+//! tools `T1C0.8`, holes `X…Y…`, slots `G85`, routing `G00`/`M15`/`G01`/`M16`) is a common ground, but files leave out
+//! the header, the units, the zeros or the number of digits. So reading goes in four steps:
+//!
+//! ```text
+//!  bytes ─ lex ─▶ lines ─ declared ─▶ what the file says ─ guess ─▶ number formats ─ machine ─▶ holes
+//!                                                            ▲                         │
+//!                                                            └─ how many lie on pads? ─┘
+//! ```
+//!
+//! Only where the file leaves a choice is it run more than once, and a choice that is not the manual's default is
+//! reported with its reason. What cannot be read for certain, such as canned cycles, is an error: a drill in the wrong
+//! place ruins the board.
+//!
+//! | construct | fixture |
+//! |---|---|
+//! | header, tools, `T0`, comments with X2 attributes | `kicad.drl` |
+//! | no header, tools defined where they are chosen | `headerless.tap` |
+//! | units, zeros and digits that only the copper tells | `undeclared.drl` |
+//! | `LZ` with the digits in a comment, modal X and Y | `altium.txt` |
+//! | `G85` slots | `slots_g85.drl` |
+//! | routed slots and contours, arcs by `A` and by `I`, `J` | `routed.drl` |
+//! | `R` repeats, `M25`…`M01`, `M02` patterns | `repeats.drl` |
+//! | tool behind the coordinates, `G91`, `G93` | `modes.drl` |
+//! | tool sizes in comments | `allegro.drl` |
+
+mod block;
+mod declared;
+mod format;
+mod guess;
+mod lex;
+mod machine;
+mod route;
+
+use std::collections::BTreeMap;
+
+use crate::board::{ApertureUse, Hole, Plating, Source, Warning};
+use crate::geometry::Point;
+use crate::import::error::{Error, Warnings};
+use declared::Declared;
+use format::NumberFormat;
+use guess::Score;
+use machine::{File, Run};
+
+pub use guess::Context;
+
+/// What a drill file holds.
+#[derive(Clone, Debug)]
+pub struct Drilling {
+    /// Holes, slots and routed contours, in file order.
+    pub holes: Vec<Hole>,
+    /// The file as the report lists it.
+    pub source: Source,
+    /// The X2 file function, where a comment gives it: `Plated,1,2,PTH`.
+    pub function: Option<String>,
+    /// What was repaired, guessed or left out.
+    pub warnings: Vec<Warning>,
+}
+
+/// Reads the drill file `name` with content `bytes`. `context` is what is known of the copper: it decides between
+/// number formats where the file does not name its own.
+///
+/// # Errors
+///
+/// A file that is no Excellon, a command that cannot be read for certain, a tool without a diameter, a coordinate
+/// beyond a metre, more holes than any board has.
+pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Error> {
+    refuse_others(name, bytes)?;
+    let lines = lex::lines(name, bytes)?;
+    let declared = Declared::gather(&lines);
+    let plating = declared.function.as_deref().map_or_else(|| plating_by_name(name), plating_by_function);
+    let file = File { name, bytes, lines: &lines, declared: &declared, plating };
+    let reading = Reading::choose(file, context)?;
+    let mut warnings = Warnings::new(name, bytes);
+    let run = machine::run(file, reading.format, &mut warnings)?;
+    reading.explain(file, &run, context, &mut warnings);
+    if !declared.ended {
+        let message = "the file does not end with M30; if it was cut off, holes are missing";
+        warnings.add("missing-end-of-file", bytes.len()..bytes.len(), message);
+    }
+    if run.holes.is_empty() {
+        warnings.add("drill-without-holes", 0..0, "the drill file has no holes");
+    }
+    let source = source(file, &reading, &run);
+    Ok(Drilling { holes: run.holes, source, function: declared.function, warnings: warnings.finish() })
+}
+
+/// Whether `bytes` begin like an Excellon drill file.
+#[must_use]
+pub fn looks_like(bytes: &[u8]) -> bool {
+    /// Lines that may pass before something tells: banners of comments are long.
+    const FAR: usize = 400;
+    let head = &bytes[..bytes.len().min(64 * 1024)];
+    if head.contains(&b'*')
+        && head.windows(3).any(|w| w == b"%FS" || w == b"%AD" || w == b"%MO" || w == b"%TF")
+    {
+        return false;
+    }
+    let text: String = head.iter().filter(|&&b| b != 0).map(|&b| char::from(b)).collect();
+    let lines =
+        text.split(['\n', '\r']).map(str::trim).filter(|line| !line.is_empty() && !line.starts_with(';'));
+    let tells = lines.take(FAR).filter_map(|line| {
+        let upper = line.to_ascii_uppercase();
+        if upper.ends_with('*') {
+            return Some(false);
+        }
+        let neutral = upper == "%" || upper.starts_with('(') || upper.starts_with('/');
+        let modal =
+            ["G90", "G05", "M71", "M72", "G91", "FMAT", "ICI"].iter().any(|code| upper.starts_with(code));
+        (!neutral && !modal).then(|| begins_as_drill(&upper))
+    });
+    tells.into_iter().next().unwrap_or(false)
+}
+
+/// Whether the first line that says something could stand in a drill file.
+fn begins_as_drill(line: &str) -> bool {
+    let header = line.starts_with("M48") || line.starts_with("INCH") || line.starts_with("METRIC");
+    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | ' ');
+    let mut rest = line;
+    let mut words = 0;
+    while let Some(letter) = rest.chars().next().filter(|c| "XYTCFSGMRNHBZ".contains(*c)) {
+        let after = rest[letter.len_utf8()..].trim_start_matches(number);
+        if after.len() + 1 == rest.len() {
+            return header;
+        }
+        rest = after;
+        words += 1;
+    }
+    header || (words > 0 && rest.is_empty() && (line.starts_with(['T', 'X', 'Y', 'G'])))
+}
+
+/// Says plainly what a file is that is none of ours.
+fn refuse_others(name: &str, bytes: &[u8]) -> Result<(), Error> {
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        return Err(Error::content(name, "the drill file is empty", "export it again"));
+    }
+    if bytes.trim_ascii_start().starts_with(b"%%") {
+        let what = "a Sieb & Meyer drill file, whose tools have no diameters";
+        return Err(Error::content(name, what, "export drill data as Excellon"));
+    }
+    if looks_like(bytes) {
+        return Ok(());
+    }
+    let head = &bytes[..bytes.len().min(64 * 1024)];
+    let gerber = head.contains(&b'*') && (head.contains(&b'%') || head.windows(3).any(|w| w == b"D02"));
+    let what = if gerber {
+        "a Gerber file where an Excellon drill file was expected"
+    } else {
+        "not an Excellon drill file"
+    };
+    let hint = "a drill file begins with M48, or with tools (T1C0.8) and holes (X1.5Y2.5)";
+    Err(Error::content(name, what, hint))
+}
+
+/// What a file's name says of its holes: `board-NPTH.drl`, `plated-drill.cnc`.
+pub(super) fn plating_by_name(name: &str) -> Plating {
+    let name = name.to_ascii_lowercase();
+    let squeezed: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
+    if ["npth", "nonplated", "unplated", "notplated"].iter().any(|word| squeezed.contains(word)) {
+        return Plating::NonPlated;
+    }
+    let mut words = name.split(|c: char| !c.is_ascii_alphanumeric());
+    if words.any(|word| matches!(word, "pth" | "plated")) { Plating::Plated } else { Plating::Unknown }
+}
+
+/// What an X2 file function says of the holes: `NonPlated,1,2,NPTH`.
+pub(super) fn plating_by_function(function: &str) -> Plating {
+    match function.split(',').next().unwrap_or_default() {
+        "Plated" => Plating::Plated,
+        "NonPlated" => Plating::NonPlated,
+        _ => Plating::Unknown,
+    }
+}
+
+/// The number format that a file is read with, and how it came to be that one.
+struct Reading {
+    format: NumberFormat,
+    /// How the holes fall under it.
+    score: Score,
+    /// How many of the readings that the file allows put the holes elsewhere.
+    rivals: usize,
+    /// The reading that would have been taken without looking at the copper.
+    usual: NumberFormat,
+    usual_score: Score,
+}
+
+impl Reading {
+    /// The format of `file` that fits the copper best.
+    fn choose(file: File<'_>, context: &Context) -> Result<Self, Error> {
+        let formats = guess::candidates(file.declared, file.lines);
+        let attempt =
+            |format: NumberFormat| machine::run(file, format, &mut Warnings::new(file.name, file.bytes));
+        let mut first_error = None;
+        let mut runs: Vec<(NumberFormat, Vec<Point>, Score)> = Vec::new();
+        for &format in &formats {
+            match attempt(format) {
+                // A reading that comes to the same as one before it is no rival.
+                Ok(run) => {
+                    let places = guess::some_places(&run.holes);
+                    if !runs.iter().any(|(_, others, _)| guess::same_places(others, &places)) {
+                        runs.push((format, places, context.judge(&run.holes)));
+                    }
+                }
+                Err(error) => first_error = first_error.or(Some(error)),
+            }
+        }
+        let Some((usual, _, usual_score)) = runs.first() else {
+            let hint = "the file declares no readable number format";
+            return Err(
+                first_error.unwrap_or_else(|| Error::content(file.name, "nothing could be read", hint))
+            );
+        };
+        let mut best = (*usual, *usual_score);
+        for (format, _, score) in &runs {
+            if score.points() > best.1.points() {
+                best = (*format, *score);
+            }
+        }
+        let (format, score) = best;
+        Ok(Self { format, score, rivals: runs.len() - 1, usual: *usual, usual_score: *usual_score })
+    }
+
+    /// Warns of what was guessed, and of holes that do not fit the copper.
+    fn explain(&self, file: File<'_>, run: &Run, context: &Context, warnings: &mut Warnings<'_>) {
+        let Score { on_pads, inside, holes } = self.score;
+        let place = || file.declared.units.as_ref().map_or(0..0, |(_, place)| place.clone());
+        let read_as = format!("read as {} {}", self.format.units.name(), self.format);
+        let undeclared = file.declared.units.is_none() || file.declared.zeros.is_none();
+        if self.format != self.usual {
+            let usual =
+                format!("{} {} puts {} there", self.usual.units.name(), self.usual, self.usual_score.on_pads);
+            let message = format!(
+                "the file does not say its number format; {read_as}, with {on_pads} of {holes} holes on pads ({usual})"
+            );
+            warnings.add("drill-format-guessed", place(), message);
+        } else if file.declared.units.is_none() {
+            let message = format!(
+                "the file does not say its units; {read_as}, with {on_pads} of {holes} holes on pads"
+            );
+            warnings.add("drill-units-guessed", place(), message);
+        } else if self.rivals > 0 && undeclared && context.is_empty() {
+            let message = format!("the file does not say its number format, and no copper tells; {read_as}");
+            warnings.add("drill-format-guessed", place(), message);
+        }
+        if !context.is_empty() && 2 * inside < run.holes.len() {
+            let message = format!(
+                "only {inside} of {holes} holes lie within the copper ({read_as}): drill and copper may not belong together"
+            );
+            warnings.add("drill-off-board", place(), message);
+        }
+    }
+}
+
+/// The file as the report lists it; its role is the loader's to say.
+fn source(file: File<'_>, reading: &Reading, run: &Run) -> Source {
+    let bare = guess::has_bare_coordinates(file.lines);
+    let counts = [
+        ("holes", run.holes.iter().filter(|hole| !hole.is_slot()).count()),
+        ("slots", run.holes.iter().filter(|hole| hole.is_slot()).count()),
+        ("tools", run.tools.len()),
+    ];
+    Source {
+        file: file.name.to_owned(),
+        format: "excellon".to_owned(),
+        role: String::new(),
+        units: reading.format.units.name().to_owned(),
+        number_format: if bare { reading.format.to_string() } else { "decimal point".to_owned() },
+        sha256: crate::import::digest::sha256(file.bytes),
+        bytes: file.bytes.len() as u64,
+        counts: counts.into_iter().map(|(name, count)| (name.to_owned(), count as u64)).collect(),
+        generator: file.declared.generator.clone(),
+        apertures: tool_use(run),
+    }
+}
+
+/// How often each tool drills and routes, by number.
+fn tool_use(run: &Run) -> Vec<ApertureUse> {
+    let mut used: BTreeMap<u32, (u64, u64)> = run.tools.keys().map(|&tool| (tool, (0, 0))).collect();
+    for hole in &run.holes {
+        let (flashes, draws) = used.entry(hole.tool).or_default();
+        *if hole.is_slot() { draws } else { flashes } += 1;
+    }
+    let entry = |(tool, (flashes, draws)): (u32, (u64, u64))| {
+        let diameter =
+            run.tools.get(&tool).map_or_else(String::new, |t| format!("drill {:.3} mm", t.diameter));
+        ApertureUse { name: format!("T{tool}"), what: diameter, flashes, draws }
+    };
+    used.into_iter().map(entry).collect()
+}
