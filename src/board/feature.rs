@@ -34,6 +34,17 @@ pub enum Shape {
 }
 
 impl Shape {
+    /// A point of its copper: the middle of a disc, an end of a stroke, a corner of a polygon.
+    #[must_use]
+    pub fn anchor(&self) -> Point {
+        match self {
+            Self::Disc { center, .. } => *center,
+            Self::Stroke { from, .. } => *from,
+            Self::Arc { arc, .. } => arc.start,
+            Self::Polygon(polygon) => polygon.contours()[0][0],
+        }
+    }
+
     /// A rectangle that holds it.
     #[must_use]
     pub fn bounds(&self) -> Rect {

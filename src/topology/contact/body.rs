@@ -1,0 +1,163 @@
+use crate::board::Shape;
+use crate::geometry::{Nm, Point, Rect};
+
+use super::area::{Area, Scratch};
+use super::near;
+use super::nearest::{self, Way};
+use super::sector::Sector;
+
+/// A shape prepared for contact: a core, and how far the copper reaches round it.
+#[derive(Debug)]
+pub(in crate::topology) struct Body {
+    core: Core,
+    /// Zero for an area.
+    radius: Nm,
+    bounds: Rect,
+}
+
+/// What a shape is when its radius is taken away.
+#[derive(Debug)]
+enum Core {
+    Line(Line),
+    Area(Area),
+}
+
+/// A core without an inside.
+#[derive(Clone, Copy, Debug)]
+enum Line {
+    Point(Point),
+    Segment(Point, Point),
+    Arc(Sector),
+}
+
+impl Body {
+    pub(in crate::topology) fn new(shape: &Shape) -> Self {
+        let (core, radius) = match shape {
+            Shape::Disc { center, radius } => (Core::Line(Line::Point(*center)), *radius),
+            Shape::Stroke { from, to, radius } => (Core::Line(Line::Segment(*from, *to)), *radius),
+            // Not an arc, but a file can say it.
+            Shape::Arc { arc, radius } if [arc.start, arc.end].contains(&arc.center) => {
+                (Core::Line(Line::Segment(arc.start, arc.end)), *radius)
+            }
+            Shape::Arc { arc, radius } => (Core::Line(Line::Arc(Sector::new(arc))), *radius),
+            Shape::Polygon(polygon) => (Core::Area(Area::new(polygon)), Nm::ZERO),
+        };
+        Self { core, radius, bounds: shape.bounds() }
+    }
+
+    pub(in crate::topology) const fn bounds(&self) -> Rect {
+        self.bounds
+    }
+
+    /// Whether the two share at least a point. Exact but for the insides of two arcs (see [`near`]).
+    pub(in crate::topology) fn touches(&self, other: &Self, scratch: &mut Scratch) -> bool {
+        if !self.bounds.touches(other.bounds) {
+            return false;
+        }
+        match (&self.core, &other.core) {
+            (Core::Line(a), Core::Line(b)) => a.is_within(b, (self.radius + other.radius).get()),
+            (Core::Line(line), Core::Area(area)) => self.touches_area(line, area, scratch),
+            (Core::Area(area), Core::Line(line)) => other.touches_area(line, area, scratch),
+            (Core::Area(a), Core::Area(b)) => a.touches(b, scratch),
+        }
+    }
+
+    /// Whether this, whose core is `line`, reaches `area`.
+    fn touches_area(&self, line: &Line, area: &Area, scratch: &mut Scratch) -> bool {
+        area.any_edge(self.bounds, &mut scratch.edges, |(a, b)| {
+            line.is_within(&Line::Segment(a, b), self.radius.get())
+        }) || area.contains(line.point(), scratch)
+    }
+}
+
+/// The narrowest place between two shapes.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::topology) struct Narrowest {
+    /// The width of the gap there in nanometres, zero where they touch.
+    pub(in crate::topology) width: f64,
+    /// The middle of it.
+    pub(in crate::topology) at: Point,
+}
+
+impl Body {
+    /// The narrowest place between the two if it is at most `limit` wide; the shapes may touch.
+    pub(in crate::topology) fn narrowest(
+        &self,
+        other: &Self,
+        limit: Nm,
+        scratch: &mut Scratch,
+    ) -> Option<Narrowest> {
+        if !self.bounds.inflate(limit).touches(other.bounds) {
+            return None;
+        }
+        if self.touches(other, scratch) {
+            return Some(Narrowest { width: 0.0, at: overlap(self.bounds, other.bounds) });
+        }
+        let way = match (&self.core, &other.core) {
+            (Core::Line(a), Core::Line(b)) => Some(a.way_to(b)),
+            (Core::Area(area), _) => area.way_to(other, limit, scratch),
+            (Core::Line(_), Core::Area(area)) => area.way_to(self, limit, scratch).map(Way::reversed),
+        }?;
+        let (near, far) = (self.radius.to_f64(), other.radius.to_f64());
+        let width = (way.length - near - far).max(0.0);
+        (width <= limit.to_f64()).then(|| Narrowest { width, at: way.at(near + width / 2.0) })
+    }
+
+    /// The shortest way from a segment to the core, among the edges in `window` for an area.
+    pub(super) fn way_from(&self, edge: (Point, Point), window: Rect, stack: &mut Vec<usize>) -> Option<Way> {
+        match &self.core {
+            Core::Line(line) => Some(Line::Segment(edge.0, edge.1).way_to(line)),
+            Core::Area(area) => area.way_from(edge, window, stack),
+        }
+    }
+}
+
+/// The middle of what two rectangles that touch have in common.
+fn overlap(a: Rect, b: Rect) -> Point {
+    let low = Point::new(a.min().x.max(b.min().x), a.min().y.max(b.min().y));
+    let high = Point::new(a.max().x.min(b.max().x), a.max().y.min(b.max().y));
+    low.midpoint(high)
+}
+
+impl Line {
+    /// Whether the two are within `reach`.
+    fn is_within(&self, other: &Self, reach: i64) -> bool {
+        match (*self, *other) {
+            (Self::Point(p), Self::Point(q)) => near::points(p, q, reach),
+            (Self::Point(p), Self::Segment(a, b)) | (Self::Segment(a, b), Self::Point(p)) => {
+                near::point_segment(p, (a, b), reach)
+            }
+            (Self::Point(p), Self::Arc(arc)) | (Self::Arc(arc), Self::Point(p)) => {
+                near::point_arc(p, &arc, reach)
+            }
+            (Self::Segment(a, b), Self::Segment(c, d)) => near::segments((a, b), (c, d), reach),
+            (Self::Segment(a, b), Self::Arc(arc)) | (Self::Arc(arc), Self::Segment(a, b)) => {
+                near::segment_arc((a, b), &arc, reach)
+            }
+            (Self::Arc(s), Self::Arc(t)) => near::arcs(&s, &t, reach),
+        }
+    }
+
+    /// The shortest way to the other, which it does not cross.
+    fn way_to(&self, other: &Self) -> Way {
+        match (*self, *other) {
+            (Self::Point(p), Self::Point(q)) => nearest::points(p, q),
+            (Self::Point(p), Self::Segment(a, b)) => nearest::point_segment(p, (a, b)),
+            (Self::Point(p), Self::Arc(arc)) => nearest::point_arc(p, &arc),
+            (Self::Segment(a, b), Self::Segment(c, d)) => nearest::segments((a, b), (c, d)),
+            (Self::Segment(a, b), Self::Arc(arc)) => nearest::segment_arc((a, b), &arc),
+            (Self::Arc(s), Self::Arc(t)) => nearest::arcs(&s, &t),
+            (Self::Segment(..) | Self::Arc(_), Self::Point(_)) | (Self::Arc(_), Self::Segment(..)) => {
+                other.way_to(self).reversed()
+            }
+        }
+    }
+
+    /// Any point of it.
+    const fn point(&self) -> Point {
+        match *self {
+            Self::Point(p) | Self::Segment(p, _) => p,
+            Self::Arc(arc) => arc.start,
+        }
+    }
+}

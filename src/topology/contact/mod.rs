@@ -1,0 +1,79 @@
+//! The exact method: features whose copper touches conduct, decided in integers.
+//!
+//! Candidates come from an R-tree over the features' rectangles, so the time is near-linear; a pair that is joined
+//! already, by coincidence or through others, is not looked at. Touching counts, a gap of 1 nm does not.
+
+mod area;
+mod body;
+mod near;
+mod nearest;
+mod sector;
+
+use std::ops::ControlFlow;
+
+use rayon::prelude::*;
+
+use crate::board::Copper;
+
+use super::index::RectIndex;
+use super::sets::DisjointSets;
+
+pub(super) use area::Scratch;
+pub(super) use body::{Body, Narrowest};
+
+/// How many features one worker takes at least.
+///
+/// Chosen: they take about a millisecond, against which handing them out and merging the sets is little.
+const SHARE: usize = 2048;
+
+/// All features prepared and by place.
+#[derive(Debug)]
+pub(super) struct Bodies {
+    pub(super) bodies: Vec<Body>,
+    pub(super) index: RectIndex,
+}
+
+impl Bodies {
+    pub(super) fn new(copper: &Copper) -> Self {
+        let bodies: Vec<Body> =
+            copper.features.par_iter().with_min_len(SHARE).map(|feature| Body::new(&feature.shape)).collect();
+        let index = RectIndex::new(bodies.iter().map(Body::bounds));
+        Self { bodies, index }
+    }
+
+    /// `sets` with every two features joined that touch.
+    ///
+    /// Each worker joins on its own and the partitions are merged; how the work is shared cannot change the result,
+    /// which is the finest partition that has all touching pairs together.
+    pub(super) fn join(&self, sets: &DisjointSets) -> DisjointSets {
+        let worker = || (sets.clone(), Vec::new(), Scratch::default());
+        let shares = (0..self.bodies.len()).into_par_iter().with_min_len(SHARE);
+        let joined = shares.fold(worker, |(mut sets, mut stack, mut scratch), feature| {
+            self.join_one(feature, &mut sets, &mut stack, &mut scratch);
+            (sets, stack, scratch)
+        });
+        joined.map(|worker| worker.0).reduce_with(DisjointSets::merged).unwrap_or_else(|| sets.clone())
+    }
+
+    /// Joins a feature to all that come after it and touch it.
+    fn join_one(
+        &self,
+        feature: usize,
+        sets: &mut DisjointSets,
+        stack: &mut Vec<usize>,
+        scratch: &mut Scratch,
+    ) {
+        let body = &self.bodies[feature];
+        let number = |index: usize| u32::try_from(index).expect("fewer than 2³² features");
+        let own = number(feature);
+        let _ = self.index.visit(body.bounds(), stack, |other| {
+            if other > feature
+                && sets.find(own) != sets.find(number(other))
+                && body.touches(&self.bodies[other], scratch)
+            {
+                sets.union(own, number(other));
+            }
+            ControlFlow::Continue(())
+        });
+    }
+}

@@ -1,0 +1,44 @@
+use std::ops::ControlFlow;
+
+use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use crate::geometry::Rect;
+
+/// Rectangles by place: a packed R-tree, filled once.
+#[derive(Debug)]
+pub(super) struct RectIndex {
+    tree: StaticAABB2DIndex<i64>,
+}
+
+impl RectIndex {
+    /// The index of `rects`, numbered as they come.
+    pub(super) fn new(rects: impl ExactSizeIterator<Item = Rect>) -> Self {
+        let mut builder = StaticAABB2DIndexBuilder::new(rects.len());
+        for rect in rects {
+            let (min, max) = (rect.min(), rect.max());
+            builder.add(min.x.get(), min.y.get(), max.x.get(), max.y.get());
+        }
+        Self { tree: builder.build().expect("as many rectangles as announced") }
+    }
+
+    /// Calls `visit` with the number of every rectangle that shares a point with `window`, until it breaks.
+    ///
+    /// `stack` is scratch memory. The order depends on the rectangles alone.
+    pub(super) fn visit(
+        &self,
+        window: Rect,
+        stack: &mut Vec<usize>,
+        mut visit: impl FnMut(usize) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let (min, max) = (window.min(), window.max());
+        let mut visitor = |number| match visit(number) {
+            ControlFlow::Continue(()) => Control::Continue,
+            ControlFlow::Break(()) => Control::Break(()),
+        };
+        let (x0, y0, x1, y1) = (min.x.get(), min.y.get(), max.x.get(), max.y.get());
+        match self.tree.visit_query_with_stack(x0, y0, x1, y1, &mut visitor, stack) {
+            Control::Continue => ControlFlow::Continue(()),
+            Control::Break(()) => ControlFlow::Break(()),
+        }
+    }
+}
