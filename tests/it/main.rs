@@ -2,3 +2,4 @@
 
 mod excellon;
 mod layering;
+mod topology;

@@ -26,12 +26,8 @@ fn polygon(contours: &[&[(i64, i64)]]) -> Shape {
 /// An arc counter-clockwise about (0, 0), moved by `by`.
 fn arc(start: (i64, i64), end: (i64, i64), by: (i64, i64), radius: i64) -> Shape {
     let point = |p: (i64, i64)| at(p.0 + by.0, p.1 + by.1);
-    let arc = Arc {
-        start: point(start),
-        end: point(end),
-        center: at(by.0, by.1),
-        turn: Turn::CounterClockwise,
-    };
+    let arc =
+        Arc { start: point(start), end: point(end), center: at(by.0, by.1), turn: Turn::CounterClockwise };
     Shape::Arc { arc, radius: Nm::new(radius) }
 }
 
@@ -45,14 +41,17 @@ fn axis(shape: &Shape) -> Axis {
 }
 
 fn copper(shapes: Vec<Shape>) -> Copper {
-    let features = shapes.into_iter().map(|shape| Feature { axis: axis(&shape), shape, attributes: 0, line: 1 });
+    let features =
+        shapes.into_iter().map(|shape| Feature { axis: axis(&shape), shape, attributes: 0, line: 1 });
     Copper { side: Side::Front, features: features.collect(), attributes: vec![Attributes::default()] }
 }
 
 /// How many nets two shapes are: 1 where they touch.
 fn touch(a: &Shape, b: &Shape) -> bool {
-    let both = [topology::recover(&copper(vec![a.clone(), b.clone()]), Method::Contact),
-        topology::recover(&copper(vec![b.clone(), a.clone()]), Method::Contact)];
+    let both = [
+        topology::recover(&copper(vec![a.clone(), b.clone()]), Method::Contact),
+        topology::recover(&copper(vec![b.clone(), a.clone()]), Method::Contact),
+    ];
     assert_eq!(both[0].nets().len(), both[1].nets().len(), "the order decided: {a:?} {b:?}");
     both[0].nets().len() == 1
 }
@@ -64,22 +63,77 @@ fn touching_counts_and_a_gap_of_one_nanometre_does_not() {
     let cases: &[(&str, Shape, Shape, Shape)] = &[
         ("disc and disc", disc(0, 0, 30), disc(50, 0, 20), disc(51, 0, 20)),
         ("disc and disc, aslant", disc(0, 0, 3), disc(3, 4, 2), disc(4, 4, 2)),
-        ("a disc and a stroke's side", stroke((0, 0), (300, 400), 5), disc(150 + 8, 200 - 6, 5), disc(150 + 9, 200 - 7, 5)),
+        (
+            "a disc and a stroke's side",
+            stroke((0, 0), (300, 400), 5),
+            disc(150 + 8, 200 - 6, 5),
+            disc(150 + 9, 200 - 7, 5),
+        ),
         ("a disc and a stroke's end", stroke((0, 0), (100, 0), 5), disc(110, 0, 5), disc(111, 0, 5)),
-        ("strokes side by side", stroke((0, 0), (100, 0), 5), stroke((50, 10), (500, 10), 5), stroke((50, 11), (500, 11), 5)),
-        ("strokes that cross", stroke((0, 0), (100, 100), 0), stroke((0, 100), (100, 0), 0), stroke((0, 100), (49, 52), 0)),
-        ("far strokes", stroke((-big, -big), (big, big), 1), stroke((-big, big), (0, 2), 1), stroke((-big, big), (-2, 2), 1)),
+        (
+            "strokes side by side",
+            stroke((0, 0), (100, 0), 5),
+            stroke((50, 10), (500, 10), 5),
+            stroke((50, 11), (500, 11), 5),
+        ),
+        (
+            "strokes that cross",
+            stroke((0, 0), (100, 100), 0),
+            stroke((0, 100), (100, 0), 0),
+            stroke((0, 100), (49, 52), 0),
+        ),
+        (
+            "far strokes",
+            stroke((-big, -big), (big, big), 1),
+            stroke((-big, big), (0, 2), 1),
+            stroke((-big, big), (-2, 2), 1),
+        ),
         ("a disc and a polygon's edge", polygon(&[square]), disc(110, 50, 10), disc(111, 50, 10)),
         ("a disc and a polygon's corner", polygon(&[square]), disc(103, 104, 5), disc(104, 104, 5)),
         ("a disc inside a polygon", polygon(&[square]), disc(50, 50, 1), disc(50, 150, 1)),
-        ("polygons", polygon(&[square]), polygon(&[&[(100, 100), (200, 100), (200, 200)]]), polygon(&[&[(101, 100), (200, 100), (200, 200)]])),
-        ("a polygon in a polygon", polygon(&[square]), polygon(&[&[(10, 10), (20, 10), (20, 20)]]), polygon(&[&[(110, 10), (120, 10), (120, 20)]])),
-        ("a disc and an arc from outside", arc((65, 0), (0, 65), (0, 0), 5), disc(48 + 4, 64 + 3, 5), disc(56 + 5, 42, 2)),
+        (
+            "polygons",
+            polygon(&[square]),
+            polygon(&[&[(100, 100), (200, 100), (200, 200)]]),
+            polygon(&[&[(101, 100), (200, 100), (200, 200)]]),
+        ),
+        (
+            "a polygon in a polygon",
+            polygon(&[square]),
+            polygon(&[&[(10, 10), (20, 10), (20, 20)]]),
+            polygon(&[&[(110, 10), (120, 10), (120, 20)]]),
+        ),
+        (
+            "a disc and an arc from outside",
+            arc((65, 0), (0, 65), (0, 0), 5),
+            disc(48 + 4, 64 + 3, 5),
+            disc(56 + 5, 42, 2),
+        ),
         ("a disc and an arc's end", arc((65, 0), (0, 65), (0, 0), 5), disc(65, -10, 5), disc(65, -11, 5)),
-        ("a stroke across an arc", arc((65, 0), (0, 65), (0, 0), 0), stroke((0, 0), (100, 100), 0), stroke((0, 0), (45, 45), 0)),
-        ("a stroke beside an arc", arc((65, 0), (0, 65), (0, 0), 5), stroke((75, -30), (75, 30), 5), stroke((76, -30), (76, 30), 5)),
-        ("arcs side by side", arc((65, 0), (-65, 0), (0, 0), 5), arc((0, -65), (65, 0), (0, 140), 5), arc((-65, 0), (65, 0), (0, 141), 5)),
-        ("arcs that cross", arc((65, 0), (-65, 0), (0, 0), 0), arc((65, 0), (-65, 0), (50, 0), 0), arc((-65, 0), (65, 0), (50, -1), 0)),
+        (
+            "a stroke across an arc",
+            arc((65, 0), (0, 65), (0, 0), 0),
+            stroke((0, 0), (100, 100), 0),
+            stroke((0, 0), (45, 45), 0),
+        ),
+        (
+            "a stroke beside an arc",
+            arc((65, 0), (0, 65), (0, 0), 5),
+            stroke((75, -30), (75, 30), 5),
+            stroke((76, -30), (76, 30), 5),
+        ),
+        (
+            "arcs side by side",
+            arc((65, 0), (-65, 0), (0, 0), 5),
+            arc((0, -65), (65, 0), (0, 140), 5),
+            arc((-65, 0), (65, 0), (0, 141), 5),
+        ),
+        (
+            "arcs that cross",
+            arc((65, 0), (-65, 0), (0, 0), 0),
+            arc((65, 0), (-65, 0), (50, 0), 0),
+            arc((-65, 0), (65, 0), (50, -1), 0),
+        ),
     ];
     for (what, one, near, far) in cases {
         assert!(touch(one, near), "{what}: they touch");
@@ -166,8 +220,11 @@ fn any_shape(size: i64) -> impl Strategy<Value = Shape> {
     let ring = prop::collection::vec((-8_i64..8, -8_i64..8), 3..7);
     prop_oneof![
         (place(), 0..6_i64).prop_map(|((x, y), r)| disc(x, y, r)),
-        (place(), (-12_i64..12, -12_i64..12), 0..4_i64)
-            .prop_map(|((x, y), (dx, dy), r)| stroke((x, y), (x + dx, y + dy), r)),
+        (place(), (-12_i64..12, -12_i64..12), 0..4_i64).prop_map(|((x, y), (dx, dy), r)| stroke(
+            (x, y),
+            (x + dx, y + dy),
+            r
+        )),
         (place(), ring).prop_map(|((x, y), ring)| {
             let ring: Vec<_> = ring.into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
             polygon(&[&ring])
@@ -251,7 +308,17 @@ fn scale_up(shape: &Shape, scale: i64) -> Shape {
 
 /// Whole points on a circle of radius 65 nm round the origin.
 const ON_CIRCLE: [(i64, i64); 12] = [
-    (65, 0), (60, 25), (52, 39), (39, 52), (16, 63), (0, 65), (-33, 56), (-63, 16), (-65, 0), (-25, -60), (0, -65),
+    (65, 0),
+    (60, 25),
+    (52, 39),
+    (39, 52),
+    (16, 63),
+    (0, 65),
+    (-33, 56),
+    (-63, 16),
+    (-65, 0),
+    (-25, -60),
+    (0, -65),
     (56, -33),
 ];
 
@@ -320,7 +387,11 @@ fn two_names_on_one_island_are_a_warning_with_both_places() {
     let warnings = topology::names_check(&copper, &nets);
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     assert_eq!(warnings[0].code, "nets-joined", "by its stable name");
-    assert!(warnings[0].message.starts_with("AGND (at 0.000100, 0.000000 mm) and GND (at 0.000000"), "{}", warnings[0].message);
+    assert!(
+        warnings[0].message.starts_with("AGND (at 0.000100, 0.000000 mm) and GND (at 0.000000"),
+        "{}",
+        warnings[0].message
+    );
     assert_eq!(nets.label(NetId(0)), "AGND+GND", "both names, in order");
     let islands = topology::islands_of_names(&nets);
     assert_eq!(islands["GND"], [NetId(0), NetId(1)], "GND is on two islands, which is normal");
@@ -343,8 +414,16 @@ fn plated_holes_join_the_two_sides() {
     };
     assert_eq!(count(&[]), 3, "nothing joins the sides");
     assert_eq!(count(&[hole(0, Plating::Plated)]), 2, "one plated hole");
-    assert_eq!(count(&[hole(0, Plating::Plated), hole(5_000_000, Plating::Unknown)]), 1, "unknown counts as plated");
-    assert_eq!(count(&[hole(0, Plating::Plated), hole(5_000_000, Plating::NonPlated)]), 2, "unplated does not");
+    assert_eq!(
+        count(&[hole(0, Plating::Plated), hole(5_000_000, Plating::Unknown)]),
+        1,
+        "unknown counts as plated"
+    );
+    assert_eq!(
+        count(&[hole(0, Plating::Plated), hole(5_000_000, Plating::NonPlated)]),
+        2,
+        "unplated does not"
+    );
 }
 
 #[test]
@@ -391,7 +470,8 @@ proptest! {
 fn gap_slowly(a: &Shape, b: &Shape) -> f64 {
     let ((edges_a, r), (edges_b, q)) = (edges(a), edges(b));
     let squares = edges_a.iter().flat_map(|&s| edges_b.iter().map(move |&t| squared_distance(s, t)));
-    let least = squares.map(|(top, bottom)| (top as f64 / bottom as f64).sqrt()).fold(f64::INFINITY, f64::min);
+    let least =
+        squares.map(|(top, bottom)| (top as f64 / bottom as f64).sqrt()).fold(f64::INFINITY, f64::min);
     least - (r + q) as f64
 }
 
