@@ -106,8 +106,8 @@ fn touching_counts_and_a_gap_of_one_nanometre_does_not() {
         (
             "a disc and an arc from outside",
             arc((65, 0), (0, 65), (0, 0), 5),
-            disc(48 + 4, 64 + 3, 5),
-            disc(56 + 5, 42, 2),
+            disc(45, 60, 5),
+            disc(45, 61, 5),
         ),
         ("a disc and an arc's end", arc((65, 0), (0, 65), (0, 0), 5), disc(65, -10, 5), disc(65, -11, 5)),
         (
