@@ -5,6 +5,7 @@ pub mod board;
 pub mod gcode;
 pub mod geometry;
 pub mod import;
+pub mod raster;
 pub mod toolpath;
 pub mod topology;
 pub mod voronoi;

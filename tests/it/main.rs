@@ -2,4 +2,6 @@
 
 mod excellon;
 mod layering;
+mod oracle;
+mod raster;
 mod topology;

@@ -1,0 +1,193 @@
+use super::block::{Block, LANES, SIDE};
+use super::cell::Cell;
+use super::half_plane::Cover;
+use super::primitive::{Part, Reach, Shape};
+use super::{Label, Scene};
+
+/// The primitives that may be seen in a cell: the bin of the cell.
+///
+/// # Guarantees
+///
+/// Both lists run in the order of labels. What is not in them has no visible fragment in the cell.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Bin {
+    shapes: Vec<Candidate>,
+    parts: Vec<Part>,
+    part_reaches: Vec<Reach>,
+    edges: Vec<u32>,
+    near: f64,
+    far: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Candidate {
+    primitive: u32,
+    whole: bool,
+    near: f64,
+}
+
+impl Bin {
+    /// The bin of the whole picture: everything.
+    pub(super) fn root(scene: &Scene, picture: Cell) -> Self {
+        let mut order: Vec<_> = (0..).zip(&scene.primitives).map(|(index, p)| (p.label, index)).collect();
+        order.sort_unstable();
+        let mut bin = Self { near: f64::NEG_INFINITY, far: f64::INFINITY, ..Self::default() };
+        for (_, primitive) in order {
+            let shape = &scene.primitives[index(primitive)].shape;
+            if let Shape::Polygon(polygon) = shape {
+                let (x, y) = picture.first();
+                let begin = bin.edges.len();
+                bin.edges.extend((0..).take(polygon.edge_count()));
+                let edges = begin..bin.edges.len();
+                bin.parts.push(Part { primitive, winding: polygon.winding(x, y), edges });
+            } else {
+                bin.shapes.push(Candidate { primitive, whole: false, near: 0.0 });
+            }
+        }
+        bin
+    }
+
+    /// Becomes the bin of `cell`, given that of a cell `around` it.
+    ///
+    /// A primitive that covers the whole cell no deeper than `far` hides all that lie entirely behind. Only what is
+    /// strictly behind goes: a tie is decided pixel by pixel.
+    pub(super) fn narrow(&mut self, scene: &Scene, from: &Self, around: Cell, cell: Cell) {
+        self.shapes.clear();
+        self.parts.clear();
+        self.part_reaches.clear();
+        self.edges.clear();
+        (self.near, self.far) = (f64::INFINITY, f64::INFINITY);
+        for part in &from.parts {
+            let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape else { continue };
+            if let Some((part, reach)) = polygon.narrow(part, &from.edges, around, cell, &mut self.edges) {
+                self.near = self.near.min(reach.near);
+                self.far = self.far.min(reach.far);
+                self.parts.push(part);
+                self.part_reaches.push(reach);
+            }
+        }
+        for candidate in &from.shapes {
+            if candidate.near > self.far {
+                continue;
+            }
+            let Some(reach) = scene.primitives[index(candidate.primitive)].shape.reach(cell) else {
+                continue;
+            };
+            if reach.near > self.far {
+                continue;
+            }
+            self.near = self.near.min(reach.near);
+            self.far = self.far.min(reach.far);
+            let whole = reach.cover == Cover::Whole;
+            self.shapes.push(Candidate { primitive: candidate.primitive, whole, near: reach.near });
+        }
+        let far = self.far;
+        self.shapes.retain(|candidate| candidate.near <= far);
+        let mut reaches = self.part_reaches.iter();
+        self.parts.retain(|_| reaches.next().is_some_and(|reach| reach.near <= far));
+    }
+
+    /// The one owner of every pixel of the cell, where that is certain, and certain that no pixel lies at a depth
+    /// on the other side of one of `levels` than another.
+    pub(super) fn uniform(&self, scene: &Scene, levels: &[f32]) -> Option<u32> {
+        let mut candidates = self.primitives();
+        let Some(first) = candidates.next() else { return Some(scene.owner(Label::BACKGROUND)) };
+        let owner = scene.owner(scene.primitives[index(first)].label);
+        let covered = self.far < f64::INFINITY;
+        let alone = candidates.all(|other| scene.owner(scene.primitives[index(other)].label) == owner);
+        let crossed = levels.iter().any(|&level| (self.near..=self.far).contains(&f64::from(level)));
+        (covered && alone && !crossed).then_some(owner)
+    }
+
+    /// All that may be seen, in no particular order.
+    fn primitives(&self) -> impl Iterator<Item = u32> {
+        self.shapes
+            .iter()
+            .map(|candidate| candidate.primitive)
+            .chain(self.parts.iter().map(|part| part.primitive))
+    }
+
+    fn len(&self) -> usize {
+        self.shapes.len() + self.parts.len()
+    }
+
+    /// Whether the cell is better drawn as it is than split: dividing costs as much as drawing a few rows.
+    fn is_ripe(&self, cell: Cell) -> bool {
+        let fits = cell.width <= SIDE && cell.height <= SIDE;
+        let small = cell.width <= SIDE / 2 && cell.height <= SIDE / 2 + SIDE / 8;
+        fits && (small || self.len() <= 2)
+    }
+
+    /// Draws all of it on `block`, in the order of labels.
+    fn draw(&self, scene: &Scene, block: &mut Block) {
+        let (mut shapes, mut parts) = (self.shapes.iter().peekable(), self.parts.iter().peekable());
+        let label = |primitive: u32| scene.primitives[index(primitive)].label;
+        loop {
+            let shape_first = match (shapes.peek(), parts.peek()) {
+                (None, None) => return,
+                (Some(shape), Some(part)) => label(shape.primitive) <= label(part.primitive),
+                (shape, _) => shape.is_some(),
+            };
+            if shape_first {
+                let Some(candidate) = shapes.next() else { return };
+                let cover = if candidate.whole { Cover::Whole } else { Cover::Part };
+                let primitive = &scene.primitives[index(candidate.primitive)];
+                primitive.shape.draw(primitive.label, cover, block);
+            } else {
+                let Some(part) = parts.next() else { return };
+                if let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape {
+                    polygon.draw(label(part.primitive), part, &self.edges, block);
+                }
+            }
+        }
+    }
+}
+
+/// Draws cells; owns the memory that takes.
+pub(super) struct Painter {
+    block: Block,
+    bins: Vec<Bin>,
+}
+
+impl Painter {
+    pub(super) fn new() -> Self {
+        Self { block: Block::new(), bins: Vec::new() }
+    }
+
+    /// Draws the cell whose bin is `bin`; `finished` gets it in blocks.
+    pub(super) fn paint(&mut self, scene: &Scene, bin: &Bin, cell: Cell, finished: &mut impl FnMut(&Block)) {
+        let Self { block, bins } = self;
+        paint(scene, bin, cell, block, bins, 0, finished);
+    }
+}
+
+fn paint(
+    scene: &Scene,
+    bin: &Bin,
+    cell: Cell,
+    block: &mut Block,
+    bins: &mut Vec<Bin>,
+    level: usize,
+    finished: &mut impl FnMut(&Block),
+) {
+    if bin.is_ripe(cell) {
+        block.clear(cell);
+        bin.draw(scene, block);
+        finished(block);
+        return;
+    }
+    if bins.len() == level {
+        bins.push(Bin::default());
+    }
+    for quarter in cell.quarters(LANES) {
+        let mut own = std::mem::take(&mut bins[level]);
+        own.narrow(scene, bin, cell, quarter);
+        paint(scene, &own, quarter, block, bins, level + 1, finished);
+        bins[level] = own;
+    }
+}
+
+/// An index of a primitive as a `usize`.
+pub(super) const fn index(primitive: u32) -> usize {
+    primitive as usize
+}

@@ -1,0 +1,23 @@
+//! A deterministic z-buffer on the CPU: surfaces over a plane of pixels in, the nearest label of every pixel out.
+
+mod bin;
+mod block;
+mod cell;
+mod fragment;
+mod half_plane;
+mod node;
+mod primitive;
+mod render;
+mod scene;
+mod stream;
+mod subpixel;
+mod surface;
+mod tile;
+
+pub use fragment::{Fragment, Label};
+pub use render::{Buffers, render};
+pub use scene::Scene;
+pub use stream::{Options, stream};
+pub use subpixel::{PixelPoint, SubPx};
+pub use surface::{Caps, FillRule, Sides, Spin, Surface};
+pub use tile::{Tile, TileContent, TilePixels};

@@ -1,0 +1,93 @@
+//! The surfaces, made ready to draw: for each where it reaches, and how deep it lies at a sample.
+
+mod cone;
+mod curtain;
+mod polygon;
+mod ring;
+mod stroke;
+mod triangle;
+
+pub(super) use cone::Cone;
+pub(super) use curtain::Curtain;
+pub(super) use polygon::{Part, Polygon};
+pub(super) use ring::Ring;
+pub(super) use stroke::Stroke;
+pub(super) use triangle::Triangle;
+
+use super::block::Block;
+use super::cell::Cell;
+use super::half_plane::Cover;
+use super::{Label, Surface};
+
+/// A surface and whose it is.
+#[derive(Clone, Debug)]
+pub(super) struct Primitive {
+    pub label: Label,
+    pub shape: Shape,
+}
+
+/// A surface made ready to draw.
+#[derive(Clone, Debug)]
+pub(super) enum Shape {
+    Polygon(Polygon),
+    Triangle(Triangle),
+    Cone(Cone),
+    Curtain(Curtain),
+    Ring(Ring),
+}
+
+/// How deep a primitive lies in a cell: no fragment of it is nearer than `near`, and where it covers the whole
+/// cell none is deeper than `far`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    pub near: f64,
+    pub far: f64,
+    pub cover: Cover,
+}
+
+impl Shape {
+    /// The surface made ready; none where it covers nothing.
+    ///
+    /// # Panics
+    ///
+    /// Where a depth, an offset or a limit is not finite.
+    pub(super) fn new(surface: Surface) -> Option<Self> {
+        match surface {
+            Surface::Polygon { contours, rule, depth } => {
+                Polygon::new(&contours, rule, depth).map(Self::Polygon)
+            }
+            Surface::Triangle { corners, depths } => Triangle::new(corners, depths).map(Self::Triangle),
+            Surface::Cone { apex, offset, limit } => {
+                Some(Self::Cone(Cone::new(apex, Stroke::new(offset, limit))))
+            }
+            Surface::Curtain { from, to, caps, sides, offset, limit } => {
+                Curtain::new(from, to, caps, sides, Stroke::new(offset, limit)).map(Self::Curtain)
+            }
+            Surface::Ring { center, start, end, spin, caps, offset, limit } => {
+                Some(Self::Ring(Ring::new(center, start, end, spin, caps, Stroke::new(offset, limit))))
+            }
+        }
+    }
+
+    /// How deep it lies in `cell`; none where it has no fragment there. Polygons are narrowed edge by edge instead.
+    pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {
+        match self {
+            Self::Cone(cone) => cone.reach(cell),
+            Self::Curtain(curtain) => curtain.reach(cell),
+            Self::Ring(ring) => ring.reach(cell),
+            Self::Triangle(triangle) => triangle.reach(cell),
+            Self::Polygon(polygon) => Some(polygon.reach()),
+        }
+    }
+
+    /// Draws it on `block`, which it covers as `cover` says. Polygons are drawn by their [`Part`]s instead.
+    pub(super) fn draw(&self, label: Label, cover: Cover, block: &mut Block) {
+        match self {
+            Self::Cone(cone) => cone.draw(label, cover, block),
+            Self::Curtain(curtain) => curtain.draw(label, cover, block),
+            Self::Ring(ring) => ring.draw(label, cover, block),
+            Self::Triangle(triangle) => triangle.draw(label, block),
+            Self::Polygon(_) => {}
+        }
+    }
+}

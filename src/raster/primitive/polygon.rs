@@ -1,0 +1,217 @@
+use std::ops::Range;
+
+use super::super::block::{Block, LANES, SIDE, count};
+use super::super::cell::Cell;
+use super::super::half_plane::Cover;
+use super::super::subpixel::sample;
+use super::super::{FillRule, Fragment, Label, PixelPoint};
+use super::Reach;
+
+/// A flat area inside contours.
+///
+/// A cell knows it by the edges that touch the cell and by how often the contours wind round the cell's top left
+/// sample; from there every other sample of the cell is reached without leaving it, down the left column and then
+/// along the row, counting edges crossed. So no edge outside the cell is ever looked at.
+///
+/// A sample counts as moved by (ε, ε²): right by next to nothing, down by still less. Then it lies on no edge, and
+/// left and top edges keep the samples on them, right and bottom edges do not.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Polygon {
+    edges: Vec<Edge>,
+    rule: FillRule,
+    depth: f32,
+}
+
+/// What a cell knows of a polygon.
+#[derive(Clone, Debug)]
+pub(in super::super) struct Part {
+    /// Which primitive.
+    pub primitive: u32,
+    /// How often it winds round the top left sample of the cell.
+    pub winding: i32,
+    /// Its edges that may touch the cell, in a list kept beside.
+    pub edges: Range<usize>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    from: (i32, i32),
+    to: (i32, i32),
+}
+
+impl Edge {
+    /// On which side of the edge's line the sample at (`x`, `y`) lies: whether clockwise of its direction.
+    fn clockwise(&self, x: i32, y: i32) -> bool {
+        let (ux, uy) =
+            (i64::from(self.to.0) - i64::from(self.from.0), i64::from(self.to.1) - i64::from(self.from.1));
+        let cross =
+            ux * (i64::from(y) - i64::from(self.from.1)) - uy * (i64::from(x) - i64::from(self.from.0));
+        // On the line the moved sample decides: first its ε along x, then its ε² along y.
+        cross > 0 || (cross == 0 && (uy < 0 || (uy == 0 && ux > 0)))
+    }
+
+    /// What crossing the edge adds to the winding number on the way from one sample to another.
+    fn crossing(&self, from: (i32, i32), to: (i32, i32)) -> i32 {
+        i32::from(self.clockwise(from.0, from.1)) - i32::from(self.clockwise(to.0, to.1))
+    }
+
+    /// Whether the row of samples at `y` meets it.
+    fn spans_row(&self, y: i32) -> bool {
+        (self.from.1 <= y) != (self.to.1 <= y)
+    }
+
+    /// Whether the column of samples at `x` meets it.
+    fn spans_column(&self, x: i32) -> bool {
+        (self.from.0 <= x) != (self.to.0 <= x)
+    }
+
+    /// Whether it may come between the samples of `cell`.
+    fn touches(&self, cell: Cell) -> bool {
+        let (first, last) = (cell.first(), cell.last());
+        let apart = self.from.0.max(self.to.0) < first.0
+            || self.from.0.min(self.to.0) > last.0
+            || self.from.1.max(self.to.1) < first.1
+            || self.from.1.min(self.to.1) > last.1;
+        if apart {
+            return false;
+        }
+        let corners = [first, (last.0, first.1), (first.0, last.1), last];
+        let clockwise = corners.iter().filter(|corner| self.clockwise(corner.0, corner.1)).count();
+        clockwise != 0 && clockwise != corners.len()
+    }
+
+    /// The first of `columns` whose sample at row `y` lies to the right of the edge, which spans the row.
+    fn first_right(&self, y: i32, columns: Range<i32>) -> i32 {
+        let (top, bottom) = if self.from.1 < self.to.1 { (self.from, self.to) } else { (self.to, self.from) };
+        // x ≥ top.x + (bottom.x − top.x) (y − top.y) / (bottom.y − top.y), multiplied out and rounded up.
+        let (ux, uy) = (i64::from(bottom.0) - i64::from(top.0), i64::from(bottom.1) - i64::from(top.1));
+        let along = ux * (i64::from(y) - i64::from(top.1));
+        let before = i64::from(top.0) - i64::from(sample(0));
+        let column = -((-(before * uy + along)).div_euclid(uy * 256));
+        i32::try_from(column.clamp(i64::from(columns.start), i64::from(columns.end)))
+            .expect("between two columns")
+    }
+}
+
+impl Polygon {
+    /// None where no contour encloses anything.
+    ///
+    /// # Panics
+    ///
+    /// Where the depth is not finite.
+    pub(in super::super) fn new(contours: &[Vec<PixelPoint>], rule: FillRule, depth: f32) -> Option<Self> {
+        assert!(depth.is_finite(), "a depth is a finite number");
+        let rings = contours.iter().filter(|ring| ring.len() >= 3);
+        let edges: Vec<_> = rings
+            .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)))
+            .filter(|(from, to)| from != to)
+            .map(|(from, to)| Edge { from: from.raw(), to: to.raw() })
+            .collect();
+        (!edges.is_empty()).then_some(Self { edges, rule, depth: depth + 0.0 })
+    }
+
+    pub(super) fn reach(&self) -> Reach {
+        Reach { near: f64::from(self.depth), far: f64::INFINITY, cover: Cover::Part }
+    }
+
+    fn encloses(&self, winding: i32) -> bool {
+        match self.rule {
+            FillRule::NonZero => winding != 0,
+            FillRule::EvenOdd => winding & 1 != 0,
+        }
+    }
+
+    /// How many edges it has.
+    pub(in super::super) fn edge_count(&self) -> usize {
+        self.edges.len()
+    }
+
+    /// How often it winds round the sample at (`x`, `y`), from all its edges.
+    pub(in super::super) fn winding(&self, x: i32, y: i32) -> i32 {
+        let row = self.edges.iter().filter(|edge| edge.spans_row(y));
+        // Seen from far to the left, a downward edge (to.y > from.y) is crossed where the sample is not clockwise.
+        row.map(|edge| {
+            let far_left_is_clockwise = edge.from.1 < edge.to.1;
+            i32::from(far_left_is_clockwise) - i32::from(edge.clockwise(x, y))
+        })
+        .sum()
+    }
+
+    /// What `cell` knows of it, from what a cell around it knew; none where it is not there at all.
+    pub(in super::super) fn narrow(
+        &self,
+        part: &Part,
+        edges: &[u32],
+        around: Cell,
+        cell: Cell,
+        kept: &mut Vec<u32>,
+    ) -> Option<(Part, Reach)> {
+        let (start, goal) = (around.first(), cell.first());
+        let corner = (start.0, goal.1);
+        let mut winding = part.winding;
+        let begin = kept.len();
+        for &index in &edges[part.edges.clone()] {
+            let edge = self.edges[index as usize];
+            if edge.spans_column(start.0) {
+                winding += edge.crossing(start, corner);
+            }
+            if edge.spans_row(goal.1) {
+                winding += edge.crossing(corner, goal);
+            }
+            if edge.touches(cell) {
+                kept.push(index);
+            }
+        }
+        let edges = begin..kept.len();
+        let cover = match (edges.is_empty(), self.encloses(winding)) {
+            (true, true) => Cover::Whole,
+            (true, false) => return None,
+            (false, _) => Cover::Part,
+        };
+        let depth = f64::from(self.depth);
+        let far = if cover == Cover::Whole { depth } else { f64::INFINITY };
+        Some((Part { primitive: part.primitive, winding, edges }, Reach { near: depth, far, cover }))
+    }
+
+    /// Draws what `part` says of it on the block.
+    pub(in super::super) fn draw(&self, label: Label, part: &Part, edges: &[u32], block: &mut Block) {
+        if part.edges.is_empty() {
+            for mut row in block.rows() {
+                row.draw(label, |_| self.depth);
+            }
+            return;
+        }
+        let edges = &edges[part.edges.clone()];
+        let cell = block.cell();
+        for mut row in block.rows() {
+            let mut change = self.changes(part.winding, edges, cell, row.y);
+            let mut winding = 0;
+            for (column, change) in (cell.x..cell.x + cell.width).zip(&mut change) {
+                winding += *change;
+                if self.encloses(winding) {
+                    row.draw_pixel(column, Fragment { depth: self.depth, label });
+                }
+            }
+        }
+    }
+
+    /// By how much the winding number changes at each sample of a row of `cell`, from 0 before the first.
+    fn changes(&self, winding: i32, edges: &[u32], cell: Cell, y: i32) -> [i32; (SIDE + LANES) as usize] {
+        let mut changes = [0; (SIDE + LANES) as usize];
+        let first = cell.first();
+        let columns = cell.x + 1..cell.x + cell.width;
+        changes[0] = winding;
+        for edge in edges.iter().map(|&index| self.edges[index as usize]) {
+            if edge.spans_column(first.0) {
+                changes[0] += edge.crossing(first, (first.0, y));
+            }
+            if edge.spans_row(y) {
+                let column = edge.first_right(y, columns.clone());
+                let from = (sample(cell.x), y);
+                let to = (sample(column.min(columns.end - 1)), y);
+                changes[count(column - cell.x)] += edge.crossing(from, to);
+            }
+        }
+        changes
+    }
+}

@@ -1,0 +1,77 @@
+use super::primitive::{Primitive, Shape};
+use super::{Label, Surface};
+
+/// The primitives of a picture of a given size. The order in which they are added changes nothing.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    width: u32,
+    height: u32,
+    pub(super) primitives: Vec<Primitive>,
+    owners: Vec<u32>,
+}
+
+impl Scene {
+    /// The largest width and height: sample positions in steps then are exact in an `f32`.
+    pub const MAX_SIDE: u32 = 1 << 16;
+
+    /// An empty scene seen in a picture of `width` × `height` pixels.
+    ///
+    /// # Panics
+    ///
+    /// Where a side is longer than [`Scene::MAX_SIDE`].
+    #[must_use]
+    pub const fn new(width: u32, height: u32) -> Self {
+        assert!(width <= Self::MAX_SIDE && height <= Self::MAX_SIDE, "a picture is too large");
+        Self { width, height, primitives: Vec::new(), owners: Vec::new() }
+    }
+
+    /// Adds a primitive: `surface`, shown as `label`.
+    ///
+    /// # Panics
+    ///
+    /// Where a depth, an offset or a limit is not finite.
+    pub fn add(&mut self, label: Label, surface: Surface) {
+        if let Some(shape) = Shape::new(surface) {
+            self.primitives.push(Primitive { label, shape });
+        }
+    }
+
+    /// Says which owner each label belongs to (the index is the label); a label beyond the list is its own owner,
+    /// and so are all before the first call.
+    ///
+    /// Labels may be finer than what the caller calls one region. A tile is uniform where it has one owner.
+    pub fn set_owners(&mut self, owners: Vec<u32>) {
+        self.owners = owners;
+    }
+
+    /// Whose a label is.
+    #[must_use]
+    pub fn owner(&self, label: Label) -> u32 {
+        let own = usize::try_from(label.0).ok().and_then(|index| self.owners.get(index));
+        own.copied().unwrap_or(label.0)
+    }
+
+    /// Columns of the picture.
+    #[must_use]
+    pub const fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows of the picture.
+    #[must_use]
+    pub const fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// How many primitives there are; those that cover nothing anywhere are not kept.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.primitives.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.primitives.is_empty()
+    }
+}

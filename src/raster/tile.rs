@@ -1,0 +1,83 @@
+use super::Label;
+
+/// A piece of the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Tile<'a> {
+    /// Its leftmost column, without the apron.
+    pub column0: u32,
+    /// Its topmost row, without the apron.
+    pub row0: u32,
+    /// Columns, without the apron.
+    pub width: u32,
+    /// Rows, without the apron.
+    pub height: u32,
+    /// What it shows.
+    pub content: TileContent<'a>,
+}
+
+/// What a tile shows.
+#[derive(Clone, Copy, Debug)]
+pub enum TileContent<'a> {
+    /// One owner everywhere, known without drawing.
+    Uniform(u32),
+    /// Its pixels.
+    Pixels(TilePixels<'a>),
+}
+
+/// The pixels of a tile and of the apron around it.
+///
+/// Columns and rows count from the tile's own top left pixel, so that the apron's are negative or beyond its size.
+/// Beyond the picture lies background, infinitely deep.
+#[derive(Clone, Copy, Debug)]
+pub struct TilePixels<'a> {
+    labels: &'a [u32],
+    depths: &'a [f32],
+    stride: usize,
+    apron: i32,
+}
+
+impl<'a> TilePixels<'a> {
+    pub(super) fn new(labels: &'a [u32], depths: &'a [f32], stride: usize, apron: u32) -> Self {
+        Self { labels, depths, stride, apron: super::node::signed(apron) }
+    }
+
+    /// The label at a column and row.
+    ///
+    /// # Panics
+    ///
+    /// Outside the tile and its apron.
+    #[must_use]
+    pub fn label(&self, column: i32, row: i32) -> Label {
+        Label(self.label_row(row)[super::block::count(column + self.apron)])
+    }
+
+    /// The depth at a column and row.
+    ///
+    /// # Panics
+    ///
+    /// Outside the tile and its apron.
+    #[must_use]
+    pub fn depth(&self, column: i32, row: i32) -> f32 {
+        self.depth_row(row)[super::block::count(column + self.apron)]
+    }
+
+    /// The labels of a row, apron included: the first is that of column −apron.
+    ///
+    /// # Panics
+    ///
+    /// Outside the tile and its apron.
+    #[must_use]
+    pub fn label_row(&self, row: i32) -> &'a [u32] {
+        &self.labels[super::block::count(row + self.apron) * self.stride..][..self.stride]
+    }
+
+    /// The depths of a row, apron included: the first is that of column −apron.
+    ///
+    /// # Panics
+    ///
+    /// Outside the tile and its apron.
+    #[must_use]
+    pub fn depth_row(&self, row: i32) -> &'a [f32] {
+        &self.depths[super::block::count(row + self.apron) * self.stride..][..self.stride]
+    }
+}

@@ -1,0 +1,3 @@
+//! Each stage once more, slow and obvious, to hold the fast one against.
+
+pub(crate) mod raster;
