@@ -86,7 +86,7 @@ fn bits(buffers: &Buffers) -> (Vec<u32>, Vec<u32>) {
 
 /// Checks one pixel of the picture against all claims on it; says what is wrong.
 fn judge(primitives: &[(Label, Surface)], buffers: &Buffers, column: u32, row: u32) -> Result<(), String> {
-    let claims = claims(primitives, column as i32, row as i32);
+    let claims = claims(primitives, column.cast_signed(), row.cast_signed());
     let pixel = buffers.pixel(column as usize, row as usize);
     let depth = f64::from(pixel.depth);
     let sure = claims.iter().filter(|claim| claim.depth + claim.tolerance <= claim.limit);
@@ -145,19 +145,22 @@ proptest! {
 
 /// Streams and compares every pixel of every tile, apron included, with the dense picture.
 fn streamed_equals(scene: &Scene, options: &Options, dense: &Buffers) -> Result<(), String> {
-    let apron = options.apron as i32;
+    let apron = options.apron.cast_signed();
     let expected = |x: i32, y: i32| {
-        let inside = (0..SIZE.0 as i32).contains(&x) && (0..SIZE.1 as i32).contains(&y);
-        let pixel = inside.then(|| dense.pixel(x as usize, y as usize));
+        let inside = (0..SIZE.0.cast_signed()).contains(&x) && (0..SIZE.1.cast_signed()).contains(&y);
+        let pixel = inside.then(|| dense.pixel(x.cast_unsigned() as usize, y.cast_unsigned() as usize));
         pixel.map_or((0, f32::INFINITY.to_bits()), |pixel| (pixel.label.0, pixel.depth.to_bits()))
     };
     let mut places = Vec::new();
     let work = |tile: voromill::raster::Tile<'_>| {
-        let (x0, y0) = (tile.column0 as i32, tile.row0 as i32);
-        for y in -apron..tile.height as i32 + apron {
-            for x in -apron..tile.width as i32 + apron {
+        let (x0, y0) = (tile.column0.cast_signed(), tile.row0.cast_signed());
+        for y in -apron..tile.height.cast_signed() + apron {
+            for x in -apron..tile.width.cast_signed() + apron {
                 let wanted = expected(x0 + x, y0 + y);
-                let beyond = x0 + x < 0 || y0 + y < 0 || x0 + x >= SIZE.0 as i32 || y0 + y >= SIZE.1 as i32;
+                let beyond = x0 + x < 0
+                    || y0 + y < 0
+                    || x0 + x >= SIZE.0.cast_signed()
+                    || y0 + y >= SIZE.1.cast_signed();
                 let same = match tile.content {
                     TileContent::Uniform(owner) => beyond || wanted.0 == owner,
                     TileContent::Pixels(pixels) => {

@@ -1,5 +1,7 @@
 //! The raster engine by brute force: every pixel asks every surface, in `f64` and integers.
 
+#![expect(clippy::cast_precision_loss, reason = "the tolerance is far above an f64's rounding")]
+
 use voromill::raster::{Caps, FillRule, Label, PixelPoint, Sides, Spin, Surface};
 
 /// What a surface says to a pixel.
