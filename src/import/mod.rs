@@ -3,5 +3,6 @@
 mod digest;
 mod error;
 pub mod excellon;
+pub mod gerber;
 
 pub use error::{Diagnosis, Error};

@@ -1,0 +1,57 @@
+//! What an aperture leaves behind when flashed, drawn along a line or drawn along an arc.
+
+use crate::board::{FLATTEN, Shape, polarity};
+use crate::geometry::{Arc, Point, Polygon};
+
+use super::aperture::Form;
+use super::canvas::stroke;
+
+/// The copper of `form` flashed at `at`.
+pub(super) fn flash(form: &Form, at: Point) -> Vec<Shape> {
+    match form {
+        Form::Disc(radius) => vec![Shape::Disc { center: at, radius: *radius }],
+        Form::Obround { half, radius } => vec![stroke(at - *half, at + *half, *radius)],
+        Form::Area { pieces, .. } => {
+            let way = at - Point::default();
+            pieces.iter().map(|piece| Shape::Polygon(piece.translated(way))).collect()
+        }
+    }
+}
+
+/// The copper of `form` drawn along a line: exact for circles and convex apertures such as rectangles, the hull of both
+/// ends for others (the specification allows circles alone).
+pub(super) fn line(form: &Form, from: Point, to: Point) -> Vec<Shape> {
+    match form {
+        Form::Disc(radius) => vec![stroke(from, to, *radius)],
+        Form::Obround { .. } | Form::Area { .. } if from == to => flash(form, from),
+        Form::Obround { .. } | Form::Area { .. } => {
+            sweep(&form.hull(), from, to).map(Shape::Polygon).into_iter().collect()
+        }
+    }
+}
+
+/// The copper of `form` drawn along an arc: exact for circles, a chain of lines for others.
+pub(super) fn along(form: &Form, arc: Arc) -> Vec<Shape> {
+    match form {
+        Form::Disc(radius) => vec![Shape::Arc { arc, radius: *radius }],
+        Form::Obround { .. } | Form::Area { .. } => {
+            let (hull, mut from) = (form.hull(), arc.start);
+            let steps = arc.flatten(FLATTEN).filter_map(|to| {
+                let swept = sweep(&hull, from, to);
+                from = to;
+                swept
+            });
+            let steps: Vec<Polygon> = steps.collect();
+            polarity::union(&steps).into_iter().map(Shape::Polygon).collect()
+        }
+    }
+}
+
+/// The hull of `hull` placed at both ends.
+fn sweep(hull: &[Point], from: Point, to: Point) -> Option<Polygon> {
+    let ends = [from, to].into_iter().flat_map(|end| {
+        let way = end - Point::default();
+        hull.iter().map(move |&p| p + way)
+    });
+    Polygon::hull(ends)
+}

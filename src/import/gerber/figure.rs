@@ -1,0 +1,160 @@
+//! The figures that apertures are made of, and the area that a sequence of them leaves.
+
+use std::f64::consts::PI;
+
+use crate::board::{FLATTEN, polarity};
+use crate::geometry::{Point, Polygon};
+
+use super::state::Linear;
+
+/// A place relative to an aperture's origin, in nanometres.
+pub(super) type Place = (f64, f64);
+
+/// One primitive of an aperture.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Primitive {
+    /// Whether it adds to the aperture or erases what came before it.
+    pub(super) exposed: bool,
+    pub(super) figure: Figure,
+}
+
+/// What a primitive covers.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Figure {
+    /// All within `outer` of `center`, less what lies within `inner`.
+    Ring { center: Place, outer: f64, inner: f64 },
+    /// The area inside a closed contour, by the non-zero rule.
+    Contour(Vec<Place>),
+}
+
+impl Figure {
+    pub(super) const fn disc(center: Place, radius: f64) -> Self {
+        Self::Ring { center, outer: radius, inner: 0.0 }
+    }
+
+    /// An upright rectangle.
+    pub(super) fn rectangle((x, y): Place, width: f64, height: f64) -> Self {
+        let (w, h) = (width / 2.0, height / 2.0);
+        Self::Contour(vec![(x - w, y - h), (x + w, y - h), (x + w, y + h), (x - w, y + h)])
+    }
+
+    /// A regular polygon with a vertex at `degrees`.
+    pub(super) fn regular((x, y): Place, radius: f64, vertices: u32, degrees: f64) -> Self {
+        let vertex = |i: u32| {
+            let turn = Linear::rotation(degrees + 360.0 * f64::from(i) / f64::from(vertices));
+            let (dx, dy) = turn.apply((radius, 0.0));
+            (x + dx, y + dy)
+        };
+        Self::Contour((0..vertices).map(vertex).collect())
+    }
+
+    /// Turned about the origin.
+    pub(super) fn rotated(self, degrees: f64) -> Self {
+        if degrees.abs() <= 0.0 {
+            return self;
+        }
+        let turn = Linear::rotation(degrees);
+        match self {
+            Self::Ring { center, outer, inner } => Self::Ring { center: turn.apply(center), outer, inner },
+            Self::Contour(places) => Self::Contour(places.into_iter().map(|p| turn.apply(p)).collect()),
+        }
+    }
+
+    /// The image under `linear` as simple contours: outer ones counter-clockwise, holes clockwise.
+    fn contours(&self, linear: Linear) -> Vec<Vec<Point>> {
+        let point = |p| {
+            let (x, y) = linear.apply(p);
+            Point::from_f64(x, y)
+        };
+        match self {
+            Self::Ring { center, outer, inner } => {
+                let scale = linear.scale();
+                let (x, y) = linear.apply(*center);
+                let circle = |radius: f64| -> Vec<Point> {
+                    arc((x, y), radius * scale, 0.0, 2.0 * PI).map(|(x, y)| Point::from_f64(x, y)).collect()
+                };
+                let hole = (*inner > 0.0).then(|| circle(*inner).into_iter().rev().collect());
+                [circle(*outer)].into_iter().chain(hole).collect()
+            }
+            Self::Contour(places) => {
+                let ring: Vec<Point> = places.iter().copied().map(point).collect();
+                let pieces = polarity::clean(&[ring]);
+                pieces.iter().flat_map(|piece| piece.contours().iter().cloned()).collect()
+            }
+        }
+    }
+
+    /// How far from the origin it reaches at most.
+    pub(super) fn reach(&self) -> f64 {
+        let far = |&(x, y): &Place| x.abs() + y.abs();
+        match self {
+            Self::Ring { center, outer, .. } => far(center) + outer,
+            Self::Contour(places) => places.iter().map(far).fold(0.0, f64::max),
+        }
+    }
+
+    /// About how many vertices it has once flattened: what it costs.
+    pub(super) fn cost(&self) -> u64 {
+        match self {
+            Self::Ring { .. } => 64,
+            Self::Contour(places) => places.len() as u64,
+        }
+    }
+}
+
+/// The area that `primitives` leave when drawn in order through `linear`: one polygon a connected piece.
+pub(super) fn area(primitives: &[Primitive], linear: Linear) -> Vec<Polygon> {
+    let mut image: Vec<Vec<Point>> = Vec::new();
+    for run in primitives.chunk_by(|a, b| a.exposed == b.exposed) {
+        let contours = run.iter().flat_map(|primitive| primitive.figure.contours(linear));
+        if run[0].exposed {
+            image.extend(contours);
+            continue;
+        }
+        let erased = polarity::clean(&contours.collect::<Vec<_>>());
+        let pieces = polarity::clean(&image);
+        let left = pieces.iter().flat_map(|piece| polarity::difference(piece, &erased));
+        image = left.flat_map(|piece| piece.contours().to_vec()).collect();
+    }
+    polarity::clean(&image)
+}
+
+/// The vertices of an arc within [`FLATTEN`] of it, the start but not the end; a quarter circle is met exactly, so that
+/// tangent edges touch.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
+pub(super) fn arc((x, y): Place, radius: f64, start: f64, sweep: f64) -> impl Iterator<Item = Place> {
+    let ratio = (FLATTEN.to_f64() / radius.max(1.0)).min(0.25);
+    let quarter = (PI / 2.0 / (2.0 * libm::acos(1.0 - ratio))).ceil().max(1.0);
+    let steps = (quarter * (sweep.abs() / (PI / 2.0))).ceil().max(1.0) as u32;
+    (0..steps).map(move |step| {
+        let angle = start + sweep * f64::from(step) / f64::from(steps);
+        let (sin, cos) = libm::sincos(angle);
+        (x + radius * cos, y + radius * sin)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_erasing_primitive_erases_what_came_before_it_only() {
+        let on = |figure| Primitive { exposed: true, figure };
+        let off = |figure| Primitive { exposed: false, figure };
+        let square = |size| Figure::rectangle((0.0, 0.0), size, size);
+        let pieces = area(&[on(square(10e6)), off(square(6e6)), on(square(2e6))], Linear::IDENTITY);
+        let total: f64 = pieces.iter().map(Polygon::area_mm2).sum();
+        assert_eq!(pieces.len(), 2, "a frame and a square in it");
+        assert!((total - 68.0).abs() < 1e-9, "area {total}");
+    }
+
+    #[test]
+    fn a_circle_touches_its_tangents() {
+        let pieces = area(
+            &[Primitive { exposed: true, figure: Figure::disc((0.0, 0.0), 123_457.0) }],
+            Linear::IDENTITY,
+        );
+        let bounds = pieces[0].bounds();
+        assert_eq!((bounds.width().get(), bounds.height().get()), (246_914, 246_914), "exact extent");
+    }
+}

@@ -1,0 +1,213 @@
+//! Bytes → blocks → words.
+//!
+//! A Gerber file is a stream of blocks that end with `*`; line ends mean nothing (specification §4.2, "Syntax"). The `%`
+//! that brackets extended commands is not needed to tell them from the rest: they begin with two letters, all other
+//! blocks with a letter and a number. So a `%` too many or too few cannot turn the meaning of what follows, and is only
+//! looked at where an aperture macro ends.
+
+use std::ops::Range;
+
+/// A piece of the file up to a `*`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Block<'a> {
+    /// Its text, without white space before it and without the `*`; may hold line ends.
+    pub(super) text: &'a [u8],
+    /// Where the text begins in the file.
+    pub(super) start: usize,
+    /// The line on which it begins, from 1.
+    pub(super) line: u32,
+    /// What ended it.
+    pub(super) end: End,
+}
+
+impl Block<'_> {
+    /// The bytes of the file it covers.
+    pub(super) const fn place(&self) -> Range<usize> {
+        self.start..self.start + self.text.len()
+    }
+}
+
+/// What ended a block.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// A `*`, as it should be.
+    Star,
+    /// A `%` before any `*`.
+    Percent,
+    /// The end of the file.
+    File,
+}
+
+/// Cuts a file into blocks.
+#[derive(Clone, Debug)]
+pub(super) struct Lexer<'a> {
+    bytes: &'a [u8],
+    at: usize,
+    line: u32,
+}
+
+impl<'a> Lexer<'a> {
+    pub(super) fn new(bytes: &'a [u8]) -> Self {
+        let at = if bytes.starts_with(b"\xef\xbb\xbf") { 3 } else { 0 };
+        Self { bytes, at, line: 1 }
+    }
+
+    /// The next block; none at the end of the file.
+    pub(super) fn next(&mut self) -> Option<Block<'a>> {
+        while self.at < self.bytes.len() && (is_blank(self.bytes[self.at]) || self.bytes[self.at] == b'%') {
+            self.step();
+        }
+        let (start, line) = (self.at, self.line);
+        if start == self.bytes.len() {
+            return None;
+        }
+        let comment = self.bytes[start..].starts_with(b"G04") || self.bytes[start..].starts_with(b"G4 ");
+        let end = loop {
+            match self.bytes.get(self.at) {
+                None => break End::File,
+                Some(b'*') => break End::Star,
+                // A comment may speak of per cents; a `%` that begins a line is none of it.
+                Some(b'%') if !comment || self.bytes[..self.at].ends_with(b"\n") => break End::Percent,
+                Some(_) => self.step(),
+            }
+        };
+        let text = &self.bytes[start..self.at];
+        if end == End::Star {
+            self.at += 1;
+        }
+        Some(Block { text, start, line, end })
+    }
+
+    /// Whether the next thing that is not white space is a `%`: the end of an extended command.
+    pub(super) fn percent_follows(&mut self) -> bool {
+        while self.at < self.bytes.len() && is_blank(self.bytes[self.at]) {
+            self.step();
+        }
+        self.bytes.get(self.at) == Some(&b'%')
+    }
+
+    /// How many bytes have been read.
+    pub(super) const fn position(&self) -> usize {
+        self.at
+    }
+
+    fn step(&mut self) {
+        let byte = self.bytes[self.at];
+        self.at += 1;
+        if byte == b'\n' || (byte == b'\r' && self.bytes.get(self.at) != Some(&b'\n')) {
+            self.line = self.line.saturating_add(1);
+        }
+    }
+}
+
+/// White space, and the NUL and SUB bytes that paper tapes and DOS left in files.
+pub(super) const fn is_blank(byte: u8) -> bool {
+    matches!(byte, b' ' | b'\t' | b'\n' | b'\r' | 0x0b | 0x0c | 0 | 0x1a)
+}
+
+/// A decimal number as it is written; what it means depends on the format.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Number {
+    /// All its digits, with the sign.
+    pub(super) mantissa: i64,
+    /// How many digits there are.
+    pub(super) digits: u32,
+    /// How many of them stand after the point; none without a point.
+    pub(super) decimals: Option<u32>,
+}
+
+/// The most digits a number may have: as many as an `i64` holds for sure.
+const DIGITS: u32 = 18;
+
+impl Number {
+    /// Reads a number at the start of `text`: the number and how many bytes it takes. None where there is none, or one
+    /// of more than 18 digits.
+    ///
+    /// White space within it is skipped, for files cut into lines of fixed length.
+    pub(super) fn read(text: &[u8]) -> Option<(Self, usize)> {
+        let (mut mantissa, mut digits, mut decimals) = (0_i64, 0, None);
+        let (mut negative, mut signed, mut length) = (false, false, 0);
+        for (i, &byte) in text.iter().enumerate() {
+            match byte {
+                b'0'..=b'9' => {
+                    mantissa = mantissa.checked_mul(10)?.checked_add(i64::from(byte - b'0'))?;
+                    digits += 1;
+                    decimals = decimals.map(|d| d + 1);
+                }
+                b'.' if decimals.is_none() => decimals = Some(0),
+                b'+' | b'-' if digits == 0 && decimals.is_none() && !signed => {
+                    (negative, signed) = (byte == b'-', true);
+                }
+                _ if is_blank(byte) => continue,
+                _ => break,
+            }
+            length = i + 1;
+        }
+        let mantissa = if negative { -mantissa } else { mantissa };
+        (digits > 0 && digits <= DIGITS).then_some((Self { mantissa, digits, decimals }, length))
+    }
+
+    /// Reads `text` as a number and nothing else.
+    pub(super) fn whole(text: &[u8]) -> Option<Self> {
+        let (number, length) = Self::read(text)?;
+        text[length..].iter().all(|&b| is_blank(b)).then_some(number)
+    }
+
+    /// The value with a point where it is written.
+    #[expect(clippy::cast_precision_loss, reason = "files carry far fewer than 15 digits")]
+    pub(super) fn to_f64(self) -> f64 {
+        let power = i32::try_from(self.decimals.unwrap_or(0)).unwrap_or(0);
+        self.mantissa as f64 / (0..power).fold(1.0, |power, _| power * 10.0)
+    }
+
+    /// The value as a whole number, if it is one.
+    pub(super) fn to_integer(self) -> Option<i64> {
+        let power = 10_i64.checked_pow(self.decimals.unwrap_or(0))?;
+        (self.mantissa % power == 0).then_some(self.mantissa / power)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn blocks(text: &str) -> Vec<(String, u32, End)> {
+        let mut lexer = Lexer::new(text.as_bytes());
+        std::iter::from_fn(|| lexer.next())
+            .map(|block| (String::from_utf8_lossy(block.text).into_owned(), block.line, block.end))
+            .collect()
+    }
+
+    #[test]
+    fn line_ends_of_any_kind_mean_nothing() {
+        for text in [
+            "\u{feff}G01*\n%MOMM*%\nX1\nY2D01*",
+            "G01*\r%MOMM*%\rX1\rY2D01*",
+            "G01*\r\n%MOMM*%\r\nX1\r\nY2D01*",
+        ] {
+            let found = blocks(text);
+            let lines: Vec<u32> = found.iter().map(|block| block.1).collect();
+            assert_eq!(lines, [1, 2, 3], "{text:?}");
+            assert!(found.iter().all(|block| block.2 == End::Star), "{found:?}");
+        }
+    }
+
+    #[test]
+    fn a_comment_may_speak_of_per_cents() {
+        let found = blocks("G04 scale 100 % of it*%MOMM*%");
+        assert_eq!(found[0].0, "G04 scale 100 % of it", "the whole comment");
+        assert_eq!(found[1].0, "MOMM", "and then the command");
+    }
+
+    #[test]
+    fn numbers_remember_how_they_were_written() {
+        let number = |text: &str| Number::read(text.as_bytes());
+        let plain = Number { mantissa: -1500, digits: 5, decimals: None };
+        assert_eq!(number("-01500Y3"), Some((plain, 6)), "leading zeros count as digits");
+        let point = Number { mantissa: 15, digits: 2, decimals: Some(1) };
+        assert_eq!(number("+1.5"), Some((point, 4)), "a point");
+        assert_eq!(number("1\r\n2X").map(|n| n.0.mantissa), Some(12), "a number over two lines");
+        assert_eq!(number("-"), None, "no digit");
+        assert_eq!(number("1234567890123456789"), None, "too many digits");
+    }
+}

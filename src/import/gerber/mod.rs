@@ -1,0 +1,101 @@
+//! Gerber files → features: RS-274X with what thirty years of tools made of it, X2 and X3.
+//!
+//! ```text
+//! bytes ─ lex ─▶ blocks ─ reader ─▶ graphics state ─▶ canvas ─ polarity ─▶ features
+//!                            │                          ▲
+//!                            └─ aperture, aperture_macro ┘ draw, region
+//! ```
+//!
+//! Written for files in the wild, with the specification (Ucamco, revision 2024.05) deciding where they disagree. Three
+//! choices make it both quick and forgiving. Blocks are cut at `*`, never at line ends, because some tools write a file
+//! on one line. A command is told by its first two characters, not by the `%` around it. And numbers go from digits to
+//! whole nanometres without a float between.
+//!
+//! What is sloppy but clear is repaired with a warning; what would cut other copper than was meant is an error: an
+//! aperture that is not defined, units that contradict each other, a number that is none.
+
+mod aperture;
+mod aperture_macro;
+mod attributes;
+mod canvas;
+mod draw;
+mod expression;
+mod extended;
+mod figure;
+mod lex;
+mod reader;
+mod region;
+mod state;
+
+use crate::board::{Attributes, Feature, Source, Warning};
+
+use super::Error;
+
+/// Limits against files that expand beyond reason.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The most features, blocks and repeats expanded.
+    pub features: u64,
+    /// The most vertices of polygons, all features together.
+    pub vertices: u64,
+}
+
+impl Default for Options {
+    /// Two million features and five million vertices: chosen to stay well below a gigabyte of memory, an order of
+    /// magnitude above the largest panel seen.
+    fn default() -> Self {
+        Self { features: 2_000_000, vertices: 5_000_000 }
+    }
+}
+
+/// A Gerber file, resolved.
+#[derive(Clone, Debug)]
+pub struct Image {
+    /// The copper (or silk, mask, outline …) in file order; polarity, blocks and repeats are resolved.
+    ///
+    /// An aperture of no size leaves features of radius zero: an outline is often drawn so. On a copper layer they
+    /// have no area, and the caller leaves them out.
+    pub features: Vec<Feature>,
+    /// The attribute sets that features refer to; the first is empty.
+    pub attributes: Vec<Attributes>,
+    /// What is known of the file; its role is for the caller to fill in.
+    pub source: Source,
+    /// The X2 file function, `Copper,L1,Top`, also from KiCad's comments.
+    pub function: Option<String>,
+    /// What was repaired, left out or looks wrong.
+    pub warnings: Vec<Warning>,
+}
+
+/// Reads the Gerber file `name` with content `bytes`.
+///
+/// # Errors
+///
+/// [`Error`] names the place and what was expected there, or says why this is no Gerber file.
+pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Image, Error> {
+    reader::read(name, bytes, options)
+}
+
+/// Whether `bytes` look like a Gerber file: by content, whatever the name.
+#[must_use]
+pub fn looks_like(bytes: &[u8]) -> bool {
+    /// Enough for the longest comment before the first command.
+    const HEAD: usize = 1 << 16;
+    let head = &bytes[..bytes.len().min(HEAD)];
+    if head.starts_with(b"\x89PNG") || head.starts_with(b"PK") || head.starts_with(b"%PDF") {
+        return false;
+    }
+    let mut lexer = lex::Lexer::new(head);
+    let mut blocks = std::iter::from_fn(|| lexer.next()).filter(|block| block.end != lex::End::File);
+    blocks.by_ref().take(1000).any(|block| {
+        let text = block.text;
+        let command = [&b"FS"[..], b"MO", b"AD", b"AM", b"TF.", b"G04 #@!"];
+        command.iter().any(|start| text.starts_with(start)) || is_operation(text)
+    })
+}
+
+/// Whether `text` is a coordinate with an operation, `X1Y2D03`, or the end of a program.
+fn is_operation(text: &[u8]) -> bool {
+    let ends = [&b"D01"[..], b"D02", b"D03", b"D1", b"D2", b"D3"].iter().any(|end| text.ends_with(end));
+    let body = |b: &u8| b.is_ascii_digit() || b"GXYIJD+-. \r\n".contains(b);
+    text == b"M02" || (ends && text.iter().all(body))
+}

@@ -1,0 +1,68 @@
+//! Regions (G36/G37, specification §4.10): areas given by their outline.
+
+use std::ops::Range;
+
+use crate::board::{FLATTEN, polarity};
+use crate::geometry::{Arc, Point, Polygon};
+
+/// The contour being drawn.
+#[derive(Debug, Default)]
+pub(super) struct Region {
+    points: Vec<Point>,
+    /// Where it began.
+    line: u32,
+    place: Range<usize>,
+}
+
+/// A finished contour.
+pub(super) struct Contour {
+    /// Its area, one polygon a connected piece; none where it has no area.
+    pub(super) pieces: Vec<Polygon>,
+    /// Whether it ended where it began.
+    pub(super) closed: bool,
+    /// The line on which it began.
+    pub(super) line: u32,
+    pub(super) place: Range<usize>,
+}
+
+impl Region {
+    /// Begins the contour at `from`, unless it has begun.
+    pub(super) fn begin(&mut self, from: Point, line: u32, place: &Range<usize>) {
+        if self.points.is_empty() {
+            self.points.push(from);
+            (self.line, self.place) = (line, place.clone());
+        }
+    }
+
+    /// Draws the outline on.
+    pub(super) fn line(&mut self, to: Point) {
+        if self.points.last() != Some(&to) {
+            self.points.push(to);
+        }
+    }
+
+    /// Draws the outline on along an arc.
+    pub(super) fn arc(&mut self, arc: Arc) {
+        self.points.extend(arc.flatten(FLATTEN));
+    }
+
+    /// Ends the contour; none where none had begun.
+    ///
+    /// Cut-ins are resolved here: they become holes. A contour that touches or crosses itself, which the specification
+    /// forbids, fills what it winds round.
+    pub(super) fn finish(&mut self) -> Option<Contour> {
+        let mut points = std::mem::take(&mut self.points);
+        let (first, last) = (*points.first()?, *points.last()?);
+        let closed = points.len() == 1 || first == last;
+        if closed {
+            points.pop();
+        }
+        let pieces = if points.len() < 3 { Vec::new() } else { polarity::clean(&[points]) };
+        Some(Contour { pieces, closed, line: self.line, place: self.place.clone() })
+    }
+
+    /// Whether all points drawn so far satisfy `test`.
+    pub(super) fn all(&self, test: impl Fn(Point) -> bool) -> bool {
+        self.points.iter().copied().all(test)
+    }
+}
