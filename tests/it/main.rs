@@ -1,6 +1,7 @@
 //! The integration tests: one module a stage, one binary.
 
 mod excellon;
+mod gerber;
 mod layering;
 mod oracle;
 mod raster;
