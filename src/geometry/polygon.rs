@@ -90,12 +90,19 @@ impl Polygon {
         self.edges().map(|(a, b)| a.distance(b)).sum()
     }
 
-    /// The area inside a circle, as a polygon within `tolerance` of it.
+    /// The area inside a circle, as a polygon within `tolerance` of it that reaches as far as the circle in x and y.
     #[must_use]
     pub fn disc(center: Point, radius: Nm, tolerance: Nm) -> Option<Self> {
-        let start = center + Vector::new(radius, Nm::ZERO);
-        let circle = super::Arc { start, end: start, center, turn: super::Turn::CounterClockwise };
-        Self::new(vec![circle.flatten(tolerance).collect()])
+        let east = center + Vector::new(radius, Nm::ZERO);
+        let circle = super::Arc { start: east, end: east, center, turn: super::Turn::CounterClockwise };
+        let (x, y) = center.to_f64();
+        let quarter = u32::try_from(circle.chords(tolerance).div_ceil(4)).unwrap_or(u32::MAX);
+        let point = |step: u32| {
+            let angle = std::f64::consts::FRAC_PI_2 * f64::from(step) / f64::from(quarter);
+            let (sin, cos) = libm::sincos(angle);
+            Point::from_f64(x + radius.to_f64() * cos, y + radius.to_f64() * sin)
+        };
+        Self::new(vec![(0..4 * quarter).map(point).collect()])
     }
 
     /// The convex hull of `points`, counter-clockwise, without points on its edges; none where it has no area. Exact.

@@ -231,6 +231,10 @@ impl<'a> Reader<'a> {
                 at += 1;
                 continue;
             }
+            if let Some(comment) = comment(&text[at..]) {
+                self.comment(comment);
+                break;
+            }
             let start = block.start + at;
             let Some((number, length)) = Number::read(&text[at + 1..]) else {
                 return self.not_a_word(text, at, block);
@@ -244,13 +248,7 @@ impl<'a> Reader<'a> {
                 b'D' => {
                     words.operation = self.d_code(number, &place)?.or(words.operation);
                 }
-                b'G' => {
-                    if number.to_integer() == Some(4) {
-                        self.comment(&text[at + 1 + length..]);
-                        break;
-                    }
-                    self.g_code(number, &place)?;
-                }
+                b'G' => self.g_code(number, &place)?,
                 b'M' => self.m_code(number, &place),
                 b'N' => {}
                 _ => return self.not_a_word(text, at, block),
@@ -834,6 +832,12 @@ impl<'a> Reader<'a> {
             apertures: apertures.collect(),
         }
     }
+}
+
+/// What G04 says; none for another word. Not read as a number, because a comment may begin with digits.
+fn comment(text: &[u8]) -> Option<&[u8]> {
+    let rest = text.strip_prefix(b"G04").or_else(|| text.strip_prefix(b"G4"))?;
+    (!rest.first().is_some_and(u8::is_ascii_digit)).then_some(rest)
 }
 
 /// The centre of an arc of at most a quarter whose offsets carry no sign: of the four places it may be at, the one that
