@@ -4,6 +4,7 @@
 pub mod board;
 pub mod gcode;
 pub mod geometry;
+pub mod grid;
 pub mod import;
 pub mod raster;
 pub mod toolpath;

@@ -1,17 +1,65 @@
-//! Nets → Voronoi regions → a planar graph of boundaries → smooth exact paths.
+//! Nets → Voronoi regions → a planar graph of boundaries → smooth exact paths (the paper's §III-B to III-D).
+//!
+//! ```text
+//!  Copper, Nets ── seed ──▶ sites ── raster ──▶ tiles ── trace ──▶ pieces ── stitch ──▶ lines ── fit ──▶ Boundaries
+//!                    │                            (in parallel, placed on the spot)            (in parallel)
+//!                  edge: where the board ends
+//! ```
+//!
+//! The picture decides which regions meet and where boundaries branch; the exact distances of the features decide where the
+//! boundary runs ([`place`](self)). The resolution limits which gaps are *seen*, not how accurately they are *cut*.
+//!
+//! Only tiles that a boundary may cross are drawn, each on a worker that at once traces and places what it sees; no stage holds a
+//! picture of the whole board. Labels are sites, so a pixel names the feature that it is nearest to, and placing costs a few distances.
 
-use crate::geometry::{Nm, Path, Point};
-use crate::topology::NetId;
+mod edge;
+mod fit;
+mod place;
+mod plane;
+mod seed;
+mod site;
+mod stitch;
+mod trace;
+
+use rayon::prelude::*;
+
+use crate::board::{Copper, Outline, Shape, Warning};
+use crate::geometry::{Nm, Path, Point, Rect};
+use crate::grid::{Grid, GridError};
+use crate::raster::{self, Scene, TileContent};
+use crate::topology::{NetId, Nets};
+
+use edge::Border;
+use place::Placer;
+use plane::Spot;
+use seed::Sites;
+use stitch::{Line, Stitcher};
+use trace::{APRON, Pixels};
+
+/// The owner number of nothing at all.
+const BACKGROUND: u32 = 0;
+/// The owner number of what lies beyond the border.
+const OUTSIDE: u32 = 1;
 
 /// What lies on one side of a boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Owner {
-    /// The region of a net.
-    Net(NetId),
     /// Nothing within the limit.
     Background,
     /// Beyond the board's edge or the frame.
     Outside,
+    /// The region of a net.
+    Net(NetId),
+}
+
+impl Owner {
+    const fn from_number(number: u32) -> Self {
+        match number {
+            BACKGROUND => Self::Background,
+            OUTSIDE => Self::Outside,
+            net => Self::Net(NetId(net - 2)),
+        }
+    }
 }
 
 /// A node of the boundary graph.
@@ -19,12 +67,12 @@ pub enum Owner {
 pub struct NodeId(pub u32);
 
 /// An edge of the boundary graph, to be cut once.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Boundary {
     /// The way, from node to node (or closed).
     pub path: Path,
     /// The distance to the nearest copper at each vertex of `path`: the start, then the end of each segment.
-    /// Between vertices it is never less than the smaller of the two ends by more than the fitting tolerance.
+    /// Between vertices it is never less than at the nearer end by more than the fitting tolerance.
     pub clearance: Vec<Nm>,
     /// The region on its left.
     pub left: Owner,
@@ -34,16 +82,293 @@ pub struct Boundary {
     pub ends: Option<(NodeId, NodeId)>,
 }
 
+impl Boundary {
+    /// Whether it runs along the edge of the board or the frame, and so isolates nothing.
+    #[must_use]
+    pub fn is_border(&self) -> bool {
+        self.left == Owner::Outside || self.right == Owner::Outside
+    }
+}
+
 /// The boundaries of one layer as a planar graph.
 ///
 /// # Guarantees
 ///
 /// A boundary begins and ends exactly at the points of its nodes; nodes and boundaries are in a fixed order that
 /// depends on the board and the settings alone.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Boundaries {
     /// Where boundaries meet or end.
     pub nodes: Vec<Point>,
     /// The edges.
     pub edges: Vec<Boundary>,
+}
+
+/// What distances are measured to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum SiteKind {
+    /// The true edges of the copper.
+    #[default]
+    Copper,
+    /// The paper's approximate core medial axes: flash centres and stroke axes (§III-D).
+    Core,
+}
+
+/// How boundaries are found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// The side of a pixel. Gaps narrower than about a pixel and a half may be missed.
+    pub pitch: Nm,
+    /// What distances are measured to.
+    pub sites: SiteKind,
+    /// How far regions reach (§III-D.1); none for as far as there is room. The outline strategy is `copper` sites with
+    /// the cutter's radius here (§III-C).
+    pub limit: Option<Nm>,
+    /// Whether with [`SiteKind::Core`] every region holds at least its net's copper (§III-D.2).
+    pub min_width: bool,
+    /// How far a fitted path may leave the true boundary.
+    pub tolerance: Nm,
+    /// Whether paths may have arcs.
+    pub arcs: bool,
+    /// How far boundaries run out beyond the outline.
+    pub overlap: Nm,
+    /// How far the frame keeps from the copper where no outline is known.
+    pub margin: Nm,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            pitch: Nm::new(25_400),
+            sites: SiteKind::Copper,
+            limit: None,
+            min_width: true,
+            tolerance: Nm::from_um(2),
+            arcs: true,
+            overlap: Nm::from_um(100),
+            margin: Nm::from_mm(1),
+        }
+    }
+}
+
+/// Why no boundaries were found.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The picture cannot be drawn.
+    #[error("cannot draw the board: {0}")]
+    Grid(#[from] GridError),
+    /// There is nothing to isolate on the board.
+    #[error(
+        "no copper lies within the board's outline: is the outline from another board, or in other units?"
+    )]
+    NoCopper,
+}
+
+/// The Voronoi diagram of a layer, ready to be traced or drawn.
+pub struct Diagram {
+    sites: Sites,
+    border: Border,
+    grid: Grid,
+    settings: Settings,
+    warnings: Vec<Warning>,
+}
+
+/// A picture of regions: row by row, row 0 on top.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Who owns each pixel.
+    pub owners: Vec<Owner>,
+    /// How far each pixel's centre is from the sites, in pixels; infinite where nothing is in reach.
+    pub depths: Vec<f32>,
+}
+
+impl Diagram {
+    /// The diagram of the nets of `copper` on a board with this `outline`, if one is known.
+    ///
+    /// Nets that lie beyond the outline altogether are left aside, with a warning.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] where there is nothing to draw or it would be too large.
+    pub fn new(
+        copper: &Copper,
+        nets: &Nets,
+        outline: Option<&Outline>,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        let bounds = copper.bounds().ok_or(Error::NoCopper)?;
+        let border = Border::new(outline, bounds, settings);
+        let aside = nets_beyond(copper, nets, &border);
+        let warnings = aside.iter().map(|&(net, at)| {
+            let message = format!("{} lies outside the board's outline and was left aside", nets.label(net));
+            Warning::new("copper-outside-board", message).at(at).on(copper.side)
+        });
+        let warnings = warnings.collect();
+        if aside.len() == nets.nets().len() {
+            return Err(Error::NoCopper);
+        }
+        let mut kept = vec![true; nets.nets().len()];
+        aside.iter().for_each(|(net, _)| kept[net.index()] = false);
+        let sites = Sites::new(copper, nets, settings, |feature| kept[nets.of(feature).index()]);
+        let grid = Grid::covering(border.window, settings.pitch)?;
+        Ok(Self { sites, border, grid, settings: settings.clone(), warnings })
+    }
+
+    /// The grid on which boundaries are found.
+    #[must_use]
+    pub const fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// What was left aside.
+    #[must_use]
+    pub fn warnings(&self) -> &[Warning] {
+        &self.warnings
+    }
+
+    /// One lap round the frame, where no outline is known.
+    #[must_use]
+    pub const fn frame(&self) -> Option<&Path> {
+        self.border.frame.as_ref()
+    }
+
+    /// The regions and depths as they appear on `grid`, for looking at.
+    #[must_use]
+    pub fn picture(&self, grid: &Grid) -> Picture {
+        let limit = self.settings.limit.map(|limit| grid.pixels(limit));
+        let scene = self.sites.scene(grid, &self.border, limit);
+        let mut buffers = raster::Buffers::default();
+        raster::render(&scene, &mut buffers);
+        let owner = |label: &u32| Owner::from_number(self.sites.sites[*label as usize].owner);
+        Picture { owners: buffers.labels().iter().map(owner).collect(), depths: buffers.depths().to_vec() }
+    }
+
+    /// The boundaries between all regions, with what could not be placed.
+    #[must_use]
+    pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
+        let limit = self.settings.limit.map(|limit| self.grid.pixels(limit));
+        let scene = self.sites.scene(&self.grid, &self.border, limit);
+        let stitcher = self.trace(&scene);
+        let mut warnings = Vec::new();
+        if stitcher.unplaced > 0 {
+            let message = format!(
+                "{} boundary points kept their pixel's place, up to {:.3} mm off: use smaller pixels to place them exactly",
+                stitcher.unplaced,
+                self.grid.pitch()
+            );
+            warnings.push(Warning::new("boundary-not-placed", message));
+        }
+        (self.graph(&stitcher.lines()), warnings)
+    }
+
+    /// Draws, traces and places all tiles that a boundary crosses.
+    fn trace(&self, scene: &Scene) -> Stitcher {
+        let placer = Placer {
+            sites: &self.sites.sites,
+            rings: &self.sites.rings,
+            border: &self.border.rings,
+            border_rings: self.border.ring_count,
+            leash: 1.5 * self.grid.pitch().to_f64(),
+        };
+        let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
+        let origin = Spot::from(self.grid.corner(0, 0));
+        let pitch = self.grid.pitch().to_f64();
+        let options = raster::Options { apron: APRON, skip_uniform: true, ..raster::Options::default() };
+        let mut stitcher = Stitcher::default();
+        let work = |tile: raster::Tile<'_>| {
+            let (owners, labels) = self.pixels(&tile)?;
+            let count = |n: u32| i32::try_from(n).expect("a tile is small");
+            let pixels = Pixels {
+                owners: &owners,
+                labels: &labels,
+                width: count(tile.width),
+                height: count(tile.height),
+                column0: tile.column0,
+                row0: tile.row0,
+            };
+            Some(trace::trace(pixels, &placer, origin, pitch, level))
+        };
+        raster::stream(scene, &options, work, |traced| {
+            traced.into_iter().for_each(|traced| stitcher.add(traced))
+        });
+        stitcher
+    }
+
+    /// Owners and labels of a tile with its apron; none for a tile of one owner.
+    fn pixels(&self, tile: &raster::Tile<'_>) -> Option<(Vec<u32>, Vec<u32>)> {
+        let TileContent::Pixels(pixels) = &tile.content else { return None };
+        let apron = i32::try_from(APRON).expect("two");
+        let (width, height) = (i64::from(self.grid.width()), i64::from(self.grid.height()));
+        let end = |n: u32| i32::try_from(n).expect("a tile is small") + apron;
+        let mut owners = Vec::new();
+        let mut labels = Vec::new();
+        for y in -apron..end(tile.height) {
+            for x in -apron..end(tile.width) {
+                let (column, row) =
+                    (i64::from(tile.column0) + i64::from(x), i64::from(tile.row0) + i64::from(y));
+                let inside = (0..width).contains(&column) && (0..height).contains(&row);
+                let label = if inside { pixels.label(x, y).0 } else { OUTSIDE };
+                labels.push(label);
+                owners.push(self.sites.sites[label as usize].owner);
+            }
+        }
+        Some((owners, labels))
+    }
+
+    /// Lines fitted, with nodes in the order in which lines meet them.
+    fn graph(&self, lines: &[Line]) -> Boundaries {
+        let fitted: Vec<_> = lines
+            .par_iter()
+            .map(|line| fit::fit(&line.vertices, self.settings.tolerance, self.settings.arcs))
+            .collect();
+        let mut numbers = rustc_hash::FxHashMap::default();
+        let mut nodes = Vec::new();
+        let mut node = |at: Point| {
+            *numbers.entry(at).or_insert_with(|| {
+                nodes.push(at);
+                NodeId(u32::try_from(nodes.len() - 1).expect("below 2³² nodes"))
+            })
+        };
+        let mut edges = Vec::new();
+        for (line, fitted) in lines.iter().zip(fitted) {
+            // Two nodes that fall on the same nanometre are one, and nothing runs between them.
+            let Some((path, clearance)) = fitted else { continue };
+            let ends = line.ends.map(|_| (node(path.start), node(path.end())));
+            let (left, right) = (Owner::from_number(line.left), Owner::from_number(line.right));
+            edges.push(Boundary { path, clearance, left, right, ends });
+        }
+        Boundaries { nodes, edges }
+    }
+}
+
+/// The nets of which nothing lies on the board, each with a place.
+fn nets_beyond(copper: &Copper, nets: &Nets, border: &Border) -> Vec<(NetId, Point)> {
+    let mut on_board = vec![false; nets.nets().len()];
+    let outlined = border.frame.is_none();
+    for (i, feature) in copper.features.iter().enumerate() {
+        let net = nets.of(i).index();
+        on_board[net] = on_board[net] || !outlined || touches(&feature.shape, border);
+    }
+    let beyond = (0_u32..).zip(nets.nets()).filter(|(id, _)| !on_board[NetId(*id).index()]);
+    beyond
+        .map(|(id, net)| (NetId(id), middle(copper.features[net.features[0] as usize].shape.bounds())))
+        .collect()
+}
+
+/// Whether some of the shape's own points lie on the board.
+fn touches(shape: &Shape, border: &Border) -> bool {
+    match shape {
+        Shape::Disc { center, .. } => border.holds(*center),
+        Shape::Stroke { from, to, .. } => {
+            border.holds(*from) || border.holds(*to) || border.holds(from.midpoint(*to))
+        }
+        Shape::Arc { arc, .. } => border.holds(arc.start) || border.holds(arc.end),
+        Shape::Polygon(polygon) => polygon.contours().iter().flatten().any(|&p| border.holds(p)),
+    }
+}
+
+fn middle(rect: Rect) -> Point {
+    rect.min().midpoint(rect.max())
 }

@@ -6,3 +6,4 @@ mod layering;
 mod oracle;
 mod raster;
 mod topology;
+mod voronoi;

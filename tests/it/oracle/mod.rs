@@ -1,3 +1,4 @@
 //! Each stage once more, slow and obvious, to hold the fast one against.
 
+pub(crate) mod distance;
 pub(crate) mod raster;

@@ -1,0 +1,61 @@
+//! The board's edge, beyond which nothing is cut.
+//!
+//! Nets are also joined through whatever copper lies outside the board, so boundaries must run out to where the board
+//! is cut free: to the outline and a little beyond, or, where no outline is known, to a frame round the copper that is cut once.
+//! Whatever lies beyond is drawn above everything else with a label of its own; boundaries end where they meet it.
+
+use crate::board::{FLATTEN, Outline, polarity};
+use crate::geometry::{Path, Point, Polygon, Rect};
+
+use super::Settings;
+use super::site::Rings;
+
+/// The border of the picture.
+pub(super) struct Border {
+    inside: Vec<Polygon>,
+    /// The rectangle that the picture must show.
+    pub(super) window: Rect,
+    /// The rings of the border, for distances.
+    pub(super) rings: Rings,
+    pub(super) ring_count: u32,
+    /// One lap round the frame, where no outline is known.
+    pub(super) frame: Option<Path>,
+}
+
+impl Border {
+    /// The border of a board with an outline, or of one whose copper lies within `copper`.
+    pub(super) fn new(outline: Option<&Outline>, copper: Rect, settings: &Settings) -> Self {
+        let (inside, frame) = match outline {
+            Some(outline) => (polarity::offset(&outline.polygon(FLATTEN), settings.overlap, FLATTEN), None),
+            None => {
+                let frame = copper.inflate(settings.margin);
+                let corners = frame.corners();
+                let lap = Path::polyline(corners.into_iter().chain([corners[0]]));
+                (vec![Polygon::rectangle(frame)], lap)
+            }
+        };
+        let bounds = inside.iter().map(Polygon::bounds).reduce(Rect::union).unwrap_or(copper);
+        let mut rings = Rings::default();
+        let mut ring_count = 0;
+        for contour in inside.iter().flat_map(Polygon::contours) {
+            rings.push(contour.iter().map(|&p| p.into()));
+            ring_count += 1;
+        }
+        // A few pixels of outside all round, so that no boundary meets the edge of the picture itself.
+        let window = bounds.inflate(settings.pitch * 4);
+        Self { inside, window, rings, ring_count, frame }
+    }
+
+    /// The contours of what lies outside, by the even-odd rule.
+    pub(super) fn outside(&self) -> Vec<Vec<Point>> {
+        let beyond = self.window.inflate(self.window.width().max(self.window.height()));
+        let mut contours = vec![beyond.corners().to_vec()];
+        contours.extend(self.inside.iter().flat_map(Polygon::contours).cloned());
+        contours
+    }
+
+    /// Whether `p` lies on the board.
+    pub(super) fn holds(&self, p: Point) -> bool {
+        self.inside.iter().any(|polygon| polygon.contains(p))
+    }
+}

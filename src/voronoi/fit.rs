@@ -1,0 +1,193 @@
+//! Few lines and arcs within a tolerance of many points.
+//!
+//! Greedy from the start of a path: the longest line or arc whose points all stay within the tolerance is taken,
+//! found by doubling and halving. A segment ends on a true point of the boundary, so fitting never moves where
+//! boundaries meet. It also ends wherever the clearance has a minimum, so that the narrowest place of a segment is at one of its ends.
+//!
+//! An arc passes three of the true points; it is taken only where it reaches half as far again as the line would.
+
+use crate::geometry::{Nm, Path, Point, Segment, Turn};
+
+use super::place::Vertex;
+use super::plane::Spot;
+use super::trace::CHORD;
+
+/// Clearance may dip between vertices by this much before a vertex is kept there, in nanometres.
+const DIP: f64 = 2_000.0;
+/// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight. Chosen.
+const RADII: std::ops::Range<f64> = 5_000.0..1e9;
+/// A minimum is looked for at most so many vertices apart; beyond, the search would become quadratic.
+const REACH: usize = 4096;
+
+/// A fitted path with the clearance at its vertices: the start's, then each segment's end.
+pub(super) fn fit(vertices: &[Vertex], tolerance: Nm, arcs: bool) -> Option<(Path, Vec<Nm>)> {
+    let start = vertices.first()?;
+    let mut path = Path { start: start.at.rounded(), segments: Vec::new() };
+    let mut clearance = vec![Nm::from_f64(finite(start.clearance))];
+    // What sampling may already have lost counts against the tolerance.
+    let fitter = Fitter { vertices, tolerance: (tolerance.to_f64() - CHORD).max(CHORD), arcs };
+    let mut i = 0;
+    while i + 1 < vertices.len() {
+        let (j, segment) = fitter.longest(i);
+        i = j;
+        if segment.to() != path.end() || matches!(segment, Segment::Arc { .. }) {
+            path.segments.push(segment);
+            clearance.push(Nm::from_f64(finite(vertices[i].clearance)));
+        }
+    }
+    (!path.segments.is_empty()).then_some((path, clearance))
+}
+
+/// Clearances from nowhere (a path along the border) are the largest length.
+fn finite(clearance: f64) -> f64 {
+    clearance.min(Nm::MAX.to_f64())
+}
+
+struct Fitter<'a> {
+    vertices: &'a [Vertex],
+    tolerance: f64,
+    arcs: bool,
+}
+
+impl Fitter<'_> {
+    /// The vertex that the best segment from vertex `i` reaches, and the segment.
+    fn longest(&self, i: usize) -> (usize, Segment) {
+        let end = self.next_minimum(i);
+        let line = farthest(i + 1, end, |j| self.is_line(i, j));
+        let straight = Segment::Line { to: self.point(line) };
+        if !self.arcs || line == end {
+            return (line, straight);
+        }
+        let arc = farthest((i + 2).min(end), end, |j| self.arc(i, j).is_some());
+        let reach = |j: usize| (self.vertices[j].at - self.vertices[i].at).length();
+        match self.arc(i, arc) {
+            Some(segment) if arc > line && reach(arc) > 1.5 * reach(line) => (arc, segment),
+            _ => (line, straight),
+        }
+    }
+
+    fn point(&self, i: usize) -> Point {
+        self.vertices[i].at.rounded()
+    }
+
+    /// The next vertex after `i` at which the clearance stops falling by more than [`DIP`], or the last.
+    fn next_minimum(&self, i: usize) -> usize {
+        let last = (self.vertices.len() - 1).min(i + REACH);
+        let (mut lowest, mut at) = (self.vertices[i].clearance, i);
+        for j in i + 1..=last {
+            let here = self.vertices[j].clearance;
+            if here < lowest {
+                (lowest, at) = (here, j);
+            } else if here > lowest + DIP && at > i && self.vertices[i].clearance > lowest + DIP {
+                return at;
+            }
+        }
+        last
+    }
+
+    /// Whether all vertices between `i` and `j` lie on the chord.
+    fn is_line(&self, i: usize, j: usize) -> bool {
+        let (a, b) = (self.vertices[i].at, self.vertices[j].at);
+        self.vertices[i + 1..j].iter().all(|vertex| vertex.at.distance_to_chord(a, b) <= self.tolerance)
+    }
+
+    /// The arc from vertex `i` to vertex `j` through one between, if all vertices and the chords between them lie on it.
+    fn arc(&self, i: usize, j: usize) -> Option<Segment> {
+        if j < i + 2 {
+            return None;
+        }
+        let (a, m, b) = (self.vertices[i].at, self.vertices[usize::midpoint(i, j)].at, self.vertices[j].at);
+        let center = circle(a, m, b)?.rounded();
+        let middle = Spot::from(center);
+        let radius = f64::midpoint((a - middle).length(), (b - middle).length());
+        let turn = (m - a).cross(b - m).signum();
+        if !RADII.contains(&radius) {
+            return None;
+        }
+        // Less than half a turn, always the same way round.
+        let half = (a - middle).cross(b - middle) * turn > 0.0;
+        let fits = self.vertices[i..=j].windows(2).all(|pair| {
+            let (p, q) = (pair[0].at, pair[1].at);
+            let chord = (q - p).length();
+            let onward = (p - middle).cross(q - middle) * turn > 0.0;
+            let sagitta = chord * chord / (8.0 * radius);
+            onward && sagitta <= self.tolerance && ((q - middle).length() - radius).abs() <= self.tolerance
+        });
+        let turn = if turn > 0.0 { Turn::CounterClockwise } else { Turn::Clockwise };
+        (half && fits).then(|| Segment::Arc { to: self.point(j), center, turn })
+    }
+}
+
+/// The largest j in `least..=most` up to which `holds` is seen to hold, by doubling and then halving; at least `least`.
+fn farthest(least: usize, most: usize, holds: impl Fn(usize) -> bool) -> usize {
+    let (mut good, mut step) = (least, 1);
+    let mut bad = most + 1;
+    while good + step <= most {
+        if holds(good + step) {
+            good += step;
+            step *= 2;
+        } else {
+            bad = good + step;
+            break;
+        }
+    }
+    bad = bad.min(most + 1);
+    while good + 1 < bad {
+        let middle = usize::midpoint(good, bad);
+        if holds(middle) {
+            good = middle;
+        } else {
+            bad = middle;
+        }
+    }
+    good
+}
+
+/// The centre of the circle through three points; none where they lie on a line.
+fn circle(a: Spot, b: Spot, c: Spot) -> Option<Spot> {
+    let (ab, ac) = (b - a, c - a);
+    let twice = 2.0 * ab.cross(ac);
+    if twice.abs() < 1.0 {
+        return None;
+    }
+    let (bb, cc) = (ab.dot(ab), ac.dot(ac));
+    Some(a + Spot::new(ac.y * bb - ab.y * cc, ab.x * cc - ac.x * bb) * (1.0 / twice))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn vertex(x: f64, y: f64, clearance: f64) -> Vertex {
+        Vertex { at: Spot::new(x, y), clearance }
+    }
+
+    #[test]
+    fn points_of_a_circle_become_one_arc() {
+        let points: Vec<_> = (0..=40_u32)
+            .map(|i| libm::sincos(f64::from(i) * 0.05))
+            .map(|(sin, cos)| vertex(1e6 * cos, 1e6 * sin, 1e5))
+            .collect();
+        let (path, clearance) = fit(&points, Nm::from_um(2), true).expect("a path");
+        assert_eq!(path.segments.len(), 1, "{path:?}");
+        assert_eq!(clearance.len(), 2, "one at each vertex");
+        let (lines, _) = fit(&points, Nm::from_um(2), false).expect("a path");
+        assert!(lines.segments.len() > 10, "{} lines", lines.segments.len());
+    }
+
+    #[test]
+    fn a_corner_is_kept() {
+        let points =
+            [vertex(0.0, 0.0, 1e5), vertex(5e5, 0.0, 1e5), vertex(1e6, 0.0, 1e5), vertex(1e6, 1e6, 1e5)];
+        let (path, _) = fit(&points, Nm::from_um(2), true).expect("a path");
+        assert_eq!(path.segments.len(), 2, "{path:?}");
+    }
+
+    #[test]
+    fn the_narrowest_place_is_a_vertex() {
+        let points = [vertex(0.0, 0.0, 3e5), vertex(5e5, 0.0, 1e5), vertex(1e6, 0.0, 3e5)];
+        let (path, clearance) = fit(&points, Nm::from_um(2), true).expect("a path");
+        assert_eq!(path.segments.len(), 2, "straight, but split");
+        assert_eq!(clearance[1], Nm::from_um(100), "the narrowest");
+    }
+}

@@ -1,0 +1,199 @@
+//! Points moved from the pixel raster to where they truly belong (DESIGN: the raster decides topology, analysis decides place).
+//!
+//! A boundary point near pixels of two sites satisfies one equation, distance to the one = distance to the other
+//! (or = the limit); a node satisfies two. Newton's steps solve them on the sites' exact distances, starting at most
+//! a pixel away; nothing may move further than a pixel and a half. Where Newton does not settle (the nearest site of a net
+//! changes right there), the same equation is bisected along its gradient.
+
+use super::plane::Spot;
+use super::site::{Reach, Rings, Site};
+
+/// How close to the true place Newton's steps must come, in nanometres of distance difference.
+const SETTLED: f64 = 0.05;
+/// What a point may be off at the very most when its steps run out, in nanometres.
+const ACCEPTED: f64 = 5.0;
+const STEPS: usize = 8;
+
+/// A few labels of sites: those seen in the pixels round a point.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Candidates {
+    labels: [u32; 16],
+    len: usize,
+}
+
+impl Candidates {
+    pub(super) fn add(&mut self, label: u32) {
+        if self.len < self.labels.len() && !self.as_slice().contains(&label) {
+            self.labels[self.len] = label;
+            self.len += 1;
+        }
+    }
+
+    pub(super) fn as_slice(&self) -> &[u32] {
+        &self.labels[..self.len]
+    }
+
+    pub(super) fn join(mut self, other: &Self) -> Self {
+        for &label in other.as_slice() {
+            self.add(label);
+        }
+        self
+    }
+}
+
+/// The equation that a boundary point satisfies.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Target {
+    /// Equally far from both.
+    Between(Candidates, Candidates),
+    /// So many nanometres from the site.
+    At(Candidates, f64),
+    /// On the border of the board.
+    OnBorder,
+}
+
+impl Target {
+    /// The same equation, with the sites of another point of the same boundary considered too.
+    pub(super) fn join(&self, other: &Self) -> Self {
+        match (self, other) {
+            (Self::Between(a, b), Self::Between(c, d)) => Self::Between(a.join(c), b.join(d)),
+            (Self::At(a, level), Self::At(b, _)) => Self::At(a.join(b), *level),
+            (Self::Between(..) | Self::At(..) | Self::OnBorder, _) => *self,
+        }
+    }
+}
+
+/// A point of a boundary with its distance to the nearest copper, both in nanometres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Vertex {
+    pub(super) at: Spot,
+    pub(super) clearance: f64,
+}
+
+/// How far a point is off its target, and which way that grows.
+struct Miss {
+    value: f64,
+    slope: Spot,
+    clearance: f64,
+}
+
+/// The sites of a layer and how far points may move among them.
+pub(super) struct Placer<'a> {
+    pub(super) sites: &'a [Site],
+    pub(super) rings: &'a Rings,
+    /// The rings of the board's border.
+    pub(super) border: &'a Rings,
+    pub(super) border_rings: u32,
+    /// The furthest that a point may move, in nanometres: a pixel and a half.
+    pub(super) leash: f64,
+}
+
+impl Placer<'_> {
+    fn reach(&self, candidates: &Candidates, p: Spot) -> Reach {
+        let far = Reach { distance: f64::INFINITY, away: Spot::default() };
+        candidates.as_slice().iter().fold(far, |nearest, &label| {
+            let reach = self.sites[label as usize].reach(self.rings, p);
+            if reach.distance < nearest.distance { reach } else { nearest }
+        })
+    }
+
+    fn miss(&self, target: &Target, p: Spot) -> Miss {
+        match target {
+            Target::Between(a, b) => {
+                let (a, b) = (self.reach(a, p), self.reach(b, p));
+                Miss {
+                    value: a.distance - b.distance,
+                    slope: a.away - b.away,
+                    clearance: a.distance.min(b.distance),
+                }
+            }
+            Target::At(a, level) => {
+                let a = self.reach(a, p);
+                Miss { value: a.distance - level, slope: a.away, clearance: a.distance }
+            }
+            Target::OnBorder => {
+                let border = self.border.border(0..self.border_rings, p);
+                Miss { value: border.distance, slope: border.away, clearance: f64::INFINITY }
+            }
+        }
+    }
+
+    /// The distance from `p` to the copper that the target speaks of, in nanometres.
+    pub(super) fn clearance(&self, target: &Target, p: Spot) -> f64 {
+        self.miss(target, p).clearance
+    }
+
+    /// The point near `from` that satisfies `target`; none where there is none within the leash.
+    pub(super) fn project(&self, target: &Target, from: Spot) -> Option<Vertex> {
+        let mut p = from;
+        let mut miss = self.miss(target, p);
+        for _ in 0..STEPS {
+            if miss.value.abs() <= SETTLED {
+                break;
+            }
+            let steepness = miss.slope.dot(miss.slope);
+            if steepness < 1e-6 {
+                return None;
+            }
+            p = p - miss.slope * (miss.value / steepness);
+            if (p - from).length() > self.leash {
+                return self.bisect(target, from);
+            }
+            miss = self.miss(target, p);
+        }
+        if miss.value.abs() > ACCEPTED {
+            return self.bisect(target, from);
+        }
+        Some(Vertex { at: p, clearance: miss.clearance })
+    }
+
+    /// The same by halving the interval of one leash on either side along the gradient.
+    fn bisect(&self, target: &Target, from: Spot) -> Option<Vertex> {
+        let slope = self.miss(target, from).slope;
+        let length = slope.length();
+        if length < 1e-3 {
+            return None;
+        }
+        let way = slope * (self.leash / length);
+        let (mut low, mut high) = (from - way, from + way);
+        if self.miss(target, low).value > 0.0 || self.miss(target, high).value < 0.0 {
+            return None;
+        }
+        for _ in 0..40 {
+            let middle = low.midpoint(high);
+            if self.miss(target, middle).value < 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let miss = self.miss(target, low);
+        (miss.value.abs() <= ACCEPTED).then_some(Vertex { at: low, clearance: miss.clearance })
+    }
+
+    /// The point near `from` that satisfies both targets; none where there is none within the leash.
+    pub(super) fn meet(&self, first: &Target, second: &Target, from: Spot) -> Option<Vertex> {
+        let mut p = from;
+        for _ in 0..STEPS * 2 {
+            let (a, b) = (self.miss(first, p), self.miss(second, p));
+            if a.value.abs() <= SETTLED && b.value.abs() <= SETTLED {
+                return Some(Vertex { at: p, clearance: a.clearance.min(b.clearance) });
+            }
+            let determinant = a.slope.cross(b.slope);
+            if determinant.abs() < 1e-4 {
+                return None;
+            }
+            let step = Spot::new(
+                a.value * b.slope.y - b.value * a.slope.y,
+                b.value * a.slope.x - a.value * b.slope.x,
+            ) * (1.0 / determinant);
+            p = p - step;
+            if (p - from).length() > self.leash {
+                return None;
+            }
+        }
+        let (a, b) = (self.miss(first, p), self.miss(second, p));
+        (a.value.abs().max(b.value.abs()) <= ACCEPTED)
+            .then_some(Vertex { at: p, clearance: a.clearance.min(b.clearance) })
+    }
+}

@@ -1,0 +1,221 @@
+//! Features → sites: what is drawn, each with a label of its own, and who owns it.
+//!
+//! A label is a site, not a net: the picture then says which *feature* a pixel is nearest to, and placing need not search
+//! for it. Regions are judged by owner, which many sites share.
+//!
+//! A polygon's ring is drawn coarser than it is, by edges that stay within an eighth of a pixel of it; each such edge stands for
+//! the run of true edges that distances are measured to. So a pad whose corners were flattened into a hundred edges costs a dozen.
+
+use crate::board::{Axis, Copper, Feature, Shape};
+use crate::geometry::{Point, Polygon};
+use crate::grid::Grid;
+use crate::raster::{Caps, FillRule, Label, Scene, Sides, Spin, Surface};
+use crate::topology::Nets;
+
+use super::edge::Border;
+use super::plane::Spot;
+use super::site::{Form, Rings, Site};
+use super::{BACKGROUND, OUTSIDE, Settings, SiteKind};
+
+/// All sites of a layer. Label 0 is the background and 1 the outside; owners count the same way, nets from 2.
+pub(super) struct Sites {
+    pub(super) sites: Vec<Site>,
+    pub(super) rings: Rings,
+}
+
+/// The label of what lies beyond the border.
+const OUTSIDE_LABEL: Label = Label(1);
+/// The border lies above everything.
+const OUTSIDE_DEPTH: f32 = -1.0;
+
+/// The owner number of a net.
+pub(super) fn owner_of(net: crate::topology::NetId) -> u32 {
+    net.0 + 2
+}
+
+impl Sites {
+    /// The sites of all features whose net `keep` accepts.
+    pub(super) fn new(
+        copper: &Copper,
+        nets: &Nets,
+        settings: &Settings,
+        keep: impl Fn(usize) -> bool,
+    ) -> Self {
+        let nobody = |form, owner| Site { form, radius: 0.0, owner, flat: false };
+        let start = Spot::default();
+        let mut sites = Self {
+            sites: vec![nobody(Form::Point(start), BACKGROUND), nobody(Form::Outside, OUTSIDE)],
+            rings: Rings::default(),
+        };
+        let tolerance = settings.pitch.to_f64() / 8.0;
+        for (i, feature) in copper.features.iter().enumerate().filter(|(i, _)| keep(*i)) {
+            let owner = owner_of(nets.of(i));
+            match settings.sites {
+                SiteKind::Copper => sites.add_copper(&feature.shape, owner, false, tolerance),
+                SiteKind::Core => sites.add_core(feature, owner, settings.min_width, tolerance),
+            }
+        }
+        sites
+    }
+
+    /// Who owns each label.
+    pub(super) fn owners(&self) -> Vec<u32> {
+        self.sites.iter().map(|site| site.owner).collect()
+    }
+
+    fn push(&mut self, form: Form, radius: f64, owner: u32, flat: bool) {
+        self.sites.push(Site { form, radius, owner, flat });
+    }
+
+    /// The true edge of a feature; distance 0 inside.
+    fn add_copper(&mut self, shape: &Shape, owner: u32, flat: bool, tolerance: f64) {
+        match shape {
+            Shape::Disc { center, radius } => {
+                self.push(Form::Point((*center).into()), radius.to_f64(), owner, flat)
+            }
+            Shape::Stroke { from, to, radius } => {
+                self.push(Form::Line((*from).into(), (*to).into()), radius.to_f64(), owner, flat);
+            }
+            Shape::Arc { arc, radius } => self.push(Form::arc(arc), radius.to_f64(), owner, flat),
+            Shape::Polygon(polygon) => self.add_polygon(polygon, owner, flat, tolerance),
+        }
+    }
+
+    /// The paper's approximate core medial axis (§III-D), its copper above it where asked (§III-D.2).
+    fn add_core(&mut self, feature: &Feature, owner: u32, min_width: bool, tolerance: f64) {
+        match core(feature) {
+            Some(Axis::Flash(p)) => self.push(Form::Point(p.into()), 0.0, owner, false),
+            Some(Axis::Line(a, b)) => self.push(Form::Line(a.into(), b.into()), 0.0, owner, false),
+            Some(Axis::Arc(arc)) => self.push(Form::arc(&arc), 0.0, owner, false),
+            Some(Axis::Region) | None => return self.add_copper(&feature.shape, owner, false, tolerance),
+        }
+        if min_width {
+            self.add_copper(&feature.shape, owner, true, tolerance);
+        }
+    }
+
+    fn add_polygon(&mut self, polygon: &Polygon, owner: u32, flat: bool, tolerance: f64) {
+        let largest =
+            polygon.contours().iter().map(|ring| twice_area(ring)).max_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let backwards = largest.is_some_and(|area| area < 0.0);
+        let inside = self.sites.len();
+        let mut first_ring = None;
+        self.push(Form::Inside { first_ring: 0, rings: 0 }, 0.0, owner, flat);
+        for contour in polygon.contours() {
+            let mut points: Vec<Spot> = contour.iter().map(|&p| p.into()).collect();
+            points.dedup();
+            while points.len() > 1 && points.first() == points.last() {
+                points.pop();
+            }
+            if points.len() < 3 {
+                continue;
+            }
+            if backwards {
+                points.reverse();
+            }
+            let runs = coarse(&points, tolerance);
+            let ring = self.rings.push(points.into_iter());
+            first_ring.get_or_insert(ring);
+            for (first, count) in runs {
+                self.push(Form::Chain { ring, first, count }, 0.0, owner, flat);
+            }
+            let first_ring = first_ring.unwrap_or(ring);
+            self.sites[inside].form = Form::Inside { first_ring, rings: ring - first_ring + 1 };
+        }
+    }
+
+    /// Everything as the raster draws it on `grid`.
+    pub(super) fn scene(&self, grid: &Grid, border: &Border, limit: Option<f32>) -> Scene {
+        let mut scene = Scene::new(grid.width(), grid.height());
+        scene.set_owners(self.owners());
+        let at = |spot: Spot| grid.pixel(spot.rounded());
+        let contours =
+            border.outside().iter().map(|ring| ring.iter().map(|&p| grid.pixel(p)).collect()).collect();
+        scene
+            .add(OUTSIDE_LABEL, Surface::Polygon { contours, rule: FillRule::EvenOdd, depth: OUTSIDE_DEPTH });
+        for (label, site) in (0_u32..).zip(&self.sites).skip(2) {
+            let offset = grid.pixels(crate::geometry::Nm::from_f64(site.radius));
+            // A trace's own copper lies above the cones and reaches no further than itself.
+            let limit = if site.flat { Some(0.0) } else { limit };
+            let surface = match &site.form {
+                Form::Point(apex) => Surface::Cone { apex: at(*apex), offset, limit },
+                Form::Line(a, b) => Surface::Curtain {
+                    from: at(*a),
+                    to: at(*b),
+                    caps: Caps::Both,
+                    sides: Sides::Both,
+                    offset,
+                    limit,
+                },
+                Form::Arc { center, from, to, .. } => Surface::Ring {
+                    center: at(*center),
+                    start: at(*from),
+                    end: at(*to),
+                    spin: Spin::CounterClockwise,
+                    caps: Caps::Both,
+                    offset,
+                    limit,
+                },
+                Form::Chain { ring, first, count } if !site.flat => {
+                    let vertices = self.rings.ring(*ring);
+                    let (first, count) = (*first as usize, *count as usize);
+                    let (from, to) = (at(vertices[first]), at(vertices[(first + count) % vertices.len()]));
+                    Surface::Curtain { from, to, caps: Caps::Start, sides: Sides::Both, offset, limit }
+                }
+                Form::Inside { first_ring, rings } => {
+                    let ring = |ring: u32| self.rings.ring(ring).iter().map(|&p| at(p)).collect();
+                    let contours = (*first_ring..first_ring + rings).map(ring).collect();
+                    Surface::Polygon { contours, rule: FillRule::NonZero, depth: 0.0 }
+                }
+                Form::Chain { .. } | Form::Outside => continue,
+            };
+            scene.add(Label(label), surface);
+        }
+        scene
+    }
+}
+
+/// The axis of a feature, if its copper still holds the axis: clear polarity may have cut it away.
+fn core(feature: &Feature) -> Option<Axis> {
+    let probe = match feature.axis {
+        Axis::Flash(p) => p,
+        Axis::Line(a, b) => a.midpoint(b),
+        Axis::Arc(arc) => Spot::from(Point::from_f64(arc.at(0.5).0, arc.at(0.5).1)).rounded(),
+        Axis::Region => return None,
+    };
+    match &feature.shape {
+        Shape::Polygon(polygon) => polygon.contains(probe).then_some(feature.axis),
+        Shape::Disc { .. } | Shape::Stroke { .. } | Shape::Arc { .. } => Some(feature.axis),
+    }
+}
+
+/// Twice the signed area of a ring, in nm².
+fn twice_area(ring: &[Point]) -> f64 {
+    let origin = Spot::from(ring[0]);
+    let spots = || ring.iter().map(|&p| Spot::from(p) - origin);
+    spots().zip(spots().cycle().skip(1)).map(|(a, b)| a.cross(b)).sum()
+}
+
+/// A ring as runs of edges, first vertex and count, each within `tolerance` of its chord.
+fn coarse(ring: &[Spot], tolerance: f64) -> Vec<(u32, u32)> {
+    let n = ring.len();
+    let mut runs = Vec::new();
+    let mut first = 0;
+    // Three runs at least: a chord must not stand for a whole ring.
+    let most = (n / 3).clamp(1, 64);
+    while first < n {
+        let mut count = 1;
+        while count < most && first + count < n && is_chord(ring, first, count + 1, tolerance) {
+            count += 1;
+        }
+        runs.push((first, count));
+        first += count;
+    }
+    let number = |n: usize| u32::try_from(n).expect("below 2³² vertices");
+    runs.into_iter().map(|(first, count)| (number(first), number(count))).collect()
+}
+
+fn is_chord(ring: &[Spot], first: usize, count: usize, tolerance: f64) -> bool {
+    let (a, b) = (ring[first], ring[(first + count) % ring.len()]);
+    ring[first + 1..first + count].iter().all(|p| p.distance_to_chord(a, b) <= tolerance)
+}

@@ -1,0 +1,179 @@
+//! Boundaries against brute-force distances.
+
+use proptest::prelude::*;
+use voromill::board::{Axis, Copper, Feature, Shape, Side};
+use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
+use voromill::topology::{self, Method, Nets};
+use voromill::voronoi::{Boundaries, Diagram, Owner, Settings};
+
+use crate::oracle::distance as oracle;
+
+fn at(x: i64, y: i64) -> Point {
+    Point::new(Nm::from_um(x), Nm::from_um(y))
+}
+
+fn disc(x: i64, y: i64, radius: i64) -> Shape {
+    Shape::Disc { center: at(x, y), radius: Nm::from_um(radius) }
+}
+
+fn layer(shapes: impl IntoIterator<Item = Shape>) -> Copper {
+    let feature = |shape: Shape| Feature { axis: Axis::Region, shape, attributes: 0, line: 0 };
+    Copper {
+        side: Side::Front,
+        features: shapes.into_iter().map(feature).collect(),
+        attributes: vec![voromill::board::Attributes::default()],
+    }
+}
+
+fn boundaries(copper: &Copper, settings: &Settings) -> (Nets, Boundaries) {
+    let nets = topology::recover(copper, Method::Contact);
+    let diagram = Diagram::new(copper, &nets, None, settings).expect("a diagram");
+    let (boundaries, warnings) = diagram.boundaries();
+    assert!(warnings.is_empty(), "{warnings:?}");
+    (nets, boundaries)
+}
+
+/// How far a point of a boundary is off: the difference of its two distances, and what a third net is nearer by.
+fn off_center(
+    copper: &Copper,
+    nets: &Nets,
+    (left, right): (Owner, Owner),
+    limit: Option<Nm>,
+    p: (f64, f64),
+) -> f64 {
+    let distances = oracle::distances(copper, nets, p.0, p.1);
+    let of = |owner: Owner| match owner {
+        Owner::Net(net) => Some(distances[net.index()]),
+        Owner::Background => limit.map(Nm::to_f64),
+        Owner::Outside => None,
+    };
+    let (Some(a), Some(b)) = (of(left), of(right)) else { return 0.0 };
+    let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    (a - b).abs().max(a.min(b) - nearest)
+}
+
+/// The worst point of all boundaries, looked at every few micrometres.
+fn worst(copper: &Copper, nets: &Nets, boundaries: &Boundaries, limit: Option<Nm>) -> f64 {
+    let mut worst: f64 = 0.0;
+    for edge in &boundaries.edges {
+        for pair in edge.path.flatten(Nm::new(50)).windows(2) {
+            let steps = (pair[0].distance(pair[1]) / 20_000.0).ceil().max(1.0);
+            let mut step = 0.0;
+            while step <= steps {
+                let t = step / steps;
+                let ((ax, ay), (bx, by)) = (pair[0].to_f64(), pair[1].to_f64());
+                let p = (ax + (bx - ax) * t, ay + (by - ay) * t);
+                worst = worst.max(off_center(copper, nets, (edge.left, edge.right), limit, p));
+                step += 1.0;
+            }
+        }
+    }
+    worst
+}
+
+/// V − E + F = 1 + C: every region's border closes and no edge is lost or doubled.
+fn assert_euler(boundaries: &Boundaries, regions: usize) {
+    let nodes = boundaries.nodes.len();
+    let mut parent: Vec<usize> = (0..nodes).collect();
+    fn root(parent: &[usize], mut i: usize) -> usize {
+        while parent[i] != i {
+            i = parent[i];
+        }
+        i
+    }
+    let (mut loops, mut arcs) = (0, 0);
+    for edge in &boundaries.edges {
+        match edge.ends {
+            None => loops += 1,
+            Some((a, b)) => {
+                arcs += 1;
+                let (a, b) = (root(&parent, a.0 as usize), root(&parent, b.0 as usize));
+                parent[a] = b;
+            }
+        }
+    }
+    let components = (0..nodes).filter(|&i| parent[i] == i).count();
+    let faces = arcs + 1 + components - nodes + loops;
+    assert_eq!(faces, regions + 1, "regions and the outside: {nodes} nodes, {arcs} edges, {loops} loops");
+}
+
+#[test]
+fn two_equal_discs_are_parted_by_a_straight_line() {
+    let copper = layer([disc(0, 0, 500), disc(4000, 0, 500)]);
+    let (nets, found) = boundaries(&copper, &Settings::default());
+    let cuts: Vec<_> = found.edges.iter().filter(|edge| !edge.is_border()).collect();
+    assert_eq!(cuts.len(), 1, "{cuts:?}");
+    assert!(
+        cuts[0].path.flatten(Nm::new(50)).iter().all(|p| (p.x - Nm::from_mm(2)).abs() <= Nm::new(2)),
+        "{cuts:?}"
+    );
+    let narrowest = cuts[0].clearance.iter().min().expect("vertices");
+    assert!((*narrowest - Nm::from_um(1500)).abs() <= Nm::from_um(2), "narrowest {narrowest}");
+    assert_euler(&found, 2);
+    assert!(worst(&copper, &nets, &found, None) < 4_200.0, "off centre");
+}
+
+#[test]
+fn a_net_inside_another_has_a_loop() {
+    let ring = Polygon::new(vec![
+        Rect::new(at(-3000, -3000), at(3000, 3000)).corners().to_vec(),
+        Rect::new(at(-2000, -2000), at(2000, 2000)).corners().into_iter().rev().collect(),
+    ]);
+    let copper = layer([Shape::Polygon(ring.expect("a ring")), disc(100, 50, 400)]);
+    let (nets, found) = boundaries(&copper, &Settings::default());
+    assert_eq!(found.edges.iter().filter(|edge| !edge.is_border()).count(), 1, "one loop");
+    assert!(worst(&copper, &nets, &found, None) < 4_200.0, "off centre");
+}
+
+#[test]
+fn the_limit_is_an_offset_curve() {
+    let arc = Arc { start: at(2000, 0), end: at(0, 2000), center: at(0, 0), turn: Turn::CounterClockwise };
+    let copper = layer([Shape::Arc { arc, radius: Nm::from_um(150) }, disc(0, 0, 300)]);
+    let settings = Settings { limit: Some(Nm::from_um(200)), ..Settings::default() };
+    let (nets, found) = boundaries(&copper, &settings);
+    assert_eq!(found.edges.iter().filter(|edge| !edge.is_border()).count(), 2, "a loop round each");
+    assert!(worst(&copper, &nets, &found, settings.limit) < 4_200.0, "off the offset curve");
+    let segments: usize = found.edges.iter().map(|edge| edge.path.segments.len()).sum();
+    assert!(segments < 24, "{segments} segments for a few arcs");
+}
+
+#[test]
+fn the_resolution_does_not_move_the_cut() {
+    let shapes = [disc(0, 0, 500), disc(2500, 300, 300), disc(1200, 2200, 700), disc(-900, 1700, 200)];
+    let copper = layer(shapes);
+    for pitch in [101_600, 50_800, 25_400, 12_700] {
+        let settings = Settings { pitch: Nm::new(pitch), ..Settings::default() };
+        let (nets, found) = boundaries(&copper, &settings);
+        let off = worst(&copper, &nets, &found, None);
+        assert!(off < 4_200.0, "{off} nm off centre with pixels of {pitch} nm");
+        assert_euler(&found, 4);
+    }
+}
+
+fn shape() -> impl Strategy<Value = Shape> {
+    let point = (0_i64..12_000, 0_i64..12_000);
+    prop_oneof![
+        (point.clone(), 50_i64..600).prop_map(|((x, y), r)| disc(x, y, r)),
+        (point.clone(), -3_000_i64..3_000, 1_i64..3_000, 50_i64..300).prop_map(|((x, y), dx, dy, r)| {
+            Shape::Stroke { from: at(x, y), to: at(x + dx, y + dy), radius: Nm::from_um(r) }
+        }),
+        (point, 100_i64..1_500, 100_i64..1_500).prop_map(|((x, y), w, h)| Shape::Polygon(
+            Polygon::rectangle(Rect::new(at(x, y), at(x + w, y + h)))
+        )),
+    ]
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn every_boundary_runs_in_the_middle(shapes in prop::collection::vec(shape(), 2..25)) {
+        let copper = layer(shapes);
+        let nets = topology::recover(&copper, Method::Contact);
+        let diagram = Diagram::new(&copper, &nets, None, &Settings::default()).expect("a diagram");
+        let (found, warnings) = diagram.boundaries();
+        let off = worst(&copper, &nets, &found, None);
+        // A gap narrower than a pixel may be missed; then what is nearest is off by no more than that.
+        prop_assert!(off < 6_000.0 || !warnings.is_empty(), "{} nm off centre", off);
+    }
+}
