@@ -1,8 +1,25 @@
 //! Files → [`Board`](crate::board::Board).
+//!
+//! ```text
+//!  paths ─ archive ─▶ files ─ layers, jobfile, assign ─▶ roles ─ load ─▶ Board
+//!                                                                 │
+//!                                     gerber, excellon, outline ──┘
+//! ```
+//!
+//! [`load`] takes a folder, an archive or single files and puts a board together; the readers of the formats stand
+//! alone and never touch the file system.
 
+mod archive;
+mod assign;
 mod digest;
 mod error;
 pub mod excellon;
 pub mod gerber;
+mod gerber_drill;
+mod jobfile;
+mod layers;
+mod load;
+pub mod outline;
 
 pub use error::{Diagnosis, Error};
+pub use load::{Loaded, Selection, load, load_copper};

@@ -1,6 +1,6 @@
 //! Drill files: each construct, each format, and every hole of every board that is at hand.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use voromill::board::{Hole, Plating};
 use voromill::geometry::{Nm, Point, Rect};
@@ -163,14 +163,4 @@ fn what_is_repaired_or_left_out_is_a_warning() {
         let drilling = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
         assert!(codes(&drilling).contains(&code), "{text:?} gave {:?}", codes(&drilling));
     }
-}
-
-pub(crate) fn boards() -> Option<PathBuf> {
-    let folder =
-        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
-    if !folder.is_dir() {
-        eprintln!("skipped: no boards in {} (set VOROMILL_BOARDS)", folder.display());
-        return None;
-    }
-    Some(folder)
 }

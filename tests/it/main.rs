@@ -3,6 +3,7 @@
 mod excellon;
 mod gerber;
 mod layering;
+mod layers;
 mod oracle;
 mod raster;
 mod topology;

@@ -203,8 +203,8 @@ fn is_keyword(line: &str) -> bool {
     let bytes = line.as_bytes();
     let two_letters = bytes.len() >= 2 && bytes[..2].iter().all(u8::is_ascii_alphabetic);
     let starts = |head: &&str| line.get(..3).is_some_and(|start| start.eq_ignore_ascii_case(head));
-    let message = MESSAGES.iter().any(|head| starts(head));
-    let units = ["M71", "M72"].iter().any(|head| starts(head)) && line.contains(',');
+    let message = MESSAGES.iter().any(starts);
+    let units = ["M71", "M72"].iter().any(starts) && line.contains(',');
     two_letters || message || units || bytes.get(1) == Some(&b',')
 }
 

@@ -1,0 +1,201 @@
+//! From paths to files in memory: folders, zip archives and single files, mixed.
+
+use std::fs::{self, File};
+use std::io::{self, Read};
+use std::path::Path;
+
+use super::error::Error;
+use super::jobfile::Job;
+use super::layers::Kind;
+
+/// The largest file that is read, and the most that an archive may unpack to.
+///
+/// Chosen: a Gerber of a 600 mm panel has some 50 MB; ten times that.
+const MOST_BYTES: u64 = 512 << 20;
+
+/// The most entries of an archive that are looked at.
+const MOST_ENTRIES: usize = 10_000;
+
+/// A file that may belong to the board.
+#[derive(Clone, Debug)]
+pub(super) struct Found {
+    /// Its name without folders.
+    pub(super) name: String,
+    /// Its name as the person gave it, for messages.
+    pub(super) shown: String,
+    /// The content.
+    pub(super) bytes: Vec<u8>,
+    /// What it is, by content.
+    pub(super) kind: Kind,
+    /// Whether the person named it, rather than the folder it lies in.
+    pub(super) named: bool,
+}
+
+/// What lies under the paths that a person gave.
+#[derive(Debug, Default)]
+pub(super) struct Gathered {
+    /// Layers and drill files, in the order of paths and, in folders and archives, of names.
+    pub(super) files: Vec<Found>,
+    /// Job files.
+    pub(super) jobs: Vec<(String, Vec<u8>)>,
+    /// Names of what is neither.
+    pub(super) ignored: Vec<String>,
+    /// Folders inside the given folders, which are not looked into.
+    pub(super) folders: Vec<String>,
+}
+
+impl Gathered {
+    /// Everything under `paths`.
+    pub(super) fn under(paths: &[impl AsRef<Path>]) -> Result<Self, Error> {
+        let mut gathered = Self::default();
+        for path in paths {
+            gathered.path(path.as_ref())?;
+        }
+        Ok(gathered)
+    }
+
+    fn path(&mut self, path: &Path) -> Result<(), Error> {
+        let shown = path.display().to_string();
+        let meta = fs::metadata(path).map_err(|error| unreadable(&shown, &error))?;
+        if meta.is_dir() {
+            return self.folder(path, &shown);
+        }
+        let bytes = read_file(path, &shown)?;
+        if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
+            return self.zip(&shown, bytes);
+        }
+        self.take(name_of(path), shown, bytes, true);
+        Ok(())
+    }
+
+    fn folder(&mut self, path: &Path, shown: &str) -> Result<(), Error> {
+        let entries = fs::read_dir(path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
+        let mut paths: Vec<_> =
+            entries.map_err(|error| unreadable(shown, &error))?.iter().map(fs::DirEntry::path).collect();
+        paths.sort();
+        for path in paths {
+            if path.is_dir() {
+                self.folders.push(name_of(&path));
+            } else if worth_reading(&name_of(&path)) && path.is_file() {
+                let shown = path.display().to_string();
+                let bytes = read_file(&path, &shown)?;
+                self.take(name_of(&path), shown, bytes, false);
+            } else {
+                self.ignored.push(name_of(&path));
+            }
+        }
+        Ok(())
+    }
+
+    fn zip(&mut self, shown: &str, bytes: Vec<u8>) -> Result<(), Error> {
+        let broken = |error: &dyn std::fmt::Display| {
+            Error::content(
+                shown,
+                format!("the zip archive cannot be read: {error}"),
+                "unpack it and give the folder",
+            )
+        };
+        let mut archive = zip::ZipArchive::new(io::Cursor::new(bytes)).map_err(|error| broken(&error))?;
+        if archive.len() > MOST_ENTRIES {
+            let what = format!("the zip archive has {} entries, more than {MOST_ENTRIES}", archive.len());
+            return Err(Error::content(shown, what, "give the folder of one board"));
+        }
+        let mut entries: Vec<(String, usize)> = Vec::new();
+        for index in 0..archive.len() {
+            let entry = archive.by_index_raw(index).map_err(|error| broken(&error))?;
+            let name = String::from_utf8_lossy(entry.name_raw()).replace('\\', "/");
+            if !entry.is_dir() && !name.starts_with("__MACOSX/") {
+                entries.push((name, index));
+            }
+        }
+        entries.sort();
+        let mut left = MOST_BYTES;
+        for (full, index) in entries {
+            let name = full.rsplit('/').next().unwrap_or(&full).to_owned();
+            if !worth_reading(&name) {
+                self.ignored.push(name);
+                continue;
+            }
+            let entry = archive.by_index(index).map_err(|error| broken(&error))?;
+            let mut content = Vec::new();
+            entry.take(left + 1).read_to_end(&mut content).map_err(|error| broken(&error))?;
+            left = left.checked_sub(content.len() as u64).ok_or_else(|| {
+                let what = format!("the zip archive unpacks to more than {} MiB", MOST_BYTES >> 20);
+                Error::content(shown, what, "unpack it yourself if you trust it, and give the folder")
+            })?;
+            self.take(name, format!("{shown}/{full}"), content, false);
+        }
+        Ok(())
+    }
+
+    fn take(&mut self, name: String, shown: String, bytes: Vec<u8>, named: bool) {
+        if Job::is_named(&name) {
+            return self.jobs.push((name, bytes));
+        }
+        let kind = Kind::of(&bytes);
+        if kind == Kind::Unknown && !named {
+            self.ignored.push(name);
+        } else {
+            self.files.push(Found { name, shown, bytes, kind, named });
+        }
+    }
+}
+
+/// The last part of a path; of `.` and `..`, that of the folder they stand for.
+pub(super) fn name_of(path: &Path) -> String {
+    let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
+    let real = || fs::canonicalize(path).ok()?.file_name().map(|name| name.to_string_lossy().into_owned());
+    name.or_else(real).unwrap_or_default()
+}
+
+/// Reads a file of at most [`MOST_BYTES`].
+pub(super) fn read_file(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
+    let file = File::open(path).map_err(|error| unreadable(shown, &error))?;
+    let mut bytes = Vec::new();
+    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(shown, &error))?;
+    if bytes.len() as u64 > MOST_BYTES {
+        let what = format!("the file has more than {} MiB", MOST_BYTES >> 20);
+        return Err(Error::content(shown, what, "no layer of a board is as large"));
+    }
+    Ok(bytes)
+}
+
+fn unreadable(shown: &str, error: &io::Error) -> Error {
+    match error.kind() {
+        io::ErrorKind::NotFound => Error::content(shown, "no such file or folder", "check the path"),
+        io::ErrorKind::PermissionDenied => Error::content(shown, "may not be read", "check its permissions"),
+        _ => Error::content(shown, format!("cannot be read: {error}"), "check the path"),
+    }
+}
+
+/// Whether a file of a folder could be a layer: hidden files, pictures and documents are not opened.
+fn worth_reading(name: &str) -> bool {
+    const NEVER: [&str; 24] = [
+        "png",
+        "jpg",
+        "jpeg",
+        "gif",
+        "bmp",
+        "svg",
+        "pdf",
+        "ps",
+        "html",
+        "htm",
+        "md",
+        "json",
+        "toml",
+        "yaml",
+        "yml",
+        "csv",
+        "xml",
+        "zip",
+        "kicad_pcb",
+        "brd",
+        "sch",
+        "ngc",
+        "nc~",
+        "exe",
+    ];
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension).to_ascii_lowercase();
+    !name.starts_with('.') && !NEVER.contains(&extension.as_str())
+}

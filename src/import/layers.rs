@@ -1,0 +1,347 @@
+//! What each file is for: by the job file, by its X2 file function, by its name.
+//!
+//! Every program names its layers differently, and people rename them. So three witnesses are heard, in this order:
+//!
+//! 1. a Gerber job file (`.gbrjob`), which lists the files and their functions;
+//! 2. the X2 attribute `.FileFunction` in the file itself (Gerber specification 2024.05 §5.6.3), also where KiCad and
+//!    Eagle hide it in comments;
+//! 3. the name: KiCad's `-F_Cu`, Altium's and Protel's `.GTL`, Eagle's `.cmp` and `copper_top`, EasyEDA's
+//!    `Gerber_TopLayer`, DipTrace's `_Top`, gEDA's `.front` and `group1`, OrCAD's `.top`.
+//!
+//! Words of a name count only where they differ between the files: the board `solder-station` has no back side for it.
+
+use crate::board::{Plating, Side};
+
+use super::excellon;
+
+/// What a file is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Role {
+    /// The copper of a side.
+    Copper(Side),
+    /// A group of layers of gEDA's `pcb`, which numbers them from the component side.
+    Group(u32),
+    /// The edge of the board.
+    Outline,
+    /// Holes.
+    Drill,
+    /// Anything that is not milled, with its name: `solder mask`, `inner copper`.
+    Other(&'static str),
+}
+
+/// What kind of file it is, by content.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    /// Gerber.
+    Gerber,
+    /// Excellon.
+    Excellon,
+    /// Neither.
+    Unknown,
+}
+
+impl Kind {
+    /// Looks at the content.
+    pub(super) fn of(bytes: &[u8]) -> Self {
+        if excellon::looks_like(bytes) {
+            Self::Excellon
+        } else if super::gerber::looks_like(bytes) {
+            Self::Gerber
+        } else {
+            Self::Unknown
+        }
+    }
+}
+
+/// The value of `.FileFunction`, wherever in the head of a file it stands.
+pub(super) fn function_of(bytes: &[u8]) -> Option<String> {
+    const NAME: &[u8] = b"TF.FileFunction,";
+    let head = &bytes[..bytes.len().min(64 * 1024)];
+    let start = head.windows(NAME.len()).position(|window| window == NAME)? + NAME.len();
+    let value = head[start..].split(|b| matches!(b, b'*' | b'%' | b'\r' | b'\n')).next()?;
+    Some(value.iter().map(|&b| char::from(b)).collect::<String>().trim().to_owned())
+}
+
+/// The role that a file function names.
+pub(super) fn role_by_function(function: &str) -> Option<Role> {
+    let mut fields = function.split(',').map(str::trim);
+    Some(match fields.next()? {
+        "Copper" => match (fields.next()?, fields.next()) {
+            (_, Some("Top")) => Role::Copper(Side::Front),
+            (_, Some("Bot")) => Role::Copper(Side::Back),
+            _ => Role::Other("inner copper"),
+        },
+        "Profile" => Role::Outline,
+        "Plated" | "NonPlated" | "MixedPlating" => Role::Drill,
+        "Soldermask" => Role::Other("solder mask"),
+        "Paste" => Role::Other("paste"),
+        "Legend" => Role::Other("silkscreen"),
+        "Drillmap" => Role::Other("drill map"),
+        "" => return None,
+        _ => Role::Other("documentation"),
+    })
+}
+
+/// Extensions that say it all.
+const EXTENSIONS: &[(&str, Role)] = &[
+    ("gtl", Role::Copper(Side::Front)),
+    ("cmp", Role::Copper(Side::Front)),
+    ("top", Role::Copper(Side::Front)),
+    ("gbl", Role::Copper(Side::Back)),
+    ("sol", Role::Copper(Side::Back)),
+    ("bot", Role::Copper(Side::Back)),
+    ("gko", Role::Outline),
+    ("gm1", Role::Outline),
+    ("gml", Role::Outline),
+    ("oln", Role::Outline),
+    ("dim", Role::Outline),
+    ("drl", Role::Drill),
+    ("drd", Role::Drill),
+    ("xln", Role::Drill),
+    ("exc", Role::Drill),
+    ("tap", Role::Drill),
+    ("cnc", Role::Drill),
+    ("ncd", Role::Drill),
+    ("gts", Role::Other("solder mask")),
+    ("gbs", Role::Other("solder mask")),
+    ("stc", Role::Other("solder mask")),
+    ("sts", Role::Other("solder mask")),
+    ("smt", Role::Other("solder mask")),
+    ("smb", Role::Other("solder mask")),
+    ("gtp", Role::Other("paste")),
+    ("gbp", Role::Other("paste")),
+    ("crc", Role::Other("paste")),
+    ("crs", Role::Other("paste")),
+    ("spt", Role::Other("paste")),
+    ("spb", Role::Other("paste")),
+    ("gto", Role::Other("silkscreen")),
+    ("gbo", Role::Other("silkscreen")),
+    ("plc", Role::Other("silkscreen")),
+    ("pls", Role::Other("silkscreen")),
+    ("sst", Role::Other("silkscreen")),
+    ("ssb", Role::Other("silkscreen")),
+    ("gpt", Role::Other("pad master")),
+    ("gpb", Role::Other("pad master")),
+    ("gd1", Role::Other("drill drawing")),
+    ("gg1", Role::Other("drill guide")),
+    ("ipc", Role::Other("netlist")),
+];
+
+/// How KiCad's names end, old and new, with `.` and `-` written as `_`.
+const KICAD: &[(&str, Role)] = &[
+    ("f_cu", Role::Copper(Side::Front)),
+    ("b_cu", Role::Copper(Side::Back)),
+    ("edge_cuts", Role::Outline),
+    ("pcb_edges", Role::Outline),
+    ("f_mask", Role::Other("solder mask")),
+    ("b_mask", Role::Other("solder mask")),
+    ("f_paste", Role::Other("paste")),
+    ("b_paste", Role::Other("paste")),
+    ("f_silks", Role::Other("silkscreen")),
+    ("b_silks", Role::Other("silkscreen")),
+    ("f_silkscreen", Role::Other("silkscreen")),
+    ("b_silkscreen", Role::Other("silkscreen")),
+    ("f_adhes", Role::Other("glue")),
+    ("b_adhes", Role::Other("glue")),
+    ("f_fab", Role::Other("documentation")),
+    ("b_fab", Role::Other("documentation")),
+    ("f_crtyd", Role::Other("documentation")),
+    ("b_crtyd", Role::Other("documentation")),
+    ("margin", Role::Other("documentation")),
+    ("dwgs_user", Role::Other("documentation")),
+    ("cmts_user", Role::Other("documentation")),
+    ("eco1_user", Role::Other("documentation")),
+    ("eco2_user", Role::Other("documentation")),
+];
+
+/// Parts of words, the decisive first: what a name means that holds one of them.
+const PARTS: &[(&str, Role)] = &[
+    ("mask", Role::Other("solder mask")),
+    ("resist", Role::Other("solder mask")),
+    ("paste", Role::Other("paste")),
+    ("cream", Role::Other("paste")),
+    ("stencil", Role::Other("paste")),
+    ("silk", Role::Other("silkscreen")),
+    ("legend", Role::Other("silkscreen")),
+    ("overlay", Role::Other("silkscreen")),
+    ("assy", Role::Other("documentation")),
+    ("assembly", Role::Other("documentation")),
+    ("drawing", Role::Other("documentation")),
+    ("document", Role::Other("documentation")),
+    ("courtyard", Role::Other("documentation")),
+    ("fab", Role::Other("documentation")),
+    ("drillmap", Role::Other("drill map")),
+    ("inner", Role::Other("inner copper")),
+    ("internal", Role::Other("inner copper")),
+    ("drill", Role::Drill),
+    ("npth", Role::Drill),
+    ("outline", Role::Outline),
+    ("profile", Role::Outline),
+    ("contour", Role::Outline),
+    ("border", Role::Outline),
+    ("dimension", Role::Outline),
+    ("cutout", Role::Outline),
+];
+
+/// Whole words; where a name holds several, the last counts.
+const WORDS: &[(&str, Role)] = &[
+    ("top", Role::Copper(Side::Front)),
+    ("front", Role::Copper(Side::Front)),
+    ("component", Role::Copper(Side::Front)),
+    ("toplayer", Role::Copper(Side::Front)),
+    ("bottom", Role::Copper(Side::Back)),
+    ("bot", Role::Copper(Side::Back)),
+    ("back", Role::Copper(Side::Back)),
+    ("solder", Role::Copper(Side::Back)),
+    ("bottomlayer", Role::Copper(Side::Back)),
+    ("edge", Role::Outline),
+    ("edges", Role::Outline),
+    ("mechanical", Role::Outline),
+    ("pth", Role::Drill),
+    ("holes", Role::Drill),
+    ("stop", Role::Other("solder mask")),
+    ("in", Role::Other("inner copper")),
+    ("mid", Role::Other("inner copper")),
+];
+
+fn looked_up(table: &[(&str, Role)], mut fits: impl FnMut(&str) -> bool) -> Option<Role> {
+    table.iter().find(|(text, _)| fits(text)).map(|&(_, role)| role)
+}
+
+/// The role that a file's name tells; `shared` bytes at its start are the same for all files and tell nothing.
+pub(super) fn role_by_name(name: &str, shared: usize) -> Option<Role> {
+    let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
+    let extension = extension.to_ascii_lowercase();
+    let normal = stem.to_ascii_lowercase().replace(['.', '-', ' '], "_");
+    let inner =
+        |text: &str| text.rsplit('_').nth(1).is_some_and(|word| numbered(word, &["in", "inner"]).is_some());
+    looked_up(KICAD, |end| normal == end || normal.ends_with(&format!("_{end}")))
+        .or_else(|| (normal.ends_with("_cu") && inner(&normal)).then_some(Role::Other("inner copper")))
+        .or_else(|| looked_up(EXTENSIONS, |known| known == extension))
+        .or_else(|| numbered(&extension, &["g", "gp", "l", "ly", "in"]).map(|_| Role::Other("inner copper")))
+        .or_else(|| numbered(&extension, &["gm"]).map(|_| Role::Other("mechanical layer")))
+        .or_else(|| role_by_words(stem.get(shared..).unwrap_or(stem)))
+}
+
+fn role_by_words(text: &str) -> Option<Role> {
+    let words = words(text);
+    let group = words.iter().rev().find_map(|word| numbered(word, &["group", "layer"]));
+    looked_up(PARTS, |part| words.iter().any(|word| word.contains(part)))
+        .or_else(|| words.iter().rev().find_map(|word| looked_up(WORDS, |known| known == word)))
+        .or_else(|| {
+            words
+                .iter()
+                .any(|word| numbered(word, &["in", "inner", "mid"]).is_some())
+                .then_some(Role::Other("inner copper"))
+        })
+        .or(group.map(Role::Group))
+}
+
+/// The number behind one of `heads`: `gp1`, `group2`.
+fn numbered(word: &str, heads: &[&str]) -> Option<u32> {
+    heads.iter().find_map(|head| word.strip_prefix(head)?.parse().ok())
+}
+
+/// The words of a name in lower case: parted by anything but letters and digits, and where a capital follows a small
+/// letter.
+fn words(text: &str) -> Vec<String> {
+    let mut words = vec![String::new()];
+    let mut before = ' ';
+    for c in text.chars() {
+        if !c.is_ascii_alphanumeric() || (c.is_ascii_uppercase() && before.is_ascii_lowercase()) {
+            words.push(String::new());
+        }
+        if c.is_ascii_alphanumeric() {
+            words.last_mut().expect("never empty").push(c.to_ascii_lowercase());
+        }
+        before = c;
+    }
+    words.retain(|word| !word.is_empty());
+    words
+}
+
+/// How many bytes at the start all `names` share, up to the last mark that parts words.
+pub(super) fn shared_start(names: &[&str]) -> usize {
+    let Some((first, rest)) = names.split_first().filter(|(_, rest)| !rest.is_empty()) else { return 0 };
+    let shared = rest.iter().fold(first.len(), |shared, name| {
+        first.bytes().zip(name.bytes()).take(shared).take_while(|(a, b)| a == b).count()
+    });
+    first.as_bytes()[..shared].iter().rposition(|b| !b.is_ascii_alphanumeric()).map_or(0, |i| i + 1)
+}
+
+/// The plating that a drill file's function or name tells.
+pub(super) fn plating(function: Option<&str>, name: &str) -> Plating {
+    function.map_or_else(|| excellon::plating_by_name(name), excellon::plating_by_function)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FRONT: Role = Role::Copper(Side::Front);
+    const BACK: Role = Role::Copper(Side::Back);
+
+    #[test]
+    fn names_of_thirty_years_are_known() {
+        let cases = [
+            ("ecc83-pp-F_Cu.gbr", FRONT),
+            ("multivibrator-B.Cu.gbr", BACK),
+            ("amp-Edge.Cuts.gbr", Role::Outline),
+            ("amp-In1_Cu.gbr", Role::Other("inner copper")),
+            ("amp-F_Mask.gbr", Role::Other("solder mask")),
+            ("amp-PTH.drl", Role::Drill),
+            ("SE_SG_IF_V2.GTL", FRONT),
+            ("pic18f14k50.gbl", BACK),
+            ("pic18f14k50.gm1", Role::Outline),
+            ("pic18f14k50.GP1", Role::Other("inner copper")),
+            ("arduino-uno.cmp", FRONT),
+            ("arduino-uno.sol", BACK),
+            ("arduino-uno.stc", Role::Other("solder mask")),
+            ("copper_top.gbr", FRONT),
+            ("soldermask_top.gbr", Role::Other("solder mask")),
+            ("solderpaste_bottom.gbr", Role::Other("paste")),
+            ("silkscreen_bottom.gbr", Role::Other("silkscreen")),
+            ("profile.gbr", Role::Outline),
+            ("drills.xln", Role::Drill),
+            ("Gerber_TopLayer.GTL", FRONT),
+            ("Gerber_BoardOutlineLayer.GKO", Role::Outline),
+            ("Gerber_InnerLayer1.G1", Role::Other("inner copper")),
+            ("keyboard_Bottom.gbr", BACK),
+            ("keyboard_BoardOutline.gbr", Role::Outline),
+            ("keyboard_TopMask.gbr", Role::Other("solder mask")),
+            ("hellboard.front.gbr", FRONT),
+            ("hellboard.plated-drill.cnc", Role::Drill),
+            ("hellboard.frontsilk.gbr", Role::Other("silkscreen")),
+            ("numpres.pcb.output_group1.grb", Role::Group(1)),
+            ("numpres.pcb.output_componentmask.grb", Role::Other("solder mask")),
+            ("rs232_cm.top", FRONT),
+            ("rs232_cm.bot", BACK),
+            ("thruhole.tap", Role::Drill),
+            ("top-cop.gbx", FRONT),
+        ];
+        for (name, role) in cases {
+            assert_eq!(role_by_name(name, 0), Some(role), "{name}");
+        }
+        assert_eq!(role_by_name("example.grb", 0), None, "a name that tells nothing");
+    }
+
+    #[test]
+    fn words_that_all_files_share_tell_nothing() {
+        let names = ["solder-station.gbr", "solder-station-extra.gbr"];
+        assert_eq!(shared_start(&names), "solder-".len(), "up to a mark");
+        assert_eq!(role_by_name("solder-station.gbr", 7), None, "the board's name is no side");
+        assert_eq!(shared_start(&["one.gbr"]), 0, "one file shares nothing");
+    }
+
+    #[test]
+    fn file_functions_are_read_from_commands_and_comments() {
+        for text in ["%TF.FileFunction,Copper,L2,Bot*%\n", "G04 #@! TF.FileFunction,Copper,L2,Bot,Signal*\n"]
+        {
+            let function = function_of(text.as_bytes()).expect("a function");
+            assert_eq!(role_by_function(&function), Some(BACK), "{text}");
+        }
+        assert_eq!(role_by_function("Copper,L2,Inr"), Some(Role::Other("inner copper")), "an inner layer");
+        assert_eq!(role_by_function("Profile,NP"), Some(Role::Outline), "the edge");
+        assert_eq!(role_by_function("NonPlated,1,2,NPTH"), Some(Role::Drill), "holes");
+    }
+}

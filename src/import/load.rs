@@ -1,0 +1,347 @@
+//! Paths → board: which file is what, each read by its reader, and put together.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use super::archive::{Found, Gathered, name_of, read_file};
+use super::assign::{Assigned, assign};
+use super::error::Error;
+use super::excellon::{self, Context};
+use super::layers::Kind;
+use super::{gerber, gerber_drill, outline};
+use crate::board::{Axis, Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
+use crate::geometry::{Nm, Point, Rect};
+
+/// What a person says of the files, where names do not tell or tell wrong.
+#[derive(Clone, Debug, Default)]
+pub struct Selection {
+    /// The copper of the front.
+    pub front: Option<PathBuf>,
+    /// The copper of the back.
+    pub back: Option<PathBuf>,
+    /// The edge of the board.
+    pub outline: Option<PathBuf>,
+    /// The drill files; where any is given, no other is taken.
+    pub drill: Vec<PathBuf>,
+    /// What the board is called.
+    pub name: Option<String>,
+}
+
+/// A board with what is known of where it came from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The board.
+    pub board: Board,
+    /// The files it was read from and the layers left aside, each with its role.
+    pub sources: Vec<Source>,
+    /// What was repaired, guessed or left out.
+    pub warnings: Vec<Warning>,
+    /// Files and folders beside them that are no layer of a board.
+    pub ignored: Vec<String>,
+}
+
+/// Reads the board in `paths`: folders, zip archives and single files, mixed. Folders inside folders are not looked
+/// into.
+///
+/// # Errors
+///
+/// A path that cannot be read, two files for one role, no copper at all, or what the readers say of a file.
+pub fn load(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error> {
+    let mut gathered = Gathered::under(paths)?;
+    gathered.add_selected(selection)?;
+    let assigned = assign(&gathered, paths, selection)?;
+    let mut build = Build::new(assigned.name.clone());
+    build.warnings.extend(assigned.warnings.iter().cloned());
+    build.coppers(&gathered, &assigned)?;
+    build.outline(&gathered, &assigned)?;
+    build.drills(&gathered, &assigned)?;
+    build.set_aside(&gathered, &assigned);
+    let ignored =
+        [gathered.ignored, gathered.folders.into_iter().map(|folder| folder + "/").collect()].concat();
+    Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored })
+}
+
+/// Reads one layer of copper as the given side, whatever its name and attributes say.
+///
+/// # Errors
+///
+/// A path that cannot be read, a file that is no Gerber, or one that draws nothing.
+pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
+    let shown = path.display().to_string();
+    let name = name_of(path);
+    let bytes = read_file(path, &shown)?;
+    let kind = Kind::of(&bytes);
+    let found = Found { name, shown, bytes, kind, named: true };
+    let mut build = Build::new(super::assign::stem(&found.name).to_owned());
+    build.copper(&found, side)?;
+    build.require_copper(&[&found])?;
+    Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })
+}
+
+/// A board in the making.
+struct Build {
+    board: Board,
+    sources: Vec<Source>,
+    warnings: Vec<Warning>,
+}
+
+impl Build {
+    fn new(name: String) -> Self {
+        Self { board: Board { name, ..Board::default() }, sources: Vec::new(), warnings: Vec::new() }
+    }
+
+    fn coppers(&mut self, gathered: &Gathered, assigned: &Assigned) -> Result<(), Error> {
+        let files = &gathered.files;
+        for (side, index) in [(Side::Front, assigned.front), (Side::Back, assigned.back)] {
+            if let Some(index) = index {
+                self.copper(&files[index], side)?;
+            }
+        }
+        let read: Vec<&Found> =
+            [assigned.front, assigned.back].into_iter().flatten().map(|i| &files[i]).collect();
+        if read.is_empty() {
+            return Err(no_copper(gathered, assigned));
+        }
+        self.require_copper(&read)
+    }
+
+    /// Reads a copper layer; one that draws nothing is a warning.
+    fn copper(&mut self, file: &Found, side: Side) -> Result<(), Error> {
+        refuse_unless_gerber(file, "a copper layer")?;
+        let image = gerber::read(&file.name, &file.bytes, &gerber::Options::default())?;
+        self.warnings.extend(image.warnings.into_iter().map(|warning| warning.on(side)));
+        self.sources.push(Source { role: format!("{side}-copper"), ..image.source });
+        let drawn = image.features.len();
+        let features: Vec<Feature> = image.features.into_iter().filter(has_area).collect();
+        if features.len() < drawn {
+            let message = format!(
+                "{} features of {} have no width and so no copper",
+                drawn - features.len(),
+                file.name
+            );
+            self.warnings.push(Warning::new("zero-width-copper", message).on(side));
+        }
+        if features.is_empty() {
+            let message = format!("{} draws no copper", file.name);
+            self.warnings.push(Warning::new("empty-copper", message).on(side));
+            return Ok(());
+        }
+        let copper = Copper { side, features, attributes: image.attributes };
+        match side {
+            Side::Front => self.board.front = Some(copper),
+            Side::Back => self.board.back = Some(copper),
+        }
+        Ok(())
+    }
+
+    /// A board without copper is an error.
+    fn require_copper(&self, read: &[&Found]) -> Result<(), Error> {
+        if self.board.front.is_some() || self.board.back.is_some() {
+            return Ok(());
+        }
+        let shown = read.iter().map(|file| file.shown.as_str()).collect::<Vec<_>>().join(", ");
+        let hint = "check that the layer was exported with its content";
+        Err(Error::content(&shown, "the board has no copper: nothing is drawn", hint))
+    }
+
+    fn outline(&mut self, gathered: &Gathered, assigned: &Assigned) -> Result<(), Error> {
+        let Some(file) = assigned.outline.map(|index| &gathered.files[index]) else {
+            let message = "no outline layer is among the files, so the board's edge is not known";
+            self.warnings.push(Warning::new("outline-missing", message));
+            return Ok(());
+        };
+        refuse_unless_gerber(file, "an outline layer")?;
+        let image = gerber::read(&file.name, &file.bytes, &gerber::Options::default())?;
+        self.warnings.extend(image.warnings);
+        self.sources.push(Source { role: "outline".to_owned(), ..image.source });
+        let joined = outline::join(&file.name, &image.features, outline::GAP);
+        self.board.outline = joined.outline;
+        self.warnings.extend(joined.warnings);
+        Ok(())
+    }
+
+    fn drills(&mut self, gathered: &Gathered, assigned: &Assigned) -> Result<(), Error> {
+        let context = self.context();
+        let mut warnings = Vec::new();
+        for &index in &assigned.drill {
+            let file = &gathered.files[index];
+            let (holes, source) = match file.kind {
+                Kind::Gerber => gerber_holes(file, assigned.by_hand.contains(&index), &mut warnings)?,
+                Kind::Excellon | Kind::Unknown => {
+                    let drilling = excellon::read(&file.name, &file.bytes, &context)?;
+                    warnings.extend(drilling.warnings);
+                    (drilling.holes, drilling.source)
+                }
+            };
+            self.sources.push(Source { role: "drill".to_owned(), ..source });
+            self.add_holes(holes, &file.name, &mut warnings);
+        }
+        // Programs write an empty file for a kind of hole that a board does not have.
+        let any = !self.board.holes.is_empty();
+        warnings.retain(|warning| !(any && warning.code == "drill-without-holes"));
+        self.warnings.append(&mut warnings);
+        Ok(())
+    }
+
+    /// Takes over `holes`, less those that another file has drilled already.
+    fn add_holes(&mut self, holes: Vec<Hole>, file: &str, warnings: &mut Vec<Warning>) {
+        /// The cell in which two holes of different files are looked for.
+        const CELL: i64 = 20_000;
+        let cell = |p: Point| (p.x.get().div_euclid(CELL), p.y.get().div_euclid(CELL));
+        let mut known: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+        for (index, hole) in self.board.holes.iter().enumerate() {
+            known.entry(cell(hole.path.start)).or_default().push(index);
+        }
+        let mut doubles = None::<(u32, Point)>;
+        let before = std::mem::take(&mut self.board.holes);
+        let fresh: Vec<Hole> = holes
+            .into_iter()
+            .filter(|hole| {
+                let (x, y) = cell(hole.path.start);
+                let near = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
+                let double =
+                    near.filter_map(|cell| known.get(&cell)).flatten().any(|&i| same_hole(&before[i], hole));
+                if double {
+                    let first = doubles.map_or(hole.path.start, |(_, at)| at);
+                    doubles = Some((doubles.map_or(1, |(count, _)| count + 1), first));
+                }
+                !double
+            })
+            .collect();
+        self.board.holes = before;
+        self.board.holes.extend(fresh);
+        if let Some((count, at)) = doubles {
+            let message =
+                format!("{count} holes of {file} stand in another drill file too and are drilled once");
+            warnings.push(Warning::new("duplicate-holes", message).at(at));
+        }
+    }
+
+    /// What the copper tells about where holes should be.
+    fn context(&self) -> Context {
+        let coppers = || [&self.board.front, &self.board.back].into_iter().flatten();
+        let pads = coppers().flat_map(|copper| &copper.features).filter_map(|feature| match feature.axis {
+            Axis::Flash(at) => Some(at),
+            Axis::Line(..) | Axis::Arc(_) | Axis::Region => None,
+        });
+        Context::new(pads, coppers().filter_map(Copper::bounds).reduce(Rect::union))
+    }
+
+    /// Lists the layers that are recognised but not milled.
+    fn set_aside(&mut self, gathered: &Gathered, assigned: &Assigned) {
+        for (index, what) in &assigned.aside {
+            let file = &gathered.files[*index];
+            self.sources.push(Source {
+                file: file.name.clone(),
+                format: match file.kind {
+                    Kind::Gerber => "gerber",
+                    Kind::Excellon => "excellon",
+                    Kind::Unknown => "unknown",
+                }
+                .to_owned(),
+                role: format!("ignored ({what})"),
+                units: String::new(),
+                number_format: String::new(),
+                sha256: super::digest::sha256(&file.bytes),
+                bytes: file.bytes.len() as u64,
+                counts: BTreeMap::new(),
+                generator: None,
+                apertures: Vec::new(),
+            });
+        }
+    }
+}
+
+/// The holes of a Gerber file; one that does not say it is a drill file is refused where a person chose it.
+fn gerber_holes(
+    file: &Found,
+    by_hand: bool,
+    warnings: &mut Vec<Warning>,
+) -> Result<(Vec<Hole>, Source), Error> {
+    let image = gerber::read(&file.name, &file.bytes, &gerber::Options::default())?;
+    let function = image.function.as_deref().unwrap_or_default();
+    let says_drill = ["Plated", "NonPlated"].iter().any(|start| function.starts_with(start));
+    if by_hand && !says_drill {
+        let what =
+            "a Gerber file where a drill file was expected, and its file function is not Plated or NonPlated";
+        return Err(Error::content(&file.shown, what, "give an Excellon drill file with --drill"));
+    }
+    let (holes, warning) = gerber_drill::holes(&file.name, &image);
+    warnings.extend(image.warnings);
+    warnings.extend(warning);
+    let mut source = image.source;
+    source.format = "gerber-drill".to_owned();
+    source.counts.insert("holes".to_owned(), holes.iter().filter(|hole| !hole.is_slot()).count() as u64);
+    source.counts.insert("slots".to_owned(), holes.iter().filter(|hole| hole.is_slot()).count() as u64);
+    Ok((holes, source))
+}
+
+/// Whether two files mean the same hole: within a rounding to 0.001 inch.
+fn same_hole(a: &Hole, b: &Hole) -> bool {
+    const NEAR: Nm = Nm::from_um(20);
+    let near = |p: Point, q: Point| (p.x - q.x).abs() <= NEAR && (p.y - q.y).abs() <= NEAR;
+    near(a.path.start, b.path.start)
+        && near(a.path.end(), b.path.end())
+        && (a.diameter - b.diameter).abs() <= Nm::from_um(50)
+        && a.path.segments.len() == b.path.segments.len()
+}
+
+fn has_area(feature: &Feature) -> bool {
+    match &feature.shape {
+        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => {
+            *radius > Nm::ZERO
+        }
+        Shape::Polygon(_) => true,
+    }
+}
+
+fn refuse_unless_gerber(file: &Found, wanted: &str) -> Result<(), Error> {
+    let (what, hint) = match file.kind {
+        Kind::Gerber => return Ok(()),
+        Kind::Excellon => ("an Excellon drill file", "give it with --drill"),
+        Kind::Unknown => (describe(&file.bytes), "export the layer as Gerber RS-274X"),
+    };
+    Err(Error::content(&file.shown, format!("{what} where {wanted} (Gerber) was expected"), hint))
+}
+
+/// What a file is that is no layer, in a few words.
+pub(super) fn describe(bytes: &[u8]) -> &'static str {
+    const KNOWN: [(&[u8], &str); 6] = [
+        (b"\x89PNG", "a PNG picture"),
+        (b"\xff\xd8\xff", "a JPEG picture"),
+        (b"%PDF", "a PDF document"),
+        (b"PK", "a zip archive"),
+        (b"(kicad_pcb", "a KiCad board, not its plot"),
+        (b"<?xml", "an XML file"),
+    ];
+    if bytes.iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
+        return "an empty file";
+    }
+    KNOWN
+        .iter()
+        .find(|(start, _)| bytes.starts_with(start))
+        .map_or("a file of another kind", |&(_, what)| what)
+}
+
+/// Why nothing could be milled, with what was found instead.
+fn no_copper(gathered: &Gathered, assigned: &Assigned) -> Error {
+    let aside =
+        assigned.aside.iter().map(|(index, what)| format!("{} ({what})", gathered.files[*index].name));
+    let others = assigned.outline.iter().map(|&i| format!("{} (outline)", gathered.files[i].name));
+    let drills = assigned.drill.iter().map(|&i| format!("{} (drill)", gathered.files[i].name));
+    let found: Vec<String> = aside.chain(others).chain(drills).collect();
+    let what = if found.is_empty() {
+        "no copper layer found: there is no Gerber file".to_owned()
+    } else {
+        format!("no copper layer found among {}", found.join(", "))
+    };
+    let hint = if gathered.folders.is_empty() {
+        "name it with --front or --back".to_owned()
+    } else {
+        format!(
+            "name it with --front or --back, or give the folder that holds it: {}",
+            gathered.folders.join(", ")
+        )
+    };
+    Error::content(&assigned.place, what, hint)
+}

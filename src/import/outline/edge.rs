@@ -1,0 +1,189 @@
+use std::collections::BTreeSet;
+
+use crate::geometry::{Arc, Path, Point, Rect, Segment, Turn, Vector};
+
+/// A line or an arc that is no full circle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Edge {
+    pub(super) from: Point,
+    pub(super) to: Point,
+    /// The centre and the way round of an arc.
+    pub(super) round: Option<(Point, Turn)>,
+    /// The line of the file that drew it.
+    pub(super) line: u32,
+}
+
+impl Edge {
+    pub(super) const fn line(from: Point, to: Point, line: u32) -> Self {
+        Self { from, to, round: None, line }
+    }
+
+    pub(super) const fn arc(arc: Arc, line: u32) -> Self {
+        Self { from: arc.start, to: arc.end, round: Some((arc.center, arc.turn)), line }
+    }
+
+    pub(super) fn segment(&self) -> Segment {
+        match self.round {
+            None => Segment::Line { to: self.to },
+            Some((center, turn)) => Segment::Arc { to: self.to, center, turn },
+        }
+    }
+
+    /// The same edge walked the other way.
+    pub(super) fn reversed(&self) -> Self {
+        let round = self.round.map(|(center, turn)| (center, turn.reversed()));
+        Self { from: self.to, to: self.from, round, line: self.line }
+    }
+
+    fn as_arc(&self) -> Option<Arc> {
+        self.segment().arc(self.from)
+    }
+
+    pub(super) fn length(&self) -> f64 {
+        self.segment().length(self.from)
+    }
+
+    fn bounds(&self) -> Rect {
+        self.as_arc().map_or(Rect::new(self.from, self.to), |arc| arc.bounds())
+    }
+
+    /// The direction in which it leaves `from`.
+    pub(super) fn leaves(&self) -> Vector {
+        let Some((center, turn)) = self.round else { return self.to - self.from };
+        let out = (self.from - center).perpendicular();
+        if turn == Turn::CounterClockwise { out } else { -out }
+    }
+
+    /// How it bends, positive to the left, per nanometre: tells edges apart that leave in the same direction.
+    pub(super) fn bend(&self) -> f64 {
+        match self.round {
+            None => 0.0,
+            Some((center, Turn::CounterClockwise)) => 1.0 / center.distance(self.from).max(1.0),
+            Some((center, Turn::Clockwise)) => -1.0 / center.distance(self.from).max(1.0),
+        }
+    }
+
+    /// The two parts on both sides of `at`.
+    fn parted(&self, at: Point) -> [Self; 2] {
+        [Self { to: at, ..*self }, Self { from: at, ..*self }]
+    }
+
+    /// Whether `p` lies on it, within [`ON`], and at neither end.
+    fn passes(&self, p: Point) -> bool {
+        if p == self.from || p == self.to {
+            return false;
+        }
+        match self.round {
+            None => {
+                let (way, to_p) = (self.to - self.from, p - self.from);
+                let along = way.dot(to_p);
+                let length = way.length();
+                along > 0 && along < way.length_squared() && (to_float(way.cross(to_p)) / length).abs() <= ON
+            }
+            Some((center, turn)) => {
+                let off = center.distance(p) - center.distance(self.from);
+                let reach = Arc { start: self.from, end: p, center, turn };
+                off.abs() <= ON && self.as_arc().is_some_and(|arc| reach.sweep().abs() < arc.sweep().abs())
+            }
+        }
+    }
+
+    /// Where two lines cross in the middle of both.
+    fn crossing(&self, other: &Self) -> Option<Point> {
+        if self.round.is_some() || other.round.is_some() {
+            return None;
+        }
+        let (a, b) = (self.to - self.from, other.to - other.from);
+        let between = other.from - self.from;
+        let denominator = to_float(a.cross(b));
+        let (s, t) = (to_float(between.cross(b)) / denominator, to_float(between.cross(a)) / denominator);
+        if !(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) {
+            return None;
+        }
+        let (x, y) = self.from.to_f64();
+        let at = Point::from_f64(x + a.x.to_f64() * s, y + a.y.to_f64() * s);
+        (![self.from, self.to, other.from, other.to].contains(&at)).then_some(at)
+    }
+}
+
+/// How far beside an edge, in nanometres, a point may lie and still be on it: what rounding does to places on slanted
+/// lines, with a margin.
+const ON: f64 = 1_500.0;
+
+#[expect(clippy::cast_precision_loss, reason = "compared with tolerances far above the rounding")]
+const fn to_float(value: i64) -> f64 {
+    value as f64
+}
+
+/// A full circle as a contour.
+pub(super) fn circle(arc: &Arc) -> Path {
+    Path {
+        start: arc.start,
+        segments: vec![Segment::Arc { to: arc.end, center: arc.center, turn: arc.turn }],
+    }
+}
+
+/// Leaves out edges of no length and edges drawn twice, either way round.
+pub(super) fn drop_doubles(edges: &mut Vec<Edge>) {
+    let mut seen = BTreeSet::new();
+    edges.retain(|edge| {
+        let turned = if edge.from <= edge.to { *edge } else { edge.reversed() };
+        let round = turned.round.map(|(center, turn)| (center, turn == Turn::Clockwise));
+        (edge.round.is_some() || edge.from != edge.to) && seen.insert((turned.from, turned.to, round))
+    });
+}
+
+/// The most edges that are looked at for crossings; drawings of more are taken as they are.
+const MOST: usize = 20_000;
+
+/// Parts edges where another one ends on them or crosses them; lines that lie on each other become the same.
+pub(super) fn part_where_they_meet(edges: Vec<Edge>) -> Vec<Edge> {
+    if edges.len() > MOST {
+        return edges;
+    }
+    let bounds: Vec<Rect> =
+        edges.iter().map(|edge| edge.bounds().inflate(crate::geometry::Nm::new(2_000))).collect();
+    let mut order: Vec<usize> = (0..edges.len()).collect();
+    order.sort_by_key(|&i| (bounds[i].min().x, i));
+    let mut cuts: Vec<BTreeSet<Point>> = vec![BTreeSet::new(); edges.len()];
+    for (k, &i) in order.iter().enumerate() {
+        for &j in order[k + 1..].iter().take_while(|&&j| bounds[j].min().x <= bounds[i].max().x) {
+            if bounds[i].touches(bounds[j]) {
+                meet(&edges, i, j, &mut cuts);
+            }
+        }
+    }
+    let mut parts: Vec<Edge> =
+        edges.into_iter().zip(cuts).flat_map(|(edge, cuts)| cut_up(edge, cuts)).collect();
+    drop_doubles(&mut parts);
+    parts
+}
+
+fn meet(edges: &[Edge], i: usize, j: usize, cuts: &mut [BTreeSet<Point>]) {
+    let (a, b) = (&edges[i], &edges[j]);
+    cuts[i].extend([b.from, b.to].into_iter().filter(|&p| a.passes(p)));
+    cuts[j].extend([a.from, a.to].into_iter().filter(|&p| b.passes(p)));
+    if let Some(at) = a.crossing(b) {
+        cuts[i].insert(at);
+        cuts[j].insert(at);
+    }
+}
+
+/// `edge` in parts, from one cut to the next.
+fn cut_up(edge: Edge, cuts: BTreeSet<Point>) -> Vec<Edge> {
+    let mut cuts: Vec<Point> = cuts.into_iter().collect();
+    let along = |p: Point| match edge.round {
+        None => (p - edge.from).length(),
+        Some((center, turn)) => Arc { start: edge.from, end: p, center, turn }.sweep().abs(),
+    };
+    cuts.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
+    let mut parts = Vec::with_capacity(cuts.len() + 1);
+    let mut rest = edge;
+    for at in cuts {
+        let [part, left] = rest.parted(at);
+        parts.push(part);
+        rest = left;
+    }
+    parts.push(rest);
+    parts
+}
