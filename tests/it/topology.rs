@@ -1,9 +1,14 @@
 //! Which features conduct: exact contact against rational arithmetic, coincidence, names, holes, gaps.
 
+use std::fs;
+use std::path::{Path as FilePath, PathBuf};
+
 use proptest::prelude::*;
+use serde_json::Value;
 
 use voromill::board::{Attributes, Axis, Copper, Feature, Hole, Plating, Shape, Side};
 use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn};
+use voromill::import::gerber;
 use voromill::topology::{self, Method, NetId, Nets};
 
 fn at(x: i64, y: i64) -> Point {
@@ -481,4 +486,102 @@ fn an_empty_layer_has_no_nets() {
     let nets = topology::recover(&copper, Method::Contact);
     assert!(nets.nets().is_empty(), "no features, no nets");
     assert!(topology::smallest_gap(&copper, &nets).is_none(), "and no gap");
+}
+
+/// The folder of real boards, which is not part of the repository; none where there is none.
+#[expect(clippy::print_stderr, reason = "says that a test checked nothing")]
+fn boards() -> Option<PathBuf> {
+    let folder = std::env::var_os("VOROMILL_BOARDS")
+        .map_or_else(|| FilePath::new(env!("CARGO_MANIFEST_DIR")).join("../shared/boards"), PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    eprintln!("skipped: no boards in {}", folder.display());
+    None
+}
+
+fn json(path: &FilePath) -> Option<Value> {
+    Some(serde_json::from_slice(&fs::read(path).ok()?).expect("it is JSON"))
+}
+
+/// The copper of a file, without what has no area.
+fn layer(file: &FilePath, side: Side) -> Copper {
+    let name = file.file_name().expect("a file").to_string_lossy();
+    let bytes = fs::read(file).expect("the file is there");
+    let image = gerber::read(&name, &bytes, &gerber::Options::default()).expect("it reads");
+    let mut features = image.features;
+    features.retain(|feature| match &feature.shape {
+        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => {
+            *radius > Nm::ZERO
+        }
+        Shape::Polygon(_) => true,
+    });
+    Copper { side, features, attributes: image.attributes }
+}
+
+/// Every copper layer of every real board that says what its islands are: (board and side, copper, truth).
+fn layers() -> Vec<(String, Copper, Value)> {
+    let mut found = Vec::new();
+    let Some(folder) = boards() else { return found };
+    let mut names: Vec<_> =
+        fs::read_dir(&folder).expect("readable").map(|entry| entry.expect("an entry").path()).collect();
+    names.sort();
+    for board in names {
+        let (Some(meta), Some(truth)) =
+            (json(&board.join("meta.json")), json(&board.join("truth_nets.json")))
+        else {
+            continue;
+        };
+        for (name, side) in [("front", Side::Front), ("back", Side::Back)] {
+            if let (Some(file), true) = (meta["layers"][name].as_str(), truth[name].is_object()) {
+                let what = format!("{} {name}", board.file_name().expect("a folder").to_string_lossy());
+                found.push((what, layer(&board.join(file), side), truth[name].clone()));
+            }
+        }
+    }
+    found
+}
+
+#[test]
+fn contact_finds_the_islands_and_names_of_real_boards() {
+    let mut wrong = Vec::new();
+    for (what, copper, truth) in layers() {
+        let nets = topology::recover(&copper, Method::Contact);
+        let islands = truth["islands"].as_array().expect("a list");
+        if nets.nets().len() != islands.len() {
+            wrong.push(format!("{what}: {} nets, {} islands", nets.nets().len(), islands.len()));
+        }
+        for island in islands {
+            let mm = |i: usize| Nm::from_f64(island["point_mm"][i].as_f64().expect("a number") * 1e6);
+            let point = Point::new(mm(0), mm(1));
+            let Some(net) = net_at(&copper, &nets, point) else {
+                wrong.push(format!("{what}: no copper at {point:?}"));
+                continue;
+            };
+            let names: Vec<&str> = island["nets"].as_array().map_or(Vec::new(), |names| {
+                names
+                    .iter()
+                    .map(|name| name.as_str().expect("a name"))
+                    .filter(|name| !["N/C", "(none)", ""].contains(name))
+                    .collect()
+            });
+            if nets.nets()[net.index()].names != names {
+                wrong.push(format!(
+                    "{what}: {:?}, not {names:?}, at {point:?}",
+                    nets.nets()[net.index()].names
+                ));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+/// The net whose copper holds a point: that which a dot there joins.
+fn net_at(copper: &Copper, nets: &Nets, point: Point) -> Option<NetId> {
+    let dot = Shape::Disc { center: point, radius: Nm::ZERO };
+    let near =
+        copper.features.iter().enumerate().filter(|(_, feature)| feature.shape.bounds().contains(point));
+    near.map(|(index, feature)| (index, touch(&dot, &feature.shape)))
+        .find(|(_, touch)| *touch)
+        .map(|(index, _)| nets.of(index))
 }

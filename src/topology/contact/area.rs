@@ -47,6 +47,11 @@ impl Area {
         Self { edges, contours, bounds: polygon.bounds(), index }
     }
 
+    /// A point of each contour.
+    pub(super) fn corners(&self) -> &[Point] {
+        &self.contours
+    }
+
     /// Whether `found` is true of any edge whose rectangle shares a point with `window`.
     pub(in crate::topology) fn any_edge(
         &self,

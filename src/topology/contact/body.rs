@@ -66,7 +66,7 @@ impl Body {
     fn touches_area(&self, line: &Line, area: &Area, scratch: &mut Scratch) -> bool {
         area.any_edge(self.bounds, &mut scratch.edges, |(a, b)| {
             line.is_within(&Line::Segment(a, b), self.radius.get())
-        }) || area.contains(line.point(), scratch)
+        }) || area.contains(*line.point(), scratch)
     }
 }
 
@@ -91,16 +91,46 @@ impl Body {
             return None;
         }
         if self.touches(other, scratch) {
-            return Some(Narrowest { width: 0.0, at: overlap(self.bounds, other.bounds) });
+            return Some(Narrowest { width: 0.0, at: self.meeting(other, scratch) });
         }
-        let way = match (&self.core, &other.core) {
+        let way = self.way(other, limit, scratch)?;
+        let width = way.length - (self.radius + other.radius).to_f64();
+        (width <= limit.to_f64()).then(|| Narrowest { width: width.max(0.0), at: self.middle(other, &way) })
+    }
+
+    /// A point that both, which touch, have in common; to the nanometre.
+    pub(in crate::topology) fn meeting(&self, other: &Self, scratch: &mut Scratch) -> Point {
+        let reach = (self.radius + other.radius).to_f64() + 1.0;
+        if let Some(way) = self.way(other, Nm::ZERO, scratch).filter(|way| way.length <= reach) {
+            return self.middle(other, &way);
+        }
+        // No edge is near the other, so one lies in the other: a point of it is in both.
+        let (own, others) = (self.core.points(), other.core.points());
+        let mut both = own.chain(others).filter(|&p| self.holds(p, scratch) && other.holds(p, scratch));
+        both.next().unwrap_or_else(|| self.bounds.min().midpoint(self.bounds.max()))
+    }
+
+    /// Whether `p` is copper. Exact.
+    pub(in crate::topology) fn holds(&self, p: Point, scratch: &mut Scratch) -> bool {
+        match &self.core {
+            Core::Line(line) => line.is_within(&Line::Point(p), self.radius.get()),
+            Core::Area(area) => area.contains(p, scratch),
+        }
+    }
+
+    /// The shortest way between the cores; for areas, among the edges within `limit` of the other's copper.
+    fn way(&self, other: &Self, limit: Nm, scratch: &mut Scratch) -> Option<Way> {
+        match (&self.core, &other.core) {
             (Core::Line(a), Core::Line(b)) => Some(a.way_to(b)),
             (Core::Area(area), _) => area.way_to(other, limit, scratch),
             (Core::Line(_), Core::Area(area)) => area.way_to(self, limit, scratch).map(Way::reversed),
-        }?;
+        }
+    }
+
+    /// The middle of the gap, or of the overlap, along the way between the cores.
+    fn middle(&self, other: &Self, way: &Way) -> Point {
         let (near, far) = (self.radius.to_f64(), other.radius.to_f64());
-        let width = (way.length - near - far).max(0.0);
-        (width <= limit.to_f64()).then(|| Narrowest { width, at: way.at(near + width / 2.0) })
+        way.at(f64::midpoint(near.min(way.length), (way.length - far).max(0.0)))
     }
 
     /// The shortest way from a segment to the core, among the edges in `window` for an area.
@@ -112,11 +142,16 @@ impl Body {
     }
 }
 
-/// The middle of what two rectangles that touch have in common.
-fn overlap(a: Rect, b: Rect) -> Point {
-    let low = Point::new(a.min().x.max(b.min().x), a.min().y.max(b.min().y));
-    let high = Point::new(a.max().x.min(b.max().x), a.max().y.min(b.max().y));
-    low.midpoint(high)
+impl Core {
+    /// Points of it: one of a line, one of each contour of an area.
+    fn points(&self) -> impl Iterator<Item = Point> {
+        match self {
+            Self::Line(line) => std::slice::from_ref(line.point()),
+            Self::Area(area) => area.corners(),
+        }
+        .iter()
+        .copied()
+    }
 }
 
 impl Line {
@@ -154,10 +189,10 @@ impl Line {
     }
 
     /// Any point of it.
-    const fn point(&self) -> Point {
-        match *self {
+    const fn point(&self) -> &Point {
+        match self {
             Self::Point(p) | Self::Segment(p, _) => p,
-            Self::Arc(arc) => arc.start,
+            Self::Arc(arc) => &arc.start,
         }
     }
 }

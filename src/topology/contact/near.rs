@@ -72,7 +72,12 @@ pub(super) fn segments(s: (Point, Point), t: (Point, Point), reach: i64) -> bool
         || point_segment(s.1, t, reach)
         || point_segment(t.0, s, reach)
         || point_segment(t.1, s, reach)
-        || (apart(t, s) && apart(s, t))
+        || cross(s, t)
+}
+
+/// Whether two segments cross inside both.
+pub(super) fn cross(s: (Point, Point), t: (Point, Point)) -> bool {
+    apart(t, s) && apart(s, t)
 }
 
 /// Whether the ends of `s` lie strictly on different sides of the line through `t`.

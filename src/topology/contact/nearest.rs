@@ -2,6 +2,7 @@
 
 use crate::geometry::{Point, Vector};
 
+use super::near;
 use super::sector::Sector;
 
 /// A place in nanometres, not rounded.
@@ -64,8 +65,13 @@ fn foot_of(a: Point, along: Vector, foot: i64, squared: i64) -> Place {
     (a.x.to_f64() + along.x.to_f64() * part, a.y.to_f64() + along.y.to_f64() * part)
 }
 
-/// Between two segments that do not cross.
+/// Between two segments; of no length where they cross.
 pub(super) fn segments(s: (Point, Point), t: (Point, Point)) -> Way {
+    if near::cross(s, t) {
+        let (along, across, way) = (s.1 - s.0, t.1 - t.0, t.0 - s.0);
+        let place = foot_of(s.0, along, way.cross(across), along.cross(across));
+        return Way::new(place, place);
+    }
     let back = [point_segment(t.0, s).reversed(), point_segment(t.1, s).reversed()];
     shortest(point_segment(s.0, t), [point_segment(s.1, t)].into_iter().chain(back))
 }
