@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use voromill::board::Hole;
+use voromill::board::{Hole, Side};
 use voromill::geometry::{Nm, Point};
-use voromill::import::{Loaded, Selection, load};
+use voromill::import::{Loaded, Selection, load, load_copper};
 
 #[expect(clippy::print_stderr, reason = "a test that skips says so")]
 fn boards() -> Option<Vec<PathBuf>> {
@@ -56,20 +56,39 @@ fn every_board_loads_with_its_roles() {
             expected.sort();
             assert_eq!(found, expected, "{}: {role}", path.display());
         }
-        for warning in &loaded.warnings {
-            eprintln!("{}: {}: {}", loaded.board.name, warning.code, warning.message);
-        }
-        let outline = loaded.board.outline.as_ref().map(|outline| {
-            let bounds = outline.bounds();
-            format!(
-                "{} contours, {:.3} × {:.3} mm",
-                outline.contours().len(),
-                bounds.width(),
-                bounds.height()
-            )
-        });
-        eprintln!("{}: {} holes, outline {outline:?}", loaded.board.name, loaded.board.holes.len());
     }
+}
+
+#[test]
+fn every_outline_encloses_the_area_that_it_should() {
+    for path in boards().into_iter().flatten() {
+        let truth = &json(&path.join("truth_nets.json"))["outline"];
+        let (Some(area), Some(grid)) =
+            (truth["board_area_mm2"].as_f64(), truth["closes_at_grid_mm"].as_f64())
+        else {
+            continue;
+        };
+        let loaded = board(&path);
+        let outline = loaded.board.outline.unwrap_or_else(|| panic!("{}: no outline", path.display()));
+        let largest = outline.contours().iter().map(|contour| area_of(contour).abs()).fold(0.0, f64::max);
+        let perimeter = truth["board_perimeter_mm"].as_f64().expect("a perimeter");
+        let allowed = grid * perimeter;
+        assert!((largest - area).abs() <= allowed, "{}: {largest} mm², {area} expected", path.display());
+        let bounds = outline.bounds();
+        let corners = [(bounds.min(), 0), (bounds.max(), 2)];
+        for (corner, index) in corners {
+            let list = truth["board_bbox_mm"].as_array().expect("a box");
+            let (x, y) = (list[index].as_f64().expect("x"), list[index + 1].as_f64().expect("y"));
+            let off = (corner.x.to_mm() - x).abs().max((corner.y.to_mm() - y).abs());
+            assert!(off <= grid, "{}: the corner {corner:?} is off by {off} mm", path.display());
+        }
+    }
+}
+
+fn area_of(contour: &voromill::geometry::Path) -> f64 {
+    let mut points = contour.flatten(Nm::new(250));
+    points.pop();
+    voromill::geometry::Polygon::new(vec![points]).map_or(0.0, |polygon| polygon.area_mm2())
 }
 
 /// Millimetres of a truth file, to the micrometre that it is rounded to.
@@ -133,5 +152,178 @@ fn every_hole_of_every_board_is_read_with_its_size_and_place() {
         assert!(holes.len() <= expected, "{}: {} holes, {expected} expected", path.display(), holes.len());
         checked += expected;
     }
-    eprintln!("{checked} holes compared, {slots} of them slots");
+    assert!(checked == 0 || slots > 0, "{checked} holes compared, but no slot");
+}
+
+/// A folder of small layers, each a square; what is drawn does not matter to who is what.
+struct Folder(tempfile::TempDir);
+
+const SQUARE: &str = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.2*%\nD10*\nX0Y0D02*\nX20000000Y0D01*\nX20000000Y20000000D01*\nX0Y20000000D01*\nX0Y0D01*\nM02*\n";
+const DRILL: &str = "M48\nMETRIC\nT1C0.8\n%\nT1\nX5.0Y5.0\nM30\n";
+
+impl Folder {
+    fn with(files: &[(&str, &str)]) -> Self {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        for (name, text) in files {
+            fs::write(folder.path().join(name), text).expect("written");
+        }
+        Self(folder)
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.0.path().join(name)
+    }
+
+    fn load(&self, selection: &Selection) -> Result<Loaded, String> {
+        load(&[self.0.path().to_owned()], selection).map_err(|error| error.to_string())
+    }
+}
+
+fn function(value: &str) -> String {
+    format!("%TF.FileFunction,{value}*%\n{SQUARE}")
+}
+
+#[test]
+fn two_files_for_one_role_are_an_error_that_says_how_to_settle_it() {
+    let folder =
+        Folder::with(&[("amp.gtl", SQUARE), ("amp.cmp", &SQUARE.replace("0.2", "0.3")), ("amp.gbl", SQUARE)]);
+    let error = folder.load(&Selection::default()).expect_err("two fronts");
+    assert!(error.contains("amp.cmp, amp.gtl") && error.contains("--front"), "{error}");
+    let chosen = Selection { front: Some(folder.path("amp.gtl")), ..Selection::default() };
+    let loaded = folder.load(&chosen).expect("settled");
+    assert_eq!(files_of(&loaded, "front-copper"), ["amp.gtl"], "as chosen");
+    assert_eq!(loaded.board.name, "amp", "what all names share");
+    let bare = Selection { front: Some(PathBuf::from("amp.cmp")), ..Selection::default() };
+    assert_eq!(files_of(&folder.load(&bare).expect("settled"), "front-copper"), ["amp.cmp"], "by name alone");
+}
+
+#[test]
+fn a_job_file_is_believed_before_functions_and_these_before_names() {
+    let job = r#"{"GeneralSpecs": {"ProjectId": {"Name": "synth"}},
+        "FilesAttributes": [{"Path": "a.gbr", "FileFunction": "Copper,L2,Bot"}]}"#;
+    let (a, b, c) = (function("Copper,L1,Top"), function("Copper,L1,Top"), function("Profile,NP"));
+    let folder = Folder::with(&[("x.gbrjob", job), ("a.gbr", &a), ("b_bottom.gbr", &b), ("c-F_Cu.gbr", &c)]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    assert_eq!(files_of(&loaded, "back-copper"), ["a.gbr"], "by the job file");
+    assert_eq!(files_of(&loaded, "front-copper"), ["b_bottom.gbr"], "by its function");
+    assert_eq!(files_of(&loaded, "outline"), ["c-F_Cu.gbr"], "by its function");
+    assert_eq!(loaded.board.name, "synth", "by the job file");
+}
+
+#[test]
+fn what_is_no_layer_is_left_aside() {
+    let files = [
+        ("amp-F_Cu.gbr", SQUARE),
+        ("amp-F_Mask.gbr", SQUARE),
+        ("amp-In1_Cu.gbr", SQUARE),
+        ("amp.drl", DRILL),
+        ("README.txt", "Dear reader, this is a board.\n"),
+        ("LICENSE", "Do what you like.\n"),
+        ("notes.json", "{}"),
+    ];
+    let loaded = Folder::with(&files).load(&Selection::default()).expect("a board");
+    let mut roles: Vec<_> = loaded.sources.iter().map(|s| (s.file.as_str(), s.role.as_str())).collect();
+    roles.sort_unstable();
+    let expected = [
+        ("amp-F_Cu.gbr", "front-copper"),
+        ("amp-F_Mask.gbr", "ignored (solder mask)"),
+        ("amp-In1_Cu.gbr", "ignored (inner copper)"),
+        ("amp.drl", "drill"),
+    ];
+    assert_eq!(roles, expected, "every layer with its role");
+    assert_eq!(loaded.ignored, ["LICENSE", "README.txt", "notes.json"], "and what is none");
+}
+
+#[test]
+fn an_archive_is_as_good_as_a_folder() {
+    let folder = Folder::with(&[]);
+    let path = folder.path("amp.zip");
+    let mut zip = zip::ZipWriter::new(fs::File::create(&path).expect("created"));
+    let options = zip::write::SimpleFileOptions::default();
+    for (name, text) in [("out/top.gbr", SQUARE), ("out/drill.drl", DRILL), ("__MACOSX/out/top.gbr", SQUARE)]
+    {
+        zip.start_file(name, options).expect("an entry");
+        std::io::Write::write_all(&mut zip, text.as_bytes()).expect("written");
+    }
+    zip.finish().expect("finished");
+    let loaded = load(&[path], &Selection::default()).expect("a board");
+    assert_eq!(files_of(&loaded, "front-copper"), ["top.gbr"], "from inside");
+    assert_eq!(loaded.board.holes.len(), 1, "with its drill file");
+    assert_eq!(loaded.board.name, "amp", "named as the archive");
+}
+
+#[test]
+fn a_single_file_is_the_side_that_it_says_or_the_front() {
+    let back = function("Copper,L2,Bot");
+    let folder = Folder::with(&[("some.gbr", SQUARE), ("other.gbr", &back), ("top.gbr", SQUARE)]);
+    for (name, role) in
+        [("some.gbr", "front-copper"), ("other.gbr", "back-copper"), ("top.gbr", "front-copper")]
+    {
+        let loaded = load(&[folder.path(name)], &Selection::default()).expect("a board");
+        assert_eq!(files_of(&loaded, role), [name], "{role}");
+    }
+    let loaded = load_copper(&folder.path("some.gbr"), Side::Back).expect("a layer");
+    assert!(loaded.board.back.is_some() && loaded.board.front.is_none(), "as asked for");
+}
+
+#[test]
+fn what_a_person_must_know_is_an_error_in_a_sentence() {
+    let mask = function("Soldermask,Top");
+    let files = [
+        ("empty.gbr", ""),
+        ("picture.gbr", "\u{89}PNG\r\n"),
+        ("prose.gbr", "this is no layer\n"),
+        ("holes.drl", DRILL),
+        ("mask.gbr", &mask),
+        ("nothing.gbr", "%FSLAX46Y46*%\n%MOMM*%\nM02*\n"),
+        ("copper.gbr", SQUARE),
+    ];
+    let folder = Folder::with(&files);
+    fs::write(folder.path("picture.gbr"), b"\x89PNG\r\n\x1a\n").expect("written");
+    let cases = [
+        ("missing.gbr", "no such file"),
+        ("empty.gbr", "an empty file"),
+        ("picture.gbr", "a PNG picture"),
+        ("prose.gbr", "neither Gerber nor Excellon"),
+        ("holes.drl", "no copper layer found among holes.drl (drill)"),
+        ("mask.gbr", "no copper layer found among mask.gbr (solder mask)"),
+        ("nothing.gbr", "no copper"),
+    ];
+    for (name, expected) in cases {
+        let error = load(&[folder.path(name)], &Selection::default()).expect_err(name).to_string();
+        assert!(error.contains(name) && error.contains(expected), "{name}: {error}");
+    }
+    let error = load_copper(&folder.path("holes.drl"), Side::Front).expect_err("a drill file").to_string();
+    assert!(error.contains("an Excellon drill file where a copper layer"), "{error}");
+    let selection = Selection { drill: vec![folder.path("copper.gbr")], ..Selection::default() };
+    let error = load(&[folder.path("some.gbr"), folder.path("copper.gbr")], &selection);
+    assert!(error.is_err(), "a missing file stays one");
+    let selection = Selection {
+        front: Some(folder.path("copper.gbr")),
+        drill: vec![folder.path("mask.gbr")],
+        ..Selection::default()
+    };
+    let error =
+        load(&[folder.path("copper.gbr")], &selection).expect_err("a mask is no drill file").to_string();
+    assert!(error.contains("a Gerber file where a drill file was expected"), "{error}");
+}
+
+#[test]
+fn plated_and_unplated_holes_are_both_taken_and_doubles_once() {
+    let npth = DRILL.replace("X5.0Y5.0", "X9.0Y9.0\nX5.0Y5.0");
+    let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp-PTH.drl", DRILL), ("amp-NPTH.drl", &npth)]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    assert_eq!(loaded.board.holes.len(), 2, "one from each, and the double once");
+    let codes: Vec<_> = loaded.warnings.iter().map(|warning| warning.code).collect();
+    assert!(codes.contains(&"duplicate-holes"), "{codes:?}");
+}
+
+#[test]
+fn a_gerber_drill_file_has_holes_and_slots() {
+    let text = "%TF.FileFunction,Plated,1,2,PTH*%\n%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.8*%\n%ADD11O,2.0X1.0*%\nD10*\nX1000000Y1000000D03*\nX5000000Y5000000D02*\nX7000000Y5000000D01*\nD11*\nX9000000Y9000000D03*\nM02*\n";
+    let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp-PTH-drl.gbr", text)]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    let slots: Vec<_> = loaded.board.holes.iter().map(|hole| (hole.is_slot(), hole.diameter)).collect();
+    let expected = [(false, Nm::from_um(800)), (true, Nm::from_um(800)), (true, Nm::from_um(1000))];
+    assert_eq!(slots, expected, "a hole, a drawn slot, an obround");
 }

@@ -4,7 +4,7 @@
 //! be drawn twice, cross, end short of each other, or carry a title block beside. What counts is what they enclose:
 //!
 //! ```text
-//!  edges ─ heal ─▶ gaps closed ─ cross ─▶ parted where they meet ─ prune ─▶ dead ends off ─ faces ─▶ contours
+//!  edges ─ heal ─▶ gaps closed ─ edge ─▶ parted where they meet ─ heal ─▶ dead ends off ─ faces, nest ─▶ contours
 //! ```
 //!
 //! Of every connected drawing the outermost boundary is a contour. What lies inside it without touching it is a
@@ -13,6 +13,7 @@
 mod edge;
 mod faces;
 mod heal;
+mod nest;
 
 use crate::board::{Axis, Feature, Outline, Shape, SourceSpan, Warning};
 use crate::geometry::{Nm, Path, Point};
@@ -23,9 +24,6 @@ use edge::Edge;
 /// Chosen: programs that flatten arcs or round twice leave up to 0.1 mm between lines; a slot narrower than that
 /// cannot be milled.
 pub const GAP: Nm = Nm::from_um(100);
-
-/// The smallest area of a contour, in mm²: below lie letters' eyes and doubled lines, which nothing is cut along.
-const SMALLEST: f64 = 0.05;
 
 /// What a profile layer was found to be.
 #[derive(Clone, Debug)]
@@ -50,15 +48,9 @@ pub fn join(file: &str, features: &[Feature], gap: Nm) -> Joined {
     edges = edge::part_where_they_meet(edges);
     heal::prune(&mut edges, &mut notes);
     contours.extend(faces::outermost(&edges, &mut notes));
-    let before = contours.len();
-    contours.retain(|contour| area_mm2(contour).abs() >= SMALLEST);
-    if contours.len() < before {
-        let message =
-            format!("{} contours below {SMALLEST} mm² are left out of the outline", before - contours.len());
-        notes.add("outline-tiny", message, None);
-    }
     contours.sort_by_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
     contours.dedup();
+    let contours = nest::without_decoration(contours, &mut notes);
     let outline = Outline::new(contours);
     if outline.is_none() {
         notes.add(
@@ -114,7 +106,5 @@ fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>
 
 /// The signed area inside, counter-clockwise positive.
 fn area_mm2(contour: &Path) -> f64 {
-    let mut points = contour.flatten(crate::board::FLATTEN);
-    points.pop();
-    crate::geometry::Polygon::new(vec![points]).map_or(0.0, |polygon| polygon.area_mm2())
+    nest::ring(contour).map_or(0.0, |ring| ring.area_mm2())
 }
