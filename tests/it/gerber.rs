@@ -1,4 +1,8 @@
 //! Gerber files: what others drew from them, pixel for pixel, and what broken ones come to.
+#![expect(
+    clippy::print_stdout,
+    reason = "the figures are what these tests are for: see them with --nocapture"
+)]
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -9,6 +13,7 @@ use voromill::geometry::{Nm, Polygon};
 use voromill::import::gerber::{self, Image, Options};
 
 /// The folder of real boards, which is not part of the repository; none where there is none.
+#[expect(clippy::print_stderr, reason = "says why a test tests nothing")]
 fn boards() -> Option<PathBuf> {
     let folder = std::env::var_os("VOROMILL_BOARDS")
         .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/boards"), PathBuf::from);
@@ -67,13 +72,11 @@ impl Window {
             let ((ax, ay), (bx, by)) = (a.to_f64(), b.to_f64());
             let row = |y: f64| (y - self.origin.1) / self.pitch - 0.5;
             let (low, high, winding) = if ay < by { (ay, by, 1) } else { (by, ay, -1) };
-            let first = (row(low).floor() + 1.0).max(0.0) as usize;
-            for index in first..self.height {
-                let y = self.origin.1 + (index as f64 + 0.5) * self.pitch;
-                if y > high {
-                    break;
-                }
-                crossings[index].push((ax + (bx - ax) * (y - ay) / (by - ay), winding));
+            let (first, last) = (index(row(low).floor() + 1.0), index(row(high).floor() + 1.0));
+            let rows = crossings.iter_mut().zip(0_u32..).skip(first).take(last.saturating_sub(first));
+            for (row, number) in rows {
+                let y = self.origin.1 + (f64::from(number) + 0.5) * self.pitch;
+                row.push((ax + (bx - ax) * (y - ay) / (by - ay), winding));
             }
         }
         let mut pixels = vec![false; self.width * self.height];
@@ -85,7 +88,7 @@ impl Window {
                 if winding == 0 {
                     continue;
                 }
-                let column = |x: f64| ((x - self.origin.0) / self.pitch - 0.5).ceil().max(0.0) as usize;
+                let column = |x: f64| index(((x - self.origin.0) / self.pitch - 0.5).ceil());
                 let (from, to) = (column(pair[0].0).min(self.width), column(pair[1].0).min(self.width));
                 let top = (self.height - 1 - row) * self.width;
                 pixels[top + from..top + to.max(from)].fill(true);
@@ -93,6 +96,21 @@ impl Window {
         }
         Picture { width: self.width, height: self.height, pixels }
     }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates, as it should here"
+)]
+fn index(value: f64) -> usize {
+    value as usize
+}
+
+/// `part` ÷ `whole`.
+fn share(part: usize, whole: usize) -> f64 {
+    let count = |n: usize| f64::from(u32::try_from(n).expect("a count of pixels"));
+    count(part) / count(whole)
 }
 
 impl Picture {
@@ -126,48 +144,145 @@ impl Picture {
 /// The largest share of pixels that may differ: what two independent readers at worst differ in.
 const MISMATCH: f64 = 0.0006;
 
-/// How many pixels may lie beyond an edge of the other picture.
-const BEYOND: usize = 6;
+/// Where more pixels lie beyond an edge of the other picture, how many, and why.
+///
+/// The arcs of `gerbv_protel_se_sg`, in steps of a thousandth of an inch, have radii at their ends that differ by up to that;
+/// which one holds is not specified (§4.7.2). The other program takes the first, this one goes over evenly from the
+/// first to the second, so that both ends are met. In `kicad_custom_pads` a gap between two turns of a coil, drawn as one
+/// outline primitive (§4.5.1.6), narrows to nothing; the two pixels lie within it by 6 µm.
+const BEYOND: &[(&str, usize)] =
+    &[("gerbv_protel_se_sg/front", 4), ("gerbv_protel_se_sg/back", 6), ("kicad_custom_pads/front", 2)];
 
 #[test]
 fn copper_is_what_other_programs_draw() {
     let Some(boards) = boards() else { return };
     let mut failures = Vec::new();
-    let mut folders: Vec<_> =
-        fs::read_dir(&boards).expect("boards").map(|e| e.expect("an entry").path()).collect();
-    folders.sort();
-    for folder in folders.iter().filter(|folder| folder.join("meta.json").exists()) {
+    for folder in folders(&boards) {
         for side in ["front", "back"] {
-            let (picture, place) =
-                (folder.join(format!("ref/{side}_500.png")), folder.join(format!("ref/{side}_500.json")));
-            if !picture.exists() {
-                continue;
+            let picture = folder.join(format!("ref/{side}_500.png"));
+            if picture.exists() {
+                let name = format!("{}/{side}", folder.file_name().expect("a name").to_string_lossy());
+                failures.extend(compare(&folder, &picture, side, &name).err());
             }
-            let reference = json(&place);
-            let file = folder.join(reference["layer_file"].as_str().expect("a file"));
-            let name = format!("{}/{}", folder.file_name().expect("a name").to_string_lossy(), side);
-            let image = match read(&file) {
-                Ok(image) => image,
-                Err(error) => {
-                    failures.push(format!("{name}: {error}"));
-                    continue;
-                }
-            };
-            let copper = copper(&image);
-            let expected = Picture::load(&picture);
-            let (differ, beyond) = expected.compare(&Window::of(&reference).draw(&copper));
-            let share = differ as f64 / expected.pixels.len() as f64;
-            let islands = json(&folder.join("truth_nets.json"))[side]["islands_shapely"].as_u64();
-            let warnings: Vec<_> = image.warnings.iter().map(|w| w.code).collect();
-            eprintln!(
-                "{name}: {:.4} % differ, {beyond} beyond, {} islands (expected {islands:?}), {} features, {warnings:?}",
-                share * 100.0,
-                copper.len(),
-                image.features.len()
-            );
-            if share > MISMATCH || beyond > BEYOND || islands != Some(copper.len() as u64) {
-                failures.push(format!("{name}: {share} {beyond} {} {islands:?}", copper.len()));
+        }
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Compares one layer of a board with its reference picture and its known islands.
+fn compare(folder: &Path, picture: &Path, side: &str, name: &str) -> Result<(), String> {
+    let reference = json(&picture.with_extension("json"));
+    let file = folder.join(reference["layer_file"].as_str().expect("a file"));
+    let image = read(&file).map_err(|error| format!("{name}: {error}"))?;
+    let copper = copper(&image);
+    let expected = Picture::load(picture);
+    let (differ, beyond) = expected.compare(&Window::of(&reference).draw(&copper));
+    let share = share(differ, expected.pixels.len());
+    let truth = json(&folder.join("truth_nets.json"));
+    let islands = truth[side]["islands_shapely"].as_u64();
+    let excused = BEYOND.iter().find(|(file, _)| *file == name).map_or(0, |(_, count)| *count);
+    let found = format!(
+        "{name}: {:.4} % differ, {beyond} beyond an edge, {} islands ({islands:?} expected), {} features",
+        share * 100.0,
+        copper.len(),
+        image.features.len(),
+    );
+    println!("{found}");
+    let agrees = share <= MISMATCH && beyond <= excused && islands == Some(copper.len() as u64);
+    if agrees { Ok(()) } else { Err(found) }
+}
+
+/// The folders of boards, sorted.
+fn folders(boards: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(boards).expect("boards").map(|entry| entry.expect("an entry").path());
+    let mut folders: Vec<_> = entries.filter(|folder| folder.join("meta.json").exists()).collect();
+    folders.sort();
+    folders
+}
+
+#[test]
+fn tricky_files_read_as_their_index_says() {
+    let Some(boards) = boards() else { return };
+    let folder = boards.join("syntax");
+    let index = json(&folder.join("INDEX.json"));
+    let mut failures = Vec::new();
+    for entry in index.as_array().expect("a list").iter().filter(|entry| entry["kind"] == "gerber") {
+        failures.extend(tricky(&folder, entry).err());
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// Compares one file of `syntax` with its entry in the index.
+fn tricky(folder: &Path, entry: &Value) -> Result<(), String> {
+    let name = entry["file"].as_str().expect("a name");
+    let verdict = entry["verdict"].as_str().unwrap_or_default();
+    let image = match read(&folder.join(name)) {
+        Ok(image) => image,
+        Err(_) if verdict.starts_with("NO REFERENCE") || verdict.starts_with("nothing drawn") => {
+            return Ok(());
+        }
+        Err(error) => return Err(format!("{name}: {error}")),
+    };
+    if verdict.starts_with("NO REFERENCE") {
+        return Ok(());
+    }
+    let copper = copper(&image);
+    let area: f64 = copper.iter().map(Polygon::area_mm2).sum();
+    let expected = entry["shapely"]["area_mm2"].as_f64().expect("an area");
+    let islands = entry["shapely"]["islands"].as_u64().expect("islands");
+    let mut found = format!("{name}: area {area:.4} ({expected:.4}), {} islands ({islands})", copper.len());
+    let mut agrees = (area - expected).abs() <= 1e-3 * expected && islands == copper.len() as u64;
+    if let (Some(bounds), Some(expected)) = (
+        copper.iter().map(Polygon::bounds).reduce(voromill::geometry::Rect::union),
+        entry["shapely"]["bbox_mm"].as_array(),
+    ) {
+        let sides = [bounds.min().x, bounds.min().y, bounds.max().x, bounds.max().y].map(Nm::to_mm);
+        let far = sides.iter().zip(expected).map(|(a, b)| (a - b.as_f64().expect("mm")).abs());
+        agrees &= far.fold(0.0, f64::max) <= 0.001;
+        found += &format!(", bounds {sides:?} ({expected:?})");
+    }
+    if let Some(png) = entry["ref"]["png"].as_str() {
+        let expected = Picture::load(&folder.join(png));
+        let (differ, beyond) = expected.compare(&Window::of(&entry["ref"]).draw(&copper));
+        found += &format!(", {differ} pixels differ, {beyond} beyond an edge");
+        agrees &= beyond == 0 && share(differ, expected.pixels.len()) <= MISMATCH;
+    }
+    println!("{found}");
+    if agrees { Ok(()) } else { Err(found) }
+}
+
+#[test]
+fn broken_files_end_as_they_should() {
+    let Some(boards) = boards() else { return };
+    let folder = boards.join("broken");
+    let expect = json(&folder.join("EXPECT.json"));
+    let mut failures = Vec::new();
+    for entry in expect["files"].as_array().expect("a list") {
+        let name = entry["file"].as_str().expect("a name");
+        // What is wrong with the outlines shows only when they are put together.
+        let outline = ["p2g_broken_box.gbr", "p2g_broken_loop_edge_cuts.gbr"].contains(&name);
+        if outline || !(name.ends_with(".gbr") || name.ends_with(".millproject")) {
+            continue;
+        }
+        let result = read(&folder.join(name));
+        let described = match &result {
+            Ok(image) => {
+                let warnings: Vec<_> =
+                    image.warnings.iter().map(|warning| warning.message.as_str()).collect();
+                format!("{} features, {warnings:?}", image.features.len())
             }
+            Err(error) => error.to_string(),
+        };
+        let as_expected = match (entry["expect"].as_str().expect("an expectation"), &result) {
+            ("error", Err(_)) | ("recoverable", Err(_)) => true,
+            ("recoverable", Ok(image)) => !image.warnings.is_empty(),
+            ("empty_layer", Ok(image)) => copper(image).is_empty() && !image.warnings.is_empty(),
+            _ => false,
+        };
+        let line = format!("{name}, {} ({}): {described}", entry["expect"], entry["what_is_wrong"]);
+        println!("{line}");
+        if !as_expected {
+            failures.push(line);
         }
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));

@@ -172,8 +172,12 @@ impl Form {
     fn area(primitives: &[Primitive], linear: Linear) -> Self {
         let pieces = area(primitives, linear);
         let points = pieces.iter().flat_map(|piece| piece.contours().iter().flatten().copied());
-        let hull = Polygon::hull(points).map(|hull| hull.contours()[0].clone());
-        Self::Area { hull: hull.unwrap_or_default(), pieces }
+        let hull = Polygon::hull(points).map_or_else(
+            // A rectangle of no height still draws an area when it moves across.
+            || primitives.iter().filter(|p| p.exposed).flat_map(|p| p.figure.vertices(linear)).collect(),
+            |hull| hull.contours()[0].clone(),
+        );
+        Self::Area { hull, pieces }
     }
 
     /// The vertices of its convex hull, round parts flattened.

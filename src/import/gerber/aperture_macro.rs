@@ -204,18 +204,21 @@ impl Modifiers<'_> {
         Ok(())
     }
 
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked against the range")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "`as` saturates, then it is checked"
+    )]
     fn outline(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
         let names = "exposure, number of vertices n, then n + 1 points and a rotation";
         self.need(4, names)?;
         let vertices = self.values[1].round();
-        // As many as there are values for; the first point is not counted.
-        let held = (self.values.len() - 4) / 2;
-        if !(vertices >= 1.0 && vertices <= held as f64) {
+        let count = if vertices >= 1.0 { vertices as usize } else { 0 };
+        // The first point is not counted, and comes again as the last.
+        if count == 0 || count > (self.values.len() - 4) / 2 {
             let what = format!("an outline of {vertices} vertices has {} values", self.values.len());
             return Err(self.statement.fault(what, names));
         }
-        let count = vertices as usize;
         let places = (0..=count).map(|i| self.place(2 + 2 * i)).collect();
         self.push(primitives, self.exposed(), Figure::Contour(places), self.rotation(4 + 2 * count));
         Ok(())

@@ -86,13 +86,16 @@ impl<'a> Reader<'a> {
             );
             self.format_statement(one_line(&block.text[2..]).as_ref(), block.place())?;
         }
+        let bare = self.apertures.is_empty();
         self.format.ok_or_else(|| {
-            self.error(
-                place.clone(),
-                "this file does not say how its numbers are written",
-                "a number format, such as `%FSLAX46Y46*%`, before the first coordinate",
-                "have the file written as RS-274X",
-            )
+            let (what, expected) = if bare {
+                let what = "this file (RS-274-D) says neither how its numbers are written nor what its apertures are";
+                (what, "a number format, `%FSLAX46Y46*%`, and apertures, `%ADD10C,0.25*%`, before the first coordinate")
+            } else {
+                let what = "this file does not say how its numbers are written";
+                (what, "a number format, such as `%FSLAX46Y46*%`, before the first coordinate")
+            };
+            self.error(place.clone(), what, expected, "have the file written as RS-274X")
         })
     }
 
@@ -242,6 +245,13 @@ impl<'a> Reader<'a> {
         }
         let unit = self.unit(place)?;
         match name {
+            b"C" | b"R" | b"O"
+                if numbers.iter().skip(usize::from(name != b"C") + 1).any(|n| n.mantissa < 0) =>
+            {
+                let message = "a hole of an aperture is less than nothing; the aperture has none";
+                self.warnings.add("negative-hole", place.clone(), message);
+                self.standard(name[0], &numbers, unit, place)
+            }
             b"C" | b"R" | b"O" | b"P" => self.standard(name[0], &numbers, unit, place),
             _ => {
                 let definition = self.macros.get(name).ok_or_else(|| {
@@ -283,10 +293,8 @@ impl<'a> Reader<'a> {
         let hole = |rest: &[Number]| {
             Ok(match rest {
                 [] => Hole::None,
-                [diameter] => match length(diameter)? {
-                    Nm::ZERO => Hole::None,
-                    diameter => Hole::Round(diameter),
-                },
+                [width, ..] if width.mantissa <= 0 => Hole::None,
+                [diameter] => Hole::Round(length(diameter)?),
                 [width, height, ..] => Hole::Rectangular(length(width)?, length(height)?),
             })
         };

@@ -62,10 +62,6 @@ impl Figure {
 
     /// The image under `linear` as simple contours: outer ones counter-clockwise, holes clockwise.
     fn contours(&self, linear: Linear) -> Vec<Vec<Point>> {
-        let point = |p| {
-            let (x, y) = linear.apply(p);
-            Point::from_f64(x, y)
-        };
         match self {
             Self::Ring { center, outer, inner } => {
                 let scale = linear.scale();
@@ -76,12 +72,21 @@ impl Figure {
                 let hole = (*inner > 0.0).then(|| circle(*inner).into_iter().rev().collect());
                 [circle(*outer)].into_iter().chain(hole).collect()
             }
-            Self::Contour(places) => {
-                let ring: Vec<Point> = places.iter().copied().map(point).collect();
-                let pieces = polarity::clean(&[ring]);
+            Self::Contour(_) => {
+                let pieces = polarity::clean(&[self.vertices(linear)]);
                 pieces.iter().flat_map(|piece| piece.contours().iter().cloned()).collect()
             }
         }
+    }
+
+    /// The vertices of a contour under `linear`; none of a ring.
+    pub(super) fn vertices(&self, linear: Linear) -> Vec<Point> {
+        let Self::Contour(places) = self else { return Vec::new() };
+        let point = |&p: &Place| {
+            let (x, y) = linear.apply(p);
+            Point::from_f64(x, y)
+        };
+        places.iter().map(point).collect()
     }
 
     /// How far from the origin it reaches at most.

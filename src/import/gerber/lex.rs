@@ -16,6 +16,8 @@ pub(super) struct Block<'a> {
     pub(super) start: usize,
     /// The line on which it begins, from 1.
     pub(super) line: u32,
+    /// How many `%` stand before it.
+    pub(super) percents: u32,
     /// What ended it.
     pub(super) end: End,
 }
@@ -54,7 +56,9 @@ impl<'a> Lexer<'a> {
 
     /// The next block; none at the end of the file.
     pub(super) fn next(&mut self) -> Option<Block<'a>> {
-        while self.at < self.bytes.len() && (is_blank(self.bytes[self.at]) || self.bytes[self.at] == b'%') {
+        let mut percents = 0;
+        while let Some(&byte) = self.bytes.get(self.at).filter(|&&b| is_blank(b) || b == b'%') {
+            percents += u32::from(byte == b'%');
             self.step();
         }
         let (start, line) = (self.at, self.line);
@@ -75,7 +79,7 @@ impl<'a> Lexer<'a> {
         if end == End::Star {
             self.at += 1;
         }
-        Some(Block { text, start, line, end })
+        Some(Block { text, start, line, percents, end })
     }
 
     /// Whether the next thing that is not white space is a `%`: the end of an extended command.

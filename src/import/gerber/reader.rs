@@ -118,6 +118,8 @@ pub(super) struct Reader<'a> {
     region: Option<Region>,
     counts: Counts,
     generator: Option<String>,
+    /// Whether a `%` is open.
+    bracketed: bool,
     ended: bool,
 }
 
@@ -173,6 +175,7 @@ impl<'a> Reader<'a> {
             region: None,
             counts: Counts::default(),
             generator: None,
+            bracketed: false,
             ended: false,
         }
     }
@@ -216,16 +219,22 @@ impl<'a> Reader<'a> {
                 return Ok(());
             }
         }
-        match block.text {
-            [b'A'..=b'Z', b'A'..=b'Z', ..] => self.extended(block),
-            text => self.words(text, &block),
+        let extended = matches!(block.text, [b'A'..=b'Z', b'A'..=b'Z', ..]);
+        self.bracketed ^= block.percents % 2 == 1;
+        if extended != self.bracketed {
+            let message = "a `%` is missing before or after this; it is read as what it looks like";
+            self.warnings.add("missing-percent", block.place(), message);
+            self.bracketed = extended;
         }
+        if extended { self.extended(block) } else { self.words(block.text, &block) }
     }
 
     /// A block of words: `G01X10Y20D01`.
     fn words(&mut self, text: &'a [u8], block: &Block<'a>) -> Result<(), Error> {
         let mut words = Words::default();
         let (mut at, mut drawn) = (0, false);
+        // Whether an operation has come after its coordinates: more of them begin another, without a `*` between.
+        let mut complete = false;
         while let Some(&letter) = text.get(at) {
             if is_blank(letter) {
                 at += 1;
@@ -240,20 +249,28 @@ impl<'a> Reader<'a> {
                 return self.not_a_word(text, at, block);
             };
             let place = start..start + 1 + length;
-            match letter.to_ascii_uppercase() {
+            let letter = letter.to_ascii_uppercase();
+            if complete && letter != b'M' {
+                let message = "a command does not end with `*`; it is read as if it did";
+                self.warnings.add("missing-star", place.clone(), message);
+                self.operate(words, block)?;
+                (words, drawn, complete) = (Words::default(), false, false);
+            }
+            match letter {
                 b'X' => words.x = Some(number),
                 b'Y' => words.y = Some(number),
                 b'I' => words.i = Some(number),
                 b'J' => words.j = Some(number),
                 b'D' => {
                     words.operation = self.d_code(number, &place)?.or(words.operation);
+                    complete = drawn && words.operation.is_some();
                 }
                 b'G' => self.g_code(number, &place)?,
                 b'M' => self.m_code(number, &place),
                 b'N' => {}
                 _ => return self.not_a_word(text, at, block),
             }
-            drawn |= matches!(letter.to_ascii_uppercase(), b'X' | b'Y' | b'I' | b'J');
+            drawn |= matches!(letter, b'X' | b'Y' | b'I' | b'J');
             at += 1 + length;
         }
         if drawn || words.operation.is_some() { self.operate(words, block) } else { Ok(()) }
@@ -316,6 +333,10 @@ impl<'a> Reader<'a> {
             Some(code @ 10..=0x7fff_ffff) => {
                 self.aperture = u32::try_from(code).ok();
                 (self.form, self.set) = (None, None);
+                if self.aperture.is_none_or(|number| !self.apertures.contains_key(&number)) {
+                    let message = format!("aperture D{code} is selected, but not defined");
+                    self.warnings.add("undefined-aperture", place.clone(), message);
+                }
                 Ok(None)
             }
             _ => Err(self.error(
@@ -401,12 +422,9 @@ impl<'a> Reader<'a> {
                 operation
             }
             (None, None) => {
-                return Err(self.error(
-                    place,
-                    "a coordinate without an operation",
-                    "D01, D02 or D03 after it",
-                    "",
-                ));
+                let message = "a coordinate without D01, D02 or D03, and none before it, moves as D02 does";
+                self.warnings.add("operation-code-missing", place.clone(), message);
+                Operation::Move
             }
         };
         self.operation = Some(operation);
@@ -716,6 +734,10 @@ impl<'a> Reader<'a> {
             Some(form) => Rc::clone(form),
             None => Rc::new(self.make_form(number, linear, place)?),
         };
+        if matches!(*form, Form::Disc(Nm::ZERO)) {
+            let message = format!("D{number} has no size; what is drawn with it has no area");
+            self.warnings.add("zero-size-aperture", place.clone(), message);
+        }
         self.forms.insert(key, Rc::clone(&form));
         self.form = Some(Rc::clone(&form));
         Ok(form)
@@ -799,8 +821,12 @@ impl<'a> Reader<'a> {
             let ground = Feature { shape, axis: Axis::Region, attributes: 0, line: 1 };
             objects.insert(0, (ground, Polarity::Dark));
         }
+        let features = polarity::resolve(objects);
+        if features.is_empty() {
+            self.warnings.add("nothing-drawn", 0..0, "the file draws nothing");
+        }
         Image {
-            features: polarity::resolve(objects),
+            features,
             function: self.attributes.function.clone(),
             attributes: self.attributes.into_sets(),
             source,
