@@ -27,6 +27,12 @@ impl Angle {
         self.0
     }
 
+    /// The same the other way round.
+    #[must_use]
+    pub const fn reversed(self) -> Self {
+        Self(-self.0)
+    }
+
     /// In radians.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "at most 360 million")]

@@ -82,6 +82,14 @@ impl Placement {
         self.mirror.map_or(moved, |axis| Point::new(axis * 2 - moved.x, moved.y))
     }
 
+    /// The point of the board that lies at `p` on the machine; to the nanometre where the turn is no quarter turn.
+    #[must_use]
+    pub fn undo(&self, p: Point) -> Point {
+        let unturned = self.mirror.map_or(p, |axis| Point::new(axis * 2 - p.x, p.y)) - self.shift;
+        let back = Self { rotation: self.rotation.reversed(), ..Self::default() };
+        back.point(unturned)
+    }
+
     /// Which way round an arc of the board runs on the machine.
     #[must_use]
     pub const fn turn(&self, turn: Turn) -> Turn {

@@ -1,0 +1,42 @@
+//! Where settings come from: options, then the settings file, then the defaults.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use voromill::job::{FILE_NAME, Options, Settings};
+
+use super::Failure;
+
+/// The options of a job, and where to find the rest.
+#[derive(Args)]
+pub(super) struct Config {
+    /// Settings file [default: voromill.toml beside the board, if there]
+    #[arg(long, value_name = "FILE")]
+    config: Option<PathBuf>,
+
+    #[command(flatten)]
+    options: Options,
+}
+
+impl Config {
+    /// The settings for a job on `inputs`.
+    pub(super) fn settings(&self, inputs: &[PathBuf]) -> Result<Settings, Failure> {
+        let file = match &self.config {
+            Some(named) => Some(named.clone()),
+            None => inputs.iter().map(|input| beside(input)).find(|candidate| candidate.is_file()),
+        };
+        let from_file = file.map_or_else(|| Ok(Options::default()), |path| read(&path))?;
+        Ok(Settings::resolve(self.options.clone().or(from_file))?)
+    }
+}
+
+/// The settings file beside a board: in its folder, or in the folder that its file lies in.
+fn beside(input: &Path) -> PathBuf {
+    if input.is_dir() { input.join(FILE_NAME) } else { input.with_file_name(FILE_NAME) }
+}
+
+fn read(path: &Path) -> Result<Options, Failure> {
+    let text = std::fs::read_to_string(path).map_err(|error| Failure::io("read", path, &error))?;
+    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+    Ok(Options::from_toml(&name, &text)?)
+}

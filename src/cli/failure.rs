@@ -1,0 +1,66 @@
+use std::io::IsTerminal;
+
+use voromill::{import, job};
+
+/// Why nothing was done: the cause, and what to do about it.
+#[derive(Debug)]
+pub(super) struct Failure {
+    cause: String,
+    hint: String,
+}
+
+impl Failure {
+    pub(super) fn new(cause: impl Into<String>, hint: impl Into<String>) -> Self {
+        Self { cause: cause.into(), hint: hint.into() }
+    }
+
+    /// A file that could not be read or written.
+    pub(super) fn io(doing: &str, path: &std::path::Path, error: &std::io::Error) -> Self {
+        use std::io::ErrorKind as Kind;
+        let hint = match error.kind() {
+            Kind::NotFound => "check the name",
+            Kind::PermissionDenied | Kind::ReadOnlyFilesystem => {
+                "check who may do that there, or name another place"
+            }
+            Kind::StorageFull | Kind::QuotaExceeded => "make room, or name another place",
+            Kind::NotADirectory | Kind::AlreadyExists => {
+                "a file is where a folder must be: name another place"
+            }
+            Kind::IsADirectory => "a folder is where a file must be: name another place",
+            _ => "",
+        };
+        Self::new(format!("cannot {doing} {}: {}", path.display(), plain(error)), hint)
+    }
+
+    /// Prints it on stderr, in red where that is a terminal.
+    pub(super) fn print(&self) {
+        let label = if std::io::stderr().is_terminal() { "\x1b[1;31merror\x1b[0m" } else { "error" };
+        let cause = self.cause.strip_prefix("error: ").unwrap_or(&self.cause);
+        let hint = if self.hint.is_empty() { String::new() } else { format!("\nhint: {}", self.hint) };
+        super::print_to(&mut std::io::stderr().lock(), &format!("{label}: {cause}{hint}\n"));
+    }
+}
+
+/// An error of the system without its number.
+fn plain(error: &std::io::Error) -> String {
+    let text = error.to_string();
+    text.split(" (os error").next().unwrap_or_default().to_lowercase()
+}
+
+impl From<import::Error> for Failure {
+    fn from(error: import::Error) -> Self {
+        match error {
+            import::Error::Content { file, what, hint } => Self::new(format!("{file}: {what}"), hint),
+            other => Self::new(other.render(), ""),
+        }
+    }
+}
+
+impl From<job::Error> for Failure {
+    fn from(error: job::Error) -> Self {
+        match error {
+            job::Error::Import(error) => error.into(),
+            other => Self::new(other.to_string(), other.hint()),
+        }
+    }
+}

@@ -1,0 +1,41 @@
+use clap::{Args, ValueEnum};
+use voromill::job::inspect;
+
+use super::config::Config;
+use super::input::Input;
+use super::{Failure, Shared};
+
+/// What is in these files
+///
+/// Lists each file with its role, format, units and apertures; size, nets, names, smallest gaps and holes of the
+/// board; and everything that was repaired or left out. Nothing is written.
+#[derive(Args)]
+pub(super) struct Inspect {
+    #[command(flatten)]
+    input: Input,
+
+    /// As text for people or JSON for programs
+    #[arg(long, value_enum, default_value = "text")]
+    format: Format,
+
+    #[command(flatten)]
+    config: Config,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+impl Inspect {
+    pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
+        let settings = self.config.settings(&self.input.paths)?;
+        let inspection = inspect(&self.input.load()?, &settings);
+        super::print(&match self.format {
+            Format::Text => inspection.to_text(shared.verbose),
+            Format::Json => inspection.to_json(),
+        });
+        Ok(())
+    }
+}

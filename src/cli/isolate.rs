@@ -1,0 +1,54 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use voromill::job::{self, Part};
+
+use super::config::Config;
+use super::input::Input;
+use super::output::Output;
+use super::progress::Progress;
+use super::{Failure, Shared};
+
+/// The isolation program of one copper layer
+///
+/// Reads one copper file (with an outline beside it, if it is named too) and writes the one program that isolates its
+/// nets. A back layer is mirrored, as the program's header says.
+#[derive(Args)]
+pub(super) struct Isolate {
+    #[command(flatten)]
+    input: Input,
+
+    /// Program to write; `-` for stdout
+    #[arg(long, short, value_name = "FILE")]
+    output: PathBuf,
+
+    #[command(flatten)]
+    config: Config,
+}
+
+impl Isolate {
+    pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
+        let settings = self.config.settings(&self.input.paths)?;
+        let progress = Progress::start(shared);
+        let mut loaded = self.input.load()?;
+        if loaded.board.front.is_some() && loaded.board.back.is_some() {
+            let hint = "name the file of one layer, or use `voromill mill`";
+            return Err(Failure::new("there is copper for both sides, and a program is for one", hint));
+        }
+        loaded.board.holes.clear();
+        let job = job::mill(loaded, &settings)?;
+        let document = job.describe(&settings);
+        drop(progress);
+        let program = job.programs.iter().find(|program| matches!(program.part, Part::Front | Part::Back));
+        let text = program.map_or("", |program| &program.text);
+        if self.output == Path::new("-") {
+            super::print(text);
+            return Ok(());
+        }
+        let mut output = Output::new();
+        output.stage(&self.output, text.as_bytes())?;
+        output.commit()?;
+        shared.report(&document.summary(shared.verbose));
+        Ok(())
+    }
+}

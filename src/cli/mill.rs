@@ -1,0 +1,88 @@
+use std::path::PathBuf;
+
+use clap::Args;
+use rayon::prelude::*;
+use voromill::board::Side;
+use voromill::job::{self, Job, Settings};
+use voromill::report::{Document, png};
+
+use super::config::Config;
+use super::input::Input;
+use super::output::Output;
+use super::progress::Progress;
+use super::{Failure, Shared};
+
+/// All programs, pictures and the report of a board
+///
+/// Reads a folder, a zip archive or single files, finds the copper of both sides, the outline and the holes, and
+/// writes into OUT, named after the board: NAME-front.ngc and NAME-back.ngc that isolate the nets (the back turned
+/// over left to right), NAME-drill.ngc, NAME-cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut,
+/// and NAME.json. With one copper file alone, that side.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Mill {
+    #[command(flatten)]
+    input: Input,
+
+    /// Folder for what is made
+    #[arg(long, short, value_name = "OUT")]
+    output: PathBuf,
+
+    /// Print the report as JSON on stdout
+    #[arg(long, help_heading = "Output")]
+    json: bool,
+
+    #[command(flatten)]
+    config: Config,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  voromill mill board/ -o out
+  voromill mill board.zip -o out --dialect linuxcnc --feed 8in/min
+  voromill mill board/ -o out --tool endmill:0.2mm --depth 0.08mm --limit 1mm
+  voromill mill board-B_Cu.gbr board.drl -o out --cutout-tool endmill:2mm";
+
+impl Mill {
+    pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
+        let settings = self.config.settings(&self.input.paths)?;
+        let progress = Progress::start(shared);
+        progress.say("reading");
+        let loaded = self.input.load()?;
+        progress.say("finding the way between nets");
+        let job = job::mill(loaded, &settings)?;
+        let document = job.describe(&settings);
+        progress.say("drawing");
+        let files = files(&job, &document, &settings)?;
+        progress.say("writing");
+        let mut output = Output::new();
+        output.make_folder(&self.output)?;
+        for (name, bytes) in &files {
+            output.stage(&self.output.join(name), bytes)?;
+        }
+        output.commit()?;
+        drop(progress);
+        if self.json {
+            super::print(&document.to_json());
+        } else {
+            shared.report(&document.summary(shared.verbose));
+        }
+        Ok(())
+    }
+}
+
+/// Names and contents of all outputs.
+fn files(job: &Job, document: &Document, settings: &Settings) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+    let board = &job.board.name;
+    let pictures: Vec<_> = [Side::Front, Side::Back]
+        .into_par_iter()
+        .filter_map(|side| job.picture(side, settings).map(|canvas| (format!("{board}-{side}.png"), canvas)))
+        .map(|(name, canvas)| Ok((name, png::rgb(canvas?))))
+        .collect::<Result<_, job::Error>>()?;
+    let programs = job
+        .programs
+        .iter()
+        .map(|program| (program.file_name(board, settings), program.text.clone().into_bytes()));
+    let report = (format!("{board}.json"), document.to_json().into_bytes());
+    Ok(programs.chain(pictures).chain([report]).collect())
+}

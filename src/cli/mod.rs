@@ -1,0 +1,148 @@
+//! The command line: one file a subcommand, and all that prints.
+
+mod config;
+mod draw;
+mod failure;
+mod init;
+mod input;
+mod inspect;
+mod isolate;
+mod mill;
+mod output;
+mod progress;
+
+use std::io::{IsTerminal, Write};
+use std::process::ExitCode;
+
+use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
+use voromill::job::Options;
+
+use failure::Failure;
+
+/// Gerber and drill files in, G-code for a mill out
+///
+/// voromill isolates the nets of a printed-circuit board along the Voronoi diagram of its copper: one cut midway
+/// between neighbours, as far from copper as there is room. No GPU, no display, the same bytes on every machine.
+#[derive(Parser)]
+#[command(version, propagate_version = true, arg_required_else_help = true, after_help = EXAMPLES)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+    #[command(flatten)]
+    shared: Shared,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  voromill inspect board/                      what is in these files
+  voromill mill board/ -o out                  all programs, pictures and the report of a board
+  voromill mill board.zip -o out --tool endmill:0.2mm --depth 0.1mm
+  voromill isolate board-F_Cu.gbr -o front.ngc  one layer alone
+  voromill draw board/ --stage voronoi -o v.png  a picture of one stage
+  voromill init                                write voromill.toml with every setting and its default
+
+Lengths carry units: nm, um, mm, cm, mil, in. `voromill mill --help` explains each option.
+Exit codes: 0 done, 1 verification found something, 2 failed.";
+
+#[derive(Subcommand)]
+enum Command {
+    Mill(mill::Mill),
+    Isolate(isolate::Isolate),
+    Draw(draw::Draw),
+    Inspect(inspect::Inspect),
+    Init(init::Init),
+}
+
+/// What every subcommand takes.
+#[derive(Clone, Copy, Args)]
+struct Shared {
+    /// Say nothing but errors
+    #[arg(long, short, global = true, help_heading = "Output")]
+    quiet: bool,
+
+    /// Say more
+    #[arg(long, short, global = true, conflicts_with = "quiet", help_heading = "Output")]
+    verbose: bool,
+
+    /// How many threads work [default: one for each processor]
+    #[arg(long = "jobs", short = 'j', global = true, value_name = "THREADS", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Output")]
+    threads: Option<u16>,
+}
+
+/// Reads the arguments, does what they say, prints errors.
+pub(crate) fn run() -> ExitCode {
+    let cli = match command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
+        Ok(cli) => cli,
+        Err(error) => error.format(&mut command()).exit(),
+    };
+    let done = cli.shared.start_threads().and_then(|()| match cli.command {
+        Command::Mill(mill) => mill.run(cli.shared),
+        Command::Isolate(isolate) => isolate.run(cli.shared),
+        Command::Draw(draw) => draw.run(cli.shared),
+        Command::Inspect(inspect) => inspect.run(cli.shared),
+        Command::Init(init) => init.run(cli.shared),
+    });
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            failure.print();
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The command with the default of each option, as the built-in settings have it, in its help.
+fn command() -> clap::Command {
+    let defaults = Options::defaults().listed();
+    Cli::command().mut_subcommands(move |sub| {
+        let defaults = defaults.clone();
+        sub.mut_args(move |argument| {
+            let key = argument.get_id().as_str().replace('_', "-");
+            let default = defaults.iter().find(|(name, _)| *name == key).map(|(_, value)| value);
+            match (default, argument.get_help().cloned()) {
+                (Some(default), Some(help)) if key != "frame" => {
+                    argument.help(format!("{help} [default: {default}]"))
+                }
+                _ => argument,
+            }
+        })
+    })
+}
+
+impl Shared {
+    fn start_threads(self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else { return Ok(()) };
+        rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|error| {
+            Failure::new(format!("cannot start {threads} threads: {error}"), "try fewer with -j")
+        })
+    }
+
+    /// Prints a line for a person, on stderr so that stdout carries results alone.
+    fn say(self, text: &str) {
+        if !self.quiet {
+            print_to(&mut std::io::stderr().lock(), text);
+        }
+    }
+
+    /// Prints what came of it, unless nobody wants to know.
+    fn report(self, text: &str) {
+        if !self.quiet {
+            print(text);
+        }
+    }
+
+    /// Whether progress may be shown.
+    fn shows_progress(self) -> bool {
+        !self.quiet && std::io::stderr().is_terminal()
+    }
+}
+
+/// Prints a result.
+fn print(text: &str) {
+    print_to(&mut std::io::stdout().lock(), text);
+}
+
+/// A reader that went away, such as `head`, is no error.
+fn print_to(stream: &mut impl Write, text: &str) {
+    let _ = stream.write_all(text.as_bytes()).and_then(|()| stream.flush());
+}

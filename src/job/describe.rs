@@ -1,0 +1,92 @@
+//! A job as its report.
+
+use std::collections::BTreeMap;
+
+use crate::board::{Board, Hole};
+use crate::geometry::{Nm, Path};
+use crate::report::document::{
+    Document, DrillEntry, Figures, GapEntry, LayerEntry, Millimetres, NetEntry, ProgramEntry, SCHEMA_VERSION,
+    WarningEntry,
+};
+use crate::topology::{Gap, NetId, Nets};
+
+use super::inspect::size;
+use super::pipeline::GENERATOR;
+use super::{Job, Layer, Settings, Strategy, Written};
+
+impl Job {
+    /// The report on it.
+    #[must_use]
+    pub fn describe(&self, settings: &Settings) -> Document {
+        Document {
+            schema_version: SCHEMA_VERSION,
+            generator: GENERATOR.to_owned(),
+            board: self.board.name.clone(),
+            size_mm: size(&self.board),
+            sources: self.sources.clone(),
+            ignored: self.ignored.clone(),
+            layers: self.layers.iter().map(|layer| layer.describe(&self.board, settings)).collect(),
+            electrical_nets: self.electrical.as_ref().map(|electrical| electrical.nets.len()),
+            drills: drills(&self.board.holes),
+            programs: self.programs.iter().map(|program| program.describe(&self.board, settings)).collect(),
+            total: Figures::sum(self.programs.iter().map(|program| &program.statistics)),
+            warnings: self.warnings.iter().map(WarningEntry::from).collect(),
+            settings: settings.options().listed().into_iter().collect(),
+        }
+    }
+}
+
+impl Layer {
+    fn describe(&self, board: &Board, settings: &Settings) -> LayerEntry {
+        let frame_is_cut = settings.frame && settings.strategy == Strategy::Voronoi;
+        let frame = self.diagram.frame().filter(|_| frame_is_cut);
+        LayerEntry {
+            side: self.side,
+            features: board.copper(self.side).map_or(0, |copper| copper.features.len()),
+            nets: net_entries(&self.nets),
+            smallest_gap: self.gap.map(|gap| gap_entry(gap, &self.nets)),
+            boundaries: self.boundaries.edges.len(),
+            junctions: self.boundaries.nodes.len(),
+            boundary_length_mm: Millimetres(self.boundary_length()),
+            frame_length_mm: frame.map(|frame| Millimetres(Nm::from_f64(Path::length(frame)))),
+        }
+    }
+}
+
+impl Written {
+    fn describe(&self, board: &Board, settings: &Settings) -> ProgramEntry {
+        ProgramEntry {
+            file: self.file_name(&board.name, settings),
+            title: self.program.title.clone(),
+            tools: self.program.sections.iter().map(|section| section.tool.kind.to_string()).collect(),
+            figures: Figures::from(&self.statistics),
+        }
+    }
+}
+
+/// The nets of a layer, by number.
+pub(super) fn net_entries(nets: &Nets) -> Vec<NetEntry> {
+    let entry = |(net, id): (&crate::topology::Net, u32)| NetEntry {
+        name: nets.label(NetId(id)),
+        named: !net.names.is_empty(),
+        features: net.features.len(),
+    };
+    nets.nets().iter().zip(0..).map(entry).collect()
+}
+
+/// A gap with the names of its nets.
+pub(super) fn gap_entry(gap: Gap, nets: &Nets) -> GapEntry {
+    let (a, b) = gap.between;
+    GapEntry { width_mm: Millimetres(gap.width), between: [nets.label(a), nets.label(b)], at: gap.at.into() }
+}
+
+/// The holes by diameter, thin ones first.
+pub(super) fn drills(holes: &[Hole]) -> Vec<DrillEntry> {
+    let mut by_diameter: BTreeMap<Nm, (usize, usize)> = BTreeMap::new();
+    for hole in holes {
+        let (plain, slots) = by_diameter.entry(hole.diameter).or_default();
+        *if hole.is_slot() { slots } else { plain } += 1;
+    }
+    let entry = |(diameter, (holes, slots))| DrillEntry { diameter_mm: Millimetres(diameter), holes, slots };
+    by_diameter.into_iter().map(entry).collect()
+}

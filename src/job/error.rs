@@ -1,0 +1,65 @@
+use crate::board::Side;
+use crate::grid::GridError;
+use crate::import;
+use crate::voronoi;
+
+/// Why a job could not be done.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A settings file that cannot be read.
+    #[error("{file}:{line}:{column}: {problem}")]
+    Settings {
+        /// Its name.
+        file: String,
+        /// From 1.
+        line: usize,
+        /// From 1, in characters.
+        column: usize,
+        /// What is wrong there.
+        problem: String,
+    },
+    /// A setting whose value makes no sense, by itself or beside another.
+    #[error("{key}: {problem}")]
+    Value {
+        /// Its name on the command line.
+        key: &'static str,
+        /// What is wrong with it.
+        problem: String,
+    },
+    /// Files that cannot be read.
+    #[error(transparent)]
+    Import(#[from] import::Error),
+    /// Nothing to isolate.
+    #[error("there is no copper {0}")]
+    NoCopper(String),
+    /// A side that cannot be isolated.
+    #[error("{side}: {reason}")]
+    Voronoi {
+        /// Which.
+        side: Side,
+        /// Why.
+        reason: voronoi::Error,
+    },
+    /// A picture that cannot be drawn.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+}
+
+impl Error {
+    /// What to do about it; may be empty.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::Settings { .. } => "`voromill init` writes a file with every key and its default",
+            Self::Value { .. } | Self::Import(_) => "",
+            Self::NoCopper(_) => {
+                "`voromill inspect` shows what was found; --front and --back name the copper files"
+            }
+            Self::Voronoi { reason: voronoi::Error::NoCopper, .. } => {
+                "`voromill inspect` shows what was read; --outline names another outline"
+            }
+            Self::Voronoi { .. } | Self::Grid(_) => "choose a larger --pixel, or a smaller --window",
+        }
+    }
+}

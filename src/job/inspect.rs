@@ -1,0 +1,60 @@
+use crate::board::{Board, Copper, Side};
+use crate::import::Loaded;
+use crate::report::Inspection;
+use crate::report::document::{Millimetres, SCHEMA_VERSION, WarningEntry};
+use crate::report::inspection::InspectedLayer;
+use crate::topology::{self, Electrical, Nets};
+
+use super::Settings;
+use super::describe::{drills, gap_entry, net_entries};
+use super::layer::method;
+
+/// What is known of a board before anything is done to it.
+#[must_use]
+pub fn inspect(loaded: &Loaded, settings: &Settings) -> Inspection {
+    let board = &loaded.board;
+    let layer = |side| {
+        let copper = board.copper(side)?;
+        Some((copper, topology::recover(copper, method(settings.topology))))
+    };
+    let (front, back) = rayon::join(|| layer(Side::Front), || layer(Side::Back));
+    let layers: Vec<&(&Copper, Nets)> = [&front, &back].into_iter().flatten().collect();
+    let electrical = match (&front, &back) {
+        (Some((front, of_front)), Some((back, of_back))) => {
+            Some(topology::electrical(Some((front, of_front)), Some((back, of_back)), &board.holes))
+        }
+        _ => None,
+    };
+    let mut warnings: Vec<WarningEntry> = loaded.warnings.iter().map(WarningEntry::from).collect();
+    for (copper, nets) in &layers {
+        warnings.extend(topology::names_check(copper, nets).iter().map(WarningEntry::from));
+    }
+    warnings
+        .extend(electrical.iter().flat_map(Electrical::check).map(|warning| WarningEntry::from(&warning)));
+    Inspection {
+        schema_version: SCHEMA_VERSION,
+        board: board.name.clone(),
+        size_mm: size(board),
+        outline: board.outline.is_some(),
+        sources: loaded.sources.clone(),
+        ignored: loaded.ignored.clone(),
+        layers: layers.into_iter().map(|(copper, nets)| inspected(copper, nets)).collect(),
+        electrical_nets: electrical.map(|electrical| electrical.nets.len()),
+        drills: drills(&board.holes),
+        warnings,
+    }
+}
+
+/// Width and height of a board.
+pub(super) fn size(board: &Board) -> Option<[Millimetres; 2]> {
+    board.bounds().map(|bounds| [Millimetres(bounds.width()), Millimetres(bounds.height())])
+}
+
+fn inspected(copper: &Copper, nets: &Nets) -> InspectedLayer {
+    InspectedLayer {
+        side: copper.side,
+        features: copper.features.len(),
+        nets: net_entries(nets),
+        smallest_gap: topology::smallest_gap(copper, nets).map(|gap| gap_entry(gap, nets)),
+    }
+}

@@ -1,0 +1,134 @@
+//! One side of a board: copper → nets → boundaries → what the machine does.
+
+use crate::board::{Board, Copper, Side, Warning};
+use crate::geometry::Nm;
+use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate};
+use crate::toolpath::{Order, Placement, Section};
+use crate::topology::{self, Gap, Method, Nets};
+use crate::voronoi::{self, Boundaries, Boundary, Diagram, Owner, SiteKind};
+
+use super::options::{Sites, Strategy, Topology};
+use super::{Error, Settings};
+
+/// What became of one side.
+pub struct Layer {
+    /// Which.
+    pub side: Side,
+    /// Its islands of copper.
+    pub nets: Nets,
+    /// The narrowest place between two of them.
+    pub gap: Option<Gap>,
+    /// Their Voronoi diagram.
+    pub diagram: Diagram,
+    /// The diagram's lines.
+    pub boundaries: Boundaries,
+    /// How the side lies on the machine: the back mirrored.
+    pub placement: Placement,
+    /// What the machine does to it.
+    pub section: Section,
+    /// What a person must know.
+    pub warnings: Vec<Warning>,
+}
+
+impl Layer {
+    /// Isolates the nets of `copper`, a side of `board` that lies on the machine as `placement` says.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Voronoi`] where nothing of it lies on the board, or its picture would be too large.
+    pub fn isolate(
+        copper: &Copper,
+        board: &Board,
+        placement: Placement,
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        let side = copper.side;
+        let nets = topology::recover(copper, method(settings.topology));
+        let (gap, diagram) = rayon::join(
+            || topology::smallest_gap(copper, &nets),
+            || Diagram::new(copper, &nets, board.outline.as_ref(), &diagram_settings(settings)),
+        );
+        let diagram = diagram.map_err(|reason| Error::Voronoi { side, reason })?;
+        let (boundaries, unplaced) = diagram.boundaries();
+        let (section, narrow) = cut(side, &nets, &diagram, &boundaries, &placement, settings);
+        let mut warnings = topology::names_check(copper, &nets);
+        warnings.extend_from_slice(diagram.warnings());
+        warnings.extend(unplaced.into_iter().chain(narrow).map(|warning| warning.on(side)));
+        if diagram.frame().is_some() && !settings.frame && settings.strategy == Strategy::Voronoi {
+            warnings.push(Warning::new("frame-not-cut", FRAME_NOT_CUT).on(side));
+        }
+        Ok(Self { side, nets, gap, diagram, boundaries, placement, section, warnings })
+    }
+
+    /// The length of the boundaries that isolate something.
+    #[must_use]
+    pub fn boundary_length(&self) -> Nm {
+        let inner = self.boundaries.edges.iter().filter(|edge| !edge.is_border());
+        Nm::from_f64(inner.map(|edge| edge.path.length()).sum())
+    }
+}
+
+const FRAME_NOT_CUT: &str = "without an outline and without the lap round the frame, nets that reach the edge stay joined through the copper outside";
+
+/// The topology's own name for what was chosen.
+pub(super) fn method(topology: Topology) -> Method {
+    match topology {
+        Topology::Contact => Method::Contact,
+        Topology::Coincidence => Method::Coincidence,
+    }
+}
+
+fn diagram_settings(settings: &Settings) -> voronoi::Settings {
+    voronoi::Settings {
+        pitch: settings.pixel,
+        sites: match settings.sites {
+            Sites::Copper => SiteKind::Copper,
+            Sites::Core => SiteKind::Core,
+        },
+        limit: match settings.strategy {
+            Strategy::Voronoi => settings.limit,
+            // Half the kerf, and what fitting may take of it: the loop never touches the copper it goes round.
+            Strategy::Outline => Some(settings.kerf() / 2 + settings.tolerance),
+        },
+        tolerance: settings.tolerance,
+        ..voronoi::Settings::default()
+    }
+}
+
+/// The moves along all boundaries that isolate something.
+fn cut(
+    side: Side,
+    nets: &Nets,
+    diagram: &Diagram,
+    boundaries: &Boundaries,
+    placement: &Placement,
+    settings: &Settings,
+) -> (Section, Vec<Warning>) {
+    let role = |boundary: &Boundary| role(boundary, diagram.frame().is_some(), settings.frame);
+    let name = |owner: Owner| match owner {
+        Owner::Net(net) => nets.label(net),
+        Owner::Background => "bare board".to_owned(),
+        Owner::Outside => "the edge".to_owned(),
+    };
+    let isolation = Isolation {
+        tool: &settings.isolation_tool,
+        heights: settings.isolation,
+        placement,
+        order: Order::default(),
+        machine: &settings.machine,
+        narrow: Narrow::Centre,
+        adaptive: None,
+    };
+    isolate(format!("isolate {side}"), boundaries, &[], role, name, &isolation)
+}
+
+/// What lies along the board's outline is cut with the board, and may be run along before; along a frame it must be
+/// cut wherever a net reaches it.
+fn role(boundary: &Boundary, framed: bool, frame_is_cut: bool) -> Role {
+    let bare = boundary.left == Owner::Background || boundary.right == Owner::Background;
+    match (boundary.is_border(), framed) {
+        (false, _) => Role::Cut,
+        (true, true) if frame_is_cut && !bare => Role::Cut,
+        (true, _) => Role::Leave,
+    }
+}

@@ -1,0 +1,26 @@
+//! A whole job: settings, and the pipeline as one short function.
+//!
+//! [`Options`] are what a person wrote, on the command line or in `voromill.toml`; [`Settings`] are those and the
+//! defaults, complete and checked; [`mill`] does the work, in memory. Who calls it decides what becomes a file.
+
+mod describe;
+mod error;
+mod inspect;
+mod layer;
+mod options;
+mod pipeline;
+mod quantity;
+mod settings;
+mod settings_file;
+mod show;
+mod written;
+
+pub use error::Error;
+pub use inspect::inspect;
+pub use layer::Layer;
+pub use options::{DialectName, Options, Origin, ParseDialectError, Sites, Strategy, Topology};
+pub use pipeline::{Job, mill};
+pub use quantity::Length;
+pub use settings::Settings;
+pub use settings_file::{DEFAULTS, FILE_NAME};
+pub use written::{Part, Written};

@@ -1,0 +1,247 @@
+//! The options of a job, each known once: its name on the command line is its key in `voromill.toml` and in the
+//! report, its text is read by the same parser everywhere.
+
+use std::fmt;
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum};
+use serde::{Deserialize, Serialize};
+
+use crate::gcode::{self, dialect};
+use crate::toolpath::{Feed, ToolKind};
+
+use super::quantity::{Length, text};
+
+/// What a person asked for; what they left open is none.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Args, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Options {
+    /// Cutter for isolation: vbit:TIP:ANGLE or endmill:DIAMETER
+    #[arg(long, value_name = "TOOL", help_heading = "Isolation")]
+    #[serde(with = "text")]
+    pub tool: Option<ToolKind>,
+
+    /// How deep it cuts; a V-bit cuts wider the deeper it goes
+    #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
+    #[serde(with = "text")]
+    pub depth: Option<Length>,
+
+    /// One cut midway between nets (voronoi) or a loop round each net (outline)
+    #[arg(
+        long,
+        value_enum,
+        hide_possible_values = true,
+        value_name = "STRATEGY",
+        help_heading = "Isolation"
+    )]
+    pub strategy: Option<Strategy>,
+
+    /// What a cut is midway between: copper (its edge) or core (the axes it was drawn along)
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "SITES", help_heading = "Isolation")]
+    pub sites: Option<Sites>,
+
+    /// Nothing farther than this from copper belongs to a net
+    #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub limit: Option<Length>,
+
+    /// Size of a pixel of the picture that finds the boundaries
+    #[arg(long, value_name = "LENGTH", conflicts_with = "dpi", help_heading = "Isolation")]
+    #[serde(with = "text")]
+    pub pixel: Option<Length>,
+
+    /// The same in pixels per inch
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=25_400), help_heading = "Isolation")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dpi: Option<u32>,
+
+    /// Without an outline: do not cut once round the copper
+    #[arg(long = "no-frame", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
+    pub frame: Option<bool>,
+
+    /// How touching copper is found: contact or coincidence
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "METHOD", help_heading = "Isolation")]
+    pub topology: Option<Topology>,
+
+    /// How far a fitted cut may leave its exact place
+    #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
+    #[serde(with = "text")]
+    pub tolerance: Option<Length>,
+
+    /// Speed along a cut
+    #[arg(long, value_name = "SPEED", help_heading = "Machine")]
+    #[serde(with = "text")]
+    pub feed: Option<Feed>,
+
+    /// Speed into the material
+    #[arg(long, value_name = "SPEED", help_heading = "Machine")]
+    #[serde(with = "text")]
+    pub plunge: Option<Feed>,
+
+    /// Spindle speed in turns per minute
+    #[arg(long, value_name = "RPM", help_heading = "Machine")]
+    pub spindle: Option<u32>,
+
+    /// Height for travel above the copper
+    #[arg(long, value_name = "LENGTH", help_heading = "Machine")]
+    #[serde(with = "text")]
+    pub safe_z: Option<Length>,
+
+    /// What the machine speaks: grbl or linuxcnc
+    #[arg(long, value_name = "DIALECT", help_heading = "Machine")]
+    #[serde(with = "text")]
+    pub dialect: Option<DialectName>,
+
+    /// Where x and y are zero: lower-left, center, or keep the file's coordinates
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "PLACE", help_heading = "Machine")]
+    pub origin: Option<Origin>,
+
+    /// How deep holes go: the board and the drill's tip
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub drill_depth: Option<Length>,
+
+    /// End mill that cuts the board out
+    #[arg(long, value_name = "TOOL", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub cutout_tool: Option<ToolKind>,
+
+    /// How deep the board is cut out in the end
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub cutout_depth: Option<Length>,
+
+    /// How much deeper each pass goes
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub cutout_pass: Option<Length>,
+
+    /// Holding tabs on each outside contour
+    #[arg(long, value_name = "NUMBER", help_heading = "Drilling and cutting out")]
+    pub tabs: Option<u32>,
+
+    /// How wide a tab is
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub tab_width: Option<Length>,
+
+    /// How much material a tab leaves
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub tab_height: Option<Length>,
+}
+
+impl Options {
+    /// Every option that is set, by name, as it is written.
+    #[must_use]
+    pub fn listed(&self) -> Vec<(String, String)> {
+        let Ok(serde_json::Value::Object(options)) = serde_json::to_value(self) else { return Vec::new() };
+        let shown =
+            |value: serde_json::Value| value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+        let set = options.into_iter().filter(|(_, value)| !value.is_null());
+        set.map(|(key, value)| (key, shown(value))).collect()
+    }
+
+    /// These, and where they leave something open, `others`.
+    #[must_use]
+    pub fn or(self, others: Self) -> Self {
+        // A pixel said in either way replaces a pixel said in the other.
+        let resolution_is_open = self.pixel.is_none() && self.dpi.is_none();
+        let (pixel, dpi) =
+            if resolution_is_open { (others.pixel, others.dpi) } else { (self.pixel, self.dpi) };
+        Self {
+            tool: self.tool.or(others.tool),
+            depth: self.depth.or(others.depth),
+            strategy: self.strategy.or(others.strategy),
+            sites: self.sites.or(others.sites),
+            limit: self.limit.or(others.limit),
+            pixel,
+            dpi,
+            frame: self.frame.or(others.frame),
+            topology: self.topology.or(others.topology),
+            tolerance: self.tolerance.or(others.tolerance),
+            feed: self.feed.or(others.feed),
+            plunge: self.plunge.or(others.plunge),
+            spindle: self.spindle.or(others.spindle),
+            safe_z: self.safe_z.or(others.safe_z),
+            dialect: self.dialect.or(others.dialect),
+            origin: self.origin.or(others.origin),
+            drill_depth: self.drill_depth.or(others.drill_depth),
+            cutout_tool: self.cutout_tool.or(others.cutout_tool),
+            cutout_depth: self.cutout_depth.or(others.cutout_depth),
+            cutout_pass: self.cutout_pass.or(others.cutout_pass),
+            tabs: self.tabs.or(others.tabs),
+            tab_width: self.tab_width.or(others.tab_width),
+            tab_height: self.tab_height.or(others.tab_height),
+        }
+    }
+}
+
+/// How copper is isolated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Strategy {
+    /// One cut midway between neighbouring nets.
+    Voronoi,
+    /// A loop round each net.
+    Outline,
+}
+
+/// What a cut is midway between.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Sites {
+    /// The copper's true edge.
+    Copper,
+    /// The axes it was drawn along (the paper).
+    Core,
+}
+
+/// How touching copper is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Topology {
+    /// Exact geometry.
+    Contact,
+    /// Shared end points and centres alone (the paper's Algorithm 1).
+    Coincidence,
+}
+
+/// What the machine speaks: one of [`dialect::ALL`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DialectName(pub &'static gcode::Dialect);
+
+/// A dialect that nobody knows.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is not a dialect: expected {known}", known = known_dialects())]
+pub struct ParseDialectError(String);
+
+fn known_dialects() -> String {
+    dialect::ALL.iter().map(|dialect| dialect.name.as_ref()).collect::<Vec<_>>().join(" or ")
+}
+
+impl FromStr for DialectName {
+    type Err = ParseDialectError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        gcode::Dialect::by_name(text).map(Self).ok_or_else(|| ParseDialectError(text.to_owned()))
+    }
+}
+
+impl fmt::Display for DialectName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.name)
+    }
+}
+
+/// Where x and y are zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Origin {
+    /// The board's lower left corner.
+    LowerLeft,
+    /// Where the files have it.
+    Keep,
+    /// The board's middle.
+    Center,
+}

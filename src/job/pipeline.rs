@@ -1,0 +1,163 @@
+use rayon::prelude::*;
+
+use crate::board::{Board, Side, Source, Warning};
+use crate::gcode::{Header, Input};
+use crate::geometry::{Nm, Rect, Vector};
+use crate::import::Loaded;
+use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
+use crate::toolpath::{Angle, Order, Placement, Program, Section};
+use crate::topology::{self, Electrical};
+
+use super::{Error, Layer, Part, Settings, Written};
+
+/// What made the outputs.
+pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
+
+/// A board with everything that was made of it.
+pub struct Job {
+    /// The board.
+    pub board: Board,
+    /// The files it was read from.
+    pub sources: Vec<Source>,
+    /// Files and folders beside them that are no layer of a board.
+    pub ignored: Vec<String>,
+    /// How it lies on the machine, seen from the front.
+    pub placement: Placement,
+    /// Its sides, front first.
+    pub layers: Vec<Layer>,
+    /// The nets of the assembled board; none where it has one side.
+    pub electrical: Option<Electrical>,
+    /// The programs, in the order they are run.
+    pub programs: Vec<Written>,
+    /// What a person must know, from reading to cutting out.
+    pub warnings: Vec<Warning>,
+}
+
+/// Does all there is to do to a board.
+///
+/// # Errors
+///
+/// [`Error`] if there is no copper, or a side of it cannot be isolated.
+pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
+    let Loaded { board, sources, mut warnings, ignored } = loaded;
+    let bounds = board.bounds().ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
+    let front = Placement::front(settings.origin, bounds, Angle::ZERO, Vector::default());
+    let layers = isolate(&board, bounds, front, settings)?;
+    let header = header(&sources);
+    let mut programs: Vec<Written> = layers
+        .par_iter()
+        .map(|layer| Written::new(part(layer.side), isolation(layer, &board, settings), &header, settings))
+        .collect();
+    warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
+    if !board.holes.is_empty() {
+        let (sections, found) = drill_holes(&board, &front, settings);
+        programs.push(Written::new(
+            Part::Drill,
+            whole("drill", &board, sections, settings),
+            &header,
+            settings,
+        ));
+        warnings.extend(found);
+    }
+    if let Some(outline) = &board.outline {
+        let (section, found) = cutout(outline, &cutout_settings(&front, settings));
+        programs.push(Written::new(
+            Part::Cutout,
+            whole("cutout", &board, vec![section], settings),
+            &header,
+            settings,
+        ));
+        warnings.extend(found);
+    } else {
+        warnings.push(Warning::new("no-outline", "no outline was found: the board is not cut out"));
+    }
+    let electrical = electrical(&board, &layers);
+    warnings.extend(electrical.iter().flat_map(Electrical::check));
+    Ok(Job { board, sources, ignored, placement: front, layers, electrical, programs, warnings })
+}
+
+/// Both sides at once.
+fn isolate(board: &Board, bounds: Rect, front: Placement, settings: &Settings) -> Result<Vec<Layer>, Error> {
+    let sides: Vec<_> = [Side::Front, Side::Back].into_iter().filter_map(|side| board.copper(side)).collect();
+    let copper = sides.iter().filter(|copper| !copper.features.is_empty());
+    if copper.count() == 0 {
+        return Err(Error::NoCopper("in these files".to_owned()));
+    }
+    let isolate = |copper: &&_| {
+        let copper: &crate::board::Copper = copper;
+        let placement = match copper.side {
+            Side::Front => front,
+            Side::Back => front.turned_over(front.middle(bounds)),
+        };
+        Layer::isolate(copper, board, placement, settings)
+    };
+    sides.par_iter().filter(|copper| !copper.features.is_empty()).map(isolate).collect()
+}
+
+const fn part(side: Side) -> Part {
+    match side {
+        Side::Front => Part::Front,
+        Side::Back => Part::Back,
+    }
+}
+
+fn isolation(layer: &Layer, board: &Board, settings: &Settings) -> Program {
+    let side = layer.side;
+    let mut program = whole(&format!("{side} isolation"), board, vec![layer.section.clone()], settings);
+    if let Some(axis) = layer.placement.mirror {
+        program.notes.push(format!("turned over left to right about the vertical line x = {axis:.3} mm"));
+    }
+    program
+}
+
+fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings) -> Program {
+    Program {
+        title: format!("{} {what}", board.name),
+        notes: vec!["z 0 is the top of the copper".to_owned()],
+        safe: settings.isolation.safe,
+        sections,
+    }
+}
+
+fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Vec<Section>, Vec<Warning>) {
+    let drilling = Drilling {
+        drills: &[],
+        tolerance: Nm::ZERO,
+        mill: None,
+        heights: settings.drilling,
+        placement,
+        order: Order::default(),
+        dwell: 0,
+    };
+    drill(&board.holes, &drilling)
+}
+
+const fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cutout<'a> {
+    Cutout {
+        tool: &settings.cutout_tool,
+        heights: settings.cutout,
+        placement,
+        tabs: Tabs { count: settings.tabs, width: settings.tab_width, height: settings.tab_height },
+    }
+}
+
+/// What every program says of itself.
+fn header(sources: &[Source]) -> Header {
+    let used = sources.iter().filter(|source| !source.role.starts_with("ignored"));
+    let input = |source: &Source| Input { file: source.file.clone(), sha256: source.sha256.clone() };
+    Header {
+        generator: GENERATOR.to_owned(),
+        inputs: used.map(input).collect(),
+        settings: Vec::new(),
+        seconds: None,
+    }
+}
+
+fn electrical(board: &Board, layers: &[Layer]) -> Option<Electrical> {
+    let side = |side: Side| {
+        let layer = layers.iter().find(|layer| layer.side == side)?;
+        Some((board.copper(side)?, &layer.nets))
+    };
+    let (front, back) = (side(Side::Front), side(Side::Back));
+    (front.is_some() && back.is_some()).then(|| topology::electrical(front, back, &board.holes))
+}

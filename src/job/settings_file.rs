@@ -1,0 +1,115 @@
+//! `voromill.toml`: where it is looked for and how it is read.
+
+use clap::Args;
+
+use super::{Error, Options};
+
+/// The name it has beside a board.
+pub const FILE_NAME: &str = "voromill.toml";
+
+/// The defaults, as the commented settings file that `voromill init` writes: there is no second list of them.
+pub const DEFAULTS: &str = include_str!("defaults.toml");
+
+impl Options {
+    /// The options that settings text gives. `file` is its name, for errors.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Settings`] with line and column for what is not TOML, for unknown keys (naming the nearest), and
+    /// for values that are not what their key takes.
+    pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
+        toml::from_str(text).map_err(|error| {
+            let before = &text[..error.span().map_or(0, |span| span.start).min(text.len())];
+            let line = before.matches('\n').count() + 1;
+            let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+            Error::Settings { file: file.to_owned(), line, column, problem: problem(error.message()) }
+        })
+    }
+
+    /// The defaults.
+    #[must_use]
+    pub fn defaults() -> Self {
+        toml::from_str(DEFAULTS).expect("the built-in settings are right")
+    }
+
+    /// Every key that a settings file may have.
+    fn keys() -> Vec<String> {
+        let command = Self::augment_args(clap::Command::new("keys"));
+        command.get_arguments().map(|argument| argument.get_id().as_str().replace('_', "-")).collect()
+    }
+}
+
+/// What the reader says, in our words where a person can be helped more.
+fn problem(message: &str) -> String {
+    let Some(key) = message.strip_prefix("unknown field `").and_then(|rest| rest.split('`').next()) else {
+        return message.lines().collect::<Vec<_>>().join(" ");
+    };
+    let keys = Options::keys();
+    let nearest = keys.iter().min_by_key(|known| distance(key, known));
+    nearest.map_or_else(
+        || format!("unknown key `{key}`"),
+        |nearest| {
+            format!(
+                "unknown key `{key}`: did you mean `{nearest}`? `voromill init` writes a file with all keys"
+            )
+        },
+    )
+}
+
+/// How many letters to insert, drop, or change to turn `a` into `b` (Levenshtein).
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, letter) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, &other) in b.iter().enumerate() {
+            let changed = diagonal + usize::from(letter != other);
+            diagonal = row[j + 1];
+            row[j + 1] = changed.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(text: &str) -> String {
+        Options::from_toml("voromill.toml", text).expect_err("not settings").to_string()
+    }
+
+    #[test]
+    fn an_unknown_key_names_its_place_and_the_nearest_right_one() {
+        let error = refused("tool = \"endmill:1mm\"\n\nsafez = \"2mm\"\n");
+        assert!(error.contains("voromill.toml:3:1"), "{error}");
+        assert!(error.contains("`safez`: did you mean `safe-z`"), "{error}");
+    }
+
+    #[test]
+    fn a_bare_number_is_refused_with_the_hint_of_the_command_line() {
+        let error = refused("depth = 0.1\n");
+        assert!(error.contains("voromill.toml:1:9") && error.contains("0.1mm"), "{error}");
+    }
+
+    #[test]
+    fn what_is_not_toml_is_refused_with_its_place() {
+        let error = refused("depth = \n");
+        assert!(error.contains("voromill.toml:1:"), "{error}");
+    }
+
+    #[test]
+    fn every_key_is_in_the_file_that_init_writes() {
+        for key in Options::keys() {
+            assert!(DEFAULTS.contains(&format!("{key} = ")), "`{key}` is missing");
+        }
+    }
+
+    #[test]
+    fn distances_are_letters() {
+        assert_eq!(distance("safez", "safe-z"), 1, "one dash");
+        assert_eq!(distance("", "abc"), 3, "all of it");
+        assert_eq!(distance("kitten", "sitting"), 3, "the textbook's");
+    }
+}

@@ -1,0 +1,65 @@
+//! A job as its pictures.
+
+use crate::board::Side;
+use crate::geometry::Nm;
+use crate::grid::Grid;
+use crate::report::Canvas;
+use crate::report::picture::{self, Shown};
+use crate::toolpath::{Placement, Section};
+
+use super::{Error, Job, Layer, Part, Settings};
+
+/// Bare ground round the board, and the most pixels of the longer side. Chosen: the cutout shows, and it fills a
+/// large screen.
+const MARGIN: Nm = Nm::from_um(1500);
+const MOST: i64 = 2400;
+
+impl Job {
+    /// The layer of `side`.
+    #[must_use]
+    pub fn layer(&self, side: Side) -> Option<&Layer> {
+        self.layers.iter().find(|layer| layer.side == side)
+    }
+
+    /// What a picture of `side` shows.
+    #[must_use]
+    pub fn shown(&self, side: Side) -> Option<Shown<'_>> {
+        let layer = self.layer(side)?;
+        Some(Shown {
+            board: &self.board,
+            copper: self.board.copper(side)?,
+            nets: &layer.nets,
+            diagram: &layer.diagram,
+            boundaries: &layer.boundaries,
+            section: &layer.section,
+            placement: &layer.placement,
+            cutout: self.cutout(),
+        })
+    }
+
+    /// The picture of `side` that goes with its program: regions, copper, cuts, holes, and a legend. None where the
+    /// side has no copper.
+    pub fn picture(&self, side: Side, settings: &Settings) -> Option<Result<Canvas, Error>> {
+        let shown = self.shown(side)?;
+        let area = picture::whole(&self.board, MARGIN)?;
+        let draw = |grid: Grid| {
+            let mut canvas = picture::toolpath(&shown, grid, false);
+            picture::legend(&mut canvas, &self.caption(side, settings));
+            canvas
+        };
+        let grid = picture::with_legend(area, settings.pixel, MOST);
+        Some(grid.map(draw).map_err(Error::from))
+    }
+
+    /// The section that cuts the board out, with how the board lies.
+    fn cutout(&self) -> Option<(&Section, &Placement)> {
+        let program = self.programs.iter().find(|program| program.part == Part::Cutout)?;
+        Some((program.program.sections.first()?, &self.placement))
+    }
+
+    fn caption(&self, side: Side, settings: &Settings) -> String {
+        let nets = self.layer(side).map_or(0, |layer| layer.nets.nets().len());
+        let tool = settings.isolation_tool.kind;
+        format!("{} {side} · {nets} nets · {tool} · kerf {:.3} mm", self.board.name, settings.kerf())
+    }
+}

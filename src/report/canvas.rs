@@ -1,0 +1,191 @@
+//! Board geometry on tiny-skia's pixmaps: the only file that speaks to the drawing library.
+
+use tiny_skia::{
+    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform,
+};
+
+use crate::board::Shape;
+use crate::geometry::{Arc, Nm, Path, Point, Polygon, Segment};
+use crate::grid::Grid;
+
+use super::Rgb;
+
+/// A picture being painted, in board coordinates.
+pub struct Canvas {
+    grid: Grid,
+    pixmap: Pixmap,
+}
+
+impl Canvas {
+    /// A picture of what `grid` covers, all in `ground`.
+    #[must_use]
+    pub fn new(grid: Grid, ground: Rgb) -> Self {
+        let mut pixmap = Pixmap::new(grid.width(), grid.height()).expect("a grid has pixels");
+        pixmap.fill(ground.paint(1.0));
+        Self { grid, pixmap }
+    }
+
+    /// Its width and height in pixels.
+    #[expect(clippy::cast_precision_loss, reason = "a picture is less than 2²⁴ pixels wide")]
+    pub(super) const fn size(&self) -> (f32, f32) {
+        (self.grid.width() as f32, self.grid.height() as f32)
+    }
+
+    /// What it covers.
+    #[must_use]
+    pub const fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Sets every pixel that `colour` gives one for, by column and row.
+    pub fn paint_pixels(&mut self, colour: impl Fn(u32, u32) -> Option<Rgb>) {
+        let columns = self.grid.width();
+        let places = (0..self.grid.height()).flat_map(|row| (0..columns).map(move |column| (column, row)));
+        for (pixel, (column, row)) in self.pixmap.pixels_mut().iter_mut().zip(places) {
+            if let Some(Rgb(r, g, b)) = colour(column, row) {
+                *pixel = PremultipliedColorU8::from_rgba(r, g, b, u8::MAX).expect("opaque");
+            }
+        }
+    }
+
+    /// Fills `shape`.
+    pub fn fill(&mut self, shape: &Shape, colour: Rgb) {
+        match shape {
+            Shape::Disc { center, radius } => self.disc(*center, *radius, colour, 1.0),
+            Shape::Stroke { from, to, radius } => {
+                let line = Path { start: *from, segments: vec![Segment::Line { to: *to }] };
+                self.stroke(&line, *radius * 2, colour, 1.0);
+            }
+            Shape::Arc { arc, radius } => self.stroke(&path_of(arc), *radius * 2, colour, 1.0),
+            Shape::Polygon(polygon) => self.polygon(polygon, colour, 1.0),
+        }
+    }
+
+    /// Fills a disc.
+    pub fn disc(&mut self, center: Point, radius: Nm, colour: Rgb, opacity: f32) {
+        let (x, y) = self.place(center);
+        let mut outline = PathBuilder::new();
+        outline.push_circle(x, y, self.pixels(radius));
+        self.fill_path(outline, colour, opacity);
+    }
+
+    /// Fills a polygon by the non-zero rule.
+    pub fn polygon(&mut self, polygon: &Polygon, colour: Rgb, opacity: f32) {
+        let mut outline = PathBuilder::new();
+        for ring in polygon.contours() {
+            for (i, &point) in ring.iter().enumerate() {
+                let (x, y) = self.place(point);
+                if i == 0 { outline.move_to(x, y) } else { outline.line_to(x, y) }
+            }
+            outline.close();
+        }
+        self.fill_path(outline, colour, opacity);
+    }
+
+    /// Strokes `path` with a round cutter of diameter `width`, never thinner than a pixel.
+    pub fn stroke(&mut self, path: &Path, width: Nm, colour: Rgb, opacity: f32) {
+        self.strokes(std::iter::once(path), width, colour, opacity);
+    }
+
+    /// Strokes all `paths` as one: where they cross, a translucent colour is laid on once.
+    pub fn strokes<'a>(
+        &mut self,
+        paths: impl IntoIterator<Item = &'a Path>,
+        width: Nm,
+        colour: Rgb,
+        opacity: f32,
+    ) {
+        // A twentieth of a pixel cannot be seen, and small circles stay round.
+        let tolerance = (self.grid.pitch() / 20).max(Nm::new(1));
+        let mut line = PathBuilder::new();
+        for path in paths {
+            let points = path.flatten(tolerance);
+            for (i, &point) in points.iter().enumerate() {
+                let (x, y) = self.place(point);
+                if i == 0 { line.move_to(x, y) } else { line.line_to(x, y) }
+            }
+            if path.is_closed() {
+                line.close();
+            }
+        }
+        let stroke = Stroke {
+            width: self.pixels(width).max(1.0),
+            line_cap: LineCap::Round,
+            line_join: LineJoin::Round,
+            ..Stroke::default()
+        };
+        let Some(line) = line.finish() else { return };
+        self.pixmap.stroke_path(&line, &paint(colour, opacity), &stroke, Transform::identity(), None);
+    }
+
+    /// Strokes polylines given in pixels: lettering and rulers.
+    pub(super) fn ink(&mut self, lines: &[Vec<(f32, f32)>], width: f32, colour: Rgb) {
+        let mut ink = PathBuilder::new();
+        for line in lines {
+            for (i, &(x, y)) in line.iter().enumerate() {
+                if i == 0 { ink.move_to(x, y) } else { ink.line_to(x, y) }
+            }
+        }
+        let stroke =
+            Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
+        let Some(ink) = ink.finish() else { return };
+        self.pixmap.stroke_path(&ink, &paint(colour, 1.0), &stroke, Transform::identity(), None);
+    }
+
+    /// Fills an upright rectangle given in pixels: left, top, width, height.
+    pub(super) fn block(&mut self, place: [f32; 4], colour: Rgb, opacity: f32) {
+        let [x, y, width, height] = place;
+        if let Some(block) = tiny_skia::Rect::from_xywh(x, y, width, height) {
+            self.pixmap.fill_rect(block, &paint(colour, opacity), Transform::identity(), None);
+        }
+    }
+
+    /// The finished pixels, three bytes each, row 0 on top.
+    #[must_use]
+    pub fn into_rgb(self) -> Vec<u8> {
+        self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
+    }
+
+    fn fill_path(&mut self, outline: PathBuilder, colour: Rgb, opacity: f32) {
+        let Some(outline) = outline.finish() else { return };
+        self.pixmap.fill_path(
+            &outline,
+            &paint(colour, opacity),
+            FillRule::Winding,
+            Transform::identity(),
+            None,
+        );
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "the drawing library takes f32; this is a picture")]
+    pub(super) fn place(&self, point: Point) -> (f32, f32) {
+        let from = point - self.grid.corner(0, 0);
+        let pitch = self.grid.pitch().to_f64();
+        ((from.x.to_f64() / pitch) as f32, (-from.y.to_f64() / pitch) as f32)
+    }
+
+    fn pixels(&self, length: Nm) -> f32 {
+        self.grid.pixels(length)
+    }
+}
+
+fn path_of(arc: &Arc) -> Path {
+    let segment = Segment::Arc { to: arc.end, center: arc.center, turn: arc.turn };
+    Path { start: arc.start, segments: vec![segment] }
+}
+
+fn paint(colour: Rgb, opacity: f32) -> Paint<'static> {
+    let mut paint = Paint::default();
+    paint.set_color(colour.paint(opacity));
+    paint.anti_alias = true;
+    paint
+}
+
+impl Rgb {
+    fn paint(self, opacity: f32) -> Color {
+        let Self(r, g, b) = self;
+        let mut color = Color::from_rgba8(r, g, b, u8::MAX);
+        color.set_alpha(opacity);
+        color
+    }
+}

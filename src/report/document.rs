@@ -1,0 +1,224 @@
+//! The report as data: what `NAME.json` holds.
+//!
+//! Lengths are millimetres with the decimals of a nanometre, times are seconds. Keys come in the order of these
+//! types, lists in the order of the board, so two runs over the same files give the same bytes. There is no clock, path
+//! or host in it.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use crate::board::{Side, Source, SourceSpan, Warning};
+use crate::geometry::{Nm, Point};
+use crate::toolpath::Statistics;
+
+/// The version of the shape of [`Document`]: it grows when a key changes its meaning or goes, not when one is added.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// Everything that is known after a job.
+#[derive(Clone, Debug, Serialize)]
+pub struct Document {
+    /// [`SCHEMA_VERSION`].
+    pub schema_version: u32,
+    /// The program and its version.
+    pub generator: String,
+    /// The board's name.
+    pub board: String,
+    /// Its width and height.
+    pub size_mm: Option<[Millimetres; 2]>,
+    /// The files that were read.
+    pub sources: Vec<Source>,
+    /// Files and folders beside them that are no layer of a board.
+    pub ignored: Vec<String>,
+    /// The copper that was isolated, front first.
+    pub layers: Vec<LayerEntry>,
+    /// How many nets the assembled board has, its sides joined through plated holes.
+    pub electrical_nets: Option<usize>,
+    /// Holes by drill.
+    pub drills: Vec<DrillEntry>,
+    /// The programs that were written.
+    pub programs: Vec<ProgramEntry>,
+    /// All programs together.
+    pub total: Figures,
+    /// What a person must know.
+    pub warnings: Vec<WarningEntry>,
+    /// The settings, by the names of their options.
+    pub settings: BTreeMap<String, String>,
+}
+
+/// A length in millimetres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Millimetres(pub Nm);
+
+/// As a number with at most six decimals, exactly.
+impl Serialize for Millimetres {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_f64(self.0.to_mm())
+    }
+}
+
+/// A place on the board.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Place {
+    /// To the right.
+    pub x_mm: Millimetres,
+    /// Up.
+    pub y_mm: Millimetres,
+}
+
+/// One layer of copper.
+#[derive(Clone, Debug, Serialize)]
+pub struct LayerEntry {
+    /// Which.
+    pub side: Side,
+    /// Pieces of copper in the file.
+    pub features: usize,
+    /// Islands of copper, by number.
+    pub nets: Vec<NetEntry>,
+    /// The narrowest place between two of them.
+    pub smallest_gap: Option<GapEntry>,
+    /// Lines between regions, as the diagram has them.
+    pub boundaries: usize,
+    /// Points where three or more meet, or where they end.
+    pub junctions: usize,
+    /// Their length, without what runs along the board's edge.
+    pub boundary_length_mm: Millimetres,
+    /// The lap round the frame, where it was cut.
+    pub frame_length_mm: Option<Millimetres>,
+}
+
+/// One island of copper.
+#[derive(Clone, Debug, Serialize)]
+pub struct NetEntry {
+    /// What people call it.
+    pub name: String,
+    /// Whether a file gives it that name; else it is a number.
+    pub named: bool,
+    /// Pieces of copper in it.
+    pub features: usize,
+}
+
+/// The narrowest place between two nets.
+#[derive(Clone, Debug, Serialize)]
+pub struct GapEntry {
+    /// How wide.
+    pub width_mm: Millimetres,
+    /// The two nets.
+    pub between: [String; 2],
+    /// Its middle.
+    pub at: Place,
+}
+
+/// The holes of one drill.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DrillEntry {
+    /// Its diameter.
+    pub diameter_mm: Millimetres,
+    /// Plain holes.
+    pub holes: usize,
+    /// Slots and routed contours.
+    pub slots: usize,
+}
+
+/// A program for the machine.
+#[derive(Clone, Debug, Serialize)]
+pub struct ProgramEntry {
+    /// The file's name.
+    pub file: String,
+    /// What it does.
+    pub title: String,
+    /// The tools it takes, in order.
+    pub tools: Vec<String>,
+    /// What it amounts to.
+    #[serde(flatten)]
+    pub figures: Figures,
+}
+
+/// What programs amount to.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Figures {
+    /// The way that is cut.
+    pub cut_mm: Millimetres,
+    /// The way through the air.
+    pub rapid_mm: Millimetres,
+    /// How often the tool rises.
+    pub lifts: u64,
+    /// How long it takes, to a tenth.
+    pub seconds: f64,
+}
+
+/// A warning with its places.
+#[derive(Clone, Debug, Serialize)]
+pub struct WarningEntry {
+    /// Its stable name.
+    pub code: &'static str,
+    /// The sentence.
+    pub message: String,
+    /// The side it concerns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub side: Option<Side>,
+    /// The place on the board.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Place>,
+    /// The place in a file.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub source: Option<SourceSpan>,
+}
+
+impl From<Point> for Place {
+    fn from(point: Point) -> Self {
+        Self { x_mm: Millimetres(point.x), y_mm: Millimetres(point.y) }
+    }
+}
+
+impl From<&Warning> for WarningEntry {
+    fn from(warning: &Warning) -> Self {
+        Self {
+            code: warning.code,
+            message: warning.message.clone(),
+            side: warning.side,
+            at: warning.at.map(Place::from),
+            source: warning.source.clone(),
+        }
+    }
+}
+
+impl From<&Statistics> for Figures {
+    fn from(statistics: &Statistics) -> Self {
+        Self {
+            cut_mm: Millimetres(statistics.cut_length),
+            rapid_mm: Millimetres(statistics.rapid_length),
+            lifts: statistics.lifts,
+            seconds: (statistics.seconds * 10.0).round() / 10.0,
+        }
+    }
+}
+
+impl Figures {
+    /// All together.
+    pub fn sum<'a>(all: impl IntoIterator<Item = &'a Statistics>) -> Self {
+        let mut sum = Statistics::default();
+        for one in all {
+            sum.cut_length += one.cut_length;
+            sum.rapid_length += one.rapid_length;
+            sum.lifts += one.lifts;
+            sum.seconds += one.seconds;
+        }
+        Self::from(&sum)
+    }
+}
+
+impl Document {
+    /// As JSON text, indented, ended by a line feed.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        json(self)
+    }
+}
+
+/// As JSON text, indented, ended by a line feed.
+pub(super) fn json(value: &impl Serialize) -> String {
+    let mut text = serde_json::to_string_pretty(value).expect("reports have string keys and finite numbers");
+    text.push('\n');
+    text
+}

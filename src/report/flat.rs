@@ -1,0 +1,46 @@
+//! Copper as flat surfaces: a pixel is covered exactly if its centre is in the shape.
+
+use crate::board::Shape;
+use crate::geometry::Turn;
+use crate::grid::Grid;
+use crate::raster::{Caps, FillRule, Sides, Spin, Surface};
+
+/// The surface of `shape` on `grid`, at depth 0 and nowhere else.
+pub(super) fn surface(shape: &Shape, grid: &Grid) -> Surface {
+    let limit = Some(0.0);
+    match shape {
+        Shape::Disc { center, radius } => {
+            Surface::Cone { apex: grid.pixel(*center), offset: grid.pixels(*radius), limit }
+        }
+        Shape::Stroke { from, to, radius } => Surface::Curtain {
+            from: grid.pixel(*from),
+            to: grid.pixel(*to),
+            caps: Caps::Both,
+            sides: Sides::Both,
+            offset: grid.pixels(*radius),
+            limit,
+        },
+        Shape::Arc { arc, radius } => Surface::Ring {
+            center: grid.pixel(arc.center),
+            start: grid.pixel(arc.start),
+            end: grid.pixel(arc.end),
+            // A turn is seen from above with y up, a spin with y down; both look the same.
+            spin: match arc.turn {
+                Turn::Clockwise => Spin::Clockwise,
+                Turn::CounterClockwise => Spin::CounterClockwise,
+            },
+            caps: Caps::Both,
+            offset: grid.pixels(*radius),
+            limit,
+        },
+        Shape::Polygon(polygon) => Surface::Polygon {
+            contours: polygon
+                .contours()
+                .iter()
+                .map(|ring| ring.iter().map(|&point| grid.pixel(point)).collect())
+                .collect(),
+            rule: FillRule::NonZero,
+            depth: 0.0,
+        },
+    }
+}

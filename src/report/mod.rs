@@ -1,0 +1,17 @@
+//! What a person looks at: pictures of every stage, the report as data, and the summary in a terminal.
+
+mod canvas;
+pub mod document;
+mod flat;
+pub mod inspection;
+mod lettering;
+mod palette;
+pub mod picture;
+pub mod png;
+mod summary;
+
+pub use canvas::Canvas;
+pub use document::Document;
+pub use inspection::Inspection;
+pub use lettering::Lettering;
+pub use palette::{Rgb, tints, vivid};

@@ -1,0 +1,269 @@
+//! Pictures of a side: each stage of the work as a person sees it, the front view for both sides.
+
+use std::collections::BTreeMap;
+
+use crate::board::{Board, Copper, FLATTEN, Hole, Outline};
+use crate::geometry::{Nm, Path, Point, Rect, Segment};
+use crate::grid::{Grid, GridError};
+use crate::raster::{self, Buffers, Label, Scene};
+use crate::toolpath::{Move, Placement, Section};
+use crate::topology::Nets;
+use crate::voronoi::{Boundaries, Diagram, Owner};
+
+use super::palette::{COPPER, CUT, EDGE, GROUND, HOLE, INK, RAPID, SUBSTRATE, tints, vivid};
+use super::{Canvas, Lettering, flat};
+
+/// What was done to one side of a board, as far as a picture shows it.
+#[derive(Clone, Copy)]
+pub struct Shown<'a> {
+    /// The board.
+    pub board: &'a Board,
+    /// The copper of the side.
+    pub copper: &'a Copper,
+    /// Its nets.
+    pub nets: &'a Nets,
+    /// Their diagram.
+    pub diagram: &'a Diagram,
+    /// The diagram's lines.
+    pub boundaries: &'a Boundaries,
+    /// What the machine does to it.
+    pub section: &'a Section,
+    /// How the side lies on the machine.
+    pub placement: &'a Placement,
+    /// What cuts the board out, and how the board lies then.
+    pub cutout: Option<(&'a Section, &'a Placement)>,
+}
+
+/// Copper alone: white on black, one byte a pixel, white exactly where a pixel's centre is copper.
+#[must_use]
+pub fn copper(copper: &Copper, grid: &Grid) -> Vec<u8> {
+    let mut scene = Scene::new(grid.width(), grid.height());
+    for feature in &copper.features {
+        scene.add(Label(1), flat::surface(&feature.shape, grid));
+    }
+    let mut buffers = Buffers::new();
+    raster::render(&scene, &mut buffers);
+    buffers.labels().iter().map(|&label| if label == 0 { 0 } else { u8::MAX }).collect()
+}
+
+/// Copper with a colour for each net, and the names of those that have one where there is room.
+#[must_use]
+pub fn nets(board: &Board, copper: &Copper, nets: &Nets, grid: Grid) -> Canvas {
+    let mut canvas = Canvas::new(grid, GROUND);
+    substrate(&mut canvas, board.outline.as_ref());
+    for (index, feature) in copper.features.iter().enumerate() {
+        canvas.fill(&feature.shape, vivid(nets.of(index)));
+    }
+    holes(&mut canvas, &board.holes);
+    names(&mut canvas, copper, nets);
+    canvas
+}
+
+/// Regions, copper and the boundaries between them.
+#[must_use]
+pub fn voronoi(side: &Shown<'_>, grid: Grid) -> Canvas {
+    let mut canvas = ground(side, grid);
+    let lines = side.boundaries.edges.iter().filter(|edge| !edge.is_border()).map(|edge| &edge.path);
+    canvas.strokes(lines, Nm::ZERO, CUT, 1.0);
+    holes(&mut canvas, &side.board.holes);
+    canvas
+}
+
+/// How far each pixel is from copper: dark near it, light far from it.
+#[must_use]
+pub fn depth(diagram: &Diagram, grid: &Grid) -> Vec<u8> {
+    let depths = diagram.picture(grid).depths;
+    let deepest = depths.iter().copied().filter(|depth| depth.is_finite()).fold(1.0_f32, f32::max);
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 0..=255")]
+    let grey = |depth: f32| if depth.is_finite() { (depth / deepest * 255.0) as u8 } else { u8::MAX };
+    depths.into_iter().map(grey).collect()
+}
+
+/// Everything: regions, copper, cuts at their true width, holes; with the tool's way through the air where `rapids`.
+#[must_use]
+pub fn toolpath(side: &Shown<'_>, grid: Grid, rapids: bool) -> Canvas {
+    let mut canvas = ground(side, grid);
+    let ways = Ways::of(side.section, side.placement);
+    for (depth, paths) in &ways.cuts {
+        canvas.strokes(paths, side.section.tool.width_at(*depth), CUT, 0.92);
+    }
+    if rapids {
+        canvas.strokes(&ways.rapids, Nm::ZERO, RAPID, 0.8);
+    }
+    if let Some((section, placement)) = side.cutout {
+        // What goes all the way through: the tabs are where it does not.
+        if let Some((depth, paths)) = Ways::of(section, placement).cuts.last_key_value() {
+            canvas.strokes(paths, section.tool.width_at(*depth), EDGE, 0.45);
+        }
+    }
+    if let Some(outline) = &side.board.outline {
+        canvas.strokes(outline.contours(), Nm::ZERO, EDGE, 0.9);
+    }
+    holes(&mut canvas, &side.board.holes);
+    canvas
+}
+
+/// Substrate, regions in their tints, copper.
+fn ground(side: &Shown<'_>, grid: Grid) -> Canvas {
+    let mut canvas = Canvas::new(grid, GROUND);
+    substrate(&mut canvas, side.board.outline.as_ref());
+    let tints = tints(side.nets.nets().len(), side.boundaries);
+    let owners = side.diagram.picture(canvas.grid()).owners;
+    let columns = canvas.grid().width() as usize;
+    canvas.paint_pixels(|column, row| match owners[row as usize * columns + column as usize] {
+        Owner::Net(net) => Some(tints[net.index()]),
+        Owner::Background | Owner::Outside => None,
+    });
+    for feature in &side.copper.features {
+        canvas.fill(&feature.shape, COPPER);
+    }
+    canvas
+}
+
+fn substrate(canvas: &mut Canvas, outline: Option<&Outline>) {
+    if let Some(outline) = outline {
+        canvas.polygon(&outline.polygon(FLATTEN), SUBSTRATE, 1.0);
+    }
+}
+
+fn holes(canvas: &mut Canvas, holes: &[Hole]) {
+    for hole in holes {
+        if hole.is_slot() {
+            canvas.stroke(&hole.path, hole.diameter, HOLE, 1.0);
+        } else {
+            canvas.disc(hole.path.start, hole.diameter / 2, HOLE, 1.0);
+        }
+    }
+}
+
+/// The name of each named net, beside its largest feature, where that is large enough to read it on.
+fn names(canvas: &mut Canvas, copper: &Copper, nets: &Nets) {
+    const HEIGHT: f32 = 9.0;
+    for net in nets.nets().iter().filter(|net| !net.names.is_empty()) {
+        let bounds = |feature: &u32| copper.features[*feature as usize].shape.bounds();
+        let size = |rect: &Rect| rect.width().max(rect.height());
+        let Some(largest) = net.features.iter().map(bounds).max_by_key(size) else { continue };
+        let text = net.names.join("+");
+        let name = Lettering { text: &text, height: HEIGHT, colour: INK };
+        if canvas.grid().pixels(size(&largest)) > name.width() {
+            let (x, y) = canvas.place(largest.min().midpoint(largest.max()));
+            let plate = [x - name.width() / 2.0 - 3.0, y - HEIGHT, name.width() + 4.0, HEIGHT + 6.0];
+            canvas.block(plate, GROUND, 0.7);
+            name.draw(canvas, x - name.width() / 2.0, y + 2.0);
+        }
+    }
+}
+
+/// The ways of a tool over the board.
+#[derive(Default)]
+struct Ways {
+    /// What it cuts, by depth below the surface.
+    cuts: BTreeMap<Nm, Vec<Path>>,
+    /// How it gets from one to the next.
+    rapids: Vec<Path>,
+}
+
+impl Ways {
+    fn of(section: &Section, placement: &Placement) -> Self {
+        let mut ways = Self::default();
+        let mut at: Option<(Point, Nm)> = None;
+        for step in &section.moves {
+            let Some(to) = step.to() else { continue };
+            let (point, z) = (placement.undo(to.point()), to.z);
+            if let Some((from, before)) = at {
+                ways.step(from, segment(step, point, placement), before.min(z));
+            }
+            at = Some((point, z));
+        }
+        ways
+    }
+
+    /// Goes on from `from` at height `z`: with the path being cut there, or with a new one.
+    fn step(&mut self, from: Point, segment: Segment, z: Nm) {
+        if z >= Nm::ZERO {
+            self.rapids.push(Path { start: from, segments: vec![segment] });
+            return;
+        }
+        let paths = self.cuts.entry(-z).or_default();
+        match paths.last_mut() {
+            Some(path) if path.end() == from => path.segments.push(segment),
+            _ => paths.push(Path { start: from, segments: vec![segment] }),
+        }
+    }
+}
+
+/// A move as it runs over the board, ending at `to`.
+fn segment(step: &Move, to: Point, placement: &Placement) -> Segment {
+    match *step {
+        Move::Arc { center, turn, .. } => {
+            Segment::Arc { to, center: placement.undo(center), turn: placement.turn(turn) }
+        }
+        Move::Rapid { .. } | Move::Feed { .. } | Move::Dwell { .. } => Segment::Line { to },
+    }
+}
+
+/// The area a picture of the whole board covers: the board and what is cut round it.
+#[must_use]
+pub fn whole(board: &Board, margin: Nm) -> Option<Rect> {
+    let copper = [&board.front, &board.back].into_iter().flatten().filter_map(Copper::bounds);
+    let all = board.bounds().into_iter().chain(copper.filter(|_| board.outline.is_none()));
+    all.reduce(Rect::union).map(|bounds| bounds.inflate(margin))
+}
+
+/// The most pixels of a picture: with what it takes to draw it, about 2 GiB of memory.
+const MOST_PIXELS: i64 = 1 << 27;
+
+/// Refuses a grid whose picture would fill the memory.
+///
+/// # Errors
+///
+/// [`GridError::TooLarge`] beyond 2²⁷ pixels.
+pub fn within_reason(grid: &Grid) -> Result<(), GridError> {
+    let (columns, rows) = (i64::from(grid.width()), i64::from(grid.height()));
+    if columns * rows > MOST_PIXELS { Err(GridError::TooLarge { columns, rows }) } else { Ok(()) }
+}
+
+/// A grid over `area` of `pixel`, or as much coarser as keeps the longer side within `most` pixels.
+///
+/// # Errors
+///
+/// As [`Grid::covering`].
+pub fn fit(area: Rect, pixel: Nm, most: i64) -> Result<Grid, GridError> {
+    let longer = area.width().max(area.height());
+    Grid::covering(area, pixel.max(Nm::new(longer.get() / most + 1)))
+}
+
+/// The grid of [`fit`] with room for a [`legend`] below.
+///
+/// # Errors
+///
+/// As [`Grid::covering`].
+pub fn with_legend(area: Rect, pixel: Nm, most: i64) -> Result<Grid, GridError> {
+    let room = area.width() / 30;
+    let lower = Point::new(area.min().x, area.min().y - room);
+    fit(area.union(Rect::new(lower, lower)), pixel, most)
+}
+
+/// The legend below a picture: what is what, how long 10 mm are, and `caption`.
+pub fn legend(canvas: &mut Canvas, caption: &str) {
+    let (width, height) = canvas.size();
+    let letters = (width / 110.0).clamp(7.0, 16.0);
+    let line = height - letters;
+    let mut x = letters;
+    for (colour, what) in [(COPPER, "copper"), (CUT, "cut"), (HOLE, "hole")] {
+        canvas.block([x, line - letters, letters, letters], colour, 1.0);
+        x += letters * 1.6;
+        x += write(canvas, what, letters, x, line) + letters * 1.4;
+    }
+    let bar = canvas.grid().pixels(Nm::from_mm(10));
+    canvas.block([x, line - letters * 0.6, bar, letters * 0.2], INK, 1.0);
+    x += bar + letters * 0.6;
+    x += write(canvas, "10 mm", letters, x, line) + letters * 2.0;
+    write(canvas, caption, letters, x, line);
+}
+
+fn write(canvas: &mut Canvas, text: &str, height: f32, x: f32, y: f32) -> f32 {
+    let line = Lettering { text, height, colour: INK };
+    line.draw(canvas, x, y);
+    line.width()
+}

@@ -1,0 +1,138 @@
+//! The report as a person reads it in ten seconds.
+
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+
+use super::document::{Document, Figures, WarningEntry};
+
+/// Warnings of one kind that are shown; the rest are counted.
+const SHOWN: usize = 3;
+
+impl Document {
+    /// A short table and the warnings; all of them where `verbose`.
+    #[must_use]
+    pub fn summary(&self, verbose: bool) -> String {
+        let mut text = format!("{}{}\n", self.board, self.size());
+        for layer in &self.layers {
+            let gap = layer.smallest_gap.as_ref().map_or(String::new(), |gap| {
+                let [a, b] = &gap.between;
+                format!(", smallest gap {:.3} mm between {a} and {b}", gap.width_mm.0)
+            });
+            let _ = writeln!(text, "  {}: {}{gap}", layer.side, count(layer.nets.len(), "net"));
+        }
+        let holes: usize = self.drills.iter().map(|drill| drill.holes + drill.slots).sum();
+        if holes > 0 {
+            let _ = writeln!(text, "  {} for {}", count(holes, "hole"), count(self.drills.len(), "drill"));
+        }
+        if !self.programs.is_empty() {
+            text.push('\n');
+            text.push_str(&self.table());
+        }
+        text.push_str(&warnings(&self.warnings, verbose));
+        text
+    }
+
+    fn size(&self) -> String {
+        self.size_mm.map_or(String::new(), |[width, height]| format!(", {:.1} × {:.1} mm", width.0, height.0))
+    }
+
+    /// A line for each program, and one for all.
+    fn table(&self) -> String {
+        let widest =
+            self.programs.iter().map(|program| program.file.chars().count()).max().unwrap_or(0).max(5);
+        let row = |name: &str, figures: &Figures| {
+            let [cut, rapid] = [figures.cut_mm, figures.rapid_mm].map(|length| format!("{:.0} mm", length.0));
+            let time = duration(figures.seconds);
+            format!("  {name:widest$}  {cut:>9}  {rapid:>9}  {:>5}  {time:>9}\n", figures.lifts)
+        };
+        let mut text =
+            format!("  {:widest$}  {:>9}  {:>9}  {:>5}  {:>9}\n", "", "cut", "rapid", "lifts", "time");
+        for program in &self.programs {
+            text.push_str(&row(&program.file, &program.figures));
+        }
+        if self.programs.len() > 1 {
+            text.push_str(&row("total", &self.total));
+        }
+        text
+    }
+}
+
+/// The warnings, of each kind the first few unless `verbose`.
+pub(super) fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
+    let mut text = if warnings.is_empty() { String::new() } else { "\n".to_owned() };
+    let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
+    for warning in warnings {
+        let times = seen.entry(warning.code).or_default();
+        *times += 1;
+        if verbose || *times <= SHOWN {
+            let _ = writeln!(text, "  warning: {}{} [{}]", place(warning), warning.message, warning.code);
+        }
+    }
+    if !verbose {
+        for (code, times) in seen.iter().filter(|(_, times)| **times > SHOWN) {
+            let _ = writeln!(text, "  warning: {} more [{code}]; -v shows all", times - SHOWN);
+        }
+    }
+    text
+}
+
+/// Where a warning belongs: in the file, on the board, or nowhere in particular.
+fn place(warning: &WarningEntry) -> String {
+    if let Some(source) = &warning.source {
+        return format!("{}:{}:{}: ", source.file, source.line, source.column);
+    }
+    let side = warning.side.map_or(String::new(), |side| format!("{side} "));
+    match warning.at {
+        Some(at) => format!("{side}at {:.3}, {:.3} mm: ", at.x_mm.0, at.y_mm.0),
+        None if side.is_empty() => side,
+        None => format!("{}: ", side.trim_end()),
+    }
+}
+
+/// A number of things.
+pub(super) fn count(number: usize, what: &str) -> String {
+    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
+}
+
+/// As people say it: `1:05 h`, `12:30 min`, `40 s`.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates; a display figure"
+)]
+fn duration(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match (whole / 3600, whole / 60 % 60, whole % 60) {
+        (0, 0, seconds) => format!("{seconds} s"),
+        (0, minutes, seconds) => format!("{minutes}:{seconds:02} min"),
+        (hours, minutes, _) => format!("{hours}:{minutes:02} h"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn many_warnings_of_one_kind_are_counted() {
+        let one = |n: i32| WarningEntry {
+            code: "narrow",
+            message: format!("gap {n}"),
+            side: None,
+            at: None,
+            source: None,
+        };
+        let all: Vec<_> = (1..=5).map(one).collect();
+        let short = warnings(&all, false);
+        assert!(short.contains("gap 3") && !short.contains("gap 4"), "{short}");
+        assert!(short.contains("2 more [narrow]"), "{short}");
+        assert!(warnings(&all, true).contains("gap 5"), "verbose shows all");
+    }
+
+    #[test]
+    fn durations_read_well() {
+        for (seconds, text) in [(40.2, "40 s"), (750.0, "12:30 min"), (3900.0, "1:05 h")] {
+            assert_eq!(duration(seconds), text, "{seconds} s");
+        }
+    }
+}

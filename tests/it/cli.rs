@@ -1,0 +1,266 @@
+//! The program as a person runs it: arguments in, files and an exit code out.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+fn fixture(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(path)
+}
+
+/// Runs the program in `folder`; a setting beside the board must not come from somewhere else.
+fn voromill(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_voromill"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the program runs")
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+/// The names of what lies in a folder, sorted.
+fn listing(folder: &Path) -> Vec<String> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+/// Asserts that the program fails with one short message that contains `words`, and leaves nothing in `folder` but
+/// `left`.
+fn fails(folder: &TempDir, arguments: &[&str], words: &[&str], left: &[&str]) {
+    let output = voromill(folder.path(), arguments);
+    let message = stderr(&output);
+    assert_eq!(output.status.code(), Some(2), "{arguments:?} must fail: {message}");
+    assert!(message.starts_with("error: "), "{arguments:?} begins with what it is: {message}");
+    assert!(message.lines().count() <= 10, "{arguments:?} is short: {message}");
+    assert!(stdout(&output).is_empty(), "{arguments:?} prints no result");
+    for word in words {
+        assert!(message.contains(word), "{arguments:?} says `{word}`: {message}");
+    }
+    assert_eq!(listing(folder.path()), left, "{arguments:?} leaves nothing half-written");
+}
+
+fn folder() -> TempDir {
+    TempDir::new().expect("a temporary folder")
+}
+
+#[test]
+fn milling_a_double_sided_board_writes_every_program_picture_and_the_report() {
+    let out = folder();
+    let board = fixture("boards/regulator");
+    let done = voromill(out.path(), &["mill", &board.to_string_lossy(), "-o", "out"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let expected = [
+        "regulator-back.ngc",
+        "regulator-back.png",
+        "regulator-cutout.ngc",
+        "regulator-drill.ngc",
+        "regulator-front.ngc",
+        "regulator-front.png",
+        "regulator.json",
+    ];
+    assert_eq!(listing(&out.path().join("out")), expected, "named after the board");
+    assert!(stdout(&done).contains("regulator-front.ngc"), "the summary lists them: {}", stdout(&done));
+}
+
+#[test]
+fn every_thread_count_gives_the_same_bytes() {
+    let out = folder();
+    for board in ["blinker", "regulator"] {
+        let path = fixture("boards").join(board);
+        let path = path.to_string_lossy();
+        for (threads, to) in [("1", "one"), ("2", "two"), ("2", "again")] {
+            let done = voromill(out.path(), &["mill", &path, "-q", "-j", threads, "-o", to]);
+            assert!(done.status.success(), "{}", stderr(&done));
+            assert!(done.stdout.is_empty() && done.stderr.is_empty(), "--quiet says nothing");
+        }
+        for name in listing(&out.path().join("one")) {
+            let read = |folder: &str| fs::read(out.path().join(folder).join(&name)).expect("written");
+            assert!(read("one") == read("two"), "{name} differs between -j 1 and -j 2");
+            assert!(read("two") == read("again"), "{name} differs from run to run");
+        }
+    }
+}
+
+#[test]
+fn the_report_on_stdout_is_the_report_in_the_file() {
+    let out = folder();
+    let board = fixture("boards/blinker");
+    let done = voromill(out.path(), &["mill", &board.to_string_lossy(), "--json", "-o", "."]);
+    let file = fs::read_to_string(out.path().join("blinker.json")).expect("written");
+    assert_eq!(stdout(&done), file, "the same text");
+    assert!(!file.contains(&*out.path().to_string_lossy()), "no path of this machine");
+    let report: serde_json::Value = serde_json::from_str(&file).expect("JSON");
+    assert_eq!(report["schema_version"], 1, "the version of its shape");
+    assert!(report["total"]["cut_mm"].as_f64() > Some(0.0), "something is cut");
+}
+
+#[test]
+fn one_layer_goes_to_stdout_alone() {
+    let out = folder();
+    let layer = fixture("boards/blinker/blinker-B_Cu.gbr");
+    let done =
+        voromill(out.path(), &["isolate", &layer.to_string_lossy(), "-o", "-", "--dialect", "linuxcnc"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let program = stdout(&done);
+    assert!(
+        program.contains("mirror") || program.contains("turned over"),
+        "the back says how it lies: {program:.400}"
+    );
+    assert!(program.contains("M2"), "a whole program");
+    assert!(listing(out.path()).is_empty(), "and no file");
+}
+
+#[test]
+fn nonsense_for_input_ends_in_a_message_and_no_file() {
+    let out = folder();
+    let write = |name: &str, bytes: &[u8]| fs::write(out.path().join(name), bytes).expect("written");
+    write("empty.gbr", b"");
+    write("picture.gbr", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0");
+    write("truncated.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%AMROUND*\n1,1,0.5,");
+    write("bare.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nM02*\n");
+    write("file", b"");
+    let left = ["bare.gbr", "empty.gbr", "file", "picture.gbr", "truncated.gbr"];
+    fails(&out, &["mill", "missing.gbr", "-o", "out"], &["missing.gbr"], &left);
+    fails(&out, &["mill", "empty.gbr", "-o", "out"], &["empty.gbr", "empty"], &left);
+    fails(&out, &["mill", "picture.gbr", "-o", "out"], &["picture.gbr", "PNG"], &left);
+    fails(&out, &["mill", "truncated.gbr", "-o", "out"], &["truncated.gbr"], &left);
+    fails(&out, &["mill", "bare.gbr", "-o", "out"], &["no copper", "hint: "], &left);
+    let board = fixture("boards/blinker");
+    fails(&out, &["mill", &board.to_string_lossy(), "-o", "file/out"], &["file/out", "hint: "], &left);
+    fails(&out, &["mill", &board.to_string_lossy(), "-o", "file"], &["file", "hint: "], &left);
+    fails(&out, &["draw", &board.to_string_lossy(), "-o", "no/such.png"], &["no/such.png", "hint: "], &left);
+}
+
+#[test]
+fn a_file_that_cannot_be_replaced_leaves_the_others_as_they_were() {
+    let out = folder();
+    let target = out.path().join("out");
+    fs::create_dir_all(target.join("blinker-drill.ngc")).expect("a folder in the way");
+    fs::write(target.join("blinker-back.ngc"), "old").expect("written");
+    let board = fixture("boards/blinker");
+    fails(&out, &["mill", &board.to_string_lossy(), "-o", "out"], &["blinker-drill.ngc", "folder"], &["out"]);
+    assert_eq!(listing(&target), ["blinker-back.ngc", "blinker-drill.ngc"], "nothing new");
+    assert_eq!(
+        fs::read_to_string(target.join("blinker-back.ngc")).expect("there"),
+        "old",
+        "nothing replaced"
+    );
+}
+
+#[test]
+fn options_win_over_the_settings_file_and_that_over_the_defaults() {
+    let out = folder();
+    let layer = out.path().join("layer-B_Cu.gbr");
+    fs::copy(fixture("boards/blinker/blinker-B_Cu.gbr"), layer).expect("copied");
+    fs::write(out.path().join("voromill.toml"), "depth = \"0.2mm\"\nfeed = \"150mm/min\"\n")
+        .expect("written");
+    let run = |arguments: &[&str]| {
+        let done = voromill(out.path(), &[&["isolate", "layer-B_Cu.gbr", "-o", "-"], arguments].concat());
+        assert!(done.status.success(), "{}", stderr(&done));
+        stdout(&done)
+    };
+    let beside = run(&[]);
+    assert!(beside.contains("depth 0.2mm") && beside.contains("feed 150mm/min"), "{beside:.900}");
+    assert!(beside.contains("spindle 12000"), "the default: {beside:.900}");
+    let options = run(&["--depth", "3mil"]);
+    assert!(options.contains("depth 0.0762mm") && options.contains("feed 150mm/min"), "{options:.900}");
+}
+
+#[test]
+fn wrong_settings_are_named_with_their_place() {
+    let out = folder();
+    fs::write(out.path().join("wrong.toml"), "depht = \"0.2mm\"\n").expect("written");
+    let board = fixture("boards/blinker");
+    let board = board.to_string_lossy();
+    let left = ["wrong.toml"];
+    let arguments = ["mill", &board, "-o", "out", "--config", "wrong.toml"];
+    fails(&out, &arguments, &["wrong.toml:1:1", "did you mean `depth`"], &left);
+    let bare = voromill(out.path(), &["mill", &board, "-o", "out", "--depth", "0.1"]);
+    assert_eq!(bare.status.code(), Some(2), "a bare number is refused");
+    assert!(stderr(&bare).contains("0.1mm"), "with a hint: {}", stderr(&bare));
+    fails(&out, &["mill", &board, "-o", "out", "--tool", "drill:1mm"], &["tool", "endmill"], &left);
+}
+
+#[test]
+fn init_writes_the_defaults_once() {
+    let out = folder();
+    let written = voromill(out.path(), &["init"]);
+    assert!(written.status.success(), "{}", stderr(&written));
+    let text = fs::read_to_string(out.path().join("voromill.toml")).expect("written");
+    assert_eq!(text, voromill::job::DEFAULTS, "the commented file");
+    fails(&out, &["init"], &["voromill.toml", "--force"], &["voromill.toml"]);
+    assert!(voromill(out.path(), &["init", "--force"]).status.success(), "--force replaces it");
+}
+
+#[test]
+fn a_window_of_copper_is_white_where_a_pixels_centre_is_copper() {
+    let out = folder();
+    let gerber = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,4*%\n%ADD11R,2X2*%\n%LPD*%\nD10*\nX0Y0D03*\nD11*\nX4000000Y0D03*\nM02*\n";
+    fs::write(out.path().join("dots-F_Cu.gbr"), gerber).expect("written");
+    let arguments = [
+        "draw",
+        "dots-F_Cu.gbr",
+        "--stage",
+        "copper",
+        "--pixel",
+        "1mm",
+        "--window",
+        "-3mm,-2mm,9mm,4mm",
+        "-o",
+        "dots.png",
+    ];
+    let done = voromill(out.path(), &arguments);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let picture = image::open(out.path().join("dots.png")).expect("a PNG").into_luma8();
+    let mark = |pixel: &image::Luma<u8>| if pixel.0[0] == 255 { '#' } else { '.' };
+    let rows: Vec<String> = picture.rows().map(|row| row.map(mark).collect()).collect();
+    let expected = [
+        "..##.....", //
+        ".####.##.",
+        ".####.##.",
+        "..##.....",
+    ];
+    assert_eq!(rows, expected, "row 0 is on top");
+}
+
+#[test]
+fn every_stage_can_be_drawn() {
+    let out = folder();
+    let board = fixture("boards/blinker");
+    for stage in ["copper", "nets", "voronoi", "depth", "toolpath"] {
+        let picture = format!("{stage}.png");
+        let arguments =
+            ["draw", &board.to_string_lossy(), "--stage", stage, "--pixel", "0.1mm", "-o", &picture];
+        let done = voromill(out.path(), &arguments);
+        assert!(done.status.success(), "{stage}: {}", stderr(&done));
+        let size = image::open(out.path().join(&picture)).expect("a PNG").into_luma8().dimensions();
+        assert!(size.0 > 50 && size.1 > 50, "{stage} is {size:?}");
+    }
+}
+
+#[test]
+fn inspect_lists_files_nets_and_holes() {
+    let out = folder();
+    let board = fixture("boards/regulator");
+    let text = voromill(out.path(), &["inspect", &board.to_string_lossy()]);
+    assert!(text.status.success(), "{}", stderr(&text));
+    let text = stdout(&text);
+    for words in ["regulator-F_Cu.gbr", "smallest gap", "holes", "joined through plated holes"] {
+        assert!(text.contains(words), "says `{words}`:\n{text}");
+    }
+    let json = voromill(out.path(), &["inspect", &board.to_string_lossy(), "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    assert!(report["layers"][0]["nets"].as_array().is_some_and(|nets| nets.len() > 1), "nets by name");
+}
