@@ -1,4 +1,4 @@
-use super::block::{Block, LANES, SIDE};
+use super::block::{Block, Extent, LANES, SIDE};
 use super::cell::Cell;
 use super::half_plane::Cover;
 use super::primitive::{Part, Reach, Shape};
@@ -120,25 +120,44 @@ impl Bin {
 
     /// Draws all of it on `block`, in the order of labels.
     fn draw(&self, scene: &Scene, block: &mut Block) {
-        let (mut shapes, mut parts) = (self.shapes.iter().peekable(), self.parts.iter().peekable());
+        let (mut shapes, mut parts) = (self.shapes.as_slice(), self.parts.as_slice());
         let label = |primitive: u32| scene.primitives[index(primitive)].label;
+        let mut first = self.fills(scene);
+        if !first {
+            block.clear();
+        }
         loop {
-            let shape_first = match (shapes.peek(), parts.peek()) {
-                (None, None) => return,
-                (Some(shape), Some(part)) => label(shape.primitive) <= label(part.primitive),
-                (shape, _) => shape.is_some(),
+            let shape_first = match (shapes, parts) {
+                ([], []) => return,
+                ([shape, ..], [part, ..]) => label(shape.primitive) <= label(part.primitive),
+                (shapes, _) => !shapes.is_empty(),
             };
-            if shape_first {
-                let Some(candidate) = shapes.next() else { return };
+            if let (true, [candidate, rest @ ..]) = (shape_first, shapes) {
                 let cover = if candidate.whole { Cover::Whole } else { Cover::Part };
                 let primitive = &scene.primitives[index(candidate.primitive)];
-                primitive.shape.draw(primitive.label, cover, block);
-            } else {
-                let Some(part) = parts.next() else { return };
+                primitive.shape.draw(primitive.label, cover, first, block);
+                shapes = rest;
+            } else if let [part, rest @ ..] = parts {
                 if let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape {
-                    polygon.draw(label(part.primitive), part, &self.edges, block);
+                    let extent = if first { Extent::First } else { Extent::Whole };
+                    polygon.draw(label(part.primitive), part, &self.edges, extent, block);
                 }
+                parts = rest;
             }
+            first = false;
+        }
+    }
+
+    /// Whether what is drawn first covers the whole block, so that it need not be cleared.
+    fn fills(&self, scene: &Scene) -> bool {
+        let label = |primitive: u32| scene.primitives[index(primitive)].label;
+        match (self.shapes.first(), self.parts.first()) {
+            (Some(shape), Some(part)) if label(part.primitive) < label(shape.primitive) => {
+                part.edges.is_empty()
+            }
+            (Some(shape), _) => shape.whole && scene.primitives[index(shape.primitive)].shape.fills(),
+            (None, Some(part)) => part.edges.is_empty(),
+            (None, None) => false,
         }
     }
 }
@@ -171,7 +190,7 @@ fn paint(
     finished: &mut impl FnMut(&Block),
 ) {
     if bin.is_ripe(cell) {
-        block.clear(cell);
+        block.place(cell);
         bin.draw(scene, block);
         finished(block);
         return;

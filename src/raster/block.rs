@@ -1,54 +1,81 @@
 use std::ops::Range;
 
+use pulp::{Arch, Simd, WithSimd};
+
 use super::cell::Cell;
+use super::lanes::Lanes;
 use super::subpixel::sample;
 use super::{Fragment, Label};
 
-/// Pixels that a loop draws at once: two SSE registers, one AVX register. Cells are cut at multiples of it.
+/// Pixels that a row is padded to: as many as any processor works on at once. Cells are cut at multiples of it.
 pub(super) const LANES: i32 = 8;
 
 /// Pixels along a side of the largest block. Chosen: 8 KiB, a quarter of a first-level cache.
 pub(super) const SIDE: i32 = 32;
 
-const CHUNKS: usize = (SIDE / LANES) as usize;
+/// Sample positions of neighbouring pixels from the first one on, in steps.
+const OFFSETS: [f32; LANES as usize] = [0.0, 256.0, 512.0, 768.0, 1024.0, 1280.0, 1536.0, 1792.0];
 
-const WIDTH: usize = LANES as usize;
+/// A surface whose depth is computed many pixels at a time.
+///
+/// Positions are sample positions in steps: whole numbers below 2²⁴, so exact in an `f32`.
+pub(super) trait Field {
+    /// What is constant in a row.
+    type Row<S: Simd>: Copy;
+
+    /// Sets up the row at `y`.
+    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S>;
+
+    /// The depth at `x`; never NaN, never −0.
+    fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S>;
+}
+
+/// Which pixels of a block a surface is laid on.
+#[derive(Clone, Copy)]
+pub(super) enum Extent<'a> {
+    /// All, and nothing has been laid before.
+    First,
+    /// All.
+    Whole,
+    /// One range of columns for each row, where no deeper than the limit.
+    Part(&'a [Range<i32>], f32),
+}
 
 /// Depths and labels of a small cell while primitives are laid on it.
 ///
 /// Rows are padded to whole lanes; what lies beyond the cell is drawn along and never read.
 pub(super) struct Block {
+    arch: Arch,
     cell: Cell,
-    depths: Vec<[f32; WIDTH]>,
-    labels: Vec<[u32; WIDTH]>,
-}
-
-/// One row of a block, from the column of its cell on.
-pub(super) struct Row<'a> {
-    /// The row's sample position in steps.
-    pub y: i32,
-    /// The leftmost sample position in steps.
-    pub x: i32,
-    /// The leftmost column.
-    pub column: i32,
-    depths: &'a mut [[f32; WIDTH]],
-    labels: &'a mut [[u32; WIDTH]],
+    depths: Vec<f32>,
+    labels: Vec<u32>,
+    /// Scratch for the columns of a part.
+    pub columns: Vec<Range<i32>>,
 }
 
 impl Block {
     /// A block to be used again and again.
     pub(super) fn new() -> Self {
-        let chunks = CHUNKS * CHUNKS * WIDTH;
-        let cell = Cell { x: 0, y: 0, width: 1, height: 1 };
-        Self { cell, depths: vec![[0.0; WIDTH]; chunks], labels: vec![[0; WIDTH]; chunks] }
+        let pixels = count(SIDE) * count(SIDE);
+        Self {
+            arch: Arch::new(),
+            cell: Cell { x: 0, y: 0, width: 1, height: 1 },
+            depths: vec![0.0; pixels],
+            labels: vec![0; pixels],
+            columns: Vec::new(),
+        }
     }
 
-    /// Takes the place of `cell`, at most [`SIDE`] wide and high, with nothing drawn.
-    pub(super) fn clear(&mut self, cell: Cell) {
+    /// Takes the place of `cell`, at most [`SIDE`] wide and high; what was drawn before is still there.
+    pub(super) const fn place(&mut self, cell: Cell) {
         self.cell = cell;
-        let chunks = self.chunks() * count(cell.height);
-        self.depths[..chunks].fill([f32::INFINITY; WIDTH]);
-        self.labels[..chunks].fill([Label::BACKGROUND.0; WIDTH]);
+    }
+
+    /// Wipes what was drawn.
+    pub(super) fn clear(&mut self) {
+        let pixels = self.stride() * count(self.cell.height);
+        self.depths[..pixels].fill(f32::INFINITY);
+        self.labels[..pixels].fill(Label::BACKGROUND.0);
     }
 
     /// The pixels it stands for.
@@ -56,80 +83,137 @@ impl Block {
         self.cell
     }
 
-    fn chunks(&self) -> usize {
-        count(self.cell.width).div_ceil(WIDTH)
+    fn stride(&self) -> usize {
+        count(self.cell.width).next_multiple_of(count(LANES))
     }
 
-    /// Its rows from the top, to be drawn on.
-    pub(super) fn rows(&mut self) -> impl Iterator<Item = Row<'_>> {
-        let (cell, chunks) = (self.cell, self.chunks());
-        let rows = self.depths.chunks_exact_mut(chunks).zip(self.labels.chunks_exact_mut(chunks));
-        (cell.y..cell.y + cell.height).zip(rows).map(move |(row, (depths, labels))| Row {
-            y: sample(row),
-            x: sample(cell.x),
-            column: cell.x,
-            depths,
-            labels,
-        })
+    /// The columns of its rows, padding included.
+    pub(super) fn padded_columns(&self) -> Range<i32> {
+        let lanes = (self.cell.width + LANES - 1) / LANES;
+        self.cell.x..self.cell.x + lanes * LANES
+    }
+
+    /// Lays a surface on it.
+    ///
+    /// Primitives come in the order of their labels, so that a tie is left with the earlier.
+    pub(super) fn lay(&mut self, label: Label, field: &impl Field, extent: Extent<'_>) {
+        let (stride, cell) = (self.stride(), self.cell);
+        let pixels = stride * count(cell.height);
+        let (depths, labels) = (&mut self.depths[..pixels], &mut self.labels[..pixels]);
+        self.arch.dispatch(Lay { field, label, extent, cell, stride, depths, labels });
+    }
+
+    /// Its rows from the top as (row, depths, labels), padding included.
+    pub(super) fn rows(&mut self) -> impl Iterator<Item = (i32, &mut [f32], &mut [u32])> {
+        let (cell, stride) = (self.cell, self.stride());
+        let rows = self.depths.chunks_exact_mut(stride).zip(self.labels.chunks_exact_mut(stride));
+        (cell.y..cell.y + cell.height).zip(rows).map(|(row, (depths, labels))| (row, depths, labels))
     }
 
     /// Its finished rows from the top, as wide as the cell.
     pub(super) fn finished(&self) -> impl Iterator<Item = (&[f32], &[u32])> {
-        let (width, chunks) = (count(self.cell.width), self.chunks());
-        let rows = self.depths.chunks_exact(chunks).zip(self.labels.chunks_exact(chunks));
-        rows.take(count(self.cell.height))
-            .map(move |(depths, labels)| (&depths.as_flattened()[..width], &labels.as_flattened()[..width]))
+        let (width, stride) = (count(self.cell.width), self.stride());
+        let rows = self.depths.chunks_exact(stride).zip(self.labels.chunks_exact(stride));
+        rows.take(count(self.cell.height)).map(move |(depths, labels)| (&depths[..width], &labels[..width]))
     }
 }
 
-impl Row<'_> {
-    /// The columns the row reaches, padding included.
-    pub(super) fn columns(&self) -> Range<i32> {
-        let width = i32::try_from(self.depths.len()).expect("a few chunks") * LANES;
-        self.column..self.column + width
-    }
+/// The call of [`Block::lay`], to be compiled for each kind of processor.
+struct Lay<'a, F> {
+    field: &'a F,
+    label: Label,
+    extent: Extent<'a>,
+    cell: Cell,
+    stride: usize,
+    depths: &'a mut [f32],
+    labels: &'a mut [u32],
+}
 
-    /// Draws a fragment on every pixel; `depth` gets the sample position in steps.
-    ///
-    /// Primitives come in the order of their labels, so that a tie is left with the earlier.
+impl<F: Field> WithSimd for Lay<'_, F> {
+    type Output = ();
+
     #[inline(always)]
-    pub(super) fn draw(&mut self, label: Label, depth: impl Fn(i32) -> f32) {
-        let mut x = self.x;
-        for (depths, labels) in self.depths.iter_mut().zip(self.labels.iter_mut()) {
-            for (lane, (old, owner)) in (0..).zip(depths.iter_mut().zip(labels.iter_mut())) {
-                let new = depth(x + lane * 256);
-                let closer = new < *old;
-                *old = if closer { new } else { *old };
-                *owner = if closer { label.0 } else { *owner };
+    fn with_simd<S: Simd>(self, simd: S) {
+        let label = simd.splat_u32s(self.label.0);
+        let rows = self.depths.chunks_exact_mut(self.stride).zip(self.labels.chunks_exact_mut(self.stride));
+        let rows = (self.cell.y..).zip(rows);
+        let first = self.cell.x;
+        match self.extent {
+            Extent::First => {
+                for (y, (depths, labels)) in rows {
+                    let row = self.field.row(simd, position(y));
+                    along(simd, first, depths, labels, |x, old_depth, old_label| {
+                        *old_depth = F::depth(row, x).value;
+                        *old_label = label;
+                    });
+                }
             }
-            x += LANES * 256;
+            Extent::Whole => {
+                for (y, (depths, labels)) in rows {
+                    let row = self.field.row(simd, position(y));
+                    along(simd, first, depths, labels, |x, old_depth, old_label| {
+                        let depth = F::depth(row, x);
+                        let closer = depth.less(Lanes::new(simd, *old_depth)).value;
+                        *old_depth = simd.select_f32s(closer, depth.value, *old_depth);
+                        *old_label = simd.select_u32s(closer, label, *old_label);
+                    });
+                }
+            }
+            Extent::Part(columns, limit) => {
+                let limit = Lanes::splat(simd, limit);
+                for ((y, (depths, labels)), columns) in rows.zip(columns) {
+                    if columns.is_empty() {
+                        continue;
+                    }
+                    let row = self.field.row(simd, position(y));
+                    let from = Lanes::splat(simd, position(columns.start));
+                    let to = Lanes::splat(simd, position(columns.end));
+                    along(simd, first, depths, labels, |x, old_depth, old_label| {
+                        let depth = F::depth(row, x);
+                        let inside = from.at_most(x).and(x.less(to)).and(depth.at_most(limit));
+                        let closer = depth.less(Lanes::new(simd, *old_depth)).and(inside).value;
+                        *old_depth = simd.select_f32s(closer, depth.value, *old_depth);
+                        *old_label = simd.select_u32s(closer, label, *old_label);
+                    });
+                }
+            }
         }
     }
+}
 
-    /// Draws fragments on `columns` only, and only where they are no deeper than `limit`.
-    #[inline(always)]
-    pub(super) fn draw_part(
-        &mut self,
-        label: Label,
-        columns: &Range<i32>,
-        limit: f32,
-        depth: impl Fn(i32) -> f32,
-    ) {
-        let (from, to) = (sample(columns.start), sample(columns.end));
-        self.draw(label, |x| {
-            let new = depth(x);
-            if (x >= from) & (x < to) & (new <= limit) { new } else { f32::INFINITY }
-        });
+/// Goes along a row whose first column is `first`, with the sample positions, depths and labels of several pixels.
+#[inline(always)]
+fn along<S: Simd>(
+    simd: S,
+    first: i32,
+    depths: &mut [f32],
+    labels: &mut [u32],
+    mut pixels: impl FnMut(Lanes<S>, &mut S::f32s, &mut S::u32s),
+) {
+    let offsets = Lanes::new(simd, simd.partial_load_f32s(&OFFSETS[..S::F32_LANES]));
+    // Whole numbers below 2²⁴ all the way: adding them is exact, and a position is what it is wherever a row starts.
+    let step = Lanes::splat(simd, OFFSETS[1]) * Lanes::splat(simd, LANES_AS_FLOAT[S::F32_LANES]);
+    let mut x = Lanes::splat(simd, position(first)) + offsets;
+    let (depths, labels) = (S::as_mut_simd_f32s(depths).0, S::as_mut_simd_u32s(labels).0);
+    for (depth, label) in depths.iter_mut().zip(labels) {
+        pixels(x, depth, label);
+        x = x + step;
     }
+}
 
-    /// Draws one fragment on the pixel at `column`.
-    pub(super) fn draw_pixel(&mut self, column: i32, fragment: Fragment) {
-        let index = count(column - self.column);
-        let (old, owner) =
-            (&mut self.depths[index / WIDTH][index % WIDTH], &mut self.labels[index / WIDTH][index % WIDTH]);
-        if fragment.depth < *old {
-            (*old, *owner) = (fragment.depth, fragment.label.0);
-        }
+const LANES_AS_FLOAT: [f32; LANES as usize + 1] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
+
+/// The sample position of a column or row as a float; exact.
+#[inline(always)]
+#[expect(clippy::cast_precision_loss, reason = "below 2²⁴")]
+pub(super) fn position(index: i32) -> f32 {
+    sample(index) as f32
+}
+
+/// Puts a fragment on the pixel it fell on, where it is nearer.
+pub(super) fn put(depth: &mut f32, label: &mut u32, fragment: Fragment) {
+    if fragment.depth < *depth {
+        (*depth, *label) = (fragment.depth, fragment.label.0);
     }
 }
 

@@ -5,6 +5,7 @@ mod block;
 mod cell;
 mod fragment;
 mod half_plane;
+mod lanes;
 mod node;
 mod primitive;
 mod render;

@@ -1,22 +1,24 @@
-use super::super::block::Block;
+use pulp::Simd;
+
+use super::super::PixelPoint;
+use super::super::block::Field;
 use super::super::cell::Cell;
 use super::super::half_plane::Cover;
-use super::super::{Label, PixelPoint};
+use super::super::lanes::Lanes;
+use super::stroke::StrokeLanes;
 use super::{Reach, Stroke};
 
 /// A point's distance.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Cone {
-    apex: (i32, i32),
-    stroke: Stroke,
+    /// In steps.
+    apex: (f32, f32),
+    pub stroke: Stroke,
 }
-
-/// Pixels in a step; a power of two, so that multiplying by it is exact.
-const PIXEL: f32 = 1.0 / 256.0;
 
 impl Cone {
     pub(in super::super) fn new(apex: PixelPoint, stroke: Stroke) -> Self {
-        Self { apex: apex.raw(), stroke }
+        Self { apex: floats(apex.raw()), stroke }
     }
 
     pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {
@@ -25,34 +27,26 @@ impl Cone {
         let distance = (dx * dx + dy * dy).sqrt();
         self.stroke.reach(distance, distance, 0.0, Cover::Whole, cell)
     }
+}
 
-    pub(super) fn draw(&self, label: Label, cover: Cover, block: &mut Block) {
-        for mut row in block.rows() {
-            let depth = self.along(row.y);
-            if cover == Cover::Whole {
-                row.draw(label, depth);
-            } else {
-                row.draw_part(label, &row.columns(), self.stroke.limit, depth);
-            }
-        }
+impl Field for Cone {
+    type Row<S: Simd> = (Lanes<S>, Lanes<S>, StrokeLanes<S>);
+
+    #[inline(always)]
+    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
+        let dy = y - self.apex.1;
+        (Lanes::splat(simd, self.apex.0), Lanes::splat(simd, dy * dy), self.stroke.lanes(simd))
     }
 
-    /// The depth along the row at `y`, by the sample position.
     #[inline(always)]
-    fn along(&self, y: i32) -> impl Fn(i32) -> f32 + Copy {
-        let (apex, stroke) = (self.apex, self.stroke);
-        let dy = float(y - apex.1);
-        let dy2 = dy * dy;
-        move |x| {
-            let dx = float(x - apex.0);
-            stroke.depth((dx * dx + dy2).sqrt() * PIXEL)
-        }
+    fn depth<S: Simd>((apex, dy2, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        let dx = x - apex;
+        stroke.depth((dx * dx + dy2).sqrt())
     }
 }
 
-/// A difference of coordinates as a float: exact up to 65 536 pixels, beyond that rounded once.
-#[inline(always)]
+/// A point in steps as floats: exact within 65 536 pixels of the origin, beyond that rounded once.
 #[expect(clippy::cast_precision_loss, reason = "rounded correctly, as the doc says")]
-pub(super) fn float(steps: i32) -> f32 {
-    steps as f32
+pub(super) const fn floats(point: (i32, i32)) -> (f32, f32) {
+    (point.0 as f32, point.1 as f32)
 }

@@ -1,8 +1,12 @@
-use super::super::block::Block;
+use pulp::Simd;
+
+use super::super::block::Field;
 use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
-use super::super::{Caps, Label, PixelPoint, Sides};
-use super::cone::float;
+use super::super::lanes::Lanes;
+use super::super::{Caps, PixelPoint, Sides};
+use super::cone::floats;
+use super::stroke::StrokeLanes;
 use super::{Reach, Stroke};
 
 /// A segment's distance.
@@ -12,8 +16,9 @@ pub(in super::super) struct Curtain {
     to: (i32, i32),
     caps: Caps,
     sides: Sides,
-    stroke: Stroke,
-    /// The way from end to end in steps, and one over its squared length (0 for a point).
+    pub stroke: Stroke,
+    /// Where it starts, and the way from end to end, in steps; one over its squared length (0 for a point).
+    start: (f32, f32),
     way: (f32, f32),
     inverse: f32,
 }
@@ -31,14 +36,14 @@ impl Curtain {
             return None;
         }
         let (from, to) = (from.raw(), to.raw());
-        let way = (float(to.0 - from.0), float(to.1 - from.1));
+        let way = floats((to.0 - from.0, to.1 - from.1));
         let square = way.0 * way.0 + way.1 * way.1;
         let inverse = if square > 0.0 { 1.0 / square } else { 0.0 };
-        Some(Self { from, to, caps, sides, stroke, way, inverse })
+        Some(Self { from, to, caps, sides, stroke, start: floats(from), way, inverse })
     }
 
     /// Where it hangs: between its ends unless they are round, on its sides.
-    fn region(&self) -> Convex<3> {
+    pub(super) fn region(&self) -> Convex<3> {
         let (x, y) =
             (i64::from(self.to.0) - i64::from(self.from.0), i64::from(self.to.1) - i64::from(self.from.1));
         let start = (!self.caps.start()).then(|| HalfPlane::ahead(self.from, (x, y)));
@@ -66,39 +71,50 @@ impl Curtain {
         };
         self.stroke.reach(distance, distance, length, cover, cell)
     }
+}
 
-    pub(super) fn draw(&self, label: Label, cover: Cover, block: &mut Block) {
-        if cover == Cover::Whole {
-            for mut row in block.rows() {
-                let depth = self.along(row.y);
-                row.draw(label, depth);
-            }
-            return;
-        }
-        let region = self.region();
-        for mut row in block.rows() {
-            let columns = region.columns(row.y, row.columns());
-            let depth = self.along(row.y);
-            row.draw_part(label, &columns, self.stroke.limit, depth);
+impl Field for Curtain {
+    type Row<S: Simd> = CurtainRow<S>;
+
+    #[inline(always)]
+    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
+        let wy = y - self.start.1;
+        let splat = |number| Lanes::splat(simd, number);
+        CurtainRow {
+            start: splat(self.start.0),
+            wy: splat(wy),
+            along: splat(wy * self.way.1),
+            ux: splat(self.way.0),
+            uy: splat(self.way.1),
+            inverse: splat(self.inverse),
+            zero: splat(0.0),
+            one: splat(1.0),
+            stroke: self.stroke.lanes(simd),
         }
     }
 
-    /// The depth along the row at `y`, by the sample position.
-    ///
     /// With w the way from the start to the sample and u the way along the segment, the nearest point lies at
     /// t = clamp(w·u / u·u, 0, 1), and the distance is |w − t u|.
     #[inline(always)]
-    fn along(&self, y: i32) -> impl Fn(i32) -> f32 + Copy {
-        let (from, (ux, uy), inverse, stroke) = (self.from.0, self.way, self.inverse, self.stroke);
-        let wy = float(y - self.from.1);
-        let wy_uy = wy * uy;
-        move |x| {
-            let wx = float(x - from);
-            let t = (wx * ux + wy_uy) * inverse;
-            let t = if t > 0.0 { t } else { 0.0 };
-            let t = if t < 1.0 { t } else { 1.0 };
-            let (ex, ey) = (wx - t * ux, wy - t * uy);
-            stroke.depth((ex * ex + ey * ey).sqrt() * (1.0 / 256.0))
-        }
+    fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        let wx = x - row.start;
+        let t = ((wx * row.ux + row.along) * row.inverse).max(row.zero).min(row.one);
+        let (ex, ey) = (wx - t * row.ux, row.wy - t * row.uy);
+        row.stroke.depth((ex * ex + ey * ey).sqrt())
     }
+}
+
+/// What is constant in a row of a curtain.
+#[derive(Clone, Copy)]
+pub(in super::super) struct CurtainRow<S: Simd> {
+    start: Lanes<S>,
+    wy: Lanes<S>,
+    /// The row's part of w·u.
+    along: Lanes<S>,
+    ux: Lanes<S>,
+    uy: Lanes<S>,
+    inverse: Lanes<S>,
+    zero: Lanes<S>,
+    one: Lanes<S>,
+    stroke: StrokeLanes<S>,
 }

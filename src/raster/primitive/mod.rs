@@ -14,9 +14,10 @@ pub(super) use ring::Ring;
 pub(super) use stroke::Stroke;
 pub(super) use triangle::Triangle;
 
-use super::block::Block;
+use super::block::{Block, Extent, Field};
 use super::cell::Cell;
-use super::half_plane::Cover;
+use super::half_plane::{Convex, Cover};
+use super::subpixel::sample;
 use super::{Label, Surface};
 
 /// A surface and whose it is.
@@ -80,14 +81,47 @@ impl Shape {
         }
     }
 
-    /// Draws it on `block`, which it covers as `cover` says. Polygons are drawn by their [`Part`]s instead.
-    pub(super) fn draw(&self, label: Label, cover: Cover, block: &mut Block) {
+    /// Draws it on `block`, of which it covers what `cover` says; `first` where nothing is drawn there yet and it
+    /// covers all. Polygons are drawn by their [`Part`]s instead.
+    pub(super) fn draw(&self, label: Label, cover: Cover, first: bool, block: &mut Block) {
         match self {
-            Self::Cone(cone) => cone.draw(label, cover, block),
-            Self::Curtain(curtain) => curtain.draw(label, cover, block),
+            Self::Cone(cone) => lay(cone, label, cover, first, cone.stroke, &Convex([]), block),
+            Self::Curtain(curtain) if cover == Cover::Whole => {
+                lay(curtain, label, cover, first, curtain.stroke, &Convex([]), block);
+            }
+            Self::Curtain(curtain) => {
+                lay(curtain, label, cover, first, curtain.stroke, &curtain.region(), block)
+            }
             Self::Ring(ring) => ring.draw(label, cover, block),
             Self::Triangle(triangle) => triangle.draw(label, block),
             Self::Polygon(_) => {}
         }
     }
+
+    /// Whether it may be drawn first on a block that has not been cleared, where it covers all of it.
+    pub(super) const fn fills(&self) -> bool {
+        matches!(self, Self::Cone(_) | Self::Curtain(_))
+    }
+}
+
+/// Lays a surface on the whole of a block or on the part of it that lies in `region`.
+fn lay<const N: usize>(
+    field: &impl Field,
+    label: Label,
+    cover: Cover,
+    first: bool,
+    stroke: Stroke,
+    region: &Convex<N>,
+    block: &mut Block,
+) {
+    if cover == Cover::Whole {
+        block.lay(label, field, if first { Extent::First } else { Extent::Whole });
+        return;
+    }
+    let (all, cell) = (block.padded_columns(), block.cell());
+    let mut columns = std::mem::take(&mut block.columns);
+    columns.clear();
+    columns.extend((cell.y..cell.y + cell.height).map(|row| region.columns(sample(row), all.clone())));
+    block.lay(label, field, Extent::Part(&columns, stroke.limit));
+    block.columns = columns;
 }

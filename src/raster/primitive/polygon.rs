@@ -1,8 +1,11 @@
 use std::ops::Range;
 
-use super::super::block::{Block, LANES, SIDE, count};
+use pulp::Simd;
+
+use super::super::block::{Block, Extent, Field, SIDE, count, put};
 use super::super::cell::Cell;
 use super::super::half_plane::Cover;
+use super::super::lanes::Lanes;
 use super::super::subpixel::sample;
 use super::super::{FillRule, Fragment, Label, PixelPoint};
 use super::Reach;
@@ -174,30 +177,35 @@ impl Polygon {
     }
 
     /// Draws what `part` says of it on the block.
-    pub(in super::super) fn draw(&self, label: Label, part: &Part, edges: &[u32], block: &mut Block) {
+    pub(in super::super) fn draw(
+        &self,
+        label: Label,
+        part: &Part,
+        edges: &[u32],
+        extent: Extent<'_>,
+        block: &mut Block,
+    ) {
         if part.edges.is_empty() {
-            for mut row in block.rows() {
-                row.draw(label, |_| self.depth);
-            }
+            block.lay(label, &Flat(self.depth), extent);
             return;
         }
         let edges = &edges[part.edges.clone()];
-        let cell = block.cell();
-        for mut row in block.rows() {
-            let mut change = self.changes(part.winding, edges, cell, row.y);
+        let (cell, depth) = (block.cell(), self.depth);
+        for (row, depths, labels) in block.rows() {
+            let changes = self.changes(part.winding, edges, cell, sample(row));
             let mut winding = 0;
-            for (column, change) in (cell.x..cell.x + cell.width).zip(&mut change) {
-                winding += *change;
+            for ((old, owner), change) in depths.iter_mut().zip(labels).zip(changes) {
+                winding += change;
                 if self.encloses(winding) {
-                    row.draw_pixel(column, Fragment { depth: self.depth, label });
+                    put(old, owner, Fragment { depth, label });
                 }
             }
         }
     }
 
     /// By how much the winding number changes at each sample of a row of `cell`, from 0 before the first.
-    fn changes(&self, winding: i32, edges: &[u32], cell: Cell, y: i32) -> [i32; (SIDE + LANES) as usize] {
-        let mut changes = [0; (SIDE + LANES) as usize];
+    fn changes(&self, winding: i32, edges: &[u32], cell: Cell, y: i32) -> [i32; SIDE as usize + 1] {
+        let mut changes = [0; SIDE as usize + 1];
         let first = cell.first();
         let columns = cell.x + 1..cell.x + cell.width;
         changes[0] = winding;
@@ -213,5 +221,22 @@ impl Polygon {
             }
         }
         changes
+    }
+}
+
+/// The same depth everywhere.
+struct Flat(f32);
+
+impl Field for Flat {
+    type Row<S: Simd> = Lanes<S>;
+
+    #[inline(always)]
+    fn row<S: Simd>(&self, simd: S, _: f32) -> Lanes<S> {
+        Lanes::splat(simd, self.0)
+    }
+
+    #[inline(always)]
+    fn depth<S: Simd>(row: Lanes<S>, _: Lanes<S>) -> Lanes<S> {
+        row
     }
 }

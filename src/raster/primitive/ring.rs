@@ -1,8 +1,15 @@
-use super::super::block::Block;
+use std::ops::Range;
+
+use pulp::Simd;
+
+use super::super::block::{Block, Extent, Field};
 use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
+use super::super::lanes::Lanes;
+use super::super::subpixel::sample;
 use super::super::{Caps, Label, PixelPoint, Spin};
-use super::cone::float;
+use super::cone::floats;
+use super::stroke::StrokeLanes;
 use super::{Reach, Stroke};
 
 /// A circular arc's distance; stored as it runs clockwise.
@@ -84,61 +91,100 @@ impl Ring {
         }
     }
 
+    /// Lays it on a block: its strip on the sector, its round ends on the rest.
     pub(super) fn draw(&self, label: Label, cover: Cover, block: &mut Block) {
         let sector = self.sector();
         let limit = self.stroke.limit;
-        let whole = cover == Cover::Whole && sector.cover(block.cell()) == Cover::Whole;
-        for mut row in block.rows() {
-            let arc = self.along(row.y);
-            if whole {
-                row.draw(label, arc);
-                continue;
-            }
-            let all = row.columns();
-            let cap = self.caps_along(row.y);
+        if cover == Cover::Whole && sector.cover(block.cell()) == Cover::Whole {
+            block.lay(label, &Strip(*self), Extent::Whole);
+            return;
+        }
+        let (all, cell) = (block.padded_columns(), block.cell());
+        let mut columns = std::mem::take(&mut block.columns);
+        // In each row the convex region leaves two pieces: the one before it and the one beyond.
+        for piece in [Piece::Within, Piece::Before, Piece::Beyond] {
+            let rows = (cell.y..cell.y + cell.height).map(sample);
+            columns.clear();
             match &sector {
-                Sector::All => row.draw_part(label, &all, limit, arc),
-                Sector::Convex(convex) => {
-                    let within = convex.columns(row.y, all.clone());
-                    row.draw_part(label, &within, limit, arc);
-                    row.draw_part(label, &(all.start..within.start), limit, cap);
-                    row.draw_part(label, &(within.end..all.end), limit, cap);
-                }
-                Sector::Rest(convex) => {
-                    let without = convex.columns(row.y, all.clone());
-                    row.draw_part(label, &without, limit, cap);
-                    row.draw_part(label, &(all.start..without.start), limit, arc);
-                    row.draw_part(label, &(without.end..all.end), limit, arc);
+                Sector::All if piece == Piece::Within => columns.extend(rows.map(|_| all.clone())),
+                Sector::All => continue,
+                Sector::Convex(convex) | Sector::Rest(convex) => {
+                    columns.extend(rows.map(|y| piece.of(&all, &convex.columns(y, all.clone()))));
                 }
             }
+            if matches!(sector, Sector::Rest(_)) == (piece == Piece::Within) {
+                block.lay(label, &Ends(*self), Extent::Part(&columns, limit));
+            } else {
+                block.lay(label, &Strip(*self), Extent::Part(&columns, limit));
+            }
+        }
+        block.columns = columns;
+    }
+}
+
+/// A piece of a row, as a convex region cuts it.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Piece {
+    Before,
+    Within,
+    Beyond,
+}
+
+impl Piece {
+    /// The piece of the columns `all`, of which the region holds `within`. Where it holds none, all lie before it.
+    fn of(self, all: &Range<i32>, within: &Range<i32>) -> Range<i32> {
+        match self {
+            Self::Within => within.clone(),
+            Self::Before if within.is_empty() => all.clone(),
+            Self::Before => all.start..within.start,
+            Self::Beyond if within.is_empty() => all.end..all.end,
+            Self::Beyond => within.end..all.end,
         }
     }
+}
 
-    /// The depth of the arc's strip along the row at `y`, by the sample position: | |w| − radius |.
+/// The strip of an arc, as if it were the whole circle.
+struct Strip(Ring);
+
+impl Field for Strip {
+    type Row<S: Simd> = (Lanes<S>, Lanes<S>, Lanes<S>, StrokeLanes<S>);
+
     #[inline(always)]
-    fn along(&self, y: i32) -> impl Fn(i32) -> f32 + Copy {
-        let (center, radius, stroke) = (self.center.0, self.radius, self.stroke);
-        let dy = float(y - self.center.1);
-        let dy2 = dy * dy;
-        move |x| {
-            let dx = float(x - center);
-            stroke.depth(((dx * dx + dy2).sqrt() - radius).abs() * (1.0 / 256.0))
-        }
+    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
+        let (x0, y0) = floats(self.0.center);
+        let dy = y - y0;
+        let [x0, dy2, radius] = [x0, dy * dy, self.0.radius].map(|number| Lanes::splat(simd, number));
+        (x0, dy2, radius, self.0.stroke.lanes(simd))
     }
 
-    /// The depth of the round ends: the distance to the nearer of those there are.
     #[inline(always)]
-    fn caps_along(&self, y: i32) -> impl Fn(i32) -> f32 + Copy {
-        let (start, end, stroke) = (self.start, self.end, self.stroke);
+    fn depth<S: Simd>((x0, dy2, radius, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        let dx = x - x0;
+        stroke.depth(((dx * dx + dy2).sqrt() - radius).abs())
+    }
+}
+
+/// The round ends of an arc: the distance to the nearer of those there are, infinite where there are none.
+struct Ends(Ring);
+
+impl Field for Ends {
+    type Row<S: Simd> = (Lanes<S>, Lanes<S>, Lanes<S>, Lanes<S>, StrokeLanes<S>);
+
+    #[inline(always)]
+    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
+        let (start, end) = (floats(self.0.start), floats(self.0.end));
         let square = |dy: f32, there: bool| if there { dy * dy } else { f32::INFINITY };
-        let start_y2 = square(float(y - start.1), self.caps.start());
-        let end_y2 = square(float(y - end.1), self.caps.end());
-        move |x| {
-            let (to_start, to_end) = (float(x - start.0), float(x - end.0));
-            let (a, b) = (to_start * to_start + start_y2, to_end * to_end + end_y2);
-            let nearer = if a < b { a } else { b };
-            stroke.depth(nearer.sqrt() * (1.0 / 256.0))
-        }
+        let start_y2 = square(y - start.1, self.0.caps.start());
+        let end_y2 = square(y - end.1, self.0.caps.end());
+        let [sx, sy, ex, ey] = [start.0, start_y2, end.0, end_y2].map(|number| Lanes::splat(simd, number));
+        (sx, sy, ex, ey, self.0.stroke.lanes(simd))
+    }
+
+    #[inline(always)]
+    fn depth<S: Simd>((sx, sy, ex, ey, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        let (to_start, to_end) = (x - sx, x - ex);
+        let nearer = (to_start * to_start + sy).min(to_end * to_end + ey);
+        stroke.depth(nearer.sqrt())
     }
 }
 

@@ -1,5 +1,8 @@
+use pulp::Simd;
+
 use super::super::cell::Cell;
 use super::super::half_plane::Cover;
+use super::super::lanes::Lanes;
 use super::Reach;
 
 /// How distance becomes depth: the half-width of a stroke and where it ends.
@@ -12,9 +15,12 @@ pub(in super::super) struct Stroke {
 
 /// How far, relative to the lengths that enter it, a computed distance may lie from the true one.
 ///
-/// A fragment is off by a few roundings of 2⁻²⁴ each (see the module's doc: at most 8 in a curtain); bounds of
-/// cells are kept 32 such roundings wide of the truth.
+/// A fragment is off by a few roundings of 2⁻²⁴ each (see the module's doc); bounds of cells are kept 32 such
+/// roundings wide of the truth.
 const SLACK: f64 = 1.0 / 524_288.0;
+
+/// Pixels in a step; a power of two, so that multiplying by it is exact.
+const PIXEL: f32 = 1.0 / 256.0;
 
 impl Stroke {
     /// # Panics
@@ -26,11 +32,11 @@ impl Stroke {
         Self { offset, limit: limit.unwrap_or(f32::INFINITY) }
     }
 
-    /// The depth at a distance in pixels.
+    /// The same for many distances at a time.
     #[inline(always)]
-    pub(super) fn depth(self, distance: f32) -> f32 {
-        let depth = distance - self.offset;
-        if depth > 0.0 { depth } else { 0.0 }
+    pub(super) fn lanes<S: Simd>(self, simd: S) -> StrokeLanes<S> {
+        let [offset, pixel, zero] = [self.offset, PIXEL, 0.0].map(|number| Lanes::splat(simd, number));
+        StrokeLanes { offset, pixel, zero }
     }
 
     /// What distances between `near` and `far` from the middle of `cell` mean for all of it; `size` is the
@@ -46,5 +52,21 @@ impl Stroke {
         }
         let cover = if far > limit { Cover::Part } else { cover };
         Some(Reach { near, far: if cover == Cover::Whole { far } else { f64::INFINITY }, cover })
+    }
+}
+
+/// A [`Stroke`] for many pixels at a time.
+#[derive(Clone, Copy)]
+pub(in super::super) struct StrokeLanes<S: Simd> {
+    offset: Lanes<S>,
+    pixel: Lanes<S>,
+    zero: Lanes<S>,
+}
+
+impl<S: Simd> StrokeLanes<S> {
+    /// The depth in pixels at a distance in steps. Equal numbers differ by +0, so no depth is −0.
+    #[inline(always)]
+    pub(super) fn depth(self, distance: Lanes<S>) -> Lanes<S> {
+        (distance * self.pixel - self.offset).max(self.zero)
     }
 }

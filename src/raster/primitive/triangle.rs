@@ -1,7 +1,8 @@
-use super::super::block::Block;
+use super::super::block::{Block, count, put};
 use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
-use super::super::{Label, PixelPoint};
+use super::super::subpixel::sample;
+use super::super::{Fragment, Label, PixelPoint};
 use super::Reach;
 
 /// A triangle, clockwise on the picture, and the plane its depth lies in.
@@ -82,18 +83,18 @@ impl Triangle {
     pub(super) fn draw(&self, label: Label, block: &mut Block) {
         let region = self.region();
         let ((x0, y0), (least, most)) = (self.corners[0], self.range);
-        for mut row in block.rows() {
-            let columns = region.columns(row.y, row.columns());
-            if columns.is_empty() {
-                continue;
-            }
-            let down = f64::from(row.y - y0) * self.slope.1;
-            row.draw_part(label, &columns, f32::INFINITY, |x| {
+        let cell = block.cell();
+        for (row, depths, labels) in block.rows() {
+            let y = sample(row);
+            let columns = region.columns(y, cell.x..cell.x + cell.width);
+            let down = f64::from(y - y0) * self.slope.1;
+            for column in columns {
+                let across = f64::from(sample(column) - x0) * self.slope.0;
                 #[expect(clippy::cast_possible_truncation, reason = "rounded correctly")]
-                let depth = (self.depth + (f64::from(x - x0) * self.slope.0 + down)) as f32;
-                let depth = if depth > least { depth } else { least };
-                if depth < most { depth } else { most }
-            });
+                let depth = ((self.depth + (across + down)) as f32).max(least).min(most);
+                let at = count(column - cell.x);
+                put(&mut depths[at], &mut labels[at], Fragment { depth: depth + 0.0, label });
+            }
         }
     }
 }
