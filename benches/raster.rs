@@ -21,7 +21,7 @@ impl Random {
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
         let high = (z ^ (z >> 31)) >> 32;
-        i32::try_from(high * u64::from(limit.unsigned_abs()) >> 32).expect("below the limit")
+        i32::try_from((high * u64::from(limit.unsigned_abs())) >> 32).expect("below the limit")
     }
 }
 

@@ -1,6 +1,7 @@
 use super::block::{Block, Extent, LANES, SIDE};
 use super::cell::Cell;
 use super::half_plane::Cover;
+use super::mosaic::Mosaic;
 use super::primitive::{Part, Reach, Shape};
 use super::{Label, Scene};
 
@@ -107,15 +108,45 @@ impl Bin {
             .chain(self.parts.iter().map(|part| part.primitive))
     }
 
-    fn len(&self) -> usize {
-        self.shapes.len() + self.parts.len()
+    /// Whether the cell can be drawn as a mosaic: few enough edges that every block can look at all.
+    fn is_ripe(&self, cell: Cell) -> bool {
+        let fits = cell.width.max(cell.height) <= Mosaic::SIDE;
+        let bare = self.edges.len() <= 16 || cell.width.max(cell.height) <= SIDE;
+        fits && bare
     }
 
-    /// Whether the cell is better drawn as it is than split: dividing costs as much as drawing a few rows.
-    fn is_ripe(&self, cell: Cell) -> bool {
-        let fits = cell.width <= SIDE && cell.height <= SIDE;
-        let small = cell.width <= SIDE / 2 && cell.height <= SIDE / 2 + SIDE / 8;
-        fits && (small || self.len() <= 2)
+    /// Becomes the bin of a block of the mosaic that was drawn for `around` and its bin `from`.
+    fn narrow_to_block(
+        &mut self,
+        scene: &Scene,
+        from: &Self,
+        around: Cell,
+        mosaic: &Mosaic,
+        (row, column, block): (usize, usize, Cell),
+    ) {
+        self.shapes.clear();
+        self.parts.clear();
+        self.edges.clear();
+        let hidden = mosaic.hidden(row, column);
+        let mut far = hidden;
+        for part in &from.parts {
+            let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape else { continue };
+            if let Some((part, reach)) = polygon.narrow(part, &from.edges, around, block, &mut self.edges) {
+                if reach.cover == Cover::Whole {
+                    far = far.min(polygon.depth());
+                }
+                if polygon.depth() <= hidden {
+                    self.parts.push(part);
+                }
+            }
+        }
+        for (number, candidate) in from.shapes.iter().enumerate() {
+            let (near, deepest) = mosaic.depths(number, row, column);
+            if near <= far && near < f32::INFINITY {
+                let whole = deepest < f32::INFINITY;
+                self.shapes.push(Candidate { primitive: candidate.primitive, whole, near: 0.0 });
+            }
+        }
     }
 
     /// Draws all of it on `block`, in the order of labels.
@@ -165,44 +196,44 @@ impl Bin {
 /// Draws cells; owns the memory that takes.
 pub(super) struct Painter {
     block: Block,
+    mosaic: Mosaic,
+    /// The bin of a block.
+    bin: Bin,
+    /// Bins of the cells on the way down.
     bins: Vec<Bin>,
 }
 
 impl Painter {
     pub(super) fn new() -> Self {
-        Self { block: Block::new(), bins: Vec::new() }
+        Self { block: Block::new(), mosaic: Mosaic::new(), bin: Bin::default(), bins: Vec::new() }
     }
 
     /// Draws the cell whose bin is `bin`; `finished` gets it in blocks.
     pub(super) fn paint(&mut self, scene: &Scene, bin: &Bin, cell: Cell, finished: &mut impl FnMut(&Block)) {
-        let Self { block, bins } = self;
-        paint(scene, bin, cell, block, bins, 0, finished);
+        if bin.is_ripe(cell) {
+            self.paint_mosaic(scene, bin, cell, finished);
+            return;
+        }
+        for quarter in cell.quarters(LANES) {
+            let mut own = self.bins.pop().unwrap_or_default();
+            own.narrow(scene, bin, cell, quarter);
+            self.paint(scene, &own, quarter, finished);
+            self.bins.push(own);
+        }
     }
-}
 
-fn paint(
-    scene: &Scene,
-    bin: &Bin,
-    cell: Cell,
-    block: &mut Block,
-    bins: &mut Vec<Bin>,
-    level: usize,
-    finished: &mut impl FnMut(&Block),
-) {
-    if bin.is_ripe(cell) {
-        block.place(cell);
-        bin.draw(scene, block);
-        finished(block);
-        return;
-    }
-    if bins.len() == level {
-        bins.push(Bin::default());
-    }
-    for quarter in cell.quarters(LANES) {
-        let mut own = std::mem::take(&mut bins[level]);
-        own.narrow(scene, bin, cell, quarter);
-        paint(scene, &own, quarter, block, bins, level + 1, finished);
-        bins[level] = own;
+    fn paint_mosaic(&mut self, scene: &Scene, bin: &Bin, cell: Cell, finished: &mut impl FnMut(&Block)) {
+        let Self { block, mosaic, bin: own, .. } = self;
+        mosaic.draw(
+            cell,
+            bin.shapes.iter().map(|candidate| &scene.primitives[index(candidate.primitive)].shape),
+        );
+        for place in mosaic.blocks() {
+            own.narrow_to_block(scene, bin, cell, mosaic, place);
+            block.place(place.2);
+            own.draw(scene, block);
+            finished(block);
+        }
     }
 }
 

@@ -70,6 +70,12 @@ impl<S: Simd> Mask<S> {
     pub(super) fn and(self, other: Self) -> Self {
         Self { value: self.simd.and_m32s(self.value, other.value), ..self }
     }
+
+    /// One number where the lane is in the mask, the other where it is not.
+    #[inline(always)]
+    pub(super) fn select(self, inside: Lanes<S>, outside: Lanes<S>) -> Lanes<S> {
+        Lanes { value: self.simd.select_f32s(self.value, inside.value, outside.value), ..inside }
+    }
 }
 
 impl<S: Simd> Add for Lanes<S> {

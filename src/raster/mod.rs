@@ -6,6 +6,7 @@ mod cell;
 mod fragment;
 mod half_plane;
 mod lanes;
+mod mosaic;
 mod node;
 mod primitive;
 mod render;

@@ -63,13 +63,21 @@ impl Curtain {
         let t = ((wx * ux + wy * uy) * f64::from(self.inverse)).clamp(0.0, 1.0);
         let (ex, ey) = (wx - t * ux, wy - t * uy);
         let distance = (ex * ex + ey * ey).sqrt() / 256.0;
-        let length = (ux.abs() + uy.abs()) / 256.0;
-        let cover = if self.caps == Caps::Both && self.sides == Sides::Both {
+        self.stroke.reach(distance, distance, f64::from(self.size()), self.cover(cell), cell)
+    }
+
+    /// How its strip and round ends lie to `cell`.
+    pub(super) fn cover(&self, cell: Cell) -> Cover {
+        if self.caps == Caps::Both && self.sides == Sides::Both {
             Cover::Whole
         } else {
             self.region().cover(cell)
-        };
-        self.stroke.reach(distance, distance, length, cover, cell)
+        }
+    }
+
+    /// No less than its length, in pixels.
+    pub(super) fn size(&self) -> f32 {
+        (self.way.0.abs() + self.way.1.abs()) / 256.0
     }
 }
 

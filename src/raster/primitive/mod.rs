@@ -11,12 +11,13 @@ pub(super) use cone::Cone;
 pub(super) use curtain::Curtain;
 pub(super) use polygon::{Part, Polygon};
 pub(super) use ring::Ring;
-pub(super) use stroke::Stroke;
+pub(super) use stroke::{SLACK, Stroke};
 pub(super) use triangle::Triangle;
 
 use super::block::{Block, Extent, Field};
 use super::cell::Cell;
 use super::half_plane::{Convex, Cover};
+use super::mosaic::Mosaic;
 use super::subpixel::sample;
 use super::{Label, Surface};
 
@@ -78,6 +79,31 @@ impl Shape {
             Self::Ring(ring) => ring.reach(cell),
             Self::Triangle(triangle) => triangle.reach(cell),
             Self::Polygon(polygon) => Some(polygon.reach()),
+        }
+    }
+
+    /// Has the mosaic sample it; says how it covers `cell`, all of the mosaic. Where that is in part, or hard to say,
+    /// the mosaic must ask block by block.
+    pub(super) fn sample_blocks(&self, mosaic: &mut Mosaic, cell: Cell, begin: usize) -> Cover {
+        match self {
+            Self::Cone(cone) => {
+                mosaic.sample(cone, cone.stroke.offset, 0.0, cone.stroke.limit, begin);
+                Cover::Whole
+            }
+            Self::Curtain(curtain) => {
+                let cover = curtain.cover(cell);
+                if cover == Cover::Whole {
+                    mosaic.sample(
+                        curtain,
+                        curtain.stroke.offset,
+                        curtain.size(),
+                        curtain.stroke.limit,
+                        begin,
+                    );
+                }
+                cover
+            }
+            Self::Ring(_) | Self::Triangle(_) | Self::Polygon(_) => Cover::Part,
         }
     }
 

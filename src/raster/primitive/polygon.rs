@@ -117,6 +117,10 @@ impl Polygon {
         Reach { near: f64::from(self.depth), far: f64::INFINITY, cover: Cover::Part }
     }
 
+    pub(in super::super) const fn depth(&self) -> f32 {
+        self.depth
+    }
+
     fn encloses(&self, winding: i32) -> bool {
         match self.rule {
             FillRule::NonZero => winding != 0,

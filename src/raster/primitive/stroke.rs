@@ -8,7 +8,7 @@ use super::Reach;
 /// How distance becomes depth: the half-width of a stroke and where it ends.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Stroke {
-    offset: f32,
+    pub offset: f32,
     /// Infinite where there is none.
     pub limit: f32,
 }
@@ -17,7 +17,7 @@ pub(in super::super) struct Stroke {
 ///
 /// A fragment is off by a few roundings of 2⁻²⁴ each (see the module's doc); bounds of cells are kept 32 such
 /// roundings wide of the truth.
-const SLACK: f64 = 1.0 / 524_288.0;
+pub(in super::super) const SLACK: f32 = 1.0 / 524_288.0;
 
 /// Pixels in a step; a power of two, so that multiplying by it is exact.
 const PIXEL: f32 = 1.0 / 256.0;
@@ -43,7 +43,7 @@ impl Stroke {
     /// largest length that entered their computation.
     pub(super) fn reach(self, near: f64, far: f64, size: f64, cover: Cover, cell: Cell) -> Option<Reach> {
         let offset = f64::from(self.offset);
-        let margin = cell.radius() + (far + size + cell.radius() + offset.abs()) * SLACK;
+        let margin = cell.radius() + (far + size + cell.radius() + offset.abs()) * f64::from(SLACK);
         let near = (near - margin - offset).max(0.0);
         let far = (far + margin - offset).max(0.0);
         let limit = f64::from(self.limit);
