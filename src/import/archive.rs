@@ -13,6 +13,10 @@ use super::layers::Kind;
 /// Chosen: a Gerber of a 600 mm panel has some 50 MB; ten times that.
 const MOST_BYTES: u64 = 512 << 20;
 
+/// How much an archive may unpack to at least, and how many times its own size beyond that. Gerber packs to a tenth; an
+/// archive that packs to less than a hundredth is made to fill the memory.
+const UNPACKED: (u64, u64) = (64 << 20, 100);
+
 /// The most entries of an archive that are looked at.
 const MOST_ENTRIES: usize = 10_000;
 
@@ -88,6 +92,7 @@ impl Gathered {
     }
 
     fn zip(&mut self, shown: &str, bytes: Vec<u8>) -> Result<(), Error> {
+        let limit = (UNPACKED.1 * bytes.len() as u64).clamp(UNPACKED.0, MOST_BYTES);
         let broken = |error: &dyn std::fmt::Display| {
             Error::content(
                 shown,
@@ -109,7 +114,7 @@ impl Gathered {
             }
         }
         entries.sort();
-        let mut left = MOST_BYTES;
+        let mut left = limit;
         for (full, index) in entries {
             let name = full.rsplit('/').next().unwrap_or(&full).to_owned();
             if !worth_reading(&name) {
@@ -120,7 +125,7 @@ impl Gathered {
             let mut content = Vec::new();
             entry.take(left + 1).read_to_end(&mut content).map_err(|error| broken(&error))?;
             left = left.checked_sub(content.len() as u64).ok_or_else(|| {
-                let what = format!("the zip archive unpacks to more than {} MiB", MOST_BYTES >> 20);
+                let what = format!("the zip archive unpacks to more than {} MiB", limit >> 20);
                 Error::content(shown, what, "unpack it yourself if you trust it, and give the folder")
             })?;
             self.take(name, format!("{shown}/{full}"), content, false);

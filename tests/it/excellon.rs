@@ -1,6 +1,9 @@
 //! Drill files: each construct, each format, and every hole of every board that is at hand.
 
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use proptest::prelude::*;
 
 use voromill::board::{Hole, Plating};
 use voromill::geometry::{Nm, Point, Rect};
@@ -12,7 +15,7 @@ fn fixture(name: &str) -> Drilling {
 
 fn fixture_among(name: &str, context: &Context) -> Drilling {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/excellon").join(name);
-    let bytes = std::fs::read(&path).expect("the fixture is readable");
+    let bytes = fs::read(&path).expect("the fixture is readable");
     assert!(excellon::looks_like(&bytes), "{name} is not recognised");
     excellon::read(name, &bytes, context).unwrap_or_else(|error| panic!("{}", error.render()))
 }
@@ -162,5 +165,118 @@ fn what_is_repaired_or_left_out_is_a_warning() {
     for (text, code) in cases {
         let drilling = read(text).unwrap_or_else(|error| panic!("{text:?}: {error}"));
         assert!(codes(&drilling).contains(&code), "{text:?} gave {:?}", codes(&drilling));
+    }
+}
+
+/// The corpus' drill files with what an independent reader found: holes, slots.
+#[test]
+fn drill_files_of_the_corpus_are_read() {
+    let folder =
+        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
+    let Ok(index) = fs::read(folder.join("syntax/INDEX.json")) else { return };
+    let index: serde_json::Value = serde_json::from_slice(&index).expect("JSON");
+    let entries = index.as_array().cloned().or_else(|| index["files"].as_array().cloned()).expect("a list");
+    for entry in entries.iter().filter(|entry| entry["kind"] == "drill") {
+        let name = entry["file"].as_str().expect("a name");
+        let bytes = fs::read(folder.join("syntax").join(name)).expect("readable");
+        let drilling =
+            excellon::read(name, &bytes, &Context::default()).unwrap_or_else(|e| panic!("{}", e.render()));
+        let slots = drilling.holes.iter().filter(|hole| hole.is_slot()).count() as u64;
+        let holes = drilling.holes.len() as u64 - slots;
+        assert_eq!(Some(holes), entry["n_hits"].as_u64(), "{name}: holes");
+        assert_eq!(Some(slots), entry["n_slots"].as_u64(), "{name}: slots");
+        // The independent reader counts repeated holes, but does not place them.
+        if entry["reader_notes"].to_string().contains("repeat") {
+            continue;
+        }
+        let Some(bounds) = entry["bbox_mm_at_assumed_format"].as_array() else { continue };
+        let plain = drilling.holes.iter().filter(|hole| !hole.is_slot()).map(|hole| hole.path.start);
+        let found = Rect::around(plain).expect("holes");
+        let corners = [found.min().x, found.min().y, found.max().x, found.max().y];
+        for (corner, expected) in corners.iter().zip(bounds) {
+            let off = (corner.to_mm() - expected.as_f64().expect("a number")).abs();
+            assert!(off < 0.001, "{name}: {corner} mm, expected {expected}");
+        }
+    }
+}
+
+#[test]
+fn broken_drill_files_end_in_words() {
+    let folder =
+        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
+    let cases = [
+        ("drill_empty.drl", Err("the drill file is empty")),
+        ("drill_no_holes.drl", Ok("drill-without-holes")),
+        ("drill_undefined_tool.drl", Err("its diameter is given nowhere")),
+        ("drill_truncated.drl", Ok("missing-end-of-file")),
+        ("drill_gerbv_bad_tool.exc", Ok("drill-without-holes")),
+        ("drill_negative_diameter.drl", Err("a drill cannot have this diameter")),
+        ("gerber_named_drl.drl", Err("a Gerber file where an Excellon drill file was expected")),
+        ("garbage_random.gbr", Err("not an Excellon drill file")),
+    ];
+    for (name, expected) in cases {
+        let Ok(bytes) = fs::read(folder.join("broken").join(name)) else { continue };
+        match (excellon::read(name, &bytes, &Context::default()), expected) {
+            (Ok(drilling), Ok(code)) => {
+                assert!(codes(&drilling).contains(&code), "{name}: {:?}", codes(&drilling))
+            }
+            (Err(error), Err(text)) => assert!(error.to_string().contains(text), "{name}: {error}"),
+            (found, _) => panic!("{name}: {found:?}"),
+        }
+    }
+}
+
+/// The fixtures, as seeds for damage.
+fn seeds() -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/excellon");
+    let mut paths: Vec<_> =
+        fs::read_dir(folder).expect("readable").map(|entry| entry.expect("an entry").path()).collect();
+    paths.sort();
+    paths.iter().map(|path| fs::read(path).expect("readable")).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2_000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damage_never_panics(
+        seed in 0..seeds().len(),
+        cut in any::<prop::sample::Index>(),
+        edits in prop::collection::vec((any::<prop::sample::Index>(), prop::sample::select(b"XYTRGMCAIJ0189.-+;%,/\r\n \0\xff".to_vec())), 0..8),
+    ) {
+        let mut bytes = seeds().swap_remove(seed);
+        for (place, byte) in edits {
+            let at = place.index(bytes.len());
+            bytes[at] = byte;
+        }
+        let end = cut.index(bytes.len() * 2).min(bytes.len());
+        match excellon::read("f.drl", &bytes[..end], &Context::default()) {
+            Ok(drilling) => for hole in &drilling.holes {
+                let bounds = hole.path.bounds();
+                prop_assert!(hole.diameter > Nm::ZERO, "a hole of no size");
+                prop_assert!(Nm::try_new(bounds.min().x.get()).is_ok() || hole.is_slot(), "a hole beyond a metre");
+            },
+            Err(error) => prop_assert!(!error.render().is_empty(), "an error without words"),
+        }
+    }
+
+    #[test]
+    fn random_bytes_never_panic(bytes in prop::collection::vec(any::<u8>(), 0..400)) {
+        let text = [b"M48\nMETRIC\nT1C1.0\n%\nT1\n", bytes.as_slice()].concat();
+        drop(excellon::read("f.drl", &text, &Context::default()));
+        let _: bool = excellon::looks_like(&bytes);
+    }
+}
+
+#[test]
+fn repeats_without_end_are_refused_in_time() {
+    let head = "M48\nINCH\nT01C0.05\n%\nT01\nX0Y0\n";
+    for body in [
+        "R4294967295X0\n",
+        "M25\nX1Y1\nM01\nR4294967295M02X0Y0\n",
+        "M25\nM01\nR4294967295M02X1Y1\nR4294967295X0\n",
+    ] {
+        let error = read(&format!("{head}{body}M30\n")).expect_err(body);
+        assert!(error.contains("more than 2000000 holes"), "{body}: {error}");
     }
 }

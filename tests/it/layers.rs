@@ -238,14 +238,10 @@ fn what_is_no_layer_is_left_aside() {
 fn an_archive_is_as_good_as_a_folder() {
     let folder = Folder::with(&[]);
     let path = folder.path("amp.zip");
-    let mut zip = zip::ZipWriter::new(fs::File::create(&path).expect("created"));
-    let options = zip::write::SimpleFileOptions::default();
-    for (name, text) in [("out/top.gbr", SQUARE), ("out/drill.drl", DRILL), ("__MACOSX/out/top.gbr", SQUARE)]
-    {
-        zip.start_file(name, options).expect("an entry");
-        std::io::Write::write_all(&mut zip, text.as_bytes()).expect("written");
-    }
-    zip.finish().expect("finished");
+    let (copper, drill) = (SQUARE.as_bytes(), DRILL.as_bytes());
+    let archive =
+        zipped(&[("out/top.gbr", copper), ("out/drill.drl", drill), ("__MACOSX/out/top.gbr", copper)]);
+    fs::write(&path, archive).expect("written");
     let loaded = load(&[path], &Selection::default()).expect("a board");
     assert_eq!(files_of(&loaded, "front-copper"), ["top.gbr"], "from inside");
     assert_eq!(loaded.board.holes.len(), 1, "with its drill file");
@@ -326,4 +322,43 @@ fn a_gerber_drill_file_has_holes_and_slots() {
     let slots: Vec<_> = loaded.board.holes.iter().map(|hole| (hole.is_slot(), hole.diameter)).collect();
     let expected = [(false, Nm::from_um(800)), (true, Nm::from_um(800)), (true, Nm::from_um(1000))];
     assert_eq!(slots, expected, "a hole, a drawn slot, an obround");
+}
+
+/// An archive of `files`.
+fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let options = zip::write::SimpleFileOptions::default();
+    for (name, bytes) in files {
+        zip.start_file(*name, options).expect("an entry");
+        std::io::Write::write_all(&mut zip, bytes).expect("written");
+    }
+    zip.finish().expect("finished").into_inner()
+}
+
+#[test]
+fn an_archive_that_fills_the_memory_is_refused() {
+    let folder = Folder::with(&[]);
+    let bomb = vec![b'\n'; 65 << 20];
+    fs::write(folder.path("bomb.zip"), zipped(&[("top.gbr", &bomb)])).expect("written");
+    let error = load(&[folder.path("bomb.zip")], &Selection::default()).expect_err("a bomb").to_string();
+    assert!(error.contains("unpacks to more than 64 MiB"), "{error}");
+}
+
+#[test]
+fn damaged_archives_end_in_words() {
+    let folder = Folder::with(&[]);
+    let good = zipped(&[("top.gbr", SQUARE.as_bytes()), ("holes.drl", DRILL.as_bytes())]);
+    for at in (4..good.len()).step_by(3) {
+        let mut bad = good.clone();
+        bad[at] ^= 0x55;
+        fs::write(folder.path("bad.zip"), &bad).expect("written");
+        if let Err(error) = load(&[folder.path("bad.zip")], &Selection::default()) {
+            assert!(
+                error.to_string().contains("bad.zip") || error.to_string().contains("top.gbr"),
+                "byte {at}: {error}"
+            );
+        }
+        fs::write(folder.path("cut.zip"), &good[..at]).expect("written");
+        assert!(load(&[folder.path("cut.zip")], &Selection::default()).is_err(), "cut at {at}");
+    }
 }

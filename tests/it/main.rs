@@ -6,6 +6,7 @@ mod gerber;
 mod layering;
 mod layers;
 mod oracle;
+mod outline;
 mod raster;
 mod topology;
 mod voronoi;

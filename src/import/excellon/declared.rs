@@ -124,7 +124,7 @@ impl Declared {
             _ => None,
         });
         let (Some(tool), Some(size), Some(unit)) = (tool, size, unit) else { return };
-        if let Ok(diameter) = format!("{size}{unit}").parse::<Nm>() {
+        if let Some(diameter) = format!("{size}{unit}").parse::<Nm>().ok().filter(|&d| d > Nm::ZERO) {
             self.commented.entry(tool).or_insert(diameter);
         }
     }

@@ -59,12 +59,20 @@ pub(super) struct Line {
     pub(super) kind: Kind,
 }
 
+/// The most lines that a file may have. Chosen above [`MOST_HOLES`](super::machine::MOST_HOLES), and below a gigabyte of
+/// memory.
+const MOST_LINES: usize = 3_000_000;
+
 /// The lines of a file that say something, in order.
 pub(super) fn lines(file: &str, bytes: &[u8]) -> Result<Vec<Line>, Error> {
     let mut found = Vec::new();
     for (number, place) in (1_u32..).zip(line_places(bytes)) {
         let lexer = Lexer { file, bytes, at: place.start, end: place.end };
         lexer.line(number, &mut found)?;
+        if found.len() > MOST_LINES {
+            let what = format!("the drill file has more than {MOST_LINES} lines");
+            return Err(Error::content(file, what, "no board has as many holes; the file may be damaged"));
+        }
     }
     Ok(found)
 }
@@ -130,7 +138,7 @@ impl Lexer<'_> {
     }
 
     fn words(&mut self) -> Result<Vec<Word>, Error> {
-        let mut words = Vec::new();
+        let mut words = Vec::with_capacity(2);
         loop {
             self.skip_blanks();
             let Some(letter) = self.peek() else { return Ok(words) };

@@ -46,31 +46,21 @@ pub(super) struct File<'a> {
 
 /// Runs the whole file.
 pub(super) fn run(file: File<'_>, format: NumberFormat, warnings: &mut Warnings<'_>) -> Result<Run, Error> {
-    let mut machine = Machine {
-        file,
-        format,
-        warnings,
-        mode: Mode::Drill,
-        absolute: true,
-        zero: Point::default(),
-        at: Point::default(),
-        tools: BTreeMap::new(),
-        tool: None,
-        plating: file.plating,
-        routing: None,
-        holes: Vec::new(),
-        pattern: None,
-        stepped: Vector::default(),
-        ended: false,
-    };
-    for line in file.lines {
-        machine.line(line)?;
-        if machine.ended {
-            break;
-        }
-    }
-    machine.raise()?;
+    let mut machine = Machine::new(file, format, warnings, MOST_HOLES);
+    machine.all()?;
     Ok(Run { holes: machine.holes, tools: machine.tools })
+}
+
+/// The first holes of a file, to judge a number format by.
+pub(super) fn sample(file: File<'_>, format: NumberFormat) -> Result<Vec<Hole>, Error> {
+    /// Enough to tell one format from another.
+    const SAMPLE: usize = 20_000;
+    let mut warnings = Warnings::new(file.name, file.bytes);
+    let mut machine = Machine::new(file, format, &mut warnings, SAMPLE);
+    match machine.all() {
+        Err(error) if machine.holes.len() < SAMPLE => Err(error),
+        _ => Ok(machine.holes),
+    }
 }
 
 /// What X and Y of a line do.
@@ -98,6 +88,8 @@ struct Machine<'a, 'w, 'b> {
     /// The hole that a lowered router bit is cutting.
     routing: Option<Hole>,
     holes: Vec<Hole>,
+    /// How many holes there may be.
+    most: usize,
     /// The holes of the pattern that `M25` began, and where `M01` ended it.
     pattern: Option<(usize, Option<usize>)>,
     /// How far `M02` has moved the pattern so far.
@@ -105,7 +97,38 @@ struct Machine<'a, 'w, 'b> {
     ended: bool,
 }
 
-impl Machine<'_, '_, '_> {
+impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
+    fn new(file: File<'a>, format: NumberFormat, warnings: &'w mut Warnings<'b>, most: usize) -> Self {
+        Self {
+            file,
+            format,
+            warnings,
+            mode: Mode::Drill,
+            absolute: true,
+            zero: Point::default(),
+            at: Point::default(),
+            tools: BTreeMap::new(),
+            tool: None,
+            plating: file.plating,
+            routing: None,
+            holes: Vec::new(),
+            most,
+            pattern: None,
+            stepped: Vector::default(),
+            ended: false,
+        }
+    }
+
+    fn all(&mut self) -> Result<(), Error> {
+        for line in self.file.lines {
+            self.line(line)?;
+            if self.ended {
+                break;
+            }
+        }
+        self.raise()
+    }
+
     fn line(&mut self, line: &Line) -> Result<(), Error> {
         match &line.kind {
             Kind::Comment(text) => {
@@ -287,6 +310,9 @@ impl Machine<'_, '_, '_> {
         };
         let to = to.unwrap_or(self.holes.len());
         self.pattern = Some((from, Some(to)));
+        if from == to {
+            return Ok(());
+        }
         let way = self.way(block.x, block.y)?;
         for _ in 0..block.repeats().map_err(|word| self.unknown(word))? {
             self.stepped = self.stepped + way;
@@ -391,8 +417,8 @@ impl Machine<'_, '_, '_> {
     }
 
     fn push(&mut self, hole: Hole, place: &Range<usize>) -> Result<(), Error> {
-        if self.holes.len() >= MOST_HOLES {
-            let what = format!("more than {MOST_HOLES} holes");
+        if self.holes.len() >= self.most {
+            let what = format!("more than {} holes", self.most);
             let hint = "a repeat count may be damaged";
             let expected = "a board that can be drilled";
             return Err(Error::syntax(self.file.name, self.file.bytes, place.clone(), what, expected, hint));

@@ -75,7 +75,7 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
     let reading = Reading::choose(file, context)?;
     let mut warnings = Warnings::new(name, bytes);
     let run = machine::run(file, reading.format, &mut warnings)?;
-    reading.explain(file, &run, context, &mut warnings);
+    reading.explain(file, context, &mut warnings);
     if !declared.ended {
         let message = "the file does not end with M30; if it was cut off, holes are missing";
         warnings.add("missing-end-of-file", bytes.len()..bytes.len(), message);
@@ -143,9 +143,7 @@ fn refuse_others(name: &str, bytes: &[u8]) -> Result<(), Error> {
     if looks_like(bytes) {
         return Ok(());
     }
-    let head = &bytes[..bytes.len().min(64 * 1024)];
-    let gerber = head.contains(&b'*') && (head.contains(&b'%') || head.windows(3).any(|w| w == b"D02"));
-    let what = if gerber {
+    let what = if crate::import::gerber::looks_like(bytes) {
         "a Gerber file where an Excellon drill file was expected"
     } else {
         "not an Excellon drill file"
@@ -190,17 +188,15 @@ impl Reading {
     /// The format of `file` that fits the copper best.
     fn choose(file: File<'_>, context: &Context) -> Result<Self, Error> {
         let formats = guess::candidates(file.declared, file.lines);
-        let attempt =
-            |format: NumberFormat| machine::run(file, format, &mut Warnings::new(file.name, file.bytes));
         let mut first_error = None;
         let mut runs: Vec<(NumberFormat, Vec<Point>, Score)> = Vec::new();
         for &format in &formats {
-            match attempt(format) {
+            match machine::sample(file, format) {
                 // A reading that comes to the same as one before it is no rival.
-                Ok(run) => {
-                    let places = guess::some_places(&run.holes);
+                Ok(holes) => {
+                    let places = guess::some_places(&holes);
                     if !runs.iter().any(|(_, others, _)| guess::same_places(others, &places)) {
-                        runs.push((format, places, context.judge(&run.holes)));
+                        runs.push((format, places, context.judge(&holes)));
                     }
                 }
                 Err(error) => first_error = first_error.or(Some(error)),
@@ -223,7 +219,7 @@ impl Reading {
     }
 
     /// Warns of what was guessed, and of holes that do not fit the copper.
-    fn explain(&self, file: File<'_>, run: &Run, context: &Context, warnings: &mut Warnings<'_>) {
+    fn explain(&self, file: File<'_>, context: &Context, warnings: &mut Warnings<'_>) {
         let Score { on_pads, inside, holes } = self.score;
         let place = || file.declared.units.as_ref().map_or(0..0, |(_, place)| place.clone());
         let read_as = format!("read as {} {}", self.format.units.name(), self.format);
@@ -244,7 +240,7 @@ impl Reading {
             let message = format!("the file does not say its number format, and no copper tells; {read_as}");
             warnings.add("drill-format-guessed", place(), message);
         }
-        if !context.is_empty() && 2 * inside < run.holes.len() {
+        if !context.is_empty() && 2 * inside < holes && holes > 0 {
             let message = format!(
                 "only {inside} of {holes} holes lie within the copper ({read_as}): drill and copper may not belong together"
             );

@@ -43,7 +43,7 @@ impl Edge {
         self.segment().length(self.from)
     }
 
-    fn bounds(&self) -> Rect {
+    pub(super) fn bounds(&self) -> Rect {
         self.as_arc().map_or(Rect::new(self.from, self.to), |arc| arc.bounds())
     }
 

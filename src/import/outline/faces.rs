@@ -31,9 +31,7 @@ pub(super) fn outermost(edges: &[Edge], notes: &mut Notes<'_>) -> Vec<Path> {
     }
     if bounded > contours.len() {
         let at = walks.iter().find(|walk| leaving[&walk.from].len() > 2).map(|walk| (walk.from, walk.line));
-        let message = format!(
-            "lines inside the outline touch it and part it into {bounded} areas; only its outer edge is taken"
-        );
+        let message = "lines inside the outline touch it; only its outer edge is taken";
         notes.add("outline-parted", message, at);
     }
     contours

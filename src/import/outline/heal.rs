@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use super::Notes;
 use super::edge::Edge;
-use crate::geometry::{Nm, Point};
+use crate::geometry::{Nm, Point, Rect};
 
 /// What an end that lies this near to another is not even worth mentioning: the rounding of a file's last digit.
 const ROUNDING: Nm = Nm::from_um(3);
@@ -82,9 +82,18 @@ fn is_open_circle(edges: &[Edge], p: Point, q: Point) -> bool {
     edges.iter().filter(between).any(|e| e.length() > 2.0 * p.distance(q))
 }
 
+/// What [`prune`] left out.
+pub(super) struct Loose {
+    /// Its length in nanometres.
+    pub(super) length: f64,
+    /// A rectangle that holds it.
+    pub(super) bounds: Rect,
+}
+
 /// Leaves out edges that lead nowhere, until all that is left closes.
-pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) {
+pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loose> {
     let (mut dropped, mut length, mut first) = (0_u32, 0.0, None);
+    let mut bounds = None::<Rect>;
     loop {
         let ends = ends(edges);
         let before = edges.len();
@@ -93,6 +102,7 @@ pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) {
             if let Some(at) = loose {
                 dropped += 1;
                 length += edge.length();
+                bounds = Some(bounds.map_or(edge.bounds(), |b| b.union(edge.bounds())));
                 first = first.or(Some((at, edge.line)));
             }
             loose.is_none()
@@ -108,6 +118,7 @@ pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) {
         );
         notes.add("outline-loose-lines", message, Some(place));
     }
+    bounds.map(|bounds| Loose { length, bounds })
 }
 
 fn line_at(edges: &[Edge], at: Point) -> u32 {

@@ -46,20 +46,26 @@ pub fn join(file: &str, features: &[Feature], gap: Nm) -> Joined {
     edge::drop_doubles(&mut edges);
     heal::close_gaps(&mut edges, gap, &mut notes);
     edges = edge::part_where_they_meet(edges);
-    heal::prune(&mut edges, &mut notes);
+    let loose = heal::prune(&mut edges, &mut notes);
     contours.extend(faces::outermost(&edges, &mut notes));
     contours.sort_by_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
     contours.dedup();
     let contours = nest::without_decoration(contours, &mut notes);
-    let outline = Outline::new(contours);
+    let outline =
+        Outline::new(contours).filter(|outline| !loose.is_some_and(|loose| reaches_around(&loose, outline)));
     if outline.is_none() {
-        notes.add(
-            "outline-open",
-            "no line of the outline layer closes, so the board's edge is not known",
-            None,
-        );
+        let message =
+            "the outer edge of the board does not close, so the outline is not known; close it in the layer";
+        notes.add("outline-open", message, None);
     }
     Joined { outline, warnings: notes.warnings }
+}
+
+/// Whether what does not close is the board's edge, and what closes but its cut-outs.
+fn reaches_around(loose: &heal::Loose, outline: &Outline) -> bool {
+    let longest = outline.contours().iter().map(Path::length).fold(0.0, f64::max);
+    let within = |p: Point| outline.bounds().inflate(GAP).contains(p);
+    loose.length > longest && !(within(loose.bounds.min()) && within(loose.bounds.max()))
 }
 
 /// Warnings about one layer.
