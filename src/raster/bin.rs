@@ -2,7 +2,7 @@ use super::block::{Block, Extent, LANES, SIDE};
 use super::cell::Cell;
 use super::half_plane::Cover;
 use super::mosaic::Mosaic;
-use super::primitive::{Part, Reach, Shape};
+use super::primitive::{Part, Primitive, Reach, Shape};
 use super::{Label, Scene};
 
 /// The primitives that may be seen in a cell: the bin of the cell.
@@ -18,6 +18,8 @@ pub(super) struct Bin {
     edges: Vec<u32>,
     near: f64,
     far: f64,
+    /// Whether what lies behind is kept, too: for blending, where nothing hides anything.
+    sees_through: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -48,6 +50,11 @@ impl Bin {
         bin
     }
 
+    /// The same, and nothing in it hides anything.
+    pub(super) fn seen_through(self) -> Self {
+        Self { sees_through: true, ..self }
+    }
+
     /// Becomes the bin of `cell`, given that of a cell `around` it.
     ///
     /// A primitive that covers the whole cell no deeper than `far` hides all that lie entirely behind. Only what is
@@ -57,7 +64,7 @@ impl Bin {
         self.parts.clear();
         self.part_reaches.clear();
         self.edges.clear();
-        (self.near, self.far) = (f64::INFINITY, f64::INFINITY);
+        (self.near, self.far, self.sees_through) = (f64::INFINITY, f64::INFINITY, from.sees_through);
         for part in &from.parts {
             let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape else { continue };
             if let Some((part, reach)) = polygon.narrow(part, &from.edges, around, cell, &mut self.edges) {
@@ -68,13 +75,13 @@ impl Bin {
             }
         }
         for candidate in &from.shapes {
-            if candidate.near > self.far {
+            if candidate.near > self.far && !self.sees_through {
                 continue;
             }
             let Some(reach) = scene.primitives[index(candidate.primitive)].shape.reach(cell) else {
                 continue;
             };
-            if reach.near > self.far {
+            if reach.near > self.far && !self.sees_through {
                 continue;
             }
             self.near = self.near.min(reach.near);
@@ -82,7 +89,7 @@ impl Bin {
             let whole = reach.cover == Cover::Whole;
             self.shapes.push(Candidate { primitive: candidate.primitive, whole, near: reach.near });
         }
-        let far = self.far;
+        let far = if self.sees_through { f64::INFINITY } else { self.far };
         self.shapes.retain(|candidate| candidate.near <= far);
         let mut reaches = self.part_reaches.iter();
         self.parts.retain(|_| reaches.next().is_some_and(|reach| reach.near <= far));
@@ -146,6 +153,32 @@ impl Bin {
                 let whole = deepest < f32::INFINITY;
                 self.shapes.push(Candidate { primitive: candidate.primitive, whole, near: 0.0 });
             }
+        }
+    }
+
+    /// Draws each primitive alone on a block for `cell`; `drawn` gets them in the order of labels.
+    pub(super) fn draw_each(
+        &self,
+        scene: &Scene,
+        cell: Cell,
+        block: &mut Block,
+        mut drawn: impl FnMut(Label, &Block),
+    ) {
+        block.place(cell);
+        let shapes = self.shapes.iter().map(|shape| (shape.primitive, None));
+        let parts = self.parts.iter().map(|part| (part.primitive, Some(part)));
+        let mut all: Vec<_> = shapes.chain(parts).collect();
+        all.sort_by_key(|(primitive, _)| scene.primitives[index(*primitive)].label);
+        for (number, part) in all {
+            let Primitive { label, shape } = &scene.primitives[index(number)];
+            block.clear();
+            match (shape, part) {
+                (Shape::Polygon(polygon), Some(part)) => {
+                    polygon.draw(*label, part, &self.edges, Extent::Whole, block);
+                }
+                _ => shape.draw(*label, Cover::Part, false, block),
+            }
+            drawn(*label, block);
         }
     }
 

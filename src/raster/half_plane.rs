@@ -109,6 +109,11 @@ impl<const N: usize> Convex<N> {
         self.0.iter().flatten().fold(Cover::Whole, |cover, plane| cover.and(plane.cover(cell)))
     }
 
+    /// Whether the sample of a pixel is in it.
+    pub(super) fn holds(&self, column: i32, row: i32) -> bool {
+        self.0.iter().flatten().all(|plane| plane.at(sample(column), sample(row)) >= 0)
+    }
+
     /// Which of `columns` are in it on the row whose samples lie at `y` steps.
     pub(super) fn columns(&self, y: i32, columns: Range<i32>) -> Range<i32> {
         self.0.iter().flatten().fold(columns, |left, plane| plane.columns(y, left))

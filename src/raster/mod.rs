@@ -1,6 +1,7 @@
 //! A deterministic z-buffer on the CPU: surfaces over a plane of pixels in, the nearest label of every pixel out.
 
 mod bin;
+pub mod blend;
 mod block;
 mod cell;
 mod fragment;
@@ -8,6 +9,7 @@ mod half_plane;
 mod lanes;
 mod mosaic;
 mod node;
+mod pick;
 mod primitive;
 mod render;
 mod scene;
@@ -17,6 +19,7 @@ mod surface;
 mod tile;
 
 pub use fragment::{Fragment, Label};
+pub use pick::{Picker, Picks};
 pub use render::{Buffers, render};
 pub use scene::Scene;
 pub use stream::{Options, stream};

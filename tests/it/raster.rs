@@ -1,9 +1,10 @@
 //! The raster engine against brute force, and its law: nothing but the scene decides a bit of the picture.
 
 use proptest::prelude::*;
+use voromill::raster::blend::{Window, mix, render_overdraw, render_translucent};
 use voromill::raster::{
-    Buffers, Caps, FillRule, Label, Options, PixelPoint, Scene, Sides, Spin, SubPx, Surface, TileContent,
-    render, stream,
+    Buffers, Caps, FillRule, Label, Options, Picker, PixelPoint, Scene, Sides, Spin, SubPx, Surface,
+    TileContent, render, stream,
 };
 
 use crate::oracle::raster::claims;
@@ -185,4 +186,83 @@ fn streamed_equals(scene: &Scene, options: &Options, dense: &Buffers) -> Result<
     let all: Vec<_> =
         rows.flat_map(|row| (0..SIZE.0).step_by(tile).map(move |column| (row, column))).collect();
     if places == all { Ok(()) } else { Err(format!("tiles came as {places:?}")) }
+}
+
+/// Fragments as (depth bits, label).
+fn picked(picker: &Picker<'_>, column: u32, row: u32) -> Vec<(u32, u32)> {
+    picker.pick(column, row).map(|fragment| (fragment.depth.to_bits(), fragment.label.0)).collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_pick_lists_every_fragment_nearest_first(primitives in primitives()) {
+        let scene = scene(&primitives);
+        let picker = Picker::new(&scene);
+        let dense = picture(&primitives);
+        let single: Vec<_> = primitives.iter().map(|one| picture(std::slice::from_ref(one))).collect();
+        for (column, row) in (0..SIZE.1).step_by(7).flat_map(|row| (0..SIZE.0).step_by(5).map(move |c| (c, row))) {
+            let mut all: Vec<_> = single
+                .iter()
+                .map(|picture| picture.pixel(column as usize, row as usize))
+                .filter(|fragment| fragment.label != Label::BACKGROUND)
+                .collect();
+            all.sort_by(|a, b| a.depth.total_cmp(&b.depth).then(a.label.cmp(&b.label)));
+            let bits: Vec<_> = all.iter().map(|f| (f.depth.to_bits(), f.label.0)).collect();
+            prop_assert_eq!(&picked(&picker, column, row), &bits, "at {}, {}", column, row);
+            let seen = dense.pixel(column as usize, row as usize);
+            prop_assert_eq!(all.first().map_or(Label::BACKGROUND, |first| first.label), seen.label);
+        }
+    }
+
+    #[test]
+    fn blended_pixels_are_made_of_their_picks(primitives in primitives()) {
+        let scene = scene(&primitives);
+        let picker = Picker::new(&scene);
+        let colors: Vec<[u8; 3]> = (0..20_u8).map(|i| [i * 13, 255 - i * 12, i * 7 + 90]).collect();
+        let window = Window { column: 13, row: 5, width: 130, height: 90 };
+        let (mixed, counted) = (render_translucent(&scene, &colors, window), render_overdraw(&scene, window));
+        let pixels = (5..95).flat_map(|row| (13..143).map(move |column| (column, row)));
+        for ((column, row), (color, count)) in pixels.zip(mixed.into_iter().zip(counted)) {
+            let labels: Vec<_> = picker.pick(column, row).map(|fragment| fragment.label.0 as usize).collect();
+            let mut distinct = Vec::new();
+            for &label in &labels {
+                if !distinct.contains(&label) {
+                    distinct.push(label);
+                }
+            }
+            prop_assert_eq!(mix(distinct.into_iter().map(|label| colors[label])), color);
+            prop_assert_eq!(labels.len(), count as usize);
+        }
+    }
+}
+
+#[test]
+fn no_mixed_component_is_likelier_than_one_in_128() {
+    // Lemma 3 of the paper, by running through every value of every layer: the sums of k layers and how many of the
+    // 256^k choices give them, a layer at a time.
+    let share = |component: u8, layer: u32| {
+        let black = std::iter::repeat_n([0; 3], layer as usize - 1);
+        usize::from(mix(black.chain([[component; 3]]))[0])
+    };
+    let mut ways = vec![1.0_f64];
+    for layer in 1..=7 {
+        let mut next = vec![0.0; ways.len() + 128];
+        for (sum, count) in ways.iter().enumerate() {
+            for component in 0..=255 {
+                next[sum + share(component, layer)] += count / 256.0;
+            }
+        }
+        ways = next;
+        let likeliest = ways.iter().copied().fold(0.0, f64::max);
+        assert!(likeliest <= 1.0 / 128.0, "{layer} layers: {likeliest}");
+        assert!(ways.iter().skip(256).all(|&p| p <= 0.0), "a component of {layer} layers is a byte");
+    }
+    // And two layers without the shortcut, through the whole function.
+    let mut counts = [0_u32; 256];
+    for (a, b) in (0..=255).flat_map(|a| (0..=255).map(move |b| (a, b))) {
+        counts[usize::from(mix([[a; 3], [b; 3]])[1])] += 1;
+    }
+    assert!(counts.iter().all(|&count| count <= 65536 / 128), "at most 512 of 65 536 pairs: {counts:?}");
 }

@@ -6,19 +6,24 @@ use super::super::cell::Cell;
 use super::super::half_plane::Cover;
 use super::super::lanes::Lanes;
 use super::stroke::StrokeLanes;
-use super::{Reach, Stroke};
+use super::{Bounds, Reach, Stroke};
 
 /// A point's distance.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Cone {
     /// In steps.
     apex: (f32, f32),
+    place: (i32, i32),
     pub stroke: Stroke,
 }
 
 impl Cone {
     pub(in super::super) fn new(apex: PixelPoint, stroke: Stroke) -> Self {
-        Self { apex: floats(apex.raw()), stroke }
+        Self { apex: floats(apex.raw()), place: apex.raw(), stroke }
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds::curve([self.place], 0.0, self.stroke.offset, self.stroke.limit)
     }
 
     pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {

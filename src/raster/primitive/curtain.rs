@@ -7,7 +7,7 @@ use super::super::lanes::Lanes;
 use super::super::{Caps, PixelPoint, Sides};
 use super::cone::floats;
 use super::stroke::StrokeLanes;
-use super::{Reach, Stroke};
+use super::{Bounds, Reach, Stroke};
 
 /// A segment's distance.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +54,15 @@ impl Curtain {
             Sides::Right => Some(HalfPlane::clockwise(self.from, (x, y))),
         };
         Convex([start, end, side])
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds::curve([self.from, self.to], 0.0, self.stroke.offset, self.stroke.limit)
+    }
+
+    /// Whether a pixel lies in its strip or at a round end.
+    pub(super) fn covers(&self, column: i32, row: i32) -> bool {
+        self.region().holds(column, row)
     }
 
     pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {

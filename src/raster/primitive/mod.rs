@@ -1,5 +1,6 @@
 //! The surfaces, made ready to draw: for each where it reaches, and how deep it lies at a sample.
 
+mod bounds;
 mod cone;
 mod curtain;
 mod polygon;
@@ -7,6 +8,7 @@ mod ring;
 mod stroke;
 mod triangle;
 
+pub(super) use bounds::Bounds;
 pub(super) use cone::Cone;
 pub(super) use curtain::Curtain;
 pub(super) use polygon::{Part, Polygon};
@@ -14,9 +16,10 @@ pub(super) use ring::Ring;
 pub(super) use stroke::{SLACK, Stroke};
 pub(super) use triangle::Triangle;
 
-use super::block::{Block, Extent, Field};
+use super::block::{Block, Extent, Field, position};
 use super::cell::Cell;
 use super::half_plane::{Convex, Cover};
+use super::lanes::Lanes;
 use super::mosaic::Mosaic;
 use super::subpixel::sample;
 use super::{Label, Surface};
@@ -124,10 +127,49 @@ impl Shape {
         }
     }
 
+    /// Where it may have fragments, and how near.
+    pub(super) fn bounds(&self) -> Bounds {
+        match self {
+            Self::Polygon(polygon) => polygon.bounds(),
+            Self::Triangle(triangle) => triangle.bounds(),
+            Self::Cone(cone) => cone.bounds(),
+            Self::Curtain(curtain) => curtain.bounds(),
+            Self::Ring(ring) => ring.bounds(),
+        }
+    }
+
+    /// Its depth at a pixel, the very number that drawing gives it; none where it has no fragment there.
+    pub(super) fn fragment(&self, column: i32, row: i32) -> Option<f32> {
+        let depth = match self {
+            Self::Polygon(polygon) => return polygon.fragment(column, row),
+            Self::Triangle(triangle) => return triangle.fragment(column, row),
+            Self::Cone(cone) => at(cone, column, row),
+            Self::Curtain(curtain) if !curtain.covers(column, row) => return None,
+            Self::Curtain(curtain) => at(curtain, column, row),
+            Self::Ring(ring) => ring.depth_at(column, row),
+        };
+        (depth <= self.limit() && depth < f32::INFINITY).then_some(depth)
+    }
+
+    const fn limit(&self) -> f32 {
+        match self {
+            Self::Polygon(_) | Self::Triangle(_) => f32::INFINITY,
+            Self::Cone(cone) => cone.stroke.limit,
+            Self::Curtain(curtain) => curtain.stroke.limit,
+            Self::Ring(ring) => ring.stroke.limit,
+        }
+    }
+
     /// Whether it may be drawn first on a block that has not been cleared, where it covers all of it.
     pub(super) const fn fills(&self) -> bool {
         matches!(self, Self::Cone(_) | Self::Curtain(_))
     }
+}
+
+/// What a field says to one pixel.
+fn at<F: Field>(field: &F, column: i32, row: i32) -> f32 {
+    let simd = pulp::Scalar;
+    F::depth(field.row(simd, position(row)), Lanes::splat(simd, position(column))).value
 }
 
 /// Lays a surface on the whole of a block or on the part of it that lies in `region`.

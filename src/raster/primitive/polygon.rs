@@ -8,7 +8,7 @@ use super::super::half_plane::Cover;
 use super::super::lanes::Lanes;
 use super::super::subpixel::sample;
 use super::super::{FillRule, Fragment, Label, PixelPoint};
-use super::Reach;
+use super::{Bounds, Reach};
 
 /// A flat area inside contours.
 ///
@@ -111,6 +111,15 @@ impl Polygon {
             .map(|(from, to)| Edge { from: from.raw(), to: to.raw() })
             .collect();
         (!edges.is_empty()).then_some(Self { edges, rule, depth: depth + 0.0 })
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds::flat(self.edges.iter().map(|edge| edge.from), self.depth)
+    }
+
+    /// Its depth at a pixel; none beside it. Asks every edge.
+    pub(super) fn fragment(&self, column: i32, row: i32) -> Option<f32> {
+        self.encloses(self.winding(sample(column), sample(row))).then_some(self.depth)
     }
 
     pub(super) fn reach(&self) -> Reach {

@@ -10,7 +10,7 @@ use super::super::subpixel::sample;
 use super::super::{Caps, Label, PixelPoint, Spin};
 use super::cone::floats;
 use super::stroke::StrokeLanes;
-use super::{Reach, Stroke};
+use super::{Bounds, Reach, Stroke, at};
 
 /// A circular arc's distance; stored as it runs clockwise.
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub(in super::super) struct Ring {
     start: (i32, i32),
     end: (i32, i32),
     caps: Caps,
-    stroke: Stroke,
+    pub stroke: Stroke,
     /// In steps.
     radius: f32,
 }
@@ -65,6 +65,21 @@ impl Ring {
         } else {
             Sector::Rest(Convex([Some(after_start.complement()), Some(before_end.complement())]))
         }
+    }
+
+    pub(super) fn bounds(&self) -> Bounds {
+        let circle = Bounds::curve([self.center], self.radius / 256.0, self.stroke.offset, self.stroke.limit);
+        circle.union(Bounds::curve([self.start, self.end], 0.0, self.stroke.offset, self.stroke.limit))
+    }
+
+    /// The depth at a pixel, infinite where there is none; the limit is the caller's to apply.
+    pub(super) fn depth_at(&self, column: i32, row: i32) -> f32 {
+        let inside = match self.sector() {
+            Sector::All => true,
+            Sector::Convex(convex) => convex.holds(column, row),
+            Sector::Rest(convex) => !convex.holds(column, row),
+        };
+        if inside { at(&Strip(*self), column, row) } else { at(&Ends(*self), column, row) }
     }
 
     pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {

@@ -3,7 +3,7 @@ use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
 use super::super::subpixel::sample;
 use super::super::{Fragment, Label, PixelPoint};
-use super::Reach;
+use super::{Bounds, Reach};
 
 /// A triangle, clockwise on the picture, and the plane its depth lies in.
 #[derive(Clone, Copy, Debug)]
@@ -75,6 +75,22 @@ impl Triangle {
         Some(Reach { near, far: if cover == Cover::Whole { far } else { f64::INFINITY }, cover })
     }
 
+    pub(super) fn bounds(&self) -> Bounds {
+        Bounds::flat(self.corners, self.range.0)
+    }
+
+    /// Its depth at a pixel; none beside it.
+    pub(super) fn fragment(&self, column: i32, row: i32) -> Option<f32> {
+        self.region().holds(column, row).then(|| self.depth_at(sample(column), sample(row)))
+    }
+
+    /// The depth of its plane at a sample, not beyond those of its corners.
+    fn depth_at(&self, x: i32, y: i32) -> f32 {
+        #[expect(clippy::cast_possible_truncation, reason = "rounded correctly")]
+        let depth = self.at(f64::from(x), f64::from(y)) as f32;
+        depth.max(self.range.0).min(self.range.1) + 0.0
+    }
+
     fn at(&self, x: f64, y: f64) -> f64 {
         let (x0, y0) = self.corners[0];
         self.depth + ((x - f64::from(x0)) * self.slope.0 + (y - f64::from(y0)) * self.slope.1)
@@ -82,18 +98,17 @@ impl Triangle {
 
     pub(super) fn draw(&self, label: Label, block: &mut Block) {
         let region = self.region();
-        let ((x0, y0), (least, most)) = (self.corners[0], self.range);
         let cell = block.cell();
         for (row, depths, labels) in block.rows() {
             let y = sample(row);
             let columns = region.columns(y, cell.x..cell.x + cell.width);
-            let down = f64::from(y - y0) * self.slope.1;
             for column in columns {
-                let across = f64::from(sample(column) - x0) * self.slope.0;
-                #[expect(clippy::cast_possible_truncation, reason = "rounded correctly")]
-                let depth = ((self.depth + (across + down)) as f32).max(least).min(most);
                 let at = count(column - cell.x);
-                put(&mut depths[at], &mut labels[at], Fragment { depth: depth + 0.0, label });
+                put(
+                    &mut depths[at],
+                    &mut labels[at],
+                    Fragment { depth: self.depth_at(sample(column), y), label },
+                );
             }
         }
     }

@@ -1,0 +1,161 @@
+//! Pictures in which a pixel shows more than what is nearest: translucent layers, and how many there are.
+
+use rayon::prelude::*;
+
+use super::Scene;
+use super::bin::Bin;
+use super::block::{Block, LANES, SIDE, count};
+use super::cell::Cell;
+use super::node::signed;
+
+/// A rectangle of pixels of the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Window {
+    /// The leftmost column.
+    pub column: u32,
+    /// The topmost row.
+    pub row: u32,
+    /// Columns.
+    pub width: u32,
+    /// Rows.
+    pub height: u32,
+}
+
+impl Window {
+    /// All of a scene's picture.
+    #[must_use]
+    pub const fn all(scene: &Scene) -> Self {
+        Self { column: 0, row: 0, width: scene.width(), height: scene.height() }
+    }
+}
+
+/// The colour of one pixel over which translucent layers lie, the nearest first: each component is Σ ⌈cᵢ / 2ⁱ⌉ with
+/// i = 1, 2, … ([Downing and Rus, VIsolate, § III-A.2]), at most 255.
+///
+/// From the ninth layer on nothing is left of a component but its being there.
+///
+/// [Downing and Rus, VIsolate, § III-A.2]: super#references
+#[must_use]
+pub fn mix(layers: impl IntoIterator<Item = [u8; 3]>) -> [u8; 3] {
+    let mut sum = [0_u8; 3];
+    for (layer, i) in layers.into_iter().zip(1_u32..) {
+        for (sum, component) in sum.iter_mut().zip(layer) {
+            let halved = u16::from(component).div_ceil(1 << i.min(8));
+            *sum = sum.saturating_add(u8::try_from(halved).unwrap_or(u8::MAX));
+        }
+    }
+    sum
+}
+
+/// Draws every label translucently, in its colour from `colors` (black where there is none): a pixel is the [`mix`]
+/// of the distinct labels that have a fragment there, in the order of their depth. Row by row from the top.
+///
+/// However many primitives of one label lie on a pixel, they count once, at the nearest.
+///
+/// # Panics
+///
+/// Where `window` reaches beyond the picture.
+#[must_use]
+pub fn render_translucent(scene: &Scene, colors: &[[u8; 3]], window: Window) -> Vec<[u8; 3]> {
+    let color = |label: u32| colors.get(label as usize).copied().unwrap_or_default();
+    layered(scene, window, [0; 3], |layers| {
+        layers.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let mut distinct: Vec<u32> = Vec::with_capacity(layers.len());
+        for &(_, label) in layers.iter() {
+            if !distinct.contains(&label) {
+                distinct.push(label);
+            }
+        }
+        mix(distinct.into_iter().map(color))
+    })
+}
+
+/// Counts the fragments on every pixel: how often it is drawn over. Row by row from the top.
+///
+/// # Panics
+///
+/// Where `window` reaches beyond the picture.
+#[must_use]
+pub fn render_overdraw(scene: &Scene, window: Window) -> Vec<u32> {
+    layered(scene, window, 0, |layers| u32::try_from(layers.len()).unwrap_or(u32::MAX))
+}
+
+/// Depth and label of a fragment.
+type Layer = (f32, u32);
+
+/// A picture in which `shade` makes each pixel from all its fragments; it gets none where there is no fragment.
+fn layered<P: Copy + Send + Sync>(
+    scene: &Scene,
+    window: Window,
+    empty: P,
+    shade: impl Fn(&mut Vec<Layer>) -> P + Sync,
+) -> Vec<P> {
+    let Window { column, row, width, height } = window;
+    let inside = column.checked_add(width).is_some_and(|right| right <= scene.width())
+        && row.checked_add(height).is_some_and(|bottom| bottom <= scene.height());
+    assert!(inside, "a window reaches beyond the picture");
+    if width == 0 || height == 0 {
+        return Vec::new();
+    }
+    let stride = width as usize;
+    let mut pixels = vec![empty; stride * height as usize];
+    let cell = Cell { x: signed(column), y: signed(row), width: signed(width), height: signed(height) };
+    let root = Bin::root(scene, cell).seen_through();
+    let tops: Vec<_> = (cell.y..cell.y + cell.height).step_by(count(SIDE)).collect();
+    let bands = pixels.par_chunks_mut(stride * count(SIDE)).zip(tops);
+    bands.for_each(|(pixels, y)| {
+        let band = Cell { y, height: signed(height) - (y - cell.y), ..cell };
+        let band = Cell { height: band.height.min(SIDE), ..band };
+        let mut bin = Bin::default();
+        bin.narrow(scene, &root, cell, band);
+        let mut painter = Layers { scene, block: Block::new(), layers: Vec::new() };
+        painter.halve(&bin, band, &mut |block, at, layers| {
+            let index = count(block.y - band.y) * stride + count(block.x - band.x);
+            pixels[index + at.1 * stride + at.0] = shade(layers);
+        });
+    });
+    pixels
+}
+
+/// Draws all layers of a band of the picture.
+struct Layers<'a> {
+    scene: &'a Scene,
+    block: Block,
+    /// For each pixel of a block.
+    layers: Vec<Vec<Layer>>,
+}
+
+impl Layers<'_> {
+    /// Cuts a band in two until it is small enough to be drawn.
+    fn halve(&mut self, bin: &Bin, cell: Cell, done: &mut impl FnMut(Cell, (usize, usize), &mut Vec<Layer>)) {
+        if cell.width <= SIDE {
+            self.paint(bin, cell, done);
+            return;
+        }
+        let left = (cell.width / 2 + LANES - 1) / LANES * LANES;
+        for half in
+            [Cell { width: left, ..cell }, Cell { x: cell.x + left, width: cell.width - left, ..cell }]
+        {
+            let mut own = Bin::default();
+            own.narrow(self.scene, bin, cell, half);
+            self.halve(&own, half, done);
+        }
+    }
+
+    fn paint(&mut self, bin: &Bin, cell: Cell, done: &mut impl FnMut(Cell, (usize, usize), &mut Vec<Layer>)) {
+        let width = count(cell.width);
+        let Self { scene, block, layers } = self;
+        layers.iter_mut().for_each(Vec::clear);
+        layers.resize(width * count(cell.height), Vec::new());
+        bin.draw_each(scene, cell, block, |label, block| {
+            let depths = block.finished().flat_map(|(depths, _)| depths);
+            for (layers, &depth) in layers.iter_mut().zip(depths).filter(|(_, depth)| **depth < f32::INFINITY)
+            {
+                layers.push((depth, label.0));
+            }
+        });
+        for (index, layers) in layers.iter_mut().enumerate().filter(|(_, layers)| !layers.is_empty()) {
+            done(cell, (index % width, index / width), layers);
+        }
+    }
+}
