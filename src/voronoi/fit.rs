@@ -16,6 +16,10 @@ use super::trace::CHORD;
 const DIP: f64 = 2_000.0;
 /// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight. Chosen.
 const RADII: std::ops::Range<f64> = 5_000.0..1e9;
+/// The part of the tolerance that fitting uses. A point off the middle by t is nearer to one side than to the other by 2 t;
+/// with this share that difference, too, stays within the tolerance almost everywhere. Chosen: at 1, it went beyond at 12 % of
+/// the points of a dense board, at 0.65 at 1 %, for a sixth more segments.
+const SHARE: f64 = 0.65;
 /// A minimum is looked for at most so many vertices apart; beyond, the search would become quadratic.
 const REACH: usize = 4096;
 
@@ -25,7 +29,7 @@ pub(super) fn fit(vertices: &[Vertex], tolerance: Nm, arcs: bool) -> Option<(Pat
     let mut path = Path { start: start.at.rounded(), segments: Vec::new() };
     let mut clearance = vec![Nm::from_f64(finite(start.clearance))];
     // What sampling may already have lost counts against the tolerance.
-    let fitter = Fitter { vertices, tolerance: (tolerance.to_f64() - CHORD).max(CHORD), arcs };
+    let fitter = Fitter { vertices, tolerance: (tolerance.to_f64() * SHARE - CHORD).max(CHORD), arcs };
     let mut i = 0;
     while i + 1 < vertices.len() {
         let (j, segment) = fitter.longest(i);

@@ -41,6 +41,10 @@ const BACKGROUND: u32 = 0;
 /// The owner number of what lies beyond the border.
 const OUTSIDE: u32 = 1;
 
+/// Pixels along a side of a tile. Measured: with 32, an eighth less time than with 64 or 16; smaller ones hug the boundaries
+/// closer, and pay more for their aprons.
+const TILE: u32 = 32;
+
 /// What lies on one side of a boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Owner {
@@ -169,6 +173,8 @@ pub enum Error {
 /// The Voronoi diagram of a layer, ready to be traced or drawn.
 pub struct Diagram {
     sites: Sites,
+    /// The owner of each label: a table of its own, because every pixel asks.
+    owners: Vec<u32>,
     border: Border,
     grid: Grid,
     settings: Settings,
@@ -213,7 +219,7 @@ impl Diagram {
         aside.iter().for_each(|(net, _)| kept[net.index()] = false);
         let sites = Sites::new(copper, nets, settings, |feature| kept[nets.of(feature).index()]);
         let grid = Grid::covering(border.window, settings.pitch)?;
-        Ok(Self { sites, border, grid, settings: settings.clone(), warnings })
+        Ok(Self { owners: sites.owners(), sites, border, grid, settings: settings.clone(), warnings })
     }
 
     /// The grid on which boundaries are found.
@@ -241,7 +247,7 @@ impl Diagram {
         let scene = self.sites.scene(grid, &self.border, limit);
         let mut buffers = raster::Buffers::default();
         raster::render(&scene, &mut buffers);
-        let owner = |label: &u32| Owner::from_number(self.sites.sites[*label as usize].owner);
+        let owner = |label: &u32| Owner::from_number(self.owners[*label as usize]);
         Picture { owners: buffers.labels().iter().map(owner).collect(), depths: buffers.depths().to_vec() }
     }
 
@@ -275,7 +281,8 @@ impl Diagram {
         let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
         let origin = Spot::from(self.grid.corner(0, 0));
         let pitch = self.grid.pitch().to_f64();
-        let options = raster::Options { apron: APRON, skip_uniform: true, ..raster::Options::default() };
+        let options =
+            raster::Options { tile: TILE, apron: APRON, skip_uniform: true, ..raster::Options::default() };
         let mut stitcher = Stitcher::default();
         let work = |tile: raster::Tile<'_>| {
             let (owners, labels) = self.pixels(&tile)?;
@@ -296,24 +303,25 @@ impl Diagram {
         stitcher
     }
 
-    /// Owners and labels of a tile with its apron; none for a tile of one owner.
+    /// Owners and labels of a tile with its apron, beyond the picture the outside; none for a tile of one owner.
     fn pixels(&self, tile: &raster::Tile<'_>) -> Option<(Vec<u32>, Vec<u32>)> {
         let TileContent::Pixels(pixels) = &tile.content else { return None };
-        let apron = i32::try_from(APRON).expect("two");
-        let (width, height) = (i64::from(self.grid.width()), i64::from(self.grid.height()));
-        let end = |n: u32| i32::try_from(n).expect("a tile is small") + apron;
-        let mut owners = Vec::new();
-        let mut labels = Vec::new();
-        for y in -apron..end(tile.height) {
-            for x in -apron..end(tile.width) {
-                let (column, row) =
-                    (i64::from(tile.column0) + i64::from(x), i64::from(tile.row0) + i64::from(y));
-                let inside = (0..width).contains(&column) && (0..height).contains(&row);
-                let label = if inside { pixels.label(x, y).0 } else { OUTSIDE };
-                labels.push(label);
-                owners.push(self.sites.sites[label as usize].owner);
+        let signed = |n: u32| i32::try_from(n).expect("a picture has at most 2¹⁶ pixels a side");
+        let apron = signed(APRON);
+        // Columns and rows of the picture, counted from the tile.
+        let columns = -signed(tile.column0)..signed(self.grid.width()) - signed(tile.column0);
+        let rows = -signed(tile.row0)..signed(self.grid.height()) - signed(tile.row0);
+        let mut labels = Vec::with_capacity(((tile.width + 2 * APRON) * (tile.height + 2 * APRON)) as usize);
+        for row in -apron..signed(tile.height) + apron {
+            let start = labels.len();
+            labels.extend_from_slice(pixels.label_row(row));
+            for (column, label) in (-apron..).zip(&mut labels[start..]) {
+                if !columns.contains(&column) || !rows.contains(&row) {
+                    *label = OUTSIDE;
+                }
             }
         }
+        let owners = labels.iter().map(|&label| self.owners[label as usize]).collect();
         Some((owners, labels))
     }
 

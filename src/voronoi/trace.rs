@@ -192,12 +192,18 @@ impl Tracer<'_> {
     fn cracks(&self) -> Vec<Crack> {
         let mut cracks = Vec::new();
         for y in 0..self.pixels.height {
-            for x in 0..self.pixels.width {
-                let own = self.pixels.owner(x, y);
-                if own != self.pixels.owner(x - 1, y) {
+            let row = |y: i32| {
+                &self.pixels.owners[self.pixels.index(-1, y)..self.pixels.index(self.pixels.width, y)]
+            };
+            let (above, here) = (row(y - 1), row(y));
+            if above[1..] == here[1..] && here.windows(2).all(|pair| pair[0] == pair[1]) {
+                continue;
+            }
+            for (x, (pair, &above)) in (0..).zip(here.windows(2).zip(&above[1..])) {
+                if pair[1] != pair[0] {
                     cracks.push(Crack { x, y, heading: Heading::South });
                 }
-                if own != self.pixels.owner(x, y - 1) {
+                if pair[1] != above {
                     cracks.push(Crack { x, y, heading: Heading::East });
                 }
             }
