@@ -227,6 +227,14 @@ impl Rect {
             && other.min.y <= self.max.y
     }
 
+    /// What both have in common; none where they are apart.
+    #[must_use]
+    pub fn common(self, other: Self) -> Option<Self> {
+        let min = Point::new(self.min.x.max(other.min.x), self.min.y.max(other.min.y));
+        let max = Point::new(self.max.x.min(other.max.x), self.max.y.min(other.max.y));
+        self.touches(other).then_some(Self { min, max })
+    }
+
     /// The four corners, counter-clockwise from the lower left.
     #[must_use]
     pub fn corners(self) -> [Point; 4] {

@@ -14,6 +14,7 @@ use rustc_hash::FxHashMap;
 use crate::board::{Axis, Copper, Feature, Shape};
 use crate::geometry::Point;
 
+use super::contact::{Body, Scratch};
 use super::sets::DisjointSets;
 
 /// The sets of features that share vertices.
@@ -45,9 +46,11 @@ const fn vertices(axis: &Axis) -> [Option<Point>; 2] {
 /// Whether a vertex of the feature's axis is copper of the feature.
 fn has_copper_at(feature: &Feature, vertex: Point) -> bool {
     match &feature.shape {
-        Shape::Disc { center, .. } => *center == vertex,
-        Shape::Stroke { from, to, .. } => [*from, *to].contains(&vertex),
-        Shape::Arc { arc, .. } => [arc.start, arc.end].contains(&vertex),
+        Shape::Disc { center, .. } if *center == vertex => true,
+        Shape::Stroke { from, to, .. } if [*from, *to].contains(&vertex) => true,
+        Shape::Arc { arc, .. } if [arc.start, arc.end].contains(&vertex) => true,
         Shape::Polygon(polygon) => polygon.contains(vertex),
+        // An obround flashed: the vertex is the middle of a stroke.
+        other => Body::new(other).holds(vertex, &mut Scratch::default()),
     }
 }

@@ -6,23 +6,29 @@
 //! | method | joins | time |
 //! |---|---|---|
 //! | [`coincidence`](Method::Coincidence) | features that share a vertex: Algorithm 1 of the paper (§III-A.1) | linear |
-//! | [`contact`](Method::Contact) | features whose copper touches, exactly | near-linear |
+//! | [`translucency`](Method::Translucency) | also what overlaps at some pixel: Algorithm 2 (§III-A.2) | with the area, in pixels |
+//! | [`contact`](Method::Contact) | also all whose copper touches, exactly | near-linear |
 //!
-//! Contact runs after coincidence, which does most of its work for next to nothing.
+//! Both others run after coincidence, which does most of their work for next to nothing. [`differences`] holds all three
+//! against each other.
 
 mod coincidence;
 mod contact;
+mod differences;
 mod electrical;
 mod gap;
 mod index;
 mod names;
 mod nets;
 mod sets;
+mod translucency;
 
+pub use differences::{Differences, Missed, Reason, differences};
 pub use electrical::{Electrical, ElectricalNet, electrical};
 pub use gap::{Gap, smallest_gap};
 pub use names::{islands_of_names, names_check};
 pub use nets::{Net, NetId, Nets};
+pub use translucency::{Colour, Odds, Overlap, Sampling, Translucency, translucency};
 
 use crate::board::Copper;
 
@@ -34,6 +40,8 @@ use contact::Bodies;
 pub enum Method {
     /// Algorithm 1 alone: shared end points and centres. Misses what touches elsewhere.
     Coincidence,
+    /// Algorithm 1, then Algorithm 2 at 500 DPI: overlaps by blended colours. Misses what no pixel shows.
+    Translucency,
     /// Algorithm 1, then exact contact.
     #[default]
     Contact,
@@ -43,9 +51,13 @@ pub enum Method {
 #[must_use]
 pub fn recover(copper: &Copper, method: Method) -> Nets {
     let coincident = coincidence::join(copper);
-    let sets = match method {
-        Method::Coincidence => coincident,
-        Method::Contact => Bodies::new(copper).join(&coincident),
-    };
-    Nets::from_sets(copper, sets)
+    match method {
+        Method::Coincidence => Nets::from_sets(copper, coincident),
+        Method::Contact => Nets::from_sets(copper, Bodies::new(copper).join(&coincident)),
+        Method::Translucency => {
+            let traces = Nets::from_sets(copper, coincident);
+            let found = translucency(copper, &traces, Sampling::default());
+            found.expect("500 DPI is neither too fine nor too large for any board").nets
+        }
+    }
 }

@@ -9,7 +9,7 @@ use serde_json::Value;
 use voromill::board::{Attributes, Axis, Copper, Feature, Hole, Plating, Shape, Side};
 use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn};
 use voromill::import::gerber;
-use voromill::topology::{self, Method, NetId, Nets};
+use voromill::topology::{self, Method, NetId, Nets, Reason, Sampling};
 
 fn at(x: i64, y: i64) -> Point {
     Point::new(Nm::new(x), Nm::new(y))
@@ -584,4 +584,132 @@ fn net_at(copper: &Copper, nets: &Nets, point: Point) -> Option<NetId> {
     near.map(|(index, feature)| (index, touch(&dot, &feature.shape)))
         .find(|(_, touch)| *touch)
         .map(|(index, _)| nets.of(index))
+}
+
+/// The boards of the paper's Table V that are to be had: data set, layer, and the nets after Algorithm 1 and after
+/// Algorithm 2 in the logs of the original program.
+const TABLE_V: [(u32, &str, usize, usize); 5] = [
+    (1, "visolate_eaglecad1 front", 102, 86),
+    (2, "visolate_dan front", 164, 83),
+    (4, "visolate_numpres front", 77, 38),
+    (5, "visolate_orcad_rs232 front", 21, 21),
+    (6, "visolate_orcad_rs232 back", 13, 13),
+];
+
+#[test]
+fn the_paper_s_boards_have_as_many_traces_as_in_its_logs() {
+    let layers = layers();
+    for (set, name, first, second) in TABLE_V {
+        let Some((_, copper, _)) = layers.iter().find(|(what, ..)| what == name) else { continue };
+        let traces = topology::recover(copper, Method::Coincidence);
+        let found = topology::translucency(copper, &traces, Sampling::default()).expect("500 DPI");
+        let counts = (traces.nets().len(), found.nets.nets().len());
+        assert_eq!(counts, (first, second), "data set {set}");
+        assert_eq!(
+            found.nets,
+            topology::recover(copper, Method::Contact),
+            "data set {set}: nothing is missed"
+        );
+    }
+}
+
+#[test]
+fn every_net_that_translucency_misses_on_real_boards_has_a_reason() {
+    for (what, copper, _) in layers() {
+        let found = topology::differences(&copper, Sampling::default()).expect("500 DPI");
+        let (contact, translucent) = (found.contact.nets().len(), found.translucency.nets.nets().len());
+        let missed = found.missed.iter().filter(|missed| missed.by == Method::Translucency);
+        let thin = missed.clone().filter(|missed| missed.reason == Reason::ThinnerThanPixel).count();
+        assert_eq!(translucent - contact, missed.count(), "{what}: one place for each join that is missing");
+        // Two layers are tiled with regions that share edges; one has a hairline.
+        let hairlines = what.starts_with("gerbv_hellboard") || what == "ts_clockblock front";
+        assert!(thin == 0 || hairlines, "{what}: {thin} overlaps are thinner than a pixel");
+    }
+}
+
+/// Strokes and discs some pixels wide, far enough apart to be several nets.
+fn any_copper() -> impl Strategy<Value = Copper> {
+    let size = 100_i64;
+    let place = move || (-size..size, -size..size);
+    let shape = prop_oneof![
+        (place(), 1..6_i64).prop_map(|((x, y), r)| disc(x * 100, y * 100, r * 100)),
+        (place(), place(), 1..4_i64).prop_map(|((x, y), (dx, dy), r)| stroke(
+            (x * 100, y * 100),
+            (x * 100 + dx * 20, y * 100 + dy * 20),
+            r * 100
+        )),
+    ];
+    prop::collection::vec(shape, 2..40).prop_map(copper)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(96))]
+
+    #[test]
+    fn translucency_merges_nothing_that_does_not_overlap(copper in any_copper(), pitch in 20_i64..400, seed: u64) {
+        let sampling = Sampling { pitch: Nm::new(pitch * 1000), seed };
+        let copper = scale_copper(&copper, 1000);
+        let found = topology::differences(&copper, sampling).expect("a coarse grid");
+        for net in found.translucency.nets.nets() {
+            for &feature in &net.features {
+                prop_assert_eq!(found.contact.of(feature as usize), found.contact.of(net.features[0] as usize));
+            }
+        }
+    }
+
+    #[test]
+    fn translucency_finds_what_overlaps_by_a_pixel_and_a_half(copper in any_copper(), seed: u64) {
+        let sampling = Sampling { pitch: Nm::new(100_000), seed };
+        let copper = scale_copper(&copper, 1000);
+        let traces = topology::recover(&copper, Method::Coincidence);
+        let found = topology::translucency(&copper, &traces, sampling).expect("a coarse grid");
+        // With the radius of a disc of a pixel and a half taken off, what still touches overlapped by that disc.
+        let shrunk = shrink(&copper, 75_000);
+        let sure = topology::recover(&shrunk, Method::Contact);
+        for net in sure.nets() {
+            for &feature in &net.features {
+                prop_assert_eq!(found.nets.of(feature as usize), found.nets.of(net.features[0] as usize));
+            }
+        }
+    }
+}
+
+fn scale_copper(copper: &Copper, scale: i64) -> Copper {
+    self::copper(copper.features.iter().map(|feature| scale_up(&feature.shape, scale)).collect())
+}
+
+/// The copper with every radius less by `by`.
+fn shrink(copper: &Copper, by: i64) -> Copper {
+    let less = |radius: Nm| Nm::new(radius.get() - by);
+    let shapes = copper.features.iter().map(|feature| match feature.shape.clone() {
+        Shape::Disc { center, radius } => Shape::Disc { center, radius: less(radius) },
+        Shape::Stroke { from, to, radius } => Shape::Stroke { from, to, radius: less(radius) },
+        other => other,
+    });
+    self::copper(shapes.collect())
+}
+
+#[test]
+fn more_than_seven_stacked_traces_are_one_and_reported() {
+    let shapes = (0..12_i64).map(|i| disc(i * 20_000, 0, 1_000_000)).collect();
+    let copper = copper(shapes);
+    let traces = topology::recover(&copper, Method::Coincidence);
+    assert_eq!(traces.nets().len(), 12, "no two share a centre");
+    let found = topology::translucency(&copper, &traces, Sampling::default()).expect("500 DPI");
+    assert_eq!(found.nets.nets().len(), 1, "all overlap");
+    assert_eq!(found.deepest, 12, "on top of each other in the middle");
+    assert!(!found.overlaps.is_empty(), "with the places");
+}
+
+#[test]
+fn the_seed_decides_the_colours_and_nothing_else_does() {
+    let copper = copper((0..20_i64).map(|i| disc(i * 150_000, 0, 100_000)).collect());
+    let traces = topology::recover(&copper, Method::Coincidence);
+    let run = |seed| {
+        topology::translucency(&copper, &traces, Sampling { seed, ..Sampling::default() }).expect("500 DPI")
+    };
+    assert_eq!(run(1).colours, run(1).colours, "the same seed");
+    assert_eq!(run(1).overlaps, run(1).overlaps, "the same run");
+    assert_ne!(run(1).colours, run(2).colours, "another seed");
+    assert_eq!(run(1).nets, run(2).nets, "the same nets");
 }
