@@ -91,6 +91,9 @@ fn diagram_settings(settings: &Settings) -> voronoi::Settings {
             Strategy::Outline => Some(settings.kerf() / 2 + settings.tolerance),
         },
         tolerance: settings.tolerance,
+        // The end of a cut is round: with half a kerf beyond the outline its whole width reaches the edge, and a fine
+        // cutter leaves no scratches outside.
+        overlap: voronoi::Settings::default().overlap.min(settings.kerf() / 2),
         ..voronoi::Settings::default()
     }
 }
