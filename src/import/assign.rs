@@ -87,7 +87,7 @@ pub(super) fn assign(
             roles.iter().filter(|vote| vote.role == Some(Role::Drill)).map(|vote| vote.file).collect();
     }
     take_the_only_one(&roles, gathered, &mut assigned);
-    set_aside(&roles, &mut assigned);
+    set_aside(&roles, gathered, &mut assigned);
     assigned.name = board_name(gathered, paths, selection, &job, &assigned);
     Ok(assigned)
 }
@@ -263,7 +263,7 @@ fn take_the_only_one(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigne
     }
 }
 
-fn set_aside(votes: &[Vote], assigned: &mut Assigned) {
+fn set_aside(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigned) {
     let single = [assigned.front, assigned.back, assigned.outline];
     for vote in votes {
         if single.contains(&Some(vote.file)) || assigned.drill.contains(&vote.file) {
@@ -271,7 +271,14 @@ fn set_aside(votes: &[Vote], assigned: &mut Assigned) {
         }
         let what = match vote.role {
             Some(Role::Other(what)) => what,
-            None => "unknown role",
+            None => {
+                let file = &gathered.files[vote.file].name;
+                if !assigned.by_hand.contains(&vote.file) {
+                    let message = format!("nothing tells what layer {file} is, so it is left aside");
+                    assigned.warnings.push(Warning::new("role-unknown", message));
+                }
+                "unknown role"
+            }
             Some(Role::Drill) => "drill file not chosen",
             Some(Role::Copper(_) | Role::Outline | Role::Group(_)) => "not chosen",
         };

@@ -164,12 +164,10 @@ const PARTS: &[(&str, Role)] = &[
     ("silk", Role::Other("silkscreen")),
     ("legend", Role::Other("silkscreen")),
     ("overlay", Role::Other("silkscreen")),
-    ("assy", Role::Other("documentation")),
     ("assembly", Role::Other("documentation")),
     ("drawing", Role::Other("documentation")),
     ("document", Role::Other("documentation")),
     ("courtyard", Role::Other("documentation")),
-    ("fab", Role::Other("documentation")),
     ("drillmap", Role::Other("drill map")),
     ("inner", Role::Other("inner copper")),
     ("internal", Role::Other("inner copper")),
@@ -200,7 +198,8 @@ const WORDS: &[(&str, Role)] = &[
     ("pth", Role::Drill),
     ("holes", Role::Drill),
     ("stop", Role::Other("solder mask")),
-    ("in", Role::Other("inner copper")),
+    ("fab", Role::Other("documentation")),
+    ("assy", Role::Other("documentation")),
     ("mid", Role::Other("inner copper")),
 ];
 

@@ -7,6 +7,7 @@ use super::archive::{Found, Gathered, name_of, read_file};
 use super::assign::{Assigned, assign};
 use super::error::Error;
 use super::excellon::{self, Context};
+use super::gerber::Image;
 use super::layers::Kind;
 use super::{gerber, gerber_drill, outline};
 use crate::board::{Axis, Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
@@ -73,7 +74,7 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
     let kind = Kind::of(&bytes);
     let found = Found { name, shown, bytes, kind, named: true };
     let mut build = Build::new(super::assign::stem(&found.name).to_owned());
-    build.copper(&found, side)?;
+    build.copper(read_gerber(&found, "a copper layer")?, side);
     build.require_copper(&[&found])?;
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })
 }
@@ -91,47 +92,43 @@ impl Build {
     }
 
     fn coppers(&mut self, gathered: &Gathered, assigned: &Assigned) -> Result<(), Error> {
-        let files = &gathered.files;
-        for (side, index) in [(Side::Front, assigned.front), (Side::Back, assigned.back)] {
-            if let Some(index) = index {
-                self.copper(&files[index], side)?;
+        let file = |index: usize| &gathered.files[index];
+        let read =
+            |index: Option<usize>| index.map(|index| read_gerber(file(index), "a copper layer")).transpose();
+        let (front, back) = rayon::join(|| read(assigned.front), || read(assigned.back));
+        for (side, image) in [(Side::Front, front?), (Side::Back, back?)] {
+            if let Some(image) = image {
+                self.copper(image, side);
             }
         }
-        let read: Vec<&Found> =
-            [assigned.front, assigned.back].into_iter().flatten().map(|i| &files[i]).collect();
+        let read: Vec<&Found> = [assigned.front, assigned.back].into_iter().flatten().map(file).collect();
         if read.is_empty() {
             return Err(no_copper(gathered, assigned));
         }
         self.require_copper(&read)
     }
 
-    /// Reads a copper layer; one that draws nothing is a warning.
-    fn copper(&mut self, file: &Found, side: Side) -> Result<(), Error> {
-        refuse_unless_gerber(file, "a copper layer")?;
-        let image = gerber::read(&file.name, &file.bytes, &gerber::Options::default())?;
+    /// Takes over a copper layer; one that draws nothing is a warning.
+    fn copper(&mut self, image: Image, side: Side) {
         self.warnings.extend(image.warnings.into_iter().map(|warning| warning.on(side)));
+        let file = image.source.file.clone();
         self.sources.push(Source { role: format!("{side}-copper"), ..image.source });
         let drawn = image.features.len();
         let features: Vec<Feature> = image.features.into_iter().filter(has_area).collect();
         if features.len() < drawn {
-            let message = format!(
-                "{} features of {} have no width and so no copper",
-                drawn - features.len(),
-                file.name
-            );
+            let message =
+                format!("{} features of {file} have no width and so no copper", drawn - features.len());
             self.warnings.push(Warning::new("zero-width-copper", message).on(side));
         }
         if features.is_empty() {
-            let message = format!("{} draws no copper", file.name);
-            self.warnings.push(Warning::new("empty-copper", message).on(side));
-            return Ok(());
+            self.warnings.push(Warning::new("empty-copper", format!("{file} draws no copper")).on(side));
+            return;
         }
         let copper = Copper { side, features, attributes: image.attributes };
         match side {
             Side::Front => self.board.front = Some(copper),
             Side::Back => self.board.back = Some(copper),
         }
-        Ok(())
     }
 
     /// A board without copper is an error.
@@ -150,8 +147,7 @@ impl Build {
             self.warnings.push(Warning::new("outline-missing", message));
             return Ok(());
         };
-        refuse_unless_gerber(file, "an outline layer")?;
-        let image = gerber::read(&file.name, &file.bytes, &gerber::Options::default())?;
+        let image = read_gerber(file, "an outline layer")?;
         self.warnings.extend(image.warnings);
         self.sources.push(Source { role: "outline".to_owned(), ..image.source });
         let joined = outline::join(&file.name, &image.features, outline::GAP);
@@ -295,9 +291,10 @@ fn has_area(feature: &Feature) -> bool {
     }
 }
 
-fn refuse_unless_gerber(file: &Found, wanted: &str) -> Result<(), Error> {
+/// Reads a Gerber file, or says what it is instead.
+fn read_gerber(file: &Found, wanted: &str) -> Result<Image, Error> {
     let (what, hint) = match file.kind {
-        Kind::Gerber => return Ok(()),
+        Kind::Gerber => return gerber::read(&file.name, &file.bytes, &gerber::Options::default()),
         Kind::Excellon => ("an Excellon drill file", "give it with --drill"),
         Kind::Unknown => (describe(&file.bytes), "export the layer as Gerber RS-274X"),
     };

@@ -160,6 +160,7 @@ fn what_is_repaired_or_left_out_is_a_warning() {
         ("M48\nMETRIC\nT1C0.8\n%\nT1\nM98,VORO\nX1.0Y1.0\nM30\n", "drilled-text"),
         ("M48\nMETRIC\nT1C1\n%\nT1\nX1.0Y1.0\nM30\n", "diameter-without-point"),
         ("M48\nMETRIC\nFROBNICATE\nT1C0.8\n%\nT1\nX1.0Y1.0\nM30\n", "unknown-drill-command"),
+        ("M48\nINCH\nT1C0.8\n%\nT1\nX1.0Y1.0\nM30\n", "drill-implausible"),
         ("M48\nINCH\nT1C0.03\n%\nM71\nT1\nX1.0Y1.0\nM30\n", "unit-changes"),
     ];
     for (text, code) in cases {
@@ -278,5 +279,28 @@ fn repeats_without_end_are_refused_in_time() {
     ] {
         let error = read(&format!("{head}{body}M30\n")).expect_err(body);
         assert!(error.contains("more than 2000000 holes"), "{body}: {error}");
+    }
+}
+
+#[test]
+fn g_code_is_no_drill_file() {
+    let programs = [
+        "G21\nG90\nG00 Z5\n",
+        "G90 G94\nG17\nG21\n",
+        "(made by hand)\nG00 Z5.0\nG01 X1 Y1\n",
+        "G01 Z-1 F100\n",
+    ];
+    for text in programs {
+        assert!(!excellon::looks_like(text.as_bytes()), "{text:?} was taken for a drill file");
+    }
+}
+
+#[test]
+fn every_fixture_stands_in_the_table_of_constructs() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let table = fs::read_to_string(root.join("src/import/excellon/mod.rs")).expect("readable");
+    for entry in fs::read_dir(root.join("fixtures/excellon")).expect("readable") {
+        let name = entry.expect("an entry").file_name().into_string().expect("a name");
+        assert!(table.contains(&format!("`{name}`")), "{name} is missing from the table");
     }
 }

@@ -37,7 +37,7 @@ mod route;
 use std::collections::BTreeMap;
 
 use crate::board::{ApertureUse, Hole, Plating, Source, Warning};
-use crate::geometry::Point;
+use crate::geometry::{Nm, Point};
 use crate::import::error::{Error, Warnings};
 use declared::Declared;
 use format::NumberFormat;
@@ -80,6 +80,7 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
         let message = "the file does not end with M30; if it was cut off, holes are missing";
         warnings.add("missing-end-of-file", bytes.len()..bytes.len(), message);
     }
+    warn_of_size(&run, &mut warnings);
     if run.holes.is_empty() {
         warnings.add("drill-without-holes", 0..0, "the drill file has no holes");
     }
@@ -114,21 +115,25 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     tells.into_iter().next().unwrap_or(false)
 }
 
-/// Whether the first line that says something could stand in a drill file.
+/// Whether the first line that says something could stand in a drill file, and not in G-code, which has Z.
 fn begins_as_drill(line: &str) -> bool {
-    let header = line.starts_with("M48") || line.starts_with("INCH") || line.starts_with("METRIC");
-    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+' | ' ');
+    if ["M48", "INCH", "METRIC"].iter().any(|head| line.starts_with(head)) {
+        return true;
+    }
     let mut rest = line;
     let mut words = 0;
-    while let Some(letter) = rest.chars().next().filter(|c| "XYTCFSGMRNHBZ".contains(*c)) {
-        let after = rest[letter.len_utf8()..].trim_start_matches(number);
-        if after.len() + 1 == rest.len() {
-            return header;
+    while let Some(letter) = rest.chars().next().filter(|c| "XYTCFSGMRNHBIJA".contains(*c)) {
+        let after = rest[1..].trim_start_matches(|c: char| c.is_ascii_digit() || ".-+ ".contains(c));
+        let number = rest[1..rest.len() - after.len()].trim();
+        let of_drilling =
+            letter != 'G' || matches!(number, "0" | "00" | "05" | "5" | "81" | "85" | "92" | "93");
+        if number.is_empty() || !of_drilling {
+            return false;
         }
         rest = after;
         words += 1;
     }
-    header || (words > 0 && rest.is_empty() && (line.starts_with(['T', 'X', 'Y', 'G'])))
+    words > 0 && rest.is_empty() && line.starts_with(['T', 'X', 'Y', 'G'])
 }
 
 /// Says plainly what a file is that is none of ours.
@@ -169,6 +174,18 @@ pub(super) fn plating_by_function(function: &str) -> Plating {
         "Plated" => Plating::Plated,
         "NonPlated" => Plating::NonPlated,
         _ => Plating::Unknown,
+    }
+}
+
+/// A drill wider than any drill is a unit taken for another.
+fn warn_of_size(run: &Run, warnings: &mut Warnings<'_>) {
+    /// Chosen: mounting holes end at 7 mm; an inch taken for a millimetre makes a 0.4 mm drill wider than this.
+    const WIDEST: Nm = Nm::from_mm(10);
+    let used = |tool: u32| run.holes.iter().any(|hole| hole.tool == tool && !hole.is_slot());
+    for (number, tool) in run.tools.iter().filter(|(number, tool)| tool.diameter > WIDEST && used(**number)) {
+        let message =
+            format!("tool T{number} drills {:.3} mm wide holes: the unit may be another one", tool.diameter);
+        warnings.add("drill-implausible", 0..0, message);
     }
 }
 
