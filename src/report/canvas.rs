@@ -37,15 +37,10 @@ impl Canvas {
         &self.grid
     }
 
-    /// Sets every pixel that `colour` gives one for, by column and row.
-    pub fn paint_pixels(&mut self, colour: impl Fn(u32, u32) -> Option<Rgb>) {
-        let columns = self.grid.width();
-        let places = (0..self.grid.height()).flat_map(|row| (0..columns).map(move |column| (column, row)));
-        for (pixel, (column, row)) in self.pixmap.pixels_mut().iter_mut().zip(places) {
-            if let Some(Rgb(r, g, b)) = colour(column, row) {
-                *pixel = PremultipliedColorU8::from_rgba(r, g, b, u8::MAX).expect("opaque");
-            }
-        }
+    /// Sets the pixel at a column and row.
+    pub fn set(&mut self, column: u32, row: u32, Rgb(r, g, b): Rgb) {
+        let at = row as usize * self.grid.width() as usize + column as usize;
+        self.pixmap.pixels_mut()[at] = PremultipliedColorU8::from_rgba(r, g, b, u8::MAX).expect("opaque");
     }
 
     /// Fills `shape`.

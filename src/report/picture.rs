@@ -72,7 +72,7 @@ pub fn voronoi(side: &Shown<'_>, grid: Grid) -> Canvas {
 /// How far each pixel is from copper: dark near it, light far from it.
 #[must_use]
 pub fn depth(diagram: &Diagram, grid: &Grid) -> Vec<u8> {
-    let depths = diagram.picture(grid).depths;
+    let depths = diagram.depths(grid);
     let deepest = depths.iter().copied().filter(|depth| depth.is_finite()).fold(1.0_f32, f32::max);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 0..=255")]
     let grey = |depth: f32| if depth.is_finite() { (depth / deepest * 255.0) as u8 } else { u8::MAX };
@@ -108,11 +108,10 @@ fn ground(side: &Shown<'_>, grid: Grid) -> Canvas {
     let mut canvas = Canvas::new(grid, GROUND);
     substrate(&mut canvas, side.board.outline.as_ref());
     let tints = tints(side.nets.nets().len(), side.boundaries);
-    let owners = side.diagram.picture(canvas.grid()).owners;
-    let columns = canvas.grid().width() as usize;
-    canvas.paint_pixels(|column, row| match owners[row as usize * columns + column as usize] {
-        Owner::Net(net) => Some(tints[net.index()]),
-        Owner::Background | Owner::Outside => None,
+    side.diagram.regions(&grid, |column, row, owner| {
+        if let Owner::Net(net) = owner {
+            canvas.set(column, row, tints[net.index()]);
+        }
     });
     for feature in &side.copper.features {
         canvas.fill(&feature.shape, COPPER);

@@ -181,15 +181,6 @@ pub struct Diagram {
     warnings: Vec<Warning>,
 }
 
-/// A picture of regions: row by row, row 0 on top.
-#[derive(Clone, Debug)]
-pub struct Picture {
-    /// Who owns each pixel.
-    pub owners: Vec<Owner>,
-    /// How far each pixel's centre is from the sites, in pixels; infinite where nothing is in reach.
-    pub depths: Vec<f32>,
-}
-
 impl Diagram {
     /// The diagram of the nets of `copper` on a board with this `outline`, if one is known.
     ///
@@ -240,23 +231,50 @@ impl Diagram {
         self.border.frame.as_ref()
     }
 
-    /// The regions and depths as they appear on `grid`, for looking at.
+    /// Shows `paint` who owns each pixel of `grid` (column, row, owner), tile by tile: nothing holds the whole picture but
+    /// what `paint` makes of it.
+    pub fn regions(&self, grid: &Grid, mut paint: impl FnMut(u32, u32, Owner)) {
+        let scene = self.scene(grid);
+        let work = |tile: raster::Tile<'_>| {
+            let owners = match &tile.content {
+                TileContent::Uniform(owner) => vec![*owner],
+                TileContent::Pixels(pixels) => {
+                    let rows = (0_i32..).take(tile.height as usize);
+                    let labels = rows.flat_map(|row| pixels.label_row(row));
+                    labels.map(|&label| self.owners[label as usize]).collect()
+                }
+            };
+            (tile.column0, tile.row0, tile.width, tile.height, owners)
+        };
+        raster::stream(
+            &scene,
+            &raster::Options::default(),
+            work,
+            |(column0, row0, width, height, owners)| {
+                let pixels = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
+                for ((column, row), &owner) in pixels.zip(owners.iter().cycle()) {
+                    paint(column0 + column, row0 + row, Owner::from_number(owner));
+                }
+            },
+        );
+    }
+
+    /// How far each pixel's centre is from the sites, in pixels, row by row from the top; infinite where nothing is in reach.
     #[must_use]
-    pub fn picture(&self, grid: &Grid) -> Picture {
-        let limit = self.settings.limit.map(|limit| grid.pixels(limit));
-        let scene = self.sites.scene(grid, &self.border, limit);
+    pub fn depths(&self, grid: &Grid) -> Vec<f32> {
         let mut buffers = raster::Buffers::default();
-        raster::render(&scene, &mut buffers);
-        let owner = |label: &u32| Owner::from_number(self.owners[*label as usize]);
-        Picture { owners: buffers.labels().iter().map(owner).collect(), depths: buffers.depths().to_vec() }
+        raster::render(&self.scene(grid), &mut buffers);
+        buffers.depths().to_vec()
+    }
+
+    fn scene(&self, grid: &Grid) -> Scene {
+        self.sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
     }
 
     /// The boundaries between all regions, with what could not be placed.
     #[must_use]
     pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
-        let limit = self.settings.limit.map(|limit| self.grid.pixels(limit));
-        let scene = self.sites.scene(&self.grid, &self.border, limit);
-        let stitcher = self.trace(&scene);
+        let stitcher = self.trace(&self.scene(&self.grid));
         let mut warnings = Vec::new();
         if stitcher.unplaced > 0 {
             let message = format!(
