@@ -73,12 +73,13 @@ fn section(tool: Tool, holes: &[&Hole], settings: &Drilling<'_>) -> Section {
     let mut head = Head::new(settings.heights, tool.plunge);
     let chains: Vec<Vec<Point>> =
         holes.iter().map(|hole| chain(&settings.placement.path(&hole.path), hole.diameter)).collect();
-    let stretches: Vec<Stretch> =
-        chains.iter().map(|chain| Stretch { from: chain[0], to: chain[chain.len() - 1] }).collect();
-    for (index, reversed) in arrange(&stretches, Point::default(), settings.order) {
-        let points = chains[index].iter();
-        let points: Vec<Point> =
-            if reversed { points.rev().copied().collect() } else { points.copied().collect() };
+    let ends = |chain: &Vec<Point>| Stretch::open(chain[0], chain[chain.len() - 1]);
+    let stretches: Vec<Stretch> = chains.iter().map(ends).collect();
+    for leg in arrange(&stretches, Point::default(), settings.order) {
+        let mut points = chains[leg.stretch].clone();
+        if leg.reversed {
+            points.reverse();
+        }
         for point in points {
             plunge(&mut head, point, settings);
         }

@@ -7,7 +7,7 @@ use crate::geometry::{Nm, Path, Point, Segment};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::trails::{Link, Step, walk};
-use crate::toolpath::{Heights, Machine, Placement, Section, Tool};
+use crate::toolpath::{Heights, Machine, Move, Placement, Section, Tool};
 use crate::voronoi::{Boundaries, Boundary, Owner};
 
 /// What is done with a boundary.
@@ -158,43 +158,33 @@ fn vertex(path: &Path, index: usize) -> Point {
 }
 
 /// The moves that cut all ways that must be cut.
-fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<crate::toolpath::Move> {
+fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move> {
     let links: Vec<Link> = ways.iter().map(|way| way.link).collect();
     let trails = walk(nodes.len(), &links, lift_seconds(settings));
-    let from =
-        |step: &Step| if step.backwards { ways[step.link].path.end() } else { ways[step.link].path.start };
-    let to =
-        |step: &Step| if step.backwards { ways[step.link].path.start } else { ways[step.link].path.end() };
-    let stretches: Vec<Stretch> = trails
-        .iter()
-        .filter_map(|trail| Some(Stretch { from: from(trail.first()?), to: to(trail.last()?) }))
-        .collect();
+    let mut lines: Vec<Line> = trails.iter().filter_map(|trail| Line::along(ways, trail)).collect();
+    let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
     let mut head = Head::new(settings.heights, settings.tool.plunge);
-    for (index, reversed) in arrange(&stretches, Point::default(), settings.order) {
-        let steps = trails[index].iter().copied();
-        let steps: Vec<Step> = if reversed {
-            steps.rev().map(|step| Step { backwards: !step.backwards, ..step }).collect()
-        } else {
-            steps.collect()
-        };
-        cut_trail(&mut head, ways, &steps, settings);
+    for leg in arrange(&stretches, Point::default(), settings.order) {
+        let line = &mut lines[leg.stretch];
+        line.begin_at(leg.entry.unwrap_or(0));
+        if leg.reversed {
+            line.reverse();
+        }
+        cut_line(&mut head, line, settings);
     }
     head.finish()
 }
 
 /// One trail in all its passes: there at the first depth, and where it is open back at the next, without a lift.
-fn cut_trail(head: &mut Head, ways: &[Way<'_>], steps: &[Step], settings: &Isolation<'_>) {
-    let mut trail = Line::along(ways, steps);
-    let closed = trail.path.is_closed();
+fn cut_line(head: &mut Head, line: &mut Line, settings: &Isolation<'_>) {
+    head.over(line.path.start);
     for (pass, depth) in settings.heights.passes().enumerate() {
-        if pass == 0 {
-            head.over(trail.path.start);
-        } else if !closed {
-            trail = trail.reversed();
+        if pass > 0 && !line.path.is_closed() {
+            line.reverse();
         }
-        let depths = trail.depths(depth, settings);
+        let depths = line.depths(depth, settings);
         head.plunge(depths[0]);
-        for (segment, &depth) in trail.path.segments.iter().zip(&depths[1..]) {
+        for (segment, &depth) in line.path.segments.iter().zip(&depths[1..]) {
             head.cut(segment, depth, settings.tool.feed);
         }
     }
@@ -207,31 +197,51 @@ struct Line {
 }
 
 impl Line {
-    fn along(ways: &[Way<'_>], steps: &[Step]) -> Self {
+    fn along(ways: &[Way<'_>], steps: &[Step]) -> Option<Self> {
         let mut line: Option<Self> = None;
         for step in steps {
             let way = &ways[step.link];
-            let mut path = Cow::Borrowed(&way.path);
             let mut clearance: Vec<Option<Nm>> = way.clearance.iter().copied().map(Some).collect();
-            clearance.resize(path.segments.len() + 1, None);
+            clearance.resize(way.path.segments.len() + 1, None);
+            let mut next = Self { path: way.path.clone(), clearance };
             if step.backwards {
-                path = Cow::Owned(path.reversed());
-                clearance.reverse();
+                next.reverse();
             }
             match &mut line {
-                None => line = Some(Self { path: path.into_owned(), clearance }),
+                None => line = Some(next),
                 Some(line) => {
-                    line.path.segments.extend(&path.segments);
-                    line.clearance.extend(&clearance[1..]);
+                    line.path.segments.append(&mut next.path.segments);
+                    line.clearance.extend(next.clearance.drain(1..));
                 }
             }
         }
-        line.expect("a trail has a step")
+        line
     }
 
-    fn reversed(mut self) -> Self {
+    /// Where it may begin and end: anywhere if it is closed.
+    fn stretch(&self) -> Stretch {
+        let entries = if self.path.is_closed() {
+            self.path.steps().map(|(from, _)| from).collect()
+        } else {
+            Vec::new()
+        };
+        Stretch { from: self.path.start, to: self.path.end(), entries }
+    }
+
+    /// Turned so that it begins with the segment of this index; only a closed one is asked.
+    fn begin_at(&mut self, entry: usize) {
+        if entry > 0 {
+            self.path.start = self.path.segments[entry - 1].to();
+            self.path.segments.rotate_left(entry);
+            self.clearance.pop();
+            self.clearance.rotate_left(entry);
+            self.clearance.push(self.clearance[0]);
+        }
+    }
+
+    fn reverse(&mut self) {
         self.clearance.reverse();
-        Self { path: self.path.reversed(), clearance: self.clearance }
+        self.path = self.path.reversed();
     }
 
     /// How deep the tool goes at each vertex, at most `depth`: less where it rises to fit the gap.

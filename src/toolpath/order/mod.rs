@@ -1,0 +1,182 @@
+//! The order of the trails: less travel through the air.
+//!
+//! Trails between which the tool is lifted are the cities of a travelling salesman who enters each at one end and
+//! leaves at the other (a closed one anywhere). Nearest-next starts; 2-opt, Or-opt and chains of
+//! 2-opt moves (Lin and Kernighan 1973) over neighbour lists improve it; then small double bridges, seeded, shake it where
+//! it is kept if the repaired tour is shorter. Everything is bounded by counts, never by a clock, so the order depends on the trails alone.
+
+mod neighbours;
+mod search;
+mod tour;
+
+use crate::geometry::Point;
+
+use neighbours::Buckets;
+use search::improve;
+
+/// How trails are put in order.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Order {
+    /// Nearest next, then improved.
+    #[default]
+    Improved,
+    /// Nearest next, as in the paper (§III-G).
+    Greedy,
+}
+
+/// What is cut in one go, from one lift to the next; it may also be cut the other way round.
+#[derive(Clone, Debug)]
+pub(super) struct Stretch {
+    /// Where it begins.
+    pub from: Point,
+    /// Where it ends.
+    pub to: Point,
+    /// Where else it may begin and end, if it is closed.
+    pub entries: Vec<Point>,
+}
+
+impl Stretch {
+    /// One that is cut from end to end.
+    pub(super) const fn open(from: Point, to: Point) -> Self {
+        Self { from, to, entries: Vec::new() }
+    }
+}
+
+/// A stretch in its leg.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Leg {
+    /// Its index.
+    pub stretch: usize,
+    /// Whether it is cut from its end.
+    pub reversed: bool,
+    /// The index of the entry at which it begins; none for its own beginning.
+    pub entry: Option<usize>,
+}
+
+/// Every stretch once; the first is sought from `start`.
+pub(super) fn arrange(stretches: &[Stretch], start: Point, order: Order) -> Vec<Leg> {
+    let mut ends: Vec<[Point; 2]> = stretches.iter().map(|stretch| [stretch.from, stretch.to]).collect();
+    let mut legs = nearest_next(&ends, start);
+    if order == Order::Improved {
+        let closed = stretches.iter().any(|stretch| !stretch.entries.is_empty());
+        improve(&mut legs, &ends, start, if closed { Effort::Quick } else { Effort::Full });
+        if closed {
+            enter_well(&mut legs, stretches, &mut ends, start);
+            improve(&mut legs, &ends, start, Effort::Full);
+        }
+    }
+    enter_well(&mut legs, stretches, &mut ends, start);
+    legs
+}
+
+/// How long an order is improved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Effort {
+    /// Until no move helps.
+    Quick,
+    /// And shaken after that.
+    Full,
+}
+
+/// From each end to the nearest end of a stretch not yet cut.
+fn nearest_next(ends: &[[Point; 2]], start: Point) -> Vec<Leg> {
+    let mut buckets = Buckets::new(ends.as_flattened());
+    let (mut at, mut legs) = (start, Vec::with_capacity(ends.len()));
+    while let Some(end) = buckets.nearest(at) {
+        let (stretch, reversed) = (end / 2, end % 2 == 1);
+        buckets.remove(2 * stretch);
+        buckets.remove(2 * stretch + 1);
+        at = ends[stretch][1 - end % 2];
+        legs.push(Leg { stretch, reversed, entry: None });
+    }
+    legs
+}
+
+/// Begins each closed stretch where the way to it and on from it is shortest.
+fn enter_well(legs: &mut [Leg], stretches: &[Stretch], ends: &mut [[Point; 2]], start: Point) {
+    let mut before = start;
+    for index in 0..legs.len() {
+        let leg = legs[index];
+        let after = legs.get(index + 1).map(|next| ends[next.stretch][usize::from(next.reversed)]);
+        let detour = |p: Point| before.distance(p) + after.map_or(0.0, |after| p.distance(after));
+        let entries = stretches[leg.stretch].entries.iter().enumerate();
+        if let Some((entry, &point)) = entries.min_by(|a, b| detour(*a.1).total_cmp(&detour(*b.1))) {
+            legs[index].entry = Some(entry);
+            ends[leg.stretch] = [point, point];
+        }
+        before = ends[leg.stretch][usize::from(!leg.reversed)];
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::geometry::Nm;
+
+    fn at(x: i64, y: i64) -> Point {
+        Point::new(Nm::new(x), Nm::new(y))
+    }
+
+    fn travel(stretches: &[Stretch], legs: &[Leg]) -> f64 {
+        let (mut here, mut sum) = (Point::default(), 0.0);
+        for leg in legs {
+            let Stretch { from, to, entries } = &stretches[leg.stretch];
+            let entry = leg.entry.map(|entry| entries[entry]);
+            let (first, last) = if leg.reversed { (*to, *from) } else { (*from, *to) };
+            sum += here.distance(entry.unwrap_or(first));
+            here = entry.unwrap_or(last);
+        }
+        sum
+    }
+
+    fn any_stretch() -> impl Strategy<Value = Stretch> {
+        let place = || (0..1000_i64, 0..1000_i64).prop_map(|(x, y)| at(x * 10_000, y * 10_000));
+        (place(), place(), any::<bool>()).prop_map(|(from, to, closed)| {
+            if closed { Stretch { from, to: from, entries: vec![from, to] } } else { Stretch::open(from, to) }
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn every_stretch_is_cut_once_and_improving_never_makes_it_longer(
+            stretches in prop::collection::vec(any_stretch(), 0..60),
+        ) {
+            let greedy = arrange(&stretches, Point::default(), Order::Greedy);
+            let improved = arrange(&stretches, Point::default(), Order::Improved);
+            for legs in [&greedy, &improved] {
+                let mut seen: Vec<usize> = legs.iter().map(|leg| leg.stretch).collect();
+                seen.sort_unstable();
+                prop_assert_eq!(seen, (0..stretches.len()).collect::<Vec<_>>());
+            }
+            let (before, after) = (travel(&stretches, &greedy), travel(&stretches, &improved));
+            prop_assert!(after <= before * 1.05 + 1.0, "greedy {before}, improved {after}");
+        }
+
+        #[test]
+        fn small_orders_are_as_good_as_the_best(
+            stretches in prop::collection::vec(any_stretch(), 1..5),
+        ) {
+            let open: Vec<_> = stretches.iter().map(|s| Stretch::open(s.from, s.to)).collect();
+            let found = travel(&open, &arrange(&open, Point::default(), Order::Improved));
+            let best = shortest(&open, &mut vec![false; open.len()], Point::default());
+            prop_assert!(found <= best + 1.0, "found {found}, possible {best}");
+        }
+    }
+
+    /// By trying all orders.
+    fn shortest(stretches: &[Stretch], done: &mut Vec<bool>, here: Point) -> f64 {
+        let mut best = f64::INFINITY;
+        for i in 0..stretches.len() {
+            if !done[i] {
+                done[i] = true;
+                let Stretch { from, to, .. } = stretches[i];
+                best = best.min(here.distance(from) + shortest(stretches, done, to));
+                best = best.min(here.distance(to) + shortest(stretches, done, from));
+                done[i] = false;
+            }
+        }
+        if best.is_finite() { best } else { 0.0 }
+    }
+}
