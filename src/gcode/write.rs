@@ -19,8 +19,10 @@ use super::header::Header;
 pub fn write(program: &Program, dialect: &Dialect, header: &Header) -> String {
     let mut writer = Writer::new(dialect);
     writer.begin(program, header);
-    for (index, section) in program.sections.iter().enumerate() {
-        writer.section(program, section, index == 0);
+    let mut before = None;
+    for section in &program.sections {
+        writer.section(program, section, before);
+        before = Some(&section.tool);
     }
     writer.finish(program);
     writer.text
@@ -84,22 +86,32 @@ impl<'a> Writer<'a> {
         self.lift(program.safe);
     }
 
-    /// The tool change, the spindle, and the moves.
-    fn section(&mut self, program: &Program, section: &Section, first: bool) {
-        if !first {
-            self.stop();
+    /// The tool change and the spindle, unless the tool is in and turning, and the moves.
+    fn section(&mut self, program: &Program, section: &Section, before: Option<&Tool>) {
+        if before != Some(&section.tool) {
+            if before.is_some() {
+                self.stop();
+            }
+            self.comment(&section.label);
+            self.change(&section.tool, before.is_none());
+            if before.is_some() {
+                self.lift(program.safe);
+            }
+            self.start(&section.tool);
+        } else {
+            self.comment(&section.label);
         }
-        self.comment(&section.label);
-        self.change(&section.tool, first);
-        self.lift(program.safe);
-        self.line(&format!("M3 S{}", section.tool.spindle));
+        for step in &section.moves {
+            self.step(step);
+        }
+    }
+
+    fn start(&mut self, tool: &Tool) {
+        self.line(&format!("M3 S{}", tool.spindle));
         if let Some((on, _)) = &self.dialect.coolant {
             self.line(on);
         }
         self.dwell(SPIN_UP);
-        for step in &section.moves {
-            self.step(step);
-        }
     }
 
     /// The last lift, the spindle off, and the end lines.
@@ -367,6 +379,6 @@ fn wrap(text: &str, room: usize) -> Vec<&str> {
         lines.push(line);
         rest = after.trim_start_matches(' ');
     }
-    lines.push(rest);
+    lines.push(rest.trim_end());
     lines
 }

@@ -81,6 +81,11 @@ impl Head {
         self.rapid_to(self.heights.safe);
     }
 
+    /// Where it is; none before the first move.
+    pub(super) const fn at(&self) -> Option<Position> {
+        self.at
+    }
+
     /// Stay where it is.
     pub(super) fn dwell(&mut self, milliseconds: u32) {
         self.moves.push(Move::Dwell { milliseconds });

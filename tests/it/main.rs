@@ -2,6 +2,7 @@
 
 mod cli;
 mod excellon;
+mod gcode;
 mod gerber;
 mod layering;
 mod layers;

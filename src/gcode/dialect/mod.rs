@@ -1,7 +1,14 @@
 //! What controllers differ in, as data: one file and one constant each, listed in [`ALL`].
 
+mod custom;
 mod grbl;
 mod linuxcnc;
+mod mach3;
+mod marlin;
+mod smoothieware;
+mod tinyg;
+
+pub use custom::DialectError;
 
 use std::borrow::Cow;
 
@@ -40,7 +47,8 @@ pub struct Dialect {
 }
 
 /// How arcs are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Arcs {
     /// With the way from the start to the centre: I and J.
     Center,
@@ -51,7 +59,8 @@ pub enum Arcs {
 }
 
 /// How comments are written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Comments {
     /// `(so)`
     Parentheses,
@@ -62,7 +71,8 @@ pub enum Comments {
 }
 
 /// How a dwell is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Dwell {
     /// `G4 P1.5`
     SecondsP,
@@ -73,7 +83,8 @@ pub enum Dwell {
 }
 
 /// How tools are changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum ToolChange {
     /// `T2 M6`: the machine, or its dialogue, does it.
     M6,
@@ -84,7 +95,8 @@ pub enum ToolChange {
 }
 
 /// Numbers before the lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum LineNumbers {
     /// None.
     Off,
@@ -93,7 +105,8 @@ pub enum LineNumbers {
 }
 
 /// Every dialect that is built in.
-pub const ALL: &[Dialect] = &[grbl::GRBL, linuxcnc::LINUXCNC];
+pub const ALL: &[Dialect] =
+    &[grbl::GRBL, linuxcnc::LINUXCNC, mach3::MACH3, marlin::MARLIN, smoothieware::SMOOTHIEWARE, tinyg::TINYG];
 
 impl Dialect {
     /// The built-in dialect of this name.

@@ -53,20 +53,25 @@ pub(super) struct Leg {
     pub entry: Option<usize>,
 }
 
-/// Every stretch once; the first is sought from `start`.
+/// Every stretch once; the first is sought from `start`. Improving never makes the way longer.
 pub(super) fn arrange(stretches: &[Stretch], start: Point, order: Order) -> Vec<Leg> {
-    let mut ends: Vec<[Point; 2]> = stretches.iter().map(|stretch| [stretch.from, stretch.to]).collect();
-    let mut legs = nearest_next(&ends, start);
-    if order == Order::Improved {
-        let closed = stretches.iter().any(|stretch| !stretch.entries.is_empty());
-        improve(&mut legs, &ends, start, if closed { Effort::Quick } else { Effort::Full });
-        if closed {
-            enter_well(&mut legs, stretches, &mut ends, start);
-            improve(&mut legs, &ends, start, Effort::Full);
-        }
+    let ends: Vec<[Point; 2]> = stretches.iter().map(|stretch| [stretch.from, stretch.to]).collect();
+    let mut greedy = nearest_next(&ends, start);
+    let mut improved = (order == Order::Improved).then(|| greedy.clone());
+    let shortest = improved.as_mut().map(|legs| improve_all(legs, stretches, &ends, start));
+    let first = enter_well(&mut greedy, stretches, &mut ends.clone(), start);
+    improved.filter(|_| shortest.is_some_and(|shortest| shortest <= first)).unwrap_or(greedy)
+}
+
+/// Improves an order, chooses where closed stretches are entered, and improves it once more; the length of the way.
+fn improve_all(legs: &mut Vec<Leg>, stretches: &[Stretch], ends: &[[Point; 2]], start: Point) -> f64 {
+    let mut ends = ends.to_vec();
+    if stretches.iter().any(|stretch| !stretch.entries.is_empty()) {
+        improve(legs, &ends, start, Effort::Quick);
+        enter_well(legs, stretches, &mut ends, start);
     }
-    enter_well(&mut legs, stretches, &mut ends, start);
-    legs
+    improve(legs, &ends, start, Effort::Full);
+    enter_well(legs, stretches, &mut ends, start)
 }
 
 /// How long an order is improved.
@@ -92,9 +97,9 @@ fn nearest_next(ends: &[[Point; 2]], start: Point) -> Vec<Leg> {
     legs
 }
 
-/// Begins each closed stretch where the way to it and on from it is shortest.
-fn enter_well(legs: &mut [Leg], stretches: &[Stretch], ends: &mut [[Point; 2]], start: Point) {
-    let mut before = start;
+/// Begins each closed stretch where the way to it and on from it is shortest; the length of the whole way.
+fn enter_well(legs: &mut [Leg], stretches: &[Stretch], ends: &mut [[Point; 2]], start: Point) -> f64 {
+    let (mut before, mut length) = (start, 0.0);
     for index in 0..legs.len() {
         let leg = legs[index];
         let after = legs.get(index + 1).map(|next| ends[next.stretch][usize::from(next.reversed)]);
@@ -104,8 +109,12 @@ fn enter_well(legs: &mut [Leg], stretches: &[Stretch], ends: &mut [[Point; 2]], 
             legs[index].entry = Some(entry);
             ends[leg.stretch] = [point, point];
         }
-        before = ends[leg.stretch][usize::from(!leg.reversed)];
+        let [first, last] = ends[leg.stretch];
+        let (first, last) = if leg.reversed { (last, first) } else { (first, last) };
+        length += before.distance(first);
+        before = last;
     }
+    length
 }
 
 #[cfg(test)]
@@ -139,6 +148,8 @@ mod tests {
     }
 
     proptest! {
+        #![proptest_config(ProptestConfig::with_cases(48))]
+
         #[test]
         fn every_stretch_is_cut_once_and_improving_never_makes_it_longer(
             stretches in prop::collection::vec(any_stretch(), 0..60),
@@ -151,7 +162,7 @@ mod tests {
                 prop_assert_eq!(seen, (0..stretches.len()).collect::<Vec<_>>());
             }
             let (before, after) = (travel(&stretches, &greedy), travel(&stretches, &improved));
-            prop_assert!(after <= before * 1.05 + 1.0, "greedy {before}, improved {after}");
+            prop_assert!(after <= before + 1.0, "greedy {before}, improved {after}");
         }
 
         #[test]

@@ -22,6 +22,8 @@ const LONGEST_TRIAL: u32 = 300;
 const LEAST: f64 = 1e-3;
 /// How far the three cuts of a double bridge may lie apart.
 const BRIDGE: u64 = 30;
+/// The least double bridges, so that a handful of stretches is ordered as well as can be.
+const LEAST_SHAKES: usize = 200;
 /// The most double bridges, for ten thousand stretches within two seconds.
 const MOST_SHAKES: usize = 60_000;
 
@@ -36,7 +38,7 @@ pub(super) fn improve(legs: &mut Vec<Leg>, ends: &[[Point; 2]], start: Point, ef
     let mut search = Search::new(ends, start, Tour::new(entered));
     search.settle();
     if effort == Effort::Full {
-        search.shake((8 * legs.len()).min(MOST_SHAKES));
+        search.shake((LEAST_SHAKES + 8 * legs.len()).min(MOST_SHAKES));
     }
     *legs = search.legs(home);
 }
@@ -78,6 +80,7 @@ impl Search {
                 buckets.nearest_few(point, width, |other| other / 2 != index / 2).iter().map(|n| n.1),
             );
         }
+        near.extend(buckets.nearest_few(start, width, |_| true).iter().map(|n| n.1));
         let mut points: Vec<(f64, f64)> = flat.iter().map(|p| p.to_f64()).collect();
         points.extend([start.to_f64(); 2]);
         let home = end(ends.len());
@@ -95,12 +98,10 @@ impl Search {
         (x * x + y * y).sqrt()
     }
 
-    fn near(&self, end: End, index: usize) -> Option<End> {
-        if index >= self.width || end >= self.home {
-            None
-        } else {
-            Some(self.near[end as usize * self.width + index])
-        }
+    /// The near ends of `end`: home has them where it is left, none where it is entered.
+    fn near(&self, end: End) -> &[End] {
+        let list = if end > self.home { self.home } else { end } as usize;
+        if end == self.home { &[] } else { &self.near[list * self.width..(list + 1) * self.width] }
     }
 
     fn link(&self, end: End) -> f64 {
@@ -165,7 +166,7 @@ impl Search {
     fn step(&self, fixed: End, loose: End, open: f64, skip: usize) -> Option<Link> {
         let mut found: Vec<Link> = Vec::with_capacity(NEAR);
         let entry = self.tour.is_entry(loose);
-        for near in (0..self.width).map_while(|index| self.near(loose, index)) {
+        for &near in self.near(loose) {
             let gain = open - self.distance(loose, near);
             if gain <= LEAST {
                 break;
@@ -202,7 +203,8 @@ impl Search {
 
     /// Carries the stretches between two ends so that `held` is linked to a near end and `far` to that one's partner.
     fn carry_to(&mut self, [before, first, last, after]: [End; 4], held: End, far: End, gain: f64) -> bool {
-        for near in (0..self.width).map_while(|index| self.near(held, index)) {
+        for index in 0..self.near(held).len() {
+            let near = self.near(held)[index];
             let so_far = gain - self.distance(held, near);
             if so_far <= LEAST {
                 return false;
@@ -260,7 +262,7 @@ impl Search {
             self.tour.mark();
             self.length = 0.0;
             let first = self.draw(count);
-            let reach = BRIDGE.min(count / 3);
+            let reach = BRIDGE.min((count - 1) / 2);
             let cuts = [first, first + 1 + self.draw(reach), first + 1 + reach + self.draw(reach)];
             let outs = cuts.map(|cut| {
                 let place = usize::try_from(cut % count).expect("a place in the tour");

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use super::bore;
 use crate::board::{Hole, Warning};
 use crate::geometry::{Nm, Path, Point, Segment, Vector};
 use crate::toolpath::head::Head;
@@ -27,28 +28,35 @@ pub struct Drilling<'a> {
     pub dwell: u32,
 }
 
-/// Drills all holes: a section for each drill, thin ones first.
+/// Drills all holes: a section for each drill, thin ones first, then one for what is bored.
+///
+/// Warned about: `no-drill-for-hole` where neither a drill nor the mill fits.
 pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warning>) {
     let mut jobs: BTreeMap<(Nm, u32), (Tool, Vec<&Hole>)> = BTreeMap::new();
-    let mut warnings = Vec::new();
+    let (mut bored, mut warnings) = (Vec::new(), Vec::new());
     for hole in holes {
+        let milled = settings.mill.filter(|mill| bore::fits(hole, mill, settings.tolerance));
         match bit(hole, settings) {
+            _ if hole.is_slot() && milled.is_some() => bored.push(hole),
             Some(tool) => {
-                jobs.entry((tool.width_at(Nm::ZERO), tool.number))
-                    .or_insert_with(|| (tool, Vec::new()))
-                    .1
-                    .push(hole);
+                let key = (tool.width_at(Nm::ZERO), tool.number);
+                jobs.entry(key).or_insert_with(|| (tool, Vec::new())).1.push(hole);
             }
+            None if milled.is_some() => bored.push(hole),
             None => warnings.push(missing(hole)),
         }
     }
-    let sections = jobs.into_values().enumerate().map(|(index, (mut tool, holes))| {
+    let mut sections: Vec<Section> = Vec::with_capacity(jobs.len() + 1);
+    for (number, (mut tool, holes)) in (1..).zip(jobs.into_values()) {
         if settings.drills.is_empty() {
-            tool.number = u32::try_from(index + 1).unwrap_or(u32::MAX);
+            tool.number = number;
         }
-        section(tool, &holes, settings)
-    });
-    (sections.collect(), warnings)
+        sections.push(section(tool, &holes, settings));
+    }
+    if let Some(mill) = settings.mill.filter(|_| !bored.is_empty()) {
+        sections.push(bore::bore(&bored, mill, settings.heights, settings.placement, settings.order));
+    }
+    (sections, warnings)
 }
 
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.

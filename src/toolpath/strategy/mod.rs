@@ -1,5 +1,6 @@
 //! The ways to plan a [`Section`](super::Section), one file each.
 
+mod bore;
 mod cutout;
 mod drill;
 mod isolate;

@@ -1,0 +1,143 @@
+//! Boring: holes and slots wider than the end mill, milled out along their wall.
+//!
+//! A hole is a helix down to the bottom and a full turn there, which is the spring pass too; what is wider than two
+//! cutters is cleared from the middle outwards. A slot is the same round its whole length: an obround, deeper with every lap.
+//!
+//! ```text
+//!     ╭───────────────╮      the cutter's middle runs (width − cutter) / 2
+//!     │ ╶───────────╴ │      from the slot's axis, against the clock: climb milling
+//!     ╰───────────────╯      with a spindle that turns clockwise
+//! ```
+
+use crate::board::Hole;
+use crate::geometry::{Nm, Path, Point, Segment, Turn, Vector};
+use crate::toolpath::head::Head;
+use crate::toolpath::order::{Order, Stretch, arrange};
+use crate::toolpath::{Heights, Placement, Section, Tool};
+
+/// How far a lap of the helix goes down at most, where no step is set: half the cutter's width. Chosen.
+const LAP: i64 = 2;
+
+/// Whether `mill` can make this hole: it fits in, and a slot is one straight way.
+pub(super) fn fits(hole: &Hole, mill: &Tool, tolerance: Nm) -> bool {
+    let wide = mill.width_at(Nm::ZERO) <= hole.diameter + tolerance;
+    wide && matches!(hole.path.segments.as_slice(), [] | [Segment::Line { .. }])
+}
+
+/// Mills out all `holes` with one end mill.
+pub(super) fn bore(
+    holes: &[&Hole],
+    mill: &Tool,
+    heights: Heights,
+    placement: &Placement,
+    order: Order,
+) -> Section {
+    let paths: Vec<Path> = holes.iter().map(|hole| placement.path(&hole.path)).collect();
+    let stretches: Vec<Stretch> = paths.iter().map(|path| Stretch::open(path.start, path.start)).collect();
+    let mut head = Head::new(heights, mill.plunge);
+    for leg in arrange(&stretches, Point::default(), order) {
+        let (path, hole) = (&paths[leg.stretch], holes[leg.stretch]);
+        for reach in reaches(hole.diameter, mill.width_at(Nm::ZERO)) {
+            mill_out(&mut head, path.start, path.end(), reach, mill, heights);
+        }
+    }
+    let count = holes.len();
+    let label = format!("bore {count} {}", if count == 1 { "hole or slot" } else { "holes and slots" });
+    Section { tool: mill.clone(), label, moves: head.finish() }
+}
+
+/// How far from the axis the cutter's middle runs, from the inside out: as few laps as leave no core.
+fn reaches(width: Nm, cutter: Nm) -> Vec<Nm> {
+    let last = (width - cutter).max(Nm::ZERO) / 2;
+    // Laps a little less than a cutter apart clear everything between them.
+    let apart = (cutter.get() * 9 / 10).max(1);
+    let laps = (last.get() - cutter.get() / 2 + apart - 1).div_euclid(apart).max(0) + 1;
+    (1..=laps).map(|lap| Nm::new(last.get() * lap / laps)).collect()
+}
+
+/// One obround (a circle where both ends are one) down to the bottom.
+fn mill_out(head: &mut Head, a: Point, b: Point, reach: Nm, mill: &Tool, heights: Heights) {
+    let lap = heights.step.unwrap_or(mill.width_at(Nm::ZERO) / LAP).max(Nm::new(1));
+    let depths = Heights { step: Some(lap), ..heights };
+    if reach == Nm::ZERO && a == b {
+        head.over(a);
+        depths.passes().for_each(|depth| head.plunge(depth));
+        return head.lift();
+    }
+    let way = b - a;
+    let aside = if a == b { Vector::new(reach, Nm::ZERO) } else { across(way, reach) };
+    let laps = obround(a, b, aside);
+    head.over(laps.0);
+    head.plunge(Nm::ZERO);
+    let mut reached = Nm::ZERO;
+    for depth in depths.passes() {
+        descend(head, &laps.1, reached, depth, mill);
+        reached = depth;
+    }
+    descend(head, &laps.1, reached, reached, mill);
+    head.lift();
+}
+
+/// A vector of this length a quarter turn clockwise of `way`.
+fn across(way: Vector, length: Nm) -> Vector {
+    let scale = length.to_f64() / way.length();
+    Vector::new(Nm::from_f64(way.y.to_f64() * scale), Nm::from_f64(-way.x.to_f64() * scale))
+}
+
+/// The way round from `a + aside` along to b and back against the clock, and its start.
+fn obround(a: Point, b: Point, aside: Vector) -> (Point, Vec<Segment>) {
+    let start = a + aside;
+    if a == b {
+        return (start, vec![Segment::Arc { to: start, center: a, turn: Turn::CounterClockwise }]);
+    }
+    let round = |to: Point, center: Point| Segment::Arc { to, center, turn: Turn::CounterClockwise };
+    if aside == Vector::default() {
+        return (start, vec![Segment::Line { to: b }, Segment::Line { to: a }]);
+    }
+    let segments = vec![
+        Segment::Line { to: b + aside },
+        round(b - aside, b),
+        Segment::Line { to: a - aside },
+        round(start, a),
+    ];
+    (start, segments)
+}
+
+/// One lap, evenly from one depth to another.
+fn descend(head: &mut Head, lap: &[Segment], from: Nm, to: Nm, mill: &Tool) {
+    let mut at = head.at().map_or(Point::default(), |at| at.point());
+    let lengths: Vec<f64> = lap
+        .iter()
+        .map(|segment| {
+            let length = segment.length(at);
+            at = segment.to();
+            length
+        })
+        .collect();
+    let whole: f64 = lengths.iter().sum::<f64>().max(1.0);
+    let mut gone = 0.0;
+    for (segment, length) in lap.iter().zip(lengths) {
+        gone += length;
+        let depth = from + Nm::from_f64((to - from).to_f64() * (gone / whole).min(1.0));
+        head.cut(segment, depth, mill.feed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn laps_clear_everything_from_the_middle_to_the_wall() {
+        for width in [1000, 1500, 2000, 3000, 8000, 9999] {
+            let cutter = 1000;
+            let reaches = reaches(Nm::new(width), Nm::new(cutter));
+            let mut cleared = 0;
+            for reach in reaches {
+                assert!(reach.get() - cutter / 2 <= cleared, "a core stays in a hole of {width}");
+                cleared = reach.get() + cutter / 2;
+            }
+            assert!((cleared - width / 2).abs() <= 1, "the wall of {width} is at {cleared}");
+        }
+    }
+}
