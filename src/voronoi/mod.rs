@@ -12,8 +12,10 @@
 //! Only tiles that a boundary may cross are drawn, each on a worker that at once traces and places what it sees; no stage holds a
 //! picture of the whole board. Labels are sites, so a pixel names the feature that it is nearest to, and placing costs a few distances.
 
+mod copper;
 mod edge;
 mod fit;
+mod passes;
 mod place;
 mod plane;
 mod seed;
@@ -29,12 +31,15 @@ use crate::grid::{Grid, GridError};
 use crate::raster::{self, Scene, TileContent};
 use crate::topology::{NetId, Nets};
 
+pub use passes::Widening;
+
+use copper::Edges;
 use edge::Border;
 use place::Placer;
 use plane::Spot;
 use seed::Sites;
 use stitch::{Line, Stitcher};
-use trace::{APRON, Pixels};
+use trace::{APRON, Course, Pixels};
 
 /// The owner number of nothing at all.
 const BACKGROUND: u32 = 0;
@@ -175,6 +180,8 @@ pub struct Diagram {
     sites: Sites,
     /// The owner of each label: a table of its own, because every pixel asks.
     owners: Vec<u32>,
+    /// The copper's own edges, where the sites are not they.
+    edges: Option<Edges>,
     border: Border,
     grid: Grid,
     settings: Settings,
@@ -208,9 +215,14 @@ impl Diagram {
         }
         let mut kept = vec![true; nets.nets().len()];
         aside.iter().for_each(|(net, _)| kept[net.index()] = false);
-        let sites = Sites::new(copper, nets, settings, |feature| kept[nets.of(feature).index()]);
+        let keep = |feature: usize| kept[nets.of(feature).index()];
+        let sites = Sites::new(copper, nets, settings, keep);
+        let edges = match settings.sites {
+            SiteKind::Copper => None,
+            SiteKind::Core => Edges::new(copper, nets, settings, keep),
+        };
         let grid = Grid::covering(border.window, settings.pitch)?;
-        Ok(Self { owners: sites.owners(), sites, border, grid, settings: settings.clone(), warnings })
+        Ok(Self { owners: sites.owners(), sites, edges, border, grid, settings: settings.clone(), warnings })
     }
 
     /// The grid on which boundaries are found.
@@ -274,7 +286,7 @@ impl Diagram {
     /// The boundaries between all regions, with what could not be placed.
     #[must_use]
     pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
-        let stitcher = self.trace(&self.scene(&self.grid));
+        let stitcher = self.trace(&self.scene(&self.grid), None);
         let mut warnings = Vec::new();
         if stitcher.unplaced > 0 {
             let message = format!(
@@ -287,8 +299,9 @@ impl Diagram {
         (self.graph(&stitcher.lines()), warnings)
     }
 
-    /// Draws, traces and places all tiles that a boundary crosses.
-    fn trace(&self, scene: &Scene) -> Stitcher {
+    /// Draws, traces and places all tiles that a boundary crosses: between regions, or between what lies within `cut` of copper
+    /// and what lies beyond.
+    fn trace(&self, scene: &Scene, cut: Option<Nm>) -> Stitcher {
         let placer = Placer {
             sites: &self.sites.sites,
             rings: &self.sites.rings,
@@ -296,14 +309,17 @@ impl Diagram {
             border_rings: self.border.ring_count,
             leash: 1.5 * self.grid.pitch().to_f64(),
         };
-        let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
-        let origin = Spot::from(self.grid.corner(0, 0));
-        let pitch = self.grid.pitch().to_f64();
-        let options =
-            raster::Options { tile: TILE, apron: APRON, skip_uniform: true, ..raster::Options::default() };
+        let depth = cut.map(|level| self.depth(level));
+        let course = Course {
+            origin: Spot::from(self.grid.corner(0, 0)),
+            pitch: self.grid.pitch().to_f64(),
+            level: cut.or(self.settings.limit).map_or(f64::INFINITY, Nm::to_f64),
+            groove: self.sites.groove(),
+            levels_only: cut.is_some(),
+        };
         let mut stitcher = Stitcher::default();
         let work = |tile: raster::Tile<'_>| {
-            let (owners, labels) = self.pixels(&tile)?;
+            let (owners, labels) = self.pixels(&tile, depth)?;
             let count = |n: u32| i32::try_from(n).expect("a tile is small");
             let pixels = Pixels {
                 owners: &owners,
@@ -313,23 +329,30 @@ impl Diagram {
                 column0: tile.column0,
                 row0: tile.row0,
             };
-            Some(trace::trace(pixels, &placer, origin, pitch, level))
+            let mut traced = trace::trace(pixels, &placer, course);
+            if let Some(edges) = &self.edges {
+                traced.vertices.iter_mut().for_each(|vertex| vertex.clearance = edges.distance(vertex.at));
+            }
+            Some(traced)
         };
+        let options = passes::options(TILE, APRON, depth);
         raster::stream(scene, &options, work, |traced| {
             traced.into_iter().for_each(|traced| stitcher.add(traced))
         });
         stitcher
     }
 
-    /// Owners and labels of a tile with its apron, beyond the picture the outside; none for a tile of one owner.
-    fn pixels(&self, tile: &raster::Tile<'_>) -> Option<(Vec<u32>, Vec<u32>)> {
+    /// Owners and labels of a tile with its apron, beyond the picture the outside and beyond `depth` the background; none for a
+    /// tile of one owner.
+    fn pixels(&self, tile: &raster::Tile<'_>, depth: Option<f32>) -> Option<(Vec<u32>, Vec<u32>)> {
         let TileContent::Pixels(pixels) = &tile.content else { return None };
         let signed = |n: u32| i32::try_from(n).expect("a picture has at most 2¹⁶ pixels a side");
         let apron = signed(APRON);
         // Columns and rows of the picture, counted from the tile.
         let columns = -signed(tile.column0)..signed(self.grid.width()) - signed(tile.column0);
         let rows = -signed(tile.row0)..signed(self.grid.height()) - signed(tile.row0);
-        let mut labels = Vec::with_capacity(((tile.width + 2 * APRON) * (tile.height + 2 * APRON)) as usize);
+        let area = ((tile.width + 2 * APRON) * (tile.height + 2 * APRON)) as usize;
+        let (mut owners, mut labels) = (Vec::with_capacity(area), Vec::with_capacity(area));
         for row in -apron..signed(tile.height) + apron {
             let start = labels.len();
             labels.extend_from_slice(pixels.label_row(row));
@@ -338,8 +361,15 @@ impl Diagram {
                     *label = OUTSIDE;
                 }
             }
+            owners.extend(labels[start..].iter().map(|&label| self.owners[label as usize]));
+            if let Some(depth) = depth {
+                for (owner, &deep) in owners[start..].iter_mut().zip(pixels.depth_row(row)) {
+                    if *owner > OUTSIDE && deep > depth {
+                        *owner = BACKGROUND;
+                    }
+                }
+            }
         }
-        let owners = labels.iter().map(|&label| self.owners[label as usize]).collect();
         Some((owners, labels))
     }
 

@@ -7,7 +7,7 @@
 //! the run of true edges that distances are measured to. So a pad whose corners were flattened into a hundred edges costs a dozen.
 
 use crate::board::{Axis, Copper, Feature, Shape};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Nm, Path, Point, Polygon};
 use crate::grid::Grid;
 use crate::raster::{Caps, FillRule, Label, Scene, Sides, Spin, Surface};
 use crate::topology::Nets;
@@ -55,7 +55,24 @@ impl Sites {
                 SiteKind::Core => sites.add_core(feature, owner, settings.min_width, tolerance),
             }
         }
+        sites.sites.push(nobody(Form::Outside, OUTSIDE));
         sites
+    }
+
+    /// The label of what earlier cuts have cleared: the last one.
+    pub(super) fn groove(&self) -> u32 {
+        u32::try_from(self.sites.len() - 1).expect("below 2³² sites")
+    }
+
+    /// Draws what lies within `reach` pixels of `path` as cleared.
+    pub(super) fn add_groove(&self, scene: &mut Scene, grid: &Grid, path: &Path, reach: f32) {
+        let points = path.flatten(grid.pitch() / 8);
+        for pair in points.windows(2) {
+            let (from, to) = (grid.pixel(pair[0]), grid.pixel(pair[1]));
+            let (caps, sides) = (Caps::Both, Sides::Both);
+            let surface = Surface::Curtain { from, to, caps, sides, offset: reach, limit: Some(0.0) };
+            scene.add(Label(self.groove()), surface);
+        }
     }
 
     /// Who owns each label.
@@ -134,7 +151,7 @@ impl Sites {
         scene
             .add(OUTSIDE_LABEL, Surface::Polygon { contours, rule: FillRule::EvenOdd, depth: OUTSIDE_DEPTH });
         for (label, site) in (0_u32..).zip(&self.sites).skip(2) {
-            let offset = grid.pixels(crate::geometry::Nm::from_f64(site.radius));
+            let offset = grid.pixels(Nm::from_f64(site.radius));
             // A trace's own copper lies above the cones and reaches no further than itself.
             let limit = if site.flat { Some(0.0) } else { limit };
             let surface = match &site.form {

@@ -149,24 +149,35 @@ struct Anchor {
     target: Target,
 }
 
+/// What tracing needs to know beside the pixels.
+#[derive(Clone, Copy)]
+pub(super) struct Course {
+    /// The place of the picture's corner (0, 0), in nanometres.
+    pub(super) origin: Spot,
+    /// The side of a pixel, in nanometres.
+    pub(super) pitch: f64,
+    /// The distance that bounds regions against the background, in nanometres.
+    pub(super) level: f64,
+    /// The label of what earlier cuts have cleared.
+    pub(super) groove: u32,
+    /// Whether only boundaries against the background are wanted.
+    pub(super) levels_only: bool,
+}
+
 /// Traces one tile.
 pub(super) struct Tracer<'a> {
     pixels: Pixels<'a>,
     placer: &'a Placer<'a>,
-    /// The picture's corner (0, 0) and pitch, in nanometres.
-    origin: Spot,
-    pitch: f64,
-    /// The distance that bounds regions against the background, in nanometres.
-    level: f64,
+    course: Course,
     visited: [Vec<bool>; 2],
     traced: Traced,
 }
 
 /// All boundary pieces of a tile.
-pub(super) fn trace(pixels: Pixels<'_>, placer: &Placer<'_>, origin: Spot, pitch: f64, level: f64) -> Traced {
+pub(super) fn trace(pixels: Pixels<'_>, placer: &Placer<'_>, course: Course) -> Traced {
     let area = pixels.index(pixels.width, pixels.height);
     let visited = [vec![false; area], vec![false; area]];
-    let mut tracer = Tracer { pixels, placer, origin, pitch, level, visited, traced: Traced::default() };
+    let mut tracer = Tracer { pixels, placer, course, visited, traced: Traced::default() };
     tracer.run();
     tracer.traced
 }
@@ -298,7 +309,8 @@ impl Tracer<'_> {
     /// The place of a position in the tile's pixels.
     fn spot(&self, x: f64, y: f64) -> Spot {
         let (column, row) = (f64::from(self.pixels.column0) + x, f64::from(self.pixels.row0) + y);
-        Spot::new(self.origin.x + column * self.pitch, self.origin.y - row * self.pitch)
+        let Course { origin, pitch, .. } = self.course;
+        Spot::new(origin.x + column * pitch, origin.y - row * pitch)
     }
 
     /// Writes the vertices of a piece: its first corner, samples along its cracks, its last corner.
@@ -307,7 +319,7 @@ impl Tracer<'_> {
         let first = self.end_vertex(start);
         let last = if start == end { first } else { self.end_vertex(end) };
         self.traced.vertices.push(first);
-        if self.pixels.owner(left.0, left.1) != OUTSIDE && self.pixels.owner(right.0, right.1) != OUTSIDE {
+        if self.is_wanted(self.pixels.owner(left.0, left.1), self.pixels.owner(right.0, right.1)) {
             let pairs = cracks.iter().map(|crack| {
                 let (left, right) = crack.sides();
                 (self.pixels.label(left.0, left.1), self.pixels.label(right.0, right.1))
@@ -321,8 +333,14 @@ impl Tracer<'_> {
                 self.traced.vertices.push(tail.2);
                 self.halve(&tail.1, tail.2, last, HALVINGS);
             }
-        } // Nobody cuts along the border of the picture: its corners are enough.
+        } // Nobody cuts along the others: their corners are enough.
         self.traced.vertices.push(last);
+    }
+
+    /// Whether anybody cuts along the boundary between two owners.
+    const fn is_wanted(&self, left: u32, right: u32) -> bool {
+        let bare = left == BACKGROUND || right == BACKGROUND;
+        left != OUTSIDE && right != OUTSIDE && (bare || !self.course.levels_only)
     }
 
     /// The first crack whose place lies ahead of the start of the piece, with its equation and place.
@@ -415,8 +433,8 @@ impl Tracer<'_> {
         let (a, b) = (self.candidates(owners.0, pair.0, window), self.candidates(owners.1, pair.1, window));
         match owners {
             (OUTSIDE, _) | (_, OUTSIDE) => Target::OnBorder,
-            (BACKGROUND, _) => Target::At(b, self.level),
-            (_, BACKGROUND) => Target::At(a, self.level),
+            (BACKGROUND, _) => Target::At(b, self.course.level),
+            (_, BACKGROUND) => Target::At(a, self.course.level),
             _ => match (self.flat(a), self.flat(b)) {
                 (Some(a), None) => Target::At(a, 0.0),
                 (None, Some(b)) => Target::At(b, 0.0),
@@ -491,6 +509,10 @@ impl Tracer<'_> {
     fn node(&mut self, at: (i32, i32), window: (i32, i32, i32, i32), spot: Spot) -> Vertex {
         let mut regions = self.around(at).to_vec();
         regions.sort_unstable();
+        // A groove has no border to be placed on: what meets there runs on along its own course.
+        if regions.iter().any(|region| region.1 != self.course.groove && region.0 != BACKGROUND) {
+            regions.retain(|region| region.1 != self.course.groove);
+        }
         regions.dedup_by_key(|region| region.0);
         let target = |a: (u32, u32), b: (u32, u32)| self.target((a.0, b.0), (a.1, b.1), window);
         let mut wedge = false;

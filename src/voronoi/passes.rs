@@ -1,0 +1,95 @@
+//! Further passes beside the first cut: level sets of the distance, in the same picture.
+//!
+//! ```text
+//!   copper │←─ width ─→│                  each pass runs at one distance from copper, on both sides of the
+//!   ▓▓▓▓▓▓▓│ 1   2   3 │   ·   3   2   1  │▓▓▓▓▓    boundary, from where the kerf just misses copper outwards,
+//!          ╰─kerf─╯    boundary                     as far as there is room
+//! ```
+//!
+//! What earlier cuts have cleared is drawn above everything, as wide as passes overlap: where a pass would run nearer than that to
+//! an earlier cut, it clears nothing that its neighbours do not, and is left out; and what lies between two passes that do run is never wider
+//! than a kerf, so no sliver stays.
+
+use crate::geometry::Nm;
+use crate::raster;
+
+use super::stitch::Line;
+use super::{BACKGROUND, Boundaries, Diagram, OUTSIDE};
+
+/// How the gap beside copper is widened.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Widening {
+    /// How wide the cutter clears.
+    pub kerf: Nm,
+    /// How wide the gap beside every net is to be, where there is room.
+    pub width: Nm,
+    /// How much of the kerf neighbouring passes share, at least.
+    pub overlap: Nm,
+}
+
+impl Widening {
+    /// The distances from copper at which passes run, from the nearest to the farthest, evenly spaced.
+    fn levels(&self, first: Nm) -> Vec<Nm> {
+        let last = self.width - self.kerf / 2;
+        let most = (self.kerf - self.overlap).max(Nm::new(1));
+        if last <= first {
+            return vec![first];
+        }
+        let gaps = (last - first + most - Nm::new(1)).get() / most.get();
+        (0..=gaps).map(|i| first + (last - first) * i / gaps).collect()
+    }
+}
+
+impl Diagram {
+    /// `base` with further passes beside its cuts, until the gap beside every net is as wide as asked for.
+    ///
+    /// A pass never runs nearer to copper than half the kerf and the fitting tolerance. What `base` has at that distance already (the
+    /// outline strategy's loops) is not cut again.
+    #[must_use]
+    pub fn widened(&self, base: Boundaries, widening: &Widening) -> Boundaries {
+        let first = widening.kerf / 2 + self.settings.tolerance;
+        let levels = widening.levels(first);
+        let step = levels.get(1).map_or(widening.kerf - widening.overlap, |&second| second - levels[0]);
+        let reach = self.grid.pixels(widening.kerf - step);
+        let mut all = base;
+        for level in
+            levels.into_iter().filter(|&level| self.settings.limit.is_none_or(|limit| level != limit))
+        {
+            let mut scene = self.sites.scene(&self.grid, &self.border, None);
+            for edge in all.edges.iter().filter(|edge| !edge.is_border()) {
+                self.sites.add_groove(&mut scene, &self.grid, &edge.path, reach);
+            }
+            let lines = self.trace(&scene, Some(level)).lines();
+            all.append(self.graph(&lines.into_iter().filter(is_level).collect::<Vec<_>>()));
+        }
+        all
+    }
+
+    /// The depth in the picture of a distance in nanometres.
+    pub(super) fn depth(&self, level: Nm) -> f32 {
+        self.grid.pixels(level)
+    }
+}
+
+/// Whether a line parts the near side of a level from the far side.
+fn is_level(line: &Line) -> bool {
+    let (low, high) = (line.left.min(line.right), line.left.max(line.right));
+    low == BACKGROUND && high > OUTSIDE
+}
+
+impl Boundaries {
+    /// Adds the nodes and edges of `other` behind its own.
+    fn append(&mut self, other: Self) {
+        let offset = u32::try_from(self.nodes.len()).expect("below 2³² nodes");
+        self.nodes.extend(other.nodes);
+        self.edges.extend(other.edges.into_iter().map(|mut edge| {
+            edge.ends = edge.ends.map(|(a, b)| (super::NodeId(a.0 + offset), super::NodeId(b.0 + offset)));
+            edge
+        }));
+    }
+}
+
+/// The options that a picture cut at `level` is streamed with.
+pub(super) fn options(tile: u32, apron: u32, level: Option<f32>) -> raster::Options {
+    raster::Options { tile, apron, levels: level.into_iter().collect(), skip_uniform: true }
+}
