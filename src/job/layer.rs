@@ -50,7 +50,9 @@ impl Layer {
         );
         let diagram = diagram.map_err(|reason| Error::Voronoi { side, reason })?;
         let (boundaries, unplaced) = diagram.boundaries();
-        let (section, narrow) = cut(side, &nets, &diagram, &boundaries, &placement, settings);
+        let widened = settings.widening.map(|widening| diagram.widened(boundaries.clone(), &widening));
+        let cuts = widened.as_ref().unwrap_or(&boundaries);
+        let (section, narrow) = cut(side, &nets, &diagram, cuts, &placement, settings);
         let mut warnings = topology::names_check(copper, &nets);
         warnings.extend_from_slice(diagram.warnings());
         warnings.extend(unplaced.into_iter().chain(narrow).map(|warning| warning.on(side)));

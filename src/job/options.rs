@@ -45,6 +45,21 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub limit: Option<Length>,
 
+    /// Clear the gap beside every net to this width where there is room, in several passes
+    #[arg(long, value_name = "LENGTH", conflicts_with = "passes", help_heading = "Isolation")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub width: Option<Length>,
+
+    /// The same as a number of passes beside every net
+    #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Isolation")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub passes: Option<u32>,
+
+    /// How much neighbouring passes share [default: a tenth of the kerf]
+    #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub overlap: Option<Length>,
+
     /// Size of a pixel of the picture that finds the boundaries
     #[arg(long, value_name = "LENGTH", conflicts_with = "dpi", help_heading = "Isolation")]
     #[serde(with = "text")]
@@ -149,12 +164,18 @@ impl Options {
         let resolution_is_open = self.pixel.is_none() && self.dpi.is_none();
         let (pixel, dpi) =
             if resolution_is_open { (others.pixel, others.dpi) } else { (self.pixel, self.dpi) };
+        let width_is_open = self.width.is_none() && self.passes.is_none();
+        let (width, passes) =
+            if width_is_open { (others.width, others.passes) } else { (self.width, self.passes) };
         Self {
             tool: self.tool.or(others.tool),
             depth: self.depth.or(others.depth),
             strategy: self.strategy.or(others.strategy),
             sites: self.sites.or(others.sites),
             limit: self.limit.or(others.limit),
+            width,
+            passes,
+            overlap: self.overlap.or(others.overlap),
             pixel,
             dpi,
             frame: self.frame.or(others.frame),

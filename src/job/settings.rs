@@ -1,6 +1,7 @@
 use crate::gcode::Dialect;
 use crate::geometry::Nm;
 use crate::toolpath::{self, Heights, Machine, Tool, ToolKind};
+use crate::voronoi::Widening;
 
 use super::Error;
 use super::options::{Options, Origin, Sites, Strategy, Topology};
@@ -24,6 +25,8 @@ pub struct Settings {
     pub sites: Sites,
     /// How far from copper a net's region may reach.
     pub limit: Option<Nm>,
+    /// How far the gap beside every net is cleared; none for a single cut.
+    pub widening: Option<Widening>,
     /// The pixel of the picture that finds the boundaries.
     pub pixel: Nm,
     /// Whether a lap is cut round copper without an outline.
@@ -87,8 +90,11 @@ impl Settings {
             );
             return Err(Error::Value { key: "tab-height", problem });
         }
+        let isolation = heights(positive("depth", options.depth)?, None);
+        let kerf = isolation_tool.width_at(isolation.cut);
         Ok(Self {
-            isolation: heights(positive("depth", options.depth)?, None),
+            isolation,
+            widening: widening(&options, kerf)?,
             drilling: heights(positive("drill-depth", options.drill_depth)?, None),
             cutout: heights(cutout_depth, Some(positive("cutout-pass", options.cutout_pass)?)),
             isolation_tool,
@@ -133,6 +139,25 @@ fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {
         return Ok(length.nm());
     }
     Err(Error::Value { key, problem: format!("`{length}` makes no sense: it must be more than zero") })
+}
+
+/// How wide the gap is to be, from a width or a number of passes.
+fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
+    let overlap = match options.overlap {
+        None => kerf / 10,
+        Some(overlap) if overlap.nm() < Nm::ZERO || overlap.nm() >= kerf => {
+            let problem =
+                format!("passes that share `{overlap}` of a kerf of {} do not advance", Length(kerf));
+            return Err(Error::Value { key: "overlap", problem });
+        }
+        Some(overlap) => overlap.nm(),
+    };
+    let width = match (options.width, options.passes) {
+        (Some(width), _) => positive("width", Some(width))?,
+        (None, Some(passes)) => kerf + (kerf - overlap) * (i64::from(passes) - 1),
+        (None, None) => return Ok(None),
+    };
+    Ok(Some(Widening { kerf, width, overlap }))
 }
 
 fn pixel(options: &Options) -> Result<Nm, Error> {

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use voromill::board::{Axis, Copper, Feature, Shape, Side};
 use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
 use voromill::topology::{self, Method, Nets};
-use voromill::voronoi::{Boundaries, Diagram, Owner, Settings};
+use voromill::voronoi::{Boundaries, Diagram, Owner, Settings, SiteKind, Widening};
 
 use crate::oracle::distance as oracle;
 
@@ -148,6 +148,74 @@ fn the_resolution_does_not_move_the_cut() {
         assert!(off < 4_200.0, "{off} nm off centre with pixels of {pitch} nm");
         assert_euler(&found, 4);
     }
+}
+
+/// Every tenth of a millimetre in a window round the copper.
+fn lattice() -> impl Iterator<Item = (f64, f64)> {
+    (-5..45_i32).flat_map(|x| (-10..30_i32).map(move |y| (f64::from(x) * 1e5, f64::from(y) * 1e5)))
+}
+
+#[test]
+fn a_wide_gap_is_cleared_and_no_copper_touched() {
+    let copper = layer([disc(0, 0, 500), disc(3500, 300, 300), disc(1200, 1900, 400)]);
+    let nets = topology::recover(&copper, Method::Contact);
+    let settings = Settings::default();
+    let diagram = Diagram::new(&copper, &nets, None, &settings).expect("a diagram");
+    let widening = Widening { kerf: Nm::from_um(200), width: Nm::from_um(700), overlap: Nm::from_um(20) };
+    let cuts = diagram.widened(diagram.boundaries().0, &widening);
+    let paths: Vec<Vec<Point>> = cuts
+        .edges
+        .iter()
+        .filter(|edge| !edge.is_border())
+        .map(|edge| edge.path.flatten(Nm::new(100)))
+        .collect();
+    for &p in paths.iter().flatten() {
+        let (x, y) = p.to_f64();
+        let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+        assert!(nearest >= 100_000.0, "{nearest} nm from copper at {p:?}");
+    }
+    for (x, y) in lattice() {
+        let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+        if nearest > 5_000.0 && nearest < 695_000.0 {
+            let to_cut = |pair: &[Point]| {
+                oracle::distance(&Shape::Stroke { from: pair[0], to: pair[1], radius: Nm::ZERO }, x, y)
+            };
+            let cleared =
+                paths.iter().flat_map(|path| path.windows(2)).map(to_cut).fold(f64::INFINITY, f64::min);
+            assert!(
+                cleared <= 104_000.0,
+                "copper left {nearest} nm from a net at {x}, {y}: {cleared} nm from a cut"
+            );
+        }
+    }
+}
+
+#[test]
+fn core_sites_keep_every_net_whole_and_know_the_clearance() {
+    let wide = Shape::Stroke { from: at(0, 0), to: at(4000, 0), radius: Nm::from_um(600) };
+    let thin = Shape::Stroke { from: at(0, 900), to: at(4000, 900), radius: Nm::from_um(50) };
+    let mut copper = layer([wide, thin]);
+    copper.features[0].axis = Axis::Line(at(0, 0), at(4000, 0));
+    copper.features[1].axis = Axis::Line(at(0, 900), at(4000, 900));
+    let settings = Settings { sites: SiteKind::Core, ..Settings::default() };
+    let nets = topology::recover(&copper, Method::Contact);
+    let found = Diagram::new(&copper, &nets, None, &settings).expect("a diagram").boundaries().0;
+    for edge in found.edges.iter().filter(|edge| !edge.is_border()) {
+        let points =
+            std::iter::once(edge.path.start).chain(edge.path.segments.iter().map(|segment| segment.to()));
+        for (p, clearance) in points.zip(&edge.clearance) {
+            let (x, y) = p.to_f64();
+            let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+            assert!((nearest - clearance.to_f64()).abs() < 2.0, "{nearest} nm from copper, not {clearance}");
+            assert!(!edge.left.eq(&edge.right), "two regions");
+        }
+    }
+    // Midway between the axes would be 450 µm up, inside the wide trace: the boundary runs along its edge.
+    let middle =
+        found.edges.iter().filter(|edge| !edge.is_border()).flat_map(|edge| edge.path.flatten(Nm::new(100)));
+    let lowest =
+        middle.filter(|p| p.x > Nm::ZERO && p.x < Nm::from_mm(4)).map(|p| p.y).min().expect("points");
+    assert!((lowest - Nm::from_um(600)).abs() <= Nm::from_um(3), "the boundary runs at {lowest}");
 }
 
 fn shape() -> impl Strategy<Value = Shape> {
