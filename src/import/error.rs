@@ -83,9 +83,14 @@ impl Error {
         let snippet = Snippet::source(excerpt.as_str())
             .line_start(span.line as usize)
             .annotation(AnnotationKind::Primary.span(marked.clone()).label(format!("expected {expected}")));
-        let place =
-            Origin::path(span.file.as_str()).line(span.line as usize).char_column(span.column as usize);
-        let group = Level::ERROR.primary_title(what.as_str()).element(place).element(snippet);
+        let title = Level::ERROR.primary_title(what.as_str());
+        // The column counts from the start of the excerpt, which is that of the line unless that is long.
+        let group = if marked.start + 1 == span.column as usize {
+            title.element(snippet.path(span.file.as_str()))
+        } else {
+            let place = Origin::path(span.file.as_str()).line(span.line as usize);
+            title.element(place.char_column(span.column as usize)).element(snippet)
+        };
         let group = if hint.is_empty() { group } else { group.element(Level::HELP.message(hint.as_str())) };
         Renderer::plain().render(&[group])
     }

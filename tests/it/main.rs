@@ -4,6 +4,7 @@ mod cli;
 mod excellon;
 mod gcode;
 mod gerber;
+mod gerber_constructs;
 mod layering;
 mod layers;
 mod oracle;

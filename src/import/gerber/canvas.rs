@@ -153,7 +153,7 @@ impl Canvas {
     }
 
     /// Closes the innermost frame, a repeat, and draws its copies: first along y, then along x
-    /// (specification §4.11). False where none is open.
+    /// (specification §4.12). False where none is open.
     pub(super) fn close_repeat(&mut self) -> Result<bool, Refusal> {
         let Some(Frame::Repeat { copies, step }) = self.innermost() else { return Ok(false) };
         let objects = self.open.pop().map(|(_, objects)| objects).unwrap_or_default();

@@ -1,6 +1,6 @@
 //! Bytes → blocks → words.
 //!
-//! A Gerber file is a stream of blocks that end with `*`; line ends mean nothing (specification §4.2, "Syntax"). The `%`
+//! A Gerber file is a stream of blocks that end with `*`; line ends mean nothing (specification §3.2). The `%`
 //! that brackets extended commands is not needed to tell them from the rest: they begin with two letters, all other
 //! blocks with a letter and a number. So a `%` too many or too few cannot turn the meaning of what follows, and is only
 //! looked at where an aperture macro ends.

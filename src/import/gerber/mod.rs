@@ -6,7 +6,7 @@
 //!                            └─ aperture, aperture_macro ┘ draw, region
 //! ```
 //!
-//! Written for files in the wild, with the specification (Ucamco, revision 2024.05) deciding where they disagree. Three
+//! Written for files in the wild, with the specification (Ucamco, revision 2023.08) deciding where they disagree. Three
 //! choices make it both quick and forgiving. Blocks are cut at `*`, never at line ends, because some tools write a file
 //! on one line. A command is told by its first two characters, not by the `%` around it. And numbers go from digits to
 //! whole nanometres without a float between.
