@@ -304,6 +304,7 @@ impl Diagram {
     fn trace(&self, scene: &Scene, cut: Option<Nm>) -> Stitcher {
         let placer = Placer {
             sites: &self.sites.sites,
+            owners: &self.owners,
             rings: &self.sites.rings,
             border: &self.border.rings,
             border_rings: self.border.ring_count,
@@ -351,14 +352,20 @@ impl Diagram {
         // Columns and rows of the picture, counted from the tile.
         let columns = -signed(tile.column0)..signed(self.grid.width()) - signed(tile.column0);
         let rows = -signed(tile.row0)..signed(self.grid.height()) - signed(tile.row0);
+        let inner = columns.contains(&-apron)
+            && columns.contains(&(signed(tile.width) + apron - 1))
+            && rows.contains(&-apron)
+            && rows.contains(&(signed(tile.height) + apron - 1));
         let area = ((tile.width + 2 * APRON) * (tile.height + 2 * APRON)) as usize;
         let (mut owners, mut labels) = (Vec::with_capacity(area), Vec::with_capacity(area));
         for row in -apron..signed(tile.height) + apron {
             let start = labels.len();
             labels.extend_from_slice(pixels.label_row(row));
-            for (column, label) in (-apron..).zip(&mut labels[start..]) {
-                if !columns.contains(&column) || !rows.contains(&row) {
-                    *label = OUTSIDE;
+            if !inner {
+                for (column, label) in (-apron..).zip(&mut labels[start..]) {
+                    if !columns.contains(&column) || !rows.contains(&row) {
+                        *label = OUTSIDE;
+                    }
                 }
             }
             owners.extend(labels[start..].iter().map(|&label| self.owners[label as usize]));

@@ -80,6 +80,8 @@ struct Miss {
 /// The sites of a layer and how far points may move among them.
 pub(super) struct Placer<'a> {
     pub(super) sites: &'a [Site],
+    /// The owner of each of them: a table of its own, because every sample asks.
+    pub(super) owners: &'a [u32],
     pub(super) rings: &'a Rings,
     /// The rings of the board's border.
     pub(super) border: &'a Rings,

@@ -325,6 +325,10 @@ impl Tracer<'_> {
                 (self.pixels.label(left.0, left.1), self.pixels.label(right.0, right.1))
             });
             let run = Run { pairs: pairs.collect(), cracks };
+            if self.straight(&run, first, last) {
+                self.traced.vertices.push(last);
+                return;
+            }
             let (head, tail) = (self.short_of(cracks, first), self.short_of_reversed(cracks, last));
             self.halve(&head.1, first, head.2, HALVINGS);
             if head.0 < tail.0 {
@@ -335,6 +339,23 @@ impl Tracer<'_> {
             }
         } // Nobody cuts along the others: their corners are enough.
         self.traced.vertices.push(last);
+    }
+
+    /// Whether one curve bounds the whole piece and its middle lies on the chord of its ends; writes the middle if so.
+    fn straight(&mut self, run: &Run<'_>, first: Vertex, last: Vertex) -> bool {
+        let count = run.cracks.len();
+        if count < 4 || !run.is_one_curve(0, count - 1) {
+            return false;
+        }
+        let anchor = self.anchor(run.cracks[count / 2]);
+        let Some(middle) = self.placer.project(&anchor.target, anchor.at) else { return false };
+        let way = last.at - first.at;
+        let between = (middle.at - first.at).dot(way) > 0.0 && (last.at - middle.at).dot(way) > 0.0;
+        let straight = between && is_straight(first, middle, last);
+        if straight {
+            self.traced.vertices.push(middle);
+        }
+        straight
     }
 
     /// Whether anybody cuts along the boundary between two owners.
@@ -449,15 +470,17 @@ impl Tracer<'_> {
         if owner <= OUTSIDE {
             return candidates;
         }
-        if self.placer.sites[label as usize].owner == owner {
+        if self.placer.owners[label as usize] == owner {
             candidates.add(label);
         }
+        let mut last = label;
         for y in y0..=y1 {
-            for x in x0..=x1 {
-                let label = self.pixels.label(x, y);
-                if self.placer.sites[label as usize].owner == owner {
+            let row = self.pixels.index(x0, y)..=self.pixels.index(x1, y);
+            for &label in &self.pixels.labels[row] {
+                if label != last && self.placer.owners[label as usize] == owner {
                     candidates.add(label);
                 }
+                last = label;
             }
         }
         candidates
