@@ -44,10 +44,9 @@ impl Layer {
     ) -> Result<Self, Error> {
         let side = copper.side;
         let nets = topology::recover(copper, method(settings.topology));
-        let (gap, diagram) = rayon::join(
-            || topology::smallest_gap(copper, &nets),
-            || Diagram::new(copper, &nets, board.outline.as_ref(), &diagram_settings(settings)),
-        );
+        let gap = topology::smallest_gap(copper, &nets);
+        let diagram =
+            Diagram::new(copper, &nets, board.outline.as_ref(), &diagram_settings(settings, gap.as_ref()));
         let diagram = diagram.map_err(|reason| Error::Voronoi { side, reason })?;
         let (boundaries, unplaced) = diagram.boundaries();
         let widened = settings.widening.map(|widening| diagram.widened(boundaries.clone(), &widening));
@@ -80,9 +79,16 @@ pub(super) fn method(topology: Topology) -> Method {
     }
 }
 
-fn diagram_settings(settings: &Settings) -> voronoi::Settings {
+/// How many pixels the narrowest gap is wide, at least. Chosen: with two a gap may fall between pixel centres and be seen only in
+/// places; the third is for slanted ones.
+const PIXELS_A_GAP: i64 = 3;
+/// The finest pixel that a narrow gap asks for: finer gaps no cutter fits.
+const FINEST: Nm = Nm::from_um(5);
+
+fn diagram_settings(settings: &Settings, gap: Option<&Gap>) -> voronoi::Settings {
+    let seen = gap.map_or(settings.pixel, |gap| (gap.width / PIXELS_A_GAP).max(FINEST));
     voronoi::Settings {
-        pitch: settings.pixel,
+        pitch: settings.pixel.min(seen),
         sites: match settings.sites {
             Sites::Copper => SiteKind::Copper,
             Sites::Core => SiteKind::Core,

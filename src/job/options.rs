@@ -60,7 +60,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub overlap: Option<Length>,
 
-    /// Size of a pixel of the picture that finds the boundaries
+    /// Size of a pixel of the picture that finds the boundaries; smaller where the smallest gap asks for it
     #[arg(long, value_name = "LENGTH", conflicts_with = "dpi", help_heading = "Isolation")]
     #[serde(with = "text")]
     pub pixel: Option<Length>,
