@@ -19,6 +19,9 @@ pub struct Gap {
     pub width: Nm,
 }
 
+/// How many features one worker takes at least. Chosen as for contact.
+const SHARE: usize = 1024;
+
 /// How far the search looks at first. Chosen: boards have gaps of 0.1 to 0.3 mm somewhere.
 const FIRST_LIMIT: Nm = Nm::from_um(250);
 
@@ -62,9 +65,9 @@ impl Found {
 
 fn narrowest_within(bodies: &Bodies, nets: &Nets, limit: Nm) -> Option<Found> {
     let worker = || (None, Vec::new(), Scratch::default());
-    let found = (0..bodies.bodies.len()).into_par_iter().with_min_len(1024).fold(
+    let found = bodies.index.order().par_iter().with_min_len(SHARE).fold(
         worker,
-        |(mut best, mut stack, mut scratch): (Option<Found>, _, _), feature| {
+        |(mut best, mut stack, mut scratch): (Option<Found>, _, _), &feature| {
             let window = bodies.bodies[feature].bounds().inflate(reach(best, limit));
             let _ = bodies.index.visit(window, &mut stack, |other| {
                 if other > feature && nets.of(feature) != nets.of(other) {

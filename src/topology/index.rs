@@ -21,6 +21,11 @@ impl RectIndex {
         Self { tree: builder.build().expect("as many rectangles as announced") }
     }
 
+    /// The numbers of all rectangles, neighbours close to each other: the order in which to ask about all of them.
+    pub(super) fn order(&self) -> &[usize] {
+        self.tree.item_indices()
+    }
+
     /// Calls `visit` with the number of every rectangle that shares a point with `window`, until it breaks.
     ///
     /// `stack` is scratch memory. The order depends on the rectangles alone.

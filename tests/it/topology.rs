@@ -8,6 +8,7 @@ use serde_json::Value;
 
 use voromill::board::{Attributes, Axis, Copper, Feature, Hole, Plating, Shape, Side};
 use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn};
+use voromill::grid::Grid;
 use voromill::import::gerber;
 use voromill::topology::{self, Method, NetId, Nets, Reason, Sampling};
 
@@ -699,6 +700,23 @@ fn more_than_seven_stacked_traces_are_one_and_reported() {
     assert_eq!(found.nets.nets().len(), 1, "all overlap");
     assert_eq!(found.deepest, 12, "on top of each other in the middle");
     assert!(!found.overlaps.is_empty(), "with the places");
+}
+
+#[test]
+fn the_picture_shows_the_first_mix_where_it_was_found() {
+    for (what, copper, _) in layers().into_iter().filter(|(what, ..)| what.starts_with("visolate")) {
+        let traces = topology::recover(&copper, Method::Coincidence);
+        let found = topology::translucency(&copper, &traces, Sampling::default()).expect("500 DPI");
+        let Some(first) = found.overlaps.first() else { continue };
+        let grid =
+            Grid::covering(copper.bounds().expect("copper"), Sampling::default().pitch).expect("500 DPI");
+        let picture = found.picture(&copper, &traces, &grid);
+        let corner = grid.corner(0, 0);
+        let count = |way: Nm| usize::try_from(way.get() / grid.pitch().get()).expect("on the picture");
+        let (column, row) = (count(first.at.x - corner.x), count(corner.y - first.at.y));
+        let pixel = picture[row * usize::try_from(grid.width()).expect("small") + column];
+        assert_eq!(pixel, first.colour, "{what}: at {:?}", first.at);
+    }
 }
 
 #[test]

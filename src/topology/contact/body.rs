@@ -19,7 +19,7 @@ pub(in crate::topology) struct Body {
 #[derive(Debug)]
 enum Core {
     Line(Line),
-    Area(Area),
+    Area(Box<Area>),
 }
 
 /// A core without an inside.
@@ -40,7 +40,7 @@ impl Body {
                 (Core::Line(Line::Segment(arc.start, arc.end)), *radius)
             }
             Shape::Arc { arc, radius } => (Core::Line(Line::Arc(Sector::new(arc))), *radius),
-            Shape::Polygon(polygon) => (Core::Area(Area::new(polygon)), Nm::ZERO),
+            Shape::Polygon(polygon) => (Core::Area(Box::new(Area::new(polygon))), Nm::ZERO),
         };
         Self { core, radius, bounds: shape.bounds() }
     }

@@ -1,6 +1,8 @@
-//! The colours of Algorithm 2: random ones, how stacked ones mix on the way to the eye, and the odds of a confusion.
+//! The colours of Algorithm 2: random ones, those seen, and the odds of a confusion.
 
 use bitvec::prelude::{BitVec, Lsb0};
+
+use crate::raster::blend::mix;
 
 /// A colour of 8 bits a component: red, green, blue.
 pub type Colour = [u8; 3];
@@ -36,25 +38,6 @@ impl Random {
         }
         [255; 3]
     }
-}
-
-/// How stacked sheets, the nearest first, look together on black (§III-A.2): half of the first colour, a quarter of the
-/// second, …
-///
-/// ```text
-/// component = Σ ⌈cᵢ / 2ⁱ⌉,  i = 1, 2, …
-/// ```
-///
-/// From the eighth sheet on every component other than 0 adds 1, whatever it is; the sum stays within 8 bits.
-pub(super) fn mix(sheets: impl IntoIterator<Item = Colour>) -> Colour {
-    let mut seen = [0_u8; 3];
-    for (sheet, layer) in sheets.into_iter().zip(1_u32..) {
-        for (sum, component) in seen.iter_mut().zip(sheet) {
-            let share = u16::from(component).div_ceil(1 << layer.min(8));
-            *sum = sum.saturating_add(u8::try_from(share).unwrap_or(u8::MAX));
-        }
-    }
-    seen
 }
 
 /// A set of colours, one bit for each of the 2²⁴: two megabytes, and an answer in one look.
@@ -123,27 +106,6 @@ fn power(base: f64, exponent: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn stacked_colours_add_their_halves_rounded_up() {
-        assert_eq!(mix([[255, 1, 0]]), [128, 1, 0], "one sheet shows half of its colour");
-        assert_eq!(mix([[255, 1, 0], [10, 10, 10]]), [131, 4, 3], "the second a quarter");
-        assert_eq!(mix([[255; 3]; 7]), [254; 3], "seven white sheets");
-        assert_eq!(mix([[255; 3]; 40]), [255; 3], "and never more than white");
-    }
-
-    #[test]
-    fn no_value_of_a_mix_is_likelier_than_one_in_128() {
-        // Lemma 3 for two sheets, by brute force: of all pairs of components, how many give each value.
-        let mut count = [0_u32; 256];
-        for first in 0..=255 {
-            for second in 0..=255 {
-                count[usize::from(mix([[first; 3], [second; 3]])[0])] += 1;
-            }
-        }
-        let most = count.iter().max().copied().unwrap_or_default();
-        assert!(most <= 65_536 / 128, "{most} of 65536 pairs give the same value");
-    }
 
     #[test]
     fn the_odds_of_the_paper_s_example_come_out() {

@@ -25,6 +25,8 @@ use rayon::prelude::*;
 use crate::board::Copper;
 use crate::geometry::{Nm, Point, Rect};
 use crate::grid::{Grid, GridError};
+use crate::raster::blend::{Window, mix, render_translucent};
+use crate::raster::{Label, Scene};
 
 use super::contact::{Bodies, Scratch};
 use super::sets::DisjointSets;
@@ -32,8 +34,8 @@ use super::{NetId, Nets};
 
 pub use colour::{Colour, Odds};
 
-use colour::{Colours, Random, mix};
-use sheets::Sheets;
+use colour::{Colours, Random};
+use sheets::{Sheets, surface};
 
 /// How Algorithm 2 looks at a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,6 +68,21 @@ pub struct Translucency {
     pub deepest: usize,
     /// How likely it was that an overlap was missed by a confusion of colours.
     pub odds: Odds,
+}
+
+impl Translucency {
+    /// The paper's picture: every trace as it was before merging, 50 % translucent, in its colour; row by row from the
+    /// top. `traces` are those that [`translucency`] was given.
+    #[must_use]
+    pub fn picture(&self, copper: &Copper, traces: &Nets, grid: &Grid) -> Vec<Colour> {
+        let mut scene = Scene::new(grid.width(), grid.height());
+        for (index, feature) in copper.features.iter().enumerate() {
+            // Label 0 is the background's.
+            scene.add(Label(traces.of(index).0 + 1), surface(&feature.shape, grid));
+        }
+        let colours: Vec<Colour> = std::iter::once([0; 3]).chain(self.colours.iter().copied()).collect();
+        render_translucent(&scene, &colours, Window::all(&scene))
+    }
 }
 
 /// A pixel that showed a new colour.

@@ -102,7 +102,7 @@ impl Drawn<'_> {
 }
 
 /// The area that a shape covers: distance surfaces end where the copper ends.
-fn surface(shape: &Shape, grid: &Grid) -> Surface {
+pub(super) fn surface(shape: &Shape, grid: &Grid) -> Surface {
     let limit = Some(0.0);
     match shape {
         Shape::Disc { center, radius } => {
