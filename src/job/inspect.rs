@@ -3,11 +3,13 @@ use crate::import::Loaded;
 use crate::report::Inspection;
 use crate::report::document::{Millimetres, SCHEMA_VERSION, WarningEntry};
 use crate::report::inspection::InspectedLayer;
-use crate::topology::{self, Electrical, Nets};
+use crate::report::methods::MethodsEntry;
+use crate::topology::{self, Electrical, Nets, Sampling};
 
 use super::Settings;
 use super::describe::{drills, gap_entry, net_entries};
 use super::layer::method;
+use super::options::Topology;
 
 /// What is known of a board before anything is done to it.
 #[must_use]
@@ -38,7 +40,7 @@ pub fn inspect(loaded: &Loaded, settings: &Settings) -> Inspection {
         outline: board.outline.is_some(),
         sources: loaded.sources.clone(),
         ignored: loaded.ignored.clone(),
-        layers: layers.into_iter().map(|(copper, nets)| inspected(copper, nets)).collect(),
+        layers: layers.into_iter().map(|(copper, nets)| inspected(copper, nets, settings)).collect(),
         electrical_nets: electrical.map(|electrical| electrical.nets.len()),
         drills: drills(&board.holes),
         warnings,
@@ -50,11 +52,15 @@ pub(super) fn size(board: &Board) -> Option<[Millimetres; 2]> {
     board.bounds().map(|bounds| [Millimetres(bounds.width()), Millimetres(bounds.height())])
 }
 
-fn inspected(copper: &Copper, nets: &Nets) -> InspectedLayer {
+fn inspected(copper: &Copper, nets: &Nets, settings: &Settings) -> InspectedLayer {
+    let differences = (settings.topology == Topology::All).then(|| {
+        topology::differences(copper, Sampling::default()).expect("500 DPI is within the raster's limits")
+    });
     InspectedLayer {
         side: copper.side,
         features: copper.features.len(),
         nets: net_entries(nets),
         smallest_gap: topology::smallest_gap(copper, nets).map(|gap| gap_entry(gap, nets)),
+        methods: differences.map(|differences| MethodsEntry::new(copper, &differences)),
     }
 }

@@ -74,8 +74,9 @@ const FRAME_NOT_CUT: &str = "without an outline and without the lap round the fr
 /// The topology's own name for what was chosen.
 pub(super) fn method(topology: Topology) -> Method {
     match topology {
-        Topology::Contact => Method::Contact,
+        Topology::Contact | Topology::All => Method::Contact,
         Topology::Coincidence => Method::Coincidence,
+        Topology::Translucency => Method::Translucency,
     }
 }
 

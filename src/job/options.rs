@@ -74,7 +74,7 @@ pub struct Options {
     #[arg(long = "no-frame", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
     pub frame: Option<bool>,
 
-    /// How touching copper is found: contact or coincidence
+    /// How touching copper is found: contact, translucency, coincidence; all compares them in inspect
     #[arg(long, value_enum, hide_possible_values = true, value_name = "METHOD", help_heading = "Isolation")]
     pub topology: Option<Topology>,
 
@@ -226,6 +226,10 @@ pub enum Topology {
     Contact,
     /// Shared end points and centres alone (the paper's Algorithm 1).
     Coincidence,
+    /// Those and overlaps that show in a picture of 500 DPI (the paper's Algorithm 2).
+    Translucency,
+    /// All three, held against each other by `inspect`; the nets are those of exact geometry.
+    All,
 }
 
 /// What the machine speaks: one of [`dialect::ALL`].

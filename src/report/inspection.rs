@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::board::{Side, Source};
 
 use super::document::{DrillEntry, GapEntry, Millimetres, NetEntry, WarningEntry};
+use super::methods::MethodsEntry;
 use super::summary::{count, warnings};
 
 /// What `voromill inspect` says.
@@ -45,6 +46,9 @@ pub struct InspectedLayer {
     pub nets: Vec<NetEntry>,
     /// The narrowest place between two of them.
     pub smallest_gap: Option<GapEntry>,
+    /// How the three ways to find nets compare, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub methods: Option<MethodsEntry>,
 }
 
 impl Inspection {
@@ -139,5 +143,6 @@ fn layer(layer: &InspectedLayer, verbose: bool) -> String {
         let more = if rest > 0 { format!(" and {rest} more; -v lists them") } else { String::new() };
         let _ = writeln!(text, "  {}{more}", named[..named.len() - rest].join(", "));
     }
+    text.extend(layer.methods.as_ref().map(|methods| methods.to_text(verbose)));
     text
 }

@@ -5,6 +5,7 @@ pub mod document;
 mod flat;
 pub mod inspection;
 mod lettering;
+pub mod methods;
 mod palette;
 pub mod picture;
 pub mod png;
