@@ -33,6 +33,9 @@ pub enum Error {
     /// Nothing to isolate.
     #[error("there is no copper {0}")]
     NoCopper(String),
+    /// A file that was cut off: what it lost would be milled away, or left to join nets.
+    #[error("{0}")]
+    Truncated(String),
     /// A side that cannot be isolated.
     #[error("{side}: {reason}")]
     Voronoi {
@@ -55,6 +58,9 @@ impl Error {
             Self::Value { .. } | Self::Import(_) => "",
             Self::NoCopper(_) => {
                 "`voromill inspect` shows what was found; --front and --back name the copper files"
+            }
+            Self::Truncated(_) => {
+                "plot or copy the file again; `voromill inspect` and `draw` show what is left of it"
             }
             Self::Voronoi { reason: voronoi::Error::NoCopper, .. } => {
                 "`voromill inspect` shows what was read; --outline names another outline"

@@ -13,6 +13,9 @@ use super::{Error, Layer, Part, Settings, Written};
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
 
+/// The one warning of the reader that forbids milling.
+const TRUNCATED: &str = "truncated-file";
+
 /// A board with everything that was made of it.
 pub struct Job {
     /// The board.
@@ -37,9 +40,16 @@ pub struct Job {
 ///
 /// # Errors
 ///
-/// [`Error`] if there is no copper, or a side of it cannot be isolated.
+/// [`Error`] if there is no copper, a file was cut off, or a side cannot be isolated.
 pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let Loaded { board, sources, mut warnings, ignored } = loaded;
+    if let Some(cut_off) = warnings.iter().find(|warning| warning.code == TRUNCATED) {
+        let place = cut_off
+            .source
+            .as_ref()
+            .map_or(String::new(), |s| format!("{}:{}:{}: ", s.file, s.line, s.column));
+        return Err(Error::Truncated(format!("{place}{}", cut_off.message)));
+    }
     let bounds = board.bounds().ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
     let front = Placement::front(settings.origin, bounds, Angle::ZERO, Vector::default());
     let layers = isolate(&board, bounds, front, settings)?;

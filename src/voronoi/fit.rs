@@ -18,8 +18,8 @@ const DIP: f64 = 2_000.0;
 const RADII: std::ops::Range<f64> = 5_000.0..1e9;
 /// The part of the tolerance that fitting uses. A point off the middle by t is nearer to one side than to the other by 2 t;
 /// with this share that difference, too, stays within the tolerance almost everywhere. Chosen: at 1, it went beyond at 12 % of
-/// the points of a dense board, at 0.65 at 1 %, for a sixth more segments.
-const SHARE: f64 = 0.65;
+/// the points of a dense board, at 0.6 at 1 %, for a sixth more segments.
+const SHARE: f64 = 0.6;
 /// A minimum is looked for at most so many vertices apart; beyond, the search would become quadratic.
 const REACH: usize = 4096;
 

@@ -131,11 +131,14 @@ fn nonsense_for_input_ends_in_a_message_and_no_file() {
     write("truncated.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%AMROUND*\n1,1,0.5,");
     write("bare.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nM02*\n");
     write("file", b"");
-    let left = ["bare.gbr", "empty.gbr", "file", "picture.gbr", "truncated.gbr"];
+    // Copper was read, and then the file ends in the middle of a command: nobody knows what was to follow.
+    write("cut-off.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nX1000000Y1000000D03*\nX30000");
+    let left = ["bare.gbr", "cut-off.gbr", "empty.gbr", "file", "picture.gbr", "truncated.gbr"];
     fails(&out, &["mill", "missing.gbr", "-o", "out"], &["missing.gbr"], &left);
     fails(&out, &["mill", "empty.gbr", "-o", "out"], &["empty.gbr", "empty"], &left);
     fails(&out, &["mill", "picture.gbr", "-o", "out"], &["picture.gbr", "PNG"], &left);
     fails(&out, &["mill", "truncated.gbr", "-o", "out"], &["truncated.gbr"], &left);
+    fails(&out, &["mill", "cut-off.gbr", "-o", "out"], &["cut-off.gbr:6:", "cut off", "hint: "], &left);
     fails(&out, &["mill", "bare.gbr", "-o", "out"], &["no copper", "hint: "], &left);
     let board = fixture("boards/blinker");
     fails(&out, &["mill", &board.to_string_lossy(), "-o", "file/out"], &["file/out", "hint: "], &left);
