@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::board::{Board, Hole};
-use crate::geometry::{Nm, Path};
+use crate::geometry::Nm;
 use crate::report::document::{
     Document, DrillEntry, Figures, GapEntry, LayerEntry, Millimetres, NetEntry, ProgramEntry, SCHEMA_VERSION,
     WarningEntry,
@@ -12,7 +12,7 @@ use crate::topology::{Gap, NetId, Nets};
 
 use super::inspect::size;
 use super::pipeline::GENERATOR;
-use super::{Job, Layer, Settings, Strategy, Written};
+use super::{Job, Layer, Settings, Written};
 
 impl Job {
     /// The report on it.
@@ -25,7 +25,7 @@ impl Job {
             size_mm: size(&self.board),
             sources: self.sources.clone(),
             ignored: self.ignored.clone(),
-            layers: self.layers.iter().map(|layer| layer.describe(&self.board, settings)).collect(),
+            layers: self.layers.iter().map(|layer| layer.describe(&self.board)).collect(),
             electrical_nets: self.electrical.as_ref().map(|electrical| electrical.nets.len()),
             drills: drills(&self.board.holes),
             programs: self.programs.iter().map(|program| program.describe(&self.board, settings)).collect(),
@@ -37,9 +37,7 @@ impl Job {
 }
 
 impl Layer {
-    fn describe(&self, board: &Board, settings: &Settings) -> LayerEntry {
-        let frame_is_cut = settings.frame && settings.strategy == Strategy::Voronoi;
-        let frame = self.diagram.frame().filter(|_| frame_is_cut);
+    fn describe(&self, board: &Board) -> LayerEntry {
         LayerEntry {
             side: self.side,
             features: board.copper(self.side).map_or(0, |copper| copper.features.len()),
@@ -48,7 +46,7 @@ impl Layer {
             boundaries: self.boundaries.edges.len(),
             junctions: self.boundaries.nodes.len(),
             boundary_length_mm: Millimetres(self.boundary_length()),
-            frame_length_mm: frame.map(|frame| Millimetres(Nm::from_f64(Path::length(frame)))),
+            frame_length_mm: self.lap.as_ref().map(|lap| Millimetres(Nm::from_f64(lap.length()))),
         }
     }
 }

@@ -1,7 +1,7 @@
 //! One side of a board: copper → nets → boundaries → what the machine does.
 
 use crate::board::{Board, Copper, Side, Warning};
-use crate::geometry::Nm;
+use crate::geometry::{Nm, Path};
 use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate};
 use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, Nets};
@@ -22,6 +22,8 @@ pub struct Layer {
     pub diagram: Diagram,
     /// The diagram's lines.
     pub boundaries: Boundaries,
+    /// The lap round the frame, where one is cut.
+    pub lap: Option<Path>,
     /// How the side lies on the machine: the back mirrored.
     pub placement: Placement,
     /// What the machine does to it.
@@ -51,14 +53,17 @@ impl Layer {
         let (boundaries, unplaced) = diagram.boundaries();
         let widened = settings.widening.map(|widening| diagram.widened(boundaries.clone(), &widening));
         let cuts = widened.as_ref().unwrap_or(&boundaries);
-        let (section, narrow) = cut(side, &nets, &diagram, cuts, &placement, settings);
+        let frame = needed_frame(&diagram, &boundaries);
+        let lap = frame.as_ref().filter(|_| settings.frame);
+        let (section, narrow) = cut(side, &nets, cuts, lap, &placement, settings);
         let mut warnings = topology::names_check(copper, &nets);
         warnings.extend_from_slice(diagram.warnings());
         warnings.extend(unplaced.into_iter().chain(narrow).map(|warning| warning.on(side)));
-        if diagram.frame().is_some() && !settings.frame && settings.strategy == Strategy::Voronoi {
+        if frame.is_some() && lap.is_none() {
             warnings.push(Warning::new("frame-not-cut", FRAME_NOT_CUT).on(side));
         }
-        Ok(Self { side, nets, gap, diagram, boundaries, placement, section, warnings })
+        let lap = lap.cloned();
+        Ok(Self { side, nets, gap, diagram, boundaries, lap, placement, section, warnings })
     }
 
     /// The length of the boundaries that isolate something.
@@ -67,6 +72,13 @@ impl Layer {
         let inner = self.boundaries.edges.iter().filter(|edge| !edge.is_border());
         Nm::from_f64(inner.map(|edge| edge.path.length()).sum())
     }
+}
+
+/// The lap without which nets that reach the frame stay joined; none where there is no frame, or none reaches it.
+fn needed_frame(diagram: &Diagram, boundaries: &Boundaries) -> Option<Path> {
+    let bare = |edge: &Boundary| edge.left == Owner::Background || edge.right == Owner::Background;
+    let reached = boundaries.edges.iter().any(|edge| edge.is_border() && !bare(edge));
+    diagram.frame().filter(|_| reached).cloned()
 }
 
 const FRAME_NOT_CUT: &str = "without an outline and without the lap round the frame, nets that reach the edge stay joined through the copper outside";
@@ -107,16 +119,17 @@ fn diagram_settings(settings: &Settings, gap: Option<&Gap>) -> voronoi::Settings
     }
 }
 
-/// The moves along all boundaries that isolate something.
+/// The moves along all boundaries that isolate something, and round the frame where one must be.
 fn cut(
     side: Side,
     nets: &Nets,
-    diagram: &Diagram,
     boundaries: &Boundaries,
+    frame: Option<&Path>,
     placement: &Placement,
     settings: &Settings,
 ) -> (Section, Vec<Warning>) {
-    let role = |boundary: &Boundary| role(boundary, diagram.frame().is_some(), settings.frame);
+    // What lies along the edge is cut with the board, or in the lap.
+    let role = |boundary: &Boundary| if boundary.is_border() { Role::Leave } else { Role::Cut };
     let name = |owner: Owner| match owner {
         Owner::Net(net) => nets.label(net),
         Owner::Background => "bare board".to_owned(),
@@ -131,16 +144,6 @@ fn cut(
         narrow: Narrow::Centre,
         adaptive: None,
     };
-    isolate(format!("isolate {side}"), boundaries, &[], role, name, &isolation)
-}
-
-/// What lies along the board's outline is cut with the board, and may be run along before; along a frame it must be
-/// cut wherever a net reaches it.
-fn role(boundary: &Boundary, framed: bool, frame_is_cut: bool) -> Role {
-    let bare = boundary.left == Owner::Background || boundary.right == Owner::Background;
-    match (boundary.is_border(), framed) {
-        (false, _) => Role::Cut,
-        (true, true) if frame_is_cut && !bare => Role::Cut,
-        (true, _) => Role::Leave,
-    }
+    let laps: Vec<Path> = frame.cloned().into_iter().collect();
+    isolate(format!("isolate {side}"), boundaries, &laps, role, name, &isolation)
 }

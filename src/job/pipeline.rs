@@ -78,8 +78,9 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
             settings,
         ));
         warnings.extend(found);
-    } else {
-        warnings.push(Warning::new("no-outline", "no outline was found: the board is not cut out"));
+    }
+    if board.outline.is_none() && !warnings.iter().any(|warning| warning.code.starts_with("outline-")) {
+        warnings.push(Warning::new("outline-missing", "no outline was named, so the board is not cut out"));
     }
     let electrical = electrical(&board, &layers);
     warnings.extend(electrical.iter().flat_map(Electrical::check));

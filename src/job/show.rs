@@ -4,6 +4,7 @@ use crate::board::Side;
 use crate::geometry::Nm;
 use crate::grid::Grid;
 use crate::report::Canvas;
+use crate::report::legend;
 use crate::report::picture::{self, Shown};
 use crate::toolpath::{Placement, Section};
 
@@ -44,10 +45,10 @@ impl Job {
         let area = picture::whole(&self.board, MARGIN)?;
         let draw = |grid: Grid| {
             let mut canvas = picture::toolpath(&shown, grid, false);
-            picture::legend(&mut canvas, &self.caption(side, settings));
+            legend::draw(&mut canvas, &self.caption(side, settings));
             canvas
         };
-        let grid = picture::with_legend(area, settings.pixel, MOST);
+        let grid = legend::grid(area, settings.pixel, MOST);
         Some(grid.map(draw).map_err(Error::from))
     }
 

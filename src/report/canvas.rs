@@ -14,6 +14,8 @@ use super::Rgb;
 pub struct Canvas {
     grid: Grid,
     pixmap: Pixmap,
+    /// Whether edges are smoothed.
+    smooth: bool,
 }
 
 impl Canvas {
@@ -22,7 +24,7 @@ impl Canvas {
     pub fn new(grid: Grid, ground: Rgb) -> Self {
         let mut pixmap = Pixmap::new(grid.width(), grid.height()).expect("a grid has pixels");
         pixmap.fill(ground.paint(1.0));
-        Self { grid, pixmap }
+        Self { grid, pixmap, smooth: true }
     }
 
     /// Its width and height in pixels.
@@ -43,8 +45,18 @@ impl Canvas {
         self.pixmap.pixels_mut()[at] = PremultipliedColorU8::from_rgba(r, g, b, u8::MAX).expect("opaque");
     }
 
-    /// Fills `shape`.
+    /// Fills `shape`: all pixels whose centres it holds, and then smoothly up to its edge.
+    ///
+    /// Planes are often hatched with strokes that just touch. Smooth edges alone would let the ground shine through
+    /// where two of them share a pixel; the whole pixels close those seams.
     pub fn fill(&mut self, shape: &Shape, colour: Rgb) {
+        for smooth in [false, true] {
+            self.smooth = smooth;
+            self.fill_once(shape, colour);
+        }
+    }
+
+    fn fill_once(&mut self, shape: &Shape, colour: Rgb) {
         match shape {
             Shape::Disc { center, radius } => self.disc(*center, *radius, colour, 1.0),
             Shape::Stroke { from, to, radius } => {
@@ -110,7 +122,8 @@ impl Canvas {
             ..Stroke::default()
         };
         let Some(line) = line.finish() else { return };
-        self.pixmap.stroke_path(&line, &paint(colour, opacity), &stroke, Transform::identity(), None);
+        let paint = self.paint(colour, opacity);
+        self.pixmap.stroke_path(&line, &paint, &stroke, Transform::identity(), None);
     }
 
     /// Strokes polylines given in pixels: lettering and rulers.
@@ -124,14 +137,16 @@ impl Canvas {
         let stroke =
             Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
         let Some(ink) = ink.finish() else { return };
-        self.pixmap.stroke_path(&ink, &paint(colour, 1.0), &stroke, Transform::identity(), None);
+        let paint = self.paint(colour, 1.0);
+        self.pixmap.stroke_path(&ink, &paint, &stroke, Transform::identity(), None);
     }
 
     /// Fills an upright rectangle given in pixels: left, top, width, height.
     pub(super) fn block(&mut self, place: [f32; 4], colour: Rgb, opacity: f32) {
         let [x, y, width, height] = place;
         if let Some(block) = tiny_skia::Rect::from_xywh(x, y, width, height) {
-            self.pixmap.fill_rect(block, &paint(colour, opacity), Transform::identity(), None);
+            let paint = self.paint(colour, opacity);
+            self.pixmap.fill_rect(block, &paint, Transform::identity(), None);
         }
     }
 
@@ -141,15 +156,17 @@ impl Canvas {
         self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
     }
 
+    fn paint(&self, colour: Rgb, opacity: f32) -> Paint<'static> {
+        let mut paint = Paint::default();
+        paint.set_color(colour.paint(opacity));
+        paint.anti_alias = self.smooth;
+        paint
+    }
+
     fn fill_path(&mut self, outline: PathBuilder, colour: Rgb, opacity: f32) {
         let Some(outline) = outline.finish() else { return };
-        self.pixmap.fill_path(
-            &outline,
-            &paint(colour, opacity),
-            FillRule::Winding,
-            Transform::identity(),
-            None,
-        );
+        let paint = self.paint(colour, opacity);
+        self.pixmap.fill_path(&outline, &paint, FillRule::Winding, Transform::identity(), None);
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "the drawing library takes f32; this is a picture")]
@@ -167,13 +184,6 @@ impl Canvas {
 fn path_of(arc: &Arc) -> Path {
     let segment = Segment::Arc { to: arc.end, center: arc.center, turn: arc.turn };
     Path { start: arc.start, segments: vec![segment] }
-}
-
-fn paint(colour: Rgb, opacity: f32) -> Paint<'static> {
-    let mut paint = Paint::default();
-    paint.set_color(colour.paint(opacity));
-    paint.anti_alias = true;
-    paint
 }
 
 impl Rgb {

@@ -4,6 +4,7 @@ mod canvas;
 pub mod document;
 mod flat;
 pub mod inspection;
+pub mod legend;
 mod lettering;
 pub mod methods;
 mod palette;

@@ -231,38 +231,3 @@ pub fn fit(area: Rect, pixel: Nm, most: i64) -> Result<Grid, GridError> {
     let longer = area.width().max(area.height());
     Grid::covering(area, pixel.max(Nm::new(longer.get() / most + 1)))
 }
-
-/// The grid of [`fit`] with room for a [`legend`] below.
-///
-/// # Errors
-///
-/// As [`Grid::covering`].
-pub fn with_legend(area: Rect, pixel: Nm, most: i64) -> Result<Grid, GridError> {
-    let room = area.width() / 30;
-    let lower = Point::new(area.min().x, area.min().y - room);
-    fit(area.union(Rect::new(lower, lower)), pixel, most)
-}
-
-/// The legend below a picture: what is what, how long 10 mm are, and `caption`.
-pub fn legend(canvas: &mut Canvas, caption: &str) {
-    let (width, height) = canvas.size();
-    let letters = (width / 110.0).clamp(7.0, 16.0);
-    let line = height - letters;
-    let mut x = letters;
-    for (colour, what) in [(COPPER, "copper"), (CUT, "cut"), (HOLE, "hole")] {
-        canvas.block([x, line - letters, letters, letters], colour, 1.0);
-        x += letters * 1.6;
-        x += write(canvas, what, letters, x, line) + letters * 1.4;
-    }
-    let bar = canvas.grid().pixels(Nm::from_mm(10));
-    canvas.block([x, line - letters * 0.6, bar, letters * 0.2], INK, 1.0);
-    x += bar + letters * 0.6;
-    x += write(canvas, "10 mm", letters, x, line) + letters * 2.0;
-    write(canvas, caption, letters, x, line);
-}
-
-fn write(canvas: &mut Canvas, text: &str, height: f32, x: f32, y: f32) -> f32 {
-    let line = Lettering { text, height, colour: INK };
-    line.draw(canvas, x, y);
-    line.width()
-}

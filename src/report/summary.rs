@@ -1,6 +1,5 @@
 //! The report as a person reads it in ten seconds.
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::document::{Document, Figures, WarningEntry};
@@ -57,20 +56,24 @@ impl Document {
     }
 }
 
-/// The warnings, of each kind the first few unless `verbose`.
+/// The warnings by kind, of each the first few unless `verbose`.
 pub(super) fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
     let mut text = if warnings.is_empty() { String::new() } else { "\n".to_owned() };
-    let mut seen: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut kinds: Vec<&str> = Vec::new();
     for warning in warnings {
-        let times = seen.entry(warning.code).or_default();
-        *times += 1;
-        if verbose || *times <= SHOWN {
-            let _ = writeln!(text, "  warning: {}{} [{}]", place(warning), warning.message, warning.code);
+        if !kinds.contains(&warning.code) {
+            kinds.push(warning.code);
         }
     }
-    if !verbose {
-        for (code, times) in seen.iter().filter(|(_, times)| **times > SHOWN) {
-            let _ = writeln!(text, "  warning: {} more [{code}]; -v shows all", times - SHOWN);
+    for code in kinds {
+        let shown = if verbose { usize::MAX } else { SHOWN };
+        let same = || warnings.iter().filter(|warning| warning.code == code);
+        for warning in same().take(shown) {
+            let _ = writeln!(text, "  warning: {}{} [{code}]", place(warning), warning.message);
+        }
+        let rest = same().count().saturating_sub(shown);
+        if rest > 0 {
+            let _ = writeln!(text, "  warning: {rest} more [{code}]; -v shows all");
         }
     }
     text
