@@ -20,9 +20,14 @@ const LARGEST: f32 = 18.0;
 /// As [`Grid::covering`].
 pub fn grid(area: Rect, pixel: Nm, most: i64) -> Result<Grid, GridError> {
     let bare = picture::fit(area, pixel, most)?;
-    let room = bare.pitch() * i64::from(bare.width() / 14).max(60);
+    let room = bare.pitch() * i64::from(room(bare.width()));
     let lower = Point::new(area.min().x, area.min().y - room);
     picture::fit(area.union(Rect::new(lower, lower)), pixel, most)
+}
+
+/// The height of the legend below a picture of this width, in pixels.
+fn room(width: u32) -> u32 {
+    (width / 14).max(60)
 }
 
 /// Draws it: two lines, on ground.
@@ -30,7 +35,9 @@ pub fn draw(canvas: &mut Canvas, caption: &str) {
     let (width, height) = canvas.size();
     let letters = (width / PART).clamp(SMALLEST, LARGEST);
     let (first, second) = (height - letters * 3.2, height - letters);
-    canvas.block([0.0, first - letters * 2.0, width, height - first + letters * 2.0], GROUND, 1.0);
+    #[expect(clippy::cast_precision_loss, reason = "a part of a picture's width")]
+    let top = height - room(canvas.grid().width()) as f32;
+    canvas.block([0.0, top, width, height - top], GROUND, 1.0);
     let mut x = letters;
     for (colour, what) in [(COPPER, "copper"), (CUT, "cut"), (HOLE, "hole")] {
         canvas.block([x - 1.0, first - letters - 1.0, letters + 2.0, letters + 2.0], INK, 0.35);
