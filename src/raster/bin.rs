@@ -1,8 +1,8 @@
 use super::block::{Block, Extent, LANES, SIDE};
 use super::cell::Cell;
 use super::half_plane::Cover;
-use super::mosaic::Mosaic;
-use super::primitive::{Part, Primitive, Reach, Shape};
+use super::mosaic::{Cuts, Mosaic};
+use super::primitive::{Part, Primitive, Shape};
 use super::{Label, Scene};
 
 /// The primitives that may be seen in a cell: the bin of the cell.
@@ -12,21 +12,55 @@ use super::{Label, Scene};
 /// Both lists run in the order of labels. What is not in them has no visible fragment in the cell.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Bin {
-    shapes: Vec<Candidate>,
-    parts: Vec<Part>,
-    part_reaches: Vec<Reach>,
-    edges: Vec<u32>,
-    near: f64,
-    far: f64,
+    pub shapes: Vec<Candidate>,
+    pub parts: Vec<Part>,
+    /// The edges of the parts.
+    pub edges: Vec<u32>,
+    /// No fragment is nearer, and none that is seen is deeper; infinite where something may not be covered.
+    near: f32,
+    far: f32,
     /// Whether what lies behind is kept, too: for blending, where nothing hides anything.
-    sees_through: bool,
+    pub sees_through: bool,
 }
 
+/// A primitive that may be seen in a cell, and what is known of its depth there.
 #[derive(Clone, Copy, Debug)]
-struct Candidate {
-    primitive: u32,
-    whole: bool,
-    near: f64,
+pub(super) struct Candidate {
+    pub primitive: u32,
+    /// No fragment is nearer than this nor than 0.
+    pub near: f32,
+    /// And none is deeper than the larger of this and 0, where it covers the whole cell; else infinite.
+    pub far: f32,
+    /// How its depth changes a pixel along x and y in the middle of the cell, infinite where that is not known; and
+    /// how much that may change a pixel.
+    pub way: (f32, f32),
+    pub curve: f32,
+}
+
+const _: () = assert!(size_of::<Candidate>() == 24, "six words");
+
+impl Candidate {
+    const UNKNOWN: Self = Self {
+        primitive: 0,
+        near: 0.0,
+        far: f32::INFINITY,
+        way: (f32::INFINITY, f32::INFINITY),
+        curve: f32::INFINITY,
+    };
+
+    /// Whether it lies behind `other` everywhere in a cell whose samples lie within `radius` of its middle.
+    ///
+    /// Both depths in the middle are known up to the radius that `near` and `far` allow for. From there a convex
+    /// distance grows no slower than its plane says, and no faster than its plane and its curve say. That tells sites
+    /// apart that lie the same way, where the radius alone would not: |d₁ − d₂| > |g₁ − g₂| r + r² / 2 d₂.
+    fn lies_behind(&self, other: &Self, radius: f32) -> bool {
+        let (x, y) = (self.way.0 - other.way.0, self.way.1 - other.way.1);
+        let apart = self.near - other.far + 2.0 * radius;
+        // A few roundings of a unit vector each.
+        let turned = (x * x + y * y).sqrt() + 1e-5;
+        // Where the other is at depth 0, only its being nearer than this one's bound counts.
+        self.near > 0.0 && apart > radius * turned + radius * radius * 0.5 * other.curve * 1.001
+    }
 }
 
 impl Bin {
@@ -34,7 +68,7 @@ impl Bin {
     pub(super) fn root(scene: &Scene, picture: Cell) -> Self {
         let mut order: Vec<_> = (0..).zip(&scene.primitives).map(|(index, p)| (p.label, index)).collect();
         order.sort_unstable();
-        let mut bin = Self { near: f64::NEG_INFINITY, far: f64::INFINITY, ..Self::default() };
+        let mut bin = Self { near: f32::NEG_INFINITY, far: f32::INFINITY, ..Self::default() };
         for (_, primitive) in order {
             let shape = &scene.primitives[index(primitive)].shape;
             if let Shape::Polygon(polygon) = shape {
@@ -44,7 +78,7 @@ impl Bin {
                 let edges = begin..bin.edges.len();
                 bin.parts.push(Part { primitive, winding: polygon.winding(x, y), edges });
             } else {
-                bin.shapes.push(Candidate { primitive, whole: false, near: 0.0 });
+                bin.shapes.push(Candidate { primitive, ..Candidate::UNKNOWN });
             }
         }
         bin
@@ -55,44 +89,31 @@ impl Bin {
         Self { sees_through: true, ..self }
     }
 
-    /// Becomes the bin of `cell`, given that of a cell `around` it.
-    ///
-    /// A primitive that covers the whole cell no deeper than `far` hides all that lie entirely behind. Only what is
-    /// strictly behind goes: a tie is decided pixel by pixel.
-    pub(super) fn narrow(&mut self, scene: &Scene, from: &Self, around: Cell, cell: Cell) {
+    /// Empties it, to be filled from `from`.
+    pub(super) fn clear(&mut self, from: &Self) {
         self.shapes.clear();
         self.parts.clear();
-        self.part_reaches.clear();
         self.edges.clear();
-        (self.near, self.far, self.sees_through) = (f64::INFINITY, f64::INFINITY, from.sees_through);
-        for part in &from.parts {
-            let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape else { continue };
-            if let Some((part, reach)) = polygon.narrow(part, &from.edges, around, cell, &mut self.edges) {
-                self.near = self.near.min(reach.near);
-                self.far = self.far.min(reach.far);
-                self.parts.push(part);
-                self.part_reaches.push(reach);
-            }
-        }
-        for candidate in &from.shapes {
-            if candidate.near > self.far && !self.sees_through {
-                continue;
-            }
-            let Some(reach) = scene.primitives[index(candidate.primitive)].shape.reach(cell) else {
-                continue;
+        self.sees_through = from.sees_through;
+    }
+
+    /// Lets go of all that lies behind `hidden`, and behind the nearest candidate in a cell of this radius.
+    pub(super) fn settle(&mut self, scene: &Scene, hidden: f32, radius: f32) {
+        let depth = |part: &Part| match &scene.primitives[index(part.primitive)].shape {
+            Shape::Polygon(polygon) => polygon.depth(),
+            _ => f32::INFINITY,
+        };
+        let nearest = self.shapes.iter().copied().min_by(|a, b| a.far.total_cmp(&b.far));
+        if let Some(nearest) = nearest {
+            let behind = |candidate: &Candidate| {
+                !self.sees_through && nearest.far < f32::INFINITY && candidate.lies_behind(&nearest, radius)
             };
-            if reach.near > self.far && !self.sees_through {
-                continue;
-            }
-            self.near = self.near.min(reach.near);
-            self.far = self.far.min(reach.far);
-            let whole = reach.cover == Cover::Whole;
-            self.shapes.push(Candidate { primitive: candidate.primitive, whole, near: reach.near });
+            self.shapes.retain(|candidate| candidate.near.max(0.0) <= hidden && !behind(candidate));
         }
-        let far = if self.sees_through { f64::INFINITY } else { self.far };
-        self.shapes.retain(|candidate| candidate.near <= far);
-        let mut reaches = self.part_reaches.iter();
-        self.parts.retain(|_| reaches.next().is_some_and(|reach| reach.near <= far));
+        self.parts.retain(|part| depth(part) <= hidden);
+        let shapes = self.shapes.iter().map(|candidate| candidate.near.max(0.0));
+        self.near = shapes.chain(self.parts.iter().map(depth)).fold(f32::INFINITY, f32::min);
+        self.far = hidden;
     }
 
     /// The one owner of every pixel of the cell, where that is certain, and certain that no pixel lies at a depth
@@ -101,9 +122,9 @@ impl Bin {
         let mut candidates = self.primitives();
         let Some(first) = candidates.next() else { return Some(scene.owner(Label::BACKGROUND)) };
         let owner = scene.owner(scene.primitives[index(first)].label);
-        let covered = self.far < f64::INFINITY;
+        let covered = self.far < f32::INFINITY;
         let alone = candidates.all(|other| scene.owner(scene.primitives[index(other)].label) == owner);
-        let crossed = levels.iter().any(|&level| (self.near..=self.far).contains(&f64::from(level)));
+        let crossed = levels.iter().any(|&level| (self.near..=self.far).contains(&level));
         (covered && alone && !crossed).then_some(owner)
     }
 
@@ -115,45 +136,8 @@ impl Bin {
             .chain(self.parts.iter().map(|part| part.primitive))
     }
 
-    /// Whether the cell can be drawn as a mosaic: few enough edges that every block can look at all.
-    fn is_ripe(&self, cell: Cell) -> bool {
-        let fits = cell.width.max(cell.height) <= Mosaic::SIDE;
-        let bare = self.edges.len() <= 16 || cell.width.max(cell.height) <= SIDE;
-        fits && bare
-    }
-
-    /// Becomes the bin of a block of the mosaic that was drawn for `around` and its bin `from`.
-    fn narrow_to_block(
-        &mut self,
-        scene: &Scene,
-        from: &Self,
-        around: Cell,
-        mosaic: &Mosaic,
-        (row, column, block): (usize, usize, Cell),
-    ) {
-        self.shapes.clear();
-        self.parts.clear();
-        self.edges.clear();
-        let hidden = mosaic.hidden(row, column);
-        let mut far = hidden;
-        for part in &from.parts {
-            let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape else { continue };
-            if let Some((part, reach)) = polygon.narrow(part, &from.edges, around, block, &mut self.edges) {
-                if reach.cover == Cover::Whole {
-                    far = far.min(polygon.depth());
-                }
-                if polygon.depth() <= hidden {
-                    self.parts.push(part);
-                }
-            }
-        }
-        for (number, candidate) in from.shapes.iter().enumerate() {
-            let (near, deepest) = mosaic.depths(number, row, column);
-            if near <= far && near < f32::INFINITY {
-                let whole = deepest < f32::INFINITY;
-                self.shapes.push(Candidate { primitive: candidate.primitive, whole, near: 0.0 });
-            }
-        }
+    fn len(&self) -> usize {
+        self.shapes.len() + self.parts.len()
     }
 
     /// Draws each primitive alone on a block for `cell`; `drawn` gets them in the order of labels.
@@ -197,7 +181,7 @@ impl Bin {
                 (shapes, _) => !shapes.is_empty(),
             };
             if let (true, [candidate, rest @ ..]) = (shape_first, shapes) {
-                let cover = if candidate.whole { Cover::Whole } else { Cover::Part };
+                let cover = if candidate.far < f32::INFINITY { Cover::Whole } else { Cover::Part };
                 let primitive = &scene.primitives[index(candidate.primitive)];
                 primitive.shape.draw(primitive.label, cover, first, block);
                 shapes = rest;
@@ -219,54 +203,61 @@ impl Bin {
             (Some(shape), Some(part)) if label(part.primitive) < label(shape.primitive) => {
                 part.edges.is_empty()
             }
-            (Some(shape), _) => shape.whole && scene.primitives[index(shape.primitive)].shape.fills(),
+            (Some(shape), _) => {
+                shape.far < f32::INFINITY && scene.primitives[index(shape.primitive)].shape.fills()
+            }
             (None, Some(part)) => part.edges.is_empty(),
             (None, None) => false,
         }
     }
 }
 
+/// Pixels along a side of a cell that is cut into blocks; a larger one is cut into cells first.
+const CELL: i32 = 160;
+
+const _: () = assert!(CELL / LANES <= SIDE, "a piece of a cell fits a block");
+
+/// Pixels along a side of the pieces that a cell `side` pixels long is cut into, and how many candidates one of them
+/// may have to be drawn as it is. Measured: see the module's doc.
+const fn grain(side: i32) -> (i32, usize) {
+    match side {
+        ..=8 => (8, usize::MAX),
+        ..=24 => (8, usize::MAX),
+        ..=SIDE => (16, 6),
+        ..=CELL => (16, 6),
+        _ => (CELL, 0),
+    }
+}
+
 /// Draws cells; owns the memory that takes.
 pub(super) struct Painter {
     block: Block,
-    mosaic: Mosaic,
-    /// The bin of a block.
-    bin: Bin,
-    /// Bins of the cells on the way down.
-    bins: Vec<Bin>,
+    pub mosaic: Mosaic,
+    /// What a level of the way down needs.
+    levels: Vec<(Cuts, Vec<Bin>)>,
 }
 
 impl Painter {
     pub(super) fn new() -> Self {
-        Self { block: Block::new(), mosaic: Mosaic::new(), bin: Bin::default(), bins: Vec::new() }
+        Self { block: Block::new(), mosaic: Mosaic::new(), levels: Vec::new() }
     }
 
     /// Draws the cell whose bin is `bin`; `finished` gets it in blocks.
     pub(super) fn paint(&mut self, scene: &Scene, bin: &Bin, cell: Cell, finished: &mut impl FnMut(&Block)) {
-        if bin.is_ripe(cell) {
-            self.paint_mosaic(scene, bin, cell, finished);
-            return;
+        let (mut cuts, mut bins) = self.levels.pop().unwrap_or_default();
+        let (pieces, few) = grain(cell.width.max(cell.height));
+        cuts.even(cell, pieces);
+        self.mosaic.split(scene, bin, cell, &cuts, &mut bins);
+        for (piece, bin) in cuts.cells().zip(&bins) {
+            if bin.len() <= few {
+                self.block.place(piece);
+                bin.draw(scene, &mut self.block);
+                finished(&self.block);
+            } else {
+                self.paint(scene, bin, piece, finished);
+            }
         }
-        for quarter in cell.quarters(LANES) {
-            let mut own = self.bins.pop().unwrap_or_default();
-            own.narrow(scene, bin, cell, quarter);
-            self.paint(scene, &own, quarter, finished);
-            self.bins.push(own);
-        }
-    }
-
-    fn paint_mosaic(&mut self, scene: &Scene, bin: &Bin, cell: Cell, finished: &mut impl FnMut(&Block)) {
-        let Self { block, mosaic, bin: own, .. } = self;
-        mosaic.draw(
-            cell,
-            bin.shapes.iter().map(|candidate| &scene.primitives[index(candidate.primitive)].shape),
-        );
-        for place in mosaic.blocks() {
-            own.narrow_to_block(scene, bin, cell, mosaic, place);
-            block.place(place.2);
-            own.draw(scene, block);
-            finished(block);
-        }
+        self.levels.push((cuts, bins));
     }
 }
 

@@ -4,8 +4,9 @@ use rayon::prelude::*;
 
 use super::Scene;
 use super::bin::Bin;
-use super::block::{Block, LANES, SIDE, count};
+use super::block::{Block, SIDE, count};
 use super::cell::Cell;
+use super::mosaic::{Cuts, Mosaic};
 use super::node::signed;
 
 /// A rectangle of pixels of the picture.
@@ -104,12 +105,12 @@ fn layered<P: Copy + Send + Sync>(
     let tops: Vec<_> = (cell.y..cell.y + cell.height).step_by(count(SIDE)).collect();
     let bands = pixels.par_chunks_mut(stride * count(SIDE)).zip(tops);
     bands.for_each(|(pixels, y)| {
-        let band = Cell { y, height: signed(height) - (y - cell.y), ..cell };
-        let band = Cell { height: band.height.min(SIDE), ..band };
-        let mut bin = Bin::default();
-        bin.narrow(scene, &root, cell, band);
-        let mut painter = Layers { scene, block: Block::new(), layers: Vec::new() };
-        painter.halve(&bin, band, &mut |block, at, layers| {
+        let band = Cell { y, height: (signed(height) - (y - cell.y)).min(SIDE), ..cell };
+        let mut layers = Layers { scene, block: Block::new(), mosaic: Mosaic::new(), layers: Vec::new() };
+        let whole = Cuts { columns: vec![(band.x, band.width)], rows: vec![(band.y, band.height)] };
+        let mut bins = Vec::new();
+        layers.mosaic.split(scene, &root, cell, &whole, &mut bins);
+        layers.paint(&bins[0], band, &mut |block, at, layers| {
             let index = count(block.y - band.y) * stride + count(block.x - band.x);
             pixels[index + at.1 * stride + at.0] = shade(layers);
         });
@@ -121,30 +122,29 @@ fn layered<P: Copy + Send + Sync>(
 struct Layers<'a> {
     scene: &'a Scene,
     block: Block,
+    mosaic: Mosaic,
     /// For each pixel of a block.
     layers: Vec<Vec<Layer>>,
 }
 
 impl Layers<'_> {
-    /// Cuts a band in two until it is small enough to be drawn.
-    fn halve(&mut self, bin: &Bin, cell: Cell, done: &mut impl FnMut(Cell, (usize, usize), &mut Vec<Layer>)) {
+    /// Cuts a cell until it is small enough, and draws it.
+    fn paint(&mut self, bin: &Bin, cell: Cell, done: &mut impl FnMut(Cell, (usize, usize), &mut Vec<Layer>)) {
         if cell.width <= SIDE {
-            self.paint(bin, cell, done);
+            self.draw(bin, cell, done);
             return;
         }
-        let left = (cell.width / 2 + LANES - 1) / LANES * LANES;
-        for half in
-            [Cell { width: left, ..cell }, Cell { x: cell.x + left, width: cell.width - left, ..cell }]
-        {
-            let mut own = Bin::default();
-            own.narrow(self.scene, bin, cell, half);
-            self.halve(&own, half, done);
+        let (mut cuts, mut bins) = (Cuts::default(), Vec::new());
+        cuts.even(cell, SIDE);
+        self.mosaic.split(self.scene, bin, cell, &cuts, &mut bins);
+        for (piece, bin) in cuts.cells().zip(&bins) {
+            self.paint(bin, piece, done);
         }
     }
 
-    fn paint(&mut self, bin: &Bin, cell: Cell, done: &mut impl FnMut(Cell, (usize, usize), &mut Vec<Layer>)) {
+    fn draw(&mut self, bin: &Bin, cell: Cell, done: &mut impl FnMut(Cell, (usize, usize), &mut Vec<Layer>)) {
         let width = count(cell.width);
-        let Self { scene, block, layers } = self;
+        let Self { scene, block, layers, .. } = self;
         layers.iter_mut().for_each(Vec::clear);
         layers.resize(width * count(cell.height), Vec::new());
         bin.draw_each(scene, cell, block, |label, block| {

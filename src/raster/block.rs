@@ -28,6 +28,27 @@ pub(super) trait Field {
 
     /// The depth at `x`; never NaN, never −0.
     fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S>;
+
+    /// How it lies around `x`, as far as `radius` pixels away.
+    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, radius: Lanes<S>) -> Slope<S>;
+
+    /// How many pixels `x` lies outside of what the surface covers; negative inside, by as much.
+    #[inline(always)]
+    fn beyond<S: Simd>(_row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        x.all(f32::NEG_INFINITY)
+    }
+}
+
+/// How a surface lies around a place: what bounds its depth in a piece of a mosaic.
+#[derive(Clone, Copy)]
+pub(super) struct Slope<S: Simd> {
+    /// Its depth is nowhere less than `near` + `way` · h, at a place h pixels away.
+    pub near: Lanes<S>,
+    /// And nowhere more than the larger of 0 and `far` + `way` · h + `curve` · h² / 2, nor than `far` + |h|.
+    pub far: Lanes<S>,
+    /// Along x and y; infinite where there is no such plane: then `near` − |h| is the bound.
+    pub way: (Lanes<S>, Lanes<S>),
+    pub curve: Lanes<S>,
 }
 
 /// Which pixels of a block a surface is laid on.
@@ -135,40 +156,36 @@ impl<F: Field> WithSimd for Lay<'_, F> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let label = simd.splat_u32s(self.label.0);
-        let rows = self.depths.chunks_exact_mut(self.stride).zip(self.labels.chunks_exact_mut(self.stride));
-        let rows = (self.cell.y..).zip(rows);
-        let first = self.cell.x;
-        match self.extent {
-            Extent::First => {
-                for (y, (depths, labels)) in rows {
-                    let row = self.field.row(simd, position(y));
-                    along(simd, first, depths, labels, |x, old_depth, old_label| {
-                        *old_depth = F::depth(row, x).value;
-                        *old_label = label;
-                    });
-                }
-            }
-            Extent::Whole => {
-                for (y, (depths, labels)) in rows {
-                    let row = self.field.row(simd, position(y));
-                    along(simd, first, depths, labels, |x, old_depth, old_label| {
-                        let depth = F::depth(row, x);
-                        let closer = depth.less(Lanes::new(simd, *old_depth)).value;
-                        *old_depth = simd.select_f32s(closer, depth.value, *old_depth);
-                        *old_label = simd.select_u32s(closer, label, *old_label);
-                    });
-                }
-            }
-            Extent::Part(columns, limit) => {
-                let limit = Lanes::splat(simd, limit);
-                for ((y, (depths, labels)), columns) in rows.zip(columns) {
-                    if columns.is_empty() {
+        let Self { field, extent, cell, stride, mut depths, mut labels, .. } = self;
+        let mut columns = match extent {
+            Extent::Part(columns, _) => columns.iter(),
+            Extent::First | Extent::Whole => [].iter(),
+        };
+        // Split row by row: chunks of a length not known beforehand would cost a division each time.
+        for y in cell.y..cell.y + cell.height {
+            let (row_depths, row_labels);
+            (row_depths, depths) = depths.split_at_mut(stride);
+            (row_labels, labels) = labels.split_at_mut(stride);
+            let row = field.row(simd, position(y));
+            match extent {
+                Extent::First => along(simd, cell.x, row_depths, row_labels, |x, old_depth, old_label| {
+                    *old_depth = F::depth(row, x).value;
+                    *old_label = label;
+                }),
+                Extent::Whole => along(simd, cell.x, row_depths, row_labels, |x, old_depth, old_label| {
+                    let depth = F::depth(row, x);
+                    let closer = depth.less(Lanes::new(simd, *old_depth)).value;
+                    *old_depth = simd.select_f32s(closer, depth.value, *old_depth);
+                    *old_label = simd.select_u32s(closer, label, *old_label);
+                }),
+                Extent::Part(_, limit) => {
+                    let Some(columns) = columns.next().filter(|columns| !columns.is_empty()) else {
                         continue;
-                    }
-                    let row = self.field.row(simd, position(y));
+                    };
+                    let limit = Lanes::splat(simd, limit);
                     let from = Lanes::splat(simd, position(columns.start));
                     let to = Lanes::splat(simd, position(columns.end));
-                    along(simd, first, depths, labels, |x, old_depth, old_label| {
+                    along(simd, cell.x, row_depths, row_labels, |x, old_depth, old_label| {
                         let depth = F::depth(row, x);
                         let inside = from.at_most(x).and(x.less(to)).and(depth.at_most(limit));
                         let closer = depth.less(Lanes::new(simd, *old_depth)).and(inside).value;

@@ -14,14 +14,6 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// Its part inside a picture of `width` × `height` pixels, none where they do not meet.
-    pub(super) fn within(self, width: i32, height: i32) -> Option<Self> {
-        let (x, y) = (self.x.max(0), self.y.max(0));
-        let right = (self.x + self.width).min(width);
-        let bottom = (self.y + self.height).min(height);
-        (x < right && y < bottom).then(|| Self { x, y, width: right - x, height: bottom - y })
-    }
-
     /// The sample of its top left pixel, in steps.
     pub(super) const fn first(self) -> (i32, i32) {
         (sample(self.x), sample(self.y))
@@ -46,22 +38,5 @@ impl Cell {
     pub(super) fn radius(self) -> f64 {
         let (x, y) = self.half_size();
         (x * x + y * y).sqrt()
-    }
-
-    /// Its four quarters, in reading order, cut at multiples of `grain` from its corner; two or one where it is thin.
-    pub(super) fn quarters(self, grain: i32) -> impl Iterator<Item = Self> {
-        let split = |length: i32| {
-            let cut = (length + 2 * grain - 1) / (2 * grain) * grain;
-            if cut < length { [Some((0, cut)), Some((cut, length - cut))] } else { [Some((0, length)), None] }
-        };
-        let (columns, rows) = (split(self.width), split(self.height));
-        rows.into_iter().flatten().flat_map(move |(down, height)| {
-            columns.into_iter().flatten().map(move |(along, width)| Self {
-                x: self.x + along,
-                y: self.y + down,
-                width,
-                height,
-            })
-        })
     }
 }

@@ -1,4 +1,4 @@
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Div, Mul, Sub};
 
 use pulp::Simd;
 
@@ -30,6 +30,12 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub(super) const fn new(simd: S, value: S::f32s) -> Self {
         Self { simd, value }
+    }
+
+    /// Another number in every lane.
+    #[inline(always)]
+    pub(super) fn all(self, number: f32) -> Self {
+        Self::splat(self.simd, number)
     }
 
     #[inline(always)]
@@ -99,5 +105,13 @@ impl<S: Simd> Mul for Lanes<S> {
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self { value: self.simd.mul_f32s(self.value, other.value), ..self }
+    }
+}
+
+impl<S: Simd> Div for Lanes<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Self { value: self.simd.div_f32s(self.value, other.value), ..self }
     }
 }

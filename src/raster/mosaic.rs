@@ -1,154 +1,228 @@
 use pulp::{Arch, Simd, WithSimd};
 
+use super::Scene;
+use super::bin::{Bin, Candidate, index};
 use super::block::{Field, LANES};
 use super::cell::Cell;
-use super::half_plane::Cover;
 use super::lanes::Lanes;
 use super::primitive::{Reach, SLACK, Shape};
 
-/// Blocks along a side of the largest mosaic: as many as a processor works on at once.
-const ACROSS: usize = LANES as usize;
+/// Pieces along a side of the largest mosaic: as many as a processor works on at once.
+pub(super) const ACROSS: usize = LANES as usize;
 
-/// Pixels along a side of a block. Measured: see the module's doc.
-const GRAIN: i32 = 16;
-
-/// One number for each block in a row of blocks.
-type Across = [f32; ACROSS];
+/// One number for each piece in a row of pieces.
+pub(super) type Across = [f32; ACROSS];
 
 const NOWHERE: Across = [f32::INFINITY; ACROSS];
 
-/// A cell cut into blocks, and for each surface how deep it lies in each block.
-///
-/// It is a coarse picture of the cell, drawn by the same formulas that draw the fine one: one sample in the middle
-/// of each block, and the block's radius as the doubt.
-pub(super) struct Mosaic {
-    arch: Arch,
-    /// Where blocks begin, and how long they are.
-    columns: Vec<(i32, i32)>,
-    rows: Vec<(i32, i32)>,
-    /// The middles of the columns and rows of blocks in steps, and how far a sample lies from the middle of its
-    /// block at most, in pixels.
-    xs: Across,
-    ys: Vec<f32>,
-    radius: f32,
-    /// For each surface and row of blocks: no fragment in the block is nearer; infinite where there is none.
-    near: Vec<Across>,
-    /// And none is deeper, where the surface covers all of the block; else infinite.
-    far: Vec<Across>,
-    /// For each row of blocks the least `far` of all surfaces.
-    hidden: Vec<Across>,
+/// Candidates beyond which a split looks at some of them first. Chosen: 64 bins of so many are 400 KiB.
+const MANY: usize = 512;
+
+/// Where a cell is cut: columns and rows of pieces, each with its first pixel and its length. Pieces may overlap.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Cuts {
+    pub columns: Vec<(i32, i32)>,
+    pub rows: Vec<(i32, i32)>,
 }
 
-impl Mosaic {
-    /// Pixels along a side of the largest cell.
-    pub(super) const SIDE: i32 = GRAIN * LANES;
-
-    pub(super) fn new() -> Self {
-        Self {
-            arch: Arch::new(),
-            columns: Vec::new(),
-            rows: Vec::new(),
-            xs: [0.0; ACROSS],
-            ys: Vec::new(),
-            radius: 0.0,
-            near: Vec::new(),
-            far: Vec::new(),
-            hidden: Vec::new(),
-        }
-    }
-
-    /// Draws the coarse picture of `cell`, at most [`Mosaic::SIDE`] wide and high.
-    pub(super) fn draw<'a>(&mut self, cell: Cell, shapes: impl Iterator<Item = &'a Shape>) {
-        self.cut(cell);
-        for shape in shapes {
-            self.add(shape, cell);
-        }
-    }
-
-    fn cut(&mut self, cell: Cell) {
+impl Cuts {
+    /// Cuts a cell into pieces of about `grain` pixels, or of an eighth of its side if that is more; columns are cut
+    /// at multiples of [`LANES`] from its left.
+    pub(super) fn even(&mut self, cell: Cell, grain: i32) {
         let pieces = |from: i32, length: i32, multiple: i32, out: &mut Vec<(i32, i32)>| {
-            let count = (length + GRAIN - 1) / GRAIN;
+            let count = ((length + grain - 1) / grain).clamp(1, LANES);
             let step = ((length + count - 1) / count + multiple - 1) / multiple * multiple;
             out.clear();
             out.extend(
-                (0..count)
-                    .map(|i| i * step)
-                    .filter(|&at| at < length)
-                    .map(|at| (from + at, step.min(length - at))),
+                (0..length).step_by(super::block::count(step)).map(|at| (from + at, step.min(length - at))),
             );
         };
         pieces(cell.x, cell.width, LANES, &mut self.columns);
         pieces(cell.y, cell.height, 1, &mut self.rows);
-        for (x, &(from, length)) in self.xs.iter_mut().zip(&self.columns) {
+    }
+
+    /// The pieces in reading order.
+    pub(super) fn cells(&self) -> impl Iterator<Item = Cell> {
+        self.rows
+            .iter()
+            .flat_map(|&(y, height)| self.columns.iter().map(move |&(x, width)| Cell { x, y, width, height }))
+    }
+}
+
+/// How a surface lies in the pieces of a mosaic, row by row: see [`Candidate`] for what each says.
+#[derive(Clone, Copy)]
+struct Weights {
+    near: [Across; ACROSS],
+    far: [Across; ACROSS],
+    way_x: [Across; ACROSS],
+    way_y: [Across; ACROSS],
+    curve: [Across; ACROSS],
+}
+
+impl Weights {
+    /// Of a surface that has no fragment anywhere.
+    const NOWHERE: Self = Self {
+        near: [NOWHERE; ACROSS],
+        far: [NOWHERE; ACROSS],
+        way_x: [NOWHERE; ACROSS],
+        way_y: [NOWHERE; ACROSS],
+        curve: [NOWHERE; ACROSS],
+    };
+}
+
+/// Cuts the bin of a cell into bins of its pieces.
+///
+/// It draws a coarse picture of the cell with the formulas that draw the fine one: one sample in the middle of each
+/// piece, and the piece's radius as the doubt. So a candidate is weighed for 64 pieces by as many instructions as
+/// drawing 64 pixels takes.
+pub(super) struct Mosaic {
+    arch: Arch,
+    /// The middles of the columns and rows of pieces, in steps.
+    xs: Across,
+    ys: Across,
+    /// How far a sample lies from the middle of its piece at most, in pixels.
+    radius: f32,
+    weights: Weights,
+    /// The depth beyond which nothing is seen in each piece.
+    hidden: [Across; ACROSS],
+}
+
+impl Mosaic {
+    pub(super) fn new() -> Self {
+        Self {
+            arch: Arch::new(),
+            xs: [0.0; ACROSS],
+            ys: [0.0; ACROSS],
+            radius: 0.0,
+            weights: Weights::NOWHERE,
+            hidden: [NOWHERE; ACROSS],
+        }
+    }
+
+    /// Makes `bins`, from the first on, the bins of the pieces that `cuts` makes of `around`, whose bin is `from`.
+    ///
+    /// A primitive that covers a whole piece no deeper than `far` hides all that lie entirely behind. Only what is
+    /// strictly behind goes: a tie is decided pixel by pixel.
+    pub(super) fn split(
+        &mut self,
+        scene: &Scene,
+        from: &Bin,
+        around: Cell,
+        cuts: &Cuts,
+        bins: &mut Vec<Bin>,
+    ) {
+        let count = cuts.columns.len() * cuts.rows.len();
+        if bins.len() < count {
+            bins.resize_with(count, Bin::default);
+        }
+        let bins = &mut bins[..count];
+        bins.iter_mut().for_each(|bin| bin.clear(from));
+        self.place(cuts);
+        self.split_parts(scene, from, around, cuts, bins);
+        if from.shapes.len() > MANY {
+            for candidate in from.shapes.iter().step_by(from.shapes.len() / (MANY / 2)) {
+                self.weigh(
+                    &scene.primitives[index(candidate.primitive)].shape,
+                    around,
+                    cuts,
+                    from.sees_through,
+                );
+            }
+        }
+        for candidate in &from.shapes {
+            self.weigh(&scene.primitives[index(candidate.primitive)].shape, around, cuts, from.sees_through);
+            self.hand_out(candidate.primitive, cuts, bins);
+        }
+        let hidden = self.hidden.iter().flat_map(|row| &row[..cuts.columns.len()]);
+        for (bin, &hidden) in bins.iter_mut().zip(hidden) {
+            bin.settle(scene, hidden, self.radius);
+        }
+    }
+
+    fn place(&mut self, cuts: &Cuts) {
+        for (x, &(from, length)) in self.xs.iter_mut().zip(&cuts.columns) {
             *x = middle(from, length);
         }
-        self.ys.clear();
-        self.ys.extend(self.rows.iter().map(|&(from, length)| middle(from, length)));
-        let largest = Cell { x: 0, y: 0, width: self.columns[0].1, height: self.rows[0].1 };
+        for (y, &(from, length)) in self.ys.iter_mut().zip(&cuts.rows) {
+            *y = middle(from, length);
+        }
+        let longest = |pieces: &[(i32, i32)]| pieces.iter().map(|piece| piece.1).max().unwrap_or(1);
+        let largest = Cell { x: 0, y: 0, width: longest(&cuts.columns), height: longest(&cuts.rows) };
         #[expect(clippy::cast_possible_truncation, reason = "the slack is far above the rounding")]
         let radius = largest.radius() as f32;
         self.radius = radius;
-        self.near.clear();
-        self.far.clear();
-        self.hidden.clear();
-        self.hidden.resize(self.rows.len(), NOWHERE);
+        self.hidden = [NOWHERE; ACROSS];
     }
 
-    fn add(&mut self, shape: &Shape, cell: Cell) {
-        let begin = self.near.len();
-        self.near.resize(begin + self.rows.len(), NOWHERE);
-        self.far.resize(begin + self.rows.len(), NOWHERE);
-        let cover = shape.sample_blocks(self, cell, begin);
-        if cover == Cover::Part {
-            self.refine(shape, begin);
+    fn split_parts(&mut self, scene: &Scene, from: &Bin, around: Cell, cuts: &Cuts, bins: &mut [Bin]) {
+        for part in &from.parts {
+            let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape else { continue };
+            polygon.split(part, &from.edges, around, cuts, bins, |row, column| {
+                if !from.sees_through {
+                    self.hidden[row][column] = self.hidden[row][column].min(polygon.depth());
+                }
+            });
         }
-        for (hidden, far) in self.hidden.iter_mut().zip(&self.far[begin..]) {
-            for (hidden, &far) in hidden.iter_mut().zip(far) {
-                *hidden = if far < *hidden { far } else { *hidden };
+    }
+
+    /// Finds how deep a surface lies in all pieces, and what it hides.
+    fn weigh(&mut self, shape: &Shape, around: Cell, cuts: &Cuts, sees_through: bool) {
+        if !shape.weigh(self, cuts.rows.len()) {
+            self.weigh_each(shape, around, cuts);
+        }
+        if !sees_through {
+            for (hidden, far) in self.hidden.iter_mut().zip(&self.weights.far[..cuts.rows.len()]) {
+                for (hidden, &far) in hidden.iter_mut().zip(far) {
+                    let far = if far > 0.0 { far } else { 0.0 };
+                    *hidden = if far < *hidden { far } else { *hidden };
+                }
             }
         }
     }
 
-    /// Asks a surface block by block.
-    fn refine(&mut self, shape: &Shape, begin: usize) {
-        for (row, &(y, height)) in self.rows.iter().enumerate() {
-            for (column, &(x, width)) in self.columns.iter().enumerate() {
-                let reach = shape.reach(Cell { x, y, width, height });
-                let (near, far) = reach.map_or((f32::INFINITY, f32::INFINITY), single);
-                self.near[begin + row][column] = near;
-                self.far[begin + row][column] = far;
+    /// The same for a surface without a formula for many pieces at once.
+    fn weigh_each(&mut self, shape: &Shape, around: Cell, cuts: &Cuts) {
+        self.weights = Weights::NOWHERE;
+        if shape.reach(around).is_none() {
+            return;
+        }
+        for (row, &(y, height)) in cuts.rows.iter().enumerate() {
+            for (column, &(x, width)) in cuts.columns.iter().enumerate() {
+                if let Some(reach) = shape.reach(Cell { x, y, width, height }) {
+                    (self.weights.near[row][column], self.weights.far[row][column]) = single(reach);
+                }
             }
         }
     }
 
-    /// Samples a field in the middle of each block; what it says is for the surface that begins at `begin`.
-    pub(super) fn sample(&mut self, field: &impl Field, offset: f32, size: f32, limit: f32, begin: usize) {
-        let (near, far) = (&mut self.near[begin..], &mut self.far[begin..]);
+    /// Gives a primitive that has been weighed to all pieces where it may be seen.
+    fn hand_out(&self, primitive: u32, cuts: &Cuts, bins: &mut [Bin]) {
+        let Weights { near, far, way_x, way_y, curve } = &self.weights;
+        for (row, bins) in bins.chunks_exact_mut(cuts.columns.len()).enumerate() {
+            let seen = |near: f32, hidden: f32| (near <= hidden) & (near < f32::INFINITY) & (hidden >= 0.0);
+            let seen = near[row].iter().zip(&self.hidden[row]).map(|(&near, &hidden)| seen(near, hidden));
+            let mut bits =
+                seen.enumerate().fold(0_u32, |bits, (column, seen)| bits | (u32::from(seen) << column));
+            bits &= (1 << bins.len()) - 1;
+            while bits != 0 {
+                let column = bits.trailing_zeros() as usize;
+                bits &= bits - 1;
+                bins[column].shapes.push(Candidate {
+                    primitive,
+                    near: near[row][column],
+                    far: far[row][column],
+                    way: (way_x[row][column], way_y[row][column]),
+                    curve: curve[row][column],
+                });
+            }
+        }
+    }
+
+    /// Samples a field in the middle of each piece of the first `rows` rows.
+    pub(super) fn sample(&mut self, field: &impl Field, offset: f32, size: f32, limit: f32, rows: usize) {
         let size = size + 2.0 * offset.abs() + self.radius;
-        let (xs, ys, radius) = (&self.xs, &self.ys, self.radius);
-        self.arch.dispatch(Sample { field, xs, ys, radius, size, limit, near, far });
-    }
-
-    /// The blocks in reading order, with their place: row and column.
-    pub(super) fn blocks(&self) -> impl Iterator<Item = (usize, usize, Cell)> {
-        let rows = self.rows.iter().enumerate();
-        rows.flat_map(|(row, &(y, height))| {
-            let columns = self.columns.iter().enumerate();
-            columns.map(move |(column, &(x, width))| (row, column, Cell { x, y, width, height }))
-        })
-    }
-
-    /// How deep the surface added as number `index` lies in a block: no nearer than the first, no deeper than the
-    /// second.
-    #[inline]
-    pub(super) fn depths(&self, index: usize, row: usize, column: usize) -> (f32, f32) {
-        let at = index * self.rows.len() + row;
-        (self.near[at][column], self.far[at][column])
-    }
-
-    /// The depth beyond which nothing is seen in a block.
-    pub(super) fn hidden(&self, row: usize, column: usize) -> f32 {
-        self.hidden[row][column]
+        let Self { arch, xs, ys, radius, weights, .. } = self;
+        arch.dispatch(Sample { field, xs, ys: &ys[..rows], radius: *radius, size, limit, weights });
     }
 }
 
@@ -174,8 +248,7 @@ struct Sample<'a, F> {
     radius: f32,
     size: f32,
     limit: f32,
-    near: &'a mut [Across],
-    far: &'a mut [Across],
+    weights: &'a mut Weights,
 }
 
 impl<F: Field> WithSimd for Sample<'_, F> {
@@ -187,16 +260,28 @@ impl<F: Field> WithSimd for Sample<'_, F> {
         let (radius, size, limit, slack) =
             (splat(self.radius), splat(self.size), splat(self.limit), splat(SLACK));
         let nowhere = splat(f32::INFINITY);
+        let zero = splat(0.0);
         let xs = S::as_simd_f32s(self.xs).0;
-        for (&y, (near, far)) in self.ys.iter().zip(self.near.iter_mut().zip(self.far)) {
+        let Weights { near, far, way_x, way_y, curve } = self.weights;
+        for (number, &y) in self.ys.iter().enumerate() {
             let row = self.field.row(simd, y);
-            let (near, far) = (S::as_mut_simd_f32s(near).0, S::as_mut_simd_f32s(far).0);
-            for (&x, (near, far)) in xs.iter().zip(near.iter_mut().zip(far)) {
-                let depth = F::depth(row, Lanes::new(simd, x));
-                let margin = radius + (depth + size) * slack;
-                let (least, most) = (depth - margin, depth + margin);
-                *near = least.at_most(limit).select(least, nowhere).value;
-                *far = most.at_most(limit).select(most, nowhere).value;
+            let near = S::as_mut_simd_f32s(&mut near[number]).0.iter_mut();
+            let far = S::as_mut_simd_f32s(&mut far[number]).0;
+            let way_x = S::as_mut_simd_f32s(&mut way_x[number]).0;
+            let way_y = S::as_mut_simd_f32s(&mut way_y[number]).0;
+            let curve = S::as_mut_simd_f32s(&mut curve[number]).0;
+            let places = xs.iter().zip(near.zip(far).zip(way_x.iter_mut().zip(way_y).zip(curve)));
+            for (&x, ((near, far), ((way_x, way_y), curve))) in places {
+                let x = Lanes::new(simd, x);
+                let slope = F::slope(row, x, radius);
+                let margin = radius + (slope.far.max(zero) + size) * slack;
+                let (least, most) = (slope.near - margin, slope.far + margin);
+                let beyond = F::beyond(row, x);
+                let (none, some) = (margin.less(beyond), (zero - margin).less(beyond));
+                *near = none.select(nowhere, least.at_most(limit).select(least, nowhere)).value;
+                *far = some.select(nowhere, most.at_most(limit).select(most, nowhere)).value;
+                (*way_x, *way_y) = (slope.way.0.value, slope.way.1.value);
+                *curve = slope.curve.value;
             }
         }
     }

@@ -3,6 +3,7 @@ use rayon::prelude::*;
 use super::Scene;
 use super::bin::Bin;
 use super::cell::Cell;
+use super::mosaic::{Cuts, Mosaic};
 
 /// A square of tiles and the bin of their pixels.
 #[derive(Debug)]
@@ -31,12 +32,21 @@ impl Grid {
     }
 
     /// The pixels of `count` × `count` tiles from the tile at (`column`, `row`), with their apron, as far as the
-    /// picture goes.
+    /// picture goes; none of an empty picture.
     pub(super) fn cell(self, column: u32, row: u32, count: u32) -> Option<Cell> {
-        let side = signed(count * self.tile + 2 * self.apron);
-        let corner = |tile: u32| signed(tile * self.tile) - signed(self.apron);
-        Cell { x: corner(column), y: corner(row), width: side, height: side }
-            .within(signed(self.width), signed(self.height))
+        let (x, width) = self.span(column, count, self.width);
+        let (y, height) = self.span(row, count, self.height);
+        (width > 0 && height > 0).then_some(Cell { x, y, width, height })
+    }
+
+    /// The first pixel and the length of `count` tiles with their apron in a picture `side` pixels long.
+    pub(super) fn span(self, tile: u32, count: u32, side: u32) -> (i32, i32) {
+        let (first, end) =
+            (u64::from(tile) * u64::from(self.tile), u64::from(tile + count) * u64::from(self.tile));
+        let apron = u64::from(self.apron);
+        let (first, end) = (first.saturating_sub(apron), (end + apron).min(u64::from(side)));
+        let pixels = |length: u64| i32::try_from(length).expect("a picture is at most 65 536 pixels wide");
+        (pixels(first), pixels(end.saturating_sub(first)))
     }
 }
 
@@ -53,6 +63,9 @@ pub(super) struct Descent<'a> {
     rows: Vec<(u32, Vec<Node>)>,
 }
 
+/// Pieces along a side that a square is cut into at most.
+const FAN: u32 = 8;
+
 impl<'a> Descent<'a> {
     /// Cuts down to squares of `size` tiles (a power of two); squares that are uniform in respect of `levels` are
     /// left out where `skip` says so.
@@ -61,14 +74,28 @@ impl<'a> Descent<'a> {
         let count = columns.max(rows).next_power_of_two().max(size);
         let root =
             grid.cell(0, 0, count).map(|cell| Node { column: 0, row: 0, cell, bin: Bin::root(scene, cell) });
-        Self {
-            scene,
-            grid,
-            levels,
-            skip,
-            size,
-            rows: root.map(|root| (count, vec![root])).into_iter().collect(),
-        }
+        let rows = root.map(|root| (count, vec![root])).into_iter().collect();
+        Self { scene, grid, levels, skip, size, rows }
+    }
+
+    /// The squares of `count` tiles a side in a square of `from` tiles, by rows.
+    fn children(&self, mosaic: &mut Mosaic, node: &Node, from: u32, count: u32) -> Vec<Vec<Node>> {
+        let (columns, rows) = self.grid.size();
+        let firsts = |first: u32, end: u32| (first..end.min(first + from)).step_by(count as usize);
+        let (columns, rows) = (firsts(node.column, columns), firsts(node.row, rows));
+        let cuts = Cuts {
+            columns: columns.clone().map(|tile| self.grid.span(tile, count, self.grid.width)).collect(),
+            rows: rows.clone().map(|tile| self.grid.span(tile, count, self.grid.height)).collect(),
+        };
+        let mut bins = Vec::new();
+        mosaic.split(self.scene, &node.bin, node.cell, &cuts, &mut bins);
+        let mut pieces = cuts.cells().zip(bins);
+        let row_of = |row| {
+            let row_pieces = columns.clone().zip(&mut pieces);
+            let nodes = row_pieces.map(|(column, (cell, bin))| Node { column, row, cell, bin });
+            nodes.filter(|node| !(self.skip && node.bin.uniform(self.scene, self.levels).is_some())).collect()
+        };
+        rows.map(row_of).collect()
     }
 }
 
@@ -76,55 +103,22 @@ impl Iterator for Descent<'_> {
     type Item = Vec<Node>;
 
     fn next(&mut self) -> Option<Vec<Node>> {
-        while let Some((count, nodes)) = self.rows.pop() {
-            if count == self.size {
+        while let Some((from, nodes)) = self.rows.pop() {
+            if from == self.size {
                 return Some(nodes);
             }
-            let half = count / 2;
-            let halves: Vec<_> = nodes
-                .par_iter()
-                .map(|node| {
-                    [0, half]
-                        .map(|down| children(self.scene, self.grid, node, half, down, self.levels, self.skip))
-                })
-                .collect();
-            let (mut upper, mut lower) = (Vec::new(), Vec::new());
-            for [above, below] in halves {
-                upper.extend(above);
-                lower.extend(below);
+            let count = (from / FAN).max(self.size);
+            let split = |mosaic: &mut Mosaic, node: &Node| self.children(mosaic, node, from, count);
+            let split: Vec<_> = nodes.par_iter().map_init(Mosaic::new, split).collect();
+            let mut rows: Vec<(u32, Vec<Node>)> = Vec::new();
+            rows.resize_with(split.first().map_or(0, Vec::len), || (count, Vec::new()));
+            for node in split {
+                rows.iter_mut().zip(node).for_each(|(row, nodes)| row.1.extend(nodes));
             }
-            self.rows
-                .extend([(half, lower), (half, upper)].into_iter().filter(|(_, nodes)| !nodes.is_empty()));
+            self.rows.extend(rows.into_iter().rev().filter(|row| !row.1.is_empty()));
         }
         None
     }
-}
-
-/// The quarters of a square, `count` tiles wide each, that lie `down` tiles below its top.
-fn children(
-    scene: &Scene,
-    grid: Grid,
-    node: &Node,
-    count: u32,
-    down: u32,
-    levels: &[f32],
-    skip: bool,
-) -> Vec<Node> {
-    let mut nodes = Vec::with_capacity(2);
-    for along in [0, count] {
-        let (column, row) = (node.column + along, node.row + down);
-        let (columns, rows) = grid.size();
-        if column >= columns || row >= rows {
-            continue;
-        }
-        let Some(cell) = grid.cell(column, row, count) else { continue };
-        let mut bin = Bin::default();
-        bin.narrow(scene, &node.bin, node.cell, cell);
-        if !(skip && bin.uniform(scene, levels).is_some()) {
-            nodes.push(Node { column, row, cell, bin });
-        }
-    }
-    nodes
 }
 
 /// A length in pixels as a signed number; those of a picture are small.

@@ -3,6 +3,7 @@ use rayon::prelude::*;
 use super::bin::{Bin, Painter};
 use super::block::count;
 use super::cell::Cell;
+use super::mosaic::Cuts;
 use super::node::{Descent, Grid, Node, signed};
 use super::render::Window;
 use super::tile::{Tile, TileContent, TilePixels};
@@ -27,8 +28,8 @@ impl Default for Options {
     }
 }
 
-/// Pixels along a side of what one worker takes at a time, at least. Chosen: four tiles of 64 share a bin.
-const SQUARE: u32 = 128;
+/// Pixels along a side of what one worker takes at a time, at least. Chosen: sixteen tiles of 64 are weighed together.
+const SQUARE: u32 = 256;
 
 /// Draws the picture tile by tile: `work` gets every tile on some worker, `sink` gets what it made of them on the
 /// calling thread, row by row from the top and from left to right.
@@ -50,7 +51,8 @@ pub fn stream<T: Send>(
     assert!(options.apron <= options.tile, "an apron is no wider than a tile");
     let Options { tile, apron, .. } = *options;
     let grid = Grid { tile, apron, width: scene.width(), height: scene.height() };
-    let size = (SQUARE / tile).max(1).next_power_of_two();
+    // A power of two, at most as many as are weighed together.
+    let size = (SQUARE / tile).clamp(1, 8).next_power_of_two();
     let mut rows = Descent::new(scene, grid, size, &options.levels, options.skip_uniform);
     let mut ready: Vec<Vec<T>> = Vec::new();
     loop {
@@ -108,48 +110,41 @@ struct Worker {
     painter: Painter,
     labels: Vec<u32>,
     depths: Vec<f32>,
+    cuts: Cuts,
     bins: Vec<Bin>,
 }
 
 impl Worker {
     fn new() -> Self {
-        Self { painter: Painter::new(), labels: Vec::new(), depths: Vec::new(), bins: Vec::new() }
+        Self {
+            painter: Painter::new(),
+            labels: Vec::new(),
+            depths: Vec::new(),
+            cuts: Cuts::default(),
+            bins: Vec::new(),
+        }
     }
 
-    /// Draws a square of `size` × `size` tiles, quarter by quarter; within a row of tiles from left to right.
+    /// Draws a square of `size` × `size` tiles, row by row and from left to right.
     fn square(&mut self, job: &Job<'_>, node: &Node, size: u32, made: &mut impl FnMut(u32, Tile<'_>)) {
-        self.quarter(job, &node.bin, node.cell, (node.column, node.row), size, made);
-    }
-
-    fn quarter(
-        &mut self,
-        job: &Job<'_>,
-        bin: &Bin,
-        cell: Cell,
-        (column, row): (u32, u32),
-        size: u32,
-        made: &mut impl FnMut(u32, Tile<'_>),
-    ) {
-        let uniform = bin.uniform(job.scene, &job.options.levels);
-        if uniform.is_some() && job.options.skip_uniform {
-            return;
-        }
-        if size == 1 {
-            self.tile(job, bin, cell, (column, row), uniform, made);
-            return;
-        }
-        let (half, (columns, rows)) = (size / 2, job.grid.size());
-        for (along, down) in [(0, 0), (half, 0), (0, half), (half, half)] {
-            let (column, row) = (column + along, row + down);
-            if column >= columns || row >= rows {
-                continue;
+        let (columns, rows) = job.grid.size();
+        let columns = node.column..columns.min(node.column + size);
+        let rows = node.row..rows.min(node.row + size);
+        let span = |tile, side| job.grid.span(tile, 1, side);
+        self.cuts.columns.clear();
+        self.cuts.columns.extend(columns.clone().map(|column| span(column, job.grid.width)));
+        self.cuts.rows.clear();
+        self.cuts.rows.extend(rows.clone().map(|row| span(row, job.grid.height)));
+        let (mut bins, cuts) = (std::mem::take(&mut self.bins), std::mem::take(&mut self.cuts));
+        self.painter.mosaic.split(job.scene, &node.bin, node.cell, &cuts, &mut bins);
+        let places = rows.flat_map(|row| columns.clone().map(move |column| (column, row)));
+        for ((place, cell), bin) in places.zip(cuts.cells()).zip(&bins) {
+            let uniform = bin.uniform(job.scene, &job.options.levels);
+            if uniform.is_none() || !job.options.skip_uniform {
+                self.tile(job, bin, cell, place, uniform, made);
             }
-            let Some(quarter) = job.grid.cell(column, row, half) else { continue };
-            let mut own = self.bins.pop().unwrap_or_default();
-            own.narrow(job.scene, bin, cell, quarter);
-            self.quarter(job, &own, quarter, (column, row), half, made);
-            self.bins.push(own);
         }
+        (self.bins, self.cuts) = (bins, cuts);
     }
 
     fn tile(

@@ -1,12 +1,10 @@
 use pulp::Simd;
 
 use super::super::PixelPoint;
-use super::super::block::Field;
-use super::super::cell::Cell;
-use super::super::half_plane::Cover;
+use super::super::block::{Field, Slope};
 use super::super::lanes::Lanes;
 use super::stroke::StrokeLanes;
-use super::{Bounds, Reach, Stroke};
+use super::{Bounds, Stroke};
 
 /// A point's distance.
 #[derive(Clone, Copy, Debug)]
@@ -25,13 +23,6 @@ impl Cone {
     pub(super) fn bounds(&self) -> Bounds {
         Bounds::curve([self.place], 0.0, self.stroke.offset, self.stroke.limit)
     }
-
-    pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {
-        let (x, y) = cell.center();
-        let (dx, dy) = (x - f64::from(self.apex.0) / 256.0, y - f64::from(self.apex.1) / 256.0);
-        let distance = (dx * dx + dy * dy).sqrt();
-        self.stroke.reach(distance, distance, 0.0, Cover::Whole, cell)
-    }
 }
 
 impl Field for Cone {
@@ -40,13 +31,18 @@ impl Field for Cone {
     #[inline(always)]
     fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
         let dy = y - self.apex.1;
-        (Lanes::splat(simd, self.apex.0), Lanes::splat(simd, dy * dy), self.stroke.lanes(simd))
+        (Lanes::splat(simd, self.apex.0), Lanes::splat(simd, dy), self.stroke.lanes(simd))
     }
 
     #[inline(always)]
-    fn depth<S: Simd>((apex, dy2, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+    fn depth<S: Simd>((apex, dy, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
         let dx = x - apex;
-        stroke.depth((dx * dx + dy2).sqrt())
+        stroke.depth((dx * dx + dy * dy).sqrt())
+    }
+
+    #[inline(always)]
+    fn slope<S: Simd>((apex, dy, stroke): Self::Row<S>, x: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        stroke.slope(x - apex, dy)
     }
 }
 

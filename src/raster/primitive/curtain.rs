@@ -1,13 +1,13 @@
 use pulp::Simd;
 
-use super::super::block::Field;
-use super::super::cell::Cell;
-use super::super::half_plane::{Convex, Cover, HalfPlane};
+use super::super::block::{Field, Slope};
+use super::super::half_plane::{Convex, HalfPlane};
 use super::super::lanes::Lanes;
+use super::super::mosaic::Mosaic;
 use super::super::{Caps, PixelPoint, Sides};
 use super::cone::floats;
 use super::stroke::StrokeLanes;
-use super::{Bounds, Reach, Stroke};
+use super::{Bounds, Stroke};
 
 /// A segment's distance.
 #[derive(Clone, Copy, Debug)]
@@ -65,28 +65,15 @@ impl Curtain {
         self.region().holds(column, row)
     }
 
-    pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {
-        let (x, y) = cell.center();
-        let (wx, wy) = (x * 256.0 - f64::from(self.from.0), y * 256.0 - f64::from(self.from.1));
-        let (ux, uy) = (f64::from(self.way.0), f64::from(self.way.1));
-        let t = ((wx * ux + wy * uy) * f64::from(self.inverse)).clamp(0.0, 1.0);
-        let (ex, ey) = (wx - t * ux, wy - t * uy);
-        let distance = (ex * ex + ey * ey).sqrt() / 256.0;
-        self.stroke.reach(distance, distance, f64::from(self.size()), self.cover(cell), cell)
-    }
-
-    /// How its strip and round ends lie to `cell`.
-    pub(super) fn cover(&self, cell: Cell) -> Cover {
+    /// Has the mosaic sample it.
+    pub(super) fn weigh(&self, mosaic: &mut Mosaic, rows: usize) {
+        let (offset, limit) = (self.stroke.offset, self.stroke.limit);
+        let size = (self.way.0.abs() + self.way.1.abs()) / 256.0;
         if self.caps == Caps::Both && self.sides == Sides::Both {
-            Cover::Whole
+            mosaic.sample(self, offset, size, limit, rows);
         } else {
-            self.region().cover(cell)
+            mosaic.sample(&Hung(*self), offset, size, limit, rows);
         }
-    }
-
-    /// No less than its length, in pixels.
-    pub(super) fn size(&self) -> f32 {
-        (self.way.0.abs() + self.way.1.abs()) / 256.0
     }
 }
 
@@ -114,10 +101,14 @@ impl Field for Curtain {
     /// t = clamp(w·u / u·u, 0, 1), and the distance is |w − t u|.
     #[inline(always)]
     fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        let wx = x - row.start;
-        let t = ((wx * row.ux + row.along) * row.inverse).max(row.zero).min(row.one);
-        let (ex, ey) = (wx - t * row.ux, row.wy - t * row.uy);
+        let (ex, ey) = row.away(x);
         row.stroke.depth((ex * ex + ey * ey).sqrt())
+    }
+
+    #[inline(always)]
+    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        let (ex, ey) = row.away(x);
+        row.stroke.slope(ex, ey)
     }
 }
 
@@ -134,4 +125,75 @@ pub(in super::super) struct CurtainRow<S: Simd> {
     zero: Lanes<S>,
     one: Lanes<S>,
     stroke: StrokeLanes<S>,
+}
+
+impl<S: Simd> CurtainRow<S> {
+    /// The way to the sample from the nearest point of the segment: w − t u.
+    #[inline(always)]
+    fn away(self, x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+        let wx = x - self.start;
+        let t = ((wx * self.ux + self.along) * self.inverse).max(self.zero).min(self.one);
+        (wx - t * self.ux, self.wy - t * self.uy)
+    }
+}
+
+/// A curtain that does not cover everything: the same depth, and how far a place lies outside of its region.
+struct Hung(Curtain);
+
+#[derive(Clone, Copy)]
+struct HungRow<S: Simd> {
+    curtain: CurtainRow<S>,
+    /// One over the length, a pixel.
+    scale: Lanes<S>,
+    length: Lanes<S>,
+    /// The row's part of the cross product of the curtain's way and the way to the sample.
+    across: Lanes<S>,
+    /// 0 where a bound is there, else −∞, to be added to how far a place lies beyond it.
+    start: Lanes<S>,
+    end: Lanes<S>,
+    left: Lanes<S>,
+    right: Lanes<S>,
+}
+
+impl Field for Hung {
+    type Row<S: Simd> = HungRow<S>;
+
+    #[inline(always)]
+    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
+        let Curtain { way: (ux, uy), start, .. } = self.0;
+        let length = (ux * ux + uy * uy).sqrt();
+        let splat = |number| Lanes::splat(simd, number);
+        let bound = |there: bool| splat(if there { 0.0 } else { f32::NEG_INFINITY });
+        HungRow {
+            curtain: self.0.row(simd, y),
+            scale: splat(if length > 0.0 { 1.0 / (256.0 * length) } else { 0.0 }),
+            length: splat(length / 256.0),
+            across: splat(ux * (y - start.1)),
+            start: bound(!self.0.caps.start()),
+            end: bound(!self.0.caps.end()),
+            left: bound(self.0.sides == Sides::Left),
+            right: bound(self.0.sides == Sides::Right),
+        }
+    }
+
+    #[inline(always)]
+    fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        Curtain::depth(row.curtain, x)
+    }
+
+    #[inline(always)]
+    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, radius: Lanes<S>) -> Slope<S> {
+        Curtain::slope(row.curtain, x, radius)
+    }
+
+    #[inline(always)]
+    fn beyond<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        let wx = x - row.curtain.start;
+        let along = (wx * row.curtain.ux + row.curtain.along) * row.scale;
+        let clockwise = (row.across - wx * row.curtain.uy) * row.scale;
+        let zero = row.curtain.zero;
+        let ends = (zero - along + row.start).max(along - row.length + row.end);
+        let sides = (clockwise + row.left).max(zero - clockwise + row.right);
+        ends.max(sides)
+    }
 }

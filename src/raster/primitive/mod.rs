@@ -42,12 +42,11 @@ pub(super) enum Shape {
 }
 
 /// How deep a primitive lies in a cell: no fragment of it is nearer than `near`, and where it covers the whole
-/// cell none is deeper than `far`.
+/// cell none is deeper than `far`, else that is infinite.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub near: f64,
     pub far: f64,
-    pub cover: Cover,
 }
 
 impl Shape {
@@ -74,40 +73,23 @@ impl Shape {
         }
     }
 
-    /// How deep it lies in `cell`; none where it has no fragment there. Polygons are narrowed edge by edge instead.
+    /// How deep it lies in `cell`, where there is no formula for many; none where it has no fragment there.
     pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {
         match self {
-            Self::Cone(cone) => cone.reach(cell),
-            Self::Curtain(curtain) => curtain.reach(cell),
-            Self::Ring(ring) => ring.reach(cell),
             Self::Triangle(triangle) => triangle.reach(cell),
-            Self::Polygon(polygon) => Some(polygon.reach()),
+            Self::Cone(_) | Self::Curtain(_) | Self::Ring(_) | Self::Polygon(_) => None,
         }
     }
 
-    /// Has the mosaic sample it; says how it covers `cell`, all of the mosaic. Where that is in part, or hard to say,
-    /// the mosaic must ask block by block.
-    pub(super) fn sample_blocks(&self, mosaic: &mut Mosaic, cell: Cell, begin: usize) -> Cover {
+    /// Has the mosaic sample it in `rows` rows of pieces; false where it has no formula for many pieces at once.
+    pub(super) fn weigh(&self, mosaic: &mut Mosaic, rows: usize) -> bool {
         match self {
-            Self::Cone(cone) => {
-                mosaic.sample(cone, cone.stroke.offset, 0.0, cone.stroke.limit, begin);
-                Cover::Whole
-            }
-            Self::Curtain(curtain) => {
-                let cover = curtain.cover(cell);
-                if cover == Cover::Whole {
-                    mosaic.sample(
-                        curtain,
-                        curtain.stroke.offset,
-                        curtain.size(),
-                        curtain.stroke.limit,
-                        begin,
-                    );
-                }
-                cover
-            }
-            Self::Ring(_) | Self::Triangle(_) | Self::Polygon(_) => Cover::Part,
+            Self::Cone(cone) => mosaic.sample(cone, cone.stroke.offset, 0.0, cone.stroke.limit, rows),
+            Self::Curtain(curtain) => curtain.weigh(mosaic, rows),
+            Self::Ring(ring) => ring.weigh(mosaic, rows),
+            Self::Triangle(_) | Self::Polygon(_) => return false,
         }
+        true
     }
 
     /// Draws it on `block`, of which it covers what `cover` says; `first` where nothing is drawn there yet and it

@@ -2,13 +2,14 @@ use std::ops::Range;
 
 use pulp::Simd;
 
-use super::super::block::{Block, Extent, Field, SIDE, count, put};
+use super::super::bin::Bin;
+use super::super::block::{Block, Extent, Field, SIDE, Slope, count, put};
 use super::super::cell::Cell;
-use super::super::half_plane::Cover;
 use super::super::lanes::Lanes;
+use super::super::mosaic::{ACROSS, Cuts};
 use super::super::subpixel::sample;
 use super::super::{FillRule, Fragment, Label, PixelPoint};
-use super::{Bounds, Reach};
+use super::Bounds;
 
 /// A flat area inside contours.
 ///
@@ -68,6 +69,11 @@ impl Edge {
         (self.from.0 <= x) != (self.to.0 <= x)
     }
 
+    /// Whether it comes as high or low as the rows of samples from `first` to `last`.
+    fn meets_rows(&self, first: i32, last: i32) -> bool {
+        self.from.1.max(self.to.1) >= first && self.from.1.min(self.to.1) <= last
+    }
+
     /// Whether it may come between the samples of `cell`.
     fn touches(&self, cell: Cell) -> bool {
         let (first, last) = (cell.first(), cell.last());
@@ -122,10 +128,6 @@ impl Polygon {
         self.encloses(self.winding(sample(column), sample(row))).then_some(self.depth)
     }
 
-    pub(super) fn reach(&self) -> Reach {
-        Reach { near: f64::from(self.depth), far: f64::INFINITY, cover: Cover::Part }
-    }
-
     pub(in super::super) const fn depth(&self) -> f32 {
         self.depth
     }
@@ -153,40 +155,57 @@ impl Polygon {
         .sum()
     }
 
-    /// What `cell` knows of it, from what a cell around it knew; none where it is not there at all.
-    pub(in super::super) fn narrow(
+    /// Gives each piece that `cuts` makes of `around` its part of `part`; `covered` gets row and column of those it
+    /// covers entirely.
+    pub(in super::super) fn split(
         &self,
         part: &Part,
         edges: &[u32],
         around: Cell,
-        cell: Cell,
-        kept: &mut Vec<u32>,
-    ) -> Option<(Part, Reach)> {
-        let (start, goal) = (around.first(), cell.first());
-        let corner = (start.0, goal.1);
-        let mut winding = part.winding;
-        let begin = kept.len();
+        cuts: &Cuts,
+        bins: &mut [Bin],
+        mut covered: impl FnMut(usize, usize),
+    ) {
+        let across = cuts.columns.len();
+        let start = around.first();
+        let mut begins = [0; ACROSS * ACROSS];
+        begins.iter_mut().zip(bins.iter()).for_each(|(begin, bin)| *begin = bin.edges.len());
+        // The winding at the first sample of each piece, less the part's own.
+        let mut winding = [[0; ACROSS]; ACROSS];
         for &index in &edges[part.edges.clone()] {
             let edge = self.edges[index as usize];
-            if edge.spans_column(start.0) {
-                winding += edge.crossing(start, corner);
-            }
-            if edge.spans_row(goal.1) {
-                winding += edge.crossing(corner, goal);
-            }
-            if edge.touches(cell) {
-                kept.push(index);
+            let spans_start = edge.spans_column(start.0);
+            for ((row, &(y, height)), winding) in cuts.rows.iter().enumerate().zip(&mut winding) {
+                let y_first = sample(y);
+                let down = if spans_start { edge.crossing(start, (start.0, y_first)) } else { 0 };
+                let spans_row = edge.spans_row(y_first);
+                let meets = edge.meets_rows(y_first, sample(y + height - 1));
+                if down == 0 && !spans_row && !meets {
+                    continue;
+                }
+                for ((column, &(x, width)), winding) in cuts.columns.iter().enumerate().zip(winding) {
+                    let along =
+                        if spans_row { edge.crossing((start.0, y_first), (sample(x), y_first)) } else { 0 };
+                    *winding += down + along;
+                    if meets && edge.touches(Cell { x, y, width, height }) {
+                        bins[row * across + column].edges.push(index);
+                    }
+                }
             }
         }
-        let edges = begin..kept.len();
-        let cover = match (edges.is_empty(), self.encloses(winding)) {
-            (true, true) => Cover::Whole,
-            (true, false) => return None,
-            (false, _) => Cover::Part,
-        };
-        let depth = f64::from(self.depth);
-        let far = if cover == Cover::Whole { depth } else { f64::INFINITY };
-        Some((Part { primitive: part.primitive, winding, edges }, Reach { near: depth, far, cover }))
+        for (number, bin) in bins.iter_mut().enumerate() {
+            let (row, column) = (number / across, number % across);
+            let winding = part.winding + winding[row][column];
+            let edges = begins[number]..bin.edges.len();
+            let bare = edges.is_empty();
+            if bare && !self.encloses(winding) {
+                continue;
+            }
+            if bare {
+                covered(row, column);
+            }
+            bin.parts.push(Part { primitive: part.primitive, winding, edges });
+        }
     }
 
     /// Draws what `part` says of it on the block.
@@ -251,5 +270,11 @@ impl Field for Flat {
     #[inline(always)]
     fn depth<S: Simd>(row: Lanes<S>, _: Lanes<S>) -> Lanes<S> {
         row
+    }
+
+    #[inline(always)]
+    fn slope<S: Simd>(row: Lanes<S>, _: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        let zero = row.all(0.0);
+        Slope { near: row, far: row, way: (zero, zero), curve: zero }
     }
 }

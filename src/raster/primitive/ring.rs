@@ -2,15 +2,16 @@ use std::ops::Range;
 
 use pulp::Simd;
 
-use super::super::block::{Block, Extent, Field};
+use super::super::block::{Block, Extent, Field, Slope};
 use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
 use super::super::lanes::Lanes;
+use super::super::mosaic::Mosaic;
 use super::super::subpixel::sample;
 use super::super::{Caps, Label, PixelPoint, Spin};
 use super::cone::floats;
 use super::stroke::StrokeLanes;
-use super::{Bounds, Reach, Stroke, at};
+use super::{Bounds, Stroke, at};
 
 /// A circular arc's distance; stored as it runs clockwise.
 #[derive(Clone, Copy, Debug)]
@@ -82,28 +83,9 @@ impl Ring {
         if inside { at(&Strip(*self), column, row) } else { at(&Ends(*self), column, row) }
     }
 
-    pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {
-        let (x, y) = cell.center();
-        let to = |p: (i32, i32)| {
-            let (dx, dy) = (x - f64::from(p.0) / 256.0, y - f64::from(p.1) / 256.0);
-            (dx * dx + dy * dy).sqrt()
-        };
-        let radius = f64::from(self.radius) / 256.0;
-        let ring = (to(self.center) - radius).abs();
-        let cap = match self.caps {
-            Caps::None => f64::INFINITY,
-            Caps::Start => to(self.start),
-            Caps::End => to(self.end),
-            Caps::Both => to(self.start).min(to(self.end)),
-        };
-        let size = 2.0 * radius;
-        match self.sector().cover(cell) {
-            Cover::Whole => self.stroke.reach(ring, ring, size, Cover::Whole, cell),
-            Cover::Empty if cap.is_infinite() => None,
-            Cover::Empty => self.stroke.reach(cap, cap, size, Cover::Whole, cell),
-            Cover::Part if cap.is_infinite() => self.stroke.reach(ring, ring, size, Cover::Part, cell),
-            Cover::Part => self.stroke.reach(ring.min(cap), ring.max(cap), size, Cover::Whole, cell),
-        }
+    /// Has the mosaic sample it.
+    pub(super) fn weigh(&self, mosaic: &mut Mosaic, rows: usize) {
+        mosaic.sample(&Weighed(*self), self.stroke.offset, self.radius / 128.0, self.stroke.limit, rows);
     }
 
     /// Lays it on a block: its strip on the sector, its round ends on the rest.
@@ -158,6 +140,13 @@ impl Piece {
     }
 }
 
+/// What is known of a surface that bends both ways: how deep it lies, and that it is no steeper than 1.
+#[inline(always)]
+fn flat_slope<S: Simd>(near: Lanes<S>, far: Lanes<S>) -> Slope<S> {
+    let unknown = near.all(f32::INFINITY);
+    Slope { near, far, way: (unknown, unknown), curve: unknown }
+}
+
 /// The strip of an arc, as if it were the whole circle.
 struct Strip(Ring);
 
@@ -176,6 +165,12 @@ impl Field for Strip {
     fn depth<S: Simd>((x0, dy2, radius, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
         let dx = x - x0;
         stroke.depth(((dx * dx + dy2).sqrt() - radius).abs())
+    }
+
+    #[inline(always)]
+    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        let depth = Self::depth(row, x);
+        flat_slope(depth, depth)
     }
 }
 
@@ -200,6 +195,94 @@ impl Field for Ends {
         let (to_start, to_end) = (x - sx, x - ex);
         let nearer = (to_start * to_start + sy).min(to_end * to_end + ey);
         stroke.depth(nearer.sqrt())
+    }
+
+    #[inline(always)]
+    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        let depth = Self::depth(row, x);
+        flat_slope(depth, depth)
+    }
+}
+
+/// Strip and ends together, as far as a piece of a mosaic can tell which of them a sample belongs to.
+struct Weighed(Ring);
+
+#[derive(Clone, Copy)]
+struct WeighedRow<S: Simd> {
+    strip: (Lanes<S>, Lanes<S>, Lanes<S>, StrokeLanes<S>),
+    ends: (Lanes<S>, Lanes<S>, Lanes<S>, Lanes<S>, StrokeLanes<S>),
+    /// The unit ways to start and end, a pixel, and the row's part of their cross products with the way to a sample.
+    start: (Lanes<S>, Lanes<S>),
+    end: (Lanes<S>, Lanes<S>),
+    /// Whether the sector is at most half a turn (all lanes alike), and −∞ where it is the whole circle.
+    convex: Lanes<S>,
+    closed: Lanes<S>,
+    /// 0 where there is no round end, else −∞.
+    bare: Lanes<S>,
+}
+
+impl<S: Simd> WeighedRow<S> {
+    /// How many pixels a sample lies inside the sector; negative outside.
+    #[inline(always)]
+    fn inside(self, x: Lanes<S>) -> Lanes<S> {
+        let wx = x - self.strip.0;
+        // How far clockwise of the start, and counter-clockwise of the end.
+        let after_start = self.start.1 - wx * self.start.0;
+        let before_end = wx * self.end.0 - self.end.1;
+        let (both, either) = (after_start.min(before_end), after_start.max(before_end));
+        x.all(0.0).less(self.convex).select(both, either) - self.closed
+    }
+}
+
+impl Field for Weighed {
+    type Row<S: Simd> = WeighedRow<S>;
+
+    #[inline(always)]
+    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
+        let ring = &self.0;
+        let (center, start, end) = (floats(ring.center), floats(ring.start), floats(ring.end));
+        let (s, e) = ((start.0 - center.0, start.1 - center.1), (end.0 - center.0, end.1 - center.1));
+        let dy = y - center.1;
+        let splat = |number| Lanes::splat(simd, number);
+        let ray = |(x, y): (f32, f32)| {
+            let length = (x * x + y * y).sqrt() * 256.0;
+            let (x, y) = if length > 0.0 { (x / length, y / length) } else { (0.0, 0.0) };
+            (splat(y), splat(x * dy))
+        };
+        let sector = ring.sector();
+        WeighedRow {
+            strip: Strip(*ring).row(simd, y),
+            ends: Ends(*ring).row(simd, y),
+            start: ray(s),
+            end: ray(e),
+            convex: splat(if matches!(sector, Sector::Convex(_)) { 1.0 } else { 0.0 }),
+            closed: splat(if matches!(sector, Sector::All) { f32::NEG_INFINITY } else { 0.0 }),
+            bare: splat(if ring.caps == Caps::None { 0.0 } else { f32::NEG_INFINITY }),
+        }
+    }
+
+    #[inline(always)]
+    fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        Strip::depth(row.strip, x)
+    }
+
+    #[inline(always)]
+    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, radius: Lanes<S>) -> Slope<S> {
+        let zero = x.all(0.0);
+        let strip = Strip::depth(row.strip, x);
+        let ends = zero.at_most(row.bare).select(strip, Ends::depth(row.ends, x));
+        let inside = row.inside(x);
+        // The doubt of two roundings in a product of large numbers, far above them.
+        let doubt = radius + (strip + row.strip.2) * x.all(1.0 / 65536.0);
+        let (surely_in, surely_out) = (doubt.less(inside), inside.less(zero - doubt));
+        let near = surely_in.select(strip, surely_out.select(ends, strip.min(ends)));
+        let far = surely_in.select(strip, surely_out.select(ends, strip.max(ends)));
+        flat_slope(near, far)
+    }
+
+    #[inline(always)]
+    fn beyond<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
+        x.all(0.0) - row.inside(x) + row.bare
     }
 }
 

@@ -1,9 +1,7 @@
 use pulp::Simd;
 
-use super::super::cell::Cell;
-use super::super::half_plane::Cover;
+use super::super::block::Slope;
 use super::super::lanes::Lanes;
-use super::Reach;
 
 /// How distance becomes depth: the half-width of a stroke and where it ends.
 #[derive(Clone, Copy, Debug)]
@@ -38,21 +36,6 @@ impl Stroke {
         let [offset, pixel, zero] = [self.offset, PIXEL, 0.0].map(|number| Lanes::splat(simd, number));
         StrokeLanes { offset, pixel, zero }
     }
-
-    /// What distances between `near` and `far` from the middle of `cell` mean for all of it; `size` is the
-    /// largest length that entered their computation.
-    pub(super) fn reach(self, near: f64, far: f64, size: f64, cover: Cover, cell: Cell) -> Option<Reach> {
-        let offset = f64::from(self.offset);
-        let margin = cell.radius() + (far + size + cell.radius() + offset.abs()) * f64::from(SLACK);
-        let near = (near - margin - offset).max(0.0);
-        let far = (far + margin - offset).max(0.0);
-        let limit = f64::from(self.limit);
-        if cover == Cover::Empty || near > limit {
-            return None;
-        }
-        let cover = if far > limit { Cover::Part } else { cover };
-        Some(Reach { near, far: if cover == Cover::Whole { far } else { f64::INFINITY }, cover })
-    }
 }
 
 /// A [`Stroke`] for many pixels at a time.
@@ -68,5 +51,17 @@ impl<S: Simd> StrokeLanes<S> {
     #[inline(always)]
     pub(super) fn depth(self, distance: Lanes<S>) -> Lanes<S> {
         (distance * self.pixel - self.offset).max(self.zero)
+    }
+
+    /// How the distance to a point lies, `ex` and `ey` steps away. As the nearest point of a convex curve it stands for
+    /// the curve: the curve is nowhere nearer than the line across the way to it, nowhere farther than that point.
+    #[inline(always)]
+    pub(super) fn slope(self, ex: Lanes<S>, ey: Lanes<S>) -> Slope<S> {
+        let distance = (ex * ex + ey * ey).sqrt() * self.pixel;
+        // On the curve itself every way is as good as none, and the curve bends without bound.
+        let curve = ex.all(1.0) / distance.max(ex.all(1e-9));
+        let depth = distance - self.offset;
+        let step = self.pixel * curve;
+        Slope { near: depth, far: depth, way: (ex * step, ey * step), curve }
     }
 }

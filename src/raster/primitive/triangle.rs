@@ -72,7 +72,7 @@ impl Triangle {
         let slack = (middle.abs() + change) * 1e-6;
         let near = (middle - change - slack).clamp(least, most);
         let far = (middle + change + slack).clamp(least, most);
-        Some(Reach { near, far: if cover == Cover::Whole { far } else { f64::INFINITY }, cover })
+        Some(Reach { near, far: if cover == Cover::Whole { far } else { f64::INFINITY } })
     }
 
     pub(super) fn bounds(&self) -> Bounds {
