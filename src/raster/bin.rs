@@ -221,10 +221,8 @@ const _: () = assert!(CELL / LANES <= SIDE, "a piece of a cell fits a block");
 /// may have to be drawn as it is. Measured: see the module's doc.
 const fn grain(side: i32) -> (i32, usize) {
     match side {
-        ..=8 => (8, usize::MAX),
         ..=24 => (8, usize::MAX),
-        ..=SIDE => (16, 6),
-        ..=CELL => (16, 6),
+        25..=CELL => (16, 6),
         _ => (CELL, 0),
     }
 }

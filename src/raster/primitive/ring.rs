@@ -209,8 +209,8 @@ struct Weighed(Ring);
 
 #[derive(Clone, Copy)]
 struct WeighedRow<S: Simd> {
-    strip: (Lanes<S>, Lanes<S>, Lanes<S>, StrokeLanes<S>),
-    ends: (Lanes<S>, Lanes<S>, Lanes<S>, Lanes<S>, StrokeLanes<S>),
+    strip: <Strip as Field>::Row<S>,
+    ends: <Ends as Field>::Row<S>,
     /// The unit ways to start and end, a pixel, and the row's part of their cross products with the way to a sample.
     start: (Lanes<S>, Lanes<S>),
     end: (Lanes<S>, Lanes<S>),
