@@ -1,0 +1,142 @@
+//! Which equation a boundary satisfies at a crack or corner, read from the pixels round it; and nodes, which satisfy two.
+
+use super::Tracer;
+use super::crack::Crack;
+use crate::voronoi::place::{Candidates, Target, Vertex};
+use crate::voronoi::plane::Spot;
+use crate::voronoi::{BACKGROUND, OUTSIDE};
+
+/// A place to sample: where the pixels have the boundary, and what equation holds there.
+#[derive(Clone, Copy)]
+pub(super) struct Anchor {
+    pub(super) at: Spot,
+    pub(super) target: Target,
+}
+
+impl Tracer<'_> {
+    pub(super) fn anchor(&self, crack: Crack) -> Anchor {
+        let (left, right) = crack.sides();
+        let (ex, ey) = crack.end();
+        let at = self.spot(f64::from(crack.x + ex) / 2.0, f64::from(crack.y + ey) / 2.0);
+        let (x0, x1) = (left.0.min(right.0), left.0.max(right.0));
+        let (y0, y1) = (left.1.min(right.1), left.1.max(right.1));
+        let owners = (self.pixels.owner(left.0, left.1), self.pixels.owner(right.0, right.1));
+        let pair = (self.pixels.label(left.0, left.1), self.pixels.label(right.0, right.1));
+        Anchor { at, target: self.target(owners, pair, (x0 - 1, y0 - 1, x1 + 1, y1 + 1)) }
+    }
+
+    /// The equation of a boundary between two owners, with the sites seen in a window of pixels.
+    fn target(&self, owners: (u32, u32), pair: (u32, u32), window: (i32, i32, i32, i32)) -> Target {
+        let (a, b) = (self.candidates(owners.0, pair.0, window), self.candidates(owners.1, pair.1, window));
+        match owners {
+            (OUTSIDE, _) | (_, OUTSIDE) => Target::OnBorder,
+            (BACKGROUND, _) => Target::At(b, self.course.level),
+            (_, BACKGROUND) => Target::At(a, self.course.level),
+            _ => match (self.flat(a), self.flat(b)) {
+                (Some(a), None) => Target::At(a, 0.0),
+                (None, Some(b)) => Target::At(b, 0.0),
+                _ => Target::Between(a, b),
+            },
+        }
+    }
+
+    /// The labels of an owner in a window of pixels, the given one first.
+    fn candidates(&self, owner: u32, label: u32, (x0, y0, x1, y1): (i32, i32, i32, i32)) -> Candidates {
+        let mut candidates = Candidates::default();
+        if owner <= OUTSIDE {
+            return candidates;
+        }
+        if self.placer.owners[label as usize] == owner {
+            candidates.add(label);
+        }
+        let mut last = label;
+        for y in y0..=y1 {
+            let row = self.pixels.index(x0, y)..=self.pixels.index(x1, y);
+            for &label in &self.pixels.labels[row] {
+                if label != last && self.placer.owners[label as usize] == owner {
+                    candidates.add(label);
+                }
+                last = label;
+            }
+        }
+        candidates
+    }
+
+    /// Those candidates that are a trace's own copper above the cones, if the first one is.
+    fn flat(&self, candidates: Candidates) -> Option<Candidates> {
+        let is_flat = |label: u32| self.placer.sites[label as usize].flat;
+        let first = *candidates.as_slice().first()?;
+        is_flat(first).then(|| {
+            let mut flats = Candidates::default();
+            candidates
+                .as_slice()
+                .iter()
+                .copied()
+                .filter(|&label| is_flat(label))
+                .for_each(|label| flats.add(label));
+            flats
+        })
+    }
+
+    /// The place of a piece's end: the same whichever piece, of whichever tile, asks.
+    pub(super) fn end_vertex(&mut self, at: (i32, i32)) -> Vertex {
+        let window = (at.0 - 2, at.1 - 2, at.0 + 1, at.1 + 1);
+        let spot = self.spot(f64::from(at.0), f64::from(at.1));
+        if self.degree(at) > 2 {
+            self.node(at, window, spot)
+        } else {
+            self.placed(&self.passing(at, window), spot)
+        }
+    }
+
+    /// The equation at a corner that passes a boundary on.
+    fn passing(&self, at: (i32, i32), window: (i32, i32, i32, i32)) -> Target {
+        let regions = self.around(at);
+        let first = regions[0];
+        let other = regions.into_iter().find(|r| r.0 != first.0).unwrap_or(first);
+        let (a, b) = if first.0 < other.0 { (first, other) } else { (other, first) };
+        self.target((a.0, b.0), (a.1, b.1), window)
+    }
+
+    /// Owner and label of the four pixels round a corner.
+    fn around(&self, (x, y): (i32, i32)) -> [(u32, u32); 4] {
+        [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)]
+            .map(|(x, y)| (self.pixels.owner(x, y), self.pixels.label(x, y)))
+    }
+
+    /// The place where three or more regions meet: equally far from the first three, or on the limit, or on the border.
+    fn node(&mut self, at: (i32, i32), window: (i32, i32, i32, i32), spot: Spot) -> Vertex {
+        let mut regions = self.around(at).to_vec();
+        regions.sort_unstable();
+        // A groove has no border to be placed on: what meets there runs on along its own course.
+        if regions.iter().any(|region| region.1 != self.course.groove && region.0 != BACKGROUND) {
+            regions.retain(|region| region.1 != self.course.groove);
+        }
+        regions.dedup_by_key(|region| region.0);
+        let target = |a: (u32, u32), b: (u32, u32)| self.target((a.0, b.0), (a.1, b.1), window);
+        let mut wedge = false;
+        let met = match regions.as_slice() {
+            [a, b] => self.placer.project(&target(*a, *b), spot),
+            [a, b, c, ..] => {
+                // Sorted by owner: background and outside come first, so both equations hold with what follows.
+                let (first, second) = match a.0 {
+                    BACKGROUND | OUTSIDE => {
+                        (target(*a, *b), if b.0 == OUTSIDE { target(*a, *c) } else { target(*b, *c) })
+                    }
+                    _ => (target(*a, *b), target(*a, *c)),
+                };
+                let met = self.placer.meet(&first, &second, spot);
+                // A region that ends in a wedge thinner than a pixel is seen to end too early; its tip is not placed.
+                wedge = met.is_none();
+                met.or_else(|| self.placer.project(&first, spot))
+            }
+            _ => None,
+        };
+        let fallback = target(regions[regions.len() - 1], regions[0]);
+        self.traced.unplaced += u32::from(wedge && met.is_some());
+        met.unwrap_or_else(|| {
+            self.traced.unplaced += 1;
+            Vertex { at: spot, clearance: self.placer.clearance(&fallback, spot).max(0.0) }
+        })
+    }
+}

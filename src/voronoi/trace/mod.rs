@@ -1,0 +1,223 @@
+//! The borders between differently owned pixels of one tile, placed.
+//!
+//! Between two pixels of different owners runs a *crack*, a unit edge between pixel corners. A corner where two
+//! cracks meet only passes a boundary on; where three or four meet, regions meet, and the corner is a node. A
+//! checkerboard corner (A B / B A) has four cracks and is a node like any other: all four boundaries end there, so
+//! neither region is joined or torn by a guess.
+//!
+//! ```text
+//!     A A │ B          A A │ C                  a tile owns the left and upper crack of each of its
+//!     ────┘ B          ────┼────                pixels; pieces end at its border and are stitched
+//!     C  ...           B B │ C                  at the corners there (see `stitch`)
+//!     two cracks:      four cracks:
+//!     passed on        a node
+//! ```
+//!
+//! Each piece is placed as it is traced, on the worker that drew the tile: cracks are sampled, moved to the true
+//! boundary, and sampled again between wherever the true boundary leaves the chord or its clearance bends. A straight piece costs
+//! three samples, whatever its length.
+
+mod crack;
+mod equation;
+mod pixels;
+mod sample;
+
+use super::place::{Placer, Vertex};
+use super::plane::Spot;
+
+use crack::{Crack, HEADINGS, Heading};
+pub(super) use pixels::{APRON, Pixels};
+pub(super) use sample::CHORD;
+
+/// A pixel corner of the picture: its key for stitching, and whether boundaries end there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Corner {
+    pub(super) column: u32,
+    pub(super) row: u32,
+    pub(super) node: bool,
+}
+
+/// A stretch of boundary within one tile: `vertices[first..first + len]`, both corners' places included.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Piece {
+    pub(super) from: Corner,
+    pub(super) to: Corner,
+    pub(super) left: u32,
+    pub(super) right: u32,
+    pub(super) first: u32,
+    pub(super) len: u32,
+}
+
+/// What a tile adds to the graph.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Traced {
+    pub(super) pieces: Vec<Piece>,
+    pub(super) vertices: Vec<Vertex>,
+    /// Samples that kept their pixel's place because the true one was not within reach.
+    pub(super) unplaced: u32,
+}
+
+/// What tracing needs to know beside the pixels.
+#[derive(Clone, Copy)]
+pub(super) struct Course {
+    /// The place of the picture's corner (0, 0), in nanometres.
+    pub(super) origin: Spot,
+    /// The side of a pixel, in nanometres.
+    pub(super) pitch: f64,
+    /// The distance that bounds regions against the background, in nanometres.
+    pub(super) level: f64,
+    /// The label of what earlier cuts have cleared.
+    pub(super) groove: u32,
+    /// Whether only boundaries against the background are wanted.
+    pub(super) levels_only: bool,
+}
+
+/// Traces one tile.
+pub(super) struct Tracer<'a> {
+    pixels: Pixels<'a>,
+    placer: &'a Placer<'a>,
+    course: Course,
+    visited: [Vec<bool>; 2],
+    traced: Traced,
+}
+
+/// All boundary pieces of a tile.
+pub(super) fn trace(pixels: Pixels<'_>, placer: &Placer<'_>, course: Course) -> Traced {
+    let area = pixels.index(pixels.width, pixels.height);
+    let visited = [vec![false; area], vec![false; area]];
+    let mut tracer = Tracer { pixels, placer, course, visited, traced: Traced::default() };
+    tracer.run();
+    tracer.traced
+}
+
+impl Tracer<'_> {
+    fn run(&mut self) {
+        let cracks = self.cracks();
+        for &crack in &cracks {
+            for end in [(crack.x, crack.y), crack.end()] {
+                if self.is_end(end) {
+                    self.pieces_from(end);
+                }
+            }
+        }
+        for crack in cracks {
+            if !self.seen(crack) {
+                self.piece(crack);
+            }
+        }
+    }
+
+    /// The left and upper cracks of all pixels, row by row.
+    fn cracks(&self) -> Vec<Crack> {
+        let mut cracks = Vec::new();
+        for y in 0..self.pixels.height {
+            let row = |y: i32| {
+                &self.pixels.owners[self.pixels.index(-1, y)..self.pixels.index(self.pixels.width, y)]
+            };
+            let (above, here) = (row(y - 1), row(y));
+            if above[1..] == here[1..] && here.windows(2).all(|pair| pair[0] == pair[1]) {
+                continue;
+            }
+            for (x, (pair, &above)) in (0..).zip(here.windows(2).zip(&above[1..])) {
+                if pair[1] != pair[0] {
+                    cracks.push(Crack { x, y, heading: Heading::South });
+                }
+                if pair[1] != above {
+                    cracks.push(Crack { x, y, heading: Heading::East });
+                }
+            }
+        }
+        cracks
+    }
+
+    fn is_crack(&self, crack: Crack) -> bool {
+        let (left, right) = crack.sides();
+        self.pixels.owner(left.0, left.1) != self.pixels.owner(right.0, right.1)
+    }
+
+    fn is_ours(&self, crack: Crack) -> bool {
+        let ((x, y), _) = crack.home();
+        (0..self.pixels.width).contains(&x) && (0..self.pixels.height).contains(&y)
+    }
+
+    fn slot(&self, crack: Crack) -> (usize, usize) {
+        let ((x, y), left) = crack.home();
+        (usize::from(left), self.pixels.index(x, y))
+    }
+
+    fn seen(&self, crack: Crack) -> bool {
+        let (plane, at) = self.slot(crack);
+        self.visited[plane][at]
+    }
+
+    fn degree(&self, (x, y): (i32, i32)) -> usize {
+        HEADINGS.iter().filter(|&&heading| self.is_crack(Crack { x, y, heading })).count()
+    }
+
+    /// Whether pieces end at this corner: on the tile's border, and at nodes.
+    fn is_end(&self, (x, y): (i32, i32)) -> bool {
+        x == 0 || y == 0 || x == self.pixels.width || y == self.pixels.height || self.degree((x, y)) > 2
+    }
+
+    fn pieces_from(&mut self, (x, y): (i32, i32)) {
+        for heading in HEADINGS {
+            let crack = Crack { x, y, heading };
+            if self.is_ours(crack) && self.is_crack(crack) && !self.seen(crack) {
+                self.piece(crack);
+            }
+        }
+    }
+
+    /// Follows the boundary from `first` to where it ends or closes, and places it.
+    fn piece(&mut self, first: Crack) {
+        let mut cracks = vec![first];
+        self.mark(first);
+        let start = (first.x, first.y);
+        let mut at = first.end();
+        while at != start && !self.is_end(at) {
+            let next = HEADINGS
+                .iter()
+                .map(|&heading| Crack { x: at.0, y: at.1, heading })
+                .find(|&crack| self.is_crack(crack) && !self.seen(crack));
+            let Some(next) = next else { break };
+            self.mark(next);
+            cracks.push(next);
+            at = next.end();
+        }
+        let first_vertex = self.traced.vertices.len();
+        let (left, right) = first.sides();
+        let (left, right) = (self.pixels.owner(left.0, left.1), self.pixels.owner(right.0, right.1));
+        self.place(&cracks, start, at);
+        let count = |n: usize| u32::try_from(n).expect("a tile has few vertices");
+        let piece = Piece {
+            from: self.corner(start),
+            to: self.corner(at),
+            left,
+            right,
+            first: count(first_vertex),
+            len: count(self.traced.vertices.len() - first_vertex),
+        };
+        self.traced.pieces.push(piece);
+    }
+
+    fn mark(&mut self, crack: Crack) {
+        let (plane, at) = self.slot(crack);
+        self.visited[plane][at] = true;
+    }
+
+    #[expect(clippy::cast_sign_loss, reason = "corners of the tile are not negative")]
+    fn corner(&self, at: (i32, i32)) -> Corner {
+        Corner {
+            column: self.pixels.column0 + at.0 as u32,
+            row: self.pixels.row0 + at.1 as u32,
+            node: self.degree(at) > 2,
+        }
+    }
+
+    /// The place of a position in the tile's pixels.
+    fn spot(&self, x: f64, y: f64) -> Spot {
+        let (column, row) = (f64::from(self.pixels.column0) + x, f64::from(self.pixels.row0) + y);
+        let Course { origin, pitch, .. } = self.course;
+        Spot::new(origin.x + column * pitch, origin.y - row * pitch)
+    }
+}
