@@ -9,6 +9,7 @@ use std::collections::BTreeMap;
 
 use crate::geometry::{Arc, Nm};
 
+use super::feed::Feed;
 use super::machine::Machine;
 use super::program::{Move, Position, Program};
 
@@ -178,6 +179,13 @@ impl<'a> Planner<'a> {
         self.stop();
         self.seconds
     }
+}
+
+/// The time from a standstill to a standstill along `length` at `speed`: a motion between two others that turn
+/// sharply.
+pub(super) fn hop(length: Nm, speed: Feed, machine: &Machine) -> f64 {
+    let acceleration = f64::from(machine.acceleration.max(1)) * 1e6;
+    trapezoid(length.to_f64(), 0.0, 0.0, speed.nm_per_second(), acceleration)
 }
 
 /// The time along `length` from speed `entry` to speed `exit`, at most `speed` in between.

@@ -10,5 +10,6 @@ mod layers;
 mod oracle;
 mod outline;
 mod raster;
+mod toolpath;
 mod topology;
 mod voronoi;

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use crate::board::Warning;
 use crate::geometry::{Nm, Path, Point, Segment};
 use crate::toolpath::head::Head;
+use crate::toolpath::measure::hop;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::trails::{Link, Step, walk};
 use crate::toolpath::{Heights, Machine, Move, Placement, Section, Tool};
@@ -257,9 +258,18 @@ impl Line {
     }
 }
 
-/// What a lift costs beside its level travel: up, down to the approach height, and the plunge.
+/// The way over which the next trail is expected, for what a lift costs. Chosen: the middle of what boards show.
+const EXPECTED_HOP: Nm = Nm::from_mm(5);
+
+/// What a lift costs: up, over, down to the approach height, the plunge, and each time from a standstill to a
+/// standstill.
 fn lift_seconds(settings: &Isolation<'_>) -> f64 {
     let Heights { safe, approach, cut, .. } = settings.heights;
-    let rapid = (safe + cut + safe - approach).to_f64() / settings.machine.rapid_z.nm_per_second();
-    rapid + (approach + cut).to_f64() / settings.tool.plunge.nm_per_second()
+    let Isolation { machine, tool, .. } = settings;
+    let stop = tool.feed.nm_per_second() / (f64::from(machine.acceleration.max(1)) * 1e6);
+    hop(safe + cut, machine.rapid_z, machine)
+        + hop(EXPECTED_HOP, machine.rapid, machine)
+        + hop(safe - approach, machine.rapid_z, machine)
+        + hop(approach + cut, tool.plunge, machine)
+        + stop
 }

@@ -2,12 +2,16 @@
 //!
 //! A trail passes each edge once. A connected graph with 2k nodes of odd degree needs k trails (Euler); cutting an edge a second
 //! time makes the two odd nodes at its ends even and saves a trail, so odd nodes are paired along shortest
-//! ways wherever that way takes less time than a lift (the Chinese postman's problem with an escape).
+//! ways wherever that saves time (the Chinese postman's problem with an escape).
+
+mod matching;
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use rustc_hash::FxHashMap;
+
+use matching::Candidate;
 
 /// An edge of the graph.
 #[derive(Clone, Copy, Debug)]
@@ -67,7 +71,7 @@ fn odd(nodes: usize, passes: &[Pass]) -> Vec<bool> {
     odd
 }
 
-/// The links to be passed once more: pairs of odd nodes nearest first, as long as the way takes less than `lift`.
+/// The links to be passed once more: odd nodes are joined in pairs where the way between takes less than `lift`.
 /// Where two such ways share a link, passing it neither time joins the same four nodes for less.
 fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> Vec<usize> {
     let odd = odd(nodes, passes);
@@ -76,15 +80,11 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> Vec<usize>
     for from in (0..nodes).filter(|&node| odd[node]) {
         pairs.extend(near(from, &odd, &graph, links, lift));
     }
-    pairs.sort_by(|a, b| a.seconds.total_cmp(&b.seconds).then((a.from, a.to).cmp(&(b.from, b.to))));
-    let (mut open, mut again) = (odd, vec![false; links.len()]);
-    for pair in pairs {
-        if open[pair.from] && open[pair.to] {
-            (open[pair.from], open[pair.to]) = (false, false);
-            for link in pair.way {
-                again[link] ^= true;
-            }
-        }
+    let candidate = |pair: &Pair| Candidate { nodes: (pair.from, pair.to), cost: pair.seconds };
+    let candidates: Vec<Candidate> = pairs.iter().map(candidate).collect();
+    let mut again = vec![false; links.len()];
+    for chosen in matching::join(nodes, &candidates, lift / 2.0) {
+        pairs[chosen].way.iter().for_each(|&link| again[link] ^= true);
     }
     (0..links.len()).filter(|&link| again[link]).collect()
 }

@@ -1,0 +1,197 @@
+//! Which odd nodes are joined by a second cut: a matching in which staying alone costs half a lift.
+//!
+//! Nearest pairs first, then alternating chains: a pair is taken apart, one of the two joins a near node, whose partner is loose in turn,
+//! and so on a few steps; whatever makes the sum smaller is kept. (Edmonds' exact algorithm would be several hundred
+//! lines for the last percent.)
+
+/// Two nodes that may be joined, the smaller first, and what joining them costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Candidate {
+    pub(super) nodes: (usize, usize),
+    pub(super) cost: f64,
+}
+
+/// How many pairs a chain takes apart at most. Chosen: more found nothing on the boards at hand.
+const LONGEST: usize = 4;
+/// Gains below this are rounding.
+const LEAST: f64 = 1e-9;
+
+/// The indices of the candidates that are joined, each node at most once, with a small sum of their costs and of
+/// `alone` for every node left over.
+pub(super) fn join(nodes: usize, candidates: &[Candidate], alone: f64) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..candidates.len()).collect();
+    let key = |index: usize| candidates[index];
+    order.sort_by(|&a, &b| key(a).cost.total_cmp(&key(b).cost).then(key(a).nodes.cmp(&key(b).nodes)));
+    let mut matching =
+        Matching { candidates, near: vec![Vec::new(); nodes], joined: vec![None; nodes], alone };
+    for index in order {
+        let Candidate { nodes: (a, b), cost } = candidates[index];
+        matching.near[a].push(index);
+        matching.near[b].push(index);
+        if cost < 2.0 * alone && matching.joined[a].is_none() && matching.joined[b].is_none() {
+            matching.joined[a] = Some(index);
+            matching.joined[b] = Some(index);
+        }
+    }
+    let mut better = true;
+    while better {
+        better = false;
+        for node in 0..nodes {
+            better |= !matching.near[node].is_empty() && matching.improve(node);
+        }
+    }
+    let mut chosen: Vec<usize> = matching.joined.into_iter().flatten().collect();
+    chosen.sort_unstable();
+    chosen.dedup();
+    chosen
+}
+
+struct Matching<'a> {
+    candidates: &'a [Candidate],
+    /// The candidates of each node, cheapest first.
+    near: Vec<Vec<usize>>,
+    /// The candidate by which a node is joined.
+    joined: Vec<Option<usize>>,
+    alone: f64,
+}
+
+impl Matching<'_> {
+    fn other(&self, candidate: usize, node: usize) -> usize {
+        let (a, b) = self.candidates[candidate].nodes;
+        if a == node { b } else { a }
+    }
+
+    /// Frees `node` and its partner and looks for a chain that gains; whether one was made.
+    fn improve(&mut self, node: usize) -> bool {
+        let (loose, first, gain) = match self.joined[node] {
+            // Alone: it is the loose end itself, and nothing waits for the chain to come back.
+            None => (node, None, self.alone),
+            Some(candidate) => (self.other(candidate, node), Some(node), self.candidates[candidate].cost),
+        };
+        let mut chain = Vec::new();
+        let mut busy = vec![node, loose];
+        self.extend(loose, first, gain, &mut chain, &mut busy) && {
+            self.apply(first, &chain);
+            true
+        }
+    }
+
+    /// Joins `loose` to a near node and either closes there or goes on from that node's partner.
+    fn extend(
+        &self,
+        loose: usize,
+        first: Option<usize>,
+        gain: f64,
+        chain: &mut Vec<usize>,
+        busy: &mut Vec<usize>,
+    ) -> bool {
+        for &candidate in &self.near[loose] {
+            let left = gain - self.candidates[candidate].cost;
+            if left <= LEAST {
+                return false;
+            }
+            let next = self.other(candidate, loose);
+            if busy.contains(&next) {
+                continue;
+            }
+            chain.push(candidate);
+            let rest = first.map_or(0.0, |_| self.alone);
+            if let Some(broken) = self.joined[next] {
+                let left = left + self.candidates[broken].cost;
+                let partner = self.other(broken, next);
+                busy.extend([next, partner]);
+                if let Some(close) = first.and_then(|first| self.between(partner, first))
+                    && left - self.candidates[close].cost > LEAST
+                {
+                    chain.push(close);
+                    return true;
+                }
+                if left - rest - self.alone > LEAST {
+                    return true;
+                }
+                if chain.len() < LONGEST && self.extend(partner, first, left, chain, busy) {
+                    return true;
+                }
+                busy.truncate(busy.len() - 2);
+            } else if left + self.alone - rest > LEAST {
+                return true;
+            }
+            chain.pop();
+        }
+        false
+    }
+
+    /// The candidate that joins two nodes.
+    fn between(&self, a: usize, b: usize) -> Option<usize> {
+        self.near[a].iter().copied().find(|&candidate| self.other(candidate, a) == b)
+    }
+
+    /// Takes apart whatever the chain's nodes were in, and joins them along it.
+    fn apply(&mut self, first: Option<usize>, chain: &[usize]) {
+        let ends = chain.iter().flat_map(|&candidate| {
+            let (a, b) = self.candidates[candidate].nodes;
+            [a, b]
+        });
+        let mut freed: Vec<usize> = ends.chain(first).collect();
+        let partners: Vec<usize> = freed
+            .iter()
+            .filter_map(|&node| self.joined[node].map(|candidate| self.other(candidate, node)))
+            .collect();
+        freed.extend(partners);
+        for node in freed {
+            self.joined[node] = None;
+        }
+        for &candidate in chain {
+            let (a, b) = self.candidates[candidate].nodes;
+            self.joined[a] = Some(candidate);
+            self.joined[b] = Some(candidate);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn cost(candidates: &[Candidate], chosen: &[usize], nodes: usize, alone: f64) -> f64 {
+        let left = u32::try_from(nodes - 2 * chosen.len()).expect("a few");
+        chosen.iter().map(|&index| candidates[index].cost).sum::<f64>() + alone * f64::from(left)
+    }
+
+    /// By trying everything.
+    fn best(candidates: &[Candidate], used: u32, nodes: usize, alone: f64) -> f64 {
+        let mut least = alone * f64::from(u32::try_from(nodes).expect("a few") - used.count_ones());
+        for (index, Candidate { nodes: (a, b), cost }) in candidates.iter().enumerate() {
+            if used & (1 << a | 1 << b) == 0 {
+                least =
+                    least.min(cost + best(&candidates[index + 1..], used | 1 << a | 1 << b, nodes, alone));
+            }
+        }
+        least
+    }
+
+    proptest! {
+        #[test]
+        fn a_matching_uses_no_node_twice_and_is_about_the_best(
+            costs in prop::collection::vec((0..8_usize, 0..8_usize, 0.1..3.0_f64), 0..14),
+        ) {
+            let mut candidates: Vec<Candidate> = costs
+                .into_iter()
+                .filter(|(a, b, _)| a != b)
+                .map(|(a, b, cost)| Candidate { nodes: (a.min(b), a.max(b)), cost })
+                .collect();
+            candidates.sort_by_key(|candidate| candidate.nodes);
+            candidates.dedup_by_key(|candidate| candidate.nodes);
+            let chosen = join(8, &candidates, 1.0);
+            let mut seen: Vec<usize> = chosen.iter().flat_map(|&i| [candidates[i].nodes.0, candidates[i].nodes.1]).collect();
+            seen.sort_unstable();
+            let count = seen.len();
+            seen.dedup();
+            prop_assert_eq!(seen.len(), count, "a node is joined twice");
+            let (found, least) = (cost(&candidates, &chosen, 8, 1.0), best(&candidates, 0, 8, 1.0));
+            prop_assert!(found <= least * 1.1 + 1e-9, "found {found}, possible {least}");
+        }
+    }
+}

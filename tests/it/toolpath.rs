@@ -1,0 +1,396 @@
+//! What strategies plan: safe by construction, everything done once, tabs really there.
+
+use proptest::prelude::*;
+use voromill::board::{Hole, Outline, Plating};
+use voromill::gcode::{Dialect, Header, write};
+use voromill::geometry::{Arc, Nm, Path, Point, Rect, Turn};
+use voromill::toolpath::strategy::{Cutout, Drilling, Isolation, Narrow, Role, Tabs, cutout, drill, isolate};
+use voromill::toolpath::{
+    Heights, Machine, Move, Order, Origin, Placement, Position, Program, Section, Tool, measure,
+};
+use voromill::topology::NetId;
+use voromill::voronoi::{Boundaries, Boundary, NodeId, Owner};
+
+fn at(x: i64, y: i64) -> Point {
+    Point::new(Nm::from_um(x), Nm::from_um(y))
+}
+
+fn heights(cut: i64, step: Option<i64>) -> Heights {
+    Heights {
+        safe: Nm::from_mm(2),
+        approach: Nm::from_um(500),
+        cut: Nm::from_um(cut),
+        step: step.map(Nm::from_um),
+    }
+}
+
+fn tool(text: &str) -> Tool {
+    text.parse().expect("a tool")
+}
+
+fn line(points: &[Point]) -> Path {
+    Path::polyline(points.iter().copied()).expect("a point")
+}
+
+fn boundary(points: &[Point], clearance: i64, ends: Option<(u32, u32)>) -> Boundary {
+    Boundary {
+        path: line(points),
+        clearance: vec![Nm::from_um(clearance); points.len()],
+        left: Owner::Net(NetId(0)),
+        right: Owner::Net(NetId(1)),
+        ends: ends.map(|(a, b)| (NodeId(a), NodeId(b))),
+    }
+}
+
+/// A short bar between two forks, and a loop beside.
+fn forks() -> Boundaries {
+    let nodes =
+        vec![at(0, 0), at(1000, 0), at(-5000, 5000), at(-5000, -5000), at(6000, 5000), at(6000, -5000)];
+    let edge = |a: u32, b: u32| boundary(&[nodes[a as usize], nodes[b as usize]], 500, Some((a, b)));
+    let ring = [at(9000, 0), at(12_000, 0), at(12_000, 3000), at(9000, 3000), at(9000, 0)];
+    let mut edges = vec![edge(0, 1), edge(0, 2), edge(0, 3), edge(1, 4), edge(1, 5)];
+    edges.push(boundary(&ring, 60, None));
+    Boundaries { nodes, edges }
+}
+
+fn name(owner: Owner) -> String {
+    match owner {
+        Owner::Net(NetId(0)) => "GND".to_owned(),
+        Owner::Net(_) => "VCC".to_owned(),
+        Owner::Background | Owner::Outside => "the edge".to_owned(),
+    }
+}
+
+/// What every section must keep: it begins and ends at the safe height, rapids are level there or straight up or down through air,
+/// and only feeds go sideways below.
+fn assert_safe(section: &Section, heights: Heights) {
+    let mut here: Option<Position> = None;
+    for step in &section.moves {
+        let Some(to) = step.to() else { continue };
+        match (here, step) {
+            (None, Move::Rapid { to }) => {
+                assert_eq!(to.z, heights.safe, "the first move is at the safe height")
+            }
+            (None, _) => panic!("the first move is a rapid"),
+            (Some(from), Move::Rapid { .. }) if from.point() == to.point() => {
+                let up = to.z >= from.z;
+                assert!(up || to.z >= heights.approach, "a rapid goes down to {:?} µm", to.z);
+            }
+            (Some(from), Move::Rapid { .. }) => {
+                assert!(
+                    from.z == heights.safe && to.z == heights.safe,
+                    "a rapid goes sideways below the safe height"
+                );
+            }
+            (Some(_), Move::Feed { .. } | Move::Arc { .. }) => {
+                assert!(to.z >= -heights.cut, "a feed goes deeper than the cut");
+            }
+            (Some(_), Move::Dwell { .. }) => {}
+        }
+        here = Some(to);
+    }
+    assert!(here.is_none_or(|here| here.z == heights.safe), "it ends at the safe height");
+}
+
+fn text(sections: Vec<Section>) -> String {
+    let program = Program { title: "a test".to_owned(), notes: Vec::new(), safe: Nm::from_mm(2), sections };
+    write(&program, Dialect::by_name("grbl").expect("built in"), &Header::default())
+}
+
+/// A section as text, compared with the one that was looked at.
+fn assert_as_looked_at(case: &str, sections: Vec<Section>) {
+    insta::with_settings!({
+        snapshot_path => concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/toolpath"),
+        prepend_module_to_snapshot => false
+    }, {
+        insta::assert_snapshot!(case, text(sections));
+    });
+}
+
+fn isolation<'a>(tool: &'a Tool, placement: &'a Placement, machine: &'a Machine) -> Isolation<'a> {
+    Isolation {
+        tool,
+        heights: heights(100, None),
+        placement,
+        order: Order::Improved,
+        machine,
+        narrow: Narrow::Centre,
+        adaptive: None,
+    }
+}
+
+#[test]
+fn a_short_bar_is_cut_twice_rather_than_lifting() {
+    let (tool, placement, machine) = (tool("vbit:0.1mm:30deg"), Placement::default(), Machine::default());
+    let settings = isolation(&tool, &placement, &machine);
+    let (section, _) = isolate("isolate front", &forks(), &[], |_| Role::Cut, name, &settings);
+    assert_safe(&section, settings.heights);
+    let program = Program {
+        title: String::new(),
+        notes: Vec::new(),
+        safe: settings.heights.safe,
+        sections: vec![section.clone()],
+    };
+    let statistics = measure(&program, &machine);
+    assert_eq!(statistics.lifts, 3, "two trails through the forks and the loop");
+    assert_as_looked_at("forks", vec![section]);
+}
+
+#[test]
+fn a_gap_narrower_than_the_kerf_is_listed_with_its_place_and_its_nets() {
+    let (tool, placement, machine) = (tool("vbit:0.1mm:30deg"), Placement::default(), Machine::default());
+    let mut settings = isolation(&tool, &placement, &machine);
+    let (all, warnings) = isolate("", &forks(), &[], |_| Role::Cut, name, &settings);
+    let [warning] = warnings.as_slice() else { panic!("one boundary is narrow: {warnings:?}") };
+    assert_eq!((warning.code, warning.at), ("gap-narrower-than-tool", Some(at(9000, 0))), "where it is");
+    for part in ["GND and VCC", "120.0 µm", "153.6 µm", "16.8 µm"] {
+        assert!(warning.message.contains(part), "`{}` does not say `{part}`", warning.message);
+    }
+    settings.narrow = Narrow::Skip;
+    let (wide, _) = isolate("", &forks(), &[], |_| Role::Cut, name, &settings);
+    assert!(wide.moves.len() < all.moves.len(), "the narrow loop is left");
+}
+
+#[test]
+fn a_v_bit_rises_where_the_gap_is_narrow() {
+    let (tool, placement, machine) = (tool("vbit:0.1mm:30deg"), Placement::default(), Machine::default());
+    let settings = Isolation { adaptive: Some(Nm::from_um(20)), ..isolation(&tool, &placement, &machine) };
+    let (section, _) = isolate("isolate front", &forks(), &[], |_| Role::Cut, name, &settings);
+    assert_safe(&section, settings.heights);
+    let around: Vec<Nm> = section
+        .moves
+        .iter()
+        .filter_map(Move::to)
+        .filter(|to| to.x >= Nm::from_mm(9) && to.z < Nm::ZERO)
+        .map(|to| tool.width_at(-to.z))
+        .collect();
+    assert!(!around.is_empty(), "the loop is cut");
+    assert!(around.iter().all(|&kerf| kerf <= Nm::from_um(120)), "the kerf fits the gap: {around:?}");
+    assert_as_looked_at("adaptive_depth", vec![section]);
+}
+
+fn outline() -> Outline {
+    let ring = |rect: Rect| line(&[rect.corners().as_slice(), &rect.corners()[..1]].concat());
+    let board = ring(Rect::new(at(0, 0), at(40_000, 30_000)));
+    let window = ring(Rect::new(at(10_000, 10_000), at(25_000, 20_000)));
+    Outline::new(vec![board, window]).expect("closed contours")
+}
+
+fn cutting<'a>(tool: &'a Tool, placement: &'a Placement, count: u32) -> Cutout<'a> {
+    let tabs = Tabs { count, width: Nm::from_mm(2), height: Nm::from_um(600) };
+    Cutout { tool, heights: heights(1700, Some(600)), placement, tabs }
+}
+
+#[test]
+fn a_board_with_a_window_is_cut_from_the_inside_out() {
+    let (tool, placement) = (tool("endmill:1mm"), Placement::default());
+    let settings = cutting(&tool, &placement, 2);
+    let (section, warnings) = cutout(&outline(), &settings);
+    assert!(warnings.is_empty(), "nothing to warn about: {warnings:?}");
+    assert_safe(&section, settings.heights);
+    let first = section.moves[0].to().expect("a place");
+    assert!(Rect::new(at(10_000, 10_000), at(25_000, 20_000)).contains(first.point()), "the window first");
+    assert_as_looked_at("cutout", vec![section]);
+}
+
+/// How much of the way at full depth is missing, in stretches: the openings over the tabs.
+fn bridges(section: &Section, top: Nm) -> Vec<f64> {
+    let (mut here, mut bridges) = (Position::default(), Vec::new());
+    for step in &section.moves {
+        let to = step.to().unwrap_or(here);
+        let level = matches!(step, Move::Feed { .. }) && here.z == to.z && here.point() != to.point();
+        if level && here.z == -top {
+            bridges.push(here.point().distance(to.point()));
+        }
+        here = to;
+    }
+    bridges
+}
+
+#[test]
+fn tabs_are_really_there() {
+    let (tool, placement) = (tool("endmill:1mm"), Placement::default());
+    let settings = cutting(&tool, &placement, 3);
+    let (section, _) = cutout(&outline(), &settings);
+    let top = settings.heights.cut - settings.tabs.height;
+    let bridges = bridges(&section, top);
+    let below = settings.heights.passes().filter(|&depth| depth > top).count();
+    assert_eq!(bridges.len(), 2 * 3 * below, "three on each contour, in each pass below their top");
+    for bridge in bridges {
+        // A tab of 2 mm and half a cutter on both sides.
+        assert!((bridge - 3e6).abs() < 2.0, "an opening of {bridge} nm");
+    }
+}
+
+#[test]
+fn the_cutter_stays_outside_the_board() {
+    let (tool, placement) = (tool("endmill:1mm"), Placement::default());
+    let (section, _) = cutout(&outline(), &cutting(&tool, &placement, 4));
+    let board = Rect::new(at(0, 0), at(40_000, 30_000)).inflate(Nm::from_um(497));
+    let window = Rect::new(at(10_000, 10_000), at(25_000, 20_000)).inflate(Nm::from_um(-497));
+    for to in section.moves.iter().filter_map(Move::to) {
+        let p = to.point();
+        let inside = |r: Rect| r.min().x < p.x && p.x < r.max().x && r.min().y < p.y && p.y < r.max().y;
+        let round = [at(0, 0), at(40_000, 0), at(40_000, 30_000), at(0, 30_000)]
+            .iter()
+            .any(|corner| corner.distance(p) >= 497_000.0 && corner.distance(p) <= 503_000.0);
+        assert!(!inside(board) || inside(window) || round || window.contains(p), "{p:?} is in the board");
+    }
+}
+
+#[test]
+fn a_window_narrower_than_the_cutter_is_left_with_a_warning() {
+    let (tool, placement) = (tool("endmill:12mm"), Placement::default());
+    let (_, warnings) = cutout(&outline(), &cutting(&tool, &placement, 0));
+    assert_eq!(warnings.iter().map(|w| w.code).collect::<Vec<_>>(), ["cut-out-narrower-than-tool"], "one");
+}
+
+fn hole(x: i64, y: i64, diameter: i64, to: Option<Point>) -> Hole {
+    let points: Vec<Point> = std::iter::once(at(x, y)).chain(to).collect();
+    Hole { path: line(&points), diameter: Nm::from_um(diameter), plating: Plating::Plated, tool: 1, line: 1 }
+}
+
+fn drilling<'a>(drills: &'a [Tool], mill: Option<&'a Tool>, placement: &'a Placement) -> Drilling<'a> {
+    Drilling {
+        drills,
+        tolerance: Nm::from_um(50),
+        mill,
+        heights: heights(1800, Some(1000)),
+        placement,
+        order: Order::Improved,
+        dwell: 0,
+    }
+}
+
+#[test]
+fn holes_go_to_the_nearest_drill_or_to_the_mill_or_to_a_warning() {
+    let (placement, mill) = (Placement::default(), tool("endmill:1mm"));
+    let drills = [tool("drill:0.6mm"), tool("drill:0.8mm")];
+    let holes = [
+        hole(0, 0, 830, None),
+        hole(5000, 0, 600, None),
+        hole(9000, 0, 3200, None),
+        hole(0, 9000, 1200, Some(at(3000, 9000))),
+        hole(5000, 5000, 700, None),
+    ];
+    let (sections, warnings) = drill(&holes, &drilling(&drills, Some(&mill), &placement));
+    let labels: Vec<&str> = sections.iter().map(|section| section.label.as_str()).collect();
+    assert_eq!(
+        labels,
+        ["drill 0.600 mm, 1 hole", "drill 0.800 mm, 1 hole", "bore 2 holes and slots"],
+        "the plan"
+    );
+    assert_eq!(
+        warnings.iter().map(|w| (w.code, w.at)).collect::<Vec<_>>(),
+        [("no-drill-for-hole", Some(at(5000, 5000)))],
+        "0.7 mm"
+    );
+    for section in &sections {
+        assert_safe(section, heights(1800, None));
+    }
+    assert_as_looked_at("drill_and_bore", sections);
+}
+
+#[test]
+fn a_slot_without_a_mill_is_a_chain_of_holes_with_low_ridges() {
+    let (placement, holes) = (Placement::default(), [hole(0, 0, 1000, Some(at(3000, 0)))]);
+    let (sections, _) = drill(&holes, &drilling(&[], None, &placement));
+    let mut deep: Vec<Nm> = sections[0]
+        .moves
+        .iter()
+        .filter_map(Move::to)
+        .filter(|to| to.z == Nm::from_um(-1800))
+        .map(|to| to.x)
+        .collect();
+    deep.sort_unstable();
+    assert_eq!((deep.first(), deep.last()), (Some(&Nm::ZERO), Some(&Nm::from_mm(3))), "both ends");
+    for pair in deep.windows(2) {
+        let half = (pair[1] - pair[0]).to_f64() / 2.0;
+        let ridge = 500_000.0 - (500_000.0_f64 * 500_000.0 - half * half).sqrt();
+        assert!(ridge <= 12_701.0, "a ridge of {ridge} nm");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(32))]
+
+    #[test]
+    fn every_hole_is_drilled_exactly_once(
+        places in prop::collection::btree_map((0..400_i64, 0..300_i64), 0..3_usize, 1..40),
+        mirror in prop::option::of(0..50_i64),
+    ) {
+        let holes: Vec<Hole> =
+            places.iter().map(|(&(x, y), &size)| hole(x * 100, y * 100, [600, 800, 1000][size], None)).collect();
+        let placement = Placement { mirror: mirror.map(Nm::from_mm), ..Placement::default() };
+        let settings = drilling(&[], None, &placement);
+        let (sections, warnings) = drill(&holes, &settings);
+        prop_assert!(warnings.is_empty(), "all diameters are at hand");
+        let bottom = Nm::from_um(-1800);
+        let mut hit: Vec<(Point, Nm)> = Vec::new();
+        for section in &sections {
+            assert_safe(section, settings.heights);
+            let deep = section.moves.iter().filter_map(Move::to).filter(|to| to.z == bottom);
+            hit.extend(deep.map(|to| (to.point(), section.tool.width_at(Nm::ZERO))));
+        }
+        let mut wanted: Vec<(Point, Nm)> =
+            holes.iter().map(|hole| (placement.point(hole.path.start), hole.diameter)).collect();
+        hit.sort_unstable();
+        wanted.sort_unstable();
+        prop_assert_eq!(hit, wanted);
+    }
+
+    #[test]
+    fn every_boundary_is_cut_and_the_tool_is_safe(
+        edges in prop::collection::vec((0..12_u32, 0..12_u32, any::<bool>()), 1..30),
+        step in prop::option::of(30..100_i64),
+    ) {
+        let nodes: Vec<Point> = (0..12).map(|i| at(i % 4 * 7000 + i * i * 30, i / 4 * 9000 + i * 170)).collect();
+        let edges: Vec<Boundary> = edges
+            .into_iter()
+            .map(|(a, b, bent)| {
+                let (from, to) = (nodes[a as usize], nodes[b as usize]);
+                let middle = at(i64::from(a) * 900 + 3000, i64::from(b) * 700 + 20_000);
+                let points = if bent || a == b { vec![from, middle, to] } else { vec![from, to] };
+                boundary(&points, 300, Some((a, b)))
+            })
+            .collect();
+        let boundaries = Boundaries { nodes, edges };
+        let (tool, placement, machine) = (tool("endmill:0.2mm"), Placement::default(), Machine::default());
+        let settings = Isolation { heights: heights(100, step), ..isolation(&tool, &placement, &machine) };
+        let (section, warnings) = isolate("", &boundaries, &[], |_| Role::Cut, name, &settings);
+        prop_assert!(warnings.is_empty(), "the gaps are wide");
+        assert_safe(&section, settings.heights);
+        let bottom = -settings.heights.cut;
+        let mut cuts: Vec<(Point, Point)> = Vec::new();
+        let mut here = Position::default();
+        for step in &section.moves {
+            let to = step.to().unwrap_or(here);
+            if here.z == bottom && to.z == bottom {
+                cuts.push((here.point().min(to.point()), here.point().max(to.point())));
+            }
+            here = to;
+        }
+        for edge in &boundaries.edges {
+            for (from, segment) in edge.path.steps() {
+                let wanted = (from.min(segment.to()), from.max(segment.to()));
+                prop_assert!(cuts.contains(&wanted), "{wanted:?} is not cut");
+            }
+        }
+    }
+
+    #[test]
+    fn arcs_stay_arcs_wherever_the_board_is_placed(x in -50_000..50_000_i64, y in -50_000..50_000_i64, turned in 0..4_i64, mirrored in any::<bool>()) {
+        let rotation = format!("{}deg", turned * 37).parse().expect("an angle");
+        let bounds = Rect::new(at(0, 0), at(100_000, 80_000));
+        let front = Placement::front(Origin::LowerLeft, bounds, rotation, at(x, y) - at(0, 0));
+        let placement = if mirrored { front.turned_over(front.middle(bounds)) } else { front };
+        let arc = Arc { start: at(3000, 0), end: at(0, 3000), center: at(0, 0), turn: Turn::CounterClockwise };
+        let placed = Arc {
+            start: placement.point(arc.start),
+            end: placement.point(arc.end),
+            center: placement.point(arc.center),
+            turn: placement.turn(arc.turn),
+        };
+        prop_assert!((placed.length() - arc.length()).abs() < 10.0, "{} became {}", arc.length(), placed.length());
+    }
+}
