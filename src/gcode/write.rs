@@ -96,6 +96,8 @@ impl<'a> Writer<'a> {
             self.change(&section.tool, before.is_none());
             if before.is_some() {
                 self.lift(program.safe);
+                // Whoever changes the tool may have moved the machine: the next place is written in full.
+                self.at = None;
             }
             self.start(&section.tool);
         } else {
@@ -116,7 +118,10 @@ impl<'a> Writer<'a> {
 
     /// The last lift, the spindle off, and the end lines.
     fn finish(&mut self, program: &Program) {
-        self.lift(program.safe);
+        let safe = self.round(program.safe);
+        if self.at.is_some_and(|at| at.z != safe) {
+            self.lift(program.safe);
+        }
         self.stop();
         for line in self.dialect.end.iter() {
             self.line(line);

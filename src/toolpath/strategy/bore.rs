@@ -15,7 +15,7 @@ use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Heights, Placement, Section, Tool};
 
-/// How far a lap of the helix goes down at most, where no step is set: half the cutter's width. Chosen.
+/// A lap of the helix goes down at most this part of the cutter's width. Chosen.
 const LAP: i64 = 2;
 
 /// Whether `mill` can make this hole: it fits in, and a slot is one straight way.
@@ -57,7 +57,8 @@ fn reaches(width: Nm, cutter: Nm) -> Vec<Nm> {
 
 /// One obround (a circle where both ends are one) down to the bottom.
 fn mill_out(head: &mut Head, a: Point, b: Point, reach: Nm, mill: &Tool, heights: Heights) {
-    let lap = heights.step.unwrap_or(mill.width_at(Nm::ZERO) / LAP).max(Nm::new(1));
+    let most = mill.width_at(Nm::ZERO) / LAP;
+    let lap = heights.step.unwrap_or(most).min(most).max(Nm::new(1));
     let depths = Heights { step: Some(lap), ..heights };
     if reach == Nm::ZERO && a == b {
         head.over(a);
