@@ -6,8 +6,8 @@
 //! A polygon's ring is drawn coarser than it is, by edges that stay within an eighth of a pixel of it; each such edge stands for
 //! the run of true edges that distances are measured to. So a pad whose corners were flattened into a hundred edges costs a dozen.
 
-use crate::board::{Axis, Copper, Feature, Shape};
-use crate::geometry::{Nm, Path, Point, Polygon};
+use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
+use crate::geometry::{Arc, Nm, Path, Point, Polygon};
 use crate::grid::Grid;
 use crate::raster::{Caps, FillRule, Label, Scene, Sides, Spin, Surface};
 use crate::topology::Nets;
@@ -27,6 +27,10 @@ pub(super) struct Sites {
 const OUTSIDE_LABEL: Label = Label(1);
 /// The border lies above everything.
 const OUTSIDE_DEPTH: f32 = -1.0;
+
+/// How much the two radii of an arc may differ and still be one, in nanometres: what rounding three
+/// points leaves.
+const ROUNDING: f64 = 1_000.0;
 
 /// The owner number of a net.
 pub(super) fn owner_of(net: crate::topology::NetId) -> u32 {
@@ -93,8 +97,20 @@ impl Sites {
             Shape::Stroke { from, to, radius } => {
                 self.push(Form::Line((*from).into(), (*to).into()), radius.to_f64(), owner, flat);
             }
-            Shape::Arc { arc, radius } => self.push(Form::arc(arc), radius.to_f64(), owner, flat),
+            Shape::Arc { arc, radius } => self.add_arc(arc, radius.to_f64(), owner, flat),
             Shape::Polygon(polygon) => self.add_polygon(polygon, owner, flat, tolerance),
+        }
+    }
+
+    /// An arc; one whose ends lie at different distances from its centre, as in sloppy files, by its chords.
+    fn add_arc(&mut self, arc: &Arc, radius: f64, owner: u32, flat: bool) {
+        if (arc.radius() - arc.center.distance(arc.end)).abs() <= ROUNDING {
+            return self.push(Form::arc(arc), radius, owner, flat);
+        }
+        let points: Vec<Spot> =
+            std::iter::once(arc.start).chain(arc.flatten(FLATTEN)).map(Spot::from).collect();
+        for pair in points.windows(2) {
+            self.push(Form::Line(pair[0], pair[1]), radius, owner, flat);
         }
     }
 
@@ -103,7 +119,7 @@ impl Sites {
         match core(feature) {
             Some(Axis::Flash(p)) => self.push(Form::Point(p.into()), 0.0, owner, false),
             Some(Axis::Line(a, b)) => self.push(Form::Line(a.into(), b.into()), 0.0, owner, false),
-            Some(Axis::Arc(arc)) => self.push(Form::arc(&arc), 0.0, owner, false),
+            Some(Axis::Arc(arc)) => self.add_arc(&arc, 0.0, owner, false),
             Some(Axis::Region) | None => return self.add_copper(&feature.shape, owner, false, tolerance),
         }
         if min_width {

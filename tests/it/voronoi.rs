@@ -138,6 +138,15 @@ fn the_limit_is_an_offset_curve() {
 }
 
 #[test]
+fn a_sloppy_arc_is_met_where_it_is_drawn() {
+    let arc =
+        Arc { start: at(2500, 0), end: at(4250, 2000), center: at(2500, 2500), turn: Turn::CounterClockwise };
+    let copper = layer([Shape::Arc { arc, radius: Nm::from_um(300) }, disc(0, 1500, 400)]);
+    let (nets, found) = boundaries(&copper, &Settings::default());
+    assert!(worst(&copper, &nets, &found, None) < 4_200.0, "off centre");
+}
+
+#[test]
 fn the_resolution_does_not_move_the_cut() {
     let shapes = [disc(0, 0, 500), disc(2500, 300, 300), disc(1200, 2200, 700), disc(-900, 1700, 200)];
     let copper = layer(shapes);
