@@ -7,6 +7,7 @@ use super::error::Error;
 use super::jobfile::Job;
 use super::layers::{self, Kind, Role};
 use super::load::{Selection, describe};
+use super::{naming, settle};
 use crate::board::{Side, Warning};
 
 /// Which of the gathered files is what, as indices.
@@ -63,8 +64,8 @@ pub(super) fn assign(
     let job = read_job(gathered, &mut assigned.warnings);
     let mut roles = witness(gathered, &job);
     choose_by_hand(gathered, selection, &mut roles, &mut assigned);
-    settle_groups(&mut roles);
-    assigned.front = assigned.front.or(only(
+    settle::groups(&mut roles);
+    assigned.front = assigned.front.or(settle::only(
         &roles,
         gathered,
         Role::Copper(Side::Front),
@@ -72,7 +73,7 @@ pub(super) fn assign(
         "--front",
         &assigned.place,
     )?);
-    assigned.back = assigned.back.or(only(
+    assigned.back = assigned.back.or(settle::only(
         &roles,
         gathered,
         Role::Copper(Side::Back),
@@ -80,30 +81,42 @@ pub(super) fn assign(
         "--back",
         &assigned.place,
     )?);
-    assigned.outline =
-        assigned.outline.or(only(&roles, gathered, Role::Outline, "outline", "--outline", &assigned.place)?);
+    if assigned.outline.is_none() {
+        settle::outlines(&mut roles, gathered, &mut assigned.warnings);
+    }
+    assigned.outline = assigned.outline.or(settle::only(
+        &roles,
+        gathered,
+        Role::Outline,
+        "outline",
+        "--outline",
+        &assigned.place,
+    )?);
     if selection.drill.is_empty() {
         assigned.drill =
             roles.iter().filter(|vote| vote.role == Some(Role::Drill)).map(|vote| vote.file).collect();
     }
     take_the_only_one(&roles, gathered, &mut assigned);
     set_aside(&roles, gathered, &mut assigned);
-    assigned.name = board_name(gathered, paths, selection, &job, &assigned);
+    assigned.name = naming::board_name(gathered, paths, selection, &job, &assigned);
     Ok(assigned)
 }
 
 /// What is known of one file's role, and how well.
-struct Vote {
-    file: usize,
-    role: Option<Role>,
-    witness: Witness,
+pub(super) struct Vote {
+    pub(super) file: usize,
+    pub(super) role: Option<Role>,
+    pub(super) witness: Witness,
 }
 
 /// Who says so; a later one is believed before an earlier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Witness {
+pub(super) enum Witness {
+    /// The file's name.
     Name,
+    /// Its X2 attribute.
     Function,
+    /// The job file.
     Job,
 }
 
@@ -151,7 +164,7 @@ fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
 
 /// What job file, function and name say of each file.
 fn witness(gathered: &Gathered, job: &Job) -> Vec<Vote> {
-    let names: Vec<&str> = gathered.files.iter().map(|file| stem(&file.name)).collect();
+    let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
     let shared = layers::shared_start(&names);
     let vote = |(index, file): (usize, &Found)| {
         let by_job = job.role_of(&file.name).map(|role| (role, Witness::Job));
@@ -191,56 +204,6 @@ fn choose_by_hand(gathered: &Gathered, selection: &Selection, votes: &mut [Vote]
     assigned.back = selection.back.as_ref().and_then(&mut choose);
     assigned.outline = selection.outline.as_ref().and_then(&mut choose);
     assigned.drill = selection.drill.iter().filter_map(&mut choose).collect();
-}
-
-/// gEDA's numbered groups: the first is the component side, the last the solder side, where nothing better tells.
-fn settle_groups(votes: &mut [Vote]) {
-    let numbers: Vec<u32> = votes.iter().filter_map(|vote| group(vote.role)).collect();
-    let sided = votes.iter().any(|vote| matches!(vote.role, Some(Role::Copper(_))));
-    let (Some(&first), Some(&last)) = (numbers.iter().min(), numbers.iter().max()) else { return };
-    for vote in votes {
-        let Some(number) = group(vote.role) else { continue };
-        vote.role = Some(match number {
-            _ if sided => Role::Other("inner copper"),
-            n if n == first => Role::Copper(Side::Front),
-            n if n == last => Role::Copper(Side::Back),
-            _ => Role::Other("inner copper"),
-        });
-    }
-}
-
-const fn group(role: Option<Role>) -> Option<u32> {
-    match role {
-        Some(Role::Group(number)) => Some(number),
-        _ => None,
-    }
-}
-
-/// The one file of a role, by the best witness; two of them are an error that says how to settle it.
-fn only(
-    votes: &[Vote],
-    gathered: &Gathered,
-    role: Role,
-    what: &str,
-    option: &str,
-    place: &str,
-) -> Result<Option<usize>, Error> {
-    let all = || votes.iter().filter(|vote| vote.role == Some(role));
-    let best = all().map(|vote| vote.witness).max();
-    let mut files: Vec<usize> =
-        all().filter(|vote| Some(vote.witness) == best).map(|vote| vote.file).collect();
-    // The same file twice, as in a folder and in the zip beside it, is no choice.
-    let bytes = |index: &usize| &gathered.files[*index].bytes;
-    files.dedup_by(|a, b| bytes(a) == bytes(b));
-    match files.as_slice() {
-        [] => Ok(None),
-        [file] => Ok(Some(*file)),
-        _ => {
-            let names: Vec<&str> = files.iter().map(|&i| gathered.files[i].name.as_str()).collect();
-            let what = format!("{} files could be the {what}: {}", names.len(), names.join(", "));
-            Err(Error::content(place, what, format!("choose one with {option} FILE")))
-        }
-    }
 }
 
 /// One Gerber file of unknown role, and no copper: it is the front.
@@ -284,72 +247,4 @@ fn set_aside(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigned) {
         };
         assigned.aside.push((vote.file, what.to_owned()));
     }
-}
-
-/// The name without its extension.
-pub(super) fn stem(name: &str) -> &str {
-    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
-}
-
-/// What the board is called: as told, as the job file has it, as all layers begin, or as their folder is named.
-fn board_name(
-    gathered: &Gathered,
-    paths: &[PathBuf],
-    selection: &Selection,
-    job: &Job,
-    assigned: &Assigned,
-) -> String {
-    /// Words that programs put before every layer.
-    const NO_NAMES: [&str; 8] = ["gerber", "copper", "drill", "pcb", "board", "layer", "output", "gerbers"];
-    let single = [assigned.front, assigned.back, assigned.outline];
-    let used: Vec<&str> = single
-        .into_iter()
-        .flatten()
-        .chain(assigned.drill.iter().copied())
-        .map(|i| gathered.files[i].name.as_str())
-        .collect();
-    let fits = |name: &str| {
-        let plain = name.to_ascii_lowercase();
-        (plain.len() > 1 && !NO_NAMES.contains(&plain.as_str())).then(|| name.to_owned())
-    };
-    let shared = || {
-        let name = match used.as_slice() {
-            [one] => without_role(stem(one)),
-            _ => used.iter().map(|name| stem(name)).reduce(shared_head)?,
-        };
-        fits(name.trim_end_matches(|c: char| !c.is_alphanumeric()))
-    };
-    let folder = || paths.first().and_then(|path| fits(archive_stem(&name_of(path))));
-    let name = selection.name.clone().or_else(|| job.name.clone().filter(|name| !name.is_empty()));
-    safe(&name.or_else(shared).or_else(folder).unwrap_or_else(|| "board".to_owned()))
-}
-
-/// The start that two stems share, up to a mark that parts words; the whole of one that the other begins with.
-fn shared_head<'a>(a: &'a str, b: &str) -> &'a str {
-    let shared = a.bytes().zip(b.bytes()).take_while(|(x, y)| x == y).count();
-    let ends = |text: &str| text.len() == shared || !text.as_bytes()[shared].is_ascii_alphanumeric();
-    if ends(a) && ends(b) {
-        return a.get(..shared).unwrap_or_default();
-    }
-    let mark = a.as_bytes()[..shared].iter().rposition(|b| !b.is_ascii_alphanumeric()).unwrap_or(0);
-    a.get(..mark).unwrap_or_default()
-}
-
-/// A layer's stem without the part that tells its role: `amp-F_Cu` is the board `amp`.
-fn without_role(stem: &str) -> &str {
-    let mut marks = stem.char_indices().filter(|(_, c)| !c.is_ascii_alphanumeric()).map(|(i, _)| i);
-    let told = marks.find(|&i| layers::role_by_name(&stem[i..], 0).is_some());
-    told.map_or(stem, |i| &stem[..i])
-}
-
-fn archive_stem(name: &str) -> &str {
-    if name.to_ascii_lowercase().ends_with(".zip") { stem(name) } else { name }
-}
-
-/// A name that every file system takes.
-fn safe(name: &str) -> String {
-    let kept: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect();
-    let kept = kept.trim_matches('.').to_owned();
-    if kept.is_empty() { "board".to_owned() } else { kept.chars().take(100).collect() }
 }

@@ -94,6 +94,7 @@ const EXTENSIONS: &[(&str, Role)] = &[
     ("gm1", Role::Outline),
     ("gml", Role::Outline),
     ("oln", Role::Outline),
+    ("mil", Role::Outline),
     ("dim", Role::Outline),
     ("drl", Role::Drill),
     ("drd", Role::Drill),
@@ -108,6 +109,12 @@ const EXTENSIONS: &[(&str, Role)] = &[
     ("sts", Role::Other("solder mask")),
     ("smt", Role::Other("solder mask")),
     ("smb", Role::Other("solder mask")),
+    ("tsm", Role::Other("solder mask")),
+    ("bsm", Role::Other("solder mask")),
+    ("tsp", Role::Other("paste")),
+    ("bsp", Role::Other("paste")),
+    ("tsk", Role::Other("silkscreen")),
+    ("bsk", Role::Other("silkscreen")),
     ("gtp", Role::Other("paste")),
     ("gbp", Role::Other("paste")),
     ("crc", Role::Other("paste")),
@@ -173,12 +180,26 @@ const PARTS: &[(&str, Role)] = &[
     ("internal", Role::Other("inner copper")),
     ("drill", Role::Drill),
     ("npth", Role::Drill),
+    ("padmaster", Role::Other("pad master")),
     ("outline", Role::Outline),
+    // As Siemens' tools spell it.
+    ("outlline", Role::Outline),
     ("profile", Role::Outline),
     ("contour", Role::Outline),
     ("border", Role::Outline),
     ("dimension", Role::Outline),
     ("cutout", Role::Outline),
+];
+
+/// Whole words that set a layer aside, whatever else its name says: `StopTop`, `PosiBot`, `TopAssy`.
+const ASIDE: &[(&str, Role)] = &[
+    ("stop", Role::Other("solder mask")),
+    ("posi", Role::Other("silkscreen")),
+    ("pads", Role::Other("pad master")),
+    ("fab", Role::Other("documentation")),
+    ("assy", Role::Other("documentation")),
+    ("mid", Role::Other("inner copper")),
+    ("plane", Role::Other("inner copper")),
 ];
 
 /// Whole words; where a name holds several, the last counts.
@@ -197,11 +218,11 @@ const WORDS: &[(&str, Role)] = &[
     ("mechanical", Role::Outline),
     ("pth", Role::Drill),
     ("holes", Role::Drill),
-    ("stop", Role::Other("solder mask")),
-    ("fab", Role::Other("documentation")),
-    ("assy", Role::Other("documentation")),
-    ("mid", Role::Other("inner copper")),
 ];
+
+/// Words before the number of a layer that is counted from the component side: gEDA's `group1`, Zuken's
+/// `Conductive-1`, PADS' `art001`, and `L1`.
+const COUNTED: [&str; 5] = ["group", "layer", "conductive", "art", "l"];
 
 fn looked_up(table: &[(&str, Role)], mut fits: impl FnMut(&str) -> bool) -> Option<Role> {
     table.iter().find(|(text, _)| fits(text)).map(|&(_, role)| role)
@@ -219,21 +240,30 @@ pub(super) fn role_by_name(name: &str, shared: usize) -> Option<Role> {
         .or_else(|| looked_up(EXTENSIONS, |known| known == extension))
         .or_else(|| numbered(&extension, &["g", "gp", "l", "ly", "in"]).map(|_| Role::Other("inner copper")))
         .or_else(|| numbered(&extension, &["gm"]).map(|_| Role::Other("mechanical layer")))
-        .or_else(|| role_by_words(stem.get(shared..).unwrap_or(stem)))
+        .or_else(|| role_by_words(&extension_words(name, stem.len())))
+        .or_else(|| role_by_words(&words(stem.get(shared..).unwrap_or(stem))))
 }
 
-fn role_by_words(text: &str) -> Option<Role> {
-    let words = words(text);
-    let group = words.iter().rev().find_map(|word| numbered(word, &["group", "layer"]));
+/// The words of an extension that speaks: `.StopTop`, `.Outline`; none of one of three letters.
+fn extension_words(name: &str, stem: usize) -> Vec<String> {
+    let extension = name.get(stem..).unwrap_or_default();
+    if extension.len() > 4 { words(extension) } else { Vec::new() }
+}
+
+fn role_by_words(words: &[String]) -> Option<Role> {
+    let inner = || words.iter().any(|word| numbered(word, &["in", "inner", "mid"]).is_some());
     looked_up(PARTS, |part| words.iter().any(|word| word.contains(part)))
+        .or_else(|| looked_up(ASIDE, |known| words.iter().any(|word| word == known)))
         .or_else(|| words.iter().rev().find_map(|word| looked_up(WORDS, |known| known == word)))
-        .or_else(|| {
-            words
-                .iter()
-                .any(|word| numbered(word, &["in", "inner", "mid"]).is_some())
-                .then_some(Role::Other("inner copper"))
-        })
-        .or(group.map(Role::Group))
+        .or_else(|| inner().then_some(Role::Other("inner copper")))
+        .or_else(|| counted(words).map(Role::Group))
+}
+
+/// The number of a counted layer, in one word with what is counted or behind it.
+fn counted(words: &[String]) -> Option<u32> {
+    let in_one = words.iter().rev().find_map(|word| numbered(word, &COUNTED));
+    let pair = |pair: &[String]| COUNTED.contains(&pair[0].as_str()).then(|| pair[1].parse().ok())?;
+    in_one.or_else(|| words.windows(2).rev().find_map(pair))
 }
 
 /// The number behind one of `heads`: `gp1`, `group2`.
@@ -317,6 +347,30 @@ mod tests {
             ("rs232_cm.bot", BACK),
             ("thruhole.tap", Role::Drill),
             ("top-cop.gbx", FRONT),
+            ("IRNASIoTbank1.2.Top", FRONT),
+            ("IRNASIoTbank1.2.StopTop", Role::Other("solder mask")),
+            ("IRNASIoTbank1.2.PosiBot", Role::Other("silkscreen")),
+            ("IRNASIoTbank1.2.Outline", Role::Outline),
+            ("IRNASIoTbank1.2.Drill", Role::Drill),
+            ("EtchLayerTop.gdo", FRONT),
+            ("EtchLayerBottom.gdo", BACK),
+            ("BoardOutlline.gdo", Role::Outline),
+            ("BOTTOM.art", BACK),
+            ("PASTEMASK_TOP.art", Role::Other("solder mask")),
+            ("clock - CADCAM Top Copper.TXT", FRONT),
+            ("clock - CADCAM Top Solder Resist.TXT", Role::Other("solder mask")),
+            ("clock - CADCAM Mechanical 1.TXT", Role::Outline),
+            ("amp_COPPER-BOTTOM.gbr", BACK),
+            ("amp_OUTLINES.gbr", Role::Outline),
+            ("amp.toplayer.ger", FRONT),
+            ("amp.internalplane1.ger", Role::Other("inner copper")),
+            ("amp_Copper_Signal_Bot.gbr", BACK),
+            ("amp_Pads_Top.gbr", Role::Other("pad master")),
+            ("Conductive-2.gbr", Role::Group(2)),
+            ("art001.pho", Role::Group(1)),
+            ("amp-L4.gbr", Role::Group(4)),
+            ("amp_copperTop.gtl", FRONT),
+            ("amp_contour.gm1", Role::Outline),
         ];
         for (name, role) in cases {
             assert_eq!(role_by_name(name, 0), Some(role), "{name}");

@@ -73,7 +73,7 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
     let bytes = read_file(path, &shown)?;
     let kind = Kind::of(&bytes);
     let found = Found { name, shown, bytes, kind, named: true };
-    let mut build = Build::new(super::assign::stem(&found.name).to_owned());
+    let mut build = Build::new(super::naming::stem(&found.name).to_owned());
     build.copper(read_gerber(&found, "a copper layer")?, side);
     build.require_copper(&[&found])?;
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })

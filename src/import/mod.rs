@@ -19,7 +19,9 @@ mod gerber_drill;
 mod jobfile;
 mod layers;
 mod load;
+mod naming;
 pub mod outline;
+mod settle;
 
 pub use error::{Diagnosis, Error};
 pub use load::{Loaded, Selection, load, load_copper};

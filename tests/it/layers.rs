@@ -362,3 +362,43 @@ fn damaged_archives_end_in_words() {
         assert!(load(&[folder.path("cut.zip")], &Selection::default()).is_err(), "cut at {at}");
     }
 }
+
+#[test]
+fn of_two_outlines_the_one_that_encloses_a_board_is_taken() {
+    let open = SQUARE.replace("X0Y0D01*", "");
+    let wide = SQUARE.replace("20000000", "30000000");
+    let files = |gm1: &str| Folder::with(&[("amp.gtl", SQUARE), ("amp.gko", SQUARE), ("amp.gm1", gm1)]);
+    for gm1 in [open.as_str(), &SQUARE.replace("0.2*", "0.3*")] {
+        let loaded = files(gm1).load(&Selection::default()).expect("settled");
+        assert_eq!(
+            files_of(&loaded, "outline"),
+            ["amp.gko"],
+            "the one that closes, or the first of two that agree"
+        );
+        assert!(loaded.warnings.iter().any(|warning| warning.code == "outline-twice"), "and a word about it");
+    }
+    let error = files(&wide).load(&Selection::default()).expect_err("two boards");
+    assert!(error.contains("--outline"), "{error}");
+}
+
+#[test]
+fn the_boards_of_this_repository_load_without_a_warning() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards");
+    let mut paths: Vec<_> =
+        fs::read_dir(folder).expect("readable").map(|e| e.expect("an entry").path()).collect();
+    paths.retain(|path| path.is_dir());
+    paths.sort();
+    assert!(paths.len() >= 3, "three boards: {paths:?}");
+    for path in paths {
+        let loaded = board(&path);
+        assert!(loaded.warnings.is_empty(), "{}: {:?}", path.display(), loaded.warnings);
+        assert!(
+            loaded.board.outline.is_some() && loaded.board.back.is_some(),
+            "{}: a whole board",
+            path.display()
+        );
+        assert!(!loaded.board.holes.is_empty(), "{}: with holes", path.display());
+        let name = path.file_name().expect("a name").to_str().expect("text");
+        assert_eq!(loaded.board.name, name, "named as its files");
+    }
+}

@@ -143,6 +143,19 @@ fn arcs_stay_arcs() {
 }
 
 #[test]
+fn a_circle_across_the_edge_is_a_notch_or_an_ear() {
+    // A circle of radius 2 mm about the middle of the right side: what both cover is the board.
+    let notched = joined(&(lines(&SQUARE) + "X12000Y5000D02*\nG03*\nX12000Y5000I-2000J0D01*\n"));
+    assert_eq!(
+        (areas(&notched), codes(&notched)),
+        (vec![10_628], vec!["outline-parted"]),
+        "100 + π·2²/2 mm²"
+    );
+    let apart = joined("X5000Y0D02*\nG03*\nX5000Y0I-5000J0D01*\nX11000Y0D02*\nG03*\nX11000Y0I-5000J0D01*\n");
+    assert_eq!((areas(&apart).len(), codes(&apart)), (1, vec!["outline-parted"]), "two circles that overlap");
+}
+
+#[test]
 fn a_region_is_an_edge_and_a_flash_is_none() {
     let region = joined("G36*\nX0Y0D02*\nX10000Y0D01*\nX10000Y10000D01*\nX0Y10000D01*\nX0Y0D01*\nG37*");
     assert_eq!((areas(&region), codes(&region)), (vec![10_000], vec![]), "its contour");

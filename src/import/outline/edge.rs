@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use crate::geometry::{Arc, Path, Point, Rect, Segment, Turn, Vector};
+use crate::geometry::{Arc, Point, Rect, Segment, Turn, Vector};
 
 /// A line or an arc that is no full circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,22 +88,62 @@ impl Edge {
         }
     }
 
-    /// Where two lines cross in the middle of both.
-    fn crossing(&self, other: &Self) -> Option<Point> {
-        if self.round.is_some() || other.round.is_some() {
-            return None;
-        }
-        let (a, b) = (self.to - self.from, other.to - other.from);
-        let between = other.from - self.from;
-        let denominator = to_float(a.cross(b));
-        let (s, t) = (to_float(between.cross(b)) / denominator, to_float(between.cross(a)) / denominator);
-        if !(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0) {
-            return None;
-        }
-        let (x, y) = self.from.to_f64();
-        let at = Point::from_f64(x + a.x.to_f64() * s, y + a.y.to_f64() * s);
-        (![self.from, self.to, other.from, other.to].contains(&at)).then_some(at)
+    /// Where the two cross in the middle of both.
+    fn crossings(&self, other: &Self) -> Vec<Point> {
+        let places = match (self.round, other.round) {
+            (None, None) => line_and_line(self, other),
+            (None, Some((center, _))) => line_and_circle(self, center, center.distance(other.from)),
+            (Some((center, _)), None) => line_and_circle(other, center, center.distance(self.from)),
+            (Some((a, _)), Some((b, _))) => circles(a, a.distance(self.from), b, b.distance(other.from)),
+        };
+        let inside = |p: &Point| self.passes(*p) && other.passes(*p);
+        places.into_iter().filter(inside).collect()
     }
+}
+
+fn line_and_line(one: &Edge, other: &Edge) -> Vec<Point> {
+    let (a, b) = (one.to - one.from, other.to - other.from);
+    let share = to_float((other.from - one.from).cross(b)) / to_float(a.cross(b));
+    along(one, share).into_iter().collect()
+}
+
+/// The point at `share` of the way along a line; none outside it, or where lines are parallel.
+fn along(line: &Edge, share: f64) -> Option<Point> {
+    let ((x, y), way) = (line.from.to_f64(), line.to - line.from);
+    (share > 0.0 && share < 1.0)
+        .then(|| Point::from_f64(x + way.x.to_f64() * share, y + way.y.to_f64() * share))
+}
+
+/// Solves |from + share · way − center| = radius.
+fn line_and_circle(line: &Edge, center: Point, radius: f64) -> Vec<Point> {
+    let (way, back) = (line.to - line.from, line.from - center);
+    let (a, b) = (to_float(way.length_squared()), to_float(way.dot(back)));
+    let discriminant = b * b - a * (to_float(back.length_squared()) - radius * radius);
+    if discriminant < 0.0 {
+        return Vec::new();
+    }
+    let root = discriminant.sqrt();
+    [(-b - root) / a, (-b + root) / a].into_iter().filter_map(|share| along(line, share)).collect()
+}
+
+/// ```text
+///       p         a lies x from the line through both places, on the way to b:
+///      /|\        x = (r² − s² + d²) / 2d
+///   r / | \ s
+///    a──x──b
+/// ```
+fn circles(a: Point, r: f64, b: Point, s: f64) -> Vec<Point> {
+    let way = b - a;
+    let d = way.length();
+    let x = (r * r - s * s + d * d) / (2.0 * d);
+    let square = r * r - x * x;
+    if a == b || square < 0.0 {
+        return Vec::new();
+    }
+    let (height, (ax, ay)) = (square.sqrt(), a.to_f64());
+    let (ux, uy) = (way.x.to_f64() / d, way.y.to_f64() / d);
+    let place = |h: f64| Point::from_f64(ax + ux * x - uy * h, ay + uy * x + ux * h);
+    vec![place(height), place(-height)]
 }
 
 /// How far beside an edge, in nanometres, a point may lie and still be on it: what rounding does to places on slanted
@@ -115,12 +155,10 @@ const fn to_float(value: i64) -> f64 {
     value as f64
 }
 
-/// A full circle as a contour.
-pub(super) fn circle(arc: &Arc) -> Path {
-    Path {
-        start: arc.start,
-        segments: vec![Segment::Arc { to: arc.end, center: arc.center, turn: arc.turn }],
-    }
+/// The two halves of a full circle.
+pub(super) fn halves(arc: &Arc, line: u32) -> [Edge; 2] {
+    let opposite = arc.center + (arc.center - arc.start);
+    Edge::arc(*arc, line).parted(opposite)
 }
 
 /// Leaves out edges of no length and edges drawn twice, either way round.
@@ -163,10 +201,9 @@ fn meet(edges: &[Edge], i: usize, j: usize, cuts: &mut [BTreeSet<Point>]) {
     let (a, b) = (&edges[i], &edges[j]);
     cuts[i].extend([b.from, b.to].into_iter().filter(|&p| a.passes(p)));
     cuts[j].extend([a.from, a.to].into_iter().filter(|&p| b.passes(p)));
-    if let Some(at) = a.crossing(b) {
-        cuts[i].insert(at);
-        cuts[j].insert(at);
-    }
+    let crossings = a.crossings(b);
+    cuts[i].extend(&crossings);
+    cuts[j].extend(&crossings);
 }
 
 /// `edge` in parts, from one cut to the next.

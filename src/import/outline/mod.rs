@@ -86,14 +86,14 @@ impl Notes<'_> {
     }
 }
 
-/// The axes of drawn features as edges, and the contours of regions and circles, closed as they come.
+/// The axes of drawn features as edges, and the contours of regions, closed as they come.
 fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>) {
     let (mut edges, mut contours, mut flashes) = (Vec::new(), Vec::new(), 0_u32);
     for feature in features {
         let line = feature.line;
         match (&feature.axis, &feature.shape) {
             (Axis::Line(from, to), _) if from != to => edges.push(Edge::line(*from, *to, line)),
-            (Axis::Arc(arc), _) if arc.start == arc.end => contours.push(edge::circle(arc)),
+            (Axis::Arc(arc), _) if arc.start == arc.end => edges.extend(edge::halves(arc, line)),
             (Axis::Arc(arc), _) => edges.push(Edge::arc(*arc, line)),
             (Axis::Region, Shape::Polygon(polygon)) => {
                 for ring in polygon.contours() {

@@ -1,0 +1,77 @@
+//! What a board is called.
+
+use std::path::PathBuf;
+
+use super::archive::{Gathered, name_of};
+use super::assign::Assigned;
+use super::jobfile::Job;
+use super::layers;
+use super::load::Selection;
+
+/// The name without its extension.
+pub(super) fn stem(name: &str) -> &str {
+    name.rsplit_once('.').map_or(name, |(stem, _)| stem)
+}
+
+/// What the board is called: as told, as the job file has it, as all layers begin, or as their folder is named.
+pub(super) fn board_name(
+    gathered: &Gathered,
+    paths: &[PathBuf],
+    selection: &Selection,
+    job: &Job,
+    assigned: &Assigned,
+) -> String {
+    /// Words that programs put before every layer.
+    const NO_NAMES: [&str; 8] = ["gerber", "copper", "drill", "pcb", "board", "layer", "output", "gerbers"];
+    let single = [assigned.front, assigned.back, assigned.outline];
+    let used: Vec<&str> = single
+        .into_iter()
+        .flatten()
+        .chain(assigned.drill.iter().copied())
+        .map(|i| gathered.files[i].name.as_str())
+        .collect();
+    let fits = |name: &str| {
+        let plain = name.to_ascii_lowercase();
+        (plain.len() > 1 && !NO_NAMES.contains(&plain.as_str())).then(|| name.to_owned())
+    };
+    let shared = || {
+        let name = match used.as_slice() {
+            [one] => without_role(stem(one)),
+            _ => used.iter().map(|name| stem(name)).reduce(shared_head)?,
+        };
+        fits(name.trim_end_matches(|c: char| !c.is_alphanumeric()))
+    };
+    let folder = || paths.first().and_then(|path| fits(archive_stem(&name_of(path))));
+    let name = selection.name.clone().or_else(|| job.name.clone().filter(|name| !name.is_empty()));
+    safe(&name.or_else(shared).or_else(folder).unwrap_or_else(|| "board".to_owned()))
+}
+
+/// The start that two stems share, up to a mark that parts words; the whole of one that the other begins with.
+fn shared_head<'a>(a: &'a str, b: &str) -> &'a str {
+    let shared = a.bytes().zip(b.bytes()).take_while(|(x, y)| x == y).count();
+    let ends = |text: &str| text.len() == shared || !text.as_bytes()[shared].is_ascii_alphanumeric();
+    if ends(a) && ends(b) {
+        return a.get(..shared).unwrap_or_default();
+    }
+    let mark = a.as_bytes()[..shared].iter().rposition(|b| !b.is_ascii_alphanumeric()).unwrap_or(0);
+    a.get(..mark).unwrap_or_default()
+}
+
+/// A layer's stem without the part that tells its role: `amp-F_Cu` is the board `amp`.
+fn without_role(stem: &str) -> &str {
+    let mut marks = stem.char_indices().filter(|(_, c)| !c.is_ascii_alphanumeric()).map(|(i, _)| i);
+    let told = marks.find(|&i| layers::role_by_name(&stem[i..], 0).is_some());
+    told.map_or(stem, |i| &stem[..i])
+}
+
+fn archive_stem(name: &str) -> &str {
+    if name.to_ascii_lowercase().ends_with(".zip") { stem(name) } else { name }
+}
+
+/// A name that every file system takes.
+fn safe(name: &str) -> String {
+    let kept: String =
+        name.chars().map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect();
+    let kept = kept.trim_matches('.').to_owned();
+    if kept.is_empty() { "board".to_owned() } else { kept.chars().take(100).collect() }
+}
