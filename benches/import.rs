@@ -1,5 +1,7 @@
 //! Time to read Gerber files: a real board, and ten megabytes each of what large files are full of.
 
+#![expect(clippy::print_stdout, reason = "a bench says what it measured on")]
+
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;

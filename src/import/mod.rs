@@ -6,7 +6,7 @@
 //!                                     gerber, excellon, outline ──┘
 //! ```
 //!
-//! [`load`] takes a folder, an archive or single files and puts a board together; the readers of the formats stand
+//! [`load()`] takes a folder, an archive or single files and puts a board together; the readers of the formats stand
 //! alone and never touch the file system.
 
 mod archive;

@@ -9,7 +9,7 @@
 //! | [`translucency`](Method::Translucency) | also what overlaps at some pixel: Algorithm 2 (§III-A.2) | with the area, in pixels |
 //! | [`contact`](Method::Contact) | also all whose copper touches, exactly | near-linear |
 //!
-//! Both others run after coincidence, which does most of their work for next to nothing. [`differences`] holds all three
+//! Both others run after coincidence, which does most of their work for next to nothing. [`differences()`] holds all three
 //! against each other.
 
 mod coincidence;

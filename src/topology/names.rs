@@ -10,7 +10,7 @@ use super::{Net, NetId, Nets};
 /// A warning for every island that carries several names: a short in the design, or a net tie.
 ///
 /// One name on several islands is no warning: they are joined on another layer or by a wire (see
-/// [`islands_of_names`], and [`electrical`](super::electrical) for those that are not).
+/// [`islands_of_names`], and [`electrical`](super::electrical()) for those that are not).
 #[must_use]
 pub fn names_check(copper: &Copper, nets: &Nets) -> Vec<Warning> {
     let several = nets.nets().iter().filter(|net| net.names.len() > 1);
