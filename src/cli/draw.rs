@@ -6,6 +6,7 @@ use voromill::board::Side;
 use voromill::geometry::{Nm, Point, Rect, Vector};
 use voromill::grid::Grid;
 use voromill::job::{self, Job};
+use voromill::report::translucent::translucent;
 use voromill::report::{picture, png};
 
 use super::config::Config;
@@ -56,6 +57,8 @@ enum Stage {
     Copper,
     /// A colour for each net
     Nets,
+    /// The traces that shared vertices leave, translucent, and where overlaps were picked
+    Translucent,
     /// Voronoi regions and their boundaries
     Voronoi,
     /// How far from copper, dark to light
@@ -109,11 +112,11 @@ impl Draw {
             Side::Front => loaded.board.back = None,
             Side::Back => loaded.board.front = None,
         }
-        let bytes = if self.stage == Stage::Copper {
-            let copper = loaded.board.copper(side).ok_or_else(|| no_copper(side))?;
-            png::grey(&grid, &picture::copper(copper, &grid))
-        } else {
-            self.stage.draw(&job::mill(loaded, &settings)?, side, grid)?
+        let copper = loaded.board.copper(side).ok_or_else(|| no_copper(side))?;
+        let bytes = match self.stage {
+            Stage::Copper => png::grey(&grid, &picture::copper(copper, &grid)),
+            Stage::Translucent => png::rgb(translucent(copper, &grid).map_err(job::Error::from)?),
+            stage => stage.draw(&job::mill(loaded, &settings)?, side, grid)?,
         };
         let mut output = Output::new();
         output.stage(&self.output, &bytes)?;
@@ -142,6 +145,7 @@ impl Stage {
         let shown = job.shown(side).ok_or_else(|| no_copper(side))?;
         Ok(match self {
             Self::Copper => png::grey(&grid, &picture::copper(shown.copper, &grid)),
+            Self::Translucent => png::rgb(translucent(shown.copper, &grid).map_err(job::Error::from)?),
             Self::Nets => png::rgb(picture::nets(shown.board, shown.copper, shown.nets, grid)),
             Self::Voronoi => png::rgb(picture::voronoi(&shown, grid)),
             Self::Depth => png::grey(&grid, &picture::depth(shown.diagram, &grid)),

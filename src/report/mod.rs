@@ -11,6 +11,7 @@ mod palette;
 pub mod picture;
 pub mod png;
 mod summary;
+pub mod translucent;
 
 pub use canvas::Canvas;
 pub use document::Document;
