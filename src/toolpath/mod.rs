@@ -15,6 +15,7 @@ mod order;
 mod placement;
 mod program;
 pub mod strategy;
+mod tiling;
 mod tool;
 mod trails;
 
@@ -26,4 +27,5 @@ pub use measure::{Statistics, ToolStatistics, measure};
 pub use order::Order;
 pub use placement::{Origin, Placement};
 pub use program::{Move, Position, Program, Section};
+pub use tiling::{Tiling, alignment_holes};
 pub use tool::{BUILT_IN, ParseToolError, Tool, ToolKind};

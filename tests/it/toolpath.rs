@@ -6,7 +6,8 @@ use voromill::gcode::{Dialect, Header, write};
 use voromill::geometry::{Arc, Nm, Path, Point, Rect, Turn};
 use voromill::toolpath::strategy::{Cutout, Drilling, Isolation, Narrow, Role, Tabs, cutout, drill, isolate};
 use voromill::toolpath::{
-    Heights, Machine, Move, Order, Origin, Placement, Position, Program, Section, Tool, measure,
+    Heights, Machine, Move, Order, Origin, Placement, Position, Program, Section, Tiling, Tool,
+    alignment_holes, measure,
 };
 use voromill::topology::NetId;
 use voromill::voronoi::{Boundaries, Boundary, NodeId, Owner};
@@ -308,6 +309,46 @@ fn a_slot_without_a_mill_is_a_chain_of_holes_with_low_ridges() {
         let half = (pair[1] - pair[0]).to_f64() / 2.0;
         let ridge = 500_000.0 - (500_000.0_f64 * 500_000.0 - half * half).sqrt();
         assert!(ridge <= 12_701.0, "a ridge of {ridge} nm");
+    }
+}
+
+#[test]
+fn tiles_repeat_every_section_before_the_next_tool() {
+    let (placement, holes) = (Placement::default(), [hole(0, 0, 800, None), hole(5000, 0, 1000, None)]);
+    let (sections, _) = drill(&holes, &drilling(&[], None, &placement));
+    let program = Program { title: String::new(), notes: Vec::new(), safe: Nm::from_mm(2), sections };
+    let tiling = Tiling { columns: 2, rows: 3, pitch: at(20_000, 10_000) - at(0, 0) };
+    let tiled = program.clone().tiled(tiling);
+    assert_eq!(tiled.sections.len(), 2, "no tool is fitted twice");
+    for (one, all) in program.sections.iter().zip(&tiled.sections) {
+        assert_eq!(all.moves.len(), 6 * one.moves.len(), "six tiles");
+        assert_safe(all, heights(1800, None));
+    }
+    assert_eq!(tiled.bounds(), Some(Rect::new(at(0, 0), at(25_000, 20_000))), "all tiles and no more");
+}
+
+#[test]
+fn a_program_that_the_machine_cannot_reach_is_warned_about() {
+    let (placement, holes) = (Placement::default(), [hole(0, 0, 800, None), hole(50_000, 0, 800, None)]);
+    let (sections, _) = drill(&holes, &drilling(&[], None, &placement));
+    let program = Program { title: String::new(), notes: Vec::new(), safe: Nm::from_mm(2), sections };
+    let reach = |x| Machine {
+        travel: Some([Nm::from_mm(x), Nm::from_mm(40), Nm::from_mm(10)]),
+        ..Machine::default()
+    };
+    assert_eq!(program.check_travel(&reach(60)), None, "it fits");
+    let warning = program.check_travel(&reach(40)).expect("too small");
+    assert_eq!(warning.code, "beyond-the-machine", "{}", warning.message);
+}
+
+#[test]
+fn alignment_holes_fall_on_themselves_when_the_board_is_turned_over() {
+    let bounds = Rect::new(at(0, 0), at(40_000, 30_000));
+    let axis = Placement::default().middle(bounds);
+    let over = Placement::default().turned_over(axis);
+    for hole in alignment_holes(bounds, axis, Nm::from_mm(5)) {
+        assert_eq!(over.point(hole), hole, "on the axis");
+        assert!(!bounds.contains(hole), "beside the board");
     }
 }
 

@@ -28,7 +28,7 @@ const LEAST_SHAKES: usize = 60;
 /// time of a whole job on a small board.
 const SHAKES_EACH: usize = 3;
 /// The most double bridges, for ten thousand stretches within two seconds.
-const MOST_SHAKES: usize = 60_000;
+const MOST_SHAKES: usize = 24_000;
 
 /// Improves an order of stretches with these `ends`, begun from `start`.
 pub(super) fn improve(legs: &mut Vec<Leg>, ends: &[[Point; 2]], start: Point, effort: Effort) {

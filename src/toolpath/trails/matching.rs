@@ -87,7 +87,8 @@ impl Matching<'_> {
     ) -> bool {
         for &candidate in &self.near[loose] {
             let left = gain - self.candidates[candidate].cost;
-            if left <= LEAST {
+            // A chain may yet end at a node that was alone.
+            if left + self.alone <= LEAST {
                 return false;
             }
             let next = self.other(candidate, loose);
