@@ -137,7 +137,7 @@ impl Search {
         let before = self.tour.changes();
         for choice in 0..BREADTH {
             let (mut open, mut best, mut kept) = (0.0, LEAST, before);
-            let mut touched = Vec::with_capacity(3 * LONGEST_CHAIN);
+            let mut touched = [fixed; 3 * LONGEST_CHAIN];
             for step in 0..LONGEST_CHAIN {
                 let loose = self.tour.partner(fixed);
                 open += self.distance(fixed, loose);
@@ -150,7 +150,7 @@ impl Search {
                     break;
                 }
                 self.tour.exchange(fixed, loose, link.other, link.near);
-                touched.extend([loose, link.other, link.near]);
+                touched[3 * step..][..3].copy_from_slice(&[loose, link.other, link.near]);
                 if open > best {
                     (best, kept) = (open, self.tour.changes());
                 }
@@ -167,7 +167,7 @@ impl Search {
 
     /// The 2-opt move that links `loose` to a near end and gains most, after leaving out the best `skip`.
     fn step(&self, fixed: End, loose: End, open: f64, skip: usize) -> Option<Link> {
-        let mut found: Vec<Link> = Vec::with_capacity(NEAR);
+        let mut found = [Link { near: loose, other: fixed, gain: f64::NEG_INFINITY }; BREADTH];
         let entry = self.tour.is_entry(loose);
         for &near in self.near(loose) {
             let gain = open - self.distance(loose, near);
@@ -177,10 +177,14 @@ impl Search {
             let other = self.tour.partner(near);
             if self.tour.is_entry(near) == entry && other != loose && other != fixed {
                 let link = Link { near, other, gain: gain + self.distance(near, other) };
-                found.insert(found.partition_point(|better| better.gain >= link.gain), link);
+                let place = found.partition_point(|better| better.gain >= link.gain);
+                if place < BREADTH {
+                    found[place..].rotate_right(1);
+                    found[place] = link;
+                }
             }
         }
-        found.get(skip).copied()
+        Some(found[skip]).filter(|link| link.gain > f64::NEG_INFINITY)
     }
 
     /// An Or-opt move: up to three stretches from `first` on, away from its partner, go elsewhere beside a near end.
