@@ -1,5 +1,7 @@
 //! The drilling machine: runs the lines of a file under a given number format and notes every hole.
 
+mod repeat;
+
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -291,40 +293,6 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
         Ok(false)
     }
 
-    /// `M02X#Y#`: the pattern once more, moved; `R#M02X#Y#`: that many times.
-    fn step(&mut self, word: &Word, block: &Block<'_>, line: &Line) -> Result<(), Error> {
-        if block.miscellaneous.iter().any(|w| matches!(w.number.integer(), Some(70 | 80 | 90))) {
-            return Err(self.wrong(
-                word,
-                "a mirrored pattern is not supported",
-                "M02 without M70, M80 or M90",
-            ));
-        }
-        let Some((from, to)) = self.pattern else {
-            self.warnings.add(
-                "pattern-missing",
-                word.place.clone(),
-                "M02 repeats no pattern, as none was begun with M25",
-            );
-            return Ok(());
-        };
-        let to = to.unwrap_or(self.holes.len());
-        self.pattern = Some((from, Some(to)));
-        if from == to {
-            return Ok(());
-        }
-        let way = self.way(block.x, block.y)?;
-        for _ in 0..block.repeats().map_err(|word| self.unknown(word))? {
-            self.stepped = self.stepped + way;
-            for index in from..to {
-                let hole = self.holes[index].clone();
-                let path = self.moved(&hole.path, self.stepped, &line.place)?;
-                self.push(Hole { path, line: line.number, ..hole }, &line.place)?;
-            }
-        }
-        Ok(())
-    }
-
     /// Goes to X and Y of the block, drilling or routing as the mode has it.
     fn motion(&mut self, block: &Block<'_>, line: &Line) -> Result<(), Error> {
         if let Some((x, y)) = block.slot {
@@ -345,16 +313,6 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
             }
             Mode::Route(interpolation) => self.route(interpolation, block, line),
         }
-    }
-
-    /// `R#X#Y#`: the last hole again and again, each that much further.
-    fn repeat(&mut self, block: &Block<'_>, line: &Line) -> Result<(), Error> {
-        let way = self.way(block.x, block.y)?;
-        for _ in 0..block.repeats().map_err(|word| self.unknown(word))? {
-            self.at = self.in_range(self.at + way, &line.place)?;
-            self.cut(Path { start: self.at, segments: vec![] }, line)?;
-        }
-        Ok(())
     }
 
     fn route(&mut self, interpolation: Interpolation, block: &Block<'_>, line: &Line) -> Result<(), Error> {
@@ -457,21 +415,6 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
     fn way(&self, x: Option<&Word>, y: Option<&Word>) -> Result<Vector, Error> {
         let length = |word: Option<&Word>| word.map_or(Ok(Nm::ZERO), |word| self.length(word));
         Ok(Vector::new(length(x)?, length(y)?))
-    }
-
-    fn moved(&self, path: &Path, way: Vector, place: &Range<usize>) -> Result<Path, Error> {
-        let step = |segment: &Segment| -> Result<Segment, Error> {
-            Ok(match *segment {
-                Segment::Line { to } => Segment::Line { to: self.in_range(to + way, place)? },
-                Segment::Arc { to, center, turn } => Segment::Arc {
-                    to: self.in_range(to + way, place)?,
-                    center: self.in_range(center + way, place)?,
-                    turn,
-                },
-            })
-        };
-        let segments = path.segments.iter().map(step).collect::<Result<_, _>>()?;
-        Ok(Path { start: self.in_range(path.start + way, place)?, segments })
     }
 
     fn in_range(&self, point: Point, place: &Range<usize>) -> Result<Point, Error> {

@@ -14,17 +14,20 @@
 //! reported with its reason. What cannot be read for certain, such as canned cycles, is an error: a drill in the wrong
 //! place ruins the board.
 //!
-//! | construct | fixture |
-//! |---|---|
-//! | header, tools, `T0`, comments with X2 attributes | `kicad.drl` |
-//! | no header, tools defined where they are chosen | `headerless.tap` |
-//! | units, zeros and digits that only the copper tells | `undeclared.drl` |
-//! | `LZ` with the digits in a comment, modal X and Y | `altium.txt` |
-//! | `G85` slots | `slots_g85.drl` |
-//! | routed slots and contours, arcs by `A` and by `I`, `J` | `routed.drl` |
-//! | `R` repeats, `M25`…`M01`, `M02` patterns | `repeats.drl` |
-//! | tool behind the coordinates, `G91`, `G93` | `modes.drl` |
-//! | tool sizes in comments | `allegro.drl` |
+//! The manual has no clauses to cite, so its commands stand for them:
+//!
+//! | construct | commands | fixture |
+//! |---|---|---|
+//! | header, tools with sizes, no tool at the end | `M48`, `%`, `FMAT`, `METRIC`, `T1C0.4`, `T0`, `M30` | `kicad.drl` |
+//! | X2 attributes in comments: plating, function, program | `; #@! TF.…`, `; #@! TA.…` | `kicad.drl` |
+//! | no header, tools defined where they are chosen, feeds and speeds | `T1C0.028F200S100` | `headerless.tap` |
+//! | units, zeros and digits that only the copper tells | `INCH,TZ` | `undeclared.drl` |
+//! | trailing zeros left out, digits and plating in comments, modal X and Y | `INCH,LZ`, `;FILE_FORMAT=2:3` | `altium.txt` |
+//! | slots | `G85` | `slots_g85.drl` |
+//! | routed slots and contours; arcs by radius and by centre | `G00`, `M15`, `G01`, `G02`, `G03`, `A`, `I`, `J`, `M16`, `M17` | `routed.drl` |
+//! | rows and patterns | `R4X2.54`, `M25`, `M01`, `M02`, `M08` | `repeats.drl` |
+//! | tool behind the coordinates, incremental, zero set | `X1Y1T1`, `G91`, `G93` | `modes.drl` |
+//! | tool sizes in comments | `;Holesize 1. = 24.0 … MILS` | `allegro.drl` |
 
 mod block;
 mod declared;
