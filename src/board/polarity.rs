@@ -91,13 +91,27 @@ pub fn offset(polygon: &Polygon, by: Nm, tolerance: Nm) -> Vec<Polygon> {
     polygons(contours.outline(&style).unwrap_or_default())
 }
 
+/// The most vertices that erasing may take in, all features together. Chosen: about 20 seconds of work; a plane from
+/// which ten thousand rings are erased takes in a million.
+pub const EFFORT: u64 = 20_000_000;
+
+/// Why the copper of a sequence of objects cannot be worked out in reasonable time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "clear objects erase too much of each other's work: more than {EFFORT} vertices, or too many crossings"
+)]
+pub struct TooMuch;
+
 /// The copper that a sequence of objects leaves: every dark one less all clear ones after it.
 ///
 /// A feature that nothing touches keeps its shape; of the others each connected piece is a polygon of its own, with
 /// the axis, attributes and line of the feature it was cut from. So the work grows with what is erased, and a layer
 /// without clear objects costs nothing.
-#[must_use]
-pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Vec<Feature> {
+///
+/// # Errors
+///
+/// [`TooMuch`] for objects made to keep a program busy, such as thousands of planes with thousands of holes each.
+pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Result<Vec<Feature>, TooMuch> {
     let clear: Vec<(usize, Polygon)> = objects
         .iter()
         .enumerate()
@@ -105,16 +119,44 @@ pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Vec<Feature> {
         .filter_map(|(at, (feature, _))| Some((at, feature.shape.polygon(FLATTEN)?)))
         .collect();
     let Some(index) = index(clear.iter().map(|(_, polygon)| polygon.bounds())) else {
-        return dark(objects).map(|(_, feature)| feature).collect();
+        return Ok(dark(objects).map(|(_, feature)| feature).collect());
     };
     let mut left = Vec::with_capacity(objects.len());
+    let mut effort = 0;
     for (at, feature) in dark(objects) {
         let mut over = query(&index, feature.shape.bounds());
         over.retain(|&i| clear[i].0 > at);
         over.sort_unstable();
-        erase(feature, over.iter().map(|&i| &clear[i].1), &mut left);
+        let clips = || over.iter().map(|&i| &clear[i].1);
+        effort += clips().flat_map(Polygon::contours).map(|ring| ring.len() as u64).sum::<u64>();
+        if effort > EFFORT || is_tangled(clips().flat_map(Polygon::contours)) {
+            return Err(TooMuch);
+        }
+        erase(feature, clips(), &mut left);
     }
-    left
+    Ok(left)
+}
+
+/// Whether the edges of `contours` cross so often that a boolean of them would take minutes and gigabytes.
+///
+/// An estimate from a sample of the edges: how many others each may cross, going by their bounds. Contours of fewer than
+/// four thousand points are never tangled.
+#[must_use]
+pub fn is_tangled<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> bool {
+    const FEW: usize = 4096;
+    const SAMPLE: usize = 128;
+    const PAIRS: usize = 20_000_000;
+    let contours: Vec<&Vec<Point>> = contours.collect();
+    if contours.iter().map(|ring| ring.len()).sum::<usize>() < FEW {
+        return false;
+    }
+    let edges: Vec<Rect> = contours
+        .iter()
+        .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| Rect::new(a, b)))
+        .collect();
+    let sample = edges.iter().step_by(edges.len().div_ceil(SAMPLE));
+    let touched: usize = sample.map(|edge| edges.iter().filter(|other| edge.touches(**other)).count()).sum();
+    touched / SAMPLE * edges.len() / 2 > PAIRS
 }
 
 /// The dark objects with their places in the sequence.
@@ -213,7 +255,8 @@ mod tests {
             object(square(0, 10), Polarity::Dark),
             object(square(2, 8), Polarity::Clear),
             object(square(4, 6), Polarity::Dark),
-        ]);
+        ])
+        .expect("little work");
         assert_eq!(left.len(), 2, "a ring and a square in it");
         assert!((area(&left) - 68e-6).abs() < 1e-15, "area {}", area(&left));
     }
@@ -228,7 +271,7 @@ mod tests {
         };
         // In the rectangle round the stroke, but not on the stroke.
         let clear = object(Polygon::rectangle(Rect::new(at(7, 0), at(10, 3))), Polarity::Clear);
-        let left = resolve(vec![(stroke.clone(), Polarity::Dark), clear]);
+        let left = resolve(vec![(stroke.clone(), Polarity::Dark), clear]).expect("little work");
         assert_eq!(left, vec![stroke], "still a stroke");
     }
 
@@ -241,6 +284,15 @@ mod tests {
         assert_eq!(pieces.len(), 1, "one piece");
         assert_eq!(pieces[0].contours().len(), 2, "an outer contour and a hole");
         assert!((pieces[0].area_mm2() - 84e-6).abs() < 1e-15, "area {}", pieces[0].area_mm2());
+    }
+
+    #[test]
+    fn a_zigzag_is_tangled_and_a_plane_is_not() {
+        let zigzag: Vec<Point> = (0..20_000).map(|i| at(i % 2 * 100_000, i * 7919 % 100_003)).collect();
+        assert!(is_tangled([&zigzag].into_iter()), "all cross all");
+        let circle = Polygon::disc(at(0, 0), Nm::from_mm(900), Nm::new(10)).expect("a circle");
+        assert!(circle.contours()[0].len() > 5_000, "enough points to be looked at");
+        assert!(!is_tangled(circle.contours().iter()), "no crossing at all");
     }
 
     #[test]

@@ -37,7 +37,7 @@ const CASES: &[Case] = &[
     ("aperture_polygon", HEXAGON + 2.0 - DISC, 2, &[]),
     ("aperture_rectangular_hole", 2.25 * PI - 0.5 + 5.5, 2, &[]),
     ("aperture_hole_too_large", 3.0 - 1.913_223, 2, &[]),
-    ("aperture_zero", 0.0, 0, &["zero-size-aperture"]),
+    ("aperture_zero", 0.0, 0, &[]),
     ("aperture_defined_twice", PI + 4.0, 2, &["aperture-defined-twice"]),
     ("rectangle_sweep", 13.0 + 6.0, 2, &[]),
     ("flat_rectangle_sweep", 6.0, 1, &[]),
@@ -93,6 +93,7 @@ const CASES: &[Case] = &[
     ("unknown_command", LINE, 1, &["unknown-command"]),
     ("conflicting_g71", LINE, 1, &["conflicting-units"]),
     ("negative_hole", PI, 1, &["negative-hole"]),
+    ("negative_file", LINE, 1, &["negative-file"]),
     ("flash_in_region", 100.0, 1, &["flash-in-region"]),
 ];
 

@@ -5,6 +5,7 @@ mod excellon;
 mod gcode;
 mod gerber;
 mod gerber_constructs;
+mod gerber_damage;
 mod layering;
 mod layers;
 mod oracle;

@@ -134,6 +134,14 @@ impl Template {
         }
     }
 
+    /// Whether a contour of it crosses itself too often to be worked out.
+    pub(super) fn is_tangled(&self) -> bool {
+        match self {
+            Self::Macro { primitives, .. } => primitives.iter().any(|p| p.figure.is_tangled()),
+            _ => false,
+        }
+    }
+
     /// About how many vertices its form has: what it costs to make.
     pub(super) fn cost(&self) -> u64 {
         match self {

@@ -11,6 +11,8 @@ use crate::board;
 pub(super) struct Attributes {
     /// `.FileFunction`, its fields joined by commas.
     pub(super) function: Option<String>,
+    /// Whether `.FilePolarity` is negative.
+    pub(super) negative: bool,
     /// `.GenerationSoftware`, its fields joined by blanks.
     pub(super) generator: Option<String>,
     /// `.AperFunction` as apertures and regions defined now get it.
@@ -25,6 +27,7 @@ impl Attributes {
         let empty = board::Attributes::default();
         Self {
             function: None,
+            negative: false,
             generator: None,
             aperture: None,
             object: empty.clone(),
@@ -54,6 +57,7 @@ impl Attributes {
     fn file(&mut self, name: &str, values: &[String]) {
         match name {
             ".FileFunction" => self.function = Some(values.join(",")),
+            ".FilePolarity" => self.negative = values.first().is_some_and(|value| value == "Negative"),
             ".GenerationSoftware" => self.generator = Some(values.join(" ").trim().to_owned()),
             _ => {}
         }

@@ -25,6 +25,8 @@ pub(super) enum Refusal {
     Range,
     /// Blocks nested deeper than the limit.
     Depth(usize),
+    /// An outline that crosses itself all over.
+    Tangled,
 }
 
 impl Refusal {
@@ -42,6 +44,10 @@ impl Refusal {
             Self::Range => (
                 "this object lies beyond what is handled exactly".to_owned(),
                 "copper within ±1073.741823 mm".to_owned(),
+            ),
+            Self::Tangled => (
+                "this outline crosses itself too often".to_owned(),
+                "an outline that does not cross itself".to_owned(),
             ),
             Self::Depth(limit) => {
                 ("blocks are nested too deep".to_owned(), format!("at most {limit} open %AB and %SR"))

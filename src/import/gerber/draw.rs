@@ -47,6 +47,24 @@ pub(super) fn along(form: &Form, arc: Arc) -> Vec<Shape> {
     }
 }
 
+/// About how many vertices drawing `form` along `arc` takes in: each step overlaps as many others as the aperture is
+/// steps long.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates, as it should here"
+)]
+pub(super) fn effort(form: &Form, arc: &Arc) -> u64 {
+    if matches!(form, Form::Disc(_)) {
+        return 0;
+    }
+    let steps = u32::try_from(arc.chords(FLATTEN)).unwrap_or(u32::MAX);
+    let hull = form.hull();
+    let reach = hull.iter().map(|p| p.distance(Point::default())).fold(0.0, f64::max);
+    let overlapped = f64::from(steps) * (2.0 * reach / arc.length().max(1.0)).min(1.0);
+    (hull.len() as u64).saturating_mul(u64::from(steps)).saturating_mul(1 + overlapped as u64)
+}
+
 /// The hull of `hull` placed at both ends.
 fn sweep(hull: &[Point], from: Point, to: Point) -> Option<Polygon> {
     let ends = [from, to].into_iter().flat_map(|end| {

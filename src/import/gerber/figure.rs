@@ -79,6 +79,12 @@ impl Figure {
         }
     }
 
+    /// Whether it crosses itself too often to be worked out.
+    pub(super) fn is_tangled(&self) -> bool {
+        let vertices = self.vertices(Linear::IDENTITY);
+        polarity::is_tangled([&vertices].into_iter())
+    }
+
     /// The vertices of a contour under `linear`; none of a ring.
     pub(super) fn vertices(&self, linear: Linear) -> Vec<Point> {
         let Self::Contour(places) = self else { return Vec::new() };

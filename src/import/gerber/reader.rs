@@ -560,10 +560,8 @@ impl<'a> Reader<'a> {
             Some(arc) => {
                 self.counts.arcs += 1;
                 self.reaches(&form, arc.bounds(), &place)?;
-                if !matches!(*form, Form::Disc(_)) {
-                    let cost = 8 * arc.chords(crate::board::FLATTEN) as u64;
-                    self.canvas.charge(cost).map_err(|refusal| self.refused(place, &refusal))?;
-                }
+                let cost = draw::effort(&form, &arc);
+                self.canvas.charge(cost).map_err(|refusal| self.refused(place, &refusal))?;
                 (draw::along(&form, arc), Axis::Arc(arc))
             }
         };
@@ -572,8 +570,16 @@ impl<'a> Reader<'a> {
 
     /// Checks that `form`, drawn anywhere in `bounds`, stays in the range of coordinates.
     fn reaches(&self, form: &Form, bounds: Rect, place: &Range<usize>) -> Result<(), Error> {
-        let Form::Area { hull, .. } = form else { return Ok(()) };
-        let Some(own) = Rect::around(hull.iter().copied()) else { return Ok(()) };
+        let own = match form {
+            Form::Disc(_) => return Ok(()),
+            Form::Obround { half, radius } => {
+                Rect::new(Point::default() - *half, Point::default() + *half).inflate(*radius)
+            }
+            Form::Area { hull, .. } => match Rect::around(hull.iter().copied()) {
+                Some(own) => own,
+                None => return Ok(()),
+            },
+        };
         let low = (bounds.min().x + own.min().x).min(bounds.min().y + own.min().y);
         let high = (bounds.max().x + own.max().x).max(bounds.max().y + own.max().y);
         if low >= Nm::MIN && high <= Nm::MAX {
@@ -655,6 +661,9 @@ impl<'a> Reader<'a> {
         if !reaches {
             return Err(self.refused(contour.place, &Refusal::Range));
         }
+        if contour.tangled {
+            return Err(self.refused(contour.place, &Refusal::Tangled));
+        }
         if !contour.closed {
             let message = "the contour of a region does not end where it began; it is closed with a line";
             self.warnings.add("region-not-closed", contour.place.clone(), message);
@@ -734,10 +743,6 @@ impl<'a> Reader<'a> {
             Some(form) => Rc::clone(form),
             None => Rc::new(self.make_form(number, linear, place)?),
         };
-        if matches!(*form, Form::Disc(Nm::ZERO)) {
-            let message = format!("D{number} has no size; what is drawn with it has no area");
-            self.warnings.add("zero-size-aperture", place.clone(), message);
-        }
         self.forms.insert(key, Rc::clone(&form));
         self.form = Some(Rc::clone(&form));
         Ok(form)
@@ -747,6 +752,9 @@ impl<'a> Reader<'a> {
         let template = Rc::clone(&self.apertures.get(&number).expect("selected").template);
         if template.reach() * linear.scale() > Nm::MAX.to_f64() {
             return Err(self.refused(place.clone(), &Refusal::Range));
+        }
+        if template.is_tangled() {
+            return Err(self.refused(place.clone(), &Refusal::Tangled));
         }
         self.canvas.charge(template.cost()).map_err(|refusal| self.refused(place.clone(), &refusal))?;
         template.form(linear).ok_or_else(|| {
@@ -803,10 +811,10 @@ impl<'a> Reader<'a> {
             let message = "the file does not end with M02; it may have been cut off";
             self.warnings.add("missing-end-of-file", end, message);
         }
-        Ok(self.into_image())
+        self.into_image()
     }
 
-    fn into_image(mut self) -> Image {
+    fn into_image(mut self) -> Result<Image, Error> {
         let source = self.source();
         let mut objects = self.canvas.finish();
         if self.negative
@@ -821,17 +829,23 @@ impl<'a> Reader<'a> {
             let ground = Feature { shape, axis: Axis::Region, attributes: 0, line: 1 };
             objects.insert(0, (ground, Polarity::Dark));
         }
-        let features = polarity::resolve(objects);
+        if self.attributes.negative {
+            let message = "the file calls its polarity negative (.FilePolarity); it is read as it is drawn, dark for copper";
+            self.warnings.add("negative-file", 0..0, message);
+        }
+        let features = polarity::resolve(objects).map_err(|excess| {
+            Error::content(self.name, excess.to_string(), "have the layer written without clear objects")
+        })?;
         if features.is_empty() {
             self.warnings.add("nothing-drawn", 0..0, "the file draws nothing");
         }
-        Image {
+        Ok(Image {
             features,
             function: self.attributes.function.clone(),
             attributes: self.attributes.into_sets(),
             source,
             warnings: self.warnings.finish(),
-        }
+        })
     }
 
     fn source(&self) -> Source {

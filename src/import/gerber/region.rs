@@ -20,6 +20,8 @@ pub(super) struct Contour {
     pub(super) pieces: Vec<Polygon>,
     /// Whether it ended where it began.
     pub(super) closed: bool,
+    /// Whether it crosses itself so often that its area cannot be worked out in reasonable time.
+    pub(super) tangled: bool,
     /// The line on which it began.
     pub(super) line: u32,
     pub(super) place: Range<usize>,
@@ -57,8 +59,9 @@ impl Region {
         if closed {
             points.pop();
         }
-        let pieces = if points.len() < 3 { Vec::new() } else { polarity::clean(&[points]) };
-        Some(Contour { pieces, closed, line: self.line, place: self.place.clone() })
+        let tangled = polarity::is_tangled([&points].into_iter());
+        let pieces = if points.len() < 3 || tangled { Vec::new() } else { polarity::clean(&[points]) };
+        Some(Contour { pieces, closed, tangled, line: self.line, place: self.place.clone() })
     }
 
     /// Whether all points drawn so far satisfy `test`.
