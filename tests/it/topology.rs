@@ -9,7 +9,7 @@ use serde_json::Value;
 use voromill::board::{Attributes, Axis, Copper, Feature, Hole, Plating, Shape, Side};
 use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn};
 use voromill::grid::Grid;
-use voromill::import::gerber;
+use voromill::import::{self, gerber};
 use voromill::topology::{self, Method, NetId, Nets, Reason, Sampling};
 
 fn at(x: i64, y: i64) -> Point {
@@ -730,4 +730,31 @@ fn the_seed_decides_the_colours_and_nothing_else_does() {
     assert_eq!(run(1).overlaps, run(1).overlaps, "the same run");
     assert_ne!(run(1).colours, run(2).colours, "another seed");
     assert_eq!(run(1).nets, run(2).nets, "the same nets");
+}
+
+#[test]
+fn real_boards_have_as_many_electrical_nets_as_their_truth() {
+    let mut wrong = Vec::new();
+    for folder in boards().into_iter().flat_map(|boards| fs::read_dir(boards).expect("readable")) {
+        let folder = folder.expect("an entry").path();
+        let Some(truth) = json(&folder.join("truth_nets.json")) else { continue };
+        let Some(groups) = truth["board"]["connected_groups"].as_u64() else { continue };
+        let Ok(import::Loaded { board, .. }) =
+            import::load(std::slice::from_ref(&folder), &import::Selection::default())
+        else {
+            continue;
+        };
+        let (Some(front), Some(back)) = (&board.front, &board.back) else { continue };
+        let nets = [front, back].map(|copper| topology::recover(copper, Method::Contact));
+        let islands = |side: &str| truth[side]["islands"].as_array().map_or(0, Vec::len);
+        if [nets[0].nets().len(), nets[1].nets().len()] != [islands("front"), islands("back")] {
+            // Lettering beyond the outline was left out: other islands, other groups.
+            continue;
+        }
+        let found = topology::electrical(Some((front, &nets[0])), Some((back, &nets[1])), &board.holes);
+        if found.nets.len() as u64 != groups {
+            wrong.push(format!("{}: {} nets, {groups} groups", folder.display(), found.nets.len()));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
