@@ -7,7 +7,7 @@ use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, Nets};
 use crate::voronoi::{self, Boundaries, Boundary, Diagram, Owner, SiteKind};
 
-use super::options::{Sites, Strategy, Topology};
+use super::options::{self, Sites, Strategy, Topology};
 use super::{Error, Settings};
 
 /// What became of one side.
@@ -141,8 +141,11 @@ fn cut(
         placement,
         order: Order::default(),
         machine: &settings.machine,
-        narrow: Narrow::Centre,
-        adaptive: None,
+        narrow: match settings.narrow {
+            options::Narrow::Centre => Narrow::Centre,
+            options::Narrow::Skip => Narrow::Skip,
+        },
+        adaptive: settings.adaptive_depth,
     };
     let laps: Vec<Path> = frame.cloned().into_iter().collect();
     isolate(format!("isolate {side}"), boundaries, &laps, role, name, &isolation)

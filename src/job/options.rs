@@ -8,9 +8,9 @@ use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 
 use crate::gcode::{self, dialect};
-use crate::toolpath::{Feed, ToolKind};
+use crate::toolpath::{Angle, Feed, ToolKind};
 
-use super::quantity::{Length, text};
+use super::quantity::{Drills, Length, text};
 
 /// What a person asked for; what they left open is none.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Args, Serialize, Deserialize)]
@@ -83,6 +83,15 @@ pub struct Options {
     #[serde(with = "text")]
     pub tolerance: Option<Length>,
 
+    /// Where the cut does not fit: keep it centred (centre) or leave the gap uncut (skip)
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "WHAT", help_heading = "Isolation")]
+    pub narrow: Option<Narrow>,
+
+    /// Let a V-bit rise to no less than this depth where the gap is narrow
+    #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub adaptive_depth: Option<Length>,
+
     /// Speed along a cut
     #[arg(long, value_name = "SPEED", help_heading = "Machine")]
     #[serde(with = "text")]
@@ -110,6 +119,35 @@ pub struct Options {
     /// Where x and y are zero: lower-left, center, or keep the file's coordinates
     #[arg(long, value_enum, hide_possible_values = true, value_name = "PLACE", help_heading = "Machine")]
     pub origin: Option<Origin>,
+
+    /// Turn the board counter-clockwise on the machine
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, help_heading = "Machine")]
+    #[serde(with = "text")]
+    pub rotate: Option<Angle>,
+
+    /// Where x is when the board is turned over for the back [default: its middle]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub mirror_axis: Option<Length>,
+
+    /// Drills at hand, such as 0.8mm,1mm,3.2mm; else one for each diameter in the files
+    #[arg(long, value_name = "LENGTHS", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub drills: Option<Drills>,
+
+    /// How far a drill at hand may differ from the hole
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub drill_tolerance: Option<Length>,
+
+    /// How deep a drill goes before it clears its chips
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub drill_peck: Option<Length>,
+
+    /// Bore slots and holes without a drill with the cutout's end mill
+    #[arg(long, num_args = 0, default_missing_value = "true", help_heading = "Drilling and cutting out")]
+    pub drill_bore: Option<bool>,
 
     /// How deep holes go: the board and the drill's tip
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
@@ -181,6 +219,14 @@ impl Options {
             frame: self.frame.or(others.frame),
             topology: self.topology.or(others.topology),
             tolerance: self.tolerance.or(others.tolerance),
+            narrow: self.narrow.or(others.narrow),
+            adaptive_depth: self.adaptive_depth.or(others.adaptive_depth),
+            rotate: self.rotate.or(others.rotate),
+            mirror_axis: self.mirror_axis.or(others.mirror_axis),
+            drills: self.drills.or(others.drills),
+            drill_tolerance: self.drill_tolerance.or(others.drill_tolerance),
+            drill_peck: self.drill_peck.or(others.drill_peck),
+            drill_bore: self.drill_bore.or(others.drill_bore),
             feed: self.feed.or(others.feed),
             plunge: self.plunge.or(others.plunge),
             spindle: self.spindle.or(others.spindle),
@@ -216,6 +262,16 @@ pub enum Sites {
     Copper,
     /// The axes it was drawn along (the paper).
     Core,
+}
+
+/// What is done where the gap is narrower than the cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Narrow {
+    /// The cut stays in the middle and takes copper on both sides.
+    Centre,
+    /// The gap is left, and the nets joined.
+    Skip,
 }
 
 /// How touching copper is found.

@@ -2,10 +2,10 @@ use rayon::prelude::*;
 
 use crate::board::{Board, Side, Source, Warning};
 use crate::gcode::{Header, Input};
-use crate::geometry::{Nm, Rect, Vector};
+use crate::geometry::{Rect, Vector};
 use crate::import::Loaded;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
-use crate::toolpath::{Angle, Order, Placement, Program, Section};
+use crate::toolpath::{Order, Placement, Program, Section};
 use crate::topology::{self, Electrical};
 
 use super::{Error, Layer, Part, Settings, Written};
@@ -51,7 +51,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         return Err(Error::Truncated(format!("{place}{}", cut_off.message)));
     }
     let bounds = board.bounds().ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
-    let front = Placement::front(settings.origin, bounds, Angle::ZERO, Vector::default());
+    let front = Placement::front(settings.origin, bounds, settings.rotate, Vector::default());
     let layers = isolate(&board, bounds, front, settings)?;
     let header = header(&sources);
     let mut programs: Vec<Written> = layers
@@ -98,7 +98,7 @@ fn isolate(board: &Board, bounds: Rect, front: Placement, settings: &Settings) -
         let copper: &crate::board::Copper = copper;
         let placement = match copper.side {
             Side::Front => front,
-            Side::Back => front.turned_over(front.middle(bounds)),
+            Side::Back => front.turned_over(settings.mirror_axis.unwrap_or_else(|| front.middle(bounds))),
         };
         Layer::isolate(copper, board, placement, settings)
     };
@@ -132,9 +132,9 @@ fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings)
 
 fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Vec<Section>, Vec<Warning>) {
     let drilling = Drilling {
-        drills: &[],
-        tolerance: Nm::ZERO,
-        mill: None,
+        drills: &settings.drills,
+        tolerance: settings.drill_tolerance,
+        mill: settings.drill_bore.then_some(&settings.cutout_tool),
         heights: settings.drilling,
         placement,
         order: Order::default(),

@@ -25,6 +25,25 @@ impl FromStr for Length {
     }
 }
 
+/// Diameters of drills.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drills(pub Vec<Length>);
+
+impl FromStr for Drills {
+    type Err = ParseLengthError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        text.split(',').map(str::parse).collect::<Result<_, _>>().map(Self)
+    }
+}
+
+/// As it is written: `0.8mm,1mm`.
+impl fmt::Display for Drills {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(","))
+    }
+}
+
 /// Millimetres without needless zeros.
 impl fmt::Display for Length {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

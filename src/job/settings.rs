@@ -1,11 +1,11 @@
 use crate::gcode::Dialect;
 use crate::geometry::Nm;
-use crate::toolpath::{self, Heights, Machine, Tool, ToolKind};
+use crate::toolpath::{self, Angle, Heights, Machine, Tool, ToolKind};
 use crate::voronoi::Widening;
 
 use super::Error;
-use super::options::{Options, Origin, Sites, Strategy, Topology};
-use super::quantity::Length;
+use super::options::{Narrow, Options, Origin, Sites, Strategy, Topology};
+use super::quantity::{Drills, Length};
 
 /// Everything a job needs to know, complete and checked.
 ///
@@ -39,6 +39,20 @@ pub struct Settings {
     pub dialect: &'static Dialect,
     /// Where x and y are zero.
     pub origin: toolpath::Origin,
+    /// Where the cut does not fit.
+    pub narrow: Narrow,
+    /// The least depth to which a V-bit may rise.
+    pub adaptive_depth: Option<Nm>,
+    /// How the board is turned on the machine.
+    pub rotate: Angle,
+    /// The line about which it is turned over; none for its middle.
+    pub mirror_axis: Option<Nm>,
+    /// The drills at hand; none for one of each diameter.
+    pub drills: Vec<Tool>,
+    /// How far a drill may differ from its hole.
+    pub drill_tolerance: Nm,
+    /// Whether slots, and holes without a drill, are bored with the cutout's end mill.
+    pub drill_bore: bool,
     /// What the machine can do.
     pub machine: Machine,
     /// How high and deep drills go.
@@ -95,13 +109,23 @@ impl Settings {
         Ok(Self {
             isolation,
             widening: widening(&options, kerf)?,
-            drilling: heights(positive("drill-depth", options.drill_depth)?, None),
+            drilling: heights(
+                positive("drill-depth", options.drill_depth)?,
+                given("drill-peck", options.drill_peck)?,
+            ),
+            narrow: options.narrow.expect(open),
+            adaptive_depth: given("adaptive-depth", options.adaptive_depth)?,
+            rotate: options.rotate.expect(open),
+            mirror_axis: options.mirror_axis.map(Length::nm),
+            drills: drills(options.drills.as_ref())?,
+            drill_tolerance: options.drill_tolerance.expect(open).nm(),
+            drill_bore: options.drill_bore.expect(open),
             cutout: heights(cutout_depth, Some(positive("cutout-pass", options.cutout_pass)?)),
             isolation_tool,
             cutout_tool,
             strategy: options.strategy.expect(open),
             sites: options.sites.expect(open),
-            limit: options.limit.map(|limit| positive("limit", Some(limit))).transpose()?,
+            limit: given("limit", options.limit)?,
             pixel: pixel(&options)?,
             frame: options.frame.expect(open),
             topology: options.topology.expect(open),
@@ -131,6 +155,20 @@ impl Settings {
     pub fn kerf(&self) -> Nm {
         self.isolation_tool.width_at(self.isolation.cut)
     }
+}
+
+/// A length that may be left open.
+fn given(key: &'static str, length: Option<Length>) -> Result<Option<Nm>, Error> {
+    length.map(|length| positive(key, Some(length))).transpose()
+}
+
+/// The drills at hand, numbered from 1 in the order given.
+fn drills(diameters: Option<&Drills>) -> Result<Vec<Tool>, Error> {
+    let drill = |(number, &diameter): (u32, &Length)| {
+        let diameter = positive("drills", Some(diameter))?;
+        Ok(Tool { number, ..Tool::new(ToolKind::Drill { diameter }) })
+    };
+    diameters.map_or_else(|| Ok(Vec::new()), |Drills(all)| (1..).zip(all).map(drill).collect())
 }
 
 fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {
