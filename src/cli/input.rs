@@ -26,7 +26,7 @@ pub(super) struct Input {
 
     /// File with holes; may be given several times
     #[arg(long = "drill", value_name = "FILE", help_heading = "Files")]
-    drills: Vec<PathBuf>,
+    drill_files: Vec<PathBuf>,
 
     /// What the board is called, and its output files after it
     #[arg(long, value_name = "NAME", help_heading = "Files")]
@@ -39,7 +39,7 @@ impl Input {
             front: self.front.clone(),
             back: self.back.clone(),
             outline: self.outline.clone(),
-            drill: self.drills.clone(),
+            drill: self.drill_files.clone(),
             name: self.name.clone(),
         };
         Ok(import::load(&self.paths, &selection)?)
