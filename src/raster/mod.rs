@@ -1,4 +1,96 @@
 //! A deterministic z-buffer on the CPU: surfaces over a plane of pixels in, the nearest label of every pixel out.
+//!
+//! Give every point the surface of its own distance, a cone, and look at the cones from below: what is seen at a pixel
+//! is the nearest point, and the picture is the Voronoi diagram ([Hoff et al.][hoff], [Downing and Rus][visolate]). So
+//! for segments ([`Surface::Curtain`]), circular arcs ([`Surface::Ring`]) and areas ([`Surface::Polygon`]), each with a
+//! label of the caller's choosing. A GPU did this for the papers; here it is arithmetic that gives the same bits
+//! everywhere.
+//!
+//! # Tour
+//!
+//! ```
+//! use voromill::raster::{Buffers, Label, Picker, PixelPoint, Scene, Surface, render};
+//!
+//! // A dozen points, a label each, in a picture of 120 × 80 pixels.
+//! let mut scene = Scene::new(120, 80);
+//! for number in 0..12 {
+//!     let apex = PixelPoint::from_pixels(7 + 37 * number % 113, 5 + 23 * number % 71);
+//!     scene.add(Label(1 + number as u32), Surface::Cone { apex, offset: 0.0, limit: None });
+//! }
+//! let mut diagram = Buffers::new();
+//! render(&scene, &mut diagram);
+//!
+//! // Whose is this pixel, and which points are the next nearest?
+//! let nearest = diagram.pixel(60, 40);
+//! let picker = Picker::new(&scene);
+//! let list: Vec<_> = picker.pick(60, 40).take(3).collect();
+//! assert_eq!(list[0], nearest, "a pick begins with what is seen");
+//! assert!(list[0].depth <= list[1].depth && list[1].depth <= list[2].depth, "nearest first");
+//! ```
+//!
+//! [`render`] draws a picture into [`Buffers`]; [`stream`] hands out finished tiles in a fixed order, for pictures
+//! larger than memory, and can leave out those that one owner has to itself. [`Picker`] lists what lies at a pixel,
+//! [`blend`] makes pictures of layers, [`mesh`] tessellates the surfaces as the papers did, [`view`] looks at them
+//! from the side.
+//!
+//! # Laws
+//!
+//! * A pixel is the least of its fragments by (depth, label). A fragment depends on its primitive and its pixel alone:
+//!   nothing is stepped along a row. So the order of the scene, the size of tiles and the number of threads cannot
+//!   change a bit, and since only + − × ÷ √ touch floats, neither can the machine.
+//! * What a primitive covers is decided in integers: positions are 24.8 fixed point ([`SubPx`]), samples lie at pixel
+//!   centres, an edge through a sample belongs to the triangle or polygon right of or below it. A conformant OpenGL
+//!   fills the same pixels.
+//! * Culling is conservative. What is left out is strictly behind something that covers the whole cell, by more than
+//!   both depths may be off; a tie is always decided at the pixel.
+//!
+//! # How exact a depth is
+//!
+//! Depths are `f32` pixels; let u = 2⁻²⁴ be half a unit in the last place. Samples and coordinates within
+//! 65 536 pixels of the origin are exact in an `f32`, and so are their differences (24 bits). Then:
+//!
+//! * A cone's dx² + dy² takes three roundings, its root halves them and adds one, the offset takes one: off by at most
+//!   3 u (d + |offset|).
+//! * A curtain's foot t is off by about 4 u |w| / L, with |w| ≤ d + L; that moves the foot by 4 u (d + L) and the distance
+//!   by no more. Rounding t·u costs another u L, the rest as above: at most 10 u (d + L + |offset|).
+//! * A ring subtracts its radius: at most 4 u (d + 2 R + |offset|).
+//!
+//! So two labels can be seen in the wrong order only where their true distances differ by less than the sum of the
+//! two bounds: at 1000 pixels, by about a thousandth of a pixel. The culling allows for 32 u.
+//!
+//! # How it is fast
+//!
+//! The picture is cut into cells, eight by eight from each, and so on down to blocks of about 16 × 16 pixels. A cell has
+//! a bin: what may be seen in it. To split a bin, every candidate's depth is computed in the middle of each of the 64
+//! pieces by the very loop that draws pixels; by the piece's radius up or down, that bounds it everywhere. Gone is
+//! what lies behind something else that covers the piece. The radius alone cannot tell neighbours apart that lie the
+//! same way; the difference of their gradients can. Distances are convex, and curve by at most one over themselves, so
+//!
+//! ```text
+//!   d₁ − d₂  ≥  d₁(c) − d₂(c)  −  |g₁ − g₂| r  −  r² / (2 d₂(c))
+//! ```
+//!
+//! A bin runs in the order of labels, so drawing needs no look at labels to break ties. Cost is O(n) to bin for n
+//! primitives, and then per block; it grows with n · levels and with pixels · (what is left in a block).
+//!
+//! What was tried, with 2000 segments at 4096², one thread of a Xeon with AVX-512, against writing 8 bytes a pixel:
+//!
+//! | step | ratio |
+//! |---|---|
+//! | quadtree of scalar bounds, loops left to the compiler: selects became branches, nothing vectorized | 14.3 |
+//! | lanes of eight, dispatched at run time by `pulp` (no `unsafe` here), baseline elsewhere | 7.8 |
+//! | bounds from a coarse picture of 8 × 8 blocks; blocks not cleared where the first primitive covers them | 4.0 |
+//!
+//! What remains: about one part writing the picture, one part copying blocks into it (a picture 4096 wide would
+//! collide with itself in the first-level cache if blocks were drawn in place), two parts fragments and bins.
+//!
+//! # References
+//!
+//! * K. Hoff et al., *Fast computation of generalized Voronoi diagrams using graphics hardware*, SIGGRAPH 1999.
+//! * K. Downing and D. Rus, *VIsolate*: the translucent and picking methods of § III-A.2, the distance meshes of § III-B.
+//!
+//! [hoff]: #references
+//! [visolate]: #references
 
 mod bin;
 pub mod blend;
@@ -7,6 +99,7 @@ mod cell;
 mod fragment;
 mod half_plane;
 mod lanes;
+pub mod mesh;
 mod mosaic;
 mod node;
 mod pick;
@@ -17,6 +110,7 @@ mod stream;
 mod subpixel;
 mod surface;
 mod tile;
+pub mod view;
 
 pub use fragment::{Fragment, Label};
 pub use pick::{Picker, Picks};

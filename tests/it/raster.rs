@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use voromill::raster::blend::{Window, mix, render_overdraw, render_translucent};
 use voromill::raster::{
     Buffers, Caps, FillRule, Label, Options, Picker, PixelPoint, Scene, Sides, Spin, SubPx, Surface,
-    TileContent, render, stream,
+    TileContent, mesh, render, stream,
 };
 
 use crate::oracle::raster::claims;
@@ -265,4 +265,32 @@ fn no_mixed_component_is_likelier_than_one_in_128() {
         counts[usize::from(mix([[a; 3], [b; 3]])[1])] += 1;
     }
     assert!(counts.iter().all(|&count| count <= 65536 / 128), "at most 512 of 65 536 pairs: {counts:?}");
+}
+
+#[test]
+fn a_mesh_is_no_farther_from_its_surface_than_was_asked_for() {
+    let (apex, other) = (PixelPoint::from_pixels(40, 50), PixelPoint::from_pixels(90, 30));
+    let circle = PixelPoint::from_pixels(70, 50);
+    let start = PixelPoint::from_pixels(100, 50);
+    let (offset, limit, caps) = (0.0, Some(25.0), Caps::Both);
+    let pairs = [
+        (mesh::cone(apex, 30.0, 0.1), Surface::Cone { apex, offset, limit }),
+        (
+            mesh::curtain(apex, other, 30.0, 0.1),
+            Surface::Curtain { from: apex, to: other, caps, sides: Sides::Both, offset, limit },
+        ),
+        (
+            mesh::ring(circle, 30.0, 30.0, 0.1),
+            Surface::Ring { center: circle, start, end: start, spin: Spin::Clockwise, caps, offset, limit },
+        ),
+    ];
+    for (mesh, surface) in pairs {
+        let tessellated = picture(&mesh.into_iter().map(|face| (Label(1), face)).collect::<Vec<_>>());
+        let analytic = picture(&[(Label(1), surface)]);
+        for (mesh, exact) in tessellated.depths().iter().zip(analytic.depths()).filter(|(_, d)| d.is_finite())
+        {
+            // A quarter of a hundredth more for corners rounded to 1/256 pixel.
+            assert!((mesh - exact).abs() <= 0.11, "{mesh} against {exact}");
+        }
+    }
 }

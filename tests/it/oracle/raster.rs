@@ -16,7 +16,7 @@ pub(crate) struct Claim {
 }
 
 /// The roundings of a depth, as `raster`'s docs count them, with each length that enters it.
-const ROUNDING: f64 = 8.0 / 16_777_216.0;
+const ROUNDING: f64 = 10.0 / 16_777_216.0;
 
 /// All claims on the pixel at a column and row.
 pub(crate) fn claims(scene: &[(Label, Surface)], column: i32, row: i32) -> Vec<Claim> {
