@@ -2,6 +2,7 @@
 
 use proptest::prelude::*;
 use voromill::raster::blend::{Window, mix, render_overdraw, render_translucent};
+use voromill::raster::view::{Face, Projection, View, draw};
 use voromill::raster::{
     Buffers, Caps, FillRule, Label, Options, Picker, PixelPoint, Scene, Sides, Spin, SubPx, Surface,
     TileContent, mesh, render, stream,
@@ -268,6 +269,116 @@ fn no_mixed_component_is_likelier_than_one_in_128() {
 }
 
 #[test]
+fn the_golden_scenes_have_the_recorded_bits() {
+    use sha2::{Digest, Sha256};
+    use std::fmt::Write;
+
+    let mut text = String::new();
+    for (name, primitives) in golden() {
+        let buffers = picture(&primitives);
+        let mut hash = Sha256::new();
+        buffers.labels().iter().for_each(|label| hash.update(label.to_le_bytes()));
+        buffers.depths().iter().for_each(|depth| hash.update(depth.to_bits().to_le_bytes()));
+        let hex = hash.finalize().iter().fold(String::new(), |hex, byte| format!("{hex}{byte:02x}"));
+        writeln!(text, "{name:12} {hex}").expect("a string");
+    }
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/raster");
+    insta::with_settings!({snapshot_path => path, prepend_module_to_snapshot => false, omit_expression => true}, {
+        insta::assert_snapshot!("golden", text);
+    });
+}
+
+/// SplitMix64 on whole numbers below a limit: the same scenes everywhere, whatever the test library draws.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, limit: i32) -> i32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let high = (z ^ (z >> 31)) >> 32;
+        i32::try_from((high * u64::from(limit.unsigned_abs())) >> 32).expect("below the limit")
+    }
+
+    fn point(&mut self) -> PixelPoint {
+        PixelPoint::new(SubPx::new(self.below(40_000) - 1000), SubPx::new(self.below(30_000) - 1000))
+    }
+
+    fn length(&mut self) -> f32 {
+        f32::from(i16::try_from(self.below(5000)).expect("small")) / 256.0
+    }
+}
+
+/// Scenes that between them use every kind of surface.
+fn golden() -> Vec<(&'static str, Primitives)> {
+    let mut random = Random(20);
+    let mut scene = |count: u32, mut surface: Box<dyn FnMut(&mut Random) -> Surface>| -> Primitives {
+        (1..=count).map(|label| (Label(label), surface(&mut random))).collect()
+    };
+    let limit = |random: &mut Random| (random.below(3) == 0).then(|| 5.0 + random.length());
+    let caps = |random: &mut Random| {
+        [Caps::None, Caps::Start, Caps::End, Caps::Both][usize::try_from(random.below(4)).expect("small")]
+    };
+    let sides = |random: &mut Random| {
+        [Sides::Both, Sides::Left, Sides::Right][usize::try_from(random.below(3)).expect("small")]
+    };
+    let cones = scene(
+        60,
+        Box::new(move |r| Surface::Cone { apex: r.point(), offset: r.length() / 4.0, limit: limit(r) }),
+    );
+    let curtains = scene(
+        60,
+        Box::new(move |r| Surface::Curtain {
+            from: r.point(),
+            to: r.point(),
+            caps: caps(r),
+            sides: sides(r),
+            offset: r.length() / 8.0,
+            limit: limit(r),
+        }),
+    );
+    let rings = scene(
+        30,
+        Box::new(move |r| Surface::Ring {
+            center: r.point(),
+            start: r.point(),
+            end: r.point(),
+            spin: if r.below(2) == 0 { Spin::Clockwise } else { Spin::CounterClockwise },
+            caps: caps(r),
+            offset: r.length() / 8.0,
+            limit: limit(r),
+        }),
+    );
+    let polygons = scene(
+        20,
+        Box::new(|r| {
+            let contours = (0..1 + r.below(3)).map(|_| (0..3 + r.below(6)).map(|_| r.point()).collect());
+            let contours = contours.collect();
+            let rule = if r.below(2) == 0 { FillRule::NonZero } else { FillRule::EvenOdd };
+            Surface::Polygon { contours, rule, depth: r.length() }
+        }),
+    );
+    let triangles = scene(
+        80,
+        Box::new(|r| Surface::Triangle {
+            corners: [r.point(), r.point(), r.point()],
+            depths: [r.length(), r.length(), r.length()],
+        }),
+    );
+    let all = [&cones, &curtains, &rings, &polygons, &triangles];
+    let mixed = all.iter().flat_map(|scene| scene.iter().cloned().step_by(3)).collect();
+    vec![
+        ("cones", cones),
+        ("curtains", curtains),
+        ("rings", rings),
+        ("polygons", polygons),
+        ("triangles", triangles),
+        ("mixed", mixed),
+    ]
+}
+
+#[test]
 fn a_mesh_is_no_farther_from_its_surface_than_was_asked_for() {
     let (apex, other) = (PixelPoint::from_pixels(40, 50), PixelPoint::from_pixels(90, 30));
     let circle = PixelPoint::from_pixels(70, 50);
@@ -293,4 +404,143 @@ fn a_mesh_is_no_farther_from_its_surface_than_was_asked_for() {
             assert!((mesh - exact).abs() <= 0.11, "{mesh} against {exact}");
         }
     }
+}
+
+#[test]
+fn a_view_shows_faces_and_edges() {
+    let face = |z: f64, color| Face { corners: [[1.0, 1.0, z], [15.0, 1.0, z], [1.0, 7.0, z]], color };
+    let far_away =
+        Face { corners: [[0.0, 0.0, 9.0], [16.0, 0.0, 9.0], [16.0, 8.0, 9.0]], color: [0, 0, 255] };
+    let view = View {
+        projection: Projection::Above,
+        size: (16, 8),
+        origin: [0.0, 0.0],
+        background: [255; 3],
+        edges: Some([0; 3]),
+    };
+    let pixels = draw(&[far_away, face(0.0, [255, 0, 0])], &view);
+    let letters: Vec<String> = pixels
+        .chunks(16)
+        .map(|row| {
+            row.iter()
+                .map(|pixel| match pixel {
+                    [255, 255, 255] => '.',
+                    [0, 0, 0] => '#',
+                    [_, 0, 0] => 'r',
+                    _ => 'b',
+                })
+                .collect()
+        })
+        .collect();
+    insta::with_settings!({snapshot_path => concat!(env!("CARGO_MANIFEST_DIR"), "/snapshots/raster"),
+        prepend_module_to_snapshot => false, omit_expression => true}, {
+        insta::assert_snapshot!("view", letters.join("\n"));
+    });
+    let tilted = View { projection: Projection::Oblique { tilt: 0.5 }, ..view };
+    let near = View {
+        projection: Projection::Perspective { tilt: 1.0, distance: 50.0, center: [8.0, 4.0] },
+        ..view
+    };
+    for view in [tilted, near] {
+        assert_ne!(draw(&[far_away, face(0.0, [255, 0, 0])], &view), pixels, "{view:?} is another picture");
+    }
+}
+
+/// Writes scenes and pictures for `tests/gl_parity.py`, which draws the same triangles with an OpenGL. Calling one from
+/// here would take `unsafe`, which this crate forbids; so the comparison lives on the other side.
+#[test]
+fn an_opengl_gets_the_same_triangles_to_draw() {
+    let Some(folder) = std::env::var_os("VOROMILL_GL_PARITY").map(std::path::PathBuf::from) else {
+        eprintln!("skipped: VOROMILL_GL_PARITY names no folder to write scenes to");
+        return;
+    };
+    std::fs::create_dir_all(&folder).expect("a folder to write to");
+    for number in 0..240 {
+        let mut random = Random(number);
+        let (kind, primitives, triangles) =
+            if number < 200 { flat_scene(&mut random) } else { mesh_scene(&mut random) };
+        let mut scene = Scene::new(128, 128);
+        primitives.into_iter().for_each(|(label, surface)| scene.add(label, surface));
+        let mut buffers = Buffers::new();
+        render(&scene, &mut buffers);
+        let bytes =
+            |words: &mut dyn Iterator<Item = u32>| words.flat_map(u32::to_le_bytes).collect::<Vec<u8>>();
+        let write = |end: &str, data: Vec<u8>| {
+            std::fs::write(folder.join(format!("{kind}_{number:03}.{end}")), data).expect("writable");
+        };
+        let lines = triangles.iter().map(|(label, corners, depths)| {
+            let corners = corners.iter().map(|p| format!(" {} {}", p.x.raw(), p.y.raw())).collect::<String>();
+            format!("{}{corners} {:?} {:?} {:?}\n", label.0, depths[0], depths[1], depths[2])
+        });
+        write("triangles", lines.collect::<String>().into_bytes());
+        write("labels", bytes(&mut buffers.labels().iter().copied()));
+        write("depths", bytes(&mut buffers.depths().iter().map(|depth| depth.to_bits())));
+    }
+}
+
+type Triangles = Vec<(Label, [PixelPoint; 3], [f32; 3])>;
+
+/// Flat triangles and convex polygons, the latter for an OpenGL as fans, each at a depth of its own.
+fn flat_scene(random: &mut Random) -> (&'static str, Primitives, Triangles) {
+    let (mut primitives, mut triangles) = (Primitives::new(), Triangles::new());
+    // Half of the points on samples and corners of pixels, where the fill rule decides.
+    let coordinate = |random: &mut Random| match random.below(2) {
+        0 => SubPx::new(random.below(140 * 2) * 128 - 6 * 256),
+        _ => SubPx::new(random.below(140 * 256) - 6 * 256),
+    };
+    for number in 1..=30 {
+        let label = Label(number);
+        let depth = f32::from(u8::try_from((number * 37) % 61).expect("small"));
+        if number % 3 == 0 {
+            let (x, y) = (coordinate(random), coordinate(random));
+            let radius = 1024 + random.below(8000);
+            // The corners of a diamond, a square or an octagon: convex, and many of their edges are axis-parallel.
+            let k = radius * 5 / 12;
+            let ring = [
+                (radius, k),
+                (k, radius),
+                (-k, radius),
+                (-radius, k),
+                (-radius, -k),
+                (-k, -radius),
+                (k, -radius),
+                (radius, -k),
+            ];
+            let step = [1, 2][usize::try_from(random.below(2)).expect("small")];
+            let ring: Vec<_> = ring
+                .into_iter()
+                .step_by(step)
+                .map(|(dx, dy)| PixelPoint::new(SubPx::new(x.raw() + dx), SubPx::new(y.raw() + dy)))
+                .collect();
+            for pair in ring[1..].windows(2) {
+                triangles.push((label, [ring[0], pair[0], pair[1]], [depth; 3]));
+            }
+            primitives
+                .push((label, Surface::Polygon { contours: vec![ring], rule: FillRule::NonZero, depth }));
+        } else {
+            let corners = [(); 3].map(|()| PixelPoint::new(coordinate(random), coordinate(random)));
+            primitives.push((label, Surface::Triangle { corners, depths: [depth; 3] }));
+            triangles.push((label, corners, [depth; 3]));
+        }
+    }
+    ("flat", primitives, triangles)
+}
+
+/// Tessellated cones and curtains.
+fn mesh_scene(random: &mut Random) -> (&'static str, Primitives, Triangles) {
+    let mut primitives = Primitives::new();
+    for label in (1..=20).map(Label) {
+        let mut point =
+            || PixelPoint::new(SubPx::new(random.below(128 * 256)), SubPx::new(random.below(128 * 256)));
+        let (from, to) = (point(), point());
+        let faces =
+            if label.0 % 2 == 0 { mesh::cone(from, 60.0, 0.1) } else { mesh::curtain(from, to, 60.0, 0.1) };
+        primitives.extend(faces.into_iter().map(|face| (label, face)));
+    }
+    let triangle = |(label, surface): &(Label, Surface)| match surface {
+        Surface::Triangle { corners, depths } => Some((*label, *corners, *depths)),
+        _ => None,
+    };
+    let triangles = primitives.iter().filter_map(triangle).collect();
+    ("mesh", primitives, triangles)
 }
