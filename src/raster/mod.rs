@@ -28,7 +28,7 @@
 //! assert!(list[0].depth <= list[1].depth && list[1].depth <= list[2].depth, "nearest first");
 //! ```
 //!
-//! [`render`] draws a picture into [`Buffers`]; [`stream`] hands out finished tiles in a fixed order, for pictures
+//! [`render()`] draws a picture into [`Buffers`]; [`stream()`] hands out finished tiles in a fixed order, for pictures
 //! larger than memory, and can leave out those that one owner has to itself. [`Picker`] lists what lies at a pixel,
 //! [`blend`] makes pictures of layers, [`mesh`] tessellates the surfaces as the papers did, [`view`] looks at them
 //! from the side.

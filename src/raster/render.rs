@@ -15,7 +15,7 @@ pub struct Buffers {
 }
 
 impl Buffers {
-    /// Empty buffers; [`render`] makes them as large as it needs.
+    /// Empty buffers; [`render()`] makes them as large as it needs.
     #[must_use]
     pub const fn new() -> Self {
         Self { width: 0, labels: Vec::new(), depths: Vec::new() }
