@@ -128,8 +128,11 @@ fn cut(
     placement: &Placement,
     settings: &Settings,
 ) -> (Section, Vec<Warning>) {
-    // What lies along the edge is cut with the board, or in the lap.
-    let role = |boundary: &Boundary| if boundary.is_border() { Role::Leave } else { Role::Cut };
+    // What lies along the outline is cut with the board; along a frame it is part of the graph, and joins what ends there.
+    let role = |boundary: &Boundary| {
+        let bare = boundary.left == Owner::Background || boundary.right == Owner::Background;
+        if boundary.is_border() && (bare || frame.is_none()) { Role::Leave } else { Role::Cut }
+    };
     let name = |owner: Owner| match owner {
         Owner::Net(net) => nets.label(net),
         Owner::Background => "bare board".to_owned(),
@@ -147,6 +150,5 @@ fn cut(
         },
         adaptive: settings.adaptive_depth,
     };
-    let laps: Vec<Path> = frame.cloned().into_iter().collect();
-    isolate(format!("isolate {side}"), boundaries, &laps, role, name, &isolation)
+    isolate(format!("isolate {side}"), boundaries, &[], role, name, &isolation)
 }

@@ -316,6 +316,7 @@ impl Diagram {
             pitch: self.grid.pitch().to_f64(),
             level: cut.or(self.settings.limit).map_or(f64::INFINITY, Nm::to_f64),
             groove: self.sites.groove(),
+            framed: self.border.frame.is_some(),
             levels_only: cut.is_some(),
         };
         let mut stitcher = Stitcher::default();

@@ -5,6 +5,8 @@
 //! a pixel away; nothing may move further than a pixel and a half. Where Newton does not settle (the nearest site of a net
 //! changes right there), the same equation is bisected along its gradient.
 
+use crate::geometry::Nm;
+
 use super::plane::Spot;
 use super::site::{Reach, Rings, Site};
 
@@ -115,7 +117,8 @@ impl Placer<'_> {
             }
             Target::OnBorder => {
                 let border = self.border.border(0..self.border_rings, p);
-                Miss { value: border.distance, slope: border.away, clearance: f64::INFINITY }
+                // The frame is far from copper, and finite so that it can be interpolated.
+                Miss { value: border.distance, slope: border.away, clearance: Nm::MAX.to_f64() }
             }
         }
     }

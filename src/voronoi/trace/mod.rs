@@ -68,6 +68,8 @@ pub(super) struct Course {
     pub(super) level: f64,
     /// The label of what earlier cuts have cleared.
     pub(super) groove: u32,
+    /// Whether the border is a frame that is cut, too.
+    pub(super) framed: bool,
     /// Whether only boundaries against the background are wanted.
     pub(super) levels_only: bool,
 }

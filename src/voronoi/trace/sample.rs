@@ -65,7 +65,10 @@ impl Tracer<'_> {
     /// Whether anybody cuts along the boundary between two owners.
     const fn is_wanted(&self, left: u32, right: u32) -> bool {
         let bare = left == BACKGROUND || right == BACKGROUND;
-        left != OUTSIDE && right != OUTSIDE && (bare || !self.course.levels_only)
+        if left == OUTSIDE || right == OUTSIDE {
+            return self.course.framed && !bare && !self.course.levels_only;
+        }
+        bare || !self.course.levels_only
     }
 
     /// The first crack whose place lies ahead of the start of the piece, with its equation and place.
