@@ -82,8 +82,8 @@
 //! | bounds from a coarse picture of 8 × 8 blocks; blocks not cleared where the first primitive covers them | 4.0 |
 //! | bins split into 64 at once, neighbours told apart by gradients: dense scenes gain a third, this one loses a little | 4.5 |
 //!
-//! The ratio is 3.1 for 100 segments and about 45 for 100 000, of which every block of 16 × 16 pixels then holds a
-//! dozen (processor time, measured on a busy machine: they vary by a tenth).
+//! The ratio is 3.1 for 100 segments and about 45 for 100 000 (processor time, measured on a busy machine: such
+//! figures vary by a tenth there).
 //!
 //! What remains: about one part writing the picture, one part copying blocks into it (a picture 4096 wide would
 //! collide with itself in the first-level cache if blocks were drawn in place), two parts fragments and bins.
