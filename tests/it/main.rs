@@ -12,6 +12,7 @@ mod layers;
 mod oracle;
 mod outline;
 mod raster;
+mod snapshot;
 mod toolpath;
 mod topology;
 mod voronoi;
