@@ -1,6 +1,7 @@
 //! Boundaries against brute-force distances.
 
 use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use voromill::board::{Axis, Copper, Feature, Shape, Side};
 use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
 use voromill::topology::{self, Method, Nets};
@@ -33,7 +34,8 @@ fn boundaries(copper: &Copper, settings: &Settings) -> (Nets, Boundaries) {
     (nets, boundaries)
 }
 
-/// How far a point of a boundary is off: the difference of its two distances, and what a third net is nearer by.
+/// How far a point of a boundary is off: the difference of its two distances, or what a third net is nearer by beyond the pixel
+/// that a region's thin end may not be seen in.
 fn off_center(
     copper: &Copper,
     nets: &Nets,
@@ -49,8 +51,11 @@ fn off_center(
     };
     let (Some(a), Some(b)) = (of(left), of(right)) else { return 0.0 };
     let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
-    (a - b).abs().max(a.min(b) - nearest)
+    (a - b).abs().max(a.min(b) - nearest - PIXEL)
 }
+
+/// The pixel of the default settings, in nanometres.
+const PIXEL: f64 = 25_400.0;
 
 /// The worst point of all boundaries, looked at every few micrometres.
 fn worst(copper: &Copper, nets: &Nets, boundaries: &Boundaries, limit: Option<Nm>) -> f64 {
@@ -241,7 +246,8 @@ fn shape() -> impl Strategy<Value = Shape> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, ..ProptestConfig::default() })]
+    // The same cases on every run: a failure is met by whoever caused it.
+    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, rng_seed: RngSeed::Fixed(5), ..ProptestConfig::default() })]
 
     #[test]
     fn every_boundary_runs_in_the_middle(shapes in prop::collection::vec(shape(), 2..25)) {

@@ -49,10 +49,14 @@ pub(super) fn bore(
 /// How far from the axis the cutter's middle runs, from the inside out: as few laps as leave no core.
 fn reaches(width: Nm, cutter: Nm) -> Vec<Nm> {
     let last = (width - cutter).max(Nm::ZERO) / 2;
-    // Laps a little less than a cutter apart clear everything between them.
+    if last <= cutter / 2 {
+        return vec![last];
+    }
+    // The first lap crosses the axis, and laps a little less than a cutter apart clear everything between them.
+    let first = cutter * 9 / 20;
     let apart = (cutter.get() * 9 / 10).max(1);
-    let laps = (last.get() - cutter.get() / 2 + apart - 1).div_euclid(apart).max(0) + 1;
-    (1..=laps).map(|lap| Nm::new(last.get() * lap / laps)).collect()
+    let gaps = ((last - first).get() + apart - 1) / apart;
+    (0..=gaps).map(|i| first + (last - first) * i / gaps).collect()
 }
 
 /// One obround (a circle where both ends are one) down to the bottom.
