@@ -12,7 +12,7 @@
 //!                      │                   │       ▲                                                    │
 //!                      │                   └─ grid ┤ draws with                                         │
 //!                      │                         raster                                                 │
-//!                      └──────────────────────── report ◀───────────────────────────────────────────────┘
+//!                      └──────────────────────── verify ◀───────────────────────────────────────────────┘
 //! ```
 //!
 //! | module | owns | may use |
@@ -26,6 +26,7 @@
 //! | [`voronoi`] | nets → regions → a planar graph of [`Boundaries`](voronoi::Boundaries), placed exactly | all above but import |
 //! | [`toolpath`] | boundaries, holes, outline and a tool → a [`Program`](toolpath::Program) | geometry, board, topology, voronoi |
 //! | [`gcode`] | program ↔ text; dialects are data; the reader shares nothing with the writer | geometry, toolpath |
+//! | [`verify`] | text and a board → what is wrong; uses neither voronoi nor toolpath | geometry, raster, board, grid, topology, the reader |
 //! | [`report`] | what a person looks at: pictures, tables, JSON | all above |
 //! | [`job`] | settings, and the pipeline as one short function | all above |
 //!
@@ -74,4 +75,5 @@ pub mod raster;
 pub mod report;
 pub mod toolpath;
 pub mod topology;
+pub mod verify;
 pub mod voronoi;

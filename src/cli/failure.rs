@@ -1,6 +1,6 @@
 use std::io::IsTerminal;
 
-use voromill::{import, job};
+use voromill::{import, job, verify};
 
 /// Why nothing was done: the cause, and what to do about it.
 #[derive(Debug)]
@@ -62,5 +62,11 @@ impl From<job::Error> for Failure {
             job::Error::Import(error) => error.into(),
             other => Self::new(other.to_string(), other.hint()),
         }
+    }
+}
+
+impl From<verify::Error> for Failure {
+    fn from(error: verify::Error) -> Self {
+        Self::new(error.to_string(), error.hint())
     }
 }

@@ -1,10 +1,11 @@
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use clap::Args;
 use rayon::prelude::*;
 use voromill::board::Side;
 use voromill::job::{self, Job, Settings};
-use voromill::report::{Document, png};
+use voromill::report::{Document, Verdict, png};
 
 use super::config::Config;
 use super::input::Input;
@@ -17,7 +18,8 @@ use super::{Failure, Shared};
 /// Reads a folder, a zip archive or single files, finds the copper of both sides, the outline and the holes, and
 /// writes into OUT, named after the board: NAME-front.ngc and NAME-back.ngc that isolate the nets (the back turned
 /// over left to right), NAME-drill.ngc, NAME-cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut,
-/// and NAME.json. With one copper file alone, that side.
+/// and NAME.json. With one copper file alone, that side. The programs are read back and milled on a picture before
+/// anybody mills them: exit code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Mill {
@@ -27,6 +29,10 @@ pub(super) struct Mill {
     /// Folder for what is made
     #[arg(long, short, value_name = "OUT")]
     output: PathBuf,
+
+    /// Do not mill the programs on a picture first
+    #[arg(long, help_heading = "Output")]
+    no_verify: bool,
 
     /// Print the report as JSON on stdout
     #[arg(long, help_heading = "Output")]
@@ -44,14 +50,18 @@ Examples:
   voromill mill board-B_Cu.gbr board.drl -o out --cutout-tool endmill:2mm";
 
 impl Mill {
-    pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
+    pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
         let settings = self.config.settings(&self.input.paths)?;
         let progress = Progress::start(shared);
         progress.say("reading");
         let loaded = self.input.load()?;
         progress.say("finding the way between nets");
         let job = job::mill(loaded, &settings)?;
-        let document = job.describe(&settings);
+        let mut document = job.describe(&settings);
+        if !self.no_verify {
+            progress.say("milling on a picture");
+            document.verification = Some(Verdict::from(&job.verify(&settings)?));
+        }
         progress.say("drawing");
         let files = files(&job, &document, &settings)?;
         progress.say("writing");
@@ -67,7 +77,8 @@ impl Mill {
         } else {
             shared.report(&document.summary(shared.verbose));
         }
-        Ok(())
+        let clean = document.verification.is_none_or(|verdict| verdict.clean);
+        Ok(if clean { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 }
 

@@ -10,6 +10,7 @@ mod isolate;
 mod mill;
 mod output;
 mod progress;
+mod verify;
 
 use std::io::{IsTerminal, Write};
 use std::process::ExitCode;
@@ -38,6 +39,7 @@ Examples:
   voromill mill board/ -o out                  all programs, pictures and the report of a board
   voromill mill board.zip -o out --tool endmill:0.2mm --depth 0.1mm
   voromill isolate board-F_Cu.gbr -o front.ngc  one layer alone
+  voromill verify out/*.ngc --board board/     what programs, anybody's, do to the board
   voromill draw board/ --stage voronoi -o v.png  a picture of one stage
   voromill init                                write voromill.toml with every setting and its default
 
@@ -50,6 +52,7 @@ enum Command {
     Isolate(isolate::Isolate),
     Draw(draw::Draw),
     Inspect(inspect::Inspect),
+    Verify(verify::Verify),
     Init(init::Init),
 }
 
@@ -77,13 +80,14 @@ pub(crate) fn run() -> ExitCode {
     };
     let done = cli.shared.start_threads().and_then(|()| match cli.command {
         Command::Mill(mill) => mill.run(cli.shared),
-        Command::Isolate(isolate) => isolate.run(cli.shared),
-        Command::Draw(draw) => draw.run(cli.shared),
-        Command::Inspect(inspect) => inspect.run(cli.shared),
-        Command::Init(init) => init.run(cli.shared),
+        Command::Isolate(isolate) => isolate.run(cli.shared).map(|()| ExitCode::SUCCESS),
+        Command::Draw(draw) => draw.run(cli.shared).map(|()| ExitCode::SUCCESS),
+        Command::Inspect(inspect) => inspect.run(cli.shared).map(|()| ExitCode::SUCCESS),
+        Command::Verify(verify) => verify.run(cli.shared),
+        Command::Init(init) => init.run(cli.shared).map(|()| ExitCode::SUCCESS),
     });
     match done {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(failure) => {
             failure.print();
             ExitCode::from(2)

@@ -1,6 +1,7 @@
 use crate::board::Side;
 use crate::grid::GridError;
 use crate::import;
+use crate::verify;
 use crate::voronoi;
 
 /// Why a job could not be done.
@@ -47,6 +48,9 @@ pub enum Error {
     /// A picture that cannot be drawn.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// Programs that cannot be judged.
+    #[error("cannot verify: {0}")]
+    Verify(#[from] verify::Error),
 }
 
 impl Error {
@@ -56,6 +60,7 @@ impl Error {
         match self {
             Self::Settings { .. } => "`voromill init` writes a file with every key and its default",
             Self::Value { .. } | Self::Import(_) => "",
+            Self::Verify(_) => "--no-verify writes the programs unjudged",
             Self::NoCopper(_) => {
                 "`voromill inspect` shows what was found; --front and --back name the copper files"
             }

@@ -13,6 +13,7 @@ mod quantity;
 mod settings;
 mod settings_file;
 mod show;
+mod verification;
 mod written;
 
 pub use error::Error;

@@ -40,6 +40,9 @@ pub struct Document {
     pub programs: Vec<ProgramEntry>,
     /// All programs together.
     pub total: Figures,
+    /// What came of milling them on a picture, where that was done.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub verification: Option<super::Verdict>,
     /// What a person must know.
     pub warnings: Vec<WarningEntry>,
     /// The settings, by the names of their options.

@@ -12,9 +12,11 @@ pub mod picture;
 pub mod png;
 mod summary;
 pub mod translucent;
+pub mod verdict;
 
 pub use canvas::Canvas;
 pub use document::Document;
 pub use inspection::Inspection;
 pub use lettering::Lettering;
 pub use palette::{Rgb, tints, vivid};
+pub use verdict::Verdict;

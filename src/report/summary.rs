@@ -27,6 +27,10 @@ impl Document {
             text.push('\n');
             text.push_str(&self.table());
         }
+        if let Some(verdict) = &self.verification {
+            text.push('\n');
+            text.push_str(&verdict.to_text(verbose));
+        }
         text.push_str(&warnings(&self.warnings, verbose));
         text
     }

@@ -20,6 +20,7 @@ mod gap;
 mod index;
 mod names;
 mod nets;
+mod proximity;
 mod sets;
 mod translucency;
 
@@ -28,6 +29,7 @@ pub use electrical::{Electrical, ElectricalNet, electrical};
 pub use gap::{Gap, smallest_gap};
 pub use names::{islands_of_names, names_check};
 pub use nets::{Net, NetId, Nets};
+pub use proximity::{Near, Proximity};
 pub use translucency::{Colour, Odds, Overlap, Sampling, Translucency, translucency};
 
 use crate::board::Copper;

@@ -251,9 +251,6 @@ impl State {
                 self.go(pointer, Way::Rapid, to);
                 Ok(())
             }
-            Mode::Feed | Mode::Arc(_) if self.feed.is_none_or(|feed| feed <= 0) => {
-                Err(pointer.error(first.column, first.text, "a feed before the first F above zero"))
-            }
             Mode::Feed => {
                 self.go(pointer, Way::Feed, to);
                 Ok(())
@@ -357,13 +354,6 @@ impl State {
         let (Some(bottom), Some(retract)) = (self.cycle.bottom, self.cycle.retract) else {
             return Err(pointer.error(first.column, first.text, "a drilling cycle needs Z and R"));
         };
-        if self.feed.is_none_or(|feed| feed <= 0) {
-            return Err(pointer.error(
-                first.column,
-                first.text,
-                "a drilling cycle before the first F above zero",
-            ));
-        }
         let place = self.target(pointer, values)?;
         let level = self.at.z.map_or(retract, |z| z.max(retract));
         let hole = |z: Nm| Place { x: place.x, y: place.y, z: Some(z) };

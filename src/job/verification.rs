@@ -1,0 +1,50 @@
+//! The programs of a job, judged by their texts.
+
+use crate::board::Side;
+use crate::geometry::Nm;
+use crate::toolpath;
+use crate::verify::{self, Known, Placement, Program, Report, Role, verify};
+
+use super::{Error, Job, Part, Settings};
+
+impl Job {
+    /// Mills its programs on a picture, from their texts, and says what is wrong with them.
+    ///
+    /// The programs say for themselves what tools they are for; how the board lies is told, not found.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Verify`] where a program cannot be followed.
+    pub fn verify(&self, settings: &Settings) -> Result<Report, Error> {
+        let programs: Vec<Program> = self
+            .programs
+            .iter()
+            .map(|written| Program {
+                file: written.file_name(&self.board.name, settings),
+                text: written.text.clone(),
+                role: Some(role(written.part)),
+                cutter: None,
+                placement: Some(self.placement(written.part)),
+            })
+            .collect();
+        let known: Vec<Known<'_>> =
+            self.layers.iter().map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
+        Ok(verify(&programs, &self.board, &known, &verify::Settings::default())?)
+    }
+
+    fn placement(&self, part: Part) -> Placement {
+        let toolpath::Placement { shift, .. } = self.placement;
+        let back = self.layers.iter().find(|layer| layer.side == Side::Back && part == Part::Back);
+        let mirror: Option<Nm> = back.and_then(|layer| layer.placement.mirror);
+        Placement { shift, mirror }
+    }
+}
+
+const fn role(part: Part) -> Role {
+    match part {
+        Part::Front => Role::Isolation(Side::Front),
+        Part::Back => Role::Isolation(Side::Back),
+        Part::Drill => Role::Drilling,
+        Part::Cutout => Role::Cutout,
+    }
+}

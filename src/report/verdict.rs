@@ -1,0 +1,237 @@
+//! A verdict in the forms that people and build systems read: text, JSON, SARIF 2.1.0 and JUnit XML.
+
+use std::fmt::Write as _;
+
+use serde::Serialize;
+use serde_json::json;
+
+use crate::board::Side;
+use crate::verify::{Finding, Report, Severity, check};
+
+use super::document::{Millimetres, Place, json as to_json};
+
+/// A verdict as data.
+#[derive(Clone, Debug, Serialize)]
+pub struct Verdict {
+    /// Whether nothing is an error.
+    pub clean: bool,
+    /// How many findings are errors.
+    pub errors: usize,
+    /// How many are warnings.
+    pub warnings: usize,
+    /// What was looked at.
+    pub judged: Vec<JudgedEntry>,
+    /// What was found, the worst first.
+    pub findings: Vec<FindingEntry>,
+}
+
+/// Programs that were judged together.
+#[derive(Clone, Debug, Serialize)]
+pub struct JudgedEntry {
+    /// Their names.
+    pub programs: Vec<String>,
+    /// What for.
+    pub role: String,
+    /// The pixel of the picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub resolution_mm: Option<Millimetres>,
+}
+
+/// A finding with its places.
+#[derive(Clone, Debug, Serialize)]
+pub struct FindingEntry {
+    /// Its stable name.
+    pub name: &'static str,
+    /// How bad it is.
+    pub severity: Severity,
+    /// The sentence.
+    pub message: String,
+    /// The side it concerns.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub side: Option<Side>,
+    /// The nets it concerns.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub nets: Vec<String>,
+    /// The place on the board.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at: Option<Place>,
+    /// How large.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_mm: Option<Millimetres>,
+    /// How much copper, in mm².
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub area_mm2: Option<f64>,
+    /// The program.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub program: Option<String>,
+    /// Its line.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<u32>,
+}
+
+impl From<&Finding> for FindingEntry {
+    fn from(finding: &Finding) -> Self {
+        Self {
+            name: finding.name,
+            severity: finding.severity,
+            message: finding.message.clone(),
+            side: finding.side,
+            nets: finding.nets.clone(),
+            at: finding.at.map(Place::from),
+            size_mm: finding.size.map(Millimetres),
+            area_mm2: finding.area.map(|area| (area * 1e6).round() / 1e6),
+            program: finding.program.clone(),
+            line: finding.line,
+        }
+    }
+}
+
+impl From<&Report> for Verdict {
+    fn from(report: &Report) -> Self {
+        let errors = report.count(Severity::Error);
+        let judged = report.judged.iter().map(|judged| JudgedEntry {
+            programs: judged.programs.clone(),
+            role: judged.role.to_string(),
+            resolution_mm: judged.resolution.map(Millimetres),
+        });
+        Self {
+            clean: errors == 0,
+            errors,
+            warnings: report.count(Severity::Warning) - errors,
+            judged: judged.collect(),
+            findings: report.findings.iter().map(FindingEntry::from).collect(),
+        }
+    }
+}
+
+/// Findings of one name that the short text shows; the rest are counted.
+const SHOWN: usize = 5;
+
+impl Verdict {
+    /// For people: what was found, and the verdict in the last line; all findings where `verbose`.
+    #[must_use]
+    pub fn to_text(&self, verbose: bool) -> String {
+        let mut text = String::new();
+        for same in self.findings.chunk_by(|a, b| (a.severity, a.name) == (b.severity, b.name)) {
+            let shown = if verbose { same.len() } else { SHOWN };
+            for finding in same.iter().take(shown) {
+                let FindingEntry { severity, name, message, .. } = finding;
+                let _ = writeln!(text, "  {severity}: {}{message} [{name}]", place(finding));
+            }
+            if same.len() > shown {
+                let (severity, name) = (same[0].severity, same[0].name);
+                let _ = writeln!(text, "  {severity}: {} more [{name}]; -v shows all", same.len() - shown);
+            }
+        }
+        text.push_str(&self.line());
+        text
+    }
+
+    /// The verdict in one line.
+    #[must_use]
+    pub fn line(&self) -> String {
+        let programs: usize = self.judged.iter().map(|judged| judged.programs.len()).sum();
+        let pixels =
+            self.judged.iter().filter_map(|judged| judged.resolution_mm).map(|pixel| pixel.0.get()).max();
+        let programs = super::summary::count(programs, "program");
+        let pixels = pixels.map_or(String::new(), |nm| format!(", pixels of {} µm", nm.div_euclid(1000)));
+        let found = match (self.errors, self.warnings) {
+            (0, 0) => "nothing found".to_owned(),
+            (errors, warnings) => {
+                let count = super::summary::count;
+                format!("{}, {}", count(errors, "error"), count(warnings, "warning"))
+            }
+        };
+        format!("  verified {programs}: {found}{pixels}\n")
+    }
+
+    /// As JSON text.
+    #[must_use]
+    pub fn to_json(&self) -> String {
+        to_json(self)
+    }
+
+    /// As a SARIF 2.1.0 log, which code hosts show beside the lines of the programs.
+    #[must_use]
+    pub fn to_sarif(&self) -> String {
+        let rules: Vec<_> = check::ALL
+            .iter()
+            .map(|check| json!({ "id": check.name, "shortDescription": { "text": check.about } }))
+            .collect();
+        let results: Vec<_> = self.findings.iter().map(sarif).collect();
+        to_json(&json!({
+            "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
+            "version": "2.1.0",
+            "runs": [{
+                "tool": { "driver": { "name": "voromill", "version": env!("CARGO_PKG_VERSION"), "rules": rules } },
+                "results": results,
+            }],
+        }))
+    }
+
+    /// As JUnit XML: a test case for each check, which fails once with all its findings of at least `deny`.
+    #[must_use]
+    pub fn to_junit(&self, deny: Severity) -> String {
+        let of = |name: &str| {
+            self.findings.iter().filter(|f| f.name == name && f.severity >= deny).collect::<Vec<_>>()
+        };
+        let failures = check::ALL.iter().filter(|check| !of(check.name).is_empty()).count();
+        let count = check::ALL.len();
+        let mut text = format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
+             <testsuites><testsuite name=\"voromill verify\" tests=\"{count}\" failures=\"{failures}\">\n"
+        );
+        for check in check::ALL {
+            let found = of(check.name);
+            let _ = write!(text, "<testcase classname=\"voromill\" name=\"{}\">", check.name);
+            if let Some(first) = found.first() {
+                let lines: String = found.iter().map(|f| format!("{}{}\n", place(f), f.message)).collect();
+                let (message, lines) = (escape(&first.message), escape(&lines));
+                let _ = write!(text, "<failure message=\"{message}\">{lines}</failure>");
+            }
+            text.push_str("</testcase>\n");
+        }
+        text.push_str("</testsuite></testsuites>\n");
+        text
+    }
+}
+
+fn sarif(finding: &FindingEntry) -> serde_json::Value {
+    let level = match finding.severity {
+        Severity::Info => "note",
+        Severity::Warning => "warning",
+        Severity::Error => "error",
+    };
+    let mut result = json!({
+        "ruleId": finding.name,
+        "level": level,
+        "message": { "text": finding.message },
+        "properties": { "side": finding.side, "nets": finding.nets, "at": finding.at, "size_mm": finding.size_mm },
+    });
+    if let Some(program) = &finding.program {
+        let line = finding.line.unwrap_or(1);
+        result["locations"] = json!([{ "physicalLocation": {
+            "artifactLocation": { "uri": program },
+            "region": { "startLine": line },
+        } }]);
+    }
+    result
+}
+
+/// Where a finding belongs: in the program and on the board.
+fn place(finding: &FindingEntry) -> String {
+    let mut text = String::new();
+    if let Some(program) = &finding.program {
+        let line = finding.line.map_or(String::new(), |line| format!(":{line}"));
+        let _ = write!(text, "{program}{line}: ");
+    }
+    let side = finding.side.map_or(String::new(), |side| format!("{side} "));
+    if let Some(at) = finding.at {
+        let _ = write!(text, "{side}at {:.3}, {:.3} mm: ", at.x_mm.0, at.y_mm.0);
+    }
+    text
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}

@@ -1,0 +1,27 @@
+//! # What it checks
+//!
+//! Every motion at a feed has one above zero.
+//!
+//! # Why
+//!
+//! Controllers stop there with an error, the tool in the board; or go on at whatever feed came last.
+//!
+//! # What it can miss
+//!
+//! Feeds that are given but absurd.
+
+use super::{Check, Run, Severity, each_stretch};
+use crate::gcode::read::{Motion, Way};
+
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a motion at a feed that was never given",
+    run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)),
+};
+
+const NAME: &str = "feed-missing";
+
+fn wrong(motion: &Motion) -> Option<(Severity, String)> {
+    let missing = motion.way != Way::Rapid && motion.feed.is_none_or(|feed| feed <= 0);
+    missing.then(|| (Severity::Error, "a cut before the first feed above zero".to_owned()))
+}

@@ -1,0 +1,47 @@
+//! # What it checks
+//!
+//! Every hole of the board is drilled, every slot at both its ends.
+//!
+//! # Why
+//!
+//! A lead does not fit where there is no hole.
+//!
+//! # What it can miss
+//!
+//! How deep: nobody has told it how thick the board is. The middle of slots. Holes that an end mill bores.
+
+use super::{Check, Run, Severity, plunges};
+use crate::board::{Board, Hole};
+use crate::geometry::Point;
+use crate::verify::Settings;
+use crate::verify::machining::Machining;
+use crate::verify::report::Finding;
+
+pub(super) const CHECK: Check =
+    Check { name: NAME, about: "a hole that is not drilled", run: Run::Drilling(check) };
+
+const NAME: &str = "hole-missing";
+
+fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
+    let mut drilled: Vec<Point> = plunges(programs).map(|(_, plunge)| plunge.at).collect();
+    drilled.sort_unstable();
+    let reach = settings.place;
+    let is_drilled = |p: Point| {
+        let from = drilled.partition_point(|at| at.x < p.x - reach);
+        let near = drilled[from..].iter().take_while(|at| at.x <= p.x + reach);
+        near.copied().any(|at| at.distance(p) <= reach.to_f64())
+    };
+    let missing =
+        board.holes.iter().filter(|hole| ![hole.path.start, hole.path.end()].into_iter().all(is_drilled));
+    missing.map(finding).collect()
+}
+
+fn finding(hole: &Hole) -> Finding {
+    let what = if hole.is_slot() { "slot" } else { "hole" };
+    let message = format!("the {what} of {:.3} mm is not drilled", hole.diameter);
+    Finding {
+        at: Some(hole.path.start),
+        size: Some(hole.diameter),
+        ..Finding::new(NAME, Severity::Error, message)
+    }
+}

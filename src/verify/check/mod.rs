@@ -1,0 +1,159 @@
+//! What is looked for: a file each, listed in [`ALL`].
+
+mod destroyed;
+mod feed_missing;
+mod gouge;
+mod hole_extra;
+mod hole_missing;
+mod hole_size;
+mod open;
+mod outside_stock;
+mod plunge_spindle_off;
+mod rapid_in_material;
+mod short;
+
+use crate::board::{Board, Hole};
+use crate::gcode::read::Motion;
+use crate::geometry::{Nm, Point};
+use crate::topology::NetId;
+
+use super::machining::{Machining, Plunge};
+use super::report::Finding;
+use super::sheet::Sheet;
+use super::{Settings, Severity};
+
+/// A thing that is looked for.
+pub struct Check {
+    /// Its stable name, which its findings carry.
+    pub name: &'static str,
+    /// What it finds, in a line.
+    pub about: &'static str,
+    run: Run,
+}
+
+/// What a check is shown.
+enum Run {
+    /// The motions of any program.
+    Motion(fn(&Machining, &Board, &Settings) -> Vec<Finding>),
+    /// A side, milled.
+    Isolation(fn(&Sheet<'_>, &Settings) -> Vec<Finding>),
+    /// All drilling programs together.
+    Drilling(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
+}
+
+/// Every check.
+pub const ALL: &[Check] = &[
+    short::CHECK,
+    open::CHECK,
+    destroyed::CHECK,
+    gouge::CHECK,
+    rapid_in_material::CHECK,
+    plunge_spindle_off::CHECK,
+    feed_missing::CHECK,
+    outside_stock::CHECK,
+    hole_missing::CHECK,
+    hole_extra::CHECK,
+    hole_size::CHECK,
+];
+
+/// The checks of any program.
+pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
+    let run = |check: &Check| match check.run {
+        Run::Motion(run) => run(program, board, settings),
+        Run::Isolation(_) | Run::Drilling(_) => Vec::new(),
+    };
+    ALL.iter().flat_map(run).collect()
+}
+
+/// The checks of a milled side.
+pub(super) fn isolation(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
+    let run = |check: &Check| match check.run {
+        Run::Isolation(run) => run(sheet, settings),
+        Run::Motion(_) | Run::Drilling(_) => Vec::new(),
+    };
+    ALL.iter().flat_map(run).map(|finding| Finding { side: Some(sheet.side), ..finding }).collect()
+}
+
+/// The checks of what is drilled.
+pub(super) fn drilling(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
+    let run = |check: &Check| match check.run {
+        Run::Drilling(run) => run(programs, board, settings),
+        Run::Motion(_) | Run::Isolation(_) => Vec::new(),
+    };
+    ALL.iter().flat_map(run).collect()
+}
+
+/// The findings of a check of single motions: one for each stretch of lines that are wrong one after another.
+fn each_stretch(
+    program: &Machining,
+    name: &'static str,
+    wrong: impl Fn(&Motion) -> Option<(Severity, String)>,
+) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = Vec::new();
+    let mut last: Option<(usize, Severity)> = None;
+    for (index, motion) in program.motions.iter().enumerate() {
+        let Some((severity, message)) = wrong(motion) else { continue };
+        let follows = last.is_some_and(|(before, same)| before + 1 == index && same == severity);
+        last = Some((index, severity));
+        if follows {
+            continue;
+        }
+        findings.push(Finding {
+            at: motion.to.point().or_else(|| motion.from.point()).map(|p| program.placement.undo(p)),
+            program: Some(program.file.clone()),
+            line: Some(motion.line),
+            ..Finding::new(name, severity, message)
+        });
+    }
+    findings
+}
+
+/// The least area of a net that counts as a piece of it: a crumb, or of small nets three tenths.
+fn considerable(sheet: &Sheet<'_>, net: NetId, left: f64, settings: &Settings) -> f64 {
+    if left * 0.3 >= settings.crumb {
+        return settings.crumb;
+    }
+    (designed(sheet, net) * 0.3).min(settings.crumb)
+}
+
+/// The area of a net that lies on the board, in mm²; for small nets.
+fn designed(sheet: &Sheet<'_>, net: NetId) -> f64 {
+    let features = sheet.nets.nets()[net.index()].features.iter();
+    let bounds = features.map(|&feature| sheet.copper.features[feature as usize].shape.bounds());
+    let Some(bounds) = bounds.reduce(crate::geometry::Rect::union) else { return 0.0 };
+    let (grid, pictures) = sheet.window(bounds, Nm::from_um(2), 400, &[super::sheet::Show::Design]);
+    let label = net.0 + super::sheet::NETS;
+    area(pictures[0].labels().iter().filter(|&&own| own == label).count(), grid.pitch())
+}
+
+/// So many pixels in mm².
+#[expect(clippy::cast_precision_loss, reason = "a display figure")]
+fn area(pixels: usize, pitch: Nm) -> f64 {
+    pixels as f64 * pitch.to_mm() * pitch.to_mm()
+}
+
+/// How far a point is from where a hole's cutter goes, in nanometres.
+fn from_hole(hole: &Hole, p: Point) -> f64 {
+    let points = hole.path.flatten(Nm::from_um(5));
+    let to_point = p.distance(points[0]);
+    points.windows(2).map(|pair| from_segment(p, pair[0], pair[1])).fold(to_point, f64::min)
+}
+
+/// The distance from a point to a segment, in nanometres.
+fn from_segment(p: Point, a: Point, b: Point) -> f64 {
+    let ((px, py), (ax, ay), (bx, by)) = (p.to_f64(), a.to_f64(), b.to_f64());
+    let (ux, uy) = (bx - ax, by - ay);
+    let squared = ux * ux + uy * uy;
+    let along =
+        if squared > 0.0 { (((px - ax) * ux + (py - ay) * uy) / squared).clamp(0.0, 1.0) } else { 0.0 };
+    let (dx, dy) = (px - ax - ux * along, py - ay - uy * along);
+    (dx * dx + dy * dy).sqrt()
+}
+
+/// All plunges of all programs with the program that each belongs to.
+fn plunges<'a>(programs: &[&'a Machining]) -> impl Iterator<Item = (&'a Machining, Plunge)> {
+    programs
+        .to_vec()
+        .into_iter()
+        .flat_map(|program| program.plunges.iter().map(move |&plunge| (program, plunge)))
+}

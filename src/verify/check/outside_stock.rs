@@ -1,0 +1,33 @@
+//! # What it checks
+//!
+//! No cut goes further beyond the board's bounding rectangle than the stock's margin.
+//!
+//! # Why
+//!
+//! There are clamps, the table, the end of the axis; and a program laid elsewhere than its board is found so.
+//!
+//! # What it can miss
+//!
+//! Stock that is smaller than it was told.
+
+use super::{Check, Run, Severity, each_stretch};
+use crate::board::Board;
+use crate::geometry::Nm;
+use crate::verify::Settings;
+use crate::verify::machining::Machining;
+use crate::verify::report::Finding;
+
+pub(super) const CHECK: Check =
+    Check { name: NAME, about: "a cut beyond the stock", run: Run::Motion(check) };
+
+const NAME: &str = "outside-stock";
+
+fn check(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
+    let Some(stock) = board.bounds().map(|bounds| bounds.inflate(settings.margin)) else { return Vec::new() };
+    each_stretch(program, NAME, |motion| {
+        let below = [motion.from.z, motion.to.z].into_iter().flatten().any(|z| z < Nm::ZERO);
+        let to = program.placement.undo(motion.to.point()?);
+        let message = || format!("a cut at {:.3}, {:.3} mm, beyond the stock", to.x, to.y);
+        (below && !stock.contains(to)).then(|| (Severity::Error, message()))
+    })
+}

@@ -1,0 +1,30 @@
+//! # What it checks
+//!
+//! The spindle turns whenever the tool is below the surface.
+//!
+//! # Why
+//!
+//! A tool that stands still breaks, or drags the board away.
+//!
+//! # What it can miss
+//!
+//! Whether the spindle is up to speed: see the dwell after M3 yourself. Spindles switched by hand.
+
+use super::{Check, Run, Severity, each_stretch};
+use crate::gcode::read::{Motion, Way};
+use crate::geometry::Nm;
+
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "the tool is in material while the spindle is off",
+    run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)),
+};
+
+const NAME: &str = "plunge-spindle-off";
+
+fn wrong(motion: &Motion) -> Option<(Severity, String)> {
+    let below = [motion.from.z, motion.to.z].into_iter().flatten().any(|z| z < Nm::ZERO);
+    let still = motion.spindle.is_none_or(|speed| speed == 0);
+    (motion.way != Way::Rapid && below && still)
+        .then(|| (Severity::Error, "the tool is below the surface and the spindle is off".to_owned()))
+}

@@ -1,0 +1,257 @@
+//! Programs milled before anybody mills them: text and a board → a [`Report`].
+//!
+//! The text is read back by [`gcode::read`](crate::gcode::read), laid over the board, and the cutter that it moves is drawn on a picture of
+//! the copper. What is left conducts: its pieces are found as connected pixels, and compared with the nets of the design. How much
+//! copper the cutter takes is asked of the exact geometry instead, so that it does not depend on the pixel.
+//! Neither the planner nor the diagram is used, so that agreement says something, and any program can be judged.
+//!
+//! ```text
+//!   ▒▒▒▒▒▒░░░░▒▒▒▒▒    ▒ net   ░ clad that stays   · cut
+//!   ▒▒▒▒··░░░░··▒▒▒    Two nets in one connected piece of what is not cut: a short.
+//!   ▒▒··▒▒▒▒▒▒▒▒··▒    One net in two pieces: an open.  Net under the cut: a gouge.
+//! ```
+//!
+//! Checks are listed in [`check::ALL`], a file each.
+
+pub mod check;
+mod cutter;
+mod machining;
+mod pieces;
+mod placement;
+mod report;
+mod sheet;
+mod stated;
+
+use std::fmt;
+
+use rayon::prelude::*;
+
+use crate::board::{Board, Side};
+use crate::gcode::ReadError;
+use crate::geometry::{Nm, Point, Vector};
+use crate::grid::GridError;
+use crate::topology::Nets;
+
+pub use cutter::{Cutter, CutterKind, ParseCutterError};
+pub use placement::Placement;
+pub use report::{Finding, Judged, Report, Severity};
+
+use machining::Machining;
+use sheet::Sheet;
+
+/// What a program is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Role {
+    /// Isolates the nets of a side.
+    Isolation(Side),
+    /// Drills.
+    Drilling,
+    /// Cuts the board out.
+    Cutout,
+}
+
+impl fmt::Display for Role {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Isolation(side) => write!(f, "{side} isolation"),
+            Self::Drilling => f.write_str("drilling"),
+            Self::Cutout => f.write_str("cutout"),
+        }
+    }
+}
+
+/// A program to be judged, with what is known of it beside its text.
+#[derive(Clone, Debug, Default)]
+pub struct Program {
+    /// Its name.
+    pub file: String,
+    /// Its text.
+    pub text: String,
+    /// What it is for; else what its title says, or what its motions look like.
+    pub role: Option<Role>,
+    /// The tool; else those that its comments name.
+    pub cutter: Option<Cutter>,
+    /// How the board lies; else as its comments say.
+    pub placement: Option<Placement>,
+}
+
+/// What is tolerated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settings {
+    /// How thick the copper is: a cut less deep leaves it connected.
+    pub copper: Nm,
+    /// How far a cut may reach into copper.
+    pub gouge: Nm,
+    /// Copper below this area, in mm², is a crumb: it neither conducts nor is missed.
+    pub crumb: f64,
+    /// How far the stock reaches beyond the board.
+    pub margin: Nm,
+    /// How high a rapid must be.
+    pub clearance: Nm,
+    /// How far a hole may be off its place.
+    pub place: Nm,
+    /// How far a hole's diameter may be off.
+    pub diameter: Nm,
+    /// The pixel of the picture; none for an eighth of the narrowest kerf, within 5 µm to 25 µm.
+    pub pixel: Option<Nm>,
+}
+
+impl Default for Settings {
+    /// Copper of 35 µm (one ounce); 10 µm into copper, twice what a centred cut may be off; crumbs of 0.01 mm², a tenth
+    /// of a millimetre square; 10 mm of stock; rapids 0.1 mm up; holes within 0.05 mm. All chosen.
+    fn default() -> Self {
+        Self {
+            copper: Nm::from_um(35),
+            gouge: Nm::from_um(10),
+            crumb: 0.01,
+            margin: Nm::from_mm(10),
+            clearance: Nm::from_um(100),
+            place: Nm::from_um(50),
+            diameter: Nm::from_um(50),
+            pixel: None,
+        }
+    }
+}
+
+/// Why nothing could be said.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A program that cannot be followed.
+    #[error("{file}: {reason}")]
+    Read {
+        /// Its name.
+        file: String,
+        /// What, where and why.
+        reason: ReadError,
+    },
+    /// A motion to where nothing is handled exactly.
+    #[error("{file}: line {line}: the place lies more than half a metre away")]
+    Range {
+        /// The program.
+        file: String,
+        /// Its line.
+        line: u32,
+    },
+    /// Nothing says which tool cuts.
+    #[error("{file}: line {line}: nothing says what tool cuts here")]
+    NoTool {
+        /// The program.
+        file: String,
+        /// Its line.
+        line: u32,
+    },
+    /// Nothing says which side a program isolates.
+    #[error("{0}: nothing says which side this isolates")]
+    NoSide(String),
+    /// The board has no copper there.
+    #[error("{file}: the board has no copper on the {side}")]
+    NoCopper {
+        /// The program.
+        file: String,
+        /// The side.
+        side: Side,
+    },
+    /// A text without motions.
+    #[error("{0}: no motion in it")]
+    NoMotion(String),
+    /// A board too large for its pixels.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+}
+
+impl Error {
+    /// What to do about it; may be empty.
+    #[must_use]
+    pub fn hint(&self) -> &'static str {
+        match self {
+            Self::NoTool { .. } => "name it: --tool vbit:0.1mm:30deg, or endmill:0.2mm",
+            Self::NoSide(_) | Self::NoCopper { .. } => "name it: --side front, or back",
+            Self::Grid(_) => "choose a larger --pixel",
+            Self::Read { .. } | Self::Range { .. } | Self::NoMotion(_) => "",
+        }
+    }
+}
+
+/// One side of a board with the nets of its copper, where somebody has found them already.
+#[derive(Clone, Copy, Debug)]
+pub struct Known<'a> {
+    /// The side.
+    pub side: Side,
+    /// Its nets.
+    pub nets: &'a Nets,
+}
+
+/// Mills `board` with `programs` and says what is wrong with them.
+///
+/// Programs for the same side are milled one after another, into the same copper.
+///
+/// # Errors
+///
+/// [`Error`] where something cannot be judged at all: a text that cannot be followed, a tool or a side that nothing names.
+pub fn verify(
+    programs: &[Program],
+    board: &Board,
+    known: &[Known<'_>],
+    settings: &Settings,
+) -> Result<Report, Error> {
+    let read: Vec<Machining> = programs
+        .par_iter()
+        .map(|program| Machining::read(program, board, settings))
+        .collect::<Result<_, _>>()?;
+    let mut roles: Vec<Role> = read.iter().map(|machining| machining.role).collect();
+    roles.sort_unstable();
+    roles.dedup();
+    let judged: Vec<(Judged, Vec<Finding>)> = roles
+        .into_par_iter()
+        .map(|role| {
+            let programs: Vec<&Machining> = read.iter().filter(|machining| machining.role == role).collect();
+            judge(role, &programs, board, known, settings)
+        })
+        .collect::<Result<_, _>>()?;
+    let mut report = Report::default();
+    for (judged, findings) in judged {
+        report.judged.push(judged);
+        report.findings.extend(findings);
+    }
+    report.sort();
+    Ok(report)
+}
+
+fn judge(
+    role: Role,
+    programs: &[&Machining],
+    board: &Board,
+    known: &[Known<'_>],
+    settings: &Settings,
+) -> Result<(Judged, Vec<Finding>), Error> {
+    let mut findings: Vec<Finding> =
+        programs.iter().flat_map(|program| check::motion(program, board, settings)).collect();
+    let mut resolution = None;
+    match role {
+        Role::Isolation(side) => {
+            let missing = || Error::NoCopper { file: programs[0].file.clone(), side };
+            let copper =
+                board.copper(side).filter(|copper| !copper.features.is_empty()).ok_or_else(missing)?;
+            let nets = known.iter().find(|known| known.side == side).map(|known| known.nets);
+            let sheet = Sheet::new(copper, nets, board, programs, settings)?;
+            resolution = Some(sheet.pitch());
+            findings.extend(check::isolation(&sheet, settings));
+        }
+        Role::Drilling => findings.extend(check::drilling(programs, board, settings)),
+        Role::Cutout => {}
+    }
+    let programs = programs.iter().map(|program| program.file.clone()).collect();
+    Ok((Judged { programs, role, resolution }, findings))
+}
+
+/// Where a board lies whose lower left corner (or middle, or own zero) is the machine's zero.
+fn origin(name: &str, board: &Board) -> Option<Placement> {
+    let bounds = board.bounds()?;
+    let zero = match name {
+        "lower-left" => bounds.min(),
+        "center" => bounds.min().midpoint(bounds.max()),
+        _ => Point::default(),
+    };
+    Some(Placement { shift: Vector::new(-zero.x, -zero.y), mirror: None })
+}

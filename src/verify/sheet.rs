@@ -1,0 +1,234 @@
+//! The copper-clad sheet, milled: its picture, what is left of it, and the exact shapes behind it.
+
+use std::borrow::Cow;
+
+use crate::board::{Board, Copper, FLATTEN, Shape, Side};
+use crate::geometry::{Nm, Point, Polygon, Rect, Turn};
+use crate::grid::Grid;
+use crate::raster::{Buffers, Caps, FillRule, Label, Scene, Sides, Spin, Surface, render};
+use crate::topology::{Method, NetId, Nets, Proximity, recover};
+
+use super::machining::{Machining, Swept};
+use super::pieces::{Extent, Part, pieces};
+use super::{Error, Settings};
+
+/// Beyond the board's outline. What no label covers is clad that belongs to no net.
+pub(super) const OUTSIDE: u32 = 1;
+/// Cut away.
+pub(super) const CUT: u32 = 2;
+/// The label of the first net. Where several surfaces cover a pixel the smallest label wins.
+pub(super) const NETS: u32 = 3;
+
+/// One side of the board, clad all over, and what programs cut out of it.
+pub(super) struct Sheet<'a> {
+    pub(super) side: Side,
+    pub(super) copper: &'a Copper,
+    pub(super) nets: Cow<'a, Nets>,
+    /// Where the copper is.
+    pub(super) proximity: Proximity,
+    /// All that is cut, program by program in order.
+    pub(super) cuts: Vec<Cut<'a>>,
+    /// What is left, in connected pieces.
+    pub(super) parts: Vec<Part>,
+    outline: Option<Polygon>,
+    grid: Grid,
+}
+
+/// A piece of what is cut, and whose it is.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut<'a> {
+    pub(super) program: &'a Machining,
+    pub(super) swept: &'a Swept,
+}
+
+/// What a picture shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Show {
+    /// What is left: nets, clad, cuts, the outside.
+    Left,
+    /// The nets as designed, and the outside.
+    Design,
+    /// The cuts alone.
+    Cuts,
+    /// How far it is to the nearest cut or to the edge.
+    Distance,
+}
+
+impl<'a> Sheet<'a> {
+    /// Mills `copper` with `programs`.
+    pub(super) fn new(
+        copper: &'a Copper,
+        nets: Option<&'a Nets>,
+        board: &Board,
+        programs: &[&'a Machining],
+        settings: &Settings,
+    ) -> Result<Self, Error> {
+        let nets = nets.map_or_else(|| Cow::Owned(recover(copper, Method::default())), Cow::Borrowed);
+        let of = |program: &'a Machining| program.swept.iter().map(move |swept| Cut { program, swept });
+        let cuts: Vec<Cut<'a>> = programs.iter().flat_map(|&program| of(program)).collect();
+        let outline = board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
+        let pitch = settings.pixel.unwrap_or_else(|| pixel(&cuts));
+        let area = area(copper, outline.as_ref(), &cuts, pitch);
+        let grid = Grid::covering(area, pitch)?;
+        let mut sheet = Self {
+            side: copper.side,
+            copper,
+            nets,
+            proximity: Proximity::new(copper),
+            cuts,
+            parts: Vec::new(),
+            outline,
+            grid,
+        };
+        let scene = sheet.scene(&grid, Show::Left);
+        sheet.parts = pieces(&scene, |label| label != CUT && label != OUTSIDE);
+        Ok(sheet)
+    }
+
+    /// The pixel of its picture.
+    pub(super) const fn pitch(&self) -> Nm {
+        self.grid.pitch()
+    }
+
+    /// The part of the board that the picture shows.
+    pub(super) fn rect(&self) -> Rect {
+        self.grid.rect()
+    }
+
+    /// Whether a point lies on the board.
+    pub(super) fn holds(&self, p: Point) -> bool {
+        self.outline.as_ref().is_none_or(|outline| outline.contains(p))
+    }
+
+    /// The area of so many of its pixels, in mm².
+    #[expect(clippy::cast_precision_loss, reason = "a display figure")]
+    pub(super) fn mm2(&self, pixels: u64) -> f64 {
+        pixels as f64 * self.pitch().to_mm() * self.pitch().to_mm()
+    }
+
+    /// The net that a label stands for.
+    pub(super) fn net(label: u32) -> Option<NetId> {
+        label.checked_sub(NETS).map(NetId)
+    }
+
+    /// The place of so many columns and rows.
+    pub(super) fn place(&self, extent: Extent) -> Rect {
+        let corner = |column: u32, row: u32| self.grid.corner(i64::from(column), i64::from(row));
+        Rect::new(corner(extent.left, extent.top), corner(extent.right + 1, extent.bottom + 1))
+    }
+
+    /// A picture of a part of it, of pixels of at least `pitch` and no more than `most` each way.
+    pub(super) fn window(&self, rect: Rect, pitch: Nm, most: u32, show: &[Show]) -> (Grid, Vec<Buffers>) {
+        let least = (rect.width().max(rect.height()) / i64::from(most)).get() + 1;
+        let pitch = pitch.max(Nm::new(least));
+        let grid = Grid::covering(rect, pitch).expect("as many pixels as asked for");
+        let draw = |show: &Show| {
+            let mut buffers = Buffers::new();
+            render(&self.scene(&grid, *show), &mut buffers);
+            buffers
+        };
+        (grid, show.iter().map(draw).collect())
+    }
+
+    /// What is to be drawn on `grid`.
+    fn scene(&self, grid: &Grid, show: Show) -> Scene {
+        let mut scene = Scene::new(grid.width(), grid.height());
+        let seen = |shape: &Shape| show == Show::Distance || shape.bounds().touches(grid.rect());
+        let limit = if show == Show::Distance { None } else { Some(0.0) };
+        if show != Show::Design {
+            for cut in self.cuts.iter().filter(|cut| seen(&cut.swept.shape)) {
+                scene.add(Label(CUT), surface(&cut.swept.shape, grid, limit));
+            }
+        }
+        if matches!(show, Show::Left | Show::Design) {
+            for (index, feature) in
+                self.copper.features.iter().enumerate().filter(|(_, feature)| seen(&feature.shape))
+            {
+                scene.add(Label(NETS + self.nets.of(index).0), surface(&feature.shape, grid, limit));
+            }
+        }
+        if let Some(outline) = &self.outline {
+            self.edge(outline, grid, show, &mut scene);
+        }
+        scene
+    }
+
+    /// The outside as an area, or the edge as what distances are counted from.
+    fn edge(&self, outline: &Polygon, grid: &Grid, show: Show, scene: &mut Scene) {
+        match show {
+            Show::Cuts => {}
+            Show::Distance => {
+                for (from, to) in outline.edges() {
+                    let edge = Shape::Stroke { from, to, radius: Nm::ZERO };
+                    scene.add(Label(OUTSIDE), surface(&edge, grid, None));
+                }
+            }
+            Show::Left | Show::Design => {
+                let around = grid.rect().union(outline.bounds()).inflate(grid.pitch() * 4);
+                let mut contours = vec![around.corners().to_vec()];
+                contours.extend(outline.contours().iter().cloned());
+                let pixels =
+                    contours.iter().map(|ring| ring.iter().map(|&p| grid.pixel(p)).collect()).collect();
+                let rule = FillRule::EvenOdd;
+                scene.add(Label(OUTSIDE), Surface::Polygon { contours: pixels, rule, depth: 0.0 });
+            }
+        }
+    }
+}
+
+/// An eighth of the narrowest kerf, so that it is seen whole, within 5 µm to 25 µm.
+fn pixel(cuts: &[Cut<'_>]) -> Nm {
+    let narrowest = cuts.iter().map(|cut| cut.swept.half()).min().unwrap_or(Nm::from_um(100));
+    (narrowest / 4).max(Nm::from_um(5)).min(Nm::from_um(25))
+}
+
+/// The sheet: the board, or without an outline all copper and cuts and a rim round them, which is clad and conducts.
+fn area(copper: &Copper, outline: Option<&Polygon>, cuts: &[Cut<'_>], pitch: Nm) -> Rect {
+    if let Some(outline) = outline {
+        return outline.bounds().inflate(pitch * 2);
+    }
+    let features = copper.features.iter().map(|feature| feature.shape.bounds());
+    let all = features.chain(cuts.iter().map(|cut| cut.swept.shape.bounds())).reduce(Rect::union);
+    all.unwrap_or(Rect::new(Point::default(), Point::default())).inflate(Nm::from_mm(1))
+}
+
+/// The surface of `shape` on `grid`: flat where `limit` is zero, else the distance to it.
+pub(super) fn surface(shape: &Shape, grid: &Grid, limit: Option<f32>) -> Surface {
+    match shape {
+        Shape::Disc { center, radius } => {
+            Surface::Cone { apex: grid.pixel(*center), offset: grid.pixels(*radius), limit }
+        }
+        Shape::Stroke { from, to, radius } => Surface::Curtain {
+            from: grid.pixel(*from),
+            to: grid.pixel(*to),
+            caps: Caps::Both,
+            sides: Sides::Both,
+            offset: grid.pixels(*radius),
+            limit,
+        },
+        Shape::Arc { arc, radius } => Surface::Ring {
+            center: grid.pixel(arc.center),
+            start: grid.pixel(arc.start),
+            end: grid.pixel(arc.end),
+            // A turn is seen from above with y up, a spin with y down; both look the same.
+            spin: match arc.turn {
+                Turn::Clockwise => Spin::Clockwise,
+                Turn::CounterClockwise => Spin::CounterClockwise,
+            },
+            caps: Caps::Both,
+            offset: grid.pixels(*radius),
+            limit,
+        },
+        Shape::Polygon(polygon) => {
+            let ring = |ring: &Vec<Point>| ring.iter().map(|&point| grid.pixel(point)).collect();
+            let contours = polygon.contours().iter().map(ring).collect();
+            Surface::Polygon { contours, rule: FillRule::NonZero, depth: 0.0 }
+        }
+    }
+}
+
+/// The pixels of a picture with their columns and rows, row by row.
+pub(super) fn places(grid: &Grid) -> impl Iterator<Item = (i64, i64)> + use<> {
+    let (width, height) = (i64::from(grid.width()), i64::from(grid.height()));
+    (0..height).flat_map(move |row| (0..width).map(move |column| (column, row)))
+}

@@ -1,0 +1,100 @@
+//! What a program says of itself in its comments, where it is one of ours: the tools, what it is for, how the board lies.
+
+use crate::board::Side;
+use crate::geometry::Nm;
+
+use super::{Cutter, Role};
+
+/// What the comments of a program say.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Stated {
+    /// The tools, each with the line from which it is in the spindle.
+    pub(super) cutters: Vec<(u32, Cutter)>,
+    /// What the program is for.
+    pub(super) role: Option<Role>,
+    /// Where zero is: `lower-left`, `keep`, `center`.
+    pub(super) origin: Option<String>,
+    /// The line about which the board was turned over.
+    pub(super) mirror: Option<Nm>,
+}
+
+impl Stated {
+    /// Reads the comments of `text`.
+    pub(super) fn read(text: &str) -> Self {
+        let mut stated = Self::default();
+        for (line, number) in text.lines().zip(1_u32..) {
+            for comment in comments(line) {
+                stated.comment(comment.trim(), number);
+            }
+        }
+        stated
+    }
+
+    fn comment(&mut self, comment: &str, line: u32) {
+        if self.role.is_none() && line == 1 {
+            self.role = role(comment);
+        }
+        let words: Vec<&str> = comment.split_whitespace().collect();
+        if comment.contains("tool ")
+            && let Some(cutter) = words.iter().rev().find_map(|word| word.parse().ok())
+        {
+            self.cutters.push((line, cutter));
+        }
+        match words.as_slice() {
+            ["origin", origin] => self.origin = Some((*origin).to_owned()),
+            [.., "line", "x", "=", axis, "mm"] if comment.contains("turned over") => {
+                self.mirror = format!("{axis}mm").parse().ok();
+            }
+            _ => {}
+        }
+    }
+}
+
+/// The first line names the board and the part.
+fn role(title: &str) -> Option<Role> {
+    if title.ends_with(" front isolation") {
+        Some(Role::Isolation(Side::Front))
+    } else if title.ends_with(" back isolation") {
+        Some(Role::Isolation(Side::Back))
+    } else if title.ends_with(" drill") {
+        Some(Role::Drilling)
+    } else if title.ends_with(" cutout") {
+        Some(Role::Cutout)
+    } else {
+        None
+    }
+}
+
+/// The comments of a line: in parentheses, or behind a semicolon; and what stands behind M0, which some machines show.
+fn comments(line: &str) -> Vec<&str> {
+    let mut found = Vec::new();
+    let mut rest = line;
+    while let Some(start) = rest.find(['(', ';']) {
+        if rest[start..].starts_with(';') {
+            found.push(&rest[start + 1..]);
+            return found;
+        }
+        let end = rest[start..].find(')').map_or(rest.len(), |end| start + end);
+        found.push(&rest[start + 1..end]);
+        rest = rest.get(end + 1..).unwrap_or_default();
+    }
+    found.extend(line.split_once("M0 ").map(|(_, message)| message));
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn our_own_comments_are_understood() {
+        let text = "(blinker back isolation)\n(tool vbit:0.1mm:30deg)\n(origin lower-left)\n\
+                    (turned over left to right about the vertical line x = 12.500 mm)\nG21\n(fit tool 2: endmill:1mm)\n";
+        let stated = Stated::read(text);
+        assert_eq!(stated.role, Some(Role::Isolation(Side::Back)), "from the title");
+        assert_eq!(stated.mirror, Some(Nm::from_um(12_500)), "the axis");
+        assert_eq!(stated.origin.as_deref(), Some("lower-left"), "the origin");
+        let lines: Vec<u32> = stated.cutters.iter().map(|(line, _)| *line).collect();
+        assert_eq!(lines, [2, 6], "each from its line on");
+    }
+}
