@@ -15,4 +15,5 @@ mod raster;
 mod snapshot;
 mod toolpath;
 mod topology;
+mod verify;
 mod voronoi;
