@@ -279,7 +279,6 @@ fn what_the_text_does_not_tell_is_refused_with_the_reason() {
         ("G92 X0", "zero point"),
         ("G28", "does not give"),
         ("X1", "before the first of G0"),
-        ("G1 X1", "before the first F"),
         ("G0 X#1", "variables"),
         ("G0 X1 X2", "twice"),
         ("G0 X", "expected a number"),
