@@ -140,7 +140,7 @@ impl Verify {
             text: String::from_utf8_lossy(&bytes).into_owned(),
             role,
             cutter: self.tool,
-            placement: placed.then_some(Placement { shift, mirror: self.mirror }),
+            placement: placed.then_some(Placement { shift, mirror: self.mirror, ..Placement::default() }),
         })
     }
 }

@@ -33,10 +33,11 @@ impl Job {
     }
 
     fn placement(&self, part: Part) -> Placement {
-        let toolpath::Placement { shift, .. } = self.placement;
+        let toolpath::Placement { rotation, shift, .. } = self.placement;
         let back = self.layers.iter().find(|layer| layer.side == Side::Back && part == Part::Back);
         let mirror: Option<Nm> = back.and_then(|layer| layer.placement.mirror);
-        Placement { shift, mirror }
+        let degrees = rotation.degrees();
+        Placement { degrees, shift, mirror }
     }
 }
 

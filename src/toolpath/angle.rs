@@ -33,6 +33,13 @@ impl Angle {
         Self(-self.0)
     }
 
+    /// In degrees.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "at most 360 million")]
+    pub const fn degrees(self) -> f64 {
+        self.0 as f64 / 1e6
+    }
+
     /// In radians.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "at most 360 million")]

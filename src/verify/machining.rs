@@ -80,7 +80,7 @@ impl Machining {
             }
         };
         let placement = program.placement.or_else(|| {
-            let front = origin(stated.origin.as_deref().unwrap_or("keep"), board)?;
+            let front = origin(stated.origin.as_deref().unwrap_or("keep"), stated.degrees, board)?;
             Some(Placement { mirror: stated.mirror, ..front })
         });
         let placement = placement.unwrap_or_default();

@@ -28,7 +28,7 @@ use rayon::prelude::*;
 
 use crate::board::{Board, Side};
 use crate::gcode::ReadError;
-use crate::geometry::{Nm, Point, Vector};
+use crate::geometry::{Nm, Point, Rect};
 use crate::grid::GridError;
 use crate::topology::Nets;
 
@@ -245,13 +245,12 @@ fn judge(
     Ok((Judged { programs, role, resolution }, findings))
 }
 
-/// Where a board lies whose lower left corner (or middle, or own zero) is the machine's zero.
-fn origin(name: &str, board: &Board) -> Option<Placement> {
-    let bounds = board.bounds()?;
-    let zero = match name {
-        "lower-left" => bounds.min(),
-        "center" => bounds.min().midpoint(bounds.max()),
+/// Where a board lies, turned so, whose lower left corner (or middle, or own zero) is the machine's zero.
+fn origin(name: &str, degrees: f64, board: &Board) -> Option<Placement> {
+    let zero = |around: Rect| match name {
+        "lower-left" => around.min(),
+        "center" => around.min().midpoint(around.max()),
         _ => Point::default(),
     };
-    Some(Placement { shift: Vector::new(-zero.x, -zero.y), mirror: None })
+    Some(Placement::turned(degrees, board.bounds()?, zero))
 }

@@ -1,12 +1,14 @@
 use crate::board::Shape;
-use crate::geometry::{Arc, Nm, Point, Vector};
+use crate::geometry::{Arc, Nm, Point, Rect, Vector};
 
-/// How the board lies on the machine: moved, then (the back) mirrored about a vertical line.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// How the board lies on the machine: turned about its own zero, moved, then (the back) mirrored about a vertical line.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
-    /// First: added to the board's coordinates.
+    /// First: counter-clockwise, in degrees.
+    pub degrees: f64,
+    /// Then: moved.
     pub shift: Vector,
-    /// Then: mirrored about the vertical line at this x of the machine.
+    /// Last: mirrored about the vertical line at this x of the machine.
     pub mirror: Option<Nm>,
 }
 
@@ -14,7 +16,15 @@ impl Placement {
     /// The point of the board that lies at `p` on the machine.
     #[must_use]
     pub fn undo(&self, p: Point) -> Point {
-        self.mirror.map_or(p, |axis| Point::new(axis * 2 - p.x, p.y)) + -self.shift
+        let moved = self.mirror.map_or(p, |axis| Point::new(axis * 2 - p.x, p.y)) + -self.shift;
+        turned(moved, -self.degrees)
+    }
+
+    /// The placement that turns a board so, and lays the point of it that `zero` picks from the turned bounds on zero.
+    pub(super) fn turned(degrees: f64, bounds: Rect, zero: impl Fn(Rect) -> Point) -> Self {
+        let around = Rect::around(bounds.corners().map(|corner| turned(corner, degrees))).unwrap_or(bounds);
+        let zero = zero(around);
+        Self { degrees, shift: Vector::new(-zero.x, -zero.y), mirror: None }
     }
 
     /// An axis of the machine on the board.
@@ -31,5 +41,32 @@ impl Placement {
             }
             Shape::Polygon(polygon) => Shape::Polygon(polygon),
         }
+    }
+}
+
+/// A point turned about zero; exact for quarter turns.
+fn turned(p: Point, degrees: f64) -> Point {
+    let (x, y) = p.to_f64();
+    let (sin, cos) = match degrees.rem_euclid(360.0) {
+        0.0 => (0.0, 1.0),
+        90.0 => (1.0, 0.0),
+        180.0 => (0.0, -1.0),
+        270.0 => (-1.0, 0.0),
+        other => libm::sincos(other / 180.0 * std::f64::consts::PI),
+    };
+    Point::from_f64(x * cos - y * sin, x * sin + y * cos)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_turned_moved_and_mirrored_comes_back() {
+        let shift = Vector::new(Nm::from_mm(5), Nm::from_mm(-2));
+        let placement = Placement { degrees: 90.0, shift, mirror: Some(Nm::from_mm(10)) };
+        // (3, 1) turns to (-1, 3), moves to (4, 1), mirrors to (16, 1).
+        let back = placement.undo(Point::new(Nm::from_mm(16), Nm::from_mm(1)));
+        assert_eq!(back, Point::new(Nm::from_mm(3), Nm::from_mm(1)), "the way back");
     }
 }

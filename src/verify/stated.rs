@@ -14,6 +14,8 @@ pub(super) struct Stated {
     pub(super) role: Option<Role>,
     /// Where zero is: `lower-left`, `keep`, `center`.
     pub(super) origin: Option<String>,
+    /// How far the board was turned, counter-clockwise in degrees.
+    pub(super) degrees: f64,
     /// The line about which the board was turned over.
     pub(super) mirror: Option<Nm>,
 }
@@ -41,6 +43,10 @@ impl Stated {
             self.cutters.push((line, cutter));
         }
         match words.as_slice() {
+            ["rotate", angle] => {
+                let degrees = angle.strip_suffix("deg").and_then(|number| number.parse().ok());
+                self.degrees = degrees.filter(|degrees: &f64| degrees.is_finite()).unwrap_or(0.0);
+            }
             ["origin", origin] => self.origin = Some((*origin).to_owned()),
             [.., "line", "x", "=", axis, "mm"] if comment.contains("turned over") => {
                 self.mirror = format!("{axis}mm").parse().ok();

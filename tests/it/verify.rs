@@ -138,7 +138,7 @@ fn mill(board: &str) -> (Board, Vec<Milled>) {
             text: written.text.clone(),
             role: Some(Role::Isolation(side)),
             cutter: None,
-            placement: Some(Placement { shift, mirror }),
+            placement: Some(Placement { shift, mirror, ..Placement::default() }),
         };
         let listing = read::read(&written.text).expect("our own");
         Some(Milled { program, listing, tool: settings.isolation_tool.kind.to_string() })
