@@ -29,7 +29,10 @@ impl Job {
             .collect();
         let known: Vec<Known<'_>> =
             self.layers.iter().map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
-        Ok(verify(&programs, &self.board, &known, &verify::Settings::default())?)
+        let usual = verify::Settings::default();
+        // What the settings allow is no finding.
+        let judging = verify::Settings { diameter: usual.diameter.max(settings.drill_tolerance), ..usual };
+        Ok(verify(&programs, &self.board, &known, &judging)?)
     }
 
     fn placement(&self, part: Part) -> Placement {

@@ -36,7 +36,7 @@ fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
 
 fn destroyed(sheet: &Sheet<'_>, net: NetId, left: Option<u64>, settings: &Settings) -> Option<Finding> {
     let left = sheet.mm2(left.unwrap_or(0));
-    if left >= settings.crumb || left >= considerable(sheet, net, left, settings) && left > 0.0 {
+    if left >= settings.crumb || (left > 0.0 && left >= considerable(sheet, net, left, settings)) {
         return None;
     }
     let area = designed(sheet, net);

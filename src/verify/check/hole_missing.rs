@@ -1,6 +1,6 @@
 //! # What it checks
 //!
-//! Every hole of the board is drilled, every slot at both its ends.
+//! Every hole of the board is drilled, or milled by a cutter that stays within it; every slot at both its ends.
 //!
 //! # Why
 //!
@@ -8,11 +8,11 @@
 //!
 //! # What it can miss
 //!
-//! How deep: nobody has told it how thick the board is. The middle of slots. Holes that an end mill bores.
+//! How deep: nobody has told it how thick the board is. The middle of slots, and how round a milled hole is.
 
 use super::{Check, Run, Severity, plunges};
-use crate::board::{Board, Hole};
-use crate::geometry::Point;
+use crate::board::{Board, Hole, Shape};
+use crate::geometry::{Nm, Point};
 use crate::verify::Settings;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -34,6 +34,18 @@ fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Fin
     let missing =
         board.holes.iter().filter(|hole| ![hole.path.start, hole.path.end()].into_iter().all(is_drilled));
     missing.map(finding).collect()
+}
+
+/// Where the cutter goes sideways in the board: the ends of its ways, with its radius.
+fn milled(program: &Machining) -> impl Iterator<Item = (Point, Nm)> {
+    program.swept.iter().flat_map(|swept| {
+        let ends = match &swept.shape {
+            Shape::Stroke { from, to, .. } => vec![*from, *to],
+            Shape::Arc { arc, .. } => vec![arc.start, arc.end],
+            Shape::Disc { .. } | Shape::Polygon(_) => Vec::new(),
+        };
+        ends.into_iter().map(|at| (at, swept.half()))
+    })
 }
 
 fn finding(hole: &Hole) -> Finding {
