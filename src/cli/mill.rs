@@ -30,9 +30,9 @@ pub(super) struct Mill {
     #[arg(long, short, value_name = "OUT")]
     output: PathBuf,
 
-    /// Do not mill the programs on a picture first
+    /// Read the programs back, mill them on a picture and compare with the board; exit code 1 for what is found
     #[arg(long, help_heading = "Output")]
-    no_verify: bool,
+    verify: bool,
 
     /// Print the report as JSON on stdout
     #[arg(long, help_heading = "Output")]
@@ -58,7 +58,7 @@ impl Mill {
         progress.say("finding the way between nets");
         let job = job::mill(loaded, &settings)?;
         let mut document = job.describe(&settings);
-        if !self.no_verify {
+        if self.verify {
             progress.say("milling on a picture");
             document.verification = Some(Verdict::from(&job.verify(&settings)?));
         }

@@ -1,6 +1,6 @@
 //! Programs milled before anybody mills them: text and a board → a [`Report`].
 //!
-//! The text is read back by [`gcode::read`](crate::gcode::read), laid over the board, and the cutter that it moves is drawn on a picture of
+//! The text is read back by [`gcode::read`](mod@crate::gcode::read), laid over the board, and the cutter that it moves is drawn on a picture of
 //! the copper. What is left conducts: its pieces are found as connected pixels, and compared with the nets of the design. How much
 //! copper the cutter takes is asked of the exact geometry instead, so that it does not depend on the pixel.
 //! Neither the planner nor the diagram is used, so that agreement says something, and any program can be judged.

@@ -15,7 +15,7 @@ use super::trace::CHORD;
 /// Clearance may dip between vertices by this much before a vertex is kept there, in nanometres.
 const DIP: f64 = 2_000.0;
 /// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight. Chosen.
-const RADII: std::ops::Range<f64> = 5_000.0..1e9;
+const RADII: std::ops::Range<f64> = 5_000.0..2e8;
 /// The part of the tolerance that fitting uses. A point off the middle by t is nearer to one side than to the other by 2 t;
 /// with this share that difference, too, stays within the tolerance almost everywhere. Chosen: at 1, it went beyond at 12 % of
 /// the points of a dense board, at 0.6 at 1 %, for a sixth more segments.

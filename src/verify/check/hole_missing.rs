@@ -31,8 +31,16 @@ fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Fin
         let near = drilled[from..].iter().take_while(|at| at.x <= p.x + reach);
         near.copied().any(|at| at.distance(p) <= reach.to_f64())
     };
-    let missing =
-        board.holes.iter().filter(|hole| ![hole.path.start, hole.path.end()].into_iter().all(is_drilled));
+    let milled: Vec<(Point, Nm)> = programs.iter().flat_map(|program| milled(program)).collect();
+    let is_milled = |hole: &Hole, p: Point| {
+        let room = hole.diameter / 2 + reach;
+        milled.iter().any(|(at, radius)| *radius <= room && at.distance(p) <= (room - *radius).to_f64())
+    };
+    let is_made = |hole: &Hole, p: Point| is_drilled(p) || is_milled(hole, p);
+    let missing = board
+        .holes
+        .iter()
+        .filter(|hole| ![hole.path.start, hole.path.end()].iter().all(|&p| is_made(hole, p)));
     missing.map(finding).collect()
 }
 

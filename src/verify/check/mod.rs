@@ -152,8 +152,5 @@ fn from_segment(p: Point, a: Point, b: Point) -> f64 {
 
 /// All plunges of all programs with the program that each belongs to.
 fn plunges<'a>(programs: &[&'a Machining]) -> impl Iterator<Item = (&'a Machining, Plunge)> {
-    programs
-        .to_vec()
-        .into_iter()
-        .flat_map(|program| program.plunges.iter().map(move |&plunge| (program, plunge)))
+    programs.iter().copied().flat_map(|program| program.plunges.iter().map(move |&plunge| (program, plunge)))
 }
