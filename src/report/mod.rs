@@ -2,7 +2,6 @@
 
 mod canvas;
 pub mod document;
-mod flat;
 pub mod inspection;
 pub mod legend;
 mod lettering;

@@ -7,11 +7,11 @@ use crate::geometry::{Nm, Path, Point, Rect, Segment};
 use crate::grid::{Grid, GridError};
 use crate::raster::{self, Buffers, Label, Scene};
 use crate::toolpath::{Move, Placement, Section};
-use crate::topology::Nets;
+use crate::topology::{self, Nets};
 use crate::voronoi::{Boundaries, Diagram, Owner};
 
 use super::palette::{COPPER, CUT, EDGE, GROUND, HOLE, INK, RAPID, SUBSTRATE, tints, vivid};
-use super::{Canvas, Lettering, flat};
+use super::{Canvas, Lettering};
 
 /// What was done to one side of a board, as far as a picture shows it.
 #[derive(Clone, Copy)]
@@ -39,7 +39,7 @@ pub struct Shown<'a> {
 pub fn copper(copper: &Copper, grid: &Grid) -> Vec<u8> {
     let mut scene = Scene::new(grid.width(), grid.height());
     for feature in &copper.features {
-        scene.add(Label(1), flat::surface(&feature.shape, grid));
+        scene.add(Label(1), topology::surface(&feature.shape, grid, Some(0.0)));
     }
     let mut buffers = Buffers::new();
     raster::render(&scene, &mut buffers);

@@ -22,6 +22,7 @@ mod names;
 mod nets;
 mod proximity;
 mod sets;
+mod surface;
 mod translucency;
 
 pub use differences::{Differences, Missed, Reason, differences};
@@ -30,6 +31,7 @@ pub use gap::{Gap, smallest_gap};
 pub use names::{islands_of_names, names_check};
 pub use nets::{Net, NetId, Nets};
 pub use proximity::{Near, Proximity};
+pub(crate) use surface::surface;
 pub use translucency::{Colour, Odds, Overlap, Sampling, Translucency, translucency};
 
 use crate::board::Copper;

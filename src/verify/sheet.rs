@@ -3,10 +3,10 @@
 use std::borrow::Cow;
 
 use crate::board::{Board, Copper, FLATTEN, Shape, Side};
-use crate::geometry::{Nm, Point, Polygon, Rect, Turn};
+use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::grid::Grid;
-use crate::raster::{Buffers, Caps, FillRule, Label, Scene, Sides, Spin, Surface, render};
-use crate::topology::{Method, NetId, Nets, Proximity, recover};
+use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
+use crate::topology::{Method, NetId, Nets, Proximity, recover, surface};
 
 use super::machining::{Machining, Swept};
 use super::pieces::{Extent, Part, pieces};
@@ -190,41 +190,6 @@ fn area(copper: &Copper, outline: Option<&Polygon>, cuts: &[Cut<'_>], pitch: Nm)
     let features = copper.features.iter().map(|feature| feature.shape.bounds());
     let all = features.chain(cuts.iter().map(|cut| cut.swept.shape.bounds())).reduce(Rect::union);
     all.unwrap_or(Rect::new(Point::default(), Point::default())).inflate(Nm::from_mm(1))
-}
-
-/// The surface of `shape` on `grid`: flat where `limit` is zero, else the distance to it.
-pub(super) fn surface(shape: &Shape, grid: &Grid, limit: Option<f32>) -> Surface {
-    match shape {
-        Shape::Disc { center, radius } => {
-            Surface::Cone { apex: grid.pixel(*center), offset: grid.pixels(*radius), limit }
-        }
-        Shape::Stroke { from, to, radius } => Surface::Curtain {
-            from: grid.pixel(*from),
-            to: grid.pixel(*to),
-            caps: Caps::Both,
-            sides: Sides::Both,
-            offset: grid.pixels(*radius),
-            limit,
-        },
-        Shape::Arc { arc, radius } => Surface::Ring {
-            center: grid.pixel(arc.center),
-            start: grid.pixel(arc.start),
-            end: grid.pixel(arc.end),
-            // A turn is seen from above with y up, a spin with y down; both look the same.
-            spin: match arc.turn {
-                Turn::Clockwise => Spin::Clockwise,
-                Turn::CounterClockwise => Spin::CounterClockwise,
-            },
-            caps: Caps::Both,
-            offset: grid.pixels(*radius),
-            limit,
-        },
-        Shape::Polygon(polygon) => {
-            let ring = |ring: &Vec<Point>| ring.iter().map(|&point| grid.pixel(point)).collect();
-            let contours = polygon.contours().iter().map(ring).collect();
-            Surface::Polygon { contours, rule: FillRule::NonZero, depth: 0.0 }
-        }
-    }
 }
 
 /// The pixels of a picture with their columns and rows, row by row.

@@ -30,12 +30,12 @@ use crate::raster::{Label, Scene};
 
 use super::contact::{Bodies, Scratch};
 use super::sets::DisjointSets;
-use super::{NetId, Nets};
+use super::{NetId, Nets, surface};
 
 pub use colour::{Colour, Odds};
 
 use colour::{Colours, Random};
-use sheets::{Sheets, surface};
+use sheets::Sheets;
 
 /// How Algorithm 2 looks at a layer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,7 +78,7 @@ impl Translucency {
         let mut scene = Scene::new(grid.width(), grid.height());
         for (index, feature) in copper.features.iter().enumerate() {
             // Label 0 is the background's.
-            scene.add(Label(traces.of(index).0 + 1), surface(&feature.shape, grid));
+            scene.add(Label(traces.of(index).0 + 1), surface(&feature.shape, grid, Some(0.0)));
         }
         let colours: Vec<Colour> = std::iter::once([0; 3]).chain(self.colours.iter().copied()).collect();
         render_translucent(&scene, &colours, Window::all(&scene))

@@ -1,10 +1,10 @@
 use std::collections::BTreeMap;
 
 use crate::board::{Copper, Shape};
-use crate::geometry::{Rect, Turn};
+use crate::geometry::Rect;
 use crate::grid::{Grid, GridError};
-use crate::raster::{Buffers, Caps, FillRule, Label, Scene, Sides, Spin, Surface, render};
-use crate::topology::Nets;
+use crate::raster::{Buffers, Label, Scene, render};
+use crate::topology::{Nets, surface};
 
 /// The pixels of a tile that several traces cover.
 ///
@@ -77,7 +77,7 @@ impl Drawn<'_> {
             Grid::covering(Rect::new(self.tile.corner(column, row), window.corners()[1]), self.tile.pitch())?;
         let mut scene = Scene::new(part.width(), part.height());
         for shape in shapes {
-            scene.add(Label(1), surface(shape, &part));
+            scene.add(Label(1), surface(shape, &part, Some(0.0)));
         }
         render(&scene, &mut self.buffers);
         let count = |n: i64| u32::try_from(n).expect("a pixel of the tile");
@@ -98,44 +98,5 @@ impl Drawn<'_> {
         covered.retain(|(pixel, _)| layers[*pixel as usize] > 1);
         covered.sort_unstable();
         covered
-    }
-}
-
-/// The area that a shape covers: distance surfaces end where the copper ends.
-pub(super) fn surface(shape: &Shape, grid: &Grid) -> Surface {
-    let limit = Some(0.0);
-    match shape {
-        Shape::Disc { center, radius } => {
-            Surface::Cone { apex: grid.pixel(*center), offset: grid.pixels(*radius), limit }
-        }
-        Shape::Stroke { from, to, radius } => Surface::Curtain {
-            from: grid.pixel(*from),
-            to: grid.pixel(*to),
-            caps: Caps::Both,
-            sides: Sides::Both,
-            offset: grid.pixels(*radius),
-            limit,
-        },
-        Shape::Arc { arc, radius } => Surface::Ring {
-            center: grid.pixel(arc.center),
-            start: grid.pixel(arc.start),
-            end: grid.pixel(arc.end),
-            spin: match arc.turn {
-                Turn::Clockwise => Spin::Clockwise,
-                Turn::CounterClockwise => Spin::CounterClockwise,
-            },
-            caps: Caps::Both,
-            offset: grid.pixels(*radius),
-            limit,
-        },
-        Shape::Polygon(polygon) => Surface::Polygon {
-            contours: polygon
-                .contours()
-                .iter()
-                .map(|ring| ring.iter().map(|&p| grid.pixel(p)).collect())
-                .collect(),
-            rule: FillRule::NonZero,
-            depth: 0.0,
-        },
     }
 }

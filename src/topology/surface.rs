@@ -1,13 +1,12 @@
-//! Copper as flat surfaces: a pixel is covered exactly if its centre is in the shape.
+//! Shapes of the board as the raster draws them.
 
 use crate::board::Shape;
-use crate::geometry::Turn;
+use crate::geometry::{Point, Turn};
 use crate::grid::Grid;
 use crate::raster::{Caps, FillRule, Sides, Spin, Surface};
 
-/// The surface of `shape` on `grid`, at depth 0 and nowhere else.
-pub(super) fn surface(shape: &Shape, grid: &Grid) -> Surface {
-    let limit = Some(0.0);
+/// The surface of `shape` on `grid`: flat where `limit` is zero, else the distance to it.
+pub(crate) fn surface(shape: &Shape, grid: &Grid, limit: Option<f32>) -> Surface {
     match shape {
         Shape::Disc { center, radius } => {
             Surface::Cone { apex: grid.pixel(*center), offset: grid.pixels(*radius), limit }
@@ -33,14 +32,10 @@ pub(super) fn surface(shape: &Shape, grid: &Grid) -> Surface {
             offset: grid.pixels(*radius),
             limit,
         },
-        Shape::Polygon(polygon) => Surface::Polygon {
-            contours: polygon
-                .contours()
-                .iter()
-                .map(|ring| ring.iter().map(|&point| grid.pixel(point)).collect())
-                .collect(),
-            rule: FillRule::NonZero,
-            depth: 0.0,
-        },
+        Shape::Polygon(polygon) => {
+            let ring = |ring: &Vec<Point>| ring.iter().map(|&point| grid.pixel(point)).collect();
+            let contours = polygon.contours().iter().map(ring).collect();
+            Surface::Polygon { contours, rule: FillRule::NonZero, depth: 0.0 }
+        }
     }
 }
