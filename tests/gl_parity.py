@@ -3,7 +3,7 @@
 
 usage: gl_parity.py FOLDER
 
-FOLDER is what `VOROMILL_GL_PARITY=FOLDER cargo test --test it an_opengl_gets_the_same_triangles` wrote. Needs Mesa's
+FOLDER is what `VOROMILL_GL_PARITY=FOLDER cargo test --test it an_opengl_gets_the_same` wrote. Needs Mesa's
 llvmpipe (Debian: libegl1 libgl1-mesa-dri) and, from PyPI, moderngl and numpy. This is a program of its own because
 calling OpenGL takes `unsafe`, which the crate forbids.
 
@@ -61,6 +61,54 @@ def draw(context, program, triangles):
     return out, deep
 
 
+# Fans around the first corner, each triangle counted forwards or backwards: where the sum is not zero, the non-zero rule
+# fills a contour of any form.
+WINDING_VERTEX = """#version 330
+in vec2 place;
+void main() { gl_Position = vec4(place, 0.0, 1.0); }"""
+WINDING_FRAGMENT = """#version 330
+out float winding;
+void main() { winding = gl_FrontFacing ? 1.0 : -1.0; }"""
+BOARD_BUFFER = 2048
+BOARD_MARGIN = 256
+
+
+def compare_board(context, path):
+    """Draws the polygons of a board one by one; the number of pixels that differ."""
+    (width, height), *lines = [line.split() for line in path.read_text().splitlines()]
+    width, height = int(width), int(height)
+    program = context.program(vertex_shader=WINDING_VERTEX, fragment_shader=WINDING_FRAGMENT)
+    windings = context.texture((BOARD_BUFFER, BOARD_BUFFER), 1, dtype="f4")
+    target = context.framebuffer([windings])
+    target.use()
+    context.enable_only(context.BLEND)
+    context.blend_func = context.ONE, context.ONE
+    polygons = []
+    for first, *corners in lines:
+        contour = np.array(corners, dtype="f8").reshape(-1, 2)
+        fan = np.stack([np.repeat(contour[:1], len(contour) - 2, 0), contour[1:-1], contour[2:]], 1).reshape(-1, 2)
+        if first == "also":
+            polygons[-1][1].append(fan)
+        else:
+            polygons.append((int(first), [fan]))
+    theirs = np.zeros((height, width), dtype="u4")
+    for label, fans in reversed(polygons):
+        target.clear()
+        place = (np.concatenate(fans) + BOARD_MARGIN * 256) / (BOARD_BUFFER * 128.0) - 1.0
+        buffer = context.buffer(place.astype("f4").tobytes())
+        context.vertex_array(program, [(buffer, "2f", "place")]).render()
+        sums = np.frombuffer(windings.read(), dtype="f4").reshape(BOARD_BUFFER, BOARD_BUFFER)
+        rows, columns = slice(BOARD_MARGIN, BOARD_MARGIN + height), slice(BOARD_MARGIN, BOARD_MARGIN + width)
+        theirs[sums[rows, columns] != 0] = label
+        buffer.release()
+    for thing in (target, windings, program):
+        thing.release()
+    ours = np.fromfile(path.with_suffix(".labels"), dtype="<u4").reshape(height, width)
+    differ = int((ours != theirs).sum())
+    print(f"{path.stem}: {len(polygons)} polygons, {width * height} pixels, {differ} differ")
+    return differ
+
+
 def main():
     context = moderngl.create_standalone_context(backend="egl")
     print("OpenGL:", context.info["GL_RENDERER"], context.info["GL_VERSION"])
@@ -69,6 +117,7 @@ def main():
     scenes = {"flat": 0, "mesh": 0}
     wrong = {"flat": 0, "mesh": 0}
     ties = {"flat": 0, "mesh": 0}
+    boards = sum(compare_board(context, path) for path in sorted(folder.glob("*.polygons")))
     for path in sorted(folder.glob("*.triangles")):
         kind = path.name.split("_")[0]
         triangles = np.loadtxt(path, ndmin=2)
@@ -83,7 +132,7 @@ def main():
     for kind, count in scenes.items():
         pixels = count * SIDE * SIDE
         print(f"{kind}: {count} scenes, {pixels} pixels, {wrong[kind]} differ, {ties[kind]} more where depths tie")
-    sys.exit(0 if sum(scenes.values()) and not any(wrong.values()) else 1)
+    sys.exit(0 if sum(scenes.values()) and not any(wrong.values()) and not boards else 1)
 
 
 if __name__ == "__main__":

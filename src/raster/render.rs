@@ -66,12 +66,50 @@ pub fn render(scene: &Scene, buffers: &mut Buffers) {
     let rows: Vec<Vec<Node>> = Descent::new(scene, grid, 1, &[], false).collect();
     let band = buffers.width * BAND as usize;
     let pixels = buffers.labels.par_chunks_mut(band).zip(buffers.depths.par_chunks_mut(band));
-    pixels.zip(rows.par_iter()).for_each_init(Painter::new, |painter, ((labels, depths), nodes)| {
+    pixels.zip(rows.par_iter()).for_each_init(Easel::new, |easel, ((labels, depths), nodes)| {
         let mut window = Window { labels, depths, stride: buffers.width, x: 0, y: nodes[0].cell.y };
         for node in nodes {
-            window.paint(painter, scene, &node.bin, node.cell);
+            easel.draw(scene, node, &mut window);
         }
     });
+}
+
+/// What a worker draws a square on before it goes into the picture.
+///
+/// Rows of a block are one line of the cache each, and a picture's width apart; memory takes the rows of a square,
+/// eight lines at a time, a tenth faster (measured: see the module's doc).
+struct Easel {
+    painter: Painter,
+    labels: Vec<u32>,
+    depths: Vec<f32>,
+}
+
+impl Easel {
+    const SIDE: usize = BAND as usize;
+
+    fn new() -> Self {
+        let pixels = Self::SIDE * Self::SIDE;
+        Self { painter: Painter::new(), labels: vec![0; pixels], depths: vec![0.0; pixels] }
+    }
+
+    /// Draws a node of at most [`BAND`] pixels a side into `window`, where it lies inside.
+    fn draw(&mut self, scene: &Scene, node: &Node, window: &mut Window<'_>) {
+        let Cell { x, y, width, height } = node.cell;
+        let (labels, depths) = (&mut self.labels[..], &mut self.depths[..]);
+        Window { labels, depths, stride: Self::SIDE, x, y }.paint(
+            &mut self.painter,
+            scene,
+            &node.bin,
+            node.cell,
+        );
+        let rows = self.depths.chunks_exact(Self::SIDE).zip(self.labels.chunks_exact(Self::SIDE));
+        let (width, mut at) = (count(width), window.index(node.cell));
+        for (depths, labels) in rows.take(count(height)) {
+            window.depths[at..at + width].copy_from_slice(&depths[..width]);
+            window.labels[at..at + width].copy_from_slice(&labels[..width]);
+            at += window.stride;
+        }
+    }
 }
 
 /// Where finished blocks go: a rectangle of pixels in memory.
@@ -86,11 +124,15 @@ pub(super) struct Window<'a> {
 }
 
 impl Window<'_> {
+    /// Where the first pixel of `cell` is.
+    const fn index(&self, cell: Cell) -> usize {
+        count(cell.y - self.y) * self.stride + count(cell.x - self.x)
+    }
+
     /// Draws `cell`, which lies inside.
     pub(super) fn paint(&mut self, painter: &mut Painter, scene: &Scene, bin: &Bin, cell: Cell) {
         painter.paint(scene, bin, cell, &mut |block| {
-            let cell = block.cell();
-            let mut at = count(cell.y - self.y) * self.stride + count(cell.x - self.x);
+            let mut at = self.index(block.cell());
             for (depths, labels) in block.finished() {
                 self.depths[at..at + depths.len()].copy_from_slice(depths);
                 self.labels[at..at + labels.len()].copy_from_slice(labels);

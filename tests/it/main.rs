@@ -6,6 +6,7 @@ mod gcode;
 mod gerber;
 mod gerber_constructs;
 mod gerber_damage;
+mod gl_parity;
 mod job;
 mod layering;
 mod layers;

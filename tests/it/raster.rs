@@ -289,10 +289,10 @@ fn the_golden_scenes_have_the_recorded_bits() {
 }
 
 /// SplitMix64 on whole numbers below a limit: the same scenes everywhere, whatever the test library draws.
-struct Random(u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
-    fn below(&mut self, limit: i32) -> i32 {
+    pub(crate) fn below(&mut self, limit: i32) -> i32 {
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
@@ -444,103 +444,4 @@ fn a_view_shows_faces_and_edges() {
     for view in [tilted, near] {
         assert_ne!(draw(&[far_away, face(0.0, [255, 0, 0])], &view), pixels, "{view:?} is another picture");
     }
-}
-
-/// Writes scenes and pictures for `tests/gl_parity.py`, which draws the same triangles with an OpenGL. Calling one from
-/// here would take `unsafe`, which this crate forbids; so the comparison lives on the other side.
-#[test]
-fn an_opengl_gets_the_same_triangles_to_draw() {
-    let Some(folder) = std::env::var_os("VOROMILL_GL_PARITY").map(std::path::PathBuf::from) else {
-        eprintln!("skipped: VOROMILL_GL_PARITY names no folder to write scenes to");
-        return;
-    };
-    std::fs::create_dir_all(&folder).expect("a folder to write to");
-    for number in 0..240 {
-        let mut random = Random(number);
-        let (kind, primitives, triangles) =
-            if number < 200 { flat_scene(&mut random) } else { mesh_scene(&mut random) };
-        let mut scene = Scene::new(128, 128);
-        primitives.into_iter().for_each(|(label, surface)| scene.add(label, surface));
-        let mut buffers = Buffers::new();
-        render(&scene, &mut buffers);
-        let bytes =
-            |words: &mut dyn Iterator<Item = u32>| words.flat_map(u32::to_le_bytes).collect::<Vec<u8>>();
-        let write = |end: &str, data: Vec<u8>| {
-            std::fs::write(folder.join(format!("{kind}_{number:03}.{end}")), data).expect("writable");
-        };
-        let lines = triangles.iter().map(|(label, corners, depths)| {
-            let corners = corners.iter().map(|p| format!(" {} {}", p.x.raw(), p.y.raw())).collect::<String>();
-            format!("{}{corners} {:?} {:?} {:?}\n", label.0, depths[0], depths[1], depths[2])
-        });
-        write("triangles", lines.collect::<String>().into_bytes());
-        write("labels", bytes(&mut buffers.labels().iter().copied()));
-        write("depths", bytes(&mut buffers.depths().iter().map(|depth| depth.to_bits())));
-    }
-}
-
-type Triangles = Vec<(Label, [PixelPoint; 3], [f32; 3])>;
-
-/// Flat triangles and convex polygons, the latter for an OpenGL as fans, each at a depth of its own.
-fn flat_scene(random: &mut Random) -> (&'static str, Primitives, Triangles) {
-    let (mut primitives, mut triangles) = (Primitives::new(), Triangles::new());
-    // Half of the points on samples and corners of pixels, where the fill rule decides.
-    let coordinate = |random: &mut Random| match random.below(2) {
-        0 => SubPx::new(random.below(140 * 2) * 128 - 6 * 256),
-        _ => SubPx::new(random.below(140 * 256) - 6 * 256),
-    };
-    for number in 1..=30 {
-        let label = Label(number);
-        let depth = f32::from(u8::try_from((number * 37) % 61).expect("small"));
-        if number % 3 == 0 {
-            let (x, y) = (coordinate(random), coordinate(random));
-            let radius = 1024 + random.below(8000);
-            // The corners of a diamond, a square or an octagon: convex, and many of their edges are axis-parallel.
-            let k = radius * 5 / 12;
-            let ring = [
-                (radius, k),
-                (k, radius),
-                (-k, radius),
-                (-radius, k),
-                (-radius, -k),
-                (-k, -radius),
-                (k, -radius),
-                (radius, -k),
-            ];
-            let step = [1, 2][usize::try_from(random.below(2)).expect("small")];
-            let ring: Vec<_> = ring
-                .into_iter()
-                .step_by(step)
-                .map(|(dx, dy)| PixelPoint::new(SubPx::new(x.raw() + dx), SubPx::new(y.raw() + dy)))
-                .collect();
-            for pair in ring[1..].windows(2) {
-                triangles.push((label, [ring[0], pair[0], pair[1]], [depth; 3]));
-            }
-            primitives
-                .push((label, Surface::Polygon { contours: vec![ring], rule: FillRule::NonZero, depth }));
-        } else {
-            let corners = [(); 3].map(|()| PixelPoint::new(coordinate(random), coordinate(random)));
-            primitives.push((label, Surface::Triangle { corners, depths: [depth; 3] }));
-            triangles.push((label, corners, [depth; 3]));
-        }
-    }
-    ("flat", primitives, triangles)
-}
-
-/// Tessellated cones and curtains.
-fn mesh_scene(random: &mut Random) -> (&'static str, Primitives, Triangles) {
-    let mut primitives = Primitives::new();
-    for label in (1..=20).map(Label) {
-        let mut point =
-            || PixelPoint::new(SubPx::new(random.below(128 * 256)), SubPx::new(random.below(128 * 256)));
-        let (from, to) = (point(), point());
-        let faces =
-            if label.0 % 2 == 0 { mesh::cone(from, 60.0, 0.1) } else { mesh::curtain(from, to, 60.0, 0.1) };
-        primitives.extend(faces.into_iter().map(|face| (label, face)));
-    }
-    let triangle = |(label, surface): &(Label, Surface)| match surface {
-        Surface::Triangle { corners, depths } => Some((*label, *corners, *depths)),
-        _ => None,
-    };
-    let triangles = primitives.iter().filter_map(triangle).collect();
-    ("mesh", primitives, triangles)
 }
