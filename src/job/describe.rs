@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::board::{Board, Hole};
 use crate::geometry::Nm;
+use crate::report::colours::ColoursEntry;
 use crate::report::document::{
     Document, DrillEntry, Figures, GapEntry, LayerEntry, Millimetres, NetEntry, ProgramEntry, SCHEMA_VERSION,
     WarningEntry,
@@ -43,6 +44,7 @@ impl Layer {
             side: self.side,
             features: board.copper(self.side).map_or(0, |copper| copper.features.len()),
             nets: net_entries(&self.nets),
+            translucency: self.translucency.as_ref().map(ColoursEntry::new),
             smallest_gap: self.gap.map(|gap| gap_entry(gap, &self.nets)),
             boundaries: self.boundaries.edges.len(),
             junctions: self.boundaries.nodes.len(),

@@ -4,7 +4,7 @@ use crate::board::{Board, Copper, Side, Warning};
 use crate::geometry::{Nm, Path};
 use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate};
 use crate::toolpath::{Order, Placement, Section};
-use crate::topology::{self, Gap, Method, Nets};
+use crate::topology::{self, Gap, Method, Nets, Sampling, Translucency};
 use crate::voronoi::{self, Boundaries, Boundary, Diagram, Owner, SiteKind};
 
 use super::options::{self, Sites, Strategy, Topology};
@@ -16,6 +16,8 @@ pub struct Layer {
     pub side: Side,
     /// Its islands of copper.
     pub nets: Nets,
+    /// How they were found by colours, where that was asked for.
+    pub translucency: Option<Translucency>,
     /// The narrowest place between two of them.
     pub gap: Option<Gap>,
     /// Their Voronoi diagram.
@@ -45,7 +47,7 @@ impl Layer {
         settings: &Settings,
     ) -> Result<Self, Error> {
         let side = copper.side;
-        let nets = topology::recover(copper, method(settings.topology));
+        let (nets, translucency) = recover(copper, method(settings.topology));
         let gap = topology::smallest_gap(copper, &nets);
         let diagram =
             Diagram::new(copper, &nets, board.outline.as_ref(), &diagram_settings(settings, gap.as_ref()));
@@ -63,7 +65,7 @@ impl Layer {
             warnings.push(Warning::new("frame-not-cut", FRAME_NOT_CUT).on(side));
         }
         let lap = lap.cloned();
-        Ok(Self { side, nets, gap, diagram, boundaries, lap, placement, section, warnings })
+        Ok(Self { side, nets, translucency, gap, diagram, boundaries, lap, placement, section, warnings })
     }
 
     /// The length of the boundaries that isolate something.
@@ -82,6 +84,17 @@ fn needed_frame(diagram: &Diagram, boundaries: &Boundaries) -> Option<Path> {
 }
 
 const FRAME_NOT_CUT: &str = "without an outline and without the lap round the frame, nets that reach the edge stay joined through the copper outside";
+
+/// The nets of a side, and what Algorithm 2 saw of them if it was asked.
+fn recover(copper: &Copper, method: Method) -> (Nets, Option<Translucency>) {
+    if method != Method::Translucency {
+        return (topology::recover(copper, method), None);
+    }
+    let traces = topology::recover(copper, Method::Coincidence);
+    let found = topology::translucency(copper, &traces, Sampling::default());
+    let found = found.expect("500 DPI is neither too fine nor too large for any board");
+    (found.nets.clone(), Some(found))
+}
 
 /// The topology's own name for what was chosen.
 pub(super) fn method(topology: Topology) -> Method {

@@ -12,6 +12,8 @@ use crate::board::{Side, Source, SourceSpan, Warning};
 use crate::geometry::{Nm, Point};
 use crate::toolpath::Statistics;
 
+use super::colours::ColoursEntry;
+
 /// The version of the shape of [`Document`]: it grows when a key changes its meaning or goes, not when one is added.
 pub const SCHEMA_VERSION: u32 = 1;
 
@@ -78,6 +80,9 @@ pub struct LayerEntry {
     pub features: usize,
     /// Islands of copper, by number.
     pub nets: Vec<NetEntry>,
+    /// How they were found by colours, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub translucency: Option<ColoursEntry>,
     /// The narrowest place between two of them.
     pub smallest_gap: Option<GapEntry>,
     /// Lines between regions, as the diagram has them.

@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use serde::Serialize;
 
 use crate::board::Copper;
-use crate::topology::{Differences, Method, Missed, Odds, Reason};
+use crate::topology::{Differences, Method, Missed, Reason};
 
-use super::document::{Millimetres, Place};
+use super::colours::ColoursEntry;
+use super::document::Place;
 use super::summary::count;
 
 /// All three methods on one layer.
@@ -19,16 +20,9 @@ pub struct MethodsEntry {
     pub translucency: usize,
     /// Nets by exact contact.
     pub contact: usize,
-    /// The side of a pixel of that picture.
-    pub pixel_mm: Millimetres,
-    /// Where its random colours began.
-    pub seed: u64,
-    /// Pixels at which traces were picked and merged.
-    pub picks: usize,
-    /// The most traces on one pixel.
-    pub deepest: usize,
-    /// How likely it was to miss an overlap by a confusion of colours.
-    pub odds: Odds,
+    /// How the picture was made.
+    #[serde(flatten)]
+    pub colours: ColoursEntry,
     /// Where copper touches that a method took for two nets.
     pub missed: Vec<MissedEntry>,
 }
@@ -62,11 +56,7 @@ impl MethodsEntry {
             coincidence: differences.coincidence.nets().len(),
             translucency: found.nets.nets().len(),
             contact: differences.contact.nets().len(),
-            pixel_mm: Millimetres(found.sampling.pitch),
-            seed: found.sampling.seed,
-            picks: found.overlaps.len(),
-            deepest: found.deepest,
-            odds: found.odds,
+            colours: ColoursEntry::new(found),
             missed: differences.missed.iter().map(missed).collect(),
         }
     }
@@ -77,18 +67,12 @@ impl MethodsEntry {
             "  nets by shared vertices {}, by translucency {} (pixels of {:.4} mm, {}), by contact {}\n",
             self.coincidence,
             self.translucency,
-            self.pixel_mm.0,
-            count(self.picks, "pick"),
+            self.colours.pixel_mm.0,
+            count(self.colours.picks, "pick"),
             self.contact
         );
         if verbose {
-            let Odds { base, mixed } = self.odds;
-            let _ = writeln!(
-                text,
-                "  seed {}, at most {} on a pixel; odds of a confusion with one trace's colour {base:.1e}, of two mixes {mixed:.1e}",
-                self.seed,
-                count(self.deepest, "trace")
-            );
+            text.push_str(&self.colours.to_text());
         }
         for (reason, what) in [
             (Reason::NoCommonVertex, "without a common vertex"),

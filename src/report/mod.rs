@@ -1,6 +1,7 @@
 //! What a person looks at: pictures of every stage, the report as data, and the summary in a terminal.
 
 mod canvas;
+pub mod colours;
 pub mod document;
 pub mod inspection;
 pub mod legend;

@@ -18,6 +18,9 @@ impl Document {
                 format!(", smallest gap {:.3} mm between {a} and {b}", gap.width_mm.0)
             });
             let _ = writeln!(text, "  {}: {}{gap}", layer.side, count(layer.nets.len(), "net"));
+            if let Some(colours) = layer.translucency.as_ref().filter(|_| verbose) {
+                let _ = write!(text, "  {}", colours.to_text());
+            }
         }
         let holes: usize = self.drills.iter().map(|drill| drill.holes + drill.slots).sum();
         if holes > 0 {

@@ -11,6 +11,16 @@
 //!
 //! Both others run after coincidence, which does most of their work for next to nothing. [`differences()`] holds all three
 //! against each other.
+//!
+//! `cargo bench --bench topology` times layers of strokes, discs and rectangles at a constant density (two threads):
+//!
+//! | features | 10³ | 10⁴ | 10⁵ | 10⁶ |
+//! |---|---|---|---|---|
+//! | contact, µs a feature | 0.62 | 0.75 | 0.84 | 0.99 |
+//! | of that coincidence | 0.06 | 0.04 | 0.08 | 0.29 |
+//!
+//! Contact grows by 1.6 over three powers of ten. What grows in coincidence is reading memory: one table of all vertices
+//! no longer fits a cache.
 
 mod coincidence;
 mod contact;

@@ -1,40 +1,71 @@
 //! What the file says about nets (X2 `.N`), held against the copper.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, VecDeque};
+
+use rustc_hash::FxHashMap;
 
 use crate::board::{Copper, Warning};
-use crate::geometry::Point;
+use crate::geometry::{Nm, Point};
 
-use super::{Net, NetId, Nets};
+use super::{Net, NetId, Nets, Proximity};
 
-/// A warning for every island that carries several names: a short in the design, or a net tie.
+/// A warning for every island that carries several names, a short in the design or a net tie, with the places where
+/// they meet.
 ///
 /// One name on several islands is no warning: they are joined on another layer or by a wire (see
 /// [`islands_of_names`], and [`electrical`](super::electrical()) for those that are not).
 #[must_use]
 pub fn names_check(copper: &Copper, nets: &Nets) -> Vec<Warning> {
-    let several = nets.nets().iter().filter(|net| net.names.len() > 1);
+    let several: Vec<_> = nets.nets().iter().filter(|net| net.names.len() > 1).collect();
+    if several.is_empty() {
+        return Vec::new();
+    }
+    let proximity = Proximity::new(copper);
     several
+        .into_iter()
         .map(|net| {
-            let places: Vec<_> =
-                net.names.iter().filter_map(|name| Some((name, place_of(copper, net, name)?))).collect();
-            let names: Vec<_> =
-                places.iter().map(|(name, at)| format!("{name} (at {}, {} mm)", at.x, at.y)).collect();
+            let meetings = meetings(copper, net, &proximity);
+            let places: Vec<_> = meetings
+                .iter()
+                .map(|((a, b), at)| format!("{a} meets {b} at {}, {} mm", at.x, at.y))
+                .collect();
             let message = format!(
-                "{} are one island of copper: a short in the design or a net tie; isolated as one net",
-                names.join(" and ")
+                "{} are one island of copper ({}): a short in the design or a net tie; isolated as one net",
+                net.names.join(" and "),
+                places.join(", ")
             );
             let warning = Warning::new("nets-joined", message).on(copper.side);
-            places.last().map(|(_, at)| *at).into_iter().fold(warning, Warning::at)
+            meetings.values().next().copied().into_iter().fold(warning, Warning::at)
         })
         .collect()
 }
 
-/// A point of the first feature of `net` that carries `name`.
-fn place_of(copper: &Copper, net: &Net, name: &str) -> Option<Point> {
-    let mut features = net.features.iter().map(|&index| &copper.features[index as usize]);
-    let named = features.find(|feature| copper.attributes_of(feature).net.as_deref() == Some(name))?;
-    Some(named.shape.anchor())
+/// Where copper of one name meets copper of another, a place for each two names.
+///
+/// Names spread from the features that carry them, breadth first and in the order of the file, over copper without one.
+fn meetings<'a>(copper: &'a Copper, net: &Net, proximity: &Proximity) -> BTreeMap<(&'a str, &'a str), Point> {
+    let mut names: FxHashMap<usize, &str> = FxHashMap::default();
+    let mut queue = VecDeque::new();
+    for feature in net.features.iter().map(|&index| index as usize) {
+        if let Some(name) = copper.attributes_of(&copper.features[feature]).net.as_deref() {
+            names.insert(feature, name);
+            queue.push_back(feature);
+        }
+    }
+    let mut found = BTreeMap::new();
+    while let Some(feature) = queue.pop_front() {
+        let name = names[&feature];
+        for near in proximity.near(&copper.features[feature].shape, Nm::ZERO) {
+            let other = *names.entry(near.feature).or_insert_with(|| {
+                queue.push_back(near.feature);
+                name
+            });
+            if other != name {
+                found.entry((name.min(other), name.max(other))).or_insert(near.at);
+            }
+        }
+    }
+    found
 }
 
 /// The islands that carry each name, for the names that are on several.

@@ -386,7 +386,7 @@ fn named(mut copper: Copper, names: &[Option<&str>]) -> Copper {
 }
 
 #[test]
-fn two_names_on_one_island_are_a_warning_with_both_places() {
+fn two_names_on_one_island_are_a_warning_with_the_place_where_they_meet() {
     let shapes = vec![disc(0, 0, 10), stroke((0, 0), (100, 0), 2), disc(100, 0, 10), disc(500, 0, 10)];
     let copper = named(copper(shapes), &[Some("GND"), None, Some("AGND"), Some("GND")]);
     let nets = topology::recover(&copper, Method::Contact);
@@ -394,9 +394,14 @@ fn two_names_on_one_island_are_a_warning_with_both_places() {
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     assert_eq!(warnings[0].code, "nets-joined", "by its stable name");
     assert!(
-        warnings[0].message.starts_with("AGND (at 0.000100, 0.000000 mm) and GND (at 0.000000"),
+        warnings[0].message.starts_with("AGND and GND are one island of copper (AGND meets GND at 0.0001"),
         "{}",
         warnings[0].message
+    );
+    let at = warnings[0].at.expect("a place");
+    assert!(
+        (88..=112).contains(&at.x.get()) && at.y.get().abs() <= 2,
+        "where the trace runs into AGND: {at:?}"
     );
     assert_eq!(nets.label(NetId(0)), "AGND+GND", "both names, in order");
     let islands = topology::islands_of_names(&nets);
