@@ -100,7 +100,7 @@ impl Machining {
             if above.min(below) > -copper {
                 continue;
             }
-            if !within_range(motion.way, from, to) {
+            if !within_range(&[from, to]) {
                 return Err(Error::Range { file: self.file.clone(), line: motion.line });
             }
             let Some(cutter) = tools.at(motion.line) else {
@@ -159,14 +159,9 @@ fn heights(motion: &Motion) -> Option<(Nm, Nm)> {
     Some((motion.from.z.unwrap_or(z), motion.to.z.unwrap_or(z)))
 }
 
-/// Whether a motion lies where geometry is exact wherever the board is put: within half of the range.
-fn within_range(way: Way, from: Point, to: Point) -> bool {
-    let center = match way {
-        Way::Arc { center, .. } => center,
-        Way::Rapid | Way::Feed => from,
-    };
-    let all = [from, to, center].map(|p| [p.x, p.y]);
-    all.as_flattened().iter().all(|coordinate| Nm::try_new(coordinate.get() * 2).is_ok())
+/// Whether points lie where geometry is exact wherever the board is put: within half of the range.
+fn within_range(points: &[Point]) -> bool {
+    points.iter().flat_map(|p| [p.x, p.y]).all(|coordinate| Nm::try_new(coordinate.get() * 2).is_ok())
 }
 
 /// How much half the kerf may change within a piece.
@@ -178,7 +173,7 @@ fn pieces(motion: &Motion, from: Point, to: Point, cutter: Cutter) -> Vec<(Shape
     let Some((start, end)) = heights(motion) else { return Vec::new() };
     let whole = axis(motion.way, from, to);
     if start == end {
-        return vec![(whole, -end)];
+        return straightened(whole).into_iter().map(|shape| (shape, -end)).collect();
     }
     if matches!(whole, Shape::Disc { .. }) {
         return vec![(whole, -start.min(end))];
@@ -191,8 +186,25 @@ fn pieces(motion: &Motion, from: Point, to: Point, cutter: Cutter) -> Vec<(Shape
         let z = start.to_f64() + (end - start).to_f64() * middle;
         (part(&whole, at(step), at(step + 1)), Nm::from_f64(-z))
     });
-    pieces.collect()
+    pieces
+        .flat_map(|(shape, depth)| straightened(shape).into_iter().map(move |shape| (shape, depth)))
+        .collect()
 }
+
+/// A shape, and where it is an arc so flat that its centre lies out of range, its chords.
+fn straightened(shape: Shape) -> Vec<Shape> {
+    match shape {
+        Shape::Arc { arc, radius } if !within_range(&[arc.center]) => {
+            let points: Vec<Point> = std::iter::once(arc.start).chain(arc.flatten(CHORD)).collect();
+            let chord = |pair: &[Point]| Shape::Stroke { from: pair[0], to: pair[1], radius };
+            points.windows(2).filter(|pair| pair[0] != pair[1]).map(chord).collect()
+        }
+        other => vec![other],
+    }
+}
+
+/// How far chords may leave an arc. Chosen: far below what is tolerated.
+const CHORD: Nm = Nm::new(100);
 
 /// The way of the cutter's middle.
 fn axis(way: Way, from: Point, to: Point) -> Shape {

@@ -197,7 +197,9 @@ impl Dice {
 
 /// Does one thing wrong; says what, and what may be found then.
 fn mutate(motions: &mut Vec<Motion>, dice: &mut Dice) -> (String, &'static [&'static str]) {
-    let all = paths(motions);
+    let mut all = paths(motions);
+    // Something must come after a path for a lift that is left out to matter.
+    all.retain(|(_, last)| last + 1 < motions.len());
     let (first, last) = all[dice.below(all.len())];
     let raise = |motion: &mut Motion, z: Nm| {
         for place in [&mut motion.from, &mut motion.to] {
@@ -231,7 +233,7 @@ fn mutate(motions: &mut Vec<Motion>, dice: &mut Dice) -> (String, &'static [&'st
             (format!("path {first}..{last} too shallow"), &["short"])
         }
         4 => {
-            motions[first..last].iter_mut().for_each(|motion| raise(motion, Nm::from_um(-900)));
+            motions[first..last].iter_mut().for_each(|motion| raise(motion, Nm::from_mm(-3)));
             (format!("path {first}..{last} too deep"), &["gouge"])
         }
         _ => {
