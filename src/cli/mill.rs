@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use voromill::board::Side;
 use voromill::job::{self, Job, Settings};
 use voromill::report::{Document, Verdict, png};
+use voromill::verify::Severity;
 
 use super::config::Config;
 use super::input::Input;
@@ -30,9 +31,13 @@ pub(super) struct Mill {
     #[arg(long, short, value_name = "OUT")]
     output: PathBuf,
 
-    /// Read the programs back, mill them on a picture and compare with the board; exit code 1 for what is found
+    /// Do not read the programs back, mill them on a picture and compare with the board
     #[arg(long, help_heading = "Output")]
-    verify: bool,
+    no_verify: bool,
+
+    /// How bad something must be that is found so, for exit code 1: info, warning or error
+    #[arg(long, value_name = "SEVERITY", default_value = "error", help_heading = "Output")]
+    deny: Severity,
 
     /// Print the report as JSON on stdout
     #[arg(long, help_heading = "Output")]
@@ -58,9 +63,12 @@ impl Mill {
         progress.say("finding the way between nets");
         let job = job::mill(loaded, &settings)?;
         let mut document = job.describe(&settings);
-        if self.verify {
+        let mut passes = true;
+        if !self.no_verify {
             progress.say("milling on a picture");
-            document.verification = Some(Verdict::from(&job.verify(&settings)?));
+            let report = job.verify(&settings)?;
+            passes = report.passes(self.deny);
+            document.verification = Some(Verdict::from(&report));
         }
         progress.say("drawing");
         let files = files(&job, &document, &settings)?;
@@ -77,8 +85,7 @@ impl Mill {
         } else {
             shared.report(&document.summary(shared.verbose));
         }
-        let clean = document.verification.is_none_or(|verdict| verdict.clean);
-        Ok(if clean { ExitCode::SUCCESS } else { ExitCode::from(1) })
+        Ok(if passes { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 }
 

@@ -60,7 +60,7 @@ impl Error {
         match self {
             Self::Settings { .. } => "`voromill init` writes a file with every key and its default",
             Self::Value { .. } | Self::Import(_) => "",
-            Self::Verify(_) => "without --verify the programs are written unjudged",
+            Self::Verify(_) => "with --no-verify the programs are written unjudged",
             Self::NoCopper(_) => {
                 "`voromill inspect` shows what was found; --front and --back name the copper files"
             }

@@ -31,7 +31,12 @@ impl Job {
             self.layers.iter().map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
         let usual = verify::Settings::default();
         // What the settings allow is no finding.
-        let judging = verify::Settings { diameter: usual.diameter.max(settings.drill_tolerance), ..usual };
+        let judging = verify::Settings {
+            diameter: usual.diameter.max(settings.drill_tolerance),
+            travel: settings.machine.travel,
+            tabs: Some(settings.tabs),
+            ..usual
+        };
         Ok(verify(&programs, &self.board, &known, &judging)?)
     }
 

@@ -108,11 +108,13 @@ impl From<&Report> for Verdict {
 const SHOWN: usize = 5;
 
 impl Verdict {
-    /// For people: what was found, and the verdict in the last line; all findings where `verbose`.
+    /// For people: what was found, and the verdict in the last line; where `verbose`, all findings, and what is only worth knowing.
     #[must_use]
     pub fn to_text(&self, verbose: bool) -> String {
         let mut text = String::new();
-        for same in self.findings.chunk_by(|a, b| (a.severity, a.name) == (b.severity, b.name)) {
+        let count =
+            self.findings.iter().filter(|finding| verbose || finding.severity > Severity::Info).count();
+        for same in self.findings[..count].chunk_by(|a, b| (a.severity, a.name) == (b.severity, b.name)) {
             let shown = if verbose { same.len() } else { SHOWN };
             for finding in same.iter().take(shown) {
                 let FindingEntry { severity, name, message, .. } = finding;

@@ -25,6 +25,8 @@ pub(super) struct Machining {
 pub(super) struct Swept {
     /// The axis of the cutter's way, its radius half the kerf.
     pub(super) shape: Shape,
+    /// How deep below the surface.
+    pub(super) depth: Nm,
     /// The line of the program.
     pub(super) line: u32,
 }
@@ -109,11 +111,12 @@ impl Machining {
             for (shape, depth) in pieces(motion, from, to, cutter) {
                 if depth >= copper {
                     let shape = with_radius(&shape, cutter.width_at(depth) / 2);
-                    self.swept.push(Swept { shape: self.placement.undo_axis(shape), line: motion.line });
+                    let shape = self.placement.undo_axis(shape);
+                    self.swept.push(Swept { shape, depth, line: motion.line });
                 }
             }
         }
-        self.swept.dedup_by(|a, b| a.shape == b.shape);
+        self.swept.dedup_by(|a, b| (&a.shape, a.depth) == (&b.shape, b.depth));
         Ok(())
     }
 

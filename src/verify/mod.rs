@@ -15,12 +15,15 @@
 
 pub mod check;
 mod cutter;
+mod flood;
+mod hit;
 mod machining;
 mod pieces;
 mod placement;
 mod report;
 mod sheet;
 mod stated;
+mod walls;
 
 use std::fmt;
 
@@ -92,13 +95,22 @@ pub struct Settings {
     pub place: Nm,
     /// How far a hole's diameter may be off.
     pub diameter: Nm,
-    /// The pixel of the picture; none for an eighth of the narrowest kerf, within 5 µm to 25 µm.
+    /// Below this width a strip of clad between two cuts is a sliver.
+    pub sliver: Nm,
+    /// How thick the board is.
+    pub board: Nm,
+    /// How far the machine can go in x, y and z; none where nobody said so.
+    pub travel: Option<[Nm; 3]>,
+    /// How many tabs were asked for; none where nobody said so: at least one for each board.
+    pub tabs: Option<u32>,
+    /// The pixel of the picture; none for a quarter of the narrowest kerf, within 5 µm to 25 µm.
     pub pixel: Option<Nm>,
 }
 
 impl Default for Settings {
     /// Copper of 35 µm (one ounce); 10 µm into copper, twice what a centred cut may be off; crumbs of 0.01 mm², a tenth
-    /// of a millimetre square; 10 mm of stock; rapids 0.1 mm up; holes within 0.05 mm. All chosen.
+    /// of a millimetre square; 10 mm of stock; rapids 0.1 mm up; holes within 0.05 mm; strips of 0.05 mm; a board of
+    /// 1.6 mm. All chosen.
     fn default() -> Self {
         Self {
             copper: Nm::from_um(35),
@@ -108,6 +120,10 @@ impl Default for Settings {
             clearance: Nm::from_um(100),
             place: Nm::from_um(50),
             diameter: Nm::from_um(50),
+            sliver: Nm::from_um(50),
+            board: Nm::from_um(1600),
+            travel: None,
+            tabs: None,
             pixel: None,
         }
     }
@@ -239,7 +255,7 @@ fn judge(
             findings.extend(check::isolation(&sheet, settings));
         }
         Role::Drilling => findings.extend(check::drilling(programs, board, settings)),
-        Role::Cutout => {}
+        Role::Cutout => findings.extend(check::cutout(programs, board, settings)),
     }
     let programs = programs.iter().map(|program| program.file.clone()).collect();
     Ok((Judged { programs, role, resolution }, findings))

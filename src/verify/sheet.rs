@@ -8,8 +8,10 @@ use crate::grid::Grid;
 use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
 use crate::topology::{Method, NetId, Nets, Proximity, recover, surface};
 
-use super::machining::{Machining, Swept};
+use super::hit::{Hit, hits};
+use super::machining::{Machining, Swept, with_radius};
 use super::pieces::{Extent, Part, pieces};
+use super::walls::Walls;
 use super::{Error, Settings};
 
 /// Beyond the board's outline. What no label covers is clad that belongs to no net.
@@ -28,8 +30,16 @@ pub(super) struct Sheet<'a> {
     pub(super) proximity: Proximity,
     /// All that is cut, program by program in order.
     pub(super) cuts: Vec<Cut<'a>>,
-    /// What is left, in connected pieces.
+    /// What is left, in connected pieces, of a picture with kerfs narrower by [`DOUBT`]: whatever may hang together does.
     pub(super) parts: Vec<Part>,
+    /// The same with kerfs wider by as much: whatever may be cut apart is. None where the cuts leave all nets alone.
+    pub(super) parted: Option<Vec<Part>>,
+    /// Where the cuts take copper of nets.
+    pub(super) hits: Vec<Hit>,
+    /// What bounds the copper that is left.
+    pub(super) walls: Walls,
+    /// Half the narrowest kerf.
+    pub(super) half: Nm,
     outline: Option<Polygon>,
     grid: Grid,
 }
@@ -50,9 +60,17 @@ pub(super) enum Show {
     Design,
     /// The cuts alone.
     Cuts,
-    /// How far it is to the nearest cut or to the edge.
-    Distance,
+    /// How far it is to the way of the nearest cut, less what half its kerf has beyond half the narrowest.
+    Ways,
+    /// How far it is to the board's edge.
+    Edge,
 }
+
+/// In pixels, how much narrower or wider the cuts are drawn so that nothing that hangs together, or is apart, is missed.
+///
+/// A strip of a width of √2 pixels holds a row of pixel centres that share edges, whichever way it lies. A gap of any
+/// width between two cuts that are narrower by three quarters of a pixel each is wider than that.
+const DOUBT: f64 = 0.75;
 
 impl<'a> Sheet<'a> {
     /// Mills `copper` with `programs`.
@@ -67,7 +85,9 @@ impl<'a> Sheet<'a> {
         let of = |program: &'a Machining| program.swept.iter().map(move |swept| Cut { program, swept });
         let cuts: Vec<Cut<'a>> = programs.iter().flat_map(|&program| of(program)).collect();
         let outline = board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
-        let pitch = settings.pixel.unwrap_or_else(|| pixel(&cuts));
+        let half = cuts.iter().map(|cut| cut.swept.half()).min().unwrap_or(Nm::from_um(100));
+        let pitch = settings.pixel.unwrap_or_else(|| pixel(half));
+        let walls = Walls::new(&cuts, outline.as_ref());
         let area = area(copper, outline.as_ref(), &cuts, pitch);
         let grid = Grid::covering(area, pitch)?;
         let mut sheet = Self {
@@ -77,12 +97,24 @@ impl<'a> Sheet<'a> {
             proximity: Proximity::new(copper),
             cuts,
             parts: Vec::new(),
+            parted: None,
+            hits: Vec::new(),
+            walls,
+            half,
             outline,
             grid,
         };
-        let scene = sheet.scene(&grid, Show::Left);
-        sheet.parts = pieces(&scene, |label| label != CUT && label != OUTSIDE);
+        sheet.hits = hits(&sheet, settings.gouge);
+        sheet.parts = sheet.pieces(-DOUBT);
+        sheet.parted = (!sheet.hits.is_empty()).then(|| sheet.pieces(DOUBT));
         Ok(sheet)
+    }
+
+    /// What hangs together with all kerfs wider by twice so many pixels.
+    fn pieces(&self, wider: f64) -> Vec<Part> {
+        let wider = Nm::from_f64(self.pitch().to_f64() * wider);
+        let scene = self.scene(&self.grid, Show::Left, wider);
+        pieces(&scene, |label| label != CUT && label != OUTSIDE)
     }
 
     /// The pixel of its picture.
@@ -124,27 +156,35 @@ impl<'a> Sheet<'a> {
         let grid = Grid::covering(rect, pitch).expect("as many pixels as asked for");
         let draw = |show: &Show| {
             let mut buffers = Buffers::new();
-            render(&self.scene(&grid, *show), &mut buffers);
+            render(&self.scene(&grid, *show, Nm::ZERO), &mut buffers);
             buffers
         };
         (grid, show.iter().map(draw).collect())
     }
 
-    /// What is to be drawn on `grid`.
-    fn scene(&self, grid: &Grid, show: Show) -> Scene {
+    /// What is to be drawn on `grid`, all cuts wider by twice `wider`.
+    fn scene(&self, grid: &Grid, show: Show, wider: Nm) -> Scene {
         let mut scene = Scene::new(grid.width(), grid.height());
-        let seen = |shape: &Shape| show == Show::Distance || shape.bounds().touches(grid.rect());
-        let limit = if show == Show::Distance { None } else { Some(0.0) };
-        if show != Show::Design {
-            for cut in self.cuts.iter().filter(|cut| seen(&cut.swept.shape)) {
-                scene.add(Label(CUT), surface(&cut.swept.shape, grid, limit));
+        if matches!(show, Show::Left | Show::Cuts) {
+            for swept in self.cuts.iter().map(|cut| cut.swept) {
+                let shape = with_radius(&swept.shape, (swept.half() + wider).max(Nm::ZERO));
+                if shape.bounds().touches(grid.rect()) {
+                    scene.add(Label(CUT), surface(&shape, grid, Some(0.0)));
+                }
+            }
+        }
+        if show == Show::Ways {
+            for swept in self.cuts.iter().map(|cut| cut.swept) {
+                let shape = with_radius(&swept.shape, swept.half() - self.half);
+                scene.add(Label(CUT), surface(&shape, grid, None));
             }
         }
         if matches!(show, Show::Left | Show::Design) {
-            for (index, feature) in
-                self.copper.features.iter().enumerate().filter(|(_, feature)| seen(&feature.shape))
-            {
-                scene.add(Label(NETS + self.nets.of(index).0), surface(&feature.shape, grid, limit));
+            for (index, feature) in self.copper.features.iter().enumerate() {
+                if feature.shape.bounds().touches(grid.rect()) {
+                    let label = Label(NETS + self.nets.of(index).0);
+                    scene.add(label, surface(&feature.shape, grid, Some(0.0)));
+                }
             }
         }
         if let Some(outline) = &self.outline {
@@ -156,8 +196,8 @@ impl<'a> Sheet<'a> {
     /// The outside as an area, or the edge as what distances are counted from.
     fn edge(&self, outline: &Polygon, grid: &Grid, show: Show, scene: &mut Scene) {
         match show {
-            Show::Cuts => {}
-            Show::Distance => {
+            Show::Cuts | Show::Ways => {}
+            Show::Edge => {
                 for (from, to) in outline.edges() {
                     let edge = Shape::Stroke { from, to, radius: Nm::ZERO };
                     scene.add(Label(OUTSIDE), surface(&edge, grid, None));
@@ -176,10 +216,9 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// An eighth of the narrowest kerf, so that it is seen whole, within 5 µm to 25 µm.
-fn pixel(cuts: &[Cut<'_>]) -> Nm {
-    let narrowest = cuts.iter().map(|cut| cut.swept.half()).min().unwrap_or(Nm::from_um(100));
-    (narrowest / 4).max(Nm::from_um(5)).min(Nm::from_um(25))
+/// A quarter of the narrowest kerf, so that a cut that is drawn narrower is still a wall without doors, within 5 µm to 25 µm.
+fn pixel(half: Nm) -> Nm {
+    (half / 2).max(Nm::from_um(5)).min(Nm::from_um(25))
 }
 
 /// The sheet: the board, or without an outline all copper and cuts and a rim round them, which is clad and conducts.

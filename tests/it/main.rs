@@ -17,4 +17,5 @@ mod snapshot;
 mod toolpath;
 mod topology;
 mod verify;
+mod verify_mutations;
 mod voronoi;

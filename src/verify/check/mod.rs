@@ -6,13 +6,19 @@ mod gouge;
 mod hole_extra;
 mod hole_missing;
 mod hole_size;
+mod minimum_width;
 mod open;
 mod outside_stock;
+mod overtravel;
 mod plunge_spindle_off;
 mod rapid_in_material;
+mod recut;
 mod short;
+mod sliver;
+mod tab_missing;
+mod too_deep;
 
-use crate::board::{Board, Hole};
+use crate::board::{Board, Hole, Shape};
 use crate::gcode::read::Motion;
 use crate::geometry::{Nm, Point};
 use crate::topology::NetId;
@@ -39,6 +45,8 @@ enum Run {
     Isolation(fn(&Sheet<'_>, &Settings) -> Vec<Finding>),
     /// All drilling programs together.
     Drilling(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
+    /// All programs that cut out together.
+    Cutout(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
 }
 
 /// Every check.
@@ -47,20 +55,26 @@ pub const ALL: &[Check] = &[
     open::CHECK,
     destroyed::CHECK,
     gouge::CHECK,
+    minimum_width::CHECK,
+    sliver::CHECK,
+    recut::CHECK,
+    too_deep::CHECK,
     rapid_in_material::CHECK,
     plunge_spindle_off::CHECK,
     feed_missing::CHECK,
     outside_stock::CHECK,
+    overtravel::CHECK,
     hole_missing::CHECK,
     hole_extra::CHECK,
     hole_size::CHECK,
+    tab_missing::CHECK,
 ];
 
 /// The checks of any program.
 pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
     let run = |check: &Check| match check.run {
         Run::Motion(run) => run(program, board, settings),
-        Run::Isolation(_) | Run::Drilling(_) => Vec::new(),
+        Run::Isolation(_) | Run::Drilling(_) | Run::Cutout(_) => Vec::new(),
     };
     ALL.iter().flat_map(run).collect()
 }
@@ -69,7 +83,7 @@ pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) ->
 pub(super) fn isolation(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
     let run = |check: &Check| match check.run {
         Run::Isolation(run) => run(sheet, settings),
-        Run::Motion(_) | Run::Drilling(_) => Vec::new(),
+        Run::Motion(_) | Run::Drilling(_) | Run::Cutout(_) => Vec::new(),
     };
     ALL.iter().flat_map(run).map(|finding| Finding { side: Some(sheet.side), ..finding }).collect()
 }
@@ -78,7 +92,16 @@ pub(super) fn isolation(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> 
 pub(super) fn drilling(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
     let run = |check: &Check| match check.run {
         Run::Drilling(run) => run(programs, board, settings),
-        Run::Motion(_) | Run::Isolation(_) => Vec::new(),
+        Run::Motion(_) | Run::Isolation(_) | Run::Cutout(_) => Vec::new(),
+    };
+    ALL.iter().flat_map(run).collect()
+}
+
+/// The checks of what is cut out.
+pub(super) fn cutout(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
+    let run = |check: &Check| match check.run {
+        Run::Cutout(run) => run(programs, board, settings),
+        Run::Motion(_) | Run::Isolation(_) | Run::Drilling(_) => Vec::new(),
     };
     ALL.iter().flat_map(run).collect()
 }
@@ -130,6 +153,22 @@ fn designed(sheet: &Sheet<'_>, net: NetId) -> f64 {
 #[expect(clippy::cast_precision_loss, reason = "a display figure")]
 fn area(pixels: usize, pitch: Nm) -> f64 {
     pixels as f64 * pitch.to_mm() * pitch.to_mm()
+}
+
+/// The middles of `count` equal parts of a way, each with the part's length in nanometres; nothing where it only goes down.
+fn along(way: &Shape, count: u32) -> Vec<(Point, f64)> {
+    let spread = |length: f64, at: &dyn Fn(f64) -> (f64, f64)| {
+        let parts = (0..count).map(|i| at((f64::from(i) + 0.5) / f64::from(count)));
+        parts.map(|(x, y)| (Point::from_f64(x, y), length / f64::from(count))).collect()
+    };
+    match way {
+        Shape::Stroke { from, to, .. } => {
+            let ((x, y), way) = (from.to_f64(), *to - *from);
+            spread(way.length(), &|f| (x + way.x.to_f64() * f, y + way.y.to_f64() * f))
+        }
+        Shape::Arc { arc, .. } => spread(arc.radius() * arc.sweep().abs(), &|f| arc.at(f)),
+        Shape::Disc { .. } | Shape::Polygon(_) => Vec::new(),
+    }
 }
 
 /// How far a point is from where a hole's cutter goes, in nanometres.

@@ -1,7 +1,7 @@
 //! # What it checks
 //!
 //! No connected piece of what is left holds considerable parts of two nets. For every two that are joined: the bridge's narrowest place
-//! and its width, which is where the piece comes apart when all cuts, and the board's edge, are made ever wider.
+//! and its width, from face to face of the exact cuts on both sides of it.
 //!
 //! # Why
 //!
@@ -9,18 +9,19 @@
 //!
 //! # What it can miss
 //!
-//! Bridges narrower than a pixel (an eighth of the kerf, or 25 µm), which only a cut that fails by less leaves. Copper that is
-//! smeared across a groove.
+//! A bridge within three pixels of a place where the cuts of the same two nets only just meet. Copper that is smeared across a groove.
+
+use std::collections::BTreeMap;
 
 use super::{Check, Run, Severity, considerable};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point, Rect};
-use crate::grid::Grid;
 use crate::topology::NetId;
 use crate::verify::Settings;
+use crate::verify::flood::{Basin, Join, Water};
 use crate::verify::pieces::Part;
 use crate::verify::report::Finding;
-use crate::verify::sheet::{CUT, Cut, NETS, OUTSIDE, Sheet, Show};
+use crate::verify::sheet::{Cut, NETS, Sheet};
 
 pub(super) const CHECK: Check =
     Check { name: NAME, about: "two nets joined by copper that was left", run: Run::Isolation(check) };
@@ -31,6 +32,9 @@ fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
     let pieces = sheet.parts.chunk_by(|a, b| a.piece == b.piece);
     pieces.flat_map(|parts| joined(sheet, parts, settings)).collect()
 }
+
+/// Places where cuts only just meet that are looked behind for a bridge. Chosen.
+const ROUNDS: usize = 20;
 
 /// The shorts of a piece.
 fn joined(sheet: &Sheet<'_>, parts: &[Part], settings: &Settings) -> Vec<Finding> {
@@ -46,16 +50,28 @@ fn joined(sheet: &Sheet<'_>, parts: &[Part], settings: &Settings) -> Vec<Finding
         return Vec::new();
     }
     let place = parts.iter().map(|part| sheet.place(part.extent)).reduce(Rect::union);
-    let bridges = bridges(sheet, place.unwrap_or(sheet.rect()), &nets);
-    bridges.iter().map(|bridge| finding(sheet, bridge, nets.len())).collect()
+    let basin = Basin::new(sheet, place.unwrap_or(sheet.rect()));
+    let mut plugs: Vec<Point> = Vec::new();
+    for _ in 0..ROUNDS {
+        let (real, closed): (Vec<Bridge>, Vec<Bridge>) = bridges(sheet, &basin, &nets, &plugs)
+            .into_iter()
+            .partition(|bridge| bridge.width.is_none_or(|width| width > Nm::ZERO));
+        plugs.extend(closed.iter().map(|bridge| bridge.place));
+        if closed.is_empty() || !real.is_empty() {
+            return real.iter().map(|bridge| finding(sheet, bridge, nets.len())).collect();
+        }
+    }
+    Vec::new()
 }
 
 /// Two nets and the narrowest place of what joins them.
 struct Bridge {
     nets: (NetId, NetId),
     at: Point,
-    /// None where no cut is near.
+    /// None where no cut is near; not above zero where the cuts meet.
     width: Option<Nm>,
+    /// The pixel where they join.
+    place: Point,
 }
 
 fn finding(sheet: &Sheet<'_>, bridge: &Bridge, count: usize) -> Finding {
@@ -75,60 +91,52 @@ fn finding(sheet: &Sheet<'_>, bridge: &Bridge, count: usize) -> Finding {
 
 /// The cut nearest to a place.
 fn nearest<'a>(sheet: &Sheet<'a>, p: Point) -> Option<Cut<'a>> {
-    let off = |cut: &Cut<'_>| {
-        let (min, max) = (cut.swept.shape.bounds().min(), cut.swept.shape.bounds().max());
-        let beside = |low: Nm, at: Nm, high: Nm| (low - at).max(at - high).max(Nm::ZERO);
-        let beside = Point::new(beside(min.x, p.x, max.x), beside(min.y, p.y, max.y));
-        beside.distance(Point::default())
-    };
-    sheet.cuts.iter().copied().min_by(|a, b| off(a).total_cmp(&off(b)))
+    let (mut reach, most) = (Nm::from_um(500), sheet.rect().width().max(sheet.rect().height()) * 2);
+    while reach < most {
+        let walls = sheet.walls.around(p, reach);
+        if let Some(cut) = walls.iter().find_map(|wall| sheet.cuts.get(wall.index)) {
+            return Some(*cut);
+        }
+        reach = reach * 4;
+    }
+    None
 }
 
-/// Pixels along a side of the picture in which bridges are looked for, at most. Chosen: a second for the worst.
-const SIDE: u32 = 1200;
-
-/// The bridges between `nets`, which hang together within `place`: one fewer than there are nets.
-///
-/// Pixels come back one by one, the farthest from all cuts first; where one joins two parts of different nets, the bridge is
-/// narrowest there (Kruskal's maximum spanning tree).
-fn bridges(sheet: &Sheet<'_>, place: Rect, nets: &[NetId]) -> Vec<Bridge> {
-    let (grid, pictures) = sheet.window(place, sheet.pitch(), SIDE, &[Show::Left, Show::Distance]);
-    let (labels, depths) = (pictures[0].labels(), pictures[1].depths());
-    let mut order: Vec<u32> = (0_u32..)
-        .zip(labels)
-        .filter(|(_, label)| !matches!(**label, CUT | OUTSIDE))
-        .map(|(at, _)| at)
-        .collect();
-    order.sort_by(|&a, &b| depths[b as usize].total_cmp(&depths[a as usize]).then(a.cmp(&b)));
-    let mut flood = Flood::new(labels, nets);
+/// The bridges between `nets`, at most one fewer than there are nets, none through `plugs`.
+fn bridges(sheet: &Sheet<'_>, basin: &Basin, nets: &[NetId], plugs: &[Point]) -> Vec<Bridge> {
+    let (mut water, mut parts) = seeded(basin, nets);
     let mut bridges = Vec::new();
-    let (width, count) = (grid.width() as usize, labels.len());
-    for at in order.into_iter().map(|at| at as usize) {
-        flood.dry[at] = true;
-        let column = at % width;
-        let left = (column > 0).then(|| at - 1);
-        let right = (column + 1 < width).then_some(at + 1);
-        let neighbours =
-            [left, right, at.checked_sub(width), Some(at + width).filter(|&below| below < count)];
-        for other in neighbours.into_iter().flatten().filter(|&other| flood.dry[other]).collect::<Vec<_>>() {
-            if let Some(nets) = flood.join(at, other) {
-                bridges.push(bridge(sheet, &grid, at, depths[at], nets));
-            }
-        }
-        if bridges.len() + 1 >= nets.len() {
-            break;
-        }
-    }
+    basin.flood(&mut water, plugs, |Join { pixel, roots }| {
+        let Some(other) = parts.remove(&roots.1) else { return false };
+        let Some(one) = parts.get_mut(&roots.0) else {
+            parts.insert(roots.0, other);
+            return false;
+        };
+        bridges.push(bridge(sheet, basin, pixel, (one, &other)));
+        one.extend(other);
+        bridges.len() + 1 >= nets.len()
+    });
     bridges
 }
 
-fn bridge(sheet: &Sheet<'_>, grid: &Grid, at: usize, depth: f32, nets: (Vec<NetId>, Vec<NetId>)) -> Bridge {
-    let index = i64::try_from(at).unwrap_or(0);
-    let place = grid.center(index % i64::from(grid.width()), index / i64::from(grid.width()));
-    let width = depth.is_finite().then(|| Nm::from_f64(f64::from(depth) * 2.0 * grid.pitch().to_f64()));
-    let one = closest(sheet, place, &nets.0);
-    let other = closest(sheet, place, &nets.1);
-    Bridge { nets: (one.min(other), one.max(other)), at: place, width }
+/// A net is one part to begin with, wherever its pixels are: what joins it to itself is not looked for. By root, the nets.
+fn seeded(basin: &Basin, nets: &[NetId]) -> (Water, BTreeMap<u32, Vec<NetId>>) {
+    let mut water = Water::new(basin.labels.len());
+    let mut first: BTreeMap<u32, u32> = BTreeMap::new();
+    for (at, &label) in (0_u32..).zip(&basin.labels) {
+        if label >= NETS && nets.binary_search(&NetId(label - NETS)).is_ok() {
+            water.tie(*first.entry(label).or_insert(at), at);
+        }
+    }
+    let parts = first.into_iter().map(|(label, root)| (root, vec![NetId(label - NETS)])).collect();
+    (water, parts)
+}
+
+fn bridge(sheet: &Sheet<'_>, basin: &Basin, pixel: usize, nets: (&[NetId], &[NetId])) -> Bridge {
+    let (width, at) = basin.width(sheet, pixel);
+    let one = closest(sheet, at, nets.0);
+    let other = closest(sheet, at, nets.1);
+    Bridge { nets: (one.min(other), one.max(other)), at, width, place: basin.place(pixel) }
 }
 
 /// Which of `nets` is nearest to a place.
@@ -151,60 +159,4 @@ fn closest(sheet: &Sheet<'_>, place: Point, nets: &[NetId]) -> NetId {
         reach = reach * 4;
     }
     nets[0]
-}
-
-/// What has come back so far, in connected parts.
-struct Flood {
-    dry: Vec<bool>,
-    parent: Vec<u32>,
-    /// The nets in each part, at its root; the parts without are not in it.
-    nets: std::collections::BTreeMap<u32, Vec<NetId>>,
-}
-
-impl Flood {
-    fn new(labels: &[u32], nets: &[NetId]) -> Self {
-        let count = u32::try_from(labels.len()).expect("a small picture");
-        let mut flood =
-            Self { dry: vec![false; labels.len()], parent: (0..count).collect(), nets: Default::default() };
-        // A net is one to begin with, wherever its pixels are: what joins it to itself is not looked for.
-        for &net in nets {
-            let mut own =
-                (0_u32..).zip(labels).filter(|(_, label)| **label == net.0 + NETS).map(|(at, _)| at);
-            let Some(first) = own.next() else { continue };
-            for at in own {
-                flood.parent[at as usize] = first;
-            }
-            flood.nets.insert(first, vec![net]);
-        }
-        flood
-    }
-
-    fn find(&mut self, mut at: u32) -> u32 {
-        while self.parent[at as usize] != at {
-            let above = self.parent[self.parent[at as usize] as usize];
-            self.parent[at as usize] = above;
-            at = above;
-        }
-        at
-    }
-
-    /// Joins two pixels; the nets on both sides where that makes a bridge.
-    fn join(&mut self, a: usize, b: usize) -> Option<(Vec<NetId>, Vec<NetId>)> {
-        let [a, b] = [a, b].map(|at| self.find(u32::try_from(at).unwrap_or(0)));
-        if a == b {
-            return None;
-        }
-        self.parent[b as usize] = a;
-        match (self.nets.get(&a).cloned(), self.nets.remove(&b)) {
-            (Some(one), Some(other)) => {
-                self.nets.entry(a).or_default().extend_from_slice(&other);
-                Some((one, other))
-            }
-            (None, Some(other)) => {
-                self.nets.insert(a, other);
-                None
-            }
-            _ => None,
-        }
-    }
 }

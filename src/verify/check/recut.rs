@@ -1,0 +1,86 @@
+//! # What it checks
+//!
+//! How much of the way of the cutter lies where it has cut before, at least as deep: within a quarter of the kerf beside an earlier
+//! way. Told where it is more than a quarter.
+//!
+//! # Why
+//!
+//! It takes time, and a groove cut twice is wider than one cut once. Some is wise: cutting a short piece again is quicker than a lift.
+//!
+//! # What it can miss
+//!
+//! Passes that overlap by less than three quarters, as wide isolation does.
+
+use super::{Check, Run, Severity, along};
+use crate::board::Shape;
+use crate::geometry::{Nm, Point};
+use crate::verify::report::Finding;
+use crate::verify::sheet::{Cut, Sheet};
+
+pub(super) const CHECK: Check =
+    Check { name: NAME, about: "much of the way is cut twice", run: Run::Isolation(|sheet, _| check(sheet)) };
+
+const NAME: &str = "recut";
+
+/// The share that is told. Chosen: lifts that are saved by cutting again cost up to a sixth on the boards that were tried.
+const SHARE: f64 = 0.25;
+/// How much deeper a second cut in the same place is a pass of its own.
+const PASS: Nm = Nm::from_um(5);
+/// How near to the end of an earlier way a point is no longer on it, in nanometres: ways that follow one another share an end.
+const END: f64 = 1_000.0;
+
+fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+    let (mut all, mut again, mut first) = (0.0, 0.0, None);
+    for (index, cut) in sheet.cuts.iter().enumerate() {
+        let samples = samples(cut);
+        let Some(length) = samples.first().map(|(_, length)| *length) else { continue };
+        for &(at, _) in &samples {
+            all += length;
+            if is_cut(sheet, index, cut, at) {
+                again += length;
+                first = first.or(Some((at, *cut)));
+            }
+        }
+    }
+    let Some((at, cut)) = first.filter(|_| again > all * SHARE) else { return Vec::new() };
+    let message = format!("{:.0} % of the way is cut again: {:.1} mm", again / all * 100.0, again / 1e6);
+    vec![Finding {
+        at: Some(at),
+        size: Some(Nm::from_f64(again)),
+        program: Some(cut.program.file.clone()),
+        line: Some(cut.swept.line),
+        ..Finding::new(NAME, Severity::Info, message)
+    }]
+}
+
+/// Points along a cut about a kerf apart, each with the length that it stands for, in nanometres.
+fn samples(cut: &Cut<'_>) -> Vec<(Point, f64)> {
+    let length: f64 = along(&cut.swept.shape, 1).iter().map(|(_, length)| length).sum();
+    let kerf = cut.swept.half().to_f64() * 2.0;
+    let count = (1..1000).find(|&count| length <= kerf * f64::from(count)).unwrap_or(1000);
+    along(&cut.swept.shape, count)
+}
+
+/// Whether an earlier cut, at least as deep, passes beside a point.
+fn is_cut(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, at: Point) -> bool {
+    let half = cut.swept.half();
+    // As far from the face as a quarter of the kerf beside the middle is.
+    sheet.walls.around(at, -(half / 2)).into_iter().any(|wall| {
+        let earlier = sheet.cuts.get(wall.index).filter(|_| wall.index < index);
+        earlier.is_some_and(|earlier| {
+            let swept = earlier.swept;
+            let near = wall.distance <= (half / 2 - swept.half()).to_f64();
+            near && swept.depth >= cut.swept.depth - PASS && is_inside(&swept.shape, wall.foot)
+        })
+    })
+}
+
+/// Whether a point of a way is none of its ends.
+fn is_inside(way: &Shape, foot: Point) -> bool {
+    let off = |end: Point| end.distance(foot) > END;
+    match way {
+        Shape::Stroke { from, to, .. } => off(*from) && off(*to),
+        Shape::Arc { arc, .. } => arc.start == arc.end || (off(arc.start) && off(arc.end)),
+        Shape::Disc { .. } | Shape::Polygon(_) => false,
+    }
+}

@@ -1,0 +1,93 @@
+//! # What it checks
+//!
+//! No strip of clad between two cuts is thinner than given, along half a millimetre. Copper of nets is not clad: how thin
+//! that is the design says, and `minimum-width`.
+//!
+//! # Why
+//!
+//! A strip so thin comes off the board sooner or later, and lies across a groove.
+//!
+//! # What it can miss
+//!
+//! Strips between a cut and the board's edge. Shorter ones: where two cuts meet at a sharp angle there always is one, and its end
+//! holds it.
+
+use rayon::prelude::*;
+
+use super::{Check, Run, Severity, along};
+use crate::board::Shape;
+use crate::geometry::{Nm, Point};
+use crate::verify::Settings;
+use crate::verify::report::Finding;
+use crate::verify::sheet::Sheet;
+use crate::verify::walls::Neck;
+
+pub(super) const CHECK: Check =
+    Check { name: NAME, about: "a thin strip of copper left between two cuts", run: Run::Isolation(check) };
+
+const NAME: &str = "sliver";
+
+/// A place between two cuts.
+#[derive(Clone, Copy, Debug)]
+struct Thin {
+    /// The later of the two.
+    cut: usize,
+    neck: Neck,
+    /// Along how much of the later cut it is so, in nanometres.
+    length: f64,
+}
+
+/// A shorter strip is held by its ends, in nanometres. Chosen.
+const LONG: f64 = 500_000.0;
+/// Places along a cut at which it is measured. Chosen.
+const PLACES: u32 = 16;
+
+fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
+    let cuts = 0..sheet.cuts.len();
+    let thin: Vec<Thin> =
+        cuts.into_par_iter().flat_map_iter(|cut| beside(sheet, cut, settings.sliver)).collect();
+    let together = |a: &Thin, b: &Thin| {
+        b.cut - a.cut <= 2 || a.neck.at.distance(b.neck.at) <= settings.sliver.to_f64() * 3.0
+    };
+    let strips = thin.chunk_by(together);
+    let long = strips.filter(|strip| strip.iter().map(|thin| thin.length).sum::<f64>() >= LONG);
+    long.map(|strip| finding(sheet, strip)).collect()
+}
+
+/// The thin places between a cut and those before it.
+fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
+    let near = sheet.walls.beside(cut, sliver);
+    // Of ways that follow one another one touches the other: what is between the first and the third is no strip.
+    let apart = near.into_iter().filter(|(other, neck)| *other < cut && neck.width > 0.0);
+    let is_clad = |neck: &Neck| {
+        let spot = Shape::Disc { center: neck.at, radius: Nm::ZERO };
+        let covered = sheet.walls.around(neck.at, Nm::ZERO).iter().any(|wall| wall.distance < 0.0);
+        !covered && sheet.holds(neck.at) && sheet.proximity.near(&spot, Nm::ZERO).is_empty()
+    };
+    let strips = apart.filter(|(_, neck)| is_clad(neck));
+    strips.map(|(other, neck)| Thin { cut, neck, length: length(sheet, cut, other, sliver) }).collect()
+}
+
+/// Along how much of a cut another is so near, in nanometres.
+fn length(sheet: &Sheet<'_>, cut: usize, other: usize, sliver: Nm) -> f64 {
+    let swept = sheet.cuts[cut].swept;
+    let is_near = |&(at, _): &(Point, f64)| {
+        let walls = sheet.walls.around(at, swept.half() + sliver);
+        walls.iter().any(|wall| wall.index == other)
+    };
+    along(&swept.shape, PLACES).iter().filter(|place| is_near(place)).map(|(_, length)| length).sum()
+}
+
+fn finding(sheet: &Sheet<'_>, strip: &[Thin]) -> Finding {
+    let thinnest = strip.iter().copied().reduce(|a, b| if b.neck.width < a.neck.width { b } else { a });
+    let thinnest = thinnest.expect("a strip has places");
+    let (cut, at): (_, Point) = (sheet.cuts[thinnest.cut], thinnest.neck.at);
+    let width = Nm::from_f64(thinnest.neck.width);
+    Finding {
+        at: Some(at),
+        size: Some(width),
+        program: Some(cut.program.file.clone()),
+        line: Some(cut.swept.line),
+        ..Finding::new(NAME, Severity::Warning, format!("a strip of copper {width:.3} mm wide is left"))
+    }
+}

@@ -1,0 +1,87 @@
+//! Where the cutter reaches into copper of the design, measured on the exact shapes.
+
+use rayon::prelude::*;
+
+use crate::board::Shape;
+use crate::geometry::{Nm, Point};
+use crate::topology::{Near, NetId};
+
+use super::sheet::{Cut, Sheet};
+
+/// A piece of a cut that takes copper of a net.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    pub(super) cut: usize,
+    pub(super) net: NetId,
+    /// In nanometres; where the cutter's middle goes through copper, half the kerf.
+    pub(super) depth: f64,
+    pub(super) at: Point,
+    /// Whether the cutter's middle goes through copper.
+    pub(super) through: bool,
+    /// Whether the gap is narrower than the kerf.
+    pub(super) forced: bool,
+}
+
+/// All pieces of cuts that reach further than `tolerance` into a net: by net, what the gap forces apart from the rest, in order.
+pub(super) fn hits(sheet: &Sheet<'_>, tolerance: Nm) -> Vec<Hit> {
+    let cuts = sheet.cuts.par_iter().enumerate();
+    let mut hits: Vec<Hit> = cuts.flat_map_iter(|(index, cut)| taken(sheet, index, cut, tolerance)).collect();
+    hits.sort_by_key(|hit| (hit.net, hit.forced, hit.cut));
+    hits
+}
+
+/// The nets that a piece of a cut takes copper of, each once, at its deepest.
+fn taken(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, tolerance: Nm) -> Vec<Hit> {
+    let half = cut.swept.half();
+    let mut hits: Vec<Hit> = Vec::new();
+    for near in sheet.proximity.near(&cut.swept.axis(), half - tolerance) {
+        if near.width >= (half - tolerance).to_f64() || !sheet.holds(near.at) {
+            continue;
+        }
+        let net = sheet.nets.of(near.feature);
+        let depth = half.to_f64() - near.width;
+        let hit = Hit { cut: index, net, depth, at: near.at, through: near.width <= 0.0, forced: false };
+        match hits.iter_mut().find(|other| other.net == net) {
+            Some(other) if other.depth >= depth => {}
+            Some(other) => *other = hit,
+            None => hits.push(hit),
+        }
+    }
+    for hit in &mut hits {
+        hit.forced = forced(sheet, cut, hit, tolerance);
+    }
+    hits
+}
+
+/// Whether the gap between the net and the next one is narrower than the kerf, and the cut goes through its middle as far as
+/// it can.
+fn forced(sheet: &Sheet<'_>, cut: &Cut<'_>, hit: &Hit, tolerance: Nm) -> bool {
+    let kerf = cut.swept.half().to_f64() * 2.0;
+    let own = cut.swept.half().to_f64() - hit.depth;
+    let middle = Shape::Disc { center: on_axis(&cut.swept.axis(), hit.at), radius: Nm::ZERO };
+    let others = sheet.proximity.near(&middle, Nm::from_f64(kerf));
+    let others = others.iter().filter(|near| sheet.nets.of(near.feature) != hit.net);
+    let Some(other) = others.map(|near: &Near| near.width).reduce(f64::min) else { return false };
+    let gap = own + other;
+    gap < kerf && hit.depth <= (kerf - gap) / 2.0 + tolerance.to_f64()
+}
+
+/// The point of an axis nearest to `p`.
+pub(super) fn on_axis(axis: &Shape, p: Point) -> Point {
+    let (px, py) = p.to_f64();
+    match axis {
+        Shape::Stroke { from, to, .. } => {
+            let ((x, y), way) = (from.to_f64(), *to - *from);
+            let (ux, uy) = (way.x.to_f64(), way.y.to_f64());
+            let along = (((px - x) * ux + (py - y) * uy) / (ux * ux + uy * uy)).clamp(0.0, 1.0);
+            Point::from_f64(x + ux * along, y + uy * along)
+        }
+        Shape::Arc { arc, .. } => {
+            let ((x, y), radius) = (arc.center.to_f64(), arc.radius());
+            let away = arc.center.distance(p).max(1.0);
+            Point::from_f64(x + (px - x) / away * radius, y + (py - y) / away * radius)
+        }
+        Shape::Disc { center, .. } => *center,
+        Shape::Polygon(_) => p,
+    }
+}

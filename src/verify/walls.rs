@@ -1,0 +1,120 @@
+//! What bounds the copper that is left, exactly: the ways of the cutter with half the kerf round them, and the board's edge.
+
+use crate::board::{Axis, Copper, Feature, Shape, Side};
+use crate::geometry::{Nm, Point, Polygon, Vector};
+use crate::topology::Proximity;
+
+use super::sheet::Cut;
+
+/// Cuts and the board's edge, to be asked what is near.
+pub(super) struct Walls {
+    near: Proximity,
+    /// The axes of all cuts, then the edges of the outline.
+    axes: Vec<Shape>,
+    /// Half the kerf of each.
+    halves: Vec<Nm>,
+    widest: Nm,
+}
+
+/// A wall near a place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Wall {
+    /// Below the number of cuts, the cut; else the edge.
+    pub(super) index: usize,
+    /// How far its face is, in nanometres; negative within the kerf.
+    pub(super) distance: f64,
+    /// The point of its axis nearest to the place.
+    pub(super) foot: Point,
+}
+
+/// A place where what is left between two walls is narrowest.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Neck {
+    pub(super) at: Point,
+    /// From face to face in nanometres; not above zero where the walls meet.
+    pub(super) width: f64,
+}
+
+/// Steps towards the narrowest place. Chosen: two are enough for straight walls, the rest are for corners.
+const STEPS: usize = 5;
+
+impl Walls {
+    pub(super) fn new(cuts: &[Cut<'_>], outline: Option<&Polygon>) -> Self {
+        let mut axes: Vec<Shape> = cuts.iter().map(|cut| cut.swept.axis()).collect();
+        let mut halves: Vec<Nm> = cuts.iter().map(|cut| cut.swept.half()).collect();
+        let edges = outline.into_iter().flat_map(Polygon::edges).filter(|(from, to)| from != to);
+        axes.extend(edges.map(|(from, to)| Shape::Stroke { from, to, radius: Nm::ZERO }));
+        halves.resize(axes.len(), Nm::ZERO);
+        let widest = halves.iter().copied().max().unwrap_or(Nm::ZERO);
+        let feature =
+            |shape: &Shape| Feature { shape: shape.clone(), axis: Axis::Region, attributes: 0, line: 0 };
+        let features = axes.iter().map(feature).collect();
+        // As if they were copper: how near shapes are to each other is known of copper.
+        let copper = Copper { side: Side::Front, features, attributes: vec![Default::default()] };
+        Self { near: Proximity::new(&copper), axes, halves, widest }
+    }
+
+    /// The walls whose faces are within `reach` of `p`, the nearest first.
+    pub(super) fn around(&self, p: Point, reach: Nm) -> Vec<Wall> {
+        let spot = Shape::Disc { center: p, radius: Nm::ZERO };
+        let near = self.near.near(&spot, self.widest + reach);
+        let wall = |near: &crate::topology::Near| Wall {
+            index: near.feature,
+            distance: near.width - self.halves[near.feature].to_f64(),
+            foot: near.at + (near.at - p),
+        };
+        let mut walls: Vec<Wall> =
+            near.iter().map(wall).filter(|wall| wall.distance <= reach.to_f64()).collect();
+        walls.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.index.cmp(&b.index)));
+        walls
+    }
+
+    /// The walls whose faces come within `reach` of that of wall `index`: which, how far, and the middle between the axes.
+    pub(super) fn beside(&self, index: usize, reach: Nm) -> Vec<(usize, Neck)> {
+        let own = self.halves[index];
+        let near = self.near.near(&self.axes[index], own + self.widest + reach);
+        let gap = |near: crate::topology::Near| {
+            let width = near.width - (own + self.halves[near.feature]).to_f64();
+            (near.feature, Neck { at: near.at, width })
+        };
+        near.into_iter().map(gap).filter(|(_, neck)| neck.width <= reach.to_f64()).collect()
+    }
+
+    /// The neck at about `p`, between walls on both sides of it whose faces are within `reach`; none where there is a wall on no
+    /// more than one side.
+    ///
+    /// From the nearest wall and the nearest one across it goes to where these two are nearest to each other, and looks again.
+    pub(super) fn neck(&self, p: Point, reach: Nm) -> Option<Neck> {
+        let mut best = self.across(p, reach)?.1;
+        let mut at = p;
+        for _ in 0..STEPS {
+            let Some(((one, other), here)) = self.across(at, reach) else { break };
+            if here.width < best.width {
+                best = here;
+            }
+            let facing = self.beside(one, reach + reach).into_iter().find(|(index, _)| *index == other);
+            // Two ways that meet elsewhere say nothing about this place.
+            let Some((_, neck)) = facing.filter(|(_, neck)| neck.at.distance(p) <= reach.to_f64() / 2.0)
+            else {
+                break;
+            };
+            if neck.width < best.width {
+                best = neck;
+            }
+            if neck.at == at {
+                break;
+            }
+            at = neck.at;
+        }
+        Some(best)
+    }
+
+    /// The nearest wall, the nearest on the other side of `p`, and how wide it is between them there.
+    fn across(&self, p: Point, reach: Nm) -> Option<((usize, usize), Neck)> {
+        let walls = self.around(p, reach);
+        let first = walls.first()?;
+        let way = first.foot - p;
+        let other = walls.iter().find(|wall| Vector::dot(wall.foot - p, way) < 0)?;
+        Some(((first.index, other.index), Neck { at: p, width: first.distance + other.distance }))
+    }
+}
