@@ -1,0 +1,75 @@
+//! Time by stage and peak memory over boards of 10 to 10⁶ features: `cargo bench --bench scale [-- FEATURES…]`.
+//!
+//! A plain program: each size runs in a process of its own, so that its peak memory can be told. Without sizes it takes
+//! 10 to 100 000; a million takes some minutes. Times are seconds on all cores, except for the last column.
+#![allow(clippy::print_stdout, reason = "a program that prints its figures")]
+
+mod synthetic;
+
+use std::path::Path;
+use std::process::Command;
+use std::time::Instant;
+
+use voromill::board::Side;
+use voromill::import;
+use voromill::job::{self, Options, Settings};
+use voromill::topology::{self, Method};
+
+fn main() {
+    let sizes: Vec<usize> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
+    if let ([size], Some(_)) = (&sizes[..], std::env::var_os("VOROMILL_SCALE_ONE")) {
+        return one(*size);
+    }
+    println!("features       read     nets      gap     rest    total  nets/rest  µs/feature  peak MiB");
+    let default = [10, 100, 1000, 10_000, 100_000];
+    for size in if sizes.is_empty() { default.to_vec() } else { sizes } {
+        let own = std::env::current_exe().expect("a program has a name");
+        let status = Command::new(own).arg(size.to_string()).env("VOROMILL_SCALE_ONE", "1").status();
+        assert!(status.expect("it starts").success(), "a board of {size} features is milled");
+    }
+}
+
+/// Mills one board, stage by stage first and then as a whole.
+fn one(size: usize) {
+    let (text, features) = synthetic::gerber(size);
+    let folder = std::env::temp_dir().join(format!("voromill-scale-{size}-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder to write to");
+    let path = folder.join("synthetic.gbr");
+    std::fs::write(&path, text).expect("writable");
+    let figures = stages(&path);
+    std::fs::remove_dir_all(&folder).expect("ours");
+    let [read, nets, gap, rest] = figures;
+    let total = read + nets + gap + rest;
+    #[expect(clippy::cast_precision_loss, reason = "a count of features")]
+    let each = total * 1e6 / features as f64;
+    let share = nets / (total - nets);
+    println!(
+        "{features:8} {read:10.4} {nets:8.4} {gap:8.4} {rest:8.3} {total:8.3} {share:10.3} {each:11.1} {:9}",
+        peak_mib().map_or("?".to_owned(), |mib| mib.to_string())
+    );
+}
+
+/// Seconds to read the file, to find the nets, the smallest gap, and for all that comes after.
+fn stages(path: &Path) -> [f64; 4] {
+    let (loaded, read) = timed(|| import::load_copper(path, Side::Front).expect("a good file"));
+    let copper = loaded.board.copper(Side::Front).expect("a front");
+    let (found, nets) = timed(|| topology::recover(copper, Method::Contact));
+    let (_, gap) = timed(|| topology::smallest_gap(copper, &found));
+    drop(found);
+    let settings = Settings::resolve(Options::default()).expect("the defaults");
+    let (_, whole) = timed(|| job::mill(loaded, &settings).expect("it is milled"));
+    [read, nets, gap, whole - nets - gap]
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let made = work();
+    (made, start.elapsed().as_secs_f64())
+}
+
+/// Peak resident memory of the process so far, in MiB; none where the system does not say.
+fn peak_mib() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kib| kib / 1024)
+}

@@ -1,0 +1,145 @@
+//! Boards of any size that look like real ones, as Gerber text: tiles of 10 × 10 mm, each a bus, a fine-pitch field, a
+//! plane with thermals or a field of holes with traces between, all of it with gaps of 0.2 mm and more.
+
+use std::fmt::Write as _;
+
+/// Millimetres along a side of a tile.
+const TILE: i64 = 10;
+
+/// A splitmix64 generator: the same board on every machine.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, bound: u64) -> i64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        i64::try_from((((z ^ (z >> 31)) >> 32) * bound) >> 32).expect("32 bits")
+    }
+}
+
+/// A copper layer of about `features` features, and how many it has.
+pub(crate) fn gerber(features: usize) -> (String, usize) {
+    let mut layer = Layer { text: HEADER.to_owned(), features: 0, origin: (0, 0) };
+    let mut random = Random(7);
+    let along = (features / 90).max(1).isqrt().max(1);
+    for number in 0.. {
+        if layer.features >= features {
+            break;
+        }
+        let tile = (number % along, number / along);
+        layer.origin = (
+            i64::try_from(tile.0).expect("small") * TILE * 1000,
+            i64::try_from(tile.1).expect("small") * TILE * 1000,
+        );
+        match (tile.0 + tile.1 * 3) % 4 {
+            0 => layer.bus(&mut random),
+            1 => layer.field(),
+            2 => layer.plane(),
+            _ => layer.holes(&mut random),
+        }
+    }
+    layer.text.push_str("M02*\n");
+    (layer.text, layer.features)
+}
+
+/// Apertures: 10 trace, 11 round pad, 12 fine pad lying, 13 fine pad standing, 14 via, 15 antipad, 16 spoke.
+const HEADER: &str = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.2*%\n%ADD11C,1.6*%\n%ADD12R,0.8X0.3*%\n%ADD13R,0.3X0.8*%\n\
+    %ADD14C,0.5*%\n%ADD15C,1.2*%\n%ADD16C,0.25*%\nG01*\n";
+
+struct Layer {
+    text: String,
+    features: usize,
+    /// The tile's corner in micrometres.
+    origin: (i64, i64),
+}
+
+impl Layer {
+    fn say(&mut self, aperture: u32, at: (i64, i64), operation: &str) {
+        let (x, y) = ((self.origin.0 + at.0) * 1000, (self.origin.1 + at.1) * 1000);
+        let _ = writeln!(self.text, "D{aperture}*\nX{x}Y{y}{operation}*");
+    }
+
+    fn flash(&mut self, aperture: u32, at: (i64, i64)) {
+        self.say(aperture, at, "D03");
+        self.features += 1;
+    }
+
+    fn trace(&mut self, aperture: u32, points: &[(i64, i64)]) {
+        self.say(aperture, points[0], "D02");
+        for &to in &points[1..] {
+            self.say(aperture, to, "D01");
+            self.features += 1;
+        }
+    }
+
+    /// Sixteen traces side by side, with a jog, and a via at each end.
+    fn bus(&mut self, random: &mut Random) {
+        let jog = 2000 + random.below(3000);
+        for line in 0..16 {
+            let y = 500 + line * 500;
+            self.trace(10, &[(500, y), (jog, y), (jog + 1000, y + 1000), (9500, y + 1000)]);
+            self.flash(14, (500, y));
+            self.flash(14, (9500, y + 1000));
+        }
+    }
+
+    /// A package with 48 pads around it, each with a trace to a via.
+    fn field(&mut self) {
+        for pad in 0..12 {
+            let along = 2250 + pad * 500;
+            // Vias take turns near and far, or they would touch.
+            let far = 400 + pad % 2 * 600;
+            for (aperture, at, via) in [
+                (12, (2000, along), (far, along)),
+                (12, (8000, along), (TILE * 1000 - far, along)),
+                (13, (along, 2000), (along, far)),
+                (13, (along, 8000), (along, TILE * 1000 - far)),
+            ] {
+                self.flash(aperture, at);
+                self.trace(10, &[at, via]);
+                self.flash(14, via);
+            }
+        }
+    }
+
+    /// A filled area with sixteen pads of its own on four spokes each, cut free by clear discs.
+    fn plane(&mut self) {
+        let (x0, y0) = ((self.origin.0 + 300) * 1000, (self.origin.1 + 300) * 1000);
+        let (x1, y1) = (x0 + 9_400_000, y0 + 9_400_000);
+        let _ = writeln!(
+            self.text,
+            "G36*\nX{x0}Y{y0}D02*\nX{x1}Y{y0}D01*\nX{x1}Y{y1}D01*\nX{x0}Y{y1}D01*\nX{x0}Y{y0}D01*\nG37*"
+        );
+        self.features += 1;
+        let places: Vec<_> = (0..16).map(|pad| (1500 + pad % 4 * 2300, 1500 + pad / 4 * 2300)).collect();
+        self.text.push_str("%LPC*%\n");
+        places.iter().for_each(|&at| self.flash(15, at));
+        self.text.push_str("%LPD*%\n");
+        for (number, &(x, y)) in places.iter().enumerate() {
+            self.flash(14, (x, y));
+            // Every third is a via of another net.
+            if number % 3 != 0 {
+                self.trace(16, &[(x - 800, y), (x, y), (x + 800, y)]);
+                self.trace(16, &[(x, y - 800), (x, y), (x, y + 800)]);
+            }
+        }
+    }
+
+    /// Rows of pads for leads, joined here and there to a neighbour.
+    fn holes(&mut self, random: &mut Random) {
+        for pad in 0..16 {
+            let (x, y) = (1200 + pad % 4 * 2540, 1200 + pad / 4 * 2540);
+            self.flash(11, (x, y));
+            match random.below(4) {
+                0 if pad % 4 < 3 => self.trace(10, &[(x, y), (x + 2540, y)]),
+                1 if pad / 4 < 3 => self.trace(10, &[(x, y), (x, y + 2540)]),
+                2 if pad % 4 < 3 && pad / 4 < 3 => {
+                    self.trace(10, &[(x + 1270, y - 900), (x + 1270, y + 900), (x + 1500, y + 1270)]);
+                }
+                _ => self.trace(10, &[(x, y), (x, y + 1200)]),
+            }
+        }
+    }
+}
