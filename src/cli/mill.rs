@@ -28,8 +28,8 @@ pub(super) struct Mill {
     input: Input,
 
     /// Folder for what is made
-    #[arg(long, short, value_name = "OUT")]
-    output: PathBuf,
+    #[arg(long, short, value_name = "OUT", required_unless_present = "cache_key")]
+    output: Option<PathBuf>,
 
     /// Do not read the programs back, mill them on a picture and compare with the board
     #[arg(long, help_heading = "Output")]
@@ -42,6 +42,10 @@ pub(super) struct Mill {
     /// Print the report as JSON on stdout
     #[arg(long, help_heading = "Output")]
     json: bool,
+
+    /// Print a name for what would be made, and make nothing: the same for the same files, settings and version
+    #[arg(long, help_heading = "Output", conflicts_with_all = ["output", "json"])]
+    cache_key: bool,
 
     #[command(flatten)]
     config: Config,
@@ -60,6 +64,14 @@ impl Mill {
         let progress = Progress::start(shared);
         progress.say("reading");
         let loaded = self.input.load()?;
+        let Some(folder) = &self.output else {
+            drop(progress);
+            super::print(&format!(
+                "{}\n",
+                job::cache_key(&loaded, &settings, &[("no-verify", self.no_verify.to_string())])
+            ));
+            return Ok(ExitCode::SUCCESS);
+        };
         progress.say("finding the way between nets");
         let job = job::mill(loaded, &settings)?;
         let mut document = job.describe(&settings);
@@ -74,9 +86,9 @@ impl Mill {
         let files = files(&job, &document, &settings)?;
         progress.say("writing");
         let mut output = Output::new();
-        output.make_folder(&self.output)?;
+        output.make_folder(folder)?;
         for (name, bytes) in &files {
-            output.stage(&self.output.join(name), bytes)?;
+            output.stage(&folder.join(name), bytes)?;
         }
         output.commit()?;
         drop(progress);

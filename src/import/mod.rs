@@ -23,5 +23,6 @@ mod naming;
 pub mod outline;
 mod settle;
 
+pub(crate) use digest::sha256;
 pub use error::{Diagnosis, Error};
 pub use load::{Loaded, Selection, load, load_copper};

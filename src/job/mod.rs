@@ -3,6 +3,7 @@
 //! [`Options`] are what a person wrote, on the command line or in `voromill.toml`; [`Settings`] are those and the
 //! defaults, complete and checked; [`mill`] does the work, in memory. Who calls it decides what becomes a file.
 
+mod cache_key;
 mod describe;
 mod error;
 mod inspect;
@@ -16,6 +17,7 @@ mod show;
 mod verification;
 mod written;
 
+pub use cache_key::cache_key;
 pub use error::Error;
 pub use inspect::inspect;
 pub use layer::Layer;

@@ -36,6 +36,31 @@ fn every_dialect_writes_a_program_that_reads_back() {
 }
 
 #[test]
+fn a_cache_key_changes_with_files_and_settings_and_with_nothing_else() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards");
+    let temporary = tempfile::tempdir().expect("a folder");
+    let copy = temporary.path().to_path_buf();
+    for entry in std::fs::read_dir(folder.join("blinker")).expect("readable") {
+        let path = entry.expect("an entry").path();
+        std::fs::copy(&path, copy.join(path.file_name().expect("a name"))).expect("writable");
+    }
+    let key = |path: &Path, settings: &str| {
+        let loaded = import::load(&[path.to_path_buf()], &Selection::default()).expect("a board");
+        let options = Options::from_toml("voromill.toml", settings).expect("settings");
+        job::cache_key(&loaded, &Settings::resolve(options).expect("settings"), &[])
+    };
+    let first = key(&copy, "");
+    assert_eq!(first.len(), 64, "SHA-256 in hexadecimal");
+    assert_eq!(first, key(&folder.join("blinker"), ""), "in another folder");
+    assert_eq!(first, key(&copy, "tabs = 4"), "with a default said aloud");
+    assert_ne!(first, key(&copy, "tabs = 3"), "with another setting");
+    let copper = copy.join("blinker-B_Cu.gbr");
+    let text = std::fs::read_to_string(&copper).expect("readable");
+    std::fs::write(&copper, text + "G04 a comment*\n").expect("writable");
+    assert_ne!(first, key(&copy, ""), "with another file, even one that means the same");
+}
+
+#[test]
 fn without_an_outline_the_frame_is_cut_unless_told_otherwise() {
     let layer = "blinker/blinker-B_Cu.gbr";
     let (framed, _) = job(layer, "");
