@@ -61,6 +61,10 @@ enum Stage {
     Translucent,
     /// Voronoi regions and their boundaries
     Voronoi,
+    /// The boundaries alone, with the points where they meet
+    Boundaries,
+    /// The boundaries by the room that they leave on either side: red where there is least, blue from a millimetre on
+    Heat,
     /// How far from copper, dark to light
     Depth,
     /// What is cut, at its true width, and the way through the air
@@ -148,6 +152,8 @@ impl Stage {
             Self::Translucent => png::rgb(translucent(shown.copper, &grid).map_err(job::Error::from)?),
             Self::Nets => png::rgb(picture::nets(shown.board, shown.copper, shown.nets, grid)),
             Self::Voronoi => png::rgb(picture::voronoi(&shown, grid)),
+            Self::Boundaries => png::rgb(picture::boundaries(&shown, grid)),
+            Self::Heat => png::rgb(picture::heat(&shown, grid)),
             Self::Depth => png::grey(&grid, &picture::depth(shown.diagram, &grid)),
             Self::Toolpath => png::rgb(picture::toolpath(&shown, grid, true)),
         })

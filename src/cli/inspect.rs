@@ -1,5 +1,5 @@
 use clap::{Args, ValueEnum};
-use voromill::job::inspect;
+use voromill::job::{inspect, paper};
 
 use super::config::Config;
 use super::input::Input;
@@ -18,6 +18,12 @@ pub(super) struct Inspect {
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 
+    /// Add the figures of the paper's Table V, computed the paper's way at 500 DPI, and voromill's own beside them
+    ///
+    /// Run times are among them, so no two runs print the same.
+    #[arg(long)]
+    paper: bool,
+
     #[command(flatten)]
     config: Config,
 }
@@ -31,7 +37,13 @@ enum Format {
 impl Inspect {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input.paths)?;
-        let inspection = inspect(&self.input.load()?, &settings);
+        let loaded = self.input.load()?;
+        let mut inspection = inspect(&loaded, &settings);
+        if self.paper {
+            for layer in &mut inspection.layers {
+                layer.paper = paper(&loaded.board, layer.side)?;
+            }
+        }
         super::print(&match self.format {
             Format::Text => inspection.to_text(shared.verbose),
             Format::Json => inspection.to_json(),

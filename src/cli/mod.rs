@@ -104,7 +104,7 @@ fn command() -> clap::Command {
             let key = argument.get_id().as_str().replace('_', "-");
             let default = defaults.iter().find(|(name, _)| *name == key).map(|(_, value)| value);
             match (default, argument.get_help().cloned()) {
-                (Some(default), Some(help)) if key != "frame" => {
+                (Some(default), Some(help)) if key != "frame" && key != "min-width" => {
                     argument.help(format!("{help} [default: {default}]"))
                 }
                 _ => argument,

@@ -124,6 +124,7 @@ fn diagram_settings(settings: &Settings, gap: Option<&Gap>) -> voronoi::Settings
             // Half the kerf, and what fitting may take of it: the loop never touches the copper it goes round.
             Strategy::Outline => Some(settings.kerf() / 2 + settings.tolerance),
         },
+        min_width: settings.min_width,
         tolerance: settings.tolerance,
         // The end of a cut is round: with half a kerf beyond the outline its whole width reaches the edge, and a fine
         // cutter leaves no scratches outside.

@@ -74,6 +74,10 @@ pub struct Options {
     #[arg(long = "no-frame", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
     pub frame: Option<bool>,
 
+    /// With core axes: let boundaries run through copper that a neighbour's axis is nearer to, as without the paper's minimum width
+    #[arg(long = "no-min-width", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
+    pub min_width: Option<bool>,
+
     /// How touching copper is found: contact, translucency, coincidence; all compares them in inspect
     #[arg(long, value_enum, hide_possible_values = true, value_name = "METHOD", help_heading = "Isolation")]
     pub topology: Option<Topology>,
@@ -217,6 +221,7 @@ impl Options {
             pixel,
             dpi,
             frame: self.frame.or(others.frame),
+            min_width: self.min_width.or(others.min_width),
             topology: self.topology.or(others.topology),
             tolerance: self.tolerance.or(others.tolerance),
             narrow: self.narrow.or(others.narrow),

@@ -31,6 +31,8 @@ pub struct Settings {
     pub pixel: Nm,
     /// Whether a lap is cut round copper without an outline.
     pub frame: bool,
+    /// Whether with core axes every region holds at least its net's copper.
+    pub min_width: bool,
     /// How touching copper is found.
     pub topology: Topology,
     /// How far a fitted cut may leave its place.
@@ -128,6 +130,7 @@ impl Settings {
             limit: given("limit", options.limit)?,
             pixel: pixel(&options)?,
             frame: options.frame.expect(open),
+            min_width: options.min_width.expect(open),
             topology: options.topology.expect(open),
             tolerance: positive("tolerance", options.tolerance)?,
             dialect: options.dialect.expect(open).0,

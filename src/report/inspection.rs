@@ -8,6 +8,7 @@ use crate::board::{Side, Source};
 
 use super::document::{DrillEntry, GapEntry, Millimetres, NetEntry, WarningEntry};
 use super::methods::MethodsEntry;
+use super::paper::PaperEntry;
 use super::summary::{count, warnings};
 
 /// What `voromill inspect` says.
@@ -49,6 +50,9 @@ pub struct InspectedLayer {
     /// How the three ways to find nets compare, where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub methods: Option<MethodsEntry>,
+    /// The paper's figures, where they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub paper: Option<PaperEntry>,
 }
 
 impl Inspection {
@@ -144,5 +148,6 @@ fn layer(layer: &InspectedLayer, verbose: bool) -> String {
         let _ = writeln!(text, "  {}{more}", named[..named.len() - rest].join(", "));
     }
     text.extend(layer.methods.as_ref().map(|methods| methods.to_text(verbose)));
+    text.extend(layer.paper.as_ref().map(PaperEntry::to_text));
     text
 }

@@ -8,6 +8,7 @@ pub mod legend;
 mod lettering;
 pub mod methods;
 mod palette;
+pub mod paper;
 pub mod picture;
 pub mod png;
 mod summary;

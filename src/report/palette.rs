@@ -24,6 +24,10 @@ pub(super) const HOLE: Rgb = Rgb(0x07, 0x08, 0x0b);
 pub(super) const EDGE: Rgb = Rgb(0x8a, 0xa0, 0xb8);
 /// Rapid moves.
 pub(super) const RAPID: Rgb = Rgb(0xff, 0x5d, 0x8f);
+/// No room beside a cut, some, and plenty.
+pub(super) const HOT: Rgb = Rgb(0xff, 0x2b, 0x2b);
+pub(super) const WARM: Rgb = Rgb(0xff, 0xd1, 0x3d);
+pub(super) const COLD: Rgb = Rgb(0x3d, 0x8b, 0xff);
 /// Lettering.
 pub(super) const INK: Rgb = Rgb(0xd7, 0xde, 0xe8);
 

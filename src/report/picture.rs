@@ -10,8 +10,8 @@ use crate::toolpath::{Move, Placement, Section};
 use crate::topology::{self, Nets};
 use crate::voronoi::{Boundaries, Diagram, Owner};
 
-use super::palette::{COPPER, CUT, EDGE, GROUND, HOLE, INK, RAPID, SUBSTRATE, tints, vivid};
-use super::{Canvas, Lettering};
+use super::palette::{COLD, COPPER, CUT, EDGE, GROUND, HOLE, HOT, INK, RAPID, SUBSTRATE, WARM, tints, vivid};
+use super::{Canvas, Lettering, Rgb};
 
 /// What was done to one side of a board, as far as a picture shows it.
 #[derive(Clone, Copy)]
@@ -66,6 +66,52 @@ pub fn voronoi(side: &Shown<'_>, grid: Grid) -> Canvas {
     let lines = side.boundaries.edges.iter().filter(|edge| !edge.is_border()).map(|edge| &edge.path);
     canvas.strokes(lines, Nm::ZERO, CUT, 1.0);
     holes(&mut canvas, &side.board.holes);
+    canvas
+}
+
+/// The boundaries as a graph over dimmed copper: lines, and a dot where they meet or end.
+#[must_use]
+pub fn boundaries(side: &Shown<'_>, grid: Grid) -> Canvas {
+    let dot = grid.pitch() * 2;
+    let mut canvas = dimmed(side, grid);
+    canvas.strokes(side.boundaries.edges.iter().map(|edge| &edge.path), Nm::ZERO, CUT, 1.0);
+    for &node in &side.boundaries.nodes {
+        canvas.disc(node, dot, RAPID, 1.0);
+    }
+    canvas
+}
+
+/// The clearance from which on a boundary is as free as it can be shown to be.
+const FREE: Nm = Nm::from_mm(1);
+
+/// The freedom of each stretch of boundary over dimmed copper: how far its narrower end is from copper, red to blue.
+#[must_use]
+pub fn heat(side: &Shown<'_>, grid: Grid) -> Canvas {
+    let width = grid.pitch() * 3;
+    let mut canvas = dimmed(side, grid);
+    for edge in side.boundaries.edges.iter().filter(|edge| !edge.is_border()) {
+        for ((from, &segment), room) in edge.path.steps().zip(edge.clearance.windows(2)) {
+            let stretch = Path { start: from, segments: vec![segment] };
+            canvas.stroke(&stretch, width, freedom(room[0].min(room[1])), 1.0);
+        }
+    }
+    canvas
+}
+
+/// Red at no room, over yellow, to blue from [`FREE`] on.
+fn freedom(room: Nm) -> Rgb {
+    let way = |part: i64| u8::try_from(part.clamp(0, 255)).unwrap_or(u8::MAX);
+    let share = room.get() * 510 / FREE.get();
+    if share < 255 { HOT.towards(WARM, way(share)) } else { WARM.towards(COLD, way(share - 255)) }
+}
+
+/// Ground, and copper just to be made out.
+fn dimmed(side: &Shown<'_>, grid: Grid) -> Canvas {
+    let mut canvas = Canvas::new(grid, GROUND);
+    substrate(&mut canvas, side.board.outline.as_ref());
+    for feature in &side.copper.features {
+        canvas.fill(&feature.shape, GROUND.towards(COPPER, 80));
+    }
     canvas
 }
 

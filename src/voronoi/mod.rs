@@ -15,6 +15,8 @@
 mod copper;
 mod edge;
 mod fit;
+mod measure;
+pub mod paper;
 mod passes;
 mod place;
 mod plane;

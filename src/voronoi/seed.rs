@@ -209,7 +209,7 @@ impl Sites {
 }
 
 /// The axis of a feature, if its copper still holds the axis: clear polarity may have cut it away.
-fn core(feature: &Feature) -> Option<Axis> {
+pub(super) fn core(feature: &Feature) -> Option<Axis> {
     let probe = match feature.axis {
         Axis::Flash(p) => p,
         Axis::Line(a, b) => a.midpoint(b),

@@ -1,0 +1,78 @@
+use std::time::Instant;
+
+use crate::board::{Board, Copper, Side};
+use crate::geometry::Nm;
+use crate::report::paper::{Columns, PaperEntry, Paths};
+use crate::topology::{self, Method, Nets, Sampling};
+use crate::voronoi::paper::{Paper, Toolpaths, mean_width};
+use crate::voronoi::{self, Diagram};
+
+use super::Error;
+
+/// The figures of the paper's Table V for a side, its own way and by exact boundaries; none where there is no copper.
+///
+/// # Errors
+///
+/// [`Error`] for a board too large to be drawn.
+pub fn paper(board: &Board, side: Side) -> Result<Option<PaperEntry>, Error> {
+    let Some(copper) = board.copper(side) else { return Ok(None) };
+    let started = Instant::now();
+    let coincident = topology::recover(copper, Method::Coincidence);
+    let nets = topology::translucency(copper, &coincident, Sampling::default())?.nets;
+    let overlap = started.elapsed();
+    let Some(drawn) = Paper::new(copper, &nets)? else { return Ok(None) };
+    let started = Instant::now();
+    let voronoi = drawn.voronoi();
+    let toolpaths = started.elapsed();
+    let strokes = drawn.stroke_lengths();
+    Ok(Some(PaperEntry {
+        coincident: coincident.nets().len(),
+        traces: nets.nets().len(),
+        area_in2: drawn.board().width().to_f64() * drawn.board().height().to_f64() / (INCH * INCH),
+        overlap_s: overlap.as_secs_f64(),
+        toolpaths_s: toolpaths.as_secs_f64(),
+        lap_in: drawn.lap() / INCH,
+        paper: Columns {
+            outline: paths(drawn.outline()),
+            voronoi: paths(voronoi),
+            normal_width_in: mean_width(&drawn.copper_areas(), &strokes) / INCH,
+            voronoi_width_in: mean_width(&drawn.region_areas(), &strokes) / INCH,
+        },
+        exact: exact(copper, &nets, &drawn, &strokes)?,
+    }))
+}
+
+/// An inch in nanometres.
+const INCH: f64 = 25_400_000.0;
+
+fn paths(toolpaths: Toolpaths) -> Paths {
+    let Toolpaths { paths, raw, simplified, segments } = toolpaths;
+    Paths { paths, raw_in: Some(raw / INCH), length_in: simplified / INCH, segments }
+}
+
+/// The same by exact boundaries: copper edges as sites, and the frame where the paper has it.
+fn exact(copper: &Copper, nets: &Nets, drawn: &Paper<'_>, strokes: &[f64]) -> Result<Columns, Error> {
+    let trace = |limit: Option<Nm>, margin: Nm| -> Result<_, Error> {
+        let settings = voronoi::Settings { limit, margin, ..voronoi::Settings::default() };
+        let diagram = Diagram::new(copper, nets, None, &settings);
+        let diagram = diagram.map_err(|reason| Error::Voronoi { side: copper.side, reason })?;
+        Ok(diagram.boundaries().0)
+    };
+    let (outline, regions) = (trace(Some(Nm::ZERO), Nm::from_mm(1))?, trace(None, Nm::ZERO)?);
+    let width = |found: &voronoi::Boundaries| mean_width(&found.areas(strokes.len()), strokes) / INCH;
+    let columns = |found: &voronoi::Boundaries, lap: f64| {
+        let cut = || found.edges.iter().filter(|edge| !edge.is_border());
+        Paths {
+            paths: cut().count(),
+            raw_in: None,
+            length_in: (found.length() + lap) / INCH,
+            segments: cut().map(|edge| edge.path.segments.len()).sum(),
+        }
+    };
+    Ok(Columns {
+        outline: columns(&outline, 0.0),
+        voronoi: columns(&regions, drawn.lap()),
+        normal_width_in: width(&outline),
+        voronoi_width_in: width(&regions),
+    })
+}
