@@ -1,4 +1,4 @@
-//! A staircase as the fewest straight segments, in the manner of Potrace ([9] of the paper).
+//! A staircase as the fewest straight segments, in the manner of Potrace (the paper's reference 9).
 //!
 //! From a corner, look at each next corner of the path through a window of a pixel round it. As long as one line of sight passes all the windows,
 //! a segment may run from the first corner to the last one. Of all ways to walk the path in such segments, one with the fewest is taken, and of
