@@ -19,7 +19,7 @@ use super::{Failure, Shared};
 /// Reads a folder, a zip archive or single files, finds the copper of both sides, the outline and the holes, and
 /// writes into OUT, named after the board: NAME-front.ngc and NAME-back.ngc that isolate the nets (the back turned
 /// over left to right), NAME-drill.ngc, NAME-cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut,
-/// and NAME.json. With one copper file alone, that side. The programs are read back and milled on a picture before
+/// NAME.html to look at it all in a browser, and NAME.json. With one copper file alone, that side. The programs are read back and milled on a picture before
 /// anybody mills them: exit code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
@@ -38,6 +38,10 @@ pub(super) struct Mill {
     /// How bad something must be that is found so, for exit code 1: info, warning or error
     #[arg(long, value_name = "SEVERITY", default_value = "error", help_heading = "Output")]
     deny: Severity,
+
+    /// Write no NAME.html
+    #[arg(long, help_heading = "Output")]
+    no_html: bool,
 
     /// Print the report as JSON on stdout
     #[arg(long, help_heading = "Output")]
@@ -83,7 +87,11 @@ impl Mill {
             document.verification = Some(Verdict::from(&report));
         }
         progress.say("drawing");
-        let files = files(&job, &document, &settings)?;
+        let mut files = files(&job, &document, &settings)?;
+        if !self.no_html {
+            let page = job.page(&settings, &document)?.to_html();
+            files.push((format!("{}.html", job.board.name), page.into_bytes()));
+        }
         progress.say("writing");
         let mut output = Output::new();
         output.make_folder(folder)?;

@@ -48,6 +48,9 @@ pub enum Error {
     /// A picture that cannot be drawn.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// A program that cannot be shown.
+    #[error("cannot make the page: {0}")]
+    Page(crate::gcode::ReadError),
     /// Programs that cannot be judged.
     #[error("cannot verify: {0}")]
     Verify(#[from] verify::Error),
@@ -60,6 +63,7 @@ impl Error {
         match self {
             Self::Settings { .. } => "`voromill init` writes a file with every key and its default",
             Self::Value { .. } | Self::Import(_) => "",
+            Self::Page(_) => "without the page (--no-html) the programs are written as they are",
             Self::Verify(_) => "with --no-verify the programs are written unjudged",
             Self::NoCopper(_) => {
                 "`voromill inspect` shows what was found; --front and --back name the copper files"

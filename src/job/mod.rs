@@ -9,6 +9,7 @@ mod error;
 mod inspect;
 mod layer;
 mod options;
+mod page;
 mod paper;
 mod pipeline;
 mod quantity;

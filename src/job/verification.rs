@@ -24,7 +24,7 @@ impl Job {
                 text: written.text.clone(),
                 role: Some(role(written.part)),
                 cutter: None,
-                placement: Some(self.placement(written.part)),
+                placement: Some(self.laid(written.part)),
             })
             .collect();
         let known: Vec<Known<'_>> =
@@ -40,7 +40,8 @@ impl Job {
         Ok(verify(&programs, &self.board, &known, &judging)?)
     }
 
-    fn placement(&self, part: Part) -> Placement {
+    /// How the board lies while a program runs.
+    pub(super) fn laid(&self, part: Part) -> Placement {
         let toolpath::Placement { rotation, shift, .. } = self.placement;
         let back = self.layers.iter().find(|layer| layer.side == Side::Back && part == Part::Back);
         let mirror: Option<Nm> = back.and_then(|layer| layer.placement.mirror);

@@ -7,6 +7,7 @@ pub mod inspection;
 pub mod legend;
 mod lettering;
 pub mod methods;
+pub mod page;
 mod palette;
 pub mod paper;
 pub mod picture;

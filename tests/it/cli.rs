@@ -68,6 +68,7 @@ fn milling_a_double_sided_board_writes_every_program_picture_and_the_report() {
         "regulator-drill.ngc",
         "regulator-front.ngc",
         "regulator-front.png",
+        "regulator.html",
         "regulator.json",
     ];
     assert_eq!(listing(&out.path().join("out")), expected, "named after the board");

@@ -12,6 +12,7 @@ mod layering;
 mod layers;
 mod oracle;
 mod outline;
+mod page;
 mod paper;
 mod raster;
 mod snapshot;

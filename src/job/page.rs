@@ -1,0 +1,48 @@
+//! A job as its page.
+
+use crate::report::Document;
+use crate::report::page::{Drawing, Machined, Page, SideDrawing, ToolUse};
+
+use super::{Error, Job, Layer, Part, Settings, Written};
+
+impl Job {
+    /// The page about it, with the report that `document` is.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Page`] where a program cannot be read back.
+    pub fn page<'a>(&self, settings: &Settings, document: &'a Document) -> Result<Page<'a>, Error> {
+        let side = |layer: &Layer| {
+            let copper = self.board.copper(layer.side)?;
+            Some(SideDrawing::new(copper, &layer.nets, &layer.boundaries, settings.kerf()))
+        };
+        let programs: Vec<Machined<'_>> =
+            self.programs.iter().map(|program| self.machined(program, settings)).collect();
+        let sides = self.layers.iter().filter_map(side).collect();
+        let drawing = Drawing::new(&self.board, sides, &programs).map_err(Error::Page)?;
+        Ok(Page { report: document, drawing })
+    }
+
+    fn machined<'a>(&self, written: &'a Written, settings: &Settings) -> Machined<'a> {
+        let tools = written.statistics.tools.iter().map(|tool| ToolUse {
+            number: tool.number,
+            name: tool.name.clone(),
+            cut_mm: tool.cut_length.to_mm(),
+            seconds: (tool.seconds * 10.0).round() / 10.0,
+        });
+        Machined {
+            file: written.file_name(&self.board.name, settings),
+            text: &written.text,
+            side: match written.part {
+                Part::Front => Some(crate::board::Side::Front),
+                Part::Back => Some(crate::board::Side::Back),
+                Part::Drill | Part::Cutout => None,
+            },
+            part: written.part.name(),
+            placement: self.laid(written.part),
+            seconds: written.statistics.seconds,
+            rapid: settings.machine.rapid.nm_per_second() * 60e-6,
+            tools: tools.collect(),
+        }
+    }
+}
