@@ -75,6 +75,12 @@ impl Grid {
         Ok(Self { left: rect.min().x, top: rect.max().y, pitch, width, height })
     }
 
+    /// `height` of its rows from row `top` on, as a picture of their own: the same pixels.
+    #[must_use]
+    pub fn rows(&self, top: u32, height: u32) -> Self {
+        Self { top: self.top - self.pitch * i64::from(top), height: height.max(1), ..*self }
+    }
+
     /// Pixels across.
     #[must_use]
     pub const fn width(&self) -> u32 {
@@ -156,6 +162,14 @@ mod tests {
         assert_eq!((top_left.x, top_left.y), (SubPx::new(0), SubPx::new(0)), "the upper left corner");
         assert_eq!(grid.pixel(at(5, 45)).x, SubPx::new(128), "the centre of the first pixel");
         assert_eq!(grid.center(0, 0), at(5, 45), "and back");
+    }
+
+    #[test]
+    fn rows_are_the_same_pixels() {
+        let grid = Grid::covering(Rect::new(at(0, 0), at(100, 50)), Nm::from_um(10)).expect("a small grid");
+        let band = grid.rows(2, 3);
+        assert_eq!((band.width(), band.height()), (10, 3), "as wide, and as many rows as asked for");
+        assert_eq!(band.center(4, 0), grid.center(4, 2), "its first row is the third of the whole");
     }
 
     #[test]

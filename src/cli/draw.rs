@@ -1,13 +1,17 @@
-use std::path::PathBuf;
+use std::io::IsTerminal;
+use std::path::{Path, PathBuf};
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
-use voromill::board::Side;
+use voromill::board::{Board, Copper, Side};
 use voromill::geometry::{Nm, Point, Rect, Vector};
 use voromill::grid::Grid;
-use voromill::job::{self, Job};
+use voromill::import::Loaded;
+use voromill::job::{self, Job, Settings};
+use voromill::report::picture::{self, Shown};
+use voromill::report::svg::{self, Over};
 use voromill::report::translucent::translucent;
-use voromill::report::{picture, png};
+use voromill::report::{Canvas, png, terminal};
 
 use super::config::Config;
 use super::input::Input;
@@ -17,7 +21,8 @@ use super::{Failure, Shared};
 /// A picture of one stage
 ///
 /// A pixel shows what lies at its centre; row 0 is on top; both sides are seen from the front. `copper` is white on
-/// black and nothing between. The picture's pixel is that of --pixel or --dpi, which also finds the boundaries.
+/// black and nothing between. The picture's pixel is that of --pixel or --dpi, which also finds the boundaries. A name
+/// that ends in .svg gives lines and areas instead of pixels, and `-` shows the picture in the terminal.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Draw {
@@ -28,9 +33,13 @@ pub(super) struct Draw {
     #[arg(long, value_enum, default_value = "toolpath")]
     stage: Stage,
 
-    /// Picture to write, a PNG
+    /// Picture to write, PNG or SVG by its name; `-` for the terminal, or a PNG into a pipe
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
+
+    /// How it is written [default: as the name ends; in a terminal, blocks]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
 
     /// Which side, where there are two
     #[arg(long, value_enum)]
@@ -48,6 +57,8 @@ const EXAMPLES: &str = "\
 Examples:
   voromill draw board/ --stage voronoi -o regions.png
   voromill draw board-F_Cu.gbr --stage copper --dpi 500 -o copper.png
+  voromill draw board/ -o front.svg
+  voromill draw board/ -o -                    look at it here
   voromill draw board/ --stage toolpath --side back --window 10mm,5mm,20mm,15mm --pixel 10um -o detail.png";
 
 /// A stage that can be looked at.
@@ -109,19 +120,24 @@ impl Draw {
         let area = self.window.map(|Window(rect)| rect);
         let area = area.or_else(|| picture::whole(&loaded.board, settings.pixel * 4));
         let area = area.ok_or_else(|| job::Error::NoCopper("to draw".to_owned()))?;
-        let grid = Grid::covering(area, settings.pixel).map_err(job::Error::from)?;
-        picture::within_reason(&grid).map_err(job::Error::from)?;
+        let format = self.format.unwrap_or_else(|| Format::of(&self.output));
+        let grid = format.grid(area, settings.pixel)?;
         let mut loaded = loaded;
         match side {
             Side::Front => loaded.board.back = None,
             Side::Back => loaded.board.front = None,
         }
-        let copper = loaded.board.copper(side).ok_or_else(|| no_copper(side))?;
-        let bytes = match self.stage {
-            Stage::Copper => png::grey(&grid, &picture::copper(copper, &grid)),
-            Stage::Translucent => png::rgb(translucent(copper, &grid).map_err(job::Error::from)?),
-            stage => stage.draw(&job::mill(loaded, &settings)?, side, grid)?,
+        let drawn = Drawn::new(self.stage, loaded, side, &settings)?;
+        let bytes = match format {
+            Format::Png => drawn.png(grid)?,
+            Format::Svg => drawn.svg(area)?.into_bytes(),
+            Format::Blocks => terminal::half_blocks(drawn.canvas(grid)?).into_bytes(),
+            Format::Sixel => terminal::sixels(drawn.canvas(grid)?).into_bytes(),
         };
+        if self.output == Path::new("-") {
+            super::print_bytes(&bytes);
+            return Ok(());
+        }
         let mut output = Output::new();
         output.stage(&self.output, &bytes)?;
         output.commit()
@@ -144,18 +160,137 @@ fn no_copper(side: Side) -> job::Error {
     job::Error::NoCopper(format!("on the {side}"))
 }
 
-impl Stage {
-    fn draw(self, job: &Job, side: Side, grid: Grid) -> Result<Vec<u8>, Failure> {
-        let shown = job.shown(side).ok_or_else(|| no_copper(side))?;
-        Ok(match self {
-            Self::Copper => png::grey(&grid, &picture::copper(shown.copper, &grid)),
-            Self::Translucent => png::rgb(translucent(shown.copper, &grid).map_err(job::Error::from)?),
-            Self::Nets => png::rgb(picture::nets(shown.board, shown.copper, shown.nets, grid)),
-            Self::Voronoi => png::rgb(picture::voronoi(&shown, grid)),
-            Self::Boundaries => png::rgb(picture::boundaries(&shown, grid)),
-            Self::Heat => png::rgb(picture::heat(&shown, grid)),
-            Self::Depth => png::grey(&grid, &picture::depth(shown.diagram, &grid)),
-            Self::Toolpath => png::rgb(picture::toolpath(&shown, grid, true)),
+/// How a picture is written.
+#[derive(Clone, Copy, ValueEnum)]
+enum Format {
+    /// Pixels
+    Png,
+    /// Lines and areas: copper, voronoi and toolpath
+    Svg,
+    /// Half blocks in 24-bit colour, for the terminal
+    Blocks,
+    /// Sixels, for terminals that show them
+    Sixel,
+}
+
+/// Columns and lines of a terminal that does not say.
+const TERMINAL: (u16, u16) = (100, 40);
+/// The longer side of a picture in sixels. Chosen: it fits the terminals of today.
+const SIXELS: i64 = 900;
+
+impl Format {
+    /// What a file's name asks for; in a terminal, blocks.
+    fn of(output: &Path) -> Self {
+        if output == Path::new("-") && std::io::stdout().is_terminal() {
+            Self::Blocks
+        } else if output.extension().is_some_and(|end| end.eq_ignore_ascii_case("svg")) {
+            Self::Svg
+        } else {
+            Self::Png
+        }
+    }
+
+    /// The pixels of a picture of `area`: of `pixel`, or as many as the terminal has room for.
+    fn grid(self, area: Rect, pixel: Nm) -> Result<Grid, Failure> {
+        let grid = match self {
+            Self::Png => {
+                Grid::covering(area, pixel).and_then(|grid| picture::within_reason(&grid).map(|()| grid))
+            }
+            Self::Svg => Grid::covering(area, area.width().max(area.height()).max(pixel)),
+            Self::Sixel => picture::fit(area, pixel, SIXELS),
+            Self::Blocks => {
+                let size = terminal_size::terminal_size().map(|(columns, lines)| (columns.0, lines.0));
+                let (columns, lines) = size.unwrap_or(TERMINAL);
+                // Two pixels a line, and two lines for what comes after.
+                let rows = i64::from(lines.saturating_sub(2).max(1)) * 2;
+                let columns = i64::from(columns.max(1));
+                let fitting = (area.width().get() / columns).max(area.height().get() / rows) + 1;
+                Grid::covering(area, pixel.max(Nm::new(fitting)))
+            }
+        };
+        Ok(grid.map_err(job::Error::from)?)
+    }
+}
+
+/// A stage with what it takes to draw it.
+struct Drawn {
+    stage: Stage,
+    side: Side,
+    /// The job; none for stages that come before it.
+    job: Option<Job>,
+    board: Board,
+}
+
+impl Drawn {
+    fn new(stage: Stage, loaded: Loaded, side: Side, settings: &Settings) -> Result<Self, Failure> {
+        loaded.board.copper(side).ok_or_else(|| no_copper(side))?;
+        let board = loaded.board.clone();
+        let early = matches!(stage, Stage::Copper | Stage::Translucent);
+        let job = if early { None } else { Some(job::mill(loaded, settings)?) };
+        Ok(Self { stage, side, job, board })
+    }
+
+    fn copper(&self) -> Result<&Copper, Failure> {
+        Ok(self.board.copper(self.side).ok_or_else(|| no_copper(self.side))?)
+    }
+
+    fn shown(&self) -> Result<Shown<'_>, Failure> {
+        Ok(self.job.as_ref().and_then(|job| job.shown(self.side)).ok_or_else(|| no_copper(self.side))?)
+    }
+
+    /// As a PNG, band by band where the stage is drawn in colours.
+    fn png(&self, grid: Grid) -> Result<Vec<u8>, Failure> {
+        Ok(match self.stage {
+            Stage::Copper => png::grey(&grid, &picture::copper(self.copper()?, &grid)),
+            Stage::Depth => png::grey(&grid, &picture::depth(self.shown()?.diagram, &grid)),
+            Stage::Translucent => png::rgb(self.canvas(grid)?),
+            Stage::Nets | Stage::Voronoi | Stage::Boundaries | Stage::Heat | Stage::Toolpath => {
+                let shown = self.shown()?;
+                png::bands(&grid, |band| self.stage.coloured(&shown, band))
+            }
         })
+    }
+
+    /// As pixels in colour.
+    fn canvas(&self, grid: Grid) -> Result<Canvas, Failure> {
+        Ok(match self.stage {
+            Stage::Copper => Canvas::grey(grid, &picture::copper(self.copper()?, &grid)),
+            Stage::Depth => Canvas::grey(grid, &picture::depth(self.shown()?.diagram, &grid)),
+            Stage::Translucent => translucent(self.copper()?, &grid).map_err(job::Error::from)?,
+            Stage::Nets | Stage::Voronoi | Stage::Boundaries | Stage::Heat | Stage::Toolpath => {
+                self.stage.coloured(&self.shown()?, grid)
+            }
+        })
+    }
+
+    /// As lines and areas.
+    fn svg(&self, area: Rect) -> Result<String, Failure> {
+        let over = match self.stage {
+            Stage::Nets | Stage::Translucent | Stage::Heat | Stage::Depth => {
+                let hint = "choose --stage copper, voronoi or toolpath, or name a .png";
+                return Err(Failure::new("there is no SVG of this stage", hint));
+            }
+            Stage::Copper => Over::Nothing,
+            Stage::Voronoi | Stage::Boundaries => Over::Boundaries,
+            Stage::Toolpath => Over::Cuts,
+        };
+        match &self.job {
+            Some(_) => Ok(svg::side(&self.shown()?, area, over)),
+            None => Ok(svg::copper(&self.board, self.copper()?, area)),
+        }
+    }
+}
+
+impl Stage {
+    fn coloured(self, shown: &Shown<'_>, grid: Grid) -> Canvas {
+        match self {
+            Self::Nets => picture::nets(shown.board, shown.copper, shown.nets, grid),
+            Self::Voronoi => picture::voronoi(shown, grid),
+            Self::Boundaries => picture::boundaries(shown, grid),
+            Self::Heat => picture::heat(shown, grid),
+            Self::Toolpath | Self::Copper | Self::Translucent | Self::Depth => {
+                picture::toolpath(shown, grid, true)
+            }
+        }
     }
 }

@@ -5,7 +5,7 @@ use clap::Args;
 use rayon::prelude::*;
 use voromill::board::Side;
 use voromill::job::{self, Job, Settings};
-use voromill::report::{Document, Verdict, png};
+use voromill::report::{Document, Verdict};
 use voromill::verify::Severity;
 
 use super::config::Config;
@@ -19,8 +19,8 @@ use super::{Failure, Shared};
 /// Reads a folder, a zip archive or single files, finds the copper of both sides, the outline and the holes, and
 /// writes into OUT, named after the board: NAME-front.ngc and NAME-back.ngc that isolate the nets (the back turned
 /// over left to right), NAME-drill.ngc, NAME-cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut,
-/// NAME.html to look at it all in a browser, and NAME.json. With one copper file alone, that side. The programs are read back and milled on a picture before
-/// anybody mills them: exit code 1 where that finds something.
+/// NAME.html to look at it all in a browser, and NAME.json. With one copper file alone, that side. The programs are
+/// read back and milled on a picture before anybody mills them: exit code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Mill {
@@ -38,6 +38,10 @@ pub(super) struct Mill {
     /// How bad something must be that is found so, for exit code 1: info, warning or error
     #[arg(long, value_name = "SEVERITY", default_value = "error", help_heading = "Output")]
     deny: Severity,
+
+    /// Write NAME-front.svg and NAME-back.svg too: copper, cuts and drills as lines, for documents
+    #[arg(long, help_heading = "Output")]
+    svg: bool,
 
     /// Write no NAME.html
     #[arg(long, help_heading = "Output")]
@@ -88,6 +92,12 @@ impl Mill {
         }
         progress.say("drawing");
         let mut files = files(&job, &document, &settings)?;
+        if self.svg {
+            let drawn = [Side::Front, Side::Back].into_iter().filter_map(|side| Some((side, job.svg(side)?)));
+            files.extend(
+                drawn.map(|(side, svg)| (format!("{}-{side}.svg", job.board.name), svg.into_bytes())),
+            );
+        }
         if !self.no_html {
             let page = job.page(&settings, &document)?.to_html();
             files.push((format!("{}.html", job.board.name), page.into_bytes()));
@@ -114,8 +124,10 @@ fn files(job: &Job, document: &Document, settings: &Settings) -> Result<Vec<(Str
     let board = &job.board.name;
     let pictures: Vec<_> = [Side::Front, Side::Back]
         .into_par_iter()
-        .filter_map(|side| job.picture(side, settings).map(|canvas| (format!("{board}-{side}.png"), canvas)))
-        .map(|(name, canvas)| Ok((name, png::rgb(canvas?))))
+        .filter_map(|side| {
+            job.picture(side, settings).map(|picture| (format!("{board}-{side}.png"), picture))
+        })
+        .map(|(name, picture)| Ok((name, picture?)))
         .collect::<Result<_, job::Error>>()?;
     let programs = job
         .programs

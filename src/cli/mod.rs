@@ -1,5 +1,6 @@
 //! The command line: one file a subcommand, and all that prints.
 
+mod colour;
 mod config;
 mod draw;
 mod failure;
@@ -131,7 +132,7 @@ impl Shared {
     /// Prints what came of it, unless nobody wants to know.
     fn report(self, text: &str) {
         if !self.quiet {
-            print(text);
+            print(&colour::on_terminal(text));
         }
     }
 
@@ -144,6 +145,12 @@ impl Shared {
 /// Prints a result.
 fn print(text: &str) {
     print_to(&mut std::io::stdout().lock(), text);
+}
+
+/// Prints a result that is no text.
+fn print_bytes(bytes: &[u8]) {
+    let mut stream = std::io::stdout().lock();
+    let _ = stream.write_all(bytes).and_then(|()| stream.flush());
 }
 
 /// A reader that went away, such as `head`, is no error.

@@ -3,9 +3,8 @@
 use crate::board::Side;
 use crate::geometry::Nm;
 use crate::grid::Grid;
-use crate::report::Canvas;
-use crate::report::legend;
 use crate::report::picture::{self, Shown};
+use crate::report::{legend, png, svg};
 use crate::toolpath::{Placement, Section};
 
 use super::{Error, Job, Layer, Part, Settings};
@@ -38,18 +37,27 @@ impl Job {
         })
     }
 
-    /// The picture of `side` that goes with its program: regions, copper, cuts, holes, and a legend. None where the
-    /// side has no copper.
-    pub fn picture(&self, side: Side, settings: &Settings) -> Option<Result<Canvas, Error>> {
+    /// The picture of `side` that goes with its program, as the bytes of a PNG file: regions, copper, cuts, holes, and a legend. None
+    /// where the side has no copper.
+    pub fn picture(&self, side: Side, settings: &Settings) -> Option<Result<Vec<u8>, Error>> {
         let shown = self.shown(side)?;
         let area = picture::whole(&self.board, MARGIN)?;
+        let caption = self.caption(side, settings);
         let draw = |grid: Grid| {
-            let mut canvas = picture::toolpath(&shown, grid, false);
-            legend::draw(&mut canvas, &self.caption(side, settings));
-            canvas
+            png::bands(&grid, |band| {
+                let mut canvas = picture::toolpath(&shown, band, false);
+                legend::draw(&mut canvas, &grid, &caption);
+                canvas
+            })
         };
         let grid = legend::grid(area, settings.pixel, MOST);
         Some(grid.map(draw).map_err(Error::from))
+    }
+
+    /// `side` with its cuts as SVG. None where the side has no copper.
+    #[must_use]
+    pub fn svg(&self, side: Side) -> Option<String> {
+        Some(svg::side(&self.shown(side)?, picture::whole(&self.board, MARGIN)?, svg::Over::Cuts))
     }
 
     /// The section that cuts the board out, with how the board lies.

@@ -5,7 +5,7 @@ use tiny_skia::{
 };
 
 use crate::board::Shape;
-use crate::geometry::{Arc, Nm, Path, Point, Polygon, Segment};
+use crate::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Segment};
 use crate::grid::Grid;
 
 use super::Rgb;
@@ -27,10 +27,27 @@ impl Canvas {
         Self { grid, pixmap, smooth: true }
     }
 
+    /// Grey values, one byte a pixel, as a picture.
+    #[must_use]
+    pub fn grey(grid: Grid, values: &[u8]) -> Self {
+        let mut canvas = Self::new(grid, Rgb(0, 0, 0));
+        for (pixel, &value) in canvas.pixmap.pixels_mut().iter_mut().zip(values) {
+            *pixel = PremultipliedColorU8::from_rgba(value, value, value, u8::MAX).expect("opaque");
+        }
+        canvas
+    }
+
     /// Its width and height in pixels.
     #[expect(clippy::cast_precision_loss, reason = "a picture is less than 2²⁴ pixels wide")]
     pub(super) const fn size(&self) -> (f32, f32) {
         (self.grid.width() as f32, self.grid.height() as f32)
+    }
+
+    /// How many of its rows lie above the lower edge of `whole`, of which it is a band.
+    #[expect(clippy::cast_precision_loss, reason = "a picture is less than 2²⁴ pixels high")]
+    pub(super) fn rows_to(&self, whole: &Grid) -> f32 {
+        let rest = self.grid.rect().max().y - whole.rect().min().y;
+        (rest.get() / self.grid.pitch().get()) as f32
     }
 
     /// What it covers.
@@ -50,10 +67,18 @@ impl Canvas {
     /// Planes are often hatched with strokes that just touch. Smooth edges alone would let the ground shine through
     /// where two of them share a pixel; the whole pixels close those seams.
     pub fn fill(&mut self, shape: &Shape, colour: Rgb) {
+        if !self.shows(shape.bounds()) {
+            return;
+        }
         for smooth in [false, true] {
             self.smooth = smooth;
             self.fill_once(shape, colour);
         }
+    }
+
+    /// Whether a pixel of it may lie within `rect`.
+    fn shows(&self, rect: Rect) -> bool {
+        rect.inflate(self.grid.pitch()).touches(self.grid.rect())
     }
 
     fn fill_once(&mut self, shape: &Shape, colour: Rgb) {
@@ -106,6 +131,9 @@ impl Canvas {
         let tolerance = (self.grid.pitch() / 20).max(Nm::new(1));
         let mut line = PathBuilder::new();
         for path in paths {
+            if !self.shows(path.bounds().inflate(width / 2)) {
+                continue;
+            }
             let points = path.flatten(tolerance);
             for (i, &point) in points.iter().enumerate() {
                 let (x, y) = self.place(point);

@@ -30,13 +30,18 @@ fn room(width: u32) -> u32 {
     (width / 14).max(60)
 }
 
-/// Draws it: two lines, on ground.
-pub fn draw(canvas: &mut Canvas, caption: &str) {
-    let (width, height) = canvas.size();
+/// Draws what `canvas`, a band of a picture of `whole`, holds of it: two lines, on ground.
+pub fn draw(canvas: &mut Canvas, whole: &Grid, caption: &str) {
+    // Where the whole picture ends, counted from the band's first row.
+    let below = canvas.rows_to(whole);
+    let (width, height) = (canvas.size().0, below);
     let letters = (width / PART).clamp(SMALLEST, LARGEST);
     let (first, second) = (height - letters * 3.2, height - letters);
     #[expect(clippy::cast_precision_loss, reason = "a part of a picture's width")]
     let top = height - room(canvas.grid().width()) as f32;
+    if top > canvas.size().1 {
+        return;
+    }
     canvas.block([0.0, top, width, height - top], GROUND, 1.0);
     let mut x = letters;
     for (colour, what) in [(COPPER, "copper"), (CUT, "cut"), (HOLE, "hole")] {

@@ -3,6 +3,7 @@
 mod canvas;
 pub mod colours;
 pub mod document;
+mod ink;
 pub mod inspection;
 pub mod legend;
 mod lettering;
@@ -13,6 +14,8 @@ pub mod paper;
 pub mod picture;
 pub mod png;
 mod summary;
+pub mod svg;
+pub mod terminal;
 pub mod translucent;
 pub mod verdict;
 

@@ -201,15 +201,15 @@ fn names(canvas: &mut Canvas, copper: &Copper, nets: &Nets) {
 
 /// The ways of a tool over the board.
 #[derive(Default)]
-struct Ways {
+pub(super) struct Ways {
     /// What it cuts, by depth below the surface.
-    cuts: BTreeMap<Nm, Vec<Path>>,
+    pub(super) cuts: BTreeMap<Nm, Vec<Path>>,
     /// How it gets from one to the next.
     rapids: Vec<Path>,
 }
 
 impl Ways {
-    fn of(section: &Section, placement: &Placement) -> Self {
+    pub(super) fn of(section: &Section, placement: &Placement) -> Self {
         let mut ways = Self::default();
         let mut at: Option<(Point, Nm)> = None;
         for step in &section.moves {

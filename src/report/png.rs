@@ -1,28 +1,53 @@
-//! Pictures as the bytes of PNG files.
+//! Pictures as the bytes of PNG files: 8 bits a channel, no time, no text, the same bytes everywhere.
 
-use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
+use std::io::Write as _;
+
+use png::{BitDepth, ColorType, Compression, Encoder, Filter};
 
 use crate::grid::Grid;
 
 use super::Canvas;
 
-/// A picture as the bytes of a PNG file: 8 bits a channel, no time, no text, the same bytes everywhere.
+/// Rows that are drawn at a time. Chosen: a band of a large picture takes two megabytes, and there are few of them.
+const BAND: u32 = 240;
+
+/// A picture of `grid` that `draw` paints band by band: it is given the grid of each, from the top.
+///
+/// No more than a band is ever held as pixels.
+pub fn bands(grid: &Grid, draw: impl Fn(Grid) -> Canvas) -> Vec<u8> {
+    encode(grid, ColorType::Rgb, |file| {
+        for top in (0..grid.height()).step_by(BAND as usize) {
+            let band = grid.rows(top, BAND.min(grid.height() - top));
+            file(&draw(band).into_rgb());
+        }
+    })
+}
+
+/// A picture as the bytes of a PNG file.
 pub fn rgb(canvas: Canvas) -> Vec<u8> {
-    let (columns, rows) = (canvas.grid().width(), canvas.grid().height());
-    encode(&canvas.into_rgb(), columns, rows, ExtendedColorType::Rgb8)
+    let grid = *canvas.grid();
+    encode(&grid, ColorType::Rgb, |file| file(&canvas.into_rgb()))
 }
 
 /// Grey values, one byte a pixel of `grid`, row 0 on top, as the bytes of a PNG file.
 pub fn grey(grid: &Grid, pixels: &[u8]) -> Vec<u8> {
-    encode(pixels, grid.width(), grid.height(), ExtendedColorType::L8)
+    encode(grid, ColorType::Grayscale, |file| file(pixels))
 }
 
-fn encode(pixels: &[u8], columns: u32, rows: u32, colour: ExtendedColorType) -> Vec<u8> {
+/// A file into which `paint` puts its pixels from the top.
+fn encode(grid: &Grid, colour: ColorType, paint: impl FnOnce(&mut dyn FnMut(&[u8]))) -> Vec<u8> {
+    const MEMORY: &str = "memory takes any bytes, and there are as many pixels as the grid has";
     let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, grid.width(), grid.height());
+    encoder.set_color(colour);
+    encoder.set_depth(BitDepth::Eight);
     // Pictures of boards are mostly flat: the fast level is nearly as small as the best and ten times as fast.
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Up)
-        .write_image(pixels, columns, rows, colour)
-        .expect("memory takes any bytes, and the buffer fits the grid");
+    encoder.set_compression(Compression::Fast);
+    encoder.set_filter(Filter::Up);
+    let mut writer = encoder.write_header().expect(MEMORY);
+    let mut stream = writer.stream_writer().expect(MEMORY);
+    paint(&mut |pixels| stream.write_all(pixels).expect(MEMORY));
+    stream.finish().expect(MEMORY);
+    writer.finish().expect(MEMORY);
     bytes
 }

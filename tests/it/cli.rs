@@ -108,6 +108,55 @@ fn the_report_on_stdout_is_the_report_in_the_file() {
 }
 
 #[test]
+fn a_side_can_be_drawn_as_lines_and_in_the_terminal() {
+    let out = folder();
+    let board = fixture("boards/unsafe-gap");
+    let board = board.to_string_lossy();
+    let draw = |arguments: &[&str]| {
+        let done = voromill(out.path(), &[&["draw", &board], arguments].concat());
+        assert!(done.status.success(), "{arguments:?}: {}", stderr(&done));
+        done.stdout
+    };
+    for (stage, holds, lacks) in [
+        ("toolpath", "id=\"cuts\"", "id=\"boundaries\""),
+        ("voronoi", "id=\"boundaries\"", "id=\"cuts\""),
+        ("copper", "id=\"copper\"", "id=\"cuts\""),
+    ] {
+        assert!(draw(&["--stage", stage, "-o", "board.svg"]).is_empty(), "nothing is printed");
+        let svg = fs::read_to_string(out.path().join("board.svg")).expect("written");
+        assert!(svg.contains("width=\"40."), "in millimetres: {svg:.200}");
+        assert!(svg.contains(holds) && !svg.contains(lacks), "{stage}: {svg:.400}");
+        assert!(svg.contains("id=\"drills\"") && svg.ends_with("</svg>\n"), "{stage} is whole");
+    }
+    assert!(draw(&["-o", "-"]).starts_with(b"\x89PNG"), "a pipe gets a PNG");
+    let blocks = String::from_utf8(draw(&["-o", "-", "--format", "blocks"])).expect("text");
+    assert!(
+        blocks.lines().all(|line| line.starts_with("\x1b[38;2;") && line.ends_with("\x1b[0m")),
+        "lines of blocks"
+    );
+    assert!(blocks.lines().count() <= 40, "as many as a terminal has");
+    assert!(draw(&["-o", "-", "--format", "sixel"]).starts_with(b"\x1bPq"), "sixels");
+    fails(
+        &out,
+        &["draw", &board, "--stage", "nets", "-o", "nets.svg"],
+        &["no SVG", "hint: "],
+        &["board.svg"],
+    );
+}
+
+#[test]
+fn mill_writes_what_is_asked_for() {
+    let out = folder();
+    let board = fixture("boards/unsafe-gap");
+    let done =
+        voromill(out.path(), &["mill", &board.to_string_lossy(), "-q", "--svg", "--no-html", "-o", "."]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let names = listing(out.path());
+    assert!(names.contains(&"unsafe-gap-front.svg".to_owned()), "the drawing for documents: {names:?}");
+    assert!(!names.contains(&"unsafe-gap.html".to_owned()), "and no page: {names:?}");
+}
+
+#[test]
 fn one_layer_goes_to_stdout_alone() {
     let out = folder();
     let layer = fixture("boards/blinker/blinker-B_Cu.gbr");

@@ -172,6 +172,10 @@ class Panel {
       if (other === item) row.setAttribute('aria-current', 'true'); else row.removeAttribute('aria-current');
     }
     const row = this.rows.get(item);
-    if (row) { row.closest('details').open = true; row.scrollIntoView({ block: 'nearest' }); }
+    if (!row) return;
+    row.closest('details').open = true;
+    // The panel scrolls, not the page.
+    const [box, at] = [this.element.getBoundingClientRect(), row.getBoundingClientRect()];
+    if (at.top < box.top || at.bottom > box.bottom) this.element.scrollTop += at.top - box.top - 60;
   }
 }

@@ -360,7 +360,7 @@ class Pane {
     context.textBaseline = 'middle';
     context.textAlign = 'left';
     const room = context.measureText(item.short).width + 14;
-    const left = x + size + 8 + room > this.width ? x - size - 8 - room : x + size + 8;
+    const left = Math.max(4, x + size + 8 + room > this.width ? x - size - 8 - room : x + size + 8);
     context.fillStyle = theme.plate;
     context.strokeStyle = theme[item.severity];
     context.lineWidth = 1.5;

@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::geometry::{Segment, Turn};
 use crate::voronoi::{Boundaries, Boundary, Owner};
 
-use super::ink::{Ink, place, um};
+use crate::report::ink::{Ink, place, um};
 
 /// A line between two regions: the owner on its left, the owner on its right, and its way.
 ///

@@ -8,7 +8,7 @@ use crate::board::{Copper, Shape};
 use crate::geometry::{Nm, Rect};
 use crate::topology::{Net, Nets};
 
-use super::ink::{Ink, place, um};
+use crate::report::ink::{Ink, pen, place, um};
 
 /// Features that one path holds at most. Chosen: few paths to draw, and small ones to leave out where they are not seen.
 const MOST: usize = 256;
@@ -51,20 +51,10 @@ fn drawing(copper: &Copper, net: &Net) -> NetDrawing {
     NetDrawing { label, paths: chunks.map(|(width, shapes)| path(width, shapes)).collect() }
 }
 
-/// The pen's width that a shape asks for; none for an area.
-const fn pen(shape: &Shape) -> Nm {
-    match *shape {
-        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => {
-            Nm::new(radius.get() * 2)
-        }
-        Shape::Polygon(_) => Nm::ZERO,
-    }
-}
-
 fn path(width: Nm, shapes: &[&Shape]) -> CopperPath {
     let mut ink = Ink::default();
     for shape in shapes {
-        draw(&mut ink, shape);
+        ink.shape(shape);
     }
     let bounds = shapes.iter().map(|shape| shape.bounds()).reduce(Rect::union);
     let bounds = bounds.map_or([0; 4], |rect| {
@@ -72,20 +62,4 @@ fn path(width: Nm, shapes: &[&Shape]) -> CopperPath {
         [left, bottom, right, top]
     });
     CopperPath(um(width), bounds, ink.into_text())
-}
-
-/// The middle line of a stroke, the rings of an area.
-pub(super) fn draw(ink: &mut Ink, shape: &Shape) {
-    match shape {
-        Shape::Disc { center, .. } => ink.spot(*center),
-        Shape::Stroke { from, to, .. } => {
-            ink.begin(*from);
-            ink.line(*to);
-        }
-        Shape::Arc { arc, .. } => {
-            ink.begin(arc.start);
-            ink.arc(arc);
-        }
-        Shape::Polygon(polygon) => ink.rings(polygon.contours()),
-    }
 }

@@ -9,7 +9,6 @@
 
 mod boundary;
 mod copper;
-mod ink;
 mod motion;
 
 use serde::Serialize;
@@ -25,7 +24,7 @@ pub use copper::{CopperPath, NetDrawing};
 pub use motion::{Machined, ProgramDrawing, ToolUse};
 
 use super::Document;
-use ink::{Ink, place, um};
+use super::ink::{Ink, place, um};
 
 /// What a page shows.
 #[derive(Clone, Debug, Serialize)]

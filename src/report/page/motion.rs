@@ -9,7 +9,7 @@ use crate::geometry::{Nm, Point};
 use crate::verify::{Cutter, Placement};
 
 use super::boundary::letter;
-use super::ink::{Ink, place, um};
+use crate::report::ink::{Ink, place, um};
 
 /// A program's text with what is known of it.
 #[derive(Clone, Debug)]

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use crate::geometry::{Arc, Nm, Point, Segment, Turn};
+use crate::board::Shape;
+use crate::geometry::{Arc, Nm, Path, Point, Segment, Turn};
 
 /// In whole micrometres, halves up.
 pub(super) fn um(length: Nm) -> i64 {
@@ -12,6 +13,16 @@ pub(super) fn um(length: Nm) -> i64 {
 /// A point in whole micrometres.
 pub(super) fn place(p: Point) -> [i64; 2] {
     [um(p.x), um(p.y)]
+}
+
+/// The width of the pen that draws a shape; none for an area.
+pub(super) const fn pen(shape: &Shape) -> Nm {
+    match *shape {
+        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => {
+            Nm::new(radius.get() * 2)
+        }
+        Shape::Polygon(_) => Nm::ZERO,
+    }
 }
 
 /// A pen that writes where it goes.
@@ -106,13 +117,29 @@ impl Ink {
     }
 
     /// SVG: a whole path.
-    pub(super) fn path(&mut self, path: &crate::geometry::Path) {
+    pub(super) fn path(&mut self, path: &Path) {
         self.begin(path.start);
         for (from, segment) in path.steps() {
             self.segment(from, segment);
         }
         if path.is_closed() {
             self.close(path.start);
+        }
+    }
+
+    /// SVG: the middle line of a stroke, the rings of an area.
+    pub(super) fn shape(&mut self, shape: &Shape) {
+        match shape {
+            Shape::Disc { center, .. } => self.spot(*center),
+            Shape::Stroke { from, to, .. } => {
+                self.begin(*from);
+                self.line(*to);
+            }
+            Shape::Arc { arc, .. } => {
+                self.begin(arc.start);
+                self.arc(arc);
+            }
+            Shape::Polygon(polygon) => self.rings(polygon.contours()),
         }
     }
 
@@ -129,7 +156,6 @@ impl Ink {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Path;
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::from_um(x), Nm::from_um(y))
