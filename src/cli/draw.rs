@@ -8,6 +8,7 @@ use voromill::geometry::{Nm, Point, Rect, Vector};
 use voromill::grid::Grid;
 use voromill::import::Loaded;
 use voromill::job::{self, Job, Settings};
+use voromill::report::document::WarningEntry;
 use voromill::report::picture::{self, Shown};
 use voromill::report::svg::{self, Over};
 use voromill::report::translucent::translucent;
@@ -115,19 +116,23 @@ impl FromStr for Window {
 impl Draw {
     pub(super) fn run(self, _: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input.paths)?;
-        let loaded = self.input.load()?;
+        let loaded = self.input.load(&settings)?;
         let side = self.side(loaded.board.front.is_some(), loaded.board.back.is_some())?;
         let area = self.window.map(|Window(rect)| rect);
         let area = area.or_else(|| picture::whole(&loaded.board, settings.pixel * 4));
         let area = area.ok_or_else(|| job::Error::NoCopper("to draw".to_owned()))?;
         let format = self.format.unwrap_or_else(|| Format::of(&self.output));
-        let grid = format.grid(area, settings.pixel)?;
+        let sampled = if self.stage == Stage::Copper { off_ties(area, settings.pixel) } else { area };
+        let grid = format.grid(sampled, settings.pixel)?;
+        let read: Vec<WarningEntry> = loaded.warnings.iter().map(WarningEntry::from).collect();
         let mut loaded = loaded;
         match side {
             Side::Front => loaded.board.back = None,
             Side::Back => loaded.board.front = None,
         }
         let drawn = Drawn::new(self.stage, loaded, side, &settings)?;
+        let warnings = drawn.job.as_ref().map_or(read, |job| job.describe(&settings).warnings);
+        self.input.judge(&warnings)?;
         let bytes = match format {
             Format::Png => drawn.png(grid)?,
             Format::Svg => drawn.svg(area)?.into_bytes(),
@@ -154,6 +159,16 @@ impl Draw {
             (None, false, false) => Err(job::Error::NoCopper("in these files".to_owned()).into()),
         }
     }
+}
+
+/// The area a hair to the right and down: copper that ends exactly at the middle of a pixel, as on boards drawn in mils
+/// it often does, then covers the pixel at its left and upper end and not that at its right and lower one.
+///
+/// Half a step of the raster's fixed point, 24.8, so that what lies on a middle is never rounded back to it.
+fn off_ties(area: Rect, pixel: Nm) -> Rect {
+    let hair = pixel / 512 + Nm::new(1);
+    let way = Vector::new(hair, -hair);
+    Rect::new(area.min() + way, area.max() + way)
 }
 
 fn no_copper(side: Side) -> job::Error {

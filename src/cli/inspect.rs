@@ -37,7 +37,7 @@ enum Format {
 impl Inspect {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input.paths)?;
-        let loaded = self.input.load()?;
+        let loaded = self.input.survey(&settings)?;
         let mut inspection = inspect(&loaded, &settings);
         if self.paper {
             for layer in &mut inspection.layers {
@@ -48,6 +48,6 @@ impl Inspect {
             Format::Text => inspection.to_text(shared.verbose),
             Format::Json => inspection.to_json(),
         });
-        Ok(())
+        self.input.judge(&inspection.warnings)
     }
 }

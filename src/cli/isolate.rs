@@ -30,7 +30,7 @@ impl Isolate {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input.paths)?;
         let progress = Progress::start(shared);
-        let mut loaded = self.input.load()?;
+        let mut loaded = self.input.load(&settings)?;
         if loaded.board.front.is_some() && loaded.board.back.is_some() {
             let hint = "name the file of one layer, or use `voromill mill`";
             return Err(Failure::new("there is copper for both sides, and a program is for one", hint));
@@ -38,6 +38,7 @@ impl Isolate {
         loaded.board.holes.clear();
         let job = job::mill(loaded, &settings)?;
         let document = job.describe(&settings);
+        self.input.judge(&document.warnings)?;
         drop(progress);
         let program = job.programs.iter().find(|program| matches!(program.part, Part::Front | Part::Back));
         let text = program.map_or("", |program| &program.text);

@@ -71,7 +71,7 @@ impl Mill {
         let settings = self.config.settings(&self.input.paths)?;
         let progress = Progress::start(shared);
         progress.say("reading");
-        let loaded = self.input.load()?;
+        let loaded = self.input.load(&settings)?;
         let Some(folder) = &self.output else {
             drop(progress);
             super::print(&format!(
@@ -83,6 +83,7 @@ impl Mill {
         progress.say("finding the way between nets");
         let job = job::mill(loaded, &settings)?;
         let mut document = job.describe(&settings);
+        self.input.judge(&document.warnings)?;
         let mut passes = true;
         if !self.no_verify {
             progress.say("milling on a picture");

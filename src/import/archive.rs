@@ -5,6 +5,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use super::error::Error;
+use super::gerber::ApertureList;
 use super::jobfile::Job;
 use super::layers::Kind;
 
@@ -42,6 +43,8 @@ pub(super) struct Gathered {
     pub(super) files: Vec<Found>,
     /// Job files.
     pub(super) jobs: Vec<(String, Vec<u8>)>,
+    /// Aperture lists of RS-274-D files.
+    pub(super) lists: Vec<ApertureList>,
     /// Names of what is neither.
     pub(super) ignored: Vec<String>,
     /// Folders inside the given folders, which are not looked into.
@@ -68,6 +71,7 @@ impl Gathered {
         if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
             return self.zip(&shown, bytes);
         }
+        self.look_beside(path, &bytes);
         self.take(name_of(path), shown, bytes, true);
         Ok(())
     }
@@ -138,7 +142,11 @@ impl Gathered {
             return self.jobs.push((name, bytes));
         }
         let kind = Kind::of(&bytes);
-        if kind == Kind::Unknown && !named {
+        let listed = named || ApertureList::is_named(&name);
+        let list = (kind == Kind::Unknown && listed).then(|| ApertureList::read(&name, &bytes)).flatten();
+        if let Some(list) = list {
+            self.lists.push(list);
+        } else if kind == Kind::Unknown && !named {
             self.ignored.push(name);
         } else {
             self.files.push(Found { name, shown, bytes, kind, named });

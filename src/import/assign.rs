@@ -36,6 +36,7 @@ impl Gathered {
             if self.index_of(path).is_none() {
                 let shown = path.display().to_string();
                 let bytes = read_file(path, &shown)?;
+                self.look_beside(path, &bytes);
                 let kind = Kind::of(&bytes);
                 self.files.push(Found { name: name_of(path), shown, bytes, kind, named: true });
             }
@@ -64,6 +65,7 @@ pub(super) fn assign(
     let job = read_job(gathered, &mut assigned.warnings);
     let mut roles = witness(gathered, &job);
     choose_by_hand(gathered, selection, &mut roles, &mut assigned);
+    refuse_contradictions(gathered, &roles)?;
     settle::groups(&mut roles);
     assigned.front = assigned.front.or(settle::only(
         &roles,
@@ -135,6 +137,18 @@ fn refuse_unknown(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
         what,
         "give Gerber layers and Excellon drill files, their folder or a zip of them",
     ))
+}
+
+/// A file named like a drill file that calls itself copper: one of the two is wrong, and guessing cuts the wrong thing.
+fn refuse_contradictions(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
+    let contradicts = |vote: &&Vote| {
+        let copper = matches!(vote.role, Some(Role::Copper(_))) && vote.witness == Witness::Function;
+        copper && layers::role_by_extension(&gathered.files[vote.file].name) == Some(Role::Drill)
+    };
+    let Some(vote) = votes.iter().find(contradicts) else { return Ok(()) };
+    let what = "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)";
+    let hint = "export the drill file again, or say with --front or --back that this is copper";
+    Err(Error::content(&gathered.files[vote.file].shown, what, hint))
 }
 
 fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {

@@ -244,6 +244,12 @@ pub(super) fn role_by_name(name: &str, shared: usize) -> Option<Role> {
         .or_else(|| role_by_words(&words(stem.get(shared..).unwrap_or(stem))))
 }
 
+/// The role that a file's extension alone tells.
+pub(super) fn role_by_extension(name: &str) -> Option<Role> {
+    let extension = name.rsplit_once('.')?.1.to_ascii_lowercase();
+    looked_up(EXTENSIONS, |known| known == extension)
+}
+
 /// The words of an extension that speaks: `.StopTop`, `.Outline`; none of one of three letters.
 fn extension_words(name: &str, stem: usize) -> Vec<String> {
     let extension = name.get(stem..).unwrap_or_default();

@@ -7,9 +7,9 @@ use super::archive::{Found, Gathered, name_of, read_file};
 use super::assign::{Assigned, assign};
 use super::error::Error;
 use super::excellon::{self, Context};
-use super::gerber::Image;
+use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
-use super::{gerber, gerber_drill, outline};
+use super::{gerber_drill, outline};
 use crate::board::{Axis, Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point, Rect};
 
@@ -26,6 +26,8 @@ pub struct Selection {
     pub drill: Vec<PathBuf>,
     /// What the board is called.
     pub name: Option<String>,
+    /// How far apart two lines of the outline may end and still meet; [`outline::GAP`] where it is left open.
+    pub outline_gap: Option<Nm>,
 }
 
 /// A board with what is known of where it came from.
@@ -48,17 +50,45 @@ pub struct Loaded {
 ///
 /// A path that cannot be read, two files for one role, no copper at all, or what the readers say of a file.
 pub fn load(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error> {
+    put_together(paths, selection, Need::Copper)
+}
+
+/// As [`load()`], to be looked at: a drill file or an outline alone, or copper that draws nothing, is a warning.
+///
+/// # Errors
+///
+/// A path that cannot be read, two files for one role, no layer at all, or what the readers say of a file.
+pub fn survey(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error> {
+    put_together(paths, selection, Need::AnyLayer)
+}
+
+/// What a board must have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Need {
+    Copper,
+    AnyLayer,
+}
+
+fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Loaded, Error> {
     let mut gathered = Gathered::under(paths)?;
     gathered.add_selected(selection)?;
     let assigned = assign(&gathered, paths, selection)?;
     let mut build = Build::new(assigned.name.clone());
     build.warnings.extend(assigned.warnings.iter().cloned());
-    build.coppers(&gathered, &assigned)?;
-    build.outline(&gathered, &assigned)?;
+    build.coppers(&gathered, &assigned, need)?;
+    build.outline(&gathered, &assigned, selection.outline_gap.unwrap_or(outline::GAP))?;
     build.drills(&gathered, &assigned)?;
     build.set_aside(&gathered, &assigned);
+    let read = [assigned.front, assigned.back, assigned.outline]
+        .into_iter()
+        .flatten()
+        .chain(assigned.drill.iter().copied());
+    build.wheels(&gathered, read.map(|index| &gathered.files[index]))?;
+    let used = |list: &ApertureList| build.sources.contains(list.source());
+    let unused = gathered.lists.iter().filter(|list| !used(list)).map(|list| list.file.clone()).collect();
     let ignored =
-        [gathered.ignored, gathered.folders.into_iter().map(|folder| folder + "/").collect()].concat();
+        [gathered.ignored, unused, gathered.folders.into_iter().map(|folder| folder + "/").collect()]
+            .concat();
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored })
 }
 
@@ -74,7 +104,10 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
     let kind = Kind::of(&bytes);
     let found = Found { name, shown, bytes, kind, named: true };
     let mut build = Build::new(super::naming::stem(&found.name).to_owned());
-    build.copper(read_gerber(&found, "a copper layer")?, side);
+    let mut gathered = Gathered::default();
+    gathered.look_beside(path, &found.bytes);
+    build.copper(read_gerber(&gathered, &found, "a copper layer")?, side);
+    build.wheels(&gathered, [&found])?;
     build.require_copper(&[&found])?;
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })
 }
@@ -91,10 +124,11 @@ impl Build {
         Self { board: Board { name, ..Board::default() }, sources: Vec::new(), warnings: Vec::new() }
     }
 
-    fn coppers(&mut self, gathered: &Gathered, assigned: &Assigned) -> Result<(), Error> {
+    fn coppers(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
         let file = |index: usize| &gathered.files[index];
-        let read =
-            |index: Option<usize>| index.map(|index| read_gerber(file(index), "a copper layer")).transpose();
+        let read = |index: Option<usize>| {
+            index.map(|index| read_gerber(gathered, file(index), "a copper layer")).transpose()
+        };
         let (front, back) = rayon::join(|| read(assigned.front), || read(assigned.back));
         for (side, image) in [(Side::Front, front?), (Side::Back, back?)] {
             if let Some(image) = image {
@@ -102,6 +136,14 @@ impl Build {
             }
         }
         let read: Vec<&Found> = [assigned.front, assigned.back].into_iter().flatten().map(file).collect();
+        if need == Need::AnyLayer
+            && (!read.is_empty() || assigned.outline.is_some() || !assigned.drill.is_empty())
+        {
+            if read.is_empty() {
+                self.warnings.push(Warning::new("copper-missing", "no copper layer is among the files"));
+            }
+            return Ok(());
+        }
         if read.is_empty() {
             return Err(no_copper(gathered, assigned));
         }
@@ -141,16 +183,16 @@ impl Build {
         Err(Error::content(&shown, "the board has no copper: nothing is drawn", hint))
     }
 
-    fn outline(&mut self, gathered: &Gathered, assigned: &Assigned) -> Result<(), Error> {
+    fn outline(&mut self, gathered: &Gathered, assigned: &Assigned, gap: Nm) -> Result<(), Error> {
         let Some(file) = assigned.outline.map(|index| &gathered.files[index]) else {
             let message = "no outline layer is among the files, so the board's edge is not known";
             self.warnings.push(Warning::new("outline-missing", message));
             return Ok(());
         };
-        let image = read_gerber(file, "an outline layer")?;
+        let image = read_gerber(gathered, file, "an outline layer")?;
         self.warnings.extend(image.warnings);
         self.sources.push(Source { role: "outline".to_owned(), ..image.source });
-        let joined = outline::join(&file.name, &image.features, outline::GAP);
+        let joined = outline::join(&file.name, &image.features, gap);
         self.board.outline = joined.outline;
         self.warnings.extend(joined.warnings);
         Ok(())
@@ -162,7 +204,9 @@ impl Build {
         for &index in &assigned.drill {
             let file = &gathered.files[index];
             let (holes, source) = match file.kind {
-                Kind::Gerber => gerber_holes(file, assigned.by_hand.contains(&index), &mut warnings)?,
+                Kind::Gerber => {
+                    gerber_holes(gathered, file, assigned.by_hand.contains(&index), &mut warnings)?
+                }
                 Kind::Excellon | Kind::Unknown => {
                     let drilling = excellon::read(&file.name, &file.bytes, &context)?;
                     warnings.extend(drilling.warnings);
@@ -213,6 +257,19 @@ impl Build {
         }
     }
 
+    /// Lists the aperture lists that `files` draw with.
+    fn wheels<'a>(
+        &mut self,
+        gathered: &'a Gathered,
+        files: impl IntoIterator<Item = &'a Found>,
+    ) -> Result<(), Error> {
+        for file in files {
+            let source = gathered.list_for(file)?.map(ApertureList::source);
+            self.sources.extend(source.filter(|source| !self.sources.contains(source)).cloned());
+        }
+        Ok(())
+    }
+
     /// What the copper tells about where holes should be.
     fn context(&self) -> Context {
         let coppers = || [&self.board.front, &self.board.back].into_iter().flatten();
@@ -250,11 +307,12 @@ impl Build {
 
 /// The holes of a Gerber file; one that does not say it is a drill file is refused where a person chose it.
 fn gerber_holes(
+    gathered: &Gathered,
     file: &Found,
     by_hand: bool,
     warnings: &mut Vec<Warning>,
 ) -> Result<(Vec<Hole>, Source), Error> {
-    let image = gerber::read(&file.name, &file.bytes, &gerber::Options::default())?;
+    let image = gathered.read_gerber(file)?;
     let function = image.function.as_deref().unwrap_or_default();
     let says_drill = ["Plated", "NonPlated"].iter().any(|start| function.starts_with(start));
     if by_hand && !says_drill {
@@ -292,9 +350,9 @@ fn has_area(feature: &Feature) -> bool {
 }
 
 /// Reads a Gerber file, or says what it is instead.
-fn read_gerber(file: &Found, wanted: &str) -> Result<Image, Error> {
+fn read_gerber(gathered: &Gathered, file: &Found, wanted: &str) -> Result<Image, Error> {
     let (what, hint) = match file.kind {
-        Kind::Gerber => return gerber::read(&file.name, &file.bytes, &gerber::Options::default()),
+        Kind::Gerber => return gathered.read_gerber(file),
         Kind::Excellon => ("an Excellon drill file", "give it with --drill"),
         Kind::Unknown => (describe(&file.bytes), "export the layer as Gerber RS-274X"),
     };

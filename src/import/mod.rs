@@ -22,7 +22,8 @@ mod load;
 mod naming;
 pub mod outline;
 mod settle;
+mod wheel;
 
 pub(crate) use digest::sha256;
 pub use error::{Diagnosis, Error};
-pub use load::{Loaded, Selection, load, load_copper};
+pub use load::{Loaded, Selection, load, load_copper, survey};

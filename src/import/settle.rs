@@ -4,7 +4,7 @@ use super::archive::{Found, Gathered};
 use super::assign::{Vote, Witness};
 use super::error::Error;
 use super::layers::Role;
-use super::{gerber, outline};
+use super::outline;
 use crate::board::{Side, Warning};
 use crate::geometry::{Nm, Point, Rect};
 
@@ -66,7 +66,8 @@ pub(super) fn outlines(votes: &mut [Vote], gathered: &Gathered, warnings: &mut V
         return;
     }
     let candidates: Vec<usize> = all().map(|vote| vote.file).collect();
-    let edges: Vec<Option<Rect>> = candidates.iter().map(|&index| edge_of(&gathered.files[index])).collect();
+    let edges: Vec<Option<Rect>> =
+        candidates.iter().map(|&index| edge_of(gathered, &gathered.files[index])).collect();
     let Some(first) = edges.iter().flatten().next().copied() else { return };
     let mut taken = false;
     for (index, edge) in candidates.into_iter().zip(edges) {
@@ -88,8 +89,8 @@ pub(super) fn outlines(votes: &mut [Vote], gathered: &Gathered, warnings: &mut V
 }
 
 /// The rectangle around the edge that a file draws, if it closes.
-fn edge_of(file: &Found) -> Option<Rect> {
-    let image = gerber::read(&file.name, &file.bytes, &gerber::Options::default()).ok()?;
+fn edge_of(gathered: &Gathered, file: &Found) -> Option<Rect> {
+    let image = gathered.read_gerber(file).ok()?;
     let joined = outline::join(&file.name, &image.features, outline::GAP);
     joined.outline.map(|edge| edge.bounds())
 }

@@ -158,6 +158,11 @@ pub struct Options {
     #[serde(with = "text")]
     pub drill_depth: Option<Length>,
 
+    /// How far apart two lines of the outline may end and still meet
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub outline_gap: Option<Length>,
+
     /// End mill that cuts the board out
     #[arg(long, value_name = "TOOL", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
@@ -239,6 +244,7 @@ impl Options {
             dialect: self.dialect.or(others.dialect),
             origin: self.origin.or(others.origin),
             drill_depth: self.drill_depth.or(others.drill_depth),
+            outline_gap: self.outline_gap.or(others.outline_gap),
             cutout_tool: self.cutout_tool.or(others.cutout_tool),
             cutout_depth: self.cutout_depth.or(others.cutout_depth),
             cutout_pass: self.cutout_pass.or(others.cutout_pass),

@@ -59,6 +59,8 @@ pub struct Settings {
     pub machine: Machine,
     /// How high and deep drills go.
     pub drilling: Heights,
+    /// How far apart two lines of the outline may end and still meet.
+    pub outline_gap: Nm,
     /// The end mill that cuts the board out.
     pub cutout_tool: Tool,
     /// How high and deep it goes.
@@ -122,6 +124,7 @@ impl Settings {
             drills: drills(options.drills.as_ref())?,
             drill_tolerance: options.drill_tolerance.expect(open).nm(),
             drill_bore: options.drill_bore.expect(open),
+            outline_gap: outline_gap(&options)?,
             cutout: heights(cutout_depth, Some(positive("cutout-pass", options.cutout_pass)?)),
             isolation_tool,
             cutout_tool,
@@ -180,6 +183,18 @@ fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {
         return Ok(length.nm());
     }
     Err(Error::Value { key, problem: format!("`{length}` makes no sense: it must be more than zero") })
+}
+
+/// A gap of nothing leaves the outline as it is drawn.
+fn outline_gap(options: &Options) -> Result<Nm, Error> {
+    /// Chosen: wider gaps are sides that are missing, not corners.
+    const WIDEST: Nm = Nm::from_mm(5);
+    let gap = options.outline_gap.expect("the defaults leave no length open");
+    if gap.nm() < Nm::ZERO || gap.nm() > WIDEST {
+        let problem = format!("`{gap}` makes no sense: it must be from 0mm to {}", Length(WIDEST));
+        return Err(Error::Value { key: "outline-gap", problem });
+    }
+    Ok(gap.nm())
 }
 
 /// How wide the gap is to be, from a width or a number of passes.
@@ -271,6 +286,7 @@ mod tests {
             ("tab-height = \"2mm\"", "tab-height"),
             ("pixel = \"10nm\"", "pixel"),
             ("limit = \"-1mm\"", "limit"),
+            ("outline-gap = \"10mm\"", "outline-gap"),
         ] {
             let error = settings(text).expect_err(text).to_string();
             assert!(error.starts_with(key), "{text}: {error}");

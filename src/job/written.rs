@@ -34,6 +34,7 @@ impl Part {
     fn is_changed_by(self, option: &str) -> bool {
         match option {
             "feed" | "plunge" | "spindle" | "safe-z" | "dialect" | "origin" => true,
+            "outline-gap" => self != Self::Drill,
             _ if option.starts_with("drill") => self == Self::Drill,
             _ if option.starts_with("cutout") || option.starts_with("tab") => self == Self::Cutout,
             _ => matches!(self, Self::Front | Self::Back),

@@ -1,6 +1,6 @@
 //! The report as a person reads it in ten seconds.
 
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 use super::document::{Document, Figures, WarningEntry};
 
@@ -76,7 +76,7 @@ pub(super) fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
         let shown = if verbose { usize::MAX } else { SHOWN };
         let same = || warnings.iter().filter(|warning| warning.code == code);
         for warning in same().take(shown) {
-            let _ = writeln!(text, "  warning: {}{} [{code}]", place(warning), warning.message);
+            let _ = writeln!(text, "  warning: {warning}");
         }
         let rest = same().count().saturating_sub(shown);
         if rest > 0 {
@@ -86,10 +86,23 @@ pub(super) fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
     text
 }
 
-/// Where a warning belongs: in the file, on the board, or nowhere in particular.
+/// Its place, the sentence, and the code to filter by.
+impl fmt::Display for WarningEntry {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{} [{}]", place(self), self.message, self.code)
+    }
+}
+
+/// The most of an offending text that a line of a summary shows, in characters.
+const SHOWN_TEXT: usize = 40;
+
+/// Where a warning belongs: in the file, with the text that stands there; on the board; or nowhere in particular.
 fn place(warning: &WarningEntry) -> String {
     if let Some(source) = &warning.source {
-        return format!("{}:{}:{}: ", source.file, source.line, source.column);
+        let text: String = source.text.chars().take(SHOWN_TEXT).collect();
+        let cut = if text.len() < source.text.len() { "…" } else { "" };
+        let text = if text.is_empty() { text } else { format!("`{text}{cut}`: ") };
+        return format!("{}:{}:{}: {text}", source.file, source.line, source.column);
     }
     let side = warning.side.map_or(String::new(), |side| format!("{side} "));
     match warning.at {

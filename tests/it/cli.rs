@@ -317,3 +317,65 @@ fn inspect_lists_files_nets_and_holes() {
     let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     assert!(report["layers"][0]["nets"].as_array().is_some_and(|nets| nets.len() > 1), "nets by name");
 }
+
+#[test]
+fn a_drill_file_alone_can_be_inspected_and_not_milled() {
+    let out = folder();
+    let drill = fixture("excellon/kicad.drl");
+    let drill = drill.to_string_lossy();
+    let done = voromill(out.path(), &["inspect", &drill]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let text = stdout(&done);
+    for words in ["kicad.drl: drill", "3.200 mm  1 hole", "[copper-missing]"] {
+        assert!(text.contains(words), "says `{words}`:\n{text}");
+    }
+    fails(&out, &["mill", &drill, "-o", "out"], &["no copper layer found among kicad.drl (drill)"], &[]);
+}
+
+#[test]
+fn denied_warnings_fail_and_write_nothing() {
+    let out = folder();
+    fs::copy(fixture("gerber/missing_end.gbr"), out.path().join("amp-F_Cu.gbr")).expect("copied");
+    let left = ["amp-F_Cu.gbr"];
+    let words = ["--deny-warnings", "amp-F_Cu.gbr:", "[missing-end-of-file]"];
+    fails(&out, &["mill", "amp-F_Cu.gbr", "-o", "out", "--deny-warnings"], &words, &left);
+    fails(&out, &["isolate", "amp-F_Cu.gbr", "-o", "a.ngc", "--deny-warnings"], &words, &left);
+    fails(&out, &["draw", "amp-F_Cu.gbr", "-o", "a.png", "--deny-warnings"], &words, &left);
+    let inspected = voromill(out.path(), &["inspect", "amp-F_Cu.gbr", "--format", "json", "--deny-warnings"]);
+    assert_eq!(inspected.status.code(), Some(2), "inspect fails too");
+    let report: serde_json::Value =
+        serde_json::from_slice(&inspected.stdout).expect("but says what it found");
+    let all = report["warnings"].as_array().expect("a list");
+    let warning = all.iter().find(|warning| warning["code"] == "missing-end-of-file").expect("this one");
+    for key in ["file", "line", "column", "text"] {
+        assert!(!warning["source"][key].is_null(), "a place that programs can read has its {key}: {warning}");
+    }
+    let blinker = fixture("boards/blinker");
+    let clean = voromill(out.path(), &["inspect", &blinker.to_string_lossy(), "--deny-warnings"]);
+    assert!(clean.status.success(), "a board without warnings: {}", stderr(&clean));
+}
+
+#[test]
+fn a_drill_file_that_calls_itself_copper_is_a_contradiction() {
+    let out = folder();
+    let copper = fs::read(fixture("boards/blinker/blinker-B_Cu.gbr")).expect("the fixture");
+    fs::write(out.path().join("blinker.drl"), copper).expect("written");
+    let words = ["named like a drill file", "--back"];
+    fails(&out, &["mill", "blinker.drl", "-o", "out"], &words, &["blinker.drl"]);
+}
+
+#[test]
+fn gaps_of_the_outline_are_closed_as_far_as_told() {
+    let out = folder();
+    let copper = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,1*%\nD10*\nX5000000Y5000000D03*\nM02*\n";
+    fs::write(out.path().join("amp-F_Cu.gbr"), copper).expect("written");
+    let edge = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.1*%\nD10*\nX0Y0D02*\nX10000000D01*\nY10000000D01*\nX0D01*\nY300000D01*\nM02*\n";
+    fs::write(out.path().join("amp-Edge_Cuts.gbr"), edge).expect("written");
+    let inspect = |more: &[&str]| stdout(&voromill(out.path(), &[&["inspect", "."], more].concat()));
+    assert!(inspect(&[]).contains("[outline-open]"), "0.3 mm are too far: {}", inspect(&[]));
+    let closed = inspect(&["--outline-gap", "0.5mm"]);
+    assert!(
+        closed.contains("the widest of 0.3") && !closed.contains("outline-open"),
+        "closed, and said: {closed}"
+    );
+}

@@ -135,8 +135,24 @@ fn what_cannot_be_drilled_for_certain_is_an_error_with_its_place() {
         ("M48\nMETRIC\n%\nT1\nX1.0Y1.0\nM30\n", "f.drl:5:1: tool T1 drills here"),
         ("M48\nMETRIC\nT1C0.8\n%\nT0\nX1.0Y1.0\nM30\n", "f.drl:6:1: a hole is drilled before any tool"),
         (
-            "M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0G82X5.0Y5.0\nM30\n",
-            "f.drl:6:9: a drill command that is not supported",
+            "M48\nMETRIC\nT1C0.8\n%\nT1\nG99X1.0Y1.0\nM30\n",
+            "f.drl:6:1: a drill command that is not supported",
+        ),
+        ("M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0X2.0\nM30\n", "f.drl:6:9: a second place in one line"),
+        ("M48\nMETRIC\nT1C0.8\n%\nT1\nG82\nX0Y0\nX5.0Y5.0\nM30\n", "f.drl:8:1: the corners of this package"),
+        ("M48\nINCH\nT1C0.03\n%\nT1\nG82\nX0Y0\nX0.3Y0.3\nM30\n", "f.drl:8:1: a square package"),
+        (
+            "M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0G84X1000\nM30\n",
+            "f.drl:6:12: a circle too narrow for the drill",
+        ),
+        (
+            "M48\nMETRIC\nT1C0.8\n%\nT1\nG32X1.0Y1.0A0.4\nM30\n",
+            "f.drl:6:1: a circle too narrow for the router",
+        ),
+        ("M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0\nP3X1.0\nM30\n", "f.drl:7:1: P repeats a package"),
+        (
+            "M48\nMETRIC\nT1C0.8\n%\nM25\nT1\nX1.0Y1.0\nM01\nM02X5.0M70M80\nM30\n",
+            "f.drl:9:1: swapped and mirrored axes",
         ),
         ("M48\nMETRIC\nT1C0.8\n%\nT1\nX9999.0Y1.0\nM30\n", "f.drl:6:1: coordinate beyond"),
         ("M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0\nR4000000X0.0\nM30\n", "f.drl:7:1: more than 2000000 holes"),
@@ -209,7 +225,7 @@ fn broken_drill_files_end_in_words() {
         ("drill_empty.drl", Err("the drill file is empty")),
         ("drill_no_holes.drl", Ok("drill-without-holes")),
         ("drill_undefined_tool.drl", Err("its diameter is given nowhere")),
-        ("drill_truncated.drl", Ok("missing-end-of-file")),
+        ("drill_truncated.drl", Ok("truncated-file")),
         ("drill_gerbv_bad_tool.exc", Ok("drill-without-holes")),
         ("drill_negative_diameter.drl", Err("a drill cannot have this diameter")),
         ("gerber_named_drl.drl", Err("a Gerber file where an Excellon drill file was expected")),
@@ -295,12 +311,98 @@ fn g_code_is_no_drill_file() {
     }
 }
 
+/// The fixtures that a table of `docs/excellon.md` names, and the files of the folder.
 #[test]
 fn every_fixture_stands_in_the_table_of_constructs() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let table = fs::read_to_string(root.join("src/import/excellon/mod.rs")).expect("readable");
-    for entry in fs::read_dir(root.join("fixtures/excellon")).expect("readable") {
-        let name = entry.expect("an entry").file_name().into_string().expect("a name");
-        assert!(table.contains(&format!("`{name}`")), "{name} is missing from the table");
+    let table = fs::read_to_string(root.join("docs/excellon.md")).expect("readable");
+    let rows = table.lines().filter(|line| line.starts_with("| "));
+    let words = rows.flat_map(|row| row.split('`')).filter(|word| !word.contains([' ', ',', '#']));
+    let mut named: Vec<&str> =
+        words.filter(|word| [".drl", ".txt", ".tap"].iter().any(|end| word.ends_with(end))).collect();
+    named.sort_unstable();
+    named.dedup();
+    let folder = fs::read_dir(root.join("fixtures/excellon")).expect("readable");
+    let mut files: Vec<String> =
+        folder.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name")).collect();
+    files.sort();
+    assert_eq!(named, files, "the table names every fixture, and only fixtures");
+    for name in files {
+        let bytes = fs::read(root.join("fixtures/excellon").join(&name)).expect("readable");
+        let read = excellon::read(&name, &bytes, &Context::default());
+        assert_eq!(read.is_err(), name.starts_with("error_"), "{name} is named for what it comes to");
     }
+}
+
+#[test]
+fn packages_are_drilled_from_two_of_their_holes() {
+    let holes = starts(&fixture("packages.drl"));
+    assert_eq!(holes.len(), 16 + 16 + 8 + 8 + 1, "two packages of 16, one of 8, a round one, and a hole");
+    let inch = |x: i64, y: i64| Point::new(Nm::new(x * 25_400), Nm::new(y * 25_400));
+    assert_eq!(holes[..3], [inch(1000, 1000), inch(1100, 1000), inch(1200, 1000)], "along the row");
+    assert_eq!(
+        holes[7..9],
+        [inch(1700, 1000), inch(1700, 1300)],
+        "the row's end, and back from the other corner"
+    );
+    assert_eq!(holes[15], inch(1000, 1300), "the last lies beside the first");
+    assert_eq!(holes[16], inch(1000, 2000), "the package again, an inch up");
+    let rows: Vec<Point> = vec![inch(4000, 2150), inch(4000, 2100), inch(4000, 2050), inch(4000, 2000)];
+    assert_eq!(holes[32..36], rows, "rows of its own pitch, downwards");
+    let round = &holes[40..48];
+    let middle = inch(6200, 1000);
+    assert!(
+        round.iter().all(|at| (at.distance(middle) - 5_080_000.0).abs() < 2.0),
+        "0.2 inch from the middle: {round:?}"
+    );
+    assert_eq!(round[4], inch(6400, 1000), "the fifth lies opposite");
+}
+
+#[test]
+fn circles_are_cut_by_drill_and_router() {
+    let drilling = fixture("circles.drl");
+    let rings: Vec<(Point, i64)> = drilling.holes[..3]
+        .iter()
+        .map(|hole| {
+            let bounds = hole.path.bounds();
+            let middle =
+                Point::new((bounds.min().x + bounds.max().x) / 2, (bounds.min().y + bounds.max().y) / 2);
+            (middle, (hole.bounds().width().get() + 500) / 1000)
+        })
+        .collect();
+    let expected = [(at(10_000, 10_000), 5_000), (at(20_000, 10_000), 8_000), (at(30_000, 10_000), 8_000)];
+    assert_eq!(rings, expected, "as wide as said, the second radius as the first");
+    let half = &drilling.holes[3].path;
+    let expected = std::f64::consts::PI * 1e6;
+    assert!((half.length() - expected).abs() < 10.0, "offsets counted from the centre: {}", half.length());
+}
+
+#[test]
+fn patterns_are_swapped_and_mirrored_and_nested() {
+    let drilling = fixture("patterns.drl");
+    let holes = starts(&drilling);
+    assert_eq!(holes.len(), 2 * 3 * 2, "a hole and an arc, swapped, mirrored, and all of it again");
+    assert_eq!(holes[2], at(12_000, 1_000), "X for Y");
+    assert_eq!(holes[4], at(19_000, 2_000), "-X, twice as far");
+    assert_eq!(holes[6], at(1_000, 102_000), "all of it, up");
+    let quarter = std::f64::consts::FRAC_PI_2 * 1e6;
+    let arcs = drilling.holes.iter().filter(|hole| hole.is_slot());
+    assert!(arcs.clone().count() == 6, "six arcs");
+    for arc in arcs {
+        assert!((arc.path.length() - quarter).abs() < 10.0, "a quarter still: {:?}", arc.path);
+    }
+}
+
+#[test]
+fn the_codes_of_format_1_are_known() {
+    let mils = |x: i64, y: i64| Point::new(Nm::new(x * 25_400), Nm::new(y * 25_400));
+    let expected = [mils(1000, 1000), mils(1500, 1000), mils(2000, 1000), mils(2000, 0)];
+    assert_eq!(starts(&fixture("format_1.drl")), expected, "two further, and one mirrored below");
+}
+
+#[test]
+fn a_line_that_lost_its_end_is_not_drilled() {
+    let drilling = fixture("cut_off.drl");
+    assert_eq!(starts(&drilling), [at(10_500, 20_250)], "the whole line alone");
+    assert_eq!(codes(&drilling), ["truncated-file"], "and says so");
 }

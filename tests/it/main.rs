@@ -1,5 +1,6 @@
 //! The integration tests: one module a stage, one binary.
 
+mod aperture_lists;
 mod cli;
 mod excellon;
 mod gcode;

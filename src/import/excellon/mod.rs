@@ -11,23 +11,8 @@
 //! ```
 //!
 //! Only where the file leaves a choice is it run more than once, and a choice that is not the manual's default is
-//! reported with its reason. What cannot be read for certain, such as canned cycles, is an error: a drill in the wrong
-//! place ruins the board.
-//!
-//! The manual has no clauses to cite, so its commands stand for them:
-//!
-//! | construct | commands | fixture |
-//! |---|---|---|
-//! | header, tools with sizes, no tool at the end | `M48`, `%`, `FMAT`, `METRIC`, `T1C0.4`, `T0`, `M30` | `kicad.drl` |
-//! | X2 attributes in comments: plating, function, program | `; #@! TF.…`, `; #@! TA.…` | `kicad.drl` |
-//! | no header, tools defined where they are chosen, feeds and speeds | `T1C0.028F200S100` | `headerless.tap` |
-//! | units, zeros and digits that only the copper tells | `INCH,TZ` | `undeclared.drl` |
-//! | trailing zeros left out, digits and plating in comments, modal X and Y | `INCH,LZ`, `;FILE_FORMAT=2:3` | `altium.txt` |
-//! | slots | `G85` | `slots_g85.drl` |
-//! | routed slots and contours; arcs by radius and by centre | `G00`, `M15`, `G01`, `G02`, `G03`, `A`, `I`, `J`, `M16`, `M17` | `routed.drl` |
-//! | rows and patterns | `R4X2.54`, `M25`, `M01`, `M02`, `M08` | `repeats.drl` |
-//! | tool behind the coordinates, incremental, zero set | `X1Y1T1`, `G91`, `G93` | `modes.drl` |
-//! | tool sizes in comments | `;Holesize 1. = 24.0 … MILS` | `allegro.drl` |
+//! reported with its reason. What cannot be read for certain, such as a square package (`G82`), is an error: a drill in
+//! the wrong place ruins the board. `docs/excellon.md` lists every construct with the fixture that shows it.
 
 mod block;
 mod declared;
@@ -71,15 +56,19 @@ pub struct Drilling {
 /// beyond a metre, more holes than any board has.
 pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Error> {
     refuse_others(name, bytes)?;
-    let lines = lex::lines(name, bytes)?;
+    let mut lines = lex::lines(name, bytes)?;
     let declared = Declared::gather(&lines);
+    let cut_off = cut_off(&declared, bytes).then(|| lines.pop()).flatten();
     let plating = declared.function.as_deref().map_or_else(|| plating_by_name(name), plating_by_function);
     let file = File { name, bytes, lines: &lines, declared: &declared, plating };
     let reading = Reading::choose(file, context)?;
     let mut warnings = Warnings::new(name, bytes);
     let run = machine::run(file, reading.format, &mut warnings)?;
     reading.explain(file, context, &mut warnings);
-    if !declared.ended {
+    if let Some(line) = cut_off {
+        let message = "the file ends within a line, which is left out: it may have been cut off; if it was not, end it with M30";
+        warnings.add("truncated-file", line.place, message);
+    } else if !declared.ended {
         let message = "the file does not end with M30; if it was cut off, holes are missing";
         warnings.add("missing-end-of-file", bytes.len()..bytes.len(), message);
     }
@@ -139,14 +128,26 @@ fn begins_as_drill(line: &str) -> bool {
     words > 0 && rest.is_empty() && line.starts_with(['T', 'X', 'Y', 'G'])
 }
 
+/// Whether the file ends in the middle of a line: one without its end, in a file without its end. A coordinate that
+/// lost its last digits is a hole elsewhere.
+fn cut_off(declared: &Declared, bytes: &[u8]) -> bool {
+    let last = bytes.iter().rev().take_while(|b| !matches!(b, b'\n' | b'\r'));
+    !declared.ended && last.clone().any(|b| matches!(b, b'X' | b'Y' | b'x' | b'y'))
+}
+
 /// Says plainly what a file is that is none of ours.
 fn refuse_others(name: &str, bytes: &[u8]) -> Result<(), Error> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(Error::content(name, "the drill file is empty", "export it again"));
     }
     if bytes.trim_ascii_start().starts_with(b"%%") {
-        let what = "a Sieb & Meyer drill file, whose tools have no diameters";
-        return Err(Error::content(name, what, "export drill data as Excellon"));
+        let what =
+            "a Sieb & Meyer drill file, which says neither how wide its tools are nor in what unit it counts";
+        return Err(Error::content(
+            name,
+            what,
+            "export the drill data as Excellon (NC drill), or as Gerber X2",
+        ));
     }
     if looks_like(bytes) {
         return Ok(());

@@ -16,7 +16,7 @@ pub(super) enum Interpolation {
 /// How an arc says where its centre is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Center {
-    /// `I` and `J`: the way from the start.
+    /// `I` and `J`: the way between the start and the centre.
     Offset(Vector),
     /// `A`: the radius, of an arc of at most half a circle.
     Radius(Nm),
@@ -25,11 +25,19 @@ pub(super) enum Center {
 /// The arc from `from` to `to`; none where a radius is given for a full circle, or a way of no length.
 pub(super) fn arc(from: Point, to: Point, turn: Turn, center: Center) -> Option<Segment> {
     let center = match center {
-        Center::Offset(way) => from + way,
+        Center::Offset(way) => by_offset(from, to, way),
         Center::Radius(_) if from == to => return None,
         Center::Radius(radius) => on_radius(from, to, turn, radius),
     };
     (center != from).then_some(Segment::Arc { to, center, turn })
+}
+
+/// The centre that `I` and `J` lead to. The manual counts them from the centre to the start, most programs the other
+/// way: the one holds that is as far from the end as from the start.
+fn by_offset(from: Point, to: Point, way: Vector) -> Point {
+    let mismatch = |center: Point| (center.distance(from) - center.distance(to)).abs();
+    let (ahead, behind) = (from + way, from - way);
+    if mismatch(behind) < mismatch(ahead) { behind } else { ahead }
 }
 
 /// The centre of the arc of at most half a circle; halfway where the radius does not reach.
@@ -72,5 +80,15 @@ mod tests {
         };
         assert_eq!(centre(quarter(Turn::CounterClockwise)), at(0, 0), "to the left");
         assert_eq!(centre(quarter(Turn::Clockwise)), at(1000, 1000), "to the right");
+    }
+
+    #[test]
+    fn an_offset_may_be_counted_either_way() {
+        for x in [-1000, 1000] {
+            let way = at(x, 0) - at(0, 0);
+            let quarter = arc(at(1000, 0), at(0, 1000), Turn::CounterClockwise, Center::Offset(way));
+            let Some(Segment::Arc { center, .. }) = quarter else { panic!("no arc: {quarter:?}") };
+            assert_eq!(center, at(0, 0), "the one that is as far from both ends");
+        }
     }
 }

@@ -1,10 +1,10 @@
 //! Apertures (AD, specification §4.3 and §4.4) and the form each takes under the transformation in force.
 
 use std::f64::consts::PI;
-use std::rc::Rc;
+use std::sync::Arc as Shared;
 
 use crate::board::Feature;
-use crate::board::polarity::Polarity;
+use crate::board::polarity::{self, Polarity};
 use crate::geometry::{Nm, Point, Polygon, Vector};
 
 use super::figure::{Figure, Primitive, arc, area};
@@ -47,7 +47,7 @@ pub(super) enum Template {
         primitives: Vec<Primitive>,
     },
     /// The objects of an AB block, relative to its origin.
-    Block(Rc<Vec<(Feature, Polarity)>>),
+    Block(Shared<Vec<(Feature, Polarity)>>),
 }
 
 /// An aperture, transformed: what a flash or a draw puts down.
@@ -142,12 +142,22 @@ impl Template {
         }
     }
 
-    /// About how many vertices its form has: what it costs to make.
-    pub(super) fn cost(&self) -> u64 {
+    /// About how many vertices its form has before anything is erased.
+    pub(super) fn vertex_count(&self, linear: Linear) -> u64 {
         match self {
-            Self::Macro { primitives, .. } => primitives.iter().map(|p| p.figure.cost()).sum(),
+            Self::Macro { primitives, .. } => {
+                primitives.iter().map(|p| p.figure.vertex_count(linear.scale())).sum()
+            }
             _ => 64,
         }
+    }
+
+    /// What it takes to make its form, in vertices: each change of exposure goes over all that came before.
+    pub(super) fn effort(&self, linear: Linear) -> u64 {
+        let Self::Macro { primitives, .. } = self else { return 0 };
+        let outlines: Vec<_> = primitives.iter().flat_map(|p| p.figure.outlines(linear)).collect();
+        let runs = primitives.chunk_by(|a, b| a.exposed == b.exposed).count() as u64;
+        polarity::effort(outlines.iter()).saturating_mul(runs)
     }
 
     /// As people say it.

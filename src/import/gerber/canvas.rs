@@ -1,6 +1,6 @@
 //! The objects drawn so far: the image, and the blocks (AB) and repeats (SR) that are open.
 
-use std::rc::Rc;
+use std::sync::Arc as Shared;
 
 use crate::board::polarity::Polarity;
 use crate::board::{Axis, Feature, Shape};
@@ -148,11 +148,11 @@ impl Canvas {
     }
 
     /// Closes the innermost frame, a block: its number and objects.
-    pub(super) fn close_block(&mut self) -> Option<(u32, Rc<Vec<Object>>)> {
+    pub(super) fn close_block(&mut self) -> Option<(u32, Shared<Vec<Object>>)> {
         match self.open.last() {
             Some((Frame::Block(number), _)) => {
                 let number = *number;
-                self.open.pop().map(|(_, objects)| (number, Rc::new(objects)))
+                self.open.pop().map(|(_, objects)| (number, Shared::new(objects)))
             }
             _ => None,
         }

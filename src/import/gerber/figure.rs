@@ -79,6 +79,14 @@ impl Figure {
         }
     }
 
+    /// The image under `linear`, its contours as they are written.
+    pub(super) fn outlines(&self, linear: Linear) -> Vec<Vec<Point>> {
+        match self {
+            Self::Ring { .. } => self.contours(linear),
+            Self::Contour(_) => vec![self.vertices(linear)],
+        }
+    }
+
     /// Whether it crosses itself too often to be worked out.
     pub(super) fn is_tangled(&self) -> bool {
         let vertices = self.vertices(Linear::IDENTITY);
@@ -104,10 +112,16 @@ impl Figure {
         }
     }
 
-    /// About how many vertices it has once flattened: what it costs.
-    pub(super) fn cost(&self) -> u64 {
+    /// About how many vertices it has once flattened, `scale` times as large.
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "`as` saturates, as it should here"
+    )]
+    pub(super) fn vertex_count(&self, scale: f64) -> u64 {
+        let circle = |radius: f64| 8 + (PI * (radius * scale / (2.0 * FLATTEN.to_f64())).sqrt()) as u64;
         match self {
-            Self::Ring { .. } => 64,
+            Self::Ring { outer, inner, .. } => circle(*outer) + circle(*inner),
             Self::Contour(places) => places.len() as u64,
         }
     }

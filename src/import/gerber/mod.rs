@@ -6,6 +6,10 @@
 //!                            └─ aperture, aperture_macro ┘ draw, region
 //! ```
 //!
+//! The reader is one state machine over several files: `codes`, `operation`, `circular`, `contour` and `selected` carry
+//! out the blocks of words, `extended` tells the commands between `%` apart, which `numbers`, `definition`, `copies`
+//! and `transformation` carry out, and `finish` ends it.
+//!
 //! Written for files in the wild, with the specification (Ucamco, revision 2023.08) deciding where they disagree. Three
 //! choices make it both quick and forgiving. Blocks are cut at `*`, never at line ends, because some tools write a file
 //! on one line. A command is told by its first two characters, not by the `%` around it. And numbers go from digits to
@@ -15,21 +19,34 @@
 //! aperture that is not defined, units that contradict each other, a number that is none.
 
 mod aperture;
+mod aperture_list;
 mod aperture_macro;
 mod attributes;
 mod canvas;
+mod circular;
+mod codes;
+mod contour;
+mod copies;
+mod definition;
 mod draw;
 mod expression;
 mod extended;
 mod figure;
+mod finish;
 mod lex;
+mod numbers;
+mod operation;
 mod reader;
 mod region;
+mod selected;
 mod state;
+mod transformation;
 
 use crate::board::{Attributes, Feature, Source, Warning};
 
 use super::Error;
+
+pub use aperture_list::ApertureList;
 
 /// Limits against files that expand beyond reason.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +89,22 @@ pub struct Image {
 ///
 /// [`Error`] names the place and what was expected there, or says why this is no Gerber file.
 pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Image, Error> {
-    reader::read(name, bytes, options)
+    reader::read(name, bytes, None, options)
+}
+
+/// Reads an RS-274-D file, whose apertures stand in `list`, and perhaps its number format too.
+///
+/// # Errors
+///
+/// As [`read`]; also an aperture that the list does not have, or that it leaves unclear.
+pub fn read_beside(name: &str, bytes: &[u8], list: &ApertureList, options: &Options) -> Result<Image, Error> {
+    reader::read(name, bytes, Some(list), options)
+}
+
+/// Whether a Gerber file defines no aperture of its own (RS-274-D), though it may yet draw regions alone.
+#[must_use]
+pub fn lacks_apertures(bytes: &[u8]) -> bool {
+    !bytes.windows(3).any(|window| window == b"ADD" || window == b"ABD")
 }
 
 /// Whether `bytes` look like a Gerber file: by content, whatever the name.

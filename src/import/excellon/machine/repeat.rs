@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::Machine;
 use crate::board::Hole;
-use crate::geometry::{Path, Segment, Vector};
+use crate::geometry::{Nm, Path, Point, Segment, Vector};
 use crate::import::error::Error;
 use crate::import::excellon::block::Block;
 use crate::import::excellon::lex::{Line, Word};
@@ -20,21 +20,20 @@ impl Machine<'_, '_, '_> {
         Ok(())
     }
 
-    /// `M02X#Y#`: the pattern once more, moved; `R#M02X#Y#`: that many times.
+    /// `M02X#Y#`: the pattern once more, moved; `R#M02X#Y#`: that many times. `M02` alone ends the repeats.
     pub(super) fn step(&mut self, word: &Word, block: &Block<'_>, line: &Line) -> Result<(), Error> {
-        if block.miscellaneous.iter().any(|w| matches!(w.number.integer(), Some(70 | 80 | 90))) {
-            return Err(self.wrong(
-                word,
-                "a mirrored pattern is not supported",
-                "M02 without M70, M80 or M90",
-            ));
+        if block.x.is_none() && block.y.is_none() && block.repeat.is_none() {
+            self.stepped = Vector::default();
+            return Ok(());
+        }
+        let axes = Axes::of(block);
+        if axes.swapped && axes.mirrored.0 != axes.mirrored.1 {
+            let what = "swapped and mirrored axes, of which the manual does not say which comes first";
+            return Err(self.wrong(word, what, "M70, M80, M90, M80 with M90, or all three"));
         }
         let Some((from, to)) = self.pattern else {
-            self.warnings.add(
-                "pattern-missing",
-                word.place.clone(),
-                "M02 repeats no pattern, as none was begun with M25",
-            );
+            let message = "M02 repeats no pattern, as none was ended with M01";
+            self.warnings.add("pattern-missing", word.place.clone(), message);
             return Ok(());
         };
         let to = to.unwrap_or(self.holes.len());
@@ -47,25 +46,52 @@ impl Machine<'_, '_, '_> {
             self.stepped = self.stepped + way;
             for index in from..to {
                 let hole = self.holes[index].clone();
-                let path = self.moved(&hole.path, self.stepped, &line.place)?;
+                let path = self.moved(&hole.path, axes, self.stepped, &line.place)?;
                 self.push(Hole { path, line: line.number, ..hole }, &line.place)?;
             }
         }
         Ok(())
     }
 
-    fn moved(&self, path: &Path, way: Vector, place: &Range<usize>) -> Result<Path, Error> {
+    /// `path` with other axes, and moved.
+    fn moved(&self, path: &Path, axes: Axes, way: Vector, place: &Range<usize>) -> Result<Path, Error> {
+        let moved = |p: Point| self.in_range(self.zero + axes.vector(p - self.zero) + way, place);
         let step = |segment: &Segment| -> Result<Segment, Error> {
             Ok(match *segment {
-                Segment::Line { to } => Segment::Line { to: self.in_range(to + way, place)? },
-                Segment::Arc { to, center, turn } => Segment::Arc {
-                    to: self.in_range(to + way, place)?,
-                    center: self.in_range(center + way, place)?,
-                    turn,
-                },
+                Segment::Line { to } => Segment::Line { to: moved(to)? },
+                Segment::Arc { to, center, turn } => {
+                    let turn = if axes.turn_over() { turn.reversed() } else { turn };
+                    Segment::Arc { to: moved(to)?, center: moved(center)?, turn }
+                }
             })
         };
         let segments = path.segments.iter().map(step).collect::<Result<_, _>>()?;
-        Ok(Path { start: self.in_range(path.start + way, place)?, segments })
+        Ok(Path { start: moved(path.start)?, segments })
+    }
+}
+
+/// What `M70`, `M80` and `M90` do to a repeated pattern.
+#[derive(Clone, Copy)]
+struct Axes {
+    /// X for Y.
+    swapped: bool,
+    /// −X for X, −Y for Y.
+    mirrored: (bool, bool),
+}
+
+impl Axes {
+    fn of(block: &Block<'_>) -> Self {
+        Self { swapped: block.has([70, 23]), mirrored: (block.has([80, 21]), block.has([90, 22])) }
+    }
+
+    fn vector(self, way: Vector) -> Vector {
+        let signed = |length: Nm, mirrored: bool| if mirrored { -length } else { length };
+        let (x, y) = if self.swapped { (way.y, way.x) } else { (way.x, way.y) };
+        Vector::new(signed(x, self.mirrored.0), signed(y, self.mirrored.1))
+    }
+
+    /// Whether left becomes right.
+    const fn turn_over(self) -> bool {
+        self.swapped ^ self.mirrored.0 ^ self.mirrored.1
     }
 }

@@ -1,0 +1,114 @@
+//! The end of a file: what is open is closed, polarity is resolved, and the image is what is left.
+
+use crate::board::polarity::{self, Polarity};
+use crate::board::{ApertureUse, Axis, Feature, Shape, Source};
+use crate::geometry::{Polygon, Rect};
+
+use super::super::digest::sha256;
+use super::super::error::Error;
+use super::Image;
+use super::lex::is_blank;
+use super::reader::{Aperture, Counts, Reader};
+use super::state::{Format, Unit};
+
+impl<'a> Reader<'a> {
+    pub(super) fn finish(mut self) -> Result<Image, Error> {
+        let end = self.bytes.len()..self.bytes.len();
+        if self.region.is_some() {
+            let message = "the file ends within a region, which is ended there";
+            self.warnings.add("truncated-file", end.clone(), message);
+            self.end_contour()?;
+        }
+        while self.canvas.innermost().is_some() {
+            let repeated =
+                self.canvas.close_repeat().map_err(|refusal| self.refused(end.clone(), &refusal))?;
+            if !repeated {
+                self.canvas.close_block();
+                self.warnings.add(
+                    "truncated-file",
+                    end.clone(),
+                    "the file ends within a block (%AB), which is left out",
+                );
+            }
+        }
+        if self.ended {
+            let rest = &self.bytes[self.lexer.position()..];
+            if !rest.iter().all(|&b| is_blank(b) || b == b'%') {
+                let place = self.lexer.position()..self.bytes.len();
+                self.warnings.add(
+                    "text-after-end",
+                    place,
+                    "what follows the end of the program (M02) is left out",
+                );
+            }
+        } else {
+            let message = "the file does not end with M02; it may have been cut off";
+            self.warnings.add("missing-end-of-file", end, message);
+        }
+        self.into_image()
+    }
+
+    pub(super) fn into_image(mut self) -> Result<Image, Error> {
+        let source = self.source();
+        let mut objects = self.canvas.finish();
+        if self.negative
+            && let Some(frame) = objects.iter().map(|(feature, _)| feature.shape.bounds()).reduce(Rect::union)
+        {
+            let message = "a negative image (%IPNEG) has no extent of its own; its ground is the rectangle round its objects";
+            self.warnings.add("negative-image", 0..0, message);
+            for (_, polarity) in &mut objects {
+                *polarity = polarity.toggled();
+            }
+            let shape = Shape::Polygon(Polygon::rectangle(frame));
+            let ground = Feature { shape, axis: Axis::Region, attributes: 0, line: 1 };
+            objects.insert(0, (ground, Polarity::Dark));
+        }
+        if self.attributes.negative {
+            let message = "the file calls its polarity negative (.FilePolarity); it is read as it is drawn, dark for copper";
+            self.warnings.add("negative-file", 0..0, message);
+        }
+        let features = polarity::resolve(objects).map_err(|excess| {
+            Error::content(self.name, excess.to_string(), "have the layer written without clear objects")
+        })?;
+        if features.is_empty() {
+            self.warnings.add("nothing-drawn", 0..0, "the file draws nothing");
+        }
+        Ok(Image {
+            features,
+            function: self.attributes.function.clone(),
+            attributes: self.attributes.into_sets(),
+            source,
+            warnings: self.warnings.finish(),
+        })
+    }
+
+    pub(super) fn source(&self) -> Source {
+        let mut numbers: Vec<_> = self.apertures.keys().copied().collect();
+        numbers.sort_unstable();
+        let apertures = numbers.iter().filter_map(|number| {
+            let Aperture { template, flashes, draws, .. } = self.apertures.get(number)?;
+            let (name, what) = (format!("D{number}"), template.describe());
+            Some(ApertureUse { name, what, flashes: *flashes, draws: *draws })
+        });
+        let Counts { flashes, strokes, arcs, regions } = self.counts;
+        let counts = [("flashes", flashes), ("strokes", strokes), ("arcs", arcs), ("regions", regions)];
+        let x2 = self.attributes.function.is_some() || self.attributes.generator.is_some();
+        Source {
+            file: self.name.to_owned(),
+            format: match (x2, self.list) {
+                (true, _) => "gerber-x2",
+                (false, Some(_)) => "gerber-d",
+                (false, None) => "gerber-x",
+            }
+            .to_owned(),
+            role: String::new(),
+            units: self.unit.map_or("unknown", Unit::name).to_owned(),
+            number_format: self.format.map_or_else(|| "unknown".to_owned(), Format::name),
+            sha256: sha256(self.bytes),
+            bytes: self.bytes.len() as u64,
+            counts: counts.into_iter().map(|(name, count)| (name.to_owned(), count)).collect(),
+            generator: self.attributes.generator.clone().or_else(|| self.generator.clone()),
+            apertures: apertures.collect(),
+        }
+    }
+}
