@@ -203,7 +203,8 @@ fn row(line: u32, text: &str, with_d: bool) -> Option<Row> {
     let behind = &words[at + 1..];
     let tells = |word: &&&str| known(word).is_some() || matches!(**word, "LINE" | "DRAW");
     let shape_at = behind.iter().position(|word| tells(&word)).unwrap_or(0);
-    let turned = words[..at].iter().any(|word| known(&word).is_some());
+    // `CIRCLE 10 D10`, and not a sentence that ends with a code.
+    let turned = at > 0 && known(&words[0]).is_some();
     let places = [&behind[..shape_at], behind, if turned { &words[..at] } else { &[] }];
     let (sizes, unit) = places.into_iter().map(sizes).find(|(sizes, _)| !sizes.is_empty())?;
     Some(Row { line, code, shape, sizes, unit })
