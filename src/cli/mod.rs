@@ -2,6 +2,7 @@
 
 mod colour;
 mod config;
+mod diff;
 mod draw;
 mod failure;
 mod init;
@@ -41,11 +42,12 @@ Examples:
   voromill mill board.zip -o out --tool endmill:0.2mm --depth 0.1mm
   voromill isolate board-F_Cu.gbr -o front.ngc  one layer alone
   voromill verify out/*.ngc --board board/     what programs, anybody's, do to the board
+  voromill diff old/ new/                      what copper changes between programs
   voromill draw board/ --stage voronoi -o v.png  a picture of one stage
   voromill init                                write voromill.toml with every setting and its default
 
 Lengths carry units: nm, um, mm, cm, mil, in. `voromill mill --help` explains each option.
-Exit codes: 0 done, 1 verification found something, 2 failed.";
+Exit codes: 0 done, 1 verification found something or programs differ, 2 failed.";
 
 #[derive(Subcommand)]
 enum Command {
@@ -54,6 +56,7 @@ enum Command {
     Draw(draw::Draw),
     Inspect(inspect::Inspect),
     Verify(verify::Verify),
+    Diff(diff::Diff),
     Init(init::Init),
 }
 
@@ -85,6 +88,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Draw(draw) => draw.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Inspect(inspect) => inspect.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Verify(verify) => verify.run(cli.shared),
+        Command::Diff(diff) => diff.run(cli.shared),
         Command::Init(init) => init.run(cli.shared).map(|()| ExitCode::SUCCESS),
     });
     match done {

@@ -3,11 +3,12 @@ use std::process::ExitCode;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
-use voromill::board::Side;
+use voromill::board::{Board, Side};
 use voromill::geometry::{Nm, Vector};
 use voromill::import::{self, Selection};
 use voromill::report::Verdict;
-use voromill::verify::{self, Cutter, Placement, Program, Role, Severity};
+use voromill::toolpath::Angle;
+use voromill::verify::{self, Cutter, Orientation, Placement, Program, Role, Severity};
 
 use super::{Failure, Shared};
 
@@ -43,6 +44,14 @@ pub(super) struct Verify {
     #[arg(long, value_name = "X", allow_hyphen_values = true)]
     mirror: Option<Nm>,
 
+    /// How far the board was turned, counter-clockwise, before it was moved
+    #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
+    rotate: Option<Angle>,
+
+    /// Find from what is cut how the board lies under each program: the offset, and unless given, --mirror and quarter turns
+    #[arg(long, conflicts_with = "offset")]
+    register: bool,
+
     /// How bad a finding must be to fail
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     deny: Severity,
@@ -55,7 +64,19 @@ pub(super) struct Verify {
     #[arg(long, value_name = "LENGTH", default_value = "0.01mm")]
     max_gouge: Nm,
 
-    /// The pixel of the picture [default: an eighth of the kerf, within 5um to 25um]
+    /// Below this width a strip of copper between two cuts is a sliver
+    #[arg(long, value_name = "LENGTH", default_value = "0.05mm")]
+    sliver: Nm,
+
+    /// How far the machine travels, as three lengths
+    #[arg(long, value_name = "X,Y,Z")]
+    travel: Option<Travel>,
+
+    /// How many tabs must hold each board; 0 for boards that are held otherwise [default: at least one]
+    #[arg(long, value_name = "NUMBER")]
+    tabs: Option<u32>,
+
+    /// The pixel of the picture [default: a quarter of the kerf, within 5um to 25um]
     #[arg(long, value_name = "LENGTH")]
     resolution: Option<Nm>,
 
@@ -68,7 +89,8 @@ const EXAMPLES: &str = "\
 Examples:
   voromill verify out/*.ngc --board board/
   voromill verify front.gcode --board board-F_Cu.gbr --tool endmill:0.2mm --side front
-  voromill verify back.nc --board board.zip --tool vbit:0.1mm:20deg --side back --mirror 25mm --format sarif";
+  voromill verify back.nc --board board.zip --tool vbit:0.1mm:20deg --side back --mirror 25mm --format sarif
+  voromill verify flatcam.nc --board board.zip --tool endmill:0.2mm --side front --register";
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Purpose {
@@ -98,22 +120,48 @@ impl FromStr for Offset {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let (x, y) = text.split_once(',').ok_or("expected two lengths: x,y")?;
-        let length = |text: &str| text.parse::<Nm>().map_err(|error| error.to_string());
-        Ok(Self(Vector::new(length(x)?, length(y)?)))
+        let [x, y] = lengths(text).ok_or("expected two lengths, such as 1mm,-2.5mm")?;
+        Ok(Self(Vector::new(x, y)))
     }
+}
+
+/// Three lengths.
+#[derive(Clone, Copy)]
+struct Travel([Nm; 3]);
+
+impl FromStr for Travel {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        lengths(text).map(Self).ok_or_else(|| "expected three lengths, such as 300mm,180mm,45mm".to_owned())
+    }
+}
+
+/// Lengths between commas, where they are so many.
+fn lengths<const COUNT: usize>(text: &str) -> Option<[Nm; COUNT]> {
+    let lengths: Option<Vec<Nm>> = text.split(',').map(|length| length.trim().parse().ok()).collect();
+    lengths?.try_into().ok()
 }
 
 impl Verify {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
         let loaded = import::load(&self.board, &Selection::default())?;
-        let programs = self.programs.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
         let settings = verify::Settings {
             copper: self.copper,
             gouge: self.max_gouge,
+            sliver: self.sliver,
+            travel: self.travel.map(|Travel(travel)| travel),
+            tabs: self.tabs,
             pixel: self.resolution,
             ..verify::Settings::default()
         };
+        let mut programs =
+            self.programs.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
+        if self.register {
+            for program in &mut programs {
+                self.lay(program, &loaded.board, &settings, shared)?;
+            }
+        }
         let report = verify::verify(&programs, &loaded.board, &[], &settings)?;
         let verdict = Verdict::from(&report);
         match self.format {
@@ -125,6 +173,28 @@ impl Verify {
         Ok(if report.passes(self.deny) { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 
+    /// Finds how the board lies under a program, and says so.
+    fn lay(
+        &self,
+        program: &mut Program,
+        board: &Board,
+        settings: &verify::Settings,
+        shared: Shared,
+    ) -> Result<(), Failure> {
+        let known = Orientation { degrees: self.rotate.map(Angle::degrees), mirror: self.mirror };
+        let found = verify::register(program, board, &known, settings)?;
+        let mirror = found.mirror.map_or(String::new(), |axis| format!(" --mirror {axis:.3}mm"));
+        let turned = if found.degrees.abs() < 1e-9 {
+            String::new()
+        } else {
+            format!(" --rotate {}deg", found.degrees)
+        };
+        let (x, y) = (found.shift.x, found.shift.y);
+        shared.say(&format!("{}: lies as with --offset {x:.4}mm,{y:.4}mm{mirror}{turned}\n", program.file));
+        program.placement = Some(found);
+        Ok(())
+    }
+
     fn program(&self, path: &Path) -> Result<Program, Failure> {
         let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
         let role = self.side.map(|purpose| match purpose {
@@ -133,14 +203,15 @@ impl Verify {
             Purpose::Drill => Role::Drilling,
             Purpose::Cutout => Role::Cutout,
         });
-        let placed = self.offset.is_some() || self.mirror.is_some();
+        let placed = self.offset.is_some() || self.mirror.is_some() || self.rotate.is_some();
+        let degrees = self.rotate.map_or(0.0, Angle::degrees);
         let shift = self.offset.map_or(Vector::default(), |Offset(shift)| shift);
         Ok(Program {
             file: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
             text: String::from_utf8_lossy(&bytes).into_owned(),
             role,
             cutter: self.tool,
-            placement: placed.then_some(Placement { shift, mirror: self.mirror, ..Placement::default() }),
+            placement: placed.then_some(Placement { degrees, shift, mirror: self.mirror }),
         })
     }
 }

@@ -2,6 +2,7 @@
 
 mod canvas;
 pub mod colours;
+pub mod comparison;
 pub mod document;
 mod ink;
 pub mod inspection;

@@ -206,6 +206,7 @@ fn sarif(finding: &FindingEntry) -> serde_json::Value {
     };
     let mut result = json!({
         "ruleId": finding.name,
+        "ruleIndex": check::ALL.iter().position(|check| check.name == finding.name),
         "level": level,
         "message": { "text": finding.message },
         "properties": { "side": finding.side, "nets": finding.nets, "at": finding.at, "size_mm": finding.size_mm },
@@ -213,11 +214,24 @@ fn sarif(finding: &FindingEntry) -> serde_json::Value {
     if let Some(program) = &finding.program {
         let line = finding.line.unwrap_or(1);
         result["locations"] = json!([{ "physicalLocation": {
-            "artifactLocation": { "uri": program },
+            "artifactLocation": { "uri": uri(program) },
             "region": { "startLine": line },
         } }]);
     }
     result
+}
+
+/// A file's name as a relative URI (RFC 3986 §2.1): what is not unreserved becomes bytes in hexadecimal.
+fn uri(name: &str) -> String {
+    let mut text = String::new();
+    for byte in name.bytes() {
+        if byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'.' | b'_' | b'~' | b'/') {
+            text.push(char::from(byte));
+        } else {
+            let _ = write!(text, "%{byte:02X}");
+        }
+    }
+    text
 }
 
 /// Where a finding belongs: in the program and on the board.

@@ -68,7 +68,7 @@ impl Basin {
         let at = self.place(pixel);
         let Some(seen) = self.seen(sheet, pixel) else { return (None, at) };
         let reach = Nm::from_f64(seen.max(0.0)) + self.grid.pitch() * 4;
-        match sheet.walls.neck(at, reach) {
+        match sheet.walls.neck(at, reach, self.grid.pitch() * 3) {
             Some(neck) => (Some(Nm::from_f64(neck.width)), neck.at),
             None => (Some(Nm::from_f64(seen)), at),
         }

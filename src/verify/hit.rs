@@ -58,30 +58,10 @@ fn taken(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, tolerance: Nm) -> Vec<H
 fn forced(sheet: &Sheet<'_>, cut: &Cut<'_>, hit: &Hit, tolerance: Nm) -> bool {
     let kerf = cut.swept.half().to_f64() * 2.0;
     let own = cut.swept.half().to_f64() - hit.depth;
-    let middle = Shape::Disc { center: on_axis(&cut.swept.axis(), hit.at), radius: Nm::ZERO };
+    let middle = Shape::Disc { center: sheet.walls.foot(hit.cut, hit.at), radius: Nm::ZERO };
     let others = sheet.proximity.near(&middle, Nm::from_f64(kerf));
     let others = others.iter().filter(|near| sheet.nets.of(near.feature) != hit.net);
     let Some(other) = others.map(|near: &Near| near.width).reduce(f64::min) else { return false };
     let gap = own + other;
     gap < kerf && hit.depth <= (kerf - gap) / 2.0 + tolerance.to_f64()
-}
-
-/// The point of an axis nearest to `p`.
-pub(super) fn on_axis(axis: &Shape, p: Point) -> Point {
-    let (px, py) = p.to_f64();
-    match axis {
-        Shape::Stroke { from, to, .. } => {
-            let ((x, y), way) = (from.to_f64(), *to - *from);
-            let (ux, uy) = (way.x.to_f64(), way.y.to_f64());
-            let along = (((px - x) * ux + (py - y) * uy) / (ux * ux + uy * uy)).clamp(0.0, 1.0);
-            Point::from_f64(x + ux * along, y + uy * along)
-        }
-        Shape::Arc { arc, .. } => {
-            let ((x, y), radius) = (arc.center.to_f64(), arc.radius());
-            let away = arc.center.distance(p).max(1.0);
-            Point::from_f64(x + (px - x) / away * radius, y + (py - y) / away * radius)
-        }
-        Shape::Disc { center, .. } => *center,
-        Shape::Polygon(_) => p,
-    }
 }

@@ -15,11 +15,13 @@
 
 pub mod check;
 mod cutter;
+mod diff;
 mod flood;
 mod hit;
 mod machining;
 mod pieces;
 mod placement;
+mod register;
 mod report;
 mod sheet;
 mod stated;
@@ -36,7 +38,9 @@ use crate::grid::GridError;
 use crate::topology::Nets;
 
 pub use cutter::{Cutter, CutterKind, ParseCutterError};
+pub use diff::{Change, Comparison, Region, Spot, diff};
 pub use placement::Placement;
+pub use register::{Orientation, register};
 pub use report::{Finding, Judged, Report, Severity};
 
 use machining::Machining;
@@ -168,6 +172,9 @@ pub enum Error {
         /// The side.
         side: Side,
     },
+    /// A program that was to be laid over the board, and fits nowhere.
+    #[error("{0}: nothing of it fits the board, however it is laid")]
+    Unplaced(String),
     /// A text without motions.
     #[error("{0}: no motion in it")]
     NoMotion(String),
@@ -184,6 +191,7 @@ impl Error {
             Self::NoTool { .. } => "name it: --tool vbit:0.1mm:30deg, or endmill:0.2mm",
             Self::NoSide(_) | Self::NoCopper { .. } => "name it: --side front, or back",
             Self::Grid(_) => "choose a larger --pixel",
+            Self::Unplaced(_) => "say how it lies: --offset, --mirror, --rotate",
             Self::Read { .. } | Self::Range { .. } | Self::NoMotion(_) => "",
         }
     }

@@ -45,11 +45,11 @@ pub(super) fn pieces(scene: &Scene, stays: impl Fn(u32) -> bool + Sync) -> Vec<P
 
 /// Neighbouring pixels of one label in a row.
 #[derive(Clone, Copy)]
-struct Run {
-    start: u32,
+pub(super) struct Run {
+    pub(super) start: u32,
     /// The column after the last.
-    end: u32,
-    label: u32,
+    pub(super) end: u32,
+    pub(super) label: u32,
 }
 
 /// A tile as runs, row by row.
@@ -110,8 +110,9 @@ struct Node {
     extent: Extent,
 }
 
+/// Joins runs, row by row.
 #[derive(Default)]
-struct Joiner {
+pub(super) struct Joiner {
     nodes: Vec<Node>,
     /// The row above: its runs and their nodes.
     above: Vec<(Run, u32)>,
@@ -143,7 +144,8 @@ impl Joiner {
         }
     }
 
-    fn row(&mut self, row: u32, runs: &[Run]) {
+    /// Takes the next row, the one below the row before.
+    pub(super) fn row(&mut self, row: u32, runs: &[Run]) {
         let above = std::mem::take(&mut self.above);
         let mut now: Vec<(Run, u32)> = Vec::with_capacity(runs.len());
         let mut first = 0;
@@ -190,7 +192,7 @@ impl Joiner {
     }
 
     /// All nodes of a label in a piece as one part.
-    fn parts(mut self) -> Vec<Part> {
+    pub(super) fn parts(mut self) -> Vec<Part> {
         let count = u32::try_from(self.nodes.len()).expect("fewer than 2³² regions");
         let pieces: Vec<u32> = (0..count).map(|node| self.find(node)).collect();
         let mut parts: Vec<Part> = pieces

@@ -45,7 +45,7 @@ impl Placement {
 }
 
 /// A point turned about zero; exact for quarter turns.
-fn turned(p: Point, degrees: f64) -> Point {
+pub(super) fn turned(p: Point, degrees: f64) -> Point {
     let (x, y) = p.to_f64();
     let (sin, cos) = match degrees.rem_euclid(360.0) {
         0.0 => (0.0, 1.0),

@@ -217,7 +217,7 @@ impl<'a> Sheet<'a> {
 }
 
 /// A quarter of the narrowest kerf, so that a cut that is drawn narrower is still a wall without doors, within 5 µm to 25 µm.
-fn pixel(half: Nm) -> Nm {
+pub(super) fn pixel(half: Nm) -> Nm {
     (half / 2).max(Nm::from_um(5)).min(Nm::from_um(25))
 }
 

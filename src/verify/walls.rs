@@ -69,6 +69,12 @@ impl Walls {
         walls
     }
 
+    /// The point of a wall's axis nearest to a place within its kerf.
+    pub(super) fn foot(&self, index: usize, p: Point) -> Point {
+        let walls = self.around(p, Nm::ZERO);
+        walls.iter().find(|wall| wall.index == index).map_or(p, |wall| wall.foot)
+    }
+
     /// The walls whose faces come within `reach` of that of wall `index`: which, how far, and the middle between the axes.
     pub(super) fn beside(&self, index: usize, reach: Nm) -> Vec<(usize, Neck)> {
         let own = self.halves[index];
@@ -80,11 +86,11 @@ impl Walls {
         near.into_iter().map(gap).filter(|(_, neck)| neck.width <= reach.to_f64()).collect()
     }
 
-    /// The neck at about `p`, between walls on both sides of it whose faces are within `reach`; none where there is a wall on no
-    /// more than one side.
+    /// The neck at `p`, give or take `room`, between walls on both sides of it whose faces are within `reach`; none where there is a
+    /// wall on no more than one side.
     ///
     /// From the nearest wall and the nearest one across it goes to where these two are nearest to each other, and looks again.
-    pub(super) fn neck(&self, p: Point, reach: Nm) -> Option<Neck> {
+    pub(super) fn neck(&self, p: Point, reach: Nm, room: Nm) -> Option<Neck> {
         let mut best = self.across(p, reach)?.1;
         let mut at = p;
         for _ in 0..STEPS {
@@ -94,8 +100,7 @@ impl Walls {
             }
             let facing = self.beside(one, reach + reach).into_iter().find(|(index, _)| *index == other);
             // Two ways that meet elsewhere say nothing about this place.
-            let Some((_, neck)) = facing.filter(|(_, neck)| neck.at.distance(p) <= reach.to_f64() / 2.0)
-            else {
+            let Some((_, neck)) = facing.filter(|(_, neck)| neck.at.distance(p) <= room.to_f64()) else {
                 break;
             };
             if neck.width < best.width {

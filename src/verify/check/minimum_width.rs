@@ -9,8 +9,8 @@
 //!
 //! # What it can miss
 //!
-//! It looks across at the deepest place of each cut, in a picture with pixels of 5 µm and a millimetre to each side: what
-//! was wider than that is not narrow. Where the cutter's middle goes through a net, the wider of the two sides counts.
+//! It looks across at the deepest place of each cut, in a picture with pixels of 5 µm and 0.6 mm to each side: what
+//! was wider than that is not narrow. Where the cutter's middle goes through a net, `gouge` and `open` tell of it.
 
 use std::collections::BTreeMap;
 
@@ -20,7 +20,7 @@ use super::{Check, Run, Severity};
 use crate::geometry::{Nm, Point, Rect};
 use crate::grid::Grid;
 use crate::topology::NetId;
-use crate::verify::hit::{Hit, on_axis};
+use crate::verify::hit::Hit;
 use crate::verify::report::Finding;
 use crate::verify::sheet::{NETS, Sheet, Show};
 
@@ -32,12 +32,12 @@ pub(super) const CHECK: Check = Check {
 
 const NAME: &str = "minimum-width";
 
-/// How far it looks. Chosen: far wider than what is called a trace.
-const AROUND: Nm = Nm::from_mm(1);
+/// How far it looks. Chosen: wider than most traces.
+const AROUND: Nm = Nm::from_um(600);
 /// The pixel.
 const PITCH: Nm = Nm::from_um(5);
 /// Places of a net that are looked at, the deepest first. Chosen: a net so often cut has other findings.
-const PLACES: usize = 16;
+const PLACES: usize = 8;
 
 /// What is left across a place, and what was designed.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +71,7 @@ fn narrowest(sheet: &Sheet<'_>, mut hits: Vec<Hit>) -> Option<Width> {
 /// The widths across a net where a cut reaches into it, at a right angle to the cut.
 fn across(sheet: &Sheet<'_>, hit: &Hit) -> Option<Width> {
     let swept = sheet.cuts[hit.cut].swept;
-    let foot = on_axis(&swept.axis(), hit.at);
+    let foot = sheet.walls.foot(hit.cut, hit.at);
     let (dx, dy) = (hit.at.x - foot.x, hit.at.y - foot.y);
     let length = foot.distance(hit.at);
     if length < 1.0 {

@@ -156,7 +156,7 @@ fn area(pixels: usize, pitch: Nm) -> f64 {
 }
 
 /// The middles of `count` equal parts of a way, each with the part's length in nanometres; nothing where it only goes down.
-fn along(way: &Shape, count: u32) -> Vec<(Point, f64)> {
+pub(super) fn along(way: &Shape, count: u32) -> Vec<(Point, f64)> {
     let spread = |length: f64, at: &dyn Fn(f64) -> (f64, f64)| {
         let parts = (0..count).map(|i| at((f64::from(i) + 0.5) / f64::from(count)));
         parts.map(|(x, y)| (Point::from_f64(x, y), length / f64::from(count))).collect()

@@ -52,16 +52,21 @@ fn joined(sheet: &Sheet<'_>, parts: &[Part], settings: &Settings) -> Vec<Finding
     let place = parts.iter().map(|part| sheet.place(part.extent)).reduce(Rect::union);
     let basin = Basin::new(sheet, place.unwrap_or(sheet.rect()));
     let mut plugs: Vec<Point> = Vec::new();
+    let mut found = Vec::new();
     for _ in 0..ROUNDS {
         let (real, closed): (Vec<Bridge>, Vec<Bridge>) = bridges(sheet, &basin, &nets, &plugs)
             .into_iter()
             .partition(|bridge| bridge.width.is_none_or(|width| width > Nm::ZERO));
-        plugs.extend(closed.iter().map(|bridge| bridge.place));
-        if closed.is_empty() || !real.is_empty() {
-            return real.iter().map(|bridge| finding(sheet, bridge, nets.len())).collect();
+        found = real;
+        // What is closed by far says that no better way is left; what is only just closed, that the next best may be open.
+        let just = closed.iter().filter(|bridge| bridge.width > Some(basin.grid.pitch() * -3));
+        let before = plugs.len();
+        plugs.extend(just.map(|bridge| bridge.place));
+        if plugs.len() == before {
+            break;
         }
     }
-    Vec::new()
+    found.iter().map(|bridge| finding(sheet, bridge, nets.len())).collect()
 }
 
 /// Two nets and the narrowest place of what joins them.

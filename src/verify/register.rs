@@ -1,0 +1,293 @@
+//! Where a program lies on the board, found from what it cuts.
+//!
+//! Every quarter turn, mirrored and not, is tried. Points along the cuts are laid over a picture of how far copper is, and pushed about
+//! until most of them run close beside copper and as few as possible through it (a cross-correlation); then, on the exact shapes,
+//! until the least clearances are as large as they can be, which centres cuts between nets and loops round them alike. What drills is
+//! laid on the holes, what cuts out on the outline.
+
+use rayon::prelude::*;
+
+use crate::board::{Board, Copper, Shape, Side};
+use crate::geometry::{Nm, Point, Rect, Vector};
+use crate::grid::Grid;
+use crate::raster::{Buffers, Label, Scene, render};
+use crate::topology::{Proximity, surface};
+
+use super::check::along;
+use super::machining::Machining;
+use super::placement::turned;
+use super::{Error, Placement, Program, Role, Settings};
+
+/// How a program lies, as far as somebody knows.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Orientation {
+    /// How far the board is turned.
+    pub degrees: Option<f64>,
+    /// The line about which it is mirrored; any line will do, as the shift is found.
+    pub mirror: Option<Nm>,
+}
+
+/// A program with the role and the places that are to be laid over the board.
+struct Trial {
+    placement: Placement,
+    points: Vec<Point>,
+    role: Role,
+}
+
+/// A shift in the plane of the board, and how well it fits: the larger the better.
+#[derive(Clone, Copy, Debug)]
+struct Fit {
+    shift: Vector,
+    score: f64,
+}
+
+/// Points that are looked at. Chosen: enough for one part of a millimetre square each on a small board.
+const POINTS: usize = 600;
+
+/// Finds how the board lies under `program`.
+///
+/// # Errors
+///
+/// [`Error`] where the program cannot be followed, and [`Error::Unplaced`] where nothing of it lies anywhere near the board.
+pub fn register(
+    program: &Program,
+    board: &Board,
+    known: &Orientation,
+    settings: &Settings,
+) -> Result<Placement, Error> {
+    let mut best: Option<(Fit, Placement)> = None;
+    for (degrees, mirror) in orientations(known, program.role) {
+        let placement = Placement { degrees, shift: Vector::default(), mirror };
+        let trial = trial(program, board, placement, settings)?;
+        let Some(fit) = lay(&trial, board) else { continue };
+        // Of a board that is its own mirror image, the orientation that is likelier comes first, and stays.
+        if best.is_none_or(|(best, _)| fit.score > best.score + best.score.abs() * 0.02) {
+            best = Some((fit, trial.placement));
+        }
+    }
+    let (fit, placement) = best.ok_or_else(|| Error::Unplaced(program.file.clone()))?;
+    let trial = trial(program, board, placement, settings)?;
+    let fine = refine(&trial, board, fit.shift);
+    Ok(Placement { shift: whole(turned_by(fine, placement.degrees)), ..placement })
+}
+
+/// The orientations to try, the likeliest first: the back is usually milled mirrored.
+fn orientations(known: &Orientation, role: Option<Role>) -> Vec<(f64, Option<Nm>)> {
+    let turns = known.degrees.map_or(vec![0.0, 90.0, 180.0, 270.0], |degrees| vec![degrees]);
+    let mirrors = match (known.mirror, role) {
+        (Some(axis), _) => vec![Some(axis)],
+        (None, Some(Role::Isolation(Side::Back))) => vec![Some(Nm::ZERO), None],
+        (None, _) => vec![None, Some(Nm::ZERO)],
+    };
+    turns.iter().flat_map(|&degrees| mirrors.iter().map(move |&mirror| (degrees, mirror))).collect()
+}
+
+fn trial(
+    program: &Program,
+    board: &Board,
+    placement: Placement,
+    settings: &Settings,
+) -> Result<Trial, Error> {
+    let placed = Program { placement: Some(placement), ..program.clone() };
+    let read = Machining::read(&placed, board, settings)?;
+    let points = match read.role {
+        Role::Drilling => read.plunges.iter().map(|plunge| plunge.at).collect(),
+        Role::Isolation(_) | Role::Cutout => spread(&read),
+    };
+    Ok(Trial { placement, points, role: read.role })
+}
+
+/// Points along all cuts, evenly.
+fn spread(read: &Machining) -> Vec<Point> {
+    let length = |shape: &Shape| along(shape, 1).iter().map(|(_, length)| length).sum::<f64>();
+    let total: f64 = read.swept.iter().map(|swept| length(&swept.shape)).sum();
+    let step = (total / f64::from(u16::try_from(POINTS).unwrap_or(u16::MAX))).max(1.0);
+    let mut owed = 0.0;
+    let mut points = Vec::new();
+    for swept in &read.swept {
+        owed += length(&swept.shape) / step;
+        let count = (1..=1000_u32).take_while(|&count| f64::from(count) <= owed).last().unwrap_or(0);
+        owed -= f64::from(count);
+        points.extend(along(&swept.shape, count).into_iter().map(|(at, _)| at));
+    }
+    points
+}
+
+/// The best shift of a trial; none where there is nothing to lay it on.
+fn lay(trial: &Trial, board: &Board) -> Option<Fit> {
+    let own = Rect::around(trial.points.iter().copied())?;
+    match trial.role {
+        Role::Isolation(side) => {
+            let copper = board.copper(side).filter(|copper| !copper.features.is_empty())?;
+            let map = Map::new(copper);
+            let around = [Some(map.rect), board.bounds()];
+            around
+                .into_iter()
+                .flatten()
+                .filter_map(|target| map.search(&trial.points, own, target))
+                .reduce(better)
+        }
+        Role::Drilling => lay_holes(&trial.points, board),
+        Role::Cutout => {
+            let target = board.outline.as_ref()?.bounds();
+            let off = (own.width() - target.width()).abs() + (own.height() - target.height()).abs();
+            Some(Fit { shift: middle(own) - middle(target), score: -off.to_f64() })
+        }
+    }
+}
+
+fn better(a: Fit, b: Fit) -> Fit {
+    if b.score > a.score { b } else { a }
+}
+
+fn middle(rect: Rect) -> Point {
+    rect.min().midpoint(rect.max())
+}
+
+/// How far copper is, in a picture.
+struct Map {
+    grid: Grid,
+    buffers: Buffers,
+    rect: Rect,
+}
+
+/// How near beside copper a cut counts as beside it, in nanometres. Chosen: wider than gaps are.
+const BESIDE: f64 = 400_000.0;
+/// What a point on copper costs, against one beside it.
+const THROUGH: f64 = 4.0;
+/// How far the middles of the board and of the program may differ beyond what their sizes differ by. Chosen.
+const ROOM: Nm = Nm::from_mm(1);
+
+impl Map {
+    fn new(copper: &Copper) -> Self {
+        let rect = copper.bounds().unwrap_or(Rect::new(Point::default(), Point::default()));
+        let around = rect.inflate(Nm::from_f64(BESIDE));
+        let pitch = (around.width().max(around.height()) / 3000).max(Nm::from_um(25));
+        let grid = Grid::covering(around, pitch).expect("some thousand pixels");
+        let mut scene = Scene::new(grid.width(), grid.height());
+        let limit = grid.pixels(Nm::from_f64(BESIDE));
+        for feature in &copper.features {
+            scene.add(Label(1), surface(&feature.shape, &grid, Some(limit)));
+        }
+        let mut buffers = Buffers::new();
+        render(&scene, &mut buffers);
+        Self { grid, buffers, rect }
+    }
+
+    /// The best shift near those that lay the middle of `own` on that of `target`.
+    fn search(&self, points: &[Point], own: Rect, target: Rect) -> Option<Fit> {
+        let start = middle(own) - middle(target);
+        let room = |a: Nm, b: Nm| ((a - b).abs() / 2 + ROOM).min(Nm::from_mm(15));
+        let (x, y) = (room(own.width(), target.width()), room(own.height(), target.height()));
+        let coarse = self.best(points, start, (x, y), Nm::from_um(120))?;
+        let fine = self.best(points, coarse.shift, (Nm::from_um(120), Nm::from_um(120)), Nm::from_um(20));
+        Some(fine.map_or(coarse, |fine| better(coarse, fine)))
+    }
+
+    /// The best of a lattice of shifts.
+    fn best(&self, points: &[Point], start: Vector, room: (Nm, Nm), step: Nm) -> Option<Fit> {
+        let count = |room: Nm| room.get() / step.get();
+        let (columns, rows) = (count(room.0), count(room.1));
+        let row = |row: i64| {
+            let shifts = (-columns..=columns).map(|column| start + Vector::new(step * column, step * row));
+            shifts.map(|shift| Fit { shift, score: self.score(points, shift) }).reduce(better)
+        };
+        let rows: Vec<Option<Fit>> = (-rows..=rows).into_par_iter().map(row).collect();
+        rows.into_iter().flatten().reduce(better)
+    }
+
+    fn score(&self, points: &[Point], shift: Vector) -> f64 {
+        let (corner, pitch) = (self.grid.corner(0, 0), self.grid.pitch().get());
+        let (width, height) = (i64::from(self.grid.width()), i64::from(self.grid.height()));
+        let worth = |&p: &Point| {
+            let at = p - shift;
+            let (column, row) =
+                ((at.x - corner.x).get().div_euclid(pitch), (corner.y - at.y).get().div_euclid(pitch));
+            if !(0..width).contains(&column) || !(0..height).contains(&row) {
+                return 0.0;
+            }
+            let pixel = usize::try_from(row * width + column).unwrap_or(0);
+            match self.buffers.labels()[pixel] {
+                0 => 0.0,
+                _ if self.buffers.depths()[pixel] > 0.0 => 1.0,
+                _ => -THROUGH,
+            }
+        };
+        points.iter().map(worth).sum()
+    }
+}
+
+/// How near a plunge must be to its hole.
+const HOLE: Nm = Nm::from_um(100);
+
+/// The shift that lays most plunges on holes: one that lays the first on one of them.
+fn lay_holes(points: &[Point], board: &Board) -> Option<Fit> {
+    let first = *points.first()?;
+    let mut holes: Vec<Point> =
+        board.holes.iter().flat_map(|hole| [hole.path.start, hole.path.end()]).collect();
+    holes.sort_unstable();
+    holes.dedup();
+    let fits = |shift: Vector| {
+        let on = points.iter().filter(|&&p| nearest_hole(&holes, p - shift).is_some()).count();
+        Fit { shift, score: f64::from(u32::try_from(on).unwrap_or(u32::MAX)) }
+    };
+    holes.iter().map(|&hole| fits(first - hole)).reduce(better)
+}
+
+/// The hole within [`HOLE`] of a point, of holes in order.
+fn nearest_hole(holes: &[Point], p: Point) -> Option<Point> {
+    let from = holes.partition_point(|hole| hole.x < p.x - HOLE);
+    let near = holes[from..].iter().take_while(|hole| hole.x <= p.x + HOLE);
+    let near = near.copied().filter(|hole| hole.distance(p) <= HOLE.to_f64());
+    near.min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
+}
+
+/// A shift made better on the exact shapes.
+fn refine(trial: &Trial, board: &Board, shift: Vector) -> Vector {
+    let Role::Isolation(side) = trial.role else { return shift };
+    let Some(copper) = board.copper(side) else { return shift };
+    let proximity = Proximity::new(copper);
+    let crowding = |shift: Vector| crowding(&proximity, &trial.points, shift);
+    let (mut at, mut least) = (shift, crowding(shift));
+    let mut step = Nm::from_um(16);
+    while step >= Nm::new(500) {
+        let ways = [(step, Nm::ZERO), (-step, Nm::ZERO), (Nm::ZERO, step), (Nm::ZERO, -step)];
+        let tried = ways.map(|(x, y)| at + Vector::new(x, y)).map(|shift| (shift, crowding(shift)));
+        match tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
+            Some((shift, now)) if now < least => (at, least) = (shift, now),
+            _ => step = step / 2,
+        }
+    }
+    at
+}
+
+/// How far a clearance counts, in nanometres: so much more weighs a third. Chosen: fine beside a kerf.
+const FALL: f64 = 30_000.0;
+
+/// How near to copper points are: the nearer, the much more.
+fn crowding(proximity: &Proximity, points: &[Point], shift: Vector) -> f64 {
+    let reach = Nm::from_f64(BESIDE);
+    let near = |&p: &Point| {
+        let spot = Shape::Disc { center: p - shift, radius: Nm::ZERO };
+        let nearest = proximity.near(&spot, reach).iter().map(|near| near.width).reduce(f64::min);
+        nearest.map_or(0.0, |width| libm::exp(-width / FALL))
+    };
+    // Added up in order, so that it is the same for any number of threads.
+    let all: Vec<f64> = points.par_iter().map(near).collect();
+    all.iter().sum()
+}
+
+/// A shift of the board's own plane as one of the turned board.
+fn turned_by(shift: Vector, degrees: f64) -> Vector {
+    turned(Point::default() + shift, degrees) - Point::default()
+}
+
+/// Programs are laid on round numbers: what is within 3 µm of a hundredth of a millimetre is taken for it.
+fn whole(shift: Vector) -> Vector {
+    let round = |length: Nm| {
+        let hundredths = (length.get() + 5_000).div_euclid(10_000);
+        let rounded = Nm::new(hundredths * 10_000);
+        if (rounded - length).abs() <= Nm::from_um(3) { rounded } else { length }
+    };
+    Vector::new(round(shift.x), round(shift.y))
+}

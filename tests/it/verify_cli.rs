@@ -1,0 +1,121 @@
+//! Judging and comparing on the command line: what is printed, and the exit code.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use tempfile::TempDir;
+
+fn fixture(name: &str) -> String {
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/verify").join(name);
+    path.to_string_lossy().into_owned()
+}
+
+fn voromill(folder: &Path, arguments: &[&str]) -> Output {
+    Command::new(env!("CARGO_BIN_EXE_voromill"))
+        .args(arguments)
+        .current_dir(folder)
+        .output()
+        .expect("the program runs")
+}
+
+fn stdout(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stdout).into_owned()
+}
+
+fn stderr(output: &Output) -> String {
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+fn verify(program: &str, more: &[&str]) -> Output {
+    let (program, board) = (fixture(program), fixture("pads-F_Cu.gbr"));
+    let fixed = ["verify", &program, "--board", &board, "--tool", "endmill:0.2mm", "--side", "front"];
+    voromill(Path::new("."), &[&fixed, more].concat())
+}
+
+#[test]
+fn the_exit_code_of_verify_says_what_was_found() {
+    let clean = verify("loops.nc", &[]);
+    assert_eq!(clean.status.code(), Some(0), "nothing: {}", stderr(&clean));
+    assert!(stdout(&clean).contains("nothing found, pixels of 25 µm"), "and how finely: {}", stdout(&clean));
+    let short = verify("arcs.nc", &[]);
+    assert_eq!(short.status.code(), Some(1), "a short: {}", stdout(&short));
+    assert!(stdout(&short).contains("[short]"), "by name: {}", stdout(&short));
+    // It spans 5.3 mm by 2.3 mm, and 2.1 mm up and down.
+    let narrow = verify("loops.nc", &["--travel", "5mm,100mm,100mm"]);
+    assert_eq!(narrow.status.code(), Some(1), "a machine too small: {}", stdout(&narrow));
+    assert!(stdout(&narrow).contains("[overtravel]"), "by name: {}", stdout(&narrow));
+    for wrong in [&["--side", "back"][..], &["--mirror", "1"], &["--travel", "1mm"], &["--deny", "bad"]] {
+        let refused = voromill(
+            Path::new("."),
+            &[&["verify", &fixture("loops.nc"), "--board", &fixture("pads-F_Cu.gbr")], wrong].concat(),
+        );
+        assert_eq!(refused.status.code(), Some(2), "{wrong:?}: {}", stdout(&refused));
+        assert!(!stderr(&refused).is_empty(), "{wrong:?} says why");
+    }
+}
+
+#[test]
+fn every_form_is_printed() {
+    let json = stdout(&verify("arcs.nc", &["--format", "json"]));
+    let verdict: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(verdict["findings"][0]["name"], "short", "the finding: {json}");
+    let sarif = stdout(&verify("arcs.nc", &["--format", "sarif"]));
+    let log: serde_json::Value = serde_json::from_str(&sarif).expect("JSON");
+    assert_eq!(log["version"], "2.1.0", "SARIF: {sarif}");
+    assert!(stdout(&verify("arcs.nc", &["--format", "junit"])).starts_with("<?xml"), "JUnit");
+}
+
+#[test]
+fn mill_judges_what_it_writes() {
+    let out = TempDir::new().expect("a temporary folder");
+    let (copper, edge) = (fixture("seven-F_Cu.gbr"), fixture("seven-Edge_Cuts.gbr"));
+    let mill = |more: &[&str]| {
+        let fixed = ["mill", &copper, &edge, "-o", "out", "--tool", "endmill:0.4mm", "--json"];
+        voromill(out.path(), &[&fixed, more].concat())
+    };
+    // The narrowest gaps are 0.3 mm wide: the kerf must take copper, which is a warning.
+    let narrow = mill(&[]);
+    assert_eq!(narrow.status.code(), Some(0), "a warning does not fail: {}", stderr(&narrow));
+    let report: serde_json::Value = serde_json::from_str(&stdout(&narrow)).expect("JSON");
+    assert_eq!(report["verification"]["errors"], 0, "{}", report["verification"]);
+    assert_eq!(report["verification"]["findings"][0]["name"], "gouge", "{}", report["verification"]);
+    assert_eq!(mill(&["--deny", "warning"]).status.code(), Some(1), "unless it is asked to");
+    assert!(out.path().join("out").is_dir(), "and the programs are there to be looked at");
+    let unjudged = mill(&["--no-verify", "--deny", "warning"]);
+    assert_eq!(unjudged.status.code(), Some(0), "unjudged: {}", stderr(&unjudged));
+    assert!(!stdout(&unjudged).contains("verification"), "no verdict");
+}
+
+#[test]
+fn where_a_program_lies_is_found_and_said() {
+    let found = verify("pcb2gcode.nc", &["--register"]);
+    assert_eq!(found.status.code(), Some(0), "{}{}", stdout(&found), stderr(&found));
+    assert!(stderr(&found).contains("lies as with --offset "), "{}", stderr(&found));
+    let lost = verify("pcb2gcode.nc", &[]);
+    assert_eq!(lost.status.code(), Some(1), "as it is, it lies beside the board: {}", stdout(&lost));
+}
+
+#[test]
+fn diff_shows_what_copper_changes() {
+    let out = TempDir::new().expect("a temporary folder");
+    let loops = fs::read_to_string(fixture("loops.nc")).expect("a program");
+    for folder in ["old", "new"] {
+        fs::create_dir(out.path().join(folder)).expect("a folder");
+        fs::write(out.path().join(folder).join("same.nc"), &loops).expect("written");
+        fs::write(out.path().join(folder).join("notes.txt"), folder).expect("written");
+    }
+    let tool = ["--tool", "endmill:0.2mm"];
+    let same = voromill(out.path(), &[&["diff", "old", "new"][..], &tool].concat());
+    assert_eq!(same.status.code(), Some(0), "{}{}", stdout(&same), stderr(&same));
+    fs::write(out.path().join("new/added.nc"), loops.replace("X3.1500", "X2.5")).expect("written");
+    let other = voromill(out.path(), &[&["diff", "old", "new", "-o", "pictures"][..], &tool].concat());
+    assert_eq!(other.status.code(), Some(1), "{}{}", stdout(&other), stderr(&other));
+    assert!(stdout(&other).contains("same.nc: the same copper"), "{}", stdout(&other));
+    assert!(stdout(&other).contains("added.nc: "), "{}", stdout(&other));
+    let picture = fs::read(out.path().join("pictures/added.nc.png")).expect("a picture");
+    assert!(picture.starts_with(b"\x89PNG"), "of what differs");
+    assert!(!out.path().join("pictures/same.nc.png").exists(), "and none of what does not");
+    let mixed = voromill(out.path(), &["diff", "old", "new/added.nc"]);
+    assert_eq!(mixed.status.code(), Some(2), "a folder and a file: {}", stdout(&mixed));
+}

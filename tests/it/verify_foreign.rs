@@ -1,0 +1,120 @@
+//! Programs as others write them, and where they lie.
+
+use std::path::{Path, PathBuf};
+
+use voromill::board::{Board, Side};
+use voromill::geometry::{Nm, Point, Vector};
+use voromill::import::{self, Selection};
+use voromill::job::{self, Options, Part};
+use voromill::verify::{
+    Change, Finding, Orientation, Placement, Program, Role, Settings, Severity, diff, register, verify,
+};
+
+fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/verify").join(name)
+}
+
+fn board(files: &[&str]) -> Board {
+    let files: Vec<PathBuf> = files.iter().map(|name| fixture(name)).collect();
+    import::load(&files, &Selection::default()).expect("a board").board
+}
+
+fn program(name: &str, tool: &str, side: Side) -> Program {
+    Program {
+        file: name.to_owned(),
+        text: std::fs::read_to_string(fixture(name)).expect("a program"),
+        role: Some(Role::Isolation(side)),
+        cutter: Some(tool.parse().expect("a tool")),
+        placement: None,
+    }
+}
+
+fn judge(board: &Board, program: Program) -> Vec<Finding> {
+    let report = verify(&[program], board, &[], &Settings::default()).expect("it can be judged");
+    report.findings.into_iter().filter(|finding| finding.severity >= Severity::Warning).collect()
+}
+
+#[test]
+fn a_mirrored_program_with_modal_words_and_tool_changes_isolates() {
+    let board = board(&["pads-F_Cu.gbr"]);
+    let placed = |shift: Vector| {
+        let placement = Placement { shift, mirror: Some(Nm::ZERO), ..Placement::default() };
+        Program { placement: Some(placement), ..program("pcb2gcode.nc", "endmill:0.2mm", Side::Front) }
+    };
+    let right = Vector::new(Nm::from_mm(10), Nm::from_mm(20));
+    assert_eq!(judge(&board, placed(right)), [], "laid as it is meant");
+    let wrong = judge(&board, placed(right + Vector::new(Nm::from_um(300), Nm::ZERO)));
+    assert!(wrong.iter().any(|finding| finding.name == "gouge"), "laid 0.3 mm off: {wrong:?}");
+}
+
+#[test]
+fn where_a_mirrored_program_lies_is_found() {
+    let board = board(&["pads-F_Cu.gbr"]);
+    let mut program = program("pcb2gcode.nc", "endmill:0.2mm", Side::Front);
+    let found = register(&program, &board, &Orientation::default(), &Settings::default()).expect("it fits");
+    program.placement = Some(found);
+    assert_eq!(judge(&board, program), [], "laid as was found: {found:?}");
+}
+
+#[test]
+fn a_board_that_was_turned_and_moved_is_found_within_3_um() {
+    for (rotate, tool) in
+        [("0deg", "vbit:0.1mm:30deg"), ("90deg", "endmill:0.2mm"), ("180deg", "endmill:0.14mm")]
+    {
+        let options = Options {
+            rotate: Some(rotate.parse().expect("an angle")),
+            tool: Some(tool.parse().expect("a tool")),
+            ..Options::default()
+        };
+        let settings = job::Settings::resolve(options).expect("settings");
+        let files = [fixture("seven-F_Cu.gbr"), fixture("seven-Edge_Cuts.gbr")];
+        let loaded = import::load(&files, &Selection::default()).expect("a board");
+        let job = job::mill(loaded, &settings).expect("a job");
+        let written = job.programs.iter().find(|written| written.part == Part::Front).expect("a front");
+        let program = Program {
+            file: "front.ngc".to_owned(),
+            text: written.text.clone(),
+            role: Some(Role::Isolation(Side::Front)),
+            ..Program::default()
+        };
+        let judging = Settings::default();
+        let found = register(&program, &job.board, &Orientation::default(), &judging).expect("it fits");
+        let truth =
+            Placement { degrees: job.placement.rotation.degrees(), shift: job.placement.shift, mirror: None };
+        for machine in [Point::new(Nm::ZERO, Nm::ZERO), Point::new(Nm::from_mm(8), Nm::from_mm(6))] {
+            let off = found.undo(machine).distance(truth.undo(machine));
+            assert!(off <= 3_000.0, "{rotate} {tool}: {off} nm off: {found:?} for {truth:?}");
+        }
+    }
+}
+
+#[test]
+fn programs_that_cut_the_same_do_not_differ() {
+    let loops = program("loops.nc", "endmill:0.2mm", Side::Front);
+    let text =
+        loops.text.replace("X3.1500 Y0.8500", "X2 Y0.85\nG01 X3.1510 Y0.8500").replace("G90", "G90 G94");
+    let other = Program { text, ..loops.clone() };
+    let same = diff(&loops, &other, Nm::from_um(5), &Settings::default()).expect("compared");
+    assert!(same.is_same(), "a micrometre and another line: {:?}", same.regions);
+}
+
+#[test]
+fn what_is_not_cut_any_more_is_found_with_place_and_area() {
+    let loops = program("loops.nc", "endmill:0.2mm", Side::Front);
+    // The right side of the second loop goes, and is lifted over.
+    let text = loops.text.replace("G01 X6.1500 Y3.1500", "G00 Z2.0000\nG00 X6.1500 Y3.1500\nG01 Z-0.1000");
+    let other = Program { text, ..loops.clone() };
+    let found = diff(&loops, &other, Nm::from_um(5), &Settings::default()).expect("compared");
+    assert_eq!(found.total(Change::Cut).0, 0, "nothing more is cut");
+    assert_eq!(found.regions.len(), 1, "{:?}", found.regions);
+    // 2.3 mm by 0.2 mm without the round ends of the sides that meet it.
+    let expected = 2.3 * 0.2 - std::f64::consts::PI * 0.01;
+    let region = found.regions[0];
+    assert!((region.area - expected).abs() < 0.01, "{} mm² for {expected}", region.area);
+    assert!(region.middle().distance(Point::new(Nm::from_um(6150), Nm::from_mm(2))) < 50_000.0, "{region:?}");
+    let back = diff(&other, &loops, Nm::from_um(5), &Settings::default()).expect("compared");
+    assert_eq!(back.total(Change::Left).0, 0, "the other way round it is cut");
+    let nothing = Program { text: String::new(), ..loops.clone() };
+    let all = diff(&nothing, &loops, Nm::from_um(5), &Settings::default()).expect("compared");
+    assert_eq!(all.total(Change::Cut).0, 2, "two loops where there was nothing");
+}
