@@ -97,7 +97,7 @@ fn apart(rect: Rect, log: [f64; 4]) -> f64 {
 }
 
 /// Nets whose regions are off by more than two parts in a hundred: dataset and how many, of how many; `docs/table-v.md` says why.
-const AREAS_OFF: &[(usize, usize)] = &[(1, 1), (2, 9), (4, 1)];
+const AREAS_OFF: &[(usize, usize)] = &[(1, 1), (2, 9), (4, 1), (5, 2), (6, 2)];
 
 #[test]
 fn the_papers_regions_are_as_large_as_in_its_logs() {
