@@ -21,12 +21,17 @@ pub(super) struct Config {
 impl Config {
     /// The settings for a job on `inputs`.
     pub(super) fn settings(&self, inputs: &[PathBuf]) -> Result<Settings, Failure> {
-        let file = match &self.config {
-            Some(named) => Some(named.clone()),
+        let from_file = Self::found(self.config.as_deref(), inputs)?;
+        Ok(Settings::resolve(self.options.clone().or(from_file))?)
+    }
+
+    /// What the settings file says: the one that was `named`, or one beside `inputs`; nothing where there is none.
+    pub(super) fn found(named: Option<&Path>, inputs: &[PathBuf]) -> Result<Options, Failure> {
+        let file = match named {
+            Some(named) => Some(named.to_path_buf()),
             None => inputs.iter().map(|input| beside(input)).find(|candidate| candidate.is_file()),
         };
-        let from_file = file.map_or_else(|| Ok(Options::default()), |path| read(&path))?;
-        Ok(Settings::resolve(self.options.clone().or(from_file))?)
+        file.map_or_else(|| Ok(Options::default()), |path| read(&path))
     }
 }
 

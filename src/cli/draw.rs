@@ -85,7 +85,7 @@ enum Stage {
 
 /// A side, as the command line names it.
 #[derive(Clone, Copy, ValueEnum)]
-enum SideName {
+pub(super) enum SideName {
     Front,
     Back,
 }

@@ -4,6 +4,7 @@ use clap::Args;
 use voromill::job::{self, Part};
 
 use super::config::Config;
+use super::draw::SideName;
 use super::input::Input;
 use super::output::Output;
 use super::progress::Progress;
@@ -22,6 +23,10 @@ pub(super) struct Isolate {
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
 
+    /// The side to isolate, where there is copper for both
+    #[arg(long, value_enum)]
+    side: Option<SideName>,
+
     #[command(flatten)]
     config: Config,
 }
@@ -31,8 +36,13 @@ impl Isolate {
         let settings = self.config.settings(&self.input.paths)?;
         let progress = Progress::start(shared);
         let mut loaded = self.input.load(&settings)?;
+        match self.side {
+            Some(SideName::Front) => loaded.board.back = None,
+            Some(SideName::Back) => loaded.board.front = None,
+            None => {}
+        }
         if loaded.board.front.is_some() && loaded.board.back.is_some() {
-            let hint = "name the file of one layer, or use `voromill mill`";
+            let hint = "name the file of one layer, say --side, or use `voromill mill`";
             return Err(Failure::new("there is copper for both sides, and a program is for one", hint));
         }
         loaded.board.holes.clear();

@@ -12,6 +12,7 @@ mod isolate;
 mod mill;
 mod output;
 mod progress;
+mod tools;
 mod verify;
 
 use std::io::{IsTerminal, Write};
@@ -44,6 +45,7 @@ Examples:
   voromill verify out/*.ngc --board board/     what programs, anybody's, do to the board
   voromill diff old/ new/                      what copper changes between programs
   voromill draw board/ --stage voronoi -o v.png  a picture of one stage
+  voromill tools                               the tools, and how wide they cut at which depth
   voromill init                                write voromill.toml with every setting and its default
 
 Lengths carry units: nm, um, mm, cm, mil, in. `voromill mill --help` explains each option.
@@ -57,6 +59,7 @@ enum Command {
     Inspect(inspect::Inspect),
     Verify(verify::Verify),
     Diff(diff::Diff),
+    Tools(tools::Tools),
     Init(init::Init),
 }
 
@@ -89,6 +92,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Inspect(inspect) => inspect.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Verify(verify) => verify.run(cli.shared),
         Command::Diff(diff) => diff.run(cli.shared),
+        Command::Tools(tools) => tools.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Init(init) => init.run(cli.shared).map(|()| ExitCode::SUCCESS),
     });
     match done {

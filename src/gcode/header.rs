@@ -42,10 +42,28 @@ impl Header {
 )]
 fn duration(seconds: f64) -> String {
     let whole = seconds.round() as u64;
-    match (whole / 3600, whole.div_ceil(60) % 60) {
-        (0, _) if whole < 60 => format!("{whole} s"),
-        (0, 0) => "1 h 0 min".to_owned(),
+    let minutes = whole.div_ceil(60);
+    match (minutes / 60, minutes % 60) {
+        _ if whole < 60 => format!("{whole} s"),
         (0, minutes) => format!("{minutes} min"),
         (hours, minutes) => format!("{hours} h {minutes} min"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn durations_are_said_as_people_say_them() {
+        for (seconds, said) in [
+            (12.4, "12 s"),
+            (61.0, "2 min"),
+            (3599.0, "1 h 0 min"),
+            (7199.0, "2 h 0 min"),
+            (4000.0, "1 h 7 min"),
+        ] {
+            assert_eq!(duration(seconds), said, "{seconds} s");
+        }
     }
 }

@@ -25,6 +25,8 @@ pub fn cache_key(loaded: &Loaded, settings: &Settings, choices: &[(&str, String)
     for (name, value) in choices {
         let _ = writeln!(text, "{name} {value}");
     }
+    // One's own tools are tables, which no option lists.
+    let _ = writeln!(text, "{:?} {:?} {:?}", settings.isolation, settings.drills, settings.cutout_tool);
     let _ = writeln!(text, "{:?}", settings.dialect);
     sha256(text.as_bytes())
 }

@@ -2,13 +2,13 @@
 
 use crate::board::{Board, Copper, Side, Warning};
 use crate::geometry::{Nm, Path};
-use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate};
+use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate, share};
 use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, Nets, Sampling, Translucency};
 use crate::voronoi::{self, Boundaries, Boundary, Diagram, Owner, SiteKind};
 
 use super::options::{self, Sites, Strategy, Topology};
-use super::{Error, Settings};
+use super::{Cutting, Error, Settings};
 
 /// What became of one side.
 pub struct Layer {
@@ -28,8 +28,8 @@ pub struct Layer {
     pub lap: Option<Path>,
     /// How the side lies on the machine: the back mirrored.
     pub placement: Placement,
-    /// What the machine does to it.
-    pub section: Section,
+    /// What the machine does to it, a section for each tool that has something to cut.
+    pub sections: Vec<Section>,
     /// What a person must know.
     pub warnings: Vec<Warning>,
 }
@@ -53,11 +53,10 @@ impl Layer {
             Diagram::new(copper, &nets, board.outline.as_ref(), &diagram_settings(settings, gap.as_ref()));
         let diagram = diagram.map_err(|reason| Error::Voronoi { side, reason })?;
         let (boundaries, unplaced) = diagram.boundaries();
-        let widened = settings.widening.map(|widening| diagram.widened(boundaries.clone(), &widening));
-        let cuts = widened.as_ref().unwrap_or(&boundaries);
         let frame = needed_frame(&diagram, &boundaries);
         let lap = frame.as_ref().filter(|_| settings.frame);
-        let (section, narrow) = cut(side, &nets, cuts, lap, &placement, settings);
+        let (sections, narrow) =
+            cut(side, &nets, &shares(&diagram, &boundaries, settings), lap, &placement, settings);
         let mut warnings = topology::names_check(copper, &nets);
         warnings.extend_from_slice(diagram.warnings());
         warnings.extend(unplaced.into_iter().chain(narrow).map(|warning| warning.on(side)));
@@ -65,7 +64,7 @@ impl Layer {
             warnings.push(Warning::new("frame-not-cut", FRAME_NOT_CUT).on(side));
         }
         let lap = lap.cloned();
-        Ok(Self { side, nets, translucency, gap, diagram, boundaries, lap, placement, section, warnings })
+        Ok(Self { side, nets, translucency, gap, diagram, boundaries, lap, placement, sections, warnings })
     }
 
     /// The length of the boundaries that isolate something.
@@ -128,20 +127,34 @@ fn diagram_settings(settings: &Settings, gap: Option<&Gap>) -> voronoi::Settings
         tolerance: settings.tolerance,
         // The end of a cut is round: with half a kerf beyond the outline its whole width reaches the edge, and a fine
         // cutter leaves no scratches outside.
-        overlap: voronoi::Settings::default().overlap.min(settings.kerf() / 2),
+        overlap: voronoi::Settings::default().overlap.min(settings.finest_kerf() / 2),
         ..voronoi::Settings::default()
     }
 }
 
-/// The moves along all boundaries that isolate something, and round the frame where one must be.
+/// What each tool cuts, with its kerf, the widest first: its share of the boundaries, and the passes beside them.
+fn shares(diagram: &Diagram, boundaries: &Boundaries, settings: &Settings) -> Vec<(Nm, Boundaries)> {
+    let kerfs: Vec<Nm> = settings.isolation.iter().map(Cutting::kerf).collect();
+    let mut cut: Vec<(Nm, Boundaries)> = Vec::with_capacity(kerfs.len());
+    for (cutting, base) in settings.isolation.iter().zip(share(boundaries, &kerfs)) {
+        let all = match &cutting.widening {
+            Some(widening) => diagram.widened(base, widening, &cut),
+            None => base,
+        };
+        cut.push((cutting.kerf(), all));
+    }
+    cut
+}
+
+/// The moves of each tool along the boundaries that isolate something, and round the frame where one must be.
 fn cut(
     side: Side,
     nets: &Nets,
-    boundaries: &Boundaries,
+    shares: &[(Nm, Boundaries)],
     frame: Option<&Path>,
     placement: &Placement,
     settings: &Settings,
-) -> (Section, Vec<Warning>) {
+) -> (Vec<Section>, Vec<Warning>) {
     // What lies along the outline is cut with the board; along a frame it is part of the graph, and joins what ends there.
     let role = |boundary: &Boundary| {
         let bare = boundary.left == Owner::Background || boundary.right == Owner::Background;
@@ -152,17 +165,26 @@ fn cut(
         Owner::Background => "bare board".to_owned(),
         Owner::Outside => "the edge".to_owned(),
     };
-    let isolation = Isolation {
-        tool: &settings.isolation_tool,
-        heights: settings.isolation,
-        placement,
-        order: Order::default(),
-        machine: &settings.machine,
-        narrow: match settings.narrow {
-            options::Narrow::Centre => Narrow::Centre,
-            options::Narrow::Skip => Narrow::Skip,
-        },
-        adaptive: settings.adaptive_depth,
-    };
-    isolate(format!("isolate {side}"), boundaries, &[], role, name, &isolation)
+    let (mut sections, mut warnings) = (Vec::new(), Vec::new());
+    for (cutting, (_, boundaries)) in settings.isolation.iter().zip(shares) {
+        let isolation = Isolation {
+            tool: &cutting.tool,
+            heights: cutting.heights,
+            placement,
+            order: Order::default(),
+            machine: &settings.machine,
+            narrow: match settings.narrow {
+                options::Narrow::Centre => Narrow::Centre,
+                options::Narrow::Skip => Narrow::Skip,
+            },
+            adaptive: settings.adaptive_depth,
+        };
+        let (section, found) = isolate(format!("isolate {side}"), boundaries, &[], role, name, &isolation);
+        // Of several tools one may find nothing to do; a side where nothing is to be cut still has its program.
+        if !section.moves.is_empty() || settings.isolation.len() == 1 {
+            sections.push(section);
+        }
+        warnings.extend(found);
+    }
+    (sections, warnings)
 }

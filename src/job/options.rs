@@ -8,23 +8,35 @@ use clap::{Args, ValueEnum};
 use serde::{Deserialize, Serialize};
 
 use crate::gcode::{self, dialect};
-use crate::toolpath::{Angle, Feed, ToolKind};
+use crate::toolpath::{Angle, Feed};
 
-use super::quantity::{Drills, Length, text};
+use super::pattern::Pattern;
+use super::quantity::{Drills, Length, Place, Tiles, Triple, list, text};
+use super::tools::{Library, ToolChoice};
 
 /// What a person asked for; what they left open is none.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Args, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Options {
-    /// Cutter for isolation: vbit:TIP:ANGLE or endmill:DIAMETER
-    #[arg(long, value_name = "TOOL", help_heading = "Isolation")]
-    #[serde(with = "text")]
-    pub tool: Option<ToolKind>,
+    /// Cutter for isolation: vbit:TIP:ANGLE, endmill:DIAMETER or a name; of several the widest that fits cuts each place
+    #[arg(long, value_name = "TOOL", value_delimiter = ',', help_heading = "Isolation")]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub tool: Vec<ToolChoice>,
+
+    /// Nets that are not isolated, such as text: by name, with * and ?, or by what their copper is for (NonConductor)
+    #[arg(long, value_name = "PATTERN", value_delimiter = ',', help_heading = "Isolation")]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub ignore: Vec<Pattern>,
 
     /// How deep it cuts; a V-bit cuts wider the deeper it goes
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
-    #[serde(with = "text")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub depth: Option<Length>,
+
+    /// How wide it cuts: the depth that a V-bit needs for it
+    #[arg(long, value_name = "LENGTH", conflicts_with = "depth", help_heading = "Isolation")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub kerf: Option<Length>,
 
     /// One cut midway between nets (voronoi) or a loop round each net (outline)
     #[arg(
@@ -54,6 +66,17 @@ pub struct Options {
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Isolation")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub passes: Option<u32>,
+
+    /// Clear everything between nets, as far as the tools fit
+    #[arg(
+        long,
+        num_args = 0,
+        default_missing_value = "true",
+        conflicts_with_all = ["width", "passes"],
+        help_heading = "Isolation"
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clear: Option<bool>,
 
     /// How much neighbouring passes share [default: a tenth of the kerf]
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
@@ -115,7 +138,7 @@ pub struct Options {
     #[serde(with = "text")]
     pub safe_z: Option<Length>,
 
-    /// What the machine speaks: grbl or linuxcnc
+    /// What the machine speaks: grbl, linuxcnc, mach3, marlin, smoothieware or tinyg
     #[arg(long, value_name = "DIALECT", help_heading = "Machine")]
     #[serde(with = "text")]
     pub dialect: Option<DialectName>,
@@ -133,6 +156,26 @@ pub struct Options {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub mirror_axis: Option<Length>,
+
+    /// The board several times in one piece of stock, such as 3x2: columns and rows
+    #[arg(long, value_name = "NxM", help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub tile: Option<Tiles>,
+
+    /// How far the tiles are apart [default: the cutout tool and 2mm]
+    #[arg(long, value_name = "LENGTH", help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub tile_spacing: Option<Length>,
+
+    /// How far the machine goes, such as 280mm,170mm,40mm: a warning where a program goes farther
+    #[arg(long, value_name = "X,Y,Z", help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub machine_travel: Option<Triple>,
+
+    /// Where the machine waits for a tool to be changed
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub tool_change_at: Option<Triple>,
 
     /// Drills at hand, such as 0.8mm,1mm,3.2mm; else one for each diameter in the files
     #[arg(long, value_name = "LENGTHS", help_heading = "Drilling and cutting out")]
@@ -153,6 +196,16 @@ pub struct Options {
     #[arg(long, num_args = 0, default_missing_value = "true", help_heading = "Drilling and cutting out")]
     pub drill_bore: Option<bool>,
 
+    /// Two holes of this diameter beside the board, to turn it over on pins: a program of their own
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub alignment_holes: Option<Length>,
+
+    /// How far from the board their middles are
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub alignment_margin: Option<Length>,
+
     /// How deep holes go: the board and the drill's tip
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
@@ -166,7 +219,7 @@ pub struct Options {
     /// End mill that cuts the board out
     #[arg(long, value_name = "TOOL", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
-    pub cutout_tool: Option<ToolKind>,
+    pub cutout_tool: Option<ToolChoice>,
 
     /// How deep the board is cut out in the end
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
@@ -178,9 +231,31 @@ pub struct Options {
     #[serde(with = "text")]
     pub cutout_pass: Option<Length>,
 
+    /// How steeply the cutter goes down along the contour at each pass, instead of straight down
+    #[arg(long, value_name = "ANGLE", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub cutout_ramp: Option<Angle>,
+
     /// Holding tabs on each outside contour
     #[arg(long, value_name = "NUMBER", help_heading = "Drilling and cutting out")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub tabs: Option<u32>,
+
+    /// The same as the most way between two
+    #[arg(long, value_name = "LENGTH", conflicts_with = "tabs", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub tab_spacing: Option<Length>,
+
+    /// A tab next to this place of the board, in the files' coordinates; as often as there are tabs
+    #[arg(
+        long,
+        value_name = "X,Y",
+        allow_hyphen_values = true,
+        conflicts_with_all = ["tabs", "tab_spacing"],
+        help_heading = "Drilling and cutting out"
+    )]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub tab_at: Vec<Place>,
 
     /// How wide a tab is
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
@@ -191,6 +266,11 @@ pub struct Options {
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub tab_height: Option<Length>,
+
+    /// One's own tools: tables of the settings file alone.
+    #[arg(skip)]
+    #[serde(skip_serializing)]
+    pub tools: Library,
 }
 
 impl Options {
@@ -211,17 +291,38 @@ impl Options {
         let resolution_is_open = self.pixel.is_none() && self.dpi.is_none();
         let (pixel, dpi) =
             if resolution_is_open { (others.pixel, others.dpi) } else { (self.pixel, self.dpi) };
-        let width_is_open = self.width.is_none() && self.passes.is_none();
-        let (width, passes) =
-            if width_is_open { (others.width, others.passes) } else { (self.width, self.passes) };
+        let width_is_open = self.width.is_none() && self.passes.is_none() && self.clear.is_none();
+        let (width, passes, clear) = if width_is_open {
+            (others.width, others.passes, others.clear)
+        } else {
+            (self.width, self.passes, self.clear)
+        };
+        let depth_is_open = self.depth.is_none() && self.kerf.is_none();
+        let (depth, kerf) = if depth_is_open { (others.depth, others.kerf) } else { (self.depth, self.kerf) };
+        let tools = if self.tools.is_empty() { others.tools.yielding(&self) } else { self.tools.clone() };
+        let tabs_are_open = self.tabs.is_none() && self.tab_spacing.is_none() && self.tab_at.is_empty();
+        let (tabs, tab_spacing, tab_at) = if tabs_are_open {
+            (others.tabs, others.tab_spacing, others.tab_at)
+        } else {
+            (self.tabs, self.tab_spacing, self.tab_at)
+        };
         Self {
-            tool: self.tool.or(others.tool),
-            depth: self.depth.or(others.depth),
+            tool: if self.tool.is_empty() { others.tool } else { self.tool },
+            ignore: if self.ignore.is_empty() { others.ignore } else { self.ignore },
+            tile: self.tile.or(others.tile),
+            tile_spacing: self.tile_spacing.or(others.tile_spacing),
+            machine_travel: self.machine_travel.or(others.machine_travel),
+            tool_change_at: self.tool_change_at.or(others.tool_change_at),
+            alignment_holes: self.alignment_holes.or(others.alignment_holes),
+            alignment_margin: self.alignment_margin.or(others.alignment_margin),
+            depth,
+            kerf,
             strategy: self.strategy.or(others.strategy),
             sites: self.sites.or(others.sites),
             limit: self.limit.or(others.limit),
             width,
             passes,
+            clear,
             overlap: self.overlap.or(others.overlap),
             pixel,
             dpi,
@@ -248,9 +349,13 @@ impl Options {
             cutout_tool: self.cutout_tool.or(others.cutout_tool),
             cutout_depth: self.cutout_depth.or(others.cutout_depth),
             cutout_pass: self.cutout_pass.or(others.cutout_pass),
-            tabs: self.tabs.or(others.tabs),
+            cutout_ramp: self.cutout_ramp.or(others.cutout_ramp),
+            tabs,
+            tab_spacing,
+            tab_at,
             tab_width: self.tab_width.or(others.tab_width),
             tab_height: self.tab_height.or(others.tab_height),
+            tools,
         }
     }
 }

@@ -32,11 +32,12 @@ impl Job {
         });
         Machined {
             file: written.file_name(&self.board.name, settings),
-            text: &written.text,
+            // Of several tiles the first is shown: the board is drawn once.
+            text: written.tile.as_ref().unwrap_or(&written.text),
             side: match written.part {
                 Part::Front => Some(crate::board::Side::Front),
                 Part::Back => Some(crate::board::Side::Back),
-                Part::Drill | Part::Cutout => None,
+                Part::Alignment | Part::Drill | Part::Cutout => None,
             },
             part: written.part.name(),
             placement: self.laid(written.part),

@@ -2,12 +2,13 @@ use rayon::prelude::*;
 
 use crate::board::{Board, Side, Source, Warning};
 use crate::gcode::{Header, Input};
-use crate::geometry::{Rect, Vector};
 use crate::import::Loaded;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
 use crate::toolpath::{Order, Placement, Program, Section};
 use crate::topology::{self, Electrical};
 
+use super::ignore::ignore;
+use super::stock::Stock;
 use super::{Error, Layer, Part, Settings, Written};
 
 /// What made the outputs.
@@ -42,7 +43,7 @@ pub struct Job {
 ///
 /// [`Error`] if there is no copper, a file was cut off, or a side cannot be isolated.
 pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
-    let Loaded { board, sources, mut warnings, ignored } = loaded;
+    let Loaded { mut board, sources, mut warnings, ignored } = loaded;
     if let Some(cut_off) = warnings.iter().find(|warning| warning.code == TRUNCATED) {
         let place = cut_off
             .source
@@ -50,45 +51,48 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
             .map_or(String::new(), |s| format!("{}:{}:{}: ", s.file, s.line, s.column));
         return Err(Error::Truncated(format!("{place}{}", cut_off.message)));
     }
+    if !settings.ignore.is_empty() {
+        warnings.extend(ignore(&mut board, settings));
+    }
     let bounds = board.bounds().ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
-    let front = Placement::front(settings.origin, bounds, settings.rotate, Vector::default());
-    let layers = isolate(&board, bounds, front, settings)?;
+    let stock = Stock::new(bounds, settings);
+    let layers = isolate(&board, &stock, settings)?;
     let header = header(&sources);
-    let mut programs: Vec<Written> = layers
-        .par_iter()
-        .map(|layer| Written::new(part(layer.side), isolation(layer, &board, settings), &header, settings))
+    let write = |part: Part, side: Side, program: Program| {
+        Written::new(part, program, &header, stock.tiling(side), settings)
+    };
+    let alignment = stock.alignment(&board, settings);
+    let mut programs: Vec<Written> = alignment
+        .map(|program| Written::new(Part::Alignment, program, &header, None, settings))
+        .into_iter()
         .collect();
+    programs.par_extend(
+        layers
+            .par_iter()
+            .map(|layer| write(part(layer.side), layer.side, isolation(layer, &board, settings))),
+    );
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
-        let (sections, found) = drill_holes(&board, &front, settings);
-        programs.push(Written::new(
-            Part::Drill,
-            whole("drill", &board, sections, settings),
-            &header,
-            settings,
-        ));
+        let (sections, found) = drill_holes(&board, &stock.front, settings);
+        programs.push(write(Part::Drill, Side::Front, whole("drill", &board, sections, settings)));
         warnings.extend(found);
     }
     if let Some(outline) = &board.outline {
-        let (section, found) = cutout(outline, &cutout_settings(&front, settings));
-        programs.push(Written::new(
-            Part::Cutout,
-            whole("cutout", &board, vec![section], settings),
-            &header,
-            settings,
-        ));
+        let (section, found) = cutout(outline, &cutout_settings(&stock.front, settings));
+        programs.push(write(Part::Cutout, Side::Front, whole("cutout", &board, vec![section], settings)));
         warnings.extend(found);
     }
+    warnings.extend(programs.iter().filter_map(|program| program.warning.clone()));
     if board.outline.is_none() && !warnings.iter().any(|warning| warning.code.starts_with("outline-")) {
         warnings.push(Warning::new("outline-missing", "no outline was named, so the board is not cut out"));
     }
     let electrical = electrical(&board, &layers);
     warnings.extend(electrical.iter().flat_map(Electrical::check));
-    Ok(Job { board, sources, ignored, placement: front, layers, electrical, programs, warnings })
+    Ok(Job { board, sources, ignored, placement: stock.front, layers, electrical, programs, warnings })
 }
 
 /// Both sides at once.
-fn isolate(board: &Board, bounds: Rect, front: Placement, settings: &Settings) -> Result<Vec<Layer>, Error> {
+fn isolate(board: &Board, stock: &Stock, settings: &Settings) -> Result<Vec<Layer>, Error> {
     let sides: Vec<_> = [Side::Front, Side::Back].into_iter().filter_map(|side| board.copper(side)).collect();
     let copper = sides.iter().filter(|copper| !copper.features.is_empty());
     if copper.count() == 0 {
@@ -96,11 +100,7 @@ fn isolate(board: &Board, bounds: Rect, front: Placement, settings: &Settings) -
     }
     let isolate = |copper: &&_| {
         let copper: &crate::board::Copper = copper;
-        let placement = match copper.side {
-            Side::Front => front,
-            Side::Back => front.turned_over(settings.mirror_axis.unwrap_or_else(|| front.middle(bounds))),
-        };
-        Layer::isolate(copper, board, placement, settings)
+        Layer::isolate(copper, board, stock.placement(copper.side), settings)
     };
     sides.par_iter().filter(|copper| !copper.features.is_empty()).map(isolate).collect()
 }
@@ -114,7 +114,7 @@ const fn part(side: Side) -> Part {
 
 fn isolation(layer: &Layer, board: &Board, settings: &Settings) -> Program {
     let side = layer.side;
-    let mut program = whole(&format!("{side} isolation"), board, vec![layer.section.clone()], settings);
+    let mut program = whole(&format!("{side} isolation"), board, layer.sections.clone(), settings);
     if let Some(axis) = layer.placement.mirror {
         program.notes.push(format!("turned over left to right about the vertical line x = {axis:.3} mm"));
     }
@@ -125,7 +125,7 @@ fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings)
     Program {
         title: format!("{} {what}", board.name),
         notes: vec!["z 0 is the top of the copper".to_owned()],
-        safe: settings.isolation.safe,
+        safe: settings.safe,
         sections,
     }
 }
@@ -143,12 +143,13 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
     drill(&board.holes, &drilling)
 }
 
-const fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cutout<'a> {
+fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cutout<'a> {
     Cutout {
         tool: &settings.cutout_tool,
         heights: settings.cutout,
         placement,
-        tabs: Tabs { count: settings.tabs, width: settings.tab_width, height: settings.tab_height },
+        tabs: Tabs { places: settings.tabs.places(), width: settings.tab_width, height: settings.tab_height },
+        ramp: settings.cutout_ramp,
     }
 }
 

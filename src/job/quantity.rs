@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::geometry::{Nm, ParseLengthError};
+use crate::geometry::{Nm, ParseLengthError, Point};
 
 /// A length that prints as it is written: `0.1mm`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,9 +25,133 @@ impl FromStr for Length {
     }
 }
 
-/// Diameters of drills.
+/// A place on the board or a step from one to another, written as `10mm,5mm`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// To the right.
+    pub x: Length,
+    /// Up.
+    pub y: Length,
+}
+
+/// A text that is not a place.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ParsePlaceError {
+    /// Not two parts.
+    #[error("`{0}` is not a place: expected two lengths, such as `10mm,5mm`")]
+    Form(String),
+    /// Not three parts.
+    #[error("`{0}` is not x, y and z: expected three lengths, such as `280mm,170mm,40mm`")]
+    Triple(String),
+    /// A part that is no length.
+    #[error(transparent)]
+    Length(#[from] ParseLengthError),
+}
+
+impl FromStr for Place {
+    type Err = ParsePlaceError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let (x, y) = text.split_once(',').ok_or_else(|| ParsePlaceError::Form(text.to_owned()))?;
+        Ok(Self { x: x.trim().parse()?, y: y.trim().parse()? })
+    }
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{}", self.x, self.y)
+    }
+}
+
+impl From<Place> for Point {
+    fn from(place: Place) -> Self {
+        Self::new(place.x.nm(), place.y.nm())
+    }
+}
+
+/// Three lengths: along x, y and z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Triple(pub [Length; 3]);
+
+impl FromStr for Triple {
+    type Err = ParsePlaceError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let lengths: Vec<&str> = text.split(',').map(str::trim).collect();
+        let [x, y, z] = lengths[..] else { return Err(ParsePlaceError::Triple(text.to_owned())) };
+        Ok(Self([x.parse()?, y.parse()?, z.parse()?]))
+    }
+}
+
+impl fmt::Display for Triple {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [x, y, z] = self.0;
+        write!(f, "{x},{y},{z}")
+    }
+}
+
+/// Columns and rows of the same board: `3x2`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tiles {
+    /// How many side by side; at least one.
+    pub columns: u32,
+    /// How many one above the other; at least one.
+    pub rows: u32,
+}
+
+/// A text that does not say columns and rows.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` does not say how many: expected columns and rows, 1 to 100 each, such as `3x2`")]
+pub struct ParseTilesError(String);
+
+impl FromStr for Tiles {
+    type Err = ParseTilesError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let refused = || ParseTilesError(text.to_owned());
+        let (columns, rows) = text.trim().split_once(['x', '×']).ok_or_else(refused)?;
+        let count = |part: &str| part.trim().parse().ok().filter(|count| (1..=100).contains(count));
+        Ok(Self { columns: count(columns).ok_or_else(refused)?, rows: count(rows).ok_or_else(refused)? })
+    }
+}
+
+impl fmt::Display for Tiles {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}x{}", self.columns, self.rows)
+    }
+}
+
+/// A drill at hand: by its diameter, or by the name of its table.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Drills(pub Vec<Length>);
+pub enum DrillChoice {
+    /// Such as `0.8mm`.
+    Diameter(Length),
+    /// Such as `carbide-08`.
+    Named(String),
+}
+
+impl FromStr for DrillChoice {
+    type Err = ParseLengthError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let text = text.trim();
+        let begins_a_name = text.starts_with(char::is_alphabetic);
+        if begins_a_name { Ok(Self::Named(text.to_owned())) } else { text.parse().map(Self::Diameter) }
+    }
+}
+
+impl fmt::Display for DrillChoice {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Diameter(length) => length.fmt(f),
+            Self::Named(name) => f.write_str(name),
+        }
+    }
+}
+
+/// Drills at hand.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Drills(pub Vec<DrillChoice>);
 
 impl FromStr for Drills {
     type Err = ParseLengthError;
@@ -59,7 +183,7 @@ pub(super) mod text {
     use std::marker::PhantomData;
     use std::str::FromStr;
 
-    use serde::de::{Deserializer, Error, Visitor};
+    use serde::de::{Deserializer, Error, SeqAccess, Visitor};
     use serde::{Serialize, Serializer};
 
     pub(crate) fn serialize<S: Serializer, T: fmt::Display>(
@@ -76,7 +200,7 @@ pub(super) mod text {
     {
         struct Written<T>(PhantomData<T>);
 
-        impl<T: FromStr<Err: fmt::Display>> Visitor<'_> for Written<T> {
+        impl<'de, T: FromStr<Err: fmt::Display>> Visitor<'de> for Written<T> {
             type Value = T;
 
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -85,6 +209,15 @@ pub(super) mod text {
 
             fn visit_str<E: Error>(self, text: &str) -> Result<T, E> {
                 text.parse().map_err(E::custom)
+            }
+
+            /// Several texts are one with commas.
+            fn visit_seq<A: SeqAccess<'de>>(self, mut several: A) -> Result<T, A::Error> {
+                let mut texts: Vec<String> = Vec::new();
+                while let Some(text) = several.next_element()? {
+                    texts.push(text);
+                }
+                texts.join(",").parse().map_err(A::Error::custom)
             }
 
             fn visit_i64<E: Error>(self, number: i64) -> Result<T, E> {
@@ -97,6 +230,45 @@ pub(super) mod text {
         }
 
         deserializer.deserialize_any(Written(PhantomData)).map(Some)
+    }
+}
+
+/// For serde: a list, as texts in an array, or as one text with blanks or commas between; written with blanks.
+pub(super) mod list {
+    use std::fmt;
+    use std::str::FromStr;
+
+    use serde::de::{Deserialize, Deserializer, Error};
+    use serde::{Serialize, Serializer};
+
+    pub(crate) fn serialize<S: Serializer, T: fmt::Display>(
+        values: &[T],
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ").serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>
+    where
+        D: Deserializer<'de>,
+        T: FromStr<Err: fmt::Display>,
+    {
+        #[derive(serde::Deserialize)]
+        #[serde(untagged, expecting = "expected a text in quotes, or several in brackets")]
+        enum Written {
+            One(String),
+            Several(Vec<String>),
+        }
+
+        let texts = match Written::deserialize(deserializer)? {
+            // A place has a comma of its own.
+            Written::One(text) if text.parse::<T>().is_ok() => vec![text],
+            Written::One(text) => {
+                text.split([',', ' ']).filter(|text| !text.is_empty()).map(str::to_owned).collect()
+            }
+            Written::Several(texts) => texts,
+        };
+        texts.iter().map(|text| text.parse().map_err(D::Error::custom)).collect()
     }
 }
 

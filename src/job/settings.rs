@@ -1,11 +1,14 @@
 use crate::gcode::Dialect;
-use crate::geometry::Nm;
-use crate::toolpath::{self, Angle, Heights, Machine, Tool, ToolKind};
+use crate::geometry::{Nm, Point};
+use crate::toolpath::strategy::TabPlaces;
+use crate::toolpath::{self, Angle, Heights, Machine, Position, Tool, ToolKind};
 use crate::voronoi::Widening;
 
 use super::Error;
 use super::options::{Narrow, Options, Origin, Sites, Strategy, Topology};
-use super::quantity::{Drills, Length};
+use super::pattern::Pattern;
+use super::quantity::{DrillChoice, Drills, Length, Tiles, Triple};
+use super::tools::{self, Fetched, ToolChoice, Workshop};
 
 /// Everything a job needs to know, complete and checked.
 ///
@@ -15,18 +18,24 @@ use super::quantity::{Drills, Length};
 #[derive(Clone, Debug)]
 pub struct Settings {
     options: Options,
-    /// The tool that isolates, with its speeds.
-    pub isolation_tool: Tool,
-    /// How high and deep it goes.
-    pub isolation: Heights,
+    /// The tools that isolate, the widest first; each cuts where it is the first that fits.
+    pub isolation: Vec<Cutting>,
+    /// The height for travel.
+    pub safe: Nm,
+    /// The nets that are not isolated.
+    pub ignore: Vec<Pattern>,
+    /// How often the board is made from one piece of stock, and how far its copies are apart.
+    pub tiles: Option<(Tiles, Nm)>,
+    /// Where the machine waits for a tool to be changed.
+    pub tool_change: Option<Position>,
+    /// The diameter of the holes for turning the board over on pins, and their distance from it.
+    pub alignment: Option<(Nm, Nm)>,
     /// Voronoi or outline.
     pub strategy: Strategy,
     /// What cuts are midway between.
     pub sites: Sites,
     /// How far from copper a net's region may reach.
     pub limit: Option<Nm>,
-    /// How far the gap beside every net is cleared; none for a single cut.
-    pub widening: Option<Widening>,
     /// The pixel of the picture that finds the boundaries.
     pub pixel: Nm,
     /// Whether a lap is cut round copper without an outline.
@@ -65,12 +74,65 @@ pub struct Settings {
     pub cutout_tool: Tool,
     /// How high and deep it goes.
     pub cutout: Heights,
-    /// How many tabs hold each contour.
-    pub tabs: u32,
+    /// How steeply it goes down along the contour; none for straight down.
+    pub cutout_ramp: Option<Angle>,
+    /// Where tabs hold the board.
+    pub tabs: Holding,
     /// How wide each is.
     pub tab_width: Nm,
     /// How thick each is.
     pub tab_height: Nm,
+}
+
+/// Where tabs hold the board.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Holding {
+    /// So many on each contour round a board.
+    Count(u32),
+    /// As many as keep them this near to each other.
+    Spacing(Nm),
+    /// Next to these points of the board.
+    At(Vec<Point>),
+}
+
+impl Holding {
+    /// How many there are on each contour, where that is what was asked for.
+    #[must_use]
+    pub const fn count(&self) -> Option<u32> {
+        match self {
+            Self::Count(count) => Some(*count),
+            Self::Spacing(_) | Self::At(_) => None,
+        }
+    }
+
+    /// As cutting out takes it.
+    #[must_use]
+    pub fn places(&self) -> TabPlaces<'_> {
+        match self {
+            Self::Count(count) => TabPlaces::Count(*count),
+            Self::Spacing(apart) => TabPlaces::Spacing(*apart),
+            Self::At(points) => TabPlaces::At(points),
+        }
+    }
+}
+
+/// A tool that isolates.
+#[derive(Clone, Debug)]
+pub struct Cutting {
+    /// The tool, with its speeds.
+    pub tool: Tool,
+    /// How high and deep it goes.
+    pub heights: Heights,
+    /// How far it clears the gap beside every net; none for a single cut.
+    pub widening: Option<Widening>,
+}
+
+impl Cutting {
+    /// The width of its cut at the surface.
+    #[must_use]
+    pub fn kerf(&self) -> Nm {
+        self.tool.width_at(self.heights.cut)
+    }
 }
 
 /// The height above the copper from which the tool goes down at the plunge feed. Chosen: clear of any burr, and not
@@ -89,18 +151,23 @@ impl Settings {
     pub fn resolve(options: Options) -> Result<Self, Error> {
         let options = options.or(Options::defaults());
         let open = "the defaults leave nothing open";
-        let feed = options.feed.expect(open);
-        let plunge = options.plunge.expect(open);
-        let spindle = options.spindle.expect(open);
-        let tool = |kind: ToolKind| Tool { feed, plunge, spindle, ..Tool::new(kind) };
-        let isolation_tool = tool(not_a_drill("tool", options.tool.expect(open))?);
-        let cutout_tool = tool(end_mill("cutout-tool", options.cutout_tool.expect(open))?);
+        let workshop = Workshop {
+            library: &options.tools,
+            feed: options.feed.expect(open),
+            plunge: options.plunge.expect(open),
+            spindle: options.spindle.expect(open),
+        };
+        let cutout_tool = end_mill(
+            "cutout-tool",
+            workshop.fetch("cutout-tool", options.cutout_tool.as_ref().expect(open))?.tool,
+        )?;
+        let drills = drills(options.drills.as_ref(), &workshop)?;
         let safe = positive("safe-z", options.safe_z)?;
         let heights = |cut: Nm, step: Option<Nm>| Heights { safe, approach: APPROACH.min(safe), cut, step };
         let cutout_depth = positive("cutout-depth", options.cutout_depth)?;
         let tab_height = positive("tab-height", options.tab_height)?;
-        let tabs = options.tabs.expect(open);
-        if tabs > 0 && tab_height >= cutout_depth {
+        let tabs = holding(&options)?;
+        if tabs != Holding::Count(0) && tab_height >= cutout_depth {
             let problem = format!(
                 "tabs of {} in a cut of {} would leave it uncut",
                 Length(tab_height),
@@ -108,11 +175,17 @@ impl Settings {
             );
             return Err(Error::Value { key: "tab-height", problem });
         }
-        let isolation = heights(positive("depth", options.depth)?, None);
-        let kerf = isolation_tool.width_at(isolation.cut);
         Ok(Self {
-            isolation,
-            widening: widening(&options, kerf)?,
+            isolation: isolation(&options, &workshop, |cut| heights(cut, None))?,
+            safe,
+            ignore: options.ignore.clone(),
+            tiles: tiles(&options, &cutout_tool)?,
+            tool_change: options.tool_change_at.map(|Triple([x, y, z])| Position {
+                x: x.nm(),
+                y: y.nm(),
+                z: z.nm(),
+            }),
+            alignment: alignment(&options)?,
             drilling: heights(
                 positive("drill-depth", options.drill_depth)?,
                 given("drill-peck", options.drill_peck)?,
@@ -121,12 +194,11 @@ impl Settings {
             adaptive_depth: given("adaptive-depth", options.adaptive_depth)?,
             rotate: options.rotate.expect(open),
             mirror_axis: options.mirror_axis.map(Length::nm),
-            drills: drills(options.drills.as_ref())?,
+            drills,
             drill_tolerance: options.drill_tolerance.expect(open).nm(),
             drill_bore: options.drill_bore.expect(open),
             outline_gap: outline_gap(&options)?,
             cutout: heights(cutout_depth, Some(positive("cutout-pass", options.cutout_pass)?)),
-            isolation_tool,
             cutout_tool,
             strategy: options.strategy.expect(open),
             sites: options.sites.expect(open),
@@ -142,7 +214,11 @@ impl Settings {
                 Origin::Keep => toolpath::Origin::Keep,
                 Origin::Center => toolpath::Origin::Center,
             },
-            machine: Machine::default(),
+            machine: Machine {
+                travel: options.machine_travel.map(|Triple(travel)| travel.map(Length::nm)),
+                ..Machine::default()
+            },
+            cutout_ramp: ramp(options.cutout_ramp)?,
             tabs,
             tab_width: positive("tab-width", options.tab_width)?,
             tab_height,
@@ -156,11 +232,91 @@ impl Settings {
         &self.options
     }
 
-    /// The width of an isolation cut at the surface.
+    /// The width of the widest isolation cut at the surface.
     #[must_use]
     pub fn kerf(&self) -> Nm {
-        self.isolation_tool.width_at(self.isolation.cut)
+        self.isolation.first().map_or(Nm::ZERO, Cutting::kerf)
     }
+
+    /// The width of the finest isolation cut at the surface.
+    #[must_use]
+    pub fn finest_kerf(&self) -> Nm {
+        self.isolation.last().map_or(Nm::ZERO, Cutting::kerf)
+    }
+}
+
+/// The tools that isolate, the widest first.
+fn isolation(
+    options: &Options,
+    workshop: &Workshop<'_>,
+    heights: impl Fn(Nm) -> Heights,
+) -> Result<Vec<Cutting>, Error> {
+    let mut fetched: Vec<Fetched> =
+        options.tool.iter().map(|choice| workshop.fetch("tool", choice)).collect::<Result<_, _>>()?;
+    tools::number(&mut fetched);
+    let mut cuttings = Vec::with_capacity(fetched.len());
+    for Fetched { tool, depth, .. } in fetched {
+        let tool = not_a_drill("tool", tool)?;
+        let heights = heights(depth_of(&tool, depth, options)?);
+        let widening = widening(options, tool.width_at(heights.cut))?;
+        cuttings.push(Cutting { tool, heights, widening });
+    }
+    cuttings.sort_by_key(|cutting| std::cmp::Reverse(cutting.kerf()));
+    if let Some(pair) = cuttings.windows(2).find(|pair| pair[0].kerf() == pair[1].kerf()) {
+        let [first, second] = [&pair[0], &pair[1]].map(|cutting| &cutting.tool.name);
+        let problem = format!("`{first}` and `{second}` cut equally wide: one of them is enough");
+        return Err(Error::Value { key: "tool", problem });
+    }
+    Ok(cuttings)
+}
+
+/// How deep a tool isolates: as its table says, or the kerf or depth of the settings.
+fn depth_of(tool: &Tool, own: Option<Nm>, options: &Options) -> Result<Nm, Error> {
+    match (own, options.kerf, tool.kind) {
+        (Some(depth), ..) => Ok(depth),
+        (None, Some(kerf), ToolKind::VBit { .. }) => {
+            tools::depth_for(tool.kind, kerf).map_err(|problem| Error::Value { key: "kerf", problem })
+        }
+        (None, Some(kerf), ToolKind::EndMill { diameter } | ToolKind::Drill { diameter })
+            if options.tool.len() == 1 && kerf.nm() != diameter =>
+        {
+            let problem = format!("`{}` cuts {} at any depth", tool.kind, Length(diameter));
+            Err(Error::Value { key: "kerf", problem })
+        }
+        // With several tools the kerf is what the V-bits cut.
+        (None, ..) => positive("depth", options.depth.or(Options::defaults().depth)),
+    }
+}
+
+/// Diameter and distance of the holes for turning the board over.
+fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
+    let margin = positive("alignment-margin", options.alignment_margin)?;
+    Ok(given("alignment-holes", options.alignment_holes)?.map(|diameter| (diameter, margin)))
+}
+
+/// Room between tiles, beside the cutter. Chosen: the stock between two boards stays in one piece.
+const BETWEEN_TILES: Nm = Nm::from_mm(2);
+
+fn tiles(options: &Options, cutout_tool: &Tool) -> Result<Option<(Tiles, Nm)>, Error> {
+    let spacing = given("tile-spacing", options.tile_spacing)?;
+    let spacing = spacing.unwrap_or(cutout_tool.width_at(Nm::ZERO) + BETWEEN_TILES);
+    Ok(options.tile.filter(|tiles| tiles.columns * tiles.rows > 1).map(|tiles| (tiles, spacing)))
+}
+
+fn holding(options: &Options) -> Result<Holding, Error> {
+    if !options.tab_at.is_empty() {
+        return Ok(Holding::At(options.tab_at.iter().map(|&place| place.into()).collect()));
+    }
+    let spacing = given("tab-spacing", options.tab_spacing)?;
+    Ok(spacing.map_or_else(|| Holding::Count(options.tabs.unwrap_or(0)), Holding::Spacing))
+}
+
+fn ramp(angle: Option<Angle>) -> Result<Option<Angle>, Error> {
+    if let Some(angle) = angle.filter(|&angle| angle <= Angle::ZERO || angle >= Angle::from_degrees(90)) {
+        let problem = format!("`{angle}` is no ramp: expected an angle between 0deg and 90deg");
+        return Err(Error::Value { key: "cutout-ramp", problem });
+    }
+    Ok(angle)
 }
 
 /// A length that may be left open.
@@ -168,13 +324,25 @@ fn given(key: &'static str, length: Option<Length>) -> Result<Option<Nm>, Error>
     length.map(|length| positive(key, Some(length))).transpose()
 }
 
-/// The drills at hand, numbered from 1 in the order given.
-fn drills(diameters: Option<&Drills>) -> Result<Vec<Tool>, Error> {
-    let drill = |(number, &diameter): (u32, &Length)| {
-        let diameter = positive("drills", Some(diameter))?;
-        Ok(Tool { number, ..Tool::new(ToolKind::Drill { diameter }) })
+/// The drills at hand; those without a number of their own take the free ones in the order given.
+fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Result<Vec<Tool>, Error> {
+    let drill = |choice: &DrillChoice| match choice {
+        DrillChoice::Diameter(length) => {
+            let tool = Tool::new(ToolKind::Drill { diameter: positive("drills", Some(*length))? });
+            Ok(Fetched { tool, number: None, depth: None })
+        }
+        DrillChoice::Named(name) => {
+            let fetched = workshop.fetch("drills", &ToolChoice::Named(name.clone()))?;
+            if matches!(fetched.tool.kind, ToolKind::Drill { .. }) {
+                return Ok(fetched);
+            }
+            Err(Error::Value { key: "drills", problem: format!("`{name}` is no drill") })
+        }
     };
-    diameters.map_or_else(|| Ok(Vec::new()), |Drills(all)| (1..).zip(all).map(drill).collect())
+    let mut fetched: Vec<Fetched> = choices
+        .map_or_else(|| Ok(Vec::new()), |Drills(all)| all.iter().map(drill).collect::<Result<_, _>>())?;
+    tools::number(&mut fetched);
+    Ok(fetched.into_iter().map(|fetched| fetched.tool).collect())
 }
 
 fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {
@@ -197,6 +365,9 @@ fn outline_gap(options: &Options) -> Result<Nm, Error> {
     Ok(gap.nm())
 }
 
+/// Wider than any gap.
+const EVERYTHING: Nm = Nm::from_mm(1000);
+
 /// How wide the gap is to be, from a width or a number of passes.
 fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
     let overlap = match options.overlap {
@@ -209,6 +380,7 @@ fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
         Some(overlap) => overlap.nm(),
     };
     let width = match (options.width, options.passes) {
+        _ if options.clear == Some(true) => EVERYTHING,
         (Some(width), _) => positive("width", Some(width))?,
         (None, Some(passes)) => kerf + (kerf - overlap) * (i64::from(passes) - 1),
         (None, None) => return Ok(None),
@@ -231,21 +403,22 @@ fn pixel(options: &Options) -> Result<Nm, Error> {
     Ok(pixel)
 }
 
-fn not_a_drill(key: &'static str, kind: ToolKind) -> Result<ToolKind, Error> {
-    match kind {
-        ToolKind::VBit { .. } | ToolKind::EndMill { .. } => Ok(kind),
+fn not_a_drill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
+    match tool.kind {
+        ToolKind::VBit { .. } | ToolKind::EndMill { .. } => Ok(tool),
         ToolKind::Drill { .. } => Err(Error::Value {
             key,
-            problem: format!("`{kind}` cannot cut sideways: name a vbit or an endmill"),
+            problem: format!("`{}` cannot cut sideways: name a vbit or an endmill", tool.name),
         }),
     }
 }
 
-fn end_mill(key: &'static str, kind: ToolKind) -> Result<ToolKind, Error> {
-    match kind {
-        ToolKind::EndMill { .. } => Ok(kind),
+fn end_mill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
+    match tool.kind {
+        ToolKind::EndMill { .. } => Ok(tool),
         ToolKind::VBit { .. } | ToolKind::Drill { .. } => {
-            Err(Error::Value { key, problem: format!("`{kind}` cannot cut a board out: name an endmill") })
+            let problem = format!("`{}` cannot cut a board out: name an endmill", tool.name);
+            Err(Error::Value { key, problem })
         }
     }
 }
@@ -263,6 +436,12 @@ mod tests {
         let settings = Settings::resolve(Options::default()).expect("the defaults");
         assert_eq!(settings.kerf(), Nm::new(153_590), "0.1 + 2 · 0.1 · tan 15°");
         assert_eq!(settings.pixel, Nm::from_um(25) + Nm::new(400), "1000 DPI");
+    }
+
+    #[test]
+    fn the_depth_follows_from_the_kerf_that_is_wanted() {
+        let settings = settings("kerf = \"0.15359mm\"").expect("settings");
+        assert_eq!(settings.isolation[0].heights.cut, Nm::from_um(100), "0.1 + 2 · 0.1 · tan 15°");
     }
 
     #[test]
@@ -287,6 +466,12 @@ mod tests {
             ("pixel = \"10nm\"", "pixel"),
             ("limit = \"-1mm\"", "limit"),
             ("outline-gap = \"10mm\"", "outline-gap"),
+            ("kerf = \"0.05mm\"", "kerf"),
+            ("cutout-ramp = \"90deg\"", "cutout-ramp"),
+            ("tab-spacing = \"0mm\"", "tab-spacing"),
+            ("tool = \"endmill:0.2mm\"\nkerf = \"0.3mm\"", "kerf"),
+            ("tool = [\"endmill:0.2mm\", \"isolator\"]", "tool"),
+            ("drills = \"clearer\"", "drills"),
         ] {
             let error = settings(text).expect_err(text).to_string();
             assert!(error.starts_with(key), "{text}: {error}");

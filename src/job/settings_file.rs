@@ -2,6 +2,7 @@
 
 use clap::Args;
 
+use super::tools::TABLE_KEYS;
 use super::{Error, Options};
 
 /// The name it has beside a board.
@@ -45,7 +46,8 @@ fn problem(message: &str) -> String {
         return message.lines().collect::<Vec<_>>().join(" ");
     };
     let keys = Options::keys();
-    let nearest = keys.iter().min_by_key(|known| distance(key, known));
+    let keys = keys.iter().map(String::as_str).chain(TABLE_KEYS.iter().copied());
+    let nearest = keys.min_by_key(|known| distance(key, known));
     nearest.map_or_else(
         || format!("unknown key `{key}`"),
         |nearest| {

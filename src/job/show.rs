@@ -31,7 +31,7 @@ impl Job {
             nets: &layer.nets,
             diagram: &layer.diagram,
             boundaries: &layer.boundaries,
-            section: &layer.section,
+            sections: &layer.sections,
             placement: &layer.placement,
             cutout: self.cutout(),
         })
@@ -68,7 +68,9 @@ impl Job {
 
     fn caption(&self, side: Side, settings: &Settings) -> String {
         let nets = self.layer(side).map_or(0, |layer| layer.nets.nets().len());
-        let tool = settings.isolation_tool.kind;
-        format!("{} {side} · {nets} nets · {tool} · kerf {:.3} mm", self.board.name, settings.kerf())
+        let tools = settings.isolation.iter();
+        let tools: Vec<_> =
+            tools.map(|cutting| format!("{} · kerf {:.3} mm", cutting.tool.kind, cutting.kerf())).collect();
+        format!("{} {side} · {nets} nets · {}", self.board.name, tools.join(" · "))
     }
 }

@@ -10,6 +10,8 @@ use super::{Error, Job, Part, Settings};
 impl Job {
     /// Mills its programs on a picture, from their texts, and says what is wrong with them.
     ///
+    /// Of several tiles the first is judged: the others are the same moves elsewhere.
+    ///
     /// The programs say for themselves what tools they are for; how the board lies is told, not found.
     ///
     /// # Errors
@@ -19,9 +21,11 @@ impl Job {
         let programs: Vec<Program> = self
             .programs
             .iter()
+            // The holes for turning the board over lie beside it.
+            .filter(|written| written.part != Part::Alignment)
             .map(|written| Program {
                 file: written.file_name(&self.board.name, settings),
-                text: written.text.clone(),
+                text: written.tile.as_ref().unwrap_or(&written.text).clone(),
                 role: Some(role(written.part)),
                 cutter: None,
                 placement: Some(self.laid(written.part)),
@@ -34,7 +38,7 @@ impl Job {
         let judging = verify::Settings {
             diameter: usual.diameter.max(settings.drill_tolerance),
             travel: settings.machine.travel,
-            tabs: Some(settings.tabs),
+            tabs: settings.tabs.count(),
             ..usual
         };
         Ok(verify(&programs, &self.board, &known, &judging)?)
@@ -54,7 +58,7 @@ const fn role(part: Part) -> Role {
     match part {
         Part::Front => Role::Isolation(Side::Front),
         Part::Back => Role::Isolation(Side::Back),
-        Part::Drill => Role::Drilling,
+        Part::Alignment | Part::Drill => Role::Drilling,
         Part::Cutout => Role::Cutout,
     }
 }

@@ -1,11 +1,14 @@
+use crate::board::Warning;
 use crate::gcode::{self, Header};
-use crate::toolpath::{Program, Statistics, measure};
+use crate::toolpath::{Program, Statistics, Tiling, measure};
 
 use super::Settings;
 
 /// What a program is for; its file is named after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
+    /// Drills the holes on whose pins the board is turned over.
+    Alignment,
     /// Isolates the front.
     Front,
     /// Isolates the back, the board turned over.
@@ -21,20 +24,27 @@ pub enum Part {
 pub struct Written {
     /// What it is for.
     pub part: Part,
-    /// What was planned.
+    /// What was planned, for one tile.
     pub program: Program,
     /// What it amounts to.
     pub statistics: Statistics,
     /// What the machine reads.
     pub text: String,
+    /// The same for one tile alone; none where there is but one.
+    pub tile: Option<String>,
+    /// Where it goes farther than the machine.
+    pub warning: Option<Warning>,
 }
 
 impl Part {
     /// Whether an option changes this program.
     fn is_changed_by(self, option: &str) -> bool {
         match option {
-            "feed" | "plunge" | "spindle" | "safe-z" | "dialect" | "origin" => true,
-            "outline-gap" => self != Self::Drill,
+            "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
+            "feed" | "plunge" | "spindle" | "safe-z" | "dialect" | "origin" | "tile" | "tile-spacing"
+            | "machine-travel" | "tool-change-at" => true,
+            _ if option.starts_with("alignment") => self == Self::Alignment,
+            "drill-depth" => matches!(self, Self::Alignment | Self::Drill),
             _ if option.starts_with("drill") => self == Self::Drill,
             _ if option.starts_with("cutout") || option.starts_with("tab") => self == Self::Cutout,
             _ => matches!(self, Self::Front | Self::Back),
@@ -45,6 +55,7 @@ impl Part {
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
+            Self::Alignment => "alignment",
             Self::Front => "front",
             Self::Back => "back",
             Self::Drill => "drill",
@@ -54,15 +65,28 @@ impl Part {
 }
 
 impl Written {
-    /// `program` in the dialect of `settings`, under `header` with its settings and the time it takes.
+    /// `program`, on every tile, in the dialect of `settings`, under `header` with its settings and the time it takes.
     #[must_use]
-    pub fn new(part: Part, program: Program, header: &Header, settings: &Settings) -> Self {
-        let statistics = measure(&program, &settings.machine);
+    pub fn new(
+        part: Part,
+        program: Program,
+        header: &Header,
+        tiling: Option<Tiling>,
+        settings: &Settings,
+    ) -> Self {
+        let wait = |program: Program| match settings.tool_change {
+            Some(place) => program.waiting_at(place),
+            None => program,
+        };
+        let whole = wait(tiling.map_or_else(|| program.clone(), |tiling| program.clone().tiled(tiling)));
+        let statistics = measure(&whole, &settings.machine);
         let mut options = settings.options().listed();
         options.retain(|(option, _)| part.is_changed_by(option));
         let header = Header { settings: options, seconds: Some(statistics.seconds), ..header.clone() };
-        let text = gcode::write(&program, settings.dialect, &header);
-        Self { part, program, statistics, text }
+        let text = gcode::write(&whole, settings.dialect, &header);
+        let tile = tiling.map(|_| gcode::write(&wait(program.clone()), settings.dialect, &header));
+        let warning = whole.check_travel(&settings.machine);
+        Self { part, program, statistics, text, tile, warning }
     }
 
     /// The name of its file.

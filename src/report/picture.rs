@@ -26,8 +26,8 @@ pub struct Shown<'a> {
     pub diagram: &'a Diagram,
     /// The diagram's lines.
     pub boundaries: &'a Boundaries,
-    /// What the machine does to it.
-    pub section: &'a Section,
+    /// What the machine does to it, tool by tool.
+    pub sections: &'a [Section],
     /// How the side lies on the machine.
     pub placement: &'a Placement,
     /// What cuts the board out, and how the board lies then.
@@ -129,12 +129,14 @@ pub fn depth(diagram: &Diagram, grid: &Grid) -> Vec<u8> {
 #[must_use]
 pub fn toolpath(side: &Shown<'_>, grid: Grid, rapids: bool) -> Canvas {
     let mut canvas = ground(side, grid);
-    let ways = Ways::of(side.section, side.placement);
-    for (depth, paths) in &ways.cuts {
-        canvas.strokes(paths, side.section.tool.width_at(*depth), CUT, 0.92);
-    }
-    if rapids {
-        canvas.strokes(&ways.rapids, Nm::ZERO, RAPID, 0.8);
+    for section in side.sections {
+        let ways = Ways::of(section, side.placement);
+        for (depth, paths) in &ways.cuts {
+            canvas.strokes(paths, section.tool.width_at(*depth), CUT, 0.92);
+        }
+        if rapids {
+            canvas.strokes(&ways.rapids, Nm::ZERO, RAPID, 0.8);
+        }
     }
     if let Some((section, placement)) = side.cutout {
         // What goes all the way through: the tabs are where it does not.

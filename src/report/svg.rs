@@ -50,10 +50,11 @@ pub fn side(shown: &Shown<'_>, area: Rect, over: Over) -> String {
             svg.group("boundaries", &line(CUT, 1.0), |svg| svg.strokes(Nm::from_um(50), lines));
         }
         Over::Cuts => {
-            let ways = Ways::of(shown.section, shown.placement);
             svg.group("cuts", &line(CUT, 0.9), |svg| {
-                for (depth, paths) in &ways.cuts {
-                    svg.strokes(shown.section.tool.width_at(*depth), paths);
+                for section in shown.sections {
+                    for (depth, paths) in &Ways::of(section, shown.placement).cuts {
+                        svg.strokes(section.tool.width_at(*depth), paths);
+                    }
                 }
             });
             if let Some((section, placement)) = shown.cutout

@@ -39,6 +39,14 @@ impl Head {
         self.feed_to(Position { z: -depth, ..at }, self.plunge);
     }
 
+    /// Down to `depth` over `point`: a plunge where the head is over it, and else, when it is down already, straight there at `feed`.
+    pub(super) fn reach(&mut self, point: Point, depth: Nm, feed: Feed) {
+        match self.at {
+            Some(at) if at.point() != point => self.feed_to(Position::over(point, -depth), feed),
+            _ => self.plunge(depth),
+        }
+    }
+
     /// Straight to `to`, at `feed`.
     pub(super) fn feed_to(&mut self, to: Position, feed: Feed) {
         if self.at != Some(to) {
@@ -64,6 +72,18 @@ impl Head {
         let depth = -self.at.expect("the head is at the path's start").z;
         for segment in &path.segments {
             self.cut(segment, depth, feed);
+        }
+    }
+
+    /// Along `path`, which begins where the head is, evenly from the depth that the head has to `depth`.
+    pub(super) fn descend(&mut self, path: &Path, depth: Nm, feed: Feed) {
+        let from = -self.at.expect("the head is at the path's start").z;
+        let whole = path.length().max(1.0);
+        let mut gone = 0.0;
+        for (start, segment) in path.steps() {
+            gone += segment.length(start);
+            let reached = from + Nm::from_f64((depth - from).to_f64() * (gone / whole).min(1.0));
+            self.cut(segment, reached, feed);
         }
     }
 

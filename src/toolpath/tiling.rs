@@ -3,6 +3,7 @@ use crate::geometry::{Nm, Point, Rect, Vector};
 
 use super::machine::Machine;
 use super::program::{Move, Position, Program, Section};
+use super::tool::Tool;
 
 /// The same board several times in one piece of stock, column by column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +37,21 @@ impl Program {
             let moves = std::mem::take(&mut section.moves);
             let tile = |shift: Vector| moves.iter().map(move |step| shifted(step, shift)).collect::<Vec<_>>();
             section.moves = tiling.shifts().flat_map(tile).collect();
+        }
+        self
+    }
+
+    /// The program with the machine waiting at `place`, or at the safe height over it if that is higher, wherever another tool is fitted.
+    #[must_use]
+    pub fn waiting_at(mut self, place: Position) -> Self {
+        let place = Position { z: place.z.max(self.safe), ..place };
+        let tools: Vec<Tool> = self.sections.iter().map(|section| section.tool.clone()).collect();
+        for (section, pair) in self.sections.iter_mut().zip(tools.windows(2)) {
+            let end = section.moves.iter().rev().find_map(Move::to);
+            if let Some(end) = end.filter(|_| pair[0] != pair[1]) {
+                section.moves.push(Move::Rapid { to: Position { z: place.z, ..end } });
+                section.moves.push(Move::Rapid { to: place });
+            }
         }
         self
     }

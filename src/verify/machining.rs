@@ -122,7 +122,10 @@ impl Machining {
 
     /// Collects where the tool only goes down and up.
     fn plunge(&mut self, tools: &Tools<'_>) {
-        let level = |motion: &Motion| motion.from.point() == motion.to.point();
+        // A full turn ends where it began, too.
+        let level = |motion: &Motion| {
+            motion.from.point() == motion.to.point() && !matches!(motion.way, Way::Arc { .. })
+        };
         let sunk = |z: Option<Nm>| z.is_some_and(|z| z < Nm::ZERO);
         let mut down: Option<Plunge> = None;
         for motion in &self.motions {

@@ -42,6 +42,13 @@ pub(super) fn fit(vertices: &[Vertex], tolerance: Nm, arcs: bool) -> Option<(Pat
     (!path.segments.is_empty()).then_some((path, clearance))
 }
 
+/// The path of few lines and arcs within `tolerance` of a polyline; none for less than two points.
+pub fn fit_points(points: impl IntoIterator<Item = Point>, tolerance: Nm) -> Option<Path> {
+    let vertices: Vec<Vertex> =
+        points.into_iter().map(|point| Vertex { at: point.into(), clearance: 0.0 }).collect();
+    fit(&vertices, tolerance, true).map(|(path, _)| path)
+}
+
 /// Clearances from nowhere (a path along the border) are the largest length.
 fn finite(clearance: f64) -> f64 {
     clearance.min(Nm::MAX.to_f64())

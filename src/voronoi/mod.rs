@@ -33,6 +33,7 @@ use crate::grid::{Grid, GridError};
 use crate::raster::{self, Scene, TileContent};
 use crate::topology::{NetId, Nets};
 
+pub use fit::fit_points;
 pub use passes::Widening;
 
 use copper::Edges;

@@ -41,17 +41,19 @@ impl Widening {
 }
 
 impl Diagram {
-    /// `base` with further passes beside its cuts, until the gap beside every net is as wide as asked for.
+    /// `base` with further passes beside its cuts, until the gap beside every net is as wide as asked for. `before` is what wider tools have
+    /// cut, each with its kerf: nothing of that is cut again.
     ///
     /// A pass never runs nearer to copper than half the kerf and the fitting tolerance. What `base` has at that distance already (the
     /// outline strategy's loops) is not cut again.
     #[must_use]
-    pub fn widened(&self, base: Boundaries, widening: &Widening) -> Boundaries {
+    pub fn widened(&self, base: Boundaries, widening: &Widening, before: &[(Nm, Boundaries)]) -> Boundaries {
         let first = widening.kerf / 2 + self.settings.tolerance;
         let levels = widening.levels(first);
         let step = levels.get(1).map_or(widening.kerf - widening.overlap, |&second| second - levels[0]);
         let reach = self.grid.pixels(widening.kerf - step);
         let mut all = base;
+        let mut empty = 0;
         for level in
             levels.into_iter().filter(|&level| self.settings.limit.is_none_or(|limit| level != limit))
         {
@@ -59,10 +61,29 @@ impl Diagram {
             for edge in all.edges.iter().filter(|edge| !edge.is_border()) {
                 self.sites.add_groove(&mut scene, &self.grid, &edge.path, reach);
             }
-            let lines = self.trace(&scene, Some(level)).lines();
-            all.append(self.graph(&lines.into_iter().filter(is_level).collect::<Vec<_>>()));
+            self.add_wider(&mut scene, widening.kerf, before);
+            let lines: Vec<Line> =
+                self.trace(&scene, Some(level)).lines().into_iter().filter(is_level).collect();
+            // One level may lie in the grooves of others altogether; two in a row mean that there is no room further out.
+            empty = if lines.is_empty() { empty + 1 } else { 0 };
+            if empty == 2 {
+                break;
+            }
+            all.append(self.graph(&lines));
         }
         all
+    }
+
+    /// Draws the grooves of wider tools, so wide that a cut of `kerf` along their edges clears next to nothing beside them: with a part of the
+    /// kerf to spare, and two pixels, so that a pass along the very edge does not flicker.
+    fn add_wider(&self, scene: &mut raster::Scene, kerf: Nm, before: &[(Nm, Boundaries)]) {
+        let spare = (kerf / 8).max(self.grid.pitch() * 2).min(kerf / 3);
+        for (wide, cuts) in before {
+            let reach = self.grid.pixels((*wide - kerf) / 2 + spare);
+            for edge in cuts.edges.iter().filter(|edge| !edge.is_border()) {
+                self.sites.add_groove(scene, &self.grid, &edge.path, reach);
+            }
+        }
     }
 
     /// The depth in the picture of a distance in nanometres.

@@ -113,3 +113,134 @@ fn holes_that_no_drill_fits_are_bored_or_named() {
     let (bored, _) = job("regulator", settings);
     assert!(!warned(&bored, "no-drill-for-hole"), "bored: {:?}", bored.warnings);
 }
+
+/// Whether verification finds nothing worse than a sliver.
+fn is_sound(job: &Job, settings: &Settings) -> bool {
+    job.verify(settings).expect("a verdict").findings.iter().all(|finding| finding.name == "sliver")
+}
+
+/// Whether verification finds nothing.
+fn is_clean(job: &Job, settings: &Settings) -> bool {
+    job.verify(settings).expect("a verdict").findings.is_empty()
+}
+
+#[test]
+fn of_two_tools_the_wide_one_cuts_where_it_fits() {
+    let fine = "tool = \"endmill:0.2mm\"";
+    let both = "tool = [\"endmill:0.2mm\", \"wide\"]\n[tools.wide]\nkind = \"endmill\"\ndiameter = \"0.6mm\"\nnumber = 9";
+    let (one, _) = job("blinker", fine);
+    let (two, settings) = job("blinker", both);
+    let sections = &two.layers[0].sections;
+    let tools: Vec<_> =
+        sections.iter().map(|section| (section.tool.name.as_str(), section.tool.number)).collect();
+    assert_eq!(tools, [("wide", 9), ("endmill:0.2mm", 1)], "the wide one first");
+    let (alone, shared) = (cut_mm(&one, Part::Back), cut_mm(&two, Part::Back));
+    // Short ends beside the other tool's are cut there and back rather than left by a lift.
+    assert!(shared >= alone - 1e-6 && shared <= alone * 1.2, "{shared} mm instead of {alone} mm");
+    assert!(is_clean(&two, &settings), "and every net is isolated");
+}
+
+#[test]
+fn clearing_with_two_tools_leaves_no_net_joined_and_takes_no_copper() {
+    let tools = "tool = [\"endmill:0.2mm\", \"endmill:0.6mm\"]\n";
+    let (wide, settings) = job("blinker", &format!("{tools}width = \"1mm\""));
+    assert!(is_sound(&wide, &settings), "nothing is gouged");
+    let (all, settings) = job("blinker", &format!("{tools}clear = true"));
+    assert!(is_sound(&all, &settings), "nothing is gouged");
+    assert!(cut_mm(&all, Part::Back) > cut_mm(&wide, Part::Back), "clearing goes on to the middle");
+}
+
+#[test]
+fn tiles_lie_beside_each_other_on_both_sides() {
+    let (one, _) = job("regulator", "tabs = 2");
+    let (four, settings) = job("regulator", "tabs = 2\ntile = \"2x2\"\ntile-spacing = \"4mm\"");
+    for part in [Part::Front, Part::Back, Part::Drill, Part::Cutout] {
+        let (single, panel) = (cut_mm(&one, part), cut_mm(&four, part));
+        assert!((panel - 4.0 * single).abs() < 0.01, "{part:?}: {panel} mm for {single} mm");
+    }
+    let axis = four.layers[1].placement.mirror.expect("a back").to_mm();
+    assert!((axis - (60.0 + 4.0 + 60.0) / 2.0).abs() < 1e-3, "the middle of the panel, not {axis}");
+    let back = four.programs.iter().find(|program| program.part == Part::Back).expect("a back");
+    let listing = read(&back.text).expect("a program");
+    let xs = || listing.motions.iter().filter_map(|motion| motion.to.x).map(|x| x.to_mm());
+    assert!(xs().all(|x| (-1.0..125.0).contains(&x)), "the back lies where the front lies");
+    assert!(xs().any(|x| x < 60.0) && xs().any(|x| x > 64.0), "on all tiles");
+    assert!(is_clean(&four, &settings), "and each is isolated");
+}
+
+#[test]
+fn programs_that_the_machine_cannot_reach_are_named() {
+    let (small, _) = job("regulator", "machine-travel = \"50mm,50mm,40mm\"");
+    assert!(warned(&small, "beyond-the-machine"), "60 mm on 50: {:?}", small.warnings);
+    let (large, _) = job("regulator", "machine-travel = \"100mm,100mm,40mm\"");
+    assert!(!warned(&large, "beyond-the-machine"), "60 mm on 100");
+}
+
+#[test]
+fn alignment_holes_are_a_program_of_their_own() {
+    let (job, _) = job("regulator", "alignment-holes = \"3mm\"");
+    let first = &job.programs[0];
+    assert_eq!((first.part, first.program.sections.len()), (Part::Alignment, 1), "before everything else");
+    let axis = job.layers[1].placement.mirror.expect("a back");
+    let moves = first.program.sections[0].moves.iter().filter_map(voromill::toolpath::Move::to);
+    let deep: Vec<_> = moves.filter(|to| to.z < voromill::geometry::Nm::ZERO).collect();
+    assert!(deep.len() == 2 && deep.iter().all(|to| to.x == axis), "two, on the axis: {deep:?}");
+}
+
+#[test]
+fn the_machine_waits_where_it_is_told_to() {
+    let (job, _) = job("regulator", "tool-change-at = \"-5mm,80mm,30mm\"");
+    let drill = job.programs.iter().find(|program| program.part == Part::Drill).expect("holes");
+    let changes = drill.text.matches("\nM0").count();
+    assert!(changes > 1, "several drills");
+    assert_eq!(drill.text.matches("G0 X-5 Y80\nM5").count(), changes, "there before each change");
+}
+
+#[test]
+fn ignored_nets_are_not_isolated() {
+    let (all, _) = job("blinker", "");
+    let (less, settings) = job("blinker", "ignore = \"net 1\"");
+    let nets = |job: &Job| job.layers[0].nets.nets().len();
+    assert!(
+        warned(&less, "nets-ignored") || warned(&less, "pattern-without-net"),
+        "said: {:?}",
+        less.warnings
+    );
+    if warned(&less, "nets-ignored") {
+        assert_eq!(nets(&less) + 1, nets(&all), "one less");
+    }
+    assert!(is_clean(&less, &settings), "the rest are isolated");
+    let (same, _) = job("blinker", "ignore = \"NOBODY*\"");
+    assert!(
+        warned(&same, "pattern-without-net") && nets(&same) == nets(&all),
+        "a pattern that means nothing"
+    );
+}
+
+#[test]
+fn tabs_stand_where_they_are_asked_for() {
+    let (job, settings) = job("regulator", "tab-at = [\"110mm,-60mm\", \"110mm,-100mm\", \"100mm,100mm\"]");
+    assert!(warned(&job, "tab-off-the-outline"), "far away: {:?}", job.warnings);
+    assert!(is_clean(&job, &settings), "the board is cut out");
+}
+
+#[test]
+fn the_walkthrough_does_what_it_says() {
+    let settings = include_str!("../../docs/walkthrough/voromill.toml");
+    let (job, settings) = job("regulator", settings);
+    let parts: Vec<Part> = job.programs.iter().map(|program| program.part).collect();
+    assert_eq!(
+        parts,
+        [Part::Alignment, Part::Front, Part::Back, Part::Drill, Part::Cutout],
+        "what there is to run, in order"
+    );
+    let tools = |part: Part| {
+        let program = job.programs.iter().find(|program| program.part == part).expect("a program");
+        let sections = program.program.sections.iter();
+        sections.map(|section| (section.tool.number, section.tool.name.clone())).collect::<Vec<_>>()
+    };
+    assert_eq!(tools(Part::Front), [(1, "slim-mill".to_owned()), (2, "engraver-20".to_owned())], "two tools");
+    let bored = tools(Part::Drill).pop().expect("a tool");
+    assert_eq!(bored, (4, "endmill:1mm".to_owned()), "three drills, then the mill that bores");
+    assert!(is_clean(&job, &settings), "{:?}", job.verify(&settings).expect("a verdict").findings);
+}

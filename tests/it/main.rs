@@ -15,6 +15,7 @@ mod oracle;
 mod outline;
 mod page;
 mod paper;
+mod programs;
 mod raster;
 mod snapshot;
 mod toolpath;

@@ -4,7 +4,9 @@ use proptest::prelude::*;
 use voromill::board::{Hole, Outline, Plating};
 use voromill::gcode::{Dialect, Header, write};
 use voromill::geometry::{Arc, Nm, Path, Point, Rect, Turn};
-use voromill::toolpath::strategy::{Cutout, Drilling, Isolation, Narrow, Role, Tabs, cutout, drill, isolate};
+use voromill::toolpath::strategy::{
+    Cutout, Drilling, Isolation, Narrow, Role, TabPlaces, Tabs, cutout, drill, isolate,
+};
 use voromill::toolpath::{
     Heights, Machine, Move, Order, Origin, Placement, Position, Program, Section, Tiling, Tool,
     alignment_holes, measure,
@@ -178,8 +180,8 @@ fn outline() -> Outline {
 }
 
 fn cutting<'a>(tool: &'a Tool, placement: &'a Placement, count: u32) -> Cutout<'a> {
-    let tabs = Tabs { count, width: Nm::from_mm(2), height: Nm::from_um(600) };
-    Cutout { tool, heights: heights(1700, Some(600)), placement, tabs }
+    let tabs = Tabs { places: TabPlaces::Count(count), width: Nm::from_mm(2), height: Nm::from_um(600) };
+    Cutout { tool, heights: heights(1700, Some(600)), placement, tabs, ramp: None }
 }
 
 #[test]

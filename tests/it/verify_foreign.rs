@@ -63,7 +63,7 @@ fn a_board_that_was_turned_and_moved_is_found_within_3_um() {
     {
         let options = Options {
             rotate: Some(rotate.parse().expect("an angle")),
-            tool: Some(tool.parse().expect("a tool")),
+            tool: vec![tool.parse().expect("a tool")],
             ..Options::default()
         };
         let settings = job::Settings::resolve(options).expect("settings");

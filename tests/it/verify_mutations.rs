@@ -25,7 +25,7 @@ struct Milled {
 fn mill(tool: &str) -> Milled {
     let file = |name: &str| Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/verify").join(name);
     let files = [file("seven-F_Cu.gbr"), file("seven-Edge_Cuts.gbr")];
-    let options = Options { tool: Some(tool.parse().expect("a tool")), ..Options::default() };
+    let options = Options { tool: vec![tool.parse().expect("a tool")], ..Options::default() };
     let settings = job::Settings::resolve(options).expect("settings");
     let loaded = import::load(&files, &Selection::default()).expect("a board");
     let mut job = job::mill(loaded, &settings).expect("a job");

@@ -176,7 +176,7 @@ fn a_wide_gap_is_cleared_and_no_copper_touched() {
     let settings = Settings::default();
     let diagram = Diagram::new(&copper, &nets, None, &settings).expect("a diagram");
     let widening = Widening { kerf: Nm::from_um(200), width: Nm::from_um(700), overlap: Nm::from_um(20) };
-    let cuts = diagram.widened(diagram.boundaries().0, &widening);
+    let cuts = diagram.widened(diagram.boundaries().0, &widening, &[]);
     let paths: Vec<Vec<Point>> = cuts
         .edges
         .iter()

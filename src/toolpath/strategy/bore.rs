@@ -1,7 +1,8 @@
 //! Boring: holes and slots wider than the end mill, milled out along their wall.
 //!
-//! A hole is a helix down to the bottom and a full turn there, which is the spring pass too; what is wider than two
-//! cutters is cleared from the middle outwards. A slot is the same round its whole length: an obround, deeper with every lap.
+//! A hole is a helix down to the bottom and a full turn there; what is wider than two cutters is cleared from the middle outwards. Along the
+//! wall one more turn follows at the bottom, the spring pass, which takes what the cutter left by giving way. A slot is the same round
+//! its whole length: an obround, deeper with every lap.
 //!
 //! ```text
 //!     ╭───────────────╮      the cutter's middle runs (width − cutter) / 2
@@ -37,8 +38,10 @@ pub(super) fn bore(
     let mut head = Head::new(heights, mill.plunge);
     for leg in arrange(&stretches, Point::default(), order) {
         let (path, hole) = (&paths[leg.stretch], holes[leg.stretch]);
-        for reach in reaches(hole.diameter, mill.width_at(Nm::ZERO)) {
-            mill_out(&mut head, path.start, path.end(), reach, mill, heights);
+        let reaches = reaches(hole.diameter, mill.width_at(Nm::ZERO));
+        for (reach, inside) in reaches.iter().zip((0..reaches.len()).rev()) {
+            let turns = if inside == 0 { 2 } else { 1 };
+            mill_out(&mut head, path.start, path.end(), *reach, turns, mill, heights);
         }
     }
     let count = holes.len();
@@ -59,8 +62,8 @@ fn reaches(width: Nm, cutter: Nm) -> Vec<Nm> {
     (0..=gaps).map(|i| first + (last - first) * i / gaps).collect()
 }
 
-/// One obround (a circle where both ends are one) down to the bottom.
-fn mill_out(head: &mut Head, a: Point, b: Point, reach: Nm, mill: &Tool, heights: Heights) {
+/// One obround (a circle where both ends are one) down to the bottom, and `turns` there.
+fn mill_out(head: &mut Head, a: Point, b: Point, reach: Nm, turns: u32, mill: &Tool, heights: Heights) {
     let most = mill.width_at(Nm::ZERO) / LAP;
     let lap = heights.step.unwrap_or(most).min(most).max(Nm::new(1));
     let depths = Heights { step: Some(lap), ..heights };
@@ -72,14 +75,10 @@ fn mill_out(head: &mut Head, a: Point, b: Point, reach: Nm, mill: &Tool, heights
     let way = b - a;
     let aside = if a == b { Vector::new(reach, Nm::ZERO) } else { across(way, reach) };
     let laps = obround(a, b, aside);
-    head.over(laps.0);
+    head.over(laps.start);
     head.plunge(Nm::ZERO);
-    let mut reached = Nm::ZERO;
-    for depth in depths.passes() {
-        descend(head, &laps.1, reached, depth, mill);
-        reached = depth;
-    }
-    descend(head, &laps.1, reached, reached, mill);
+    depths.passes().for_each(|depth| head.descend(&laps, depth, mill.feed));
+    (0..turns).for_each(|_| head.follow(&laps, mill.feed));
     head.lift();
 }
 
@@ -89,43 +88,19 @@ fn across(way: Vector, length: Nm) -> Vector {
     Vector::new(Nm::from_f64(way.y.to_f64() * scale), Nm::from_f64(-way.x.to_f64() * scale))
 }
 
-/// The way round from `a + aside` along to b and back against the clock, and its start.
-fn obround(a: Point, b: Point, aside: Vector) -> (Point, Vec<Segment>) {
+/// The way round from `a + aside` along to b and back against the clock.
+fn obround(a: Point, b: Point, aside: Vector) -> Path {
     let start = a + aside;
-    if a == b {
-        return (start, vec![Segment::Arc { to: start, center: a, turn: Turn::CounterClockwise }]);
-    }
     let round = |to: Point, center: Point| Segment::Arc { to, center, turn: Turn::CounterClockwise };
-    if aside == Vector::default() {
-        return (start, vec![Segment::Line { to: b }, Segment::Line { to: a }]);
-    }
-    let segments = vec![
-        Segment::Line { to: b + aside },
-        round(b - aside, b),
-        Segment::Line { to: a - aside },
-        round(start, a),
-    ];
-    (start, segments)
-}
-
-/// One lap, evenly from one depth to another.
-fn descend(head: &mut Head, lap: &[Segment], from: Nm, to: Nm, mill: &Tool) {
-    let mut at = head.at().map_or(Point::default(), |at| at.point());
-    let lengths: Vec<f64> = lap
-        .iter()
-        .map(|segment| {
-            let length = segment.length(at);
-            at = segment.to();
-            length
-        })
-        .collect();
-    let whole: f64 = lengths.iter().sum::<f64>().max(1.0);
-    let mut gone = 0.0;
-    for (segment, length) in lap.iter().zip(lengths) {
-        gone += length;
-        let depth = from + Nm::from_f64((to - from).to_f64() * (gone / whole).min(1.0));
-        head.cut(segment, depth, mill.feed);
-    }
+    let segments = if a == b {
+        vec![round(start, a)]
+    } else if aside == Vector::default() {
+        vec![Segment::Line { to: b }, Segment::Line { to: a }]
+    } else {
+        let (there, back) = (Segment::Line { to: b + aside }, Segment::Line { to: a - aside });
+        vec![there, round(b - aside, b), back, round(start, a)]
+    };
+    Path { start, segments }
 }
 
 #[cfg(test)]

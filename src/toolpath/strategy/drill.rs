@@ -54,9 +54,16 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
         sections.push(section(tool, &holes, settings));
     }
     if let Some(mill) = settings.mill.filter(|_| !bored.is_empty()) {
-        sections.push(bore::bore(&bored, mill, settings.heights, settings.placement, settings.order));
+        let mill = Tool { number: free(mill.number, &sections), ..mill.clone() };
+        sections.push(bore::bore(&bored, &mill, settings.heights, settings.placement, settings.order));
     }
     (sections, warnings)
+}
+
+/// `number`, or if a section has it already, the next after all of them.
+fn free(number: u32, sections: &[Section]) -> u32 {
+    let numbers = || sections.iter().map(|section| section.tool.number);
+    if numbers().any(|taken| taken == number) { numbers().max().unwrap_or(0) + 1 } else { number }
 }
 
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.

@@ -165,26 +165,41 @@ fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move>
     let mut lines: Vec<Line> = trails.iter().filter_map(|trail| Line::along(ways, trail)).collect();
     let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
     let mut head = Head::new(settings.heights, settings.tool.plunge);
+    let mut before = None;
     for leg in arrange(&stretches, Point::default(), settings.order) {
         let line = &mut lines[leg.stretch];
         line.begin_at(leg.entry.unwrap_or(0));
         if leg.reversed {
             line.reverse();
         }
+        if !before.is_some_and(|before| hops(before, line, settings)) {
+            head.over(line.path.start);
+        }
         cut_line(&mut head, line, settings);
+        before = line.clearance.last().copied().flatten().map(|clearance| (line.path.end(), clearance));
     }
     head.finish()
 }
 
+/// Whether the tool may stay down from the end of a trail, with its clearance, to the beginning of the next: where that is no farther than its
+/// kerf, so that nothing is cut but what its two grooves nearly meet in, and no copper is within its reach on the way.
+fn hops(before: (Point, Nm), next: &Line, settings: &Isolation<'_>) -> bool {
+    let kerf = settings.tool.width_at(settings.heights.cut);
+    let Some(clearance) = next.clearance[0] else { return false };
+    let hop = Nm::from_f64(before.0.distance(next.path.start));
+    // Any point of the way is at most the rest of it nearer to copper than the one end, and than the other.
+    let nearest = (before.1 + clearance - hop) / 2;
+    settings.heights.step.is_none() && hop <= kerf && nearest >= kerf / 2
+}
+
 /// One trail in all its passes: there at the first depth, and where it is open back at the next, without a lift.
 fn cut_line(head: &mut Head, line: &mut Line, settings: &Isolation<'_>) {
-    head.over(line.path.start);
     for (pass, depth) in settings.heights.passes().enumerate() {
         if pass > 0 && !line.path.is_closed() {
             line.reverse();
         }
         let depths = line.depths(depth, settings);
-        head.plunge(depths[0]);
+        head.reach(line.path.start, depths[0], settings.tool.feed);
         for (segment, &depth) in line.path.segments.iter().zip(&depths[1..]) {
             head.cut(segment, depth, settings.tool.feed);
         }

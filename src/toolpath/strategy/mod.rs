@@ -4,7 +4,9 @@ mod bore;
 mod cutout;
 mod drill;
 mod isolate;
+mod share;
 
-pub use cutout::{Cutout, Tabs, cutout};
+pub use cutout::{Cutout, TabPlaces, Tabs, cutout};
 pub use drill::{Drilling, drill};
 pub use isolate::{Isolation, Narrow, Role, isolate};
+pub use share::share;

@@ -1,0 +1,72 @@
+//! Nets that are left out of isolation: text, logos, whatever nothing is soldered to.
+
+use crate::board::{Board, Copper, Side, Warning};
+use crate::topology::{self, Nets};
+
+use super::Settings;
+use super::layer::method;
+
+/// Takes the nets that a pattern means out of the copper of `board`: cuts go through them as if they were not there.
+///
+/// Warned about: `nets-ignored` on each side that has some, `pattern-without-net` for what means none.
+pub(super) fn ignore(board: &mut Board, settings: &Settings) -> Vec<Warning> {
+    let mut meant = vec![false; settings.ignore.len()];
+    let mut warnings = Vec::new();
+    for copper in [&mut board.front, &mut board.back].into_iter().flatten() {
+        warnings.extend(thin(copper, settings, &mut meant));
+    }
+    for (pattern, _) in settings.ignore.iter().zip(meant).filter(|(_, meant)| !meant) {
+        let message = format!("no net is called `{pattern}`, so it leaves none out");
+        warnings.push(Warning::new("pattern-without-net", message));
+    }
+    warnings
+}
+
+/// One side; `meant` learns which patterns mean a net.
+fn thin(copper: &mut Copper, settings: &Settings, meant: &mut [bool]) -> Option<Warning> {
+    let nets = topology::recover(copper, method(settings.topology));
+    let mut left_out = Vec::new();
+    for id in (0..).map(topology::NetId).take(nets.nets().len()) {
+        let names = names(copper, &nets, id);
+        for (pattern, meant) in settings.ignore.iter().zip(meant.iter_mut()) {
+            if names.iter().any(|name| pattern.matches(name)) {
+                *meant = true;
+                left_out.push(id);
+            }
+        }
+    }
+    left_out.dedup();
+    if left_out.is_empty() {
+        return None;
+    }
+    let mut index = 0;
+    copper.features.retain(|_| {
+        index += 1;
+        left_out.binary_search(&nets.of(index - 1)).is_err()
+    });
+    Some(said(&left_out, &nets, copper.side))
+}
+
+/// What a net is called: its names, its number, and what all its copper is for if that is one thing.
+fn names(copper: &Copper, nets: &Nets, id: topology::NetId) -> Vec<String> {
+    let net = &nets.nets()[id.index()];
+    let function = |&feature: &u32| copper.attributes_of(&copper.features[feature as usize]).function.clone();
+    let mut functions: Vec<Option<String>> = net.features.iter().map(function).collect();
+    functions.dedup();
+    let mut names = net.names.clone();
+    names.push(nets.label(id));
+    if let [Some(function)] = functions.as_slice() {
+        names.push(function.clone());
+    }
+    names
+}
+
+fn said(left_out: &[topology::NetId], nets: &Nets, side: Side) -> Warning {
+    const SHOWN: usize = 5;
+    let mut labels: Vec<String> = left_out.iter().take(SHOWN).map(|&id| nets.label(id)).collect();
+    if left_out.len() > SHOWN {
+        labels.push(format!("{} more", left_out.len() - SHOWN));
+    }
+    let message = format!("not isolated, as asked: {}", labels.join(", "));
+    Warning::new("nets-ignored", message).on(side)
+}

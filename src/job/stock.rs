@@ -1,0 +1,99 @@
+//! How a board lies in its stock: placed, tiled, turned over.
+//!
+//! ```text
+//!        ○ ← alignment hole, on the axis about which the stock is turned over
+//!   ┌────┼────┐ spacing ┌─────────┐
+//!   │    ┊    │ ←─────→ │         │      3 × 1 tiles: the axis is the middle of all of them
+//!   └────┼────┘         └─────────┘
+//! ```
+
+use crate::board::{Board, Hole, Plating, Side};
+use crate::geometry::{Nm, Path, Rect, Vector};
+use crate::toolpath::strategy::{Drilling, drill};
+use crate::toolpath::{Order, Placement, Program, Tiling, alignment_holes};
+
+use super::{Settings, Tiles};
+
+/// A board in its stock.
+pub(super) struct Stock {
+    /// How the first tile lies, seen from the front.
+    pub(super) front: Placement,
+    /// The line about which the stock is turned over.
+    axis: Nm,
+    /// All tiles, seen from the front.
+    bounds: Rect,
+    tiling: Option<Tiling>,
+}
+
+impl Stock {
+    /// A board within `bounds`.
+    pub(super) fn new(bounds: Rect, settings: &Settings) -> Self {
+        let front = Placement::front(settings.origin, bounds, settings.rotate, Vector::default());
+        let tile = Rect::around(bounds.corners().map(|corner| front.point(corner))).unwrap_or(bounds);
+        let tiling = settings.tiles.map(|(Tiles { columns, rows }, spacing)| Tiling {
+            columns,
+            rows,
+            pitch: Vector::new(tile.width() + spacing, tile.height() + spacing),
+        });
+        let last = tiling.map_or(Vector::default(), |tiling| {
+            Vector::new(
+                tiling.pitch.x * i64::from(tiling.columns - 1),
+                tiling.pitch.y * i64::from(tiling.rows - 1),
+            )
+        });
+        let bounds = Rect::new(tile.min(), tile.max() + last);
+        // To the micrometre, so that the header says it exactly.
+        let middle = bounds.min().midpoint(bounds.max()).x;
+        let middle = Nm::from_um((middle.get() + 500).div_euclid(1000));
+        Self { front, axis: settings.mirror_axis.unwrap_or(middle), bounds, tiling }
+    }
+
+    /// How the first tile lies when `side` is up.
+    pub(super) const fn placement(&self, side: Side) -> Placement {
+        match side {
+            Side::Front => self.front,
+            Side::Back => self.front.turned_over(self.axis),
+        }
+    }
+
+    /// The tiles when `side` is up: seen from behind they follow each other to the left.
+    pub(super) fn tiling(&self, side: Side) -> Option<Tiling> {
+        self.tiling.map(|tiling| match side {
+            Side::Front => tiling,
+            Side::Back => Tiling { pitch: Vector::new(-tiling.pitch.x, tiling.pitch.y), ..tiling },
+        })
+    }
+
+    /// The program for the holes on whose pins the stock is turned over; none where none are asked for, or nothing is turned.
+    pub(super) fn alignment(&self, board: &Board, settings: &Settings) -> Option<Program> {
+        let (diameter, margin) = settings.alignment.filter(|_| board.back.is_some())?;
+        let holes = alignment_holes(self.bounds, self.axis, margin).map(|start| Hole {
+            path: Path { start, segments: Vec::new() },
+            diameter,
+            plating: Plating::NonPlated,
+            tool: 1,
+            line: 1,
+        });
+        let placement = Placement::default();
+        let drilling = Drilling {
+            drills: &settings.drills,
+            tolerance: settings.drill_tolerance,
+            mill: Some(&settings.cutout_tool),
+            heights: settings.drilling,
+            placement: &placement,
+            order: Order::default(),
+            dwell: 0,
+        };
+        let (sections, _) = drill(&holes, &drilling);
+        let note = format!(
+            "pins in these holes hold the stock when it is turned over about x = {:.3} mm",
+            self.axis
+        );
+        Some(Program {
+            title: format!("{} alignment", board.name),
+            notes: vec!["z 0 is the top of the copper".to_owned(), note],
+            safe: settings.safe,
+            sections,
+        })
+    }
+}

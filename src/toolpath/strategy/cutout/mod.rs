@@ -1,0 +1,250 @@
+//! Cutout: round the board outside its edge, in passes, with tabs that hold it until the end.
+//!
+//! The way of the cutter's middle is the outline offset by half its width, by exact polygons and in lines and arcs again: outwards round a
+//! board, inwards in a cut-out. Cut-outs go first, while the board is still held all round. Each contour is cut in passes without a lift, the
+//! next one begun by a plunge or down a ramp; below a tab's top the cutter climbs over the tabs, which are spread evenly and kept off
+//! corners, where they would be hard to file away.
+
+mod ring;
+mod tabs;
+
+use crate::board::{FLATTEN, Outline, Warning, polarity};
+use crate::geometry::{Nm, Path, Point, Polygon};
+use crate::toolpath::head::Head;
+use crate::toolpath::order::{Order, Stretch, arrange};
+use crate::toolpath::{Angle, Heights, Placement, Position, Section, Tool};
+use crate::voronoi;
+
+use ring::Ring;
+pub use tabs::{TabPlaces, Tabs};
+
+/// How the board is cut out.
+#[derive(Clone, Copy, Debug)]
+pub struct Cutout<'a> {
+    /// The cutter.
+    pub tool: &'a Tool,
+    /// How high and how deep, and how much a pass takes.
+    pub heights: Heights,
+    /// From board to machine.
+    pub placement: &'a Placement,
+    /// What holds the board.
+    pub tabs: Tabs<'a>,
+    /// How steeply the cutter goes down along the contour at the beginning of each pass; none for straight down.
+    pub ramp: Option<Angle>,
+}
+
+/// How far the cutter's way may leave the offset curve: a fifth of what mills of this kind repeat to. Chosen.
+const TOLERANCE: Nm = Nm::from_um(4);
+
+/// Cuts along every contour of `outline`, half the cutter's width outside the board; cut-outs first.
+///
+/// Warned about: `cut-out-narrower-than-tool` where the cutter does not fit into a cut-out, `no-place-for-tabs`
+/// where a contour round a board is too short for them, `tab-off-the-outline` where one is wanted far from any contour.
+pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning>) {
+    let radius = settings.tool.width_at(settings.heights.cut) / 2;
+    let board = outline.polygon(FLATTEN);
+    let mut warnings = Vec::new();
+    let (mut inner, mut outer) = (Vec::new(), Vec::new());
+    for polygon in polarity::offset(&board, radius, FLATTEN) {
+        for contour in polygon.contours() {
+            let boards = Polygon::new(vec![contour.clone()]).is_some_and(|ring| ring.area_mm2() > 0.0);
+            let closed = contour.iter().chain(contour.first()).copied();
+            let way = voronoi::fit_points(closed, TOLERANCE).filter(Path::is_closed);
+            if boards { &mut outer } else { &mut inner }.extend(way.map(Ring::new));
+        }
+    }
+    let (wanted, count) = (board.contours().len(), inner.len() + outer.len());
+    if count < wanted {
+        let message = format!(
+            "the cutter of {:.3} mm does not fit into {} of {wanted} contours of the outline: they are left",
+            radius * 2,
+            wanted - count
+        );
+        warnings.push(Warning::new("cut-out-narrower-than-tool", message));
+    }
+    let held = hold(&inner, &outer, settings, &mut warnings);
+    let mut head = Head::new(settings.heights, settings.tool.plunge);
+    let (inner_held, outer_held) = held.split_at(inner.len());
+    cut_all(&mut head, &inner, inner_held, settings);
+    cut_all(&mut head, &outer, outer_held, settings);
+    let label = format!("cut out along {count} {}", if count == 1 { "contour" } else { "contours" });
+    (Section { tool: settings.tool.clone(), label, moves: head.finish() }, warnings)
+}
+
+/// How wide the way over a tab is: the tab, and half a cutter on both sides.
+fn opening(settings: &Cutout<'_>) -> f64 {
+    (settings.tabs.width + settings.tool.width_at(settings.heights.cut)).to_f64()
+}
+
+/// The middles of the tabs of each contour, those of `inner` first.
+fn hold(inner: &[Ring], outer: &[Ring], settings: &Cutout<'_>, warnings: &mut Vec<Warning>) -> Vec<Vec<f64>> {
+    if let TabPlaces::At(places) = settings.tabs.places {
+        let rings: Vec<&Ring> = inner.iter().chain(outer).collect();
+        return at_places(&rings, places, settings, warnings);
+    }
+    let opening = opening(settings);
+    let small = inner.iter().map(|ring| {
+        // What falls out of a small cut-out needs no holding.
+        let count = wanted(ring, settings).min(tabs::room(ring.length(), 2.0 * opening));
+        tabs::spread(ring, if count < 2 { 0 } else { count }, opening)
+    });
+    let mut held: Vec<Vec<f64>> = small.collect();
+    for ring in outer {
+        let wanted = wanted(ring, settings);
+        let found = tabs::spread(ring, wanted.min(tabs::room(ring.length(), opening)), opening);
+        if found.len() < wanted as usize {
+            let message = format!("only {} of {wanted} tabs find a place on a contour", found.len());
+            warnings.push(Warning::new("no-place-for-tabs", message).at(ring.path().start));
+        }
+        held.push(found);
+    }
+    held
+}
+
+/// How many tabs a contour is to have.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+fn wanted(ring: &Ring, settings: &Cutout<'_>) -> u32 {
+    match settings.tabs.places {
+        TabPlaces::Count(count) => count,
+        TabPlaces::Spacing(apart) => (ring.length() / apart.to_f64().max(1.0)).ceil() as u32,
+        TabPlaces::At(places) => u32::try_from(places.len()).unwrap_or(u32::MAX),
+    }
+}
+
+/// How far from a contour a tab may be asked for, beside half the cutter. Chosen: nobody clicks a place more exactly.
+const NEAR: Nm = Nm::from_mm(2);
+
+/// Each tab on the contour nearest to where it is wanted.
+fn at_places(
+    rings: &[&Ring],
+    places: &[Point],
+    settings: &Cutout<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Vec<Vec<f64>> {
+    let mut held = vec![Vec::new(); rings.len()];
+    let radius = settings.tool.width_at(settings.heights.cut) / 2;
+    for &place in places {
+        let measured = rings.iter().enumerate().map(|(index, ring)| (ring.nearest(place), index));
+        let Some(((off, along), index)) = measured.min_by(|a, b| a.0.0.total_cmp(&b.0.0)) else { continue };
+        let taken = |other: &f64| tabs::apart(*other, along, rings[index].length()) < opening(settings);
+        if off > (radius + NEAR).to_f64() {
+            let message = format!("a tab is wanted {:.1} mm off any contour, and left out", off / 1e6);
+            warnings.push(Warning::new("tab-off-the-outline", message).at(place));
+        } else if !held[index].iter().any(taken) {
+            held[index].push(along);
+        }
+    }
+    held.iter_mut().for_each(|held| held.sort_by(f64::total_cmp));
+    held
+}
+
+/// Contours of one kind with the middles of their tabs, in an order of short travel.
+fn cut_all(head: &mut Head, rings: &[Ring], held: &[Vec<f64>], settings: &Cutout<'_>) {
+    let placed: Vec<Ring> =
+        rings.iter().map(|ring| Ring::new(settings.placement.path(ring.path()))).collect();
+    let starts: Vec<Vec<f64>> =
+        rings.iter().zip(held).map(|(ring, held)| entries(ring, held, settings)).collect();
+    let stretch = |(ring, starts): (&Ring, &Vec<f64>)| {
+        let entries: Vec<Point> = starts.iter().map(|&start| ring.at(start)).collect();
+        Stretch { from: entries[0], to: entries[0], entries }
+    };
+    let stretches: Vec<Stretch> = placed.iter().zip(&starts).map(stretch).collect();
+    let start = head.at().map_or(Point::default(), Position::point);
+    for leg in arrange(&stretches, start, Order::Improved) {
+        let (ring, length) = (&placed[leg.stretch], placed[leg.stretch].length());
+        let from = starts[leg.stretch][leg.entry.unwrap_or(0)];
+        let mut middles: Vec<f64> =
+            held[leg.stretch].iter().map(|middle| (middle - from).rem_euclid(length)).collect();
+        middles.sort_by(f64::total_cmp);
+        cut_ring(head, &ring.begun_at(from), &middles, settings);
+    }
+}
+
+/// Where a contour may be begun: anywhere but on a tab.
+fn entries(ring: &Ring, held: &[f64], settings: &Cutout<'_>) -> Vec<f64> {
+    /// Beside the corners, for contours that have none to begin at.
+    const BETWEEN: u32 = 32;
+    let opening = opening(settings);
+    let even = (0..BETWEEN).map(|share| ring.length() * f64::from(share) / f64::from(BETWEEN));
+    let free =
+        |start: &f64| held.iter().all(|middle| tabs::apart(*start, *middle, ring.length()) > opening / 2.0);
+    let found: Vec<f64> = ring.corners().chain(even).filter(free).collect();
+    if found.is_empty() { vec![0.0] } else { found }
+}
+
+/// One contour in all its passes, from its start.
+fn cut_ring(head: &mut Head, ring: &Ring, middles: &[f64], settings: &Cutout<'_>) {
+    let heights = settings.heights;
+    head.over(ring.path().start);
+    if settings.ramp.is_some() {
+        head.plunge(Nm::ZERO);
+    }
+    let mut before = Nm::ZERO;
+    for depth in heights.passes() {
+        let pass = Pass::new(ring, before, depth, settings.ramp);
+        if settings.ramp.is_none() {
+            head.plunge(depth);
+        }
+        pass.cut(head, ring.length(), middles, settings);
+        before = depth;
+    }
+    if settings.ramp.is_some() {
+        // The last ramp's wedge is still there.
+        let down = Pass::new(ring, before, before, None);
+        down.cut(head, Pass::new(ring, Nm::ZERO, heights.cut, settings.ramp).ramp, middles, settings);
+    }
+    head.lift();
+}
+
+/// Once round a contour.
+struct Pass<'a> {
+    ring: &'a Ring,
+    from: Nm,
+    to: Nm,
+    /// The way along which it goes from the one depth to the other.
+    ramp: f64,
+}
+
+impl<'a> Pass<'a> {
+    fn new(ring: &'a Ring, from: Nm, to: Nm, ramp: Option<Angle>) -> Self {
+        let steep = ramp.map_or(f64::INFINITY, |angle| libm::tan(angle.radians()));
+        let ramp = ((to - from).to_f64() / steep).min(ring.length());
+        Self { ring, from, to, ramp }
+    }
+
+    /// How deep it is at a distance.
+    fn depth(&self, at: f64) -> Nm {
+        if at >= self.ramp {
+            self.to
+        } else {
+            self.from + Nm::from_f64((self.to - self.from).to_f64() * at / self.ramp)
+        }
+    }
+
+    /// The first `length` of it, no deeper than the top of a tab where there is one.
+    fn cut(&self, head: &mut Head, length: f64, middles: &[f64], settings: &Cutout<'_>) {
+        let top = settings.heights.cut - settings.tabs.height;
+        let half = opening(settings) / 2.0;
+        let spans: Vec<(f64, f64)> = middles.iter().map(|middle| (middle - half, middle + half)).collect();
+        let tabs = spans.iter().filter(|_| self.to > top).flat_map(|span| [span.0, span.1]);
+        let mut knots: Vec<f64> = tabs.chain([self.ramp]).collect();
+        knots.retain(|&knot| knot > 0.0 && knot < length);
+        knots.push(length);
+        knots.sort_by(f64::total_cmp);
+        let mut from = 0.0;
+        for to in knots {
+            if to - from < 1.0 {
+                continue;
+            }
+            let middle = f64::midpoint(from, to);
+            let tab = self.to > top && spans.iter().any(|span| span.0 < middle && middle < span.1);
+            let limit = if tab { top } else { self.to };
+            let (begin, end) = (self.depth(from).min(limit), self.depth(to).min(limit));
+            let at = head.at().expect("the head is on the contour");
+            let speed = if -begin > at.z { settings.tool.feed } else { settings.tool.plunge };
+            head.feed_to(Position { z: -begin, ..at }, speed);
+            head.descend(&self.ring.between(from, to), end, settings.tool.feed);
+            from = to;
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Where tabs go: on straight stretches, as evenly round as those allow.
+
+use crate::geometry::{Nm, Point};
+
+use super::ring::Ring;
+
+/// What holds the board while it is cut out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tabs<'a> {
+    /// Where they are.
+    pub places: TabPlaces<'a>,
+    /// How wide each stays.
+    pub width: Nm,
+    /// How thick each stays, from the bottom of the cut upwards.
+    pub height: Nm,
+}
+
+/// Where tabs are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TabPlaces<'a> {
+    /// So many on each contour round a board, evenly spread; fewer on cut-outs whose piece is small.
+    Count(u32),
+    /// So many that they are no farther apart than this along the way.
+    Spacing(Nm),
+    /// On the contours next to these points of the board.
+    At(&'a [Point]),
+}
+
+/// How far the way may turn within a tab and half its width to both sides, in radians: at best about 20°; where a contour
+/// has no place for that, more. Chosen.
+const STRAIGHT: [f64; 3] = [0.35, 1.0, f64::INFINITY];
+/// How many places along a contour are looked at. Chosen: one for each 0.1 mm of a common board.
+const PLACES: u32 = 2000;
+/// How many beginnings of an even spread are tried. Chosen.
+const PHASES: u32 = 24;
+
+/// The most tabs a contour has room for: each with as much way between them.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+pub(super) fn room(length: f64, opening: f64) -> u32 {
+    (length / (2.0 * opening)) as u32
+}
+
+/// The middles of `count` tabs, ascending distances along the ring; fewer where no more find room.
+pub(super) fn spread(ring: &Ring, count: u32, opening: f64) -> Vec<f64> {
+    let step = ring.length() / f64::from(PLACES);
+    let turns: Vec<(f64, f64)> = (0..PLACES)
+        .map(|place| step * f64::from(place))
+        .map(|distance| (distance, ring.turn_around(distance, opening)))
+        .collect();
+    let mut best = Vec::new();
+    for limit in STRAIGHT {
+        let places: Vec<f64> = turns.iter().filter(|place| place.1 < limit).map(|place| place.0).collect();
+        let found = evenest(&places, ring.length(), count, opening);
+        if found.len() > best.len() {
+            best = found;
+        }
+        if best.len() == count as usize {
+            break;
+        }
+    }
+    best.sort_by(f64::total_cmp);
+    best
+}
+
+/// Of several even spreads moved to the nearest of `places`, the one that has most tabs and is moved least.
+fn evenest(places: &[f64], length: f64, count: u32, opening: f64) -> Vec<f64> {
+    let share = length / f64::from(count.max(1));
+    let mut best: (Vec<f64>, f64) = (Vec::new(), f64::INFINITY);
+    for phase in 0..PHASES {
+        let mut found: Vec<f64> = Vec::new();
+        let mut moved = 0.0;
+        for index in 0..count {
+            let even = share * (f64::from(index) + (f64::from(phase) + 0.5) / f64::from(PHASES));
+            let free =
+                |place: &&f64| found.iter().all(|other| apart(**place, *other, length) >= 2.0 * opening);
+            let nearest = |a: &&f64, b: &&f64| apart(**a, even, length).total_cmp(&apart(**b, even, length));
+            let in_reach = places.iter().filter(|place| apart(**place, even, length) <= share);
+            if let Some(&place) = in_reach.filter(free).min_by(nearest) {
+                moved += apart(place, even, length) * apart(place, even, length);
+                found.push(place);
+            }
+        }
+        if found.len() > best.0.len() || (found.len() == best.0.len() && moved < best.1) {
+            best = (found, moved);
+        }
+    }
+    best.0
+}
+
+/// How far two places of a ring are apart, the shorter way round.
+pub(super) fn apart(a: f64, b: f64, length: f64) -> f64 {
+    let direct = (a - b).abs();
+    direct.min(length - direct)
+}
