@@ -119,9 +119,10 @@ impl Draw {
         let loaded = self.input.load(&settings)?;
         let side = self.side(loaded.board.front.is_some(), loaded.board.back.is_some())?;
         let area = self.window.map(|Window(rect)| rect);
-        let area = area.or_else(|| picture::whole(&loaded.board, settings.pixel * 4));
-        let area = area.ok_or_else(|| job::Error::NoCopper("to draw".to_owned()))?;
         let format = self.format.unwrap_or_else(|| Format::of(&self.output));
+        let margin = if format == Format::Svg { MARGIN } else { settings.pixel * 4 };
+        let area = area.or_else(|| picture::whole(&loaded.board, margin));
+        let area = area.ok_or_else(|| job::Error::NoCopper("to draw".to_owned()))?;
         let sampled = if self.stage == Stage::Copper { off_ties(area, settings.pixel) } else { area };
         let grid = format.grid(sampled, settings.pixel)?;
         let read: Vec<WarningEntry> = loaded.warnings.iter().map(WarningEntry::from).collect();
@@ -175,8 +176,11 @@ fn no_copper(side: Side) -> job::Error {
     job::Error::NoCopper(format!("on the {side}"))
 }
 
+/// What lies round the board in a drawing for documents. Chosen: the cutout shows.
+const MARGIN: Nm = Nm::from_um(1500);
+
 /// How a picture is written.
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// Pixels
     Png,

@@ -124,7 +124,7 @@ fn a_side_can_be_drawn_as_lines_and_in_the_terminal() {
     ] {
         assert!(draw(&["--stage", stage, "-o", "board.svg"]).is_empty(), "nothing is printed");
         let svg = fs::read_to_string(out.path().join("board.svg")).expect("written");
-        assert!(svg.contains("width=\"40."), "in millimetres: {svg:.200}");
+        assert!(svg.contains("width=\"43.000mm\""), "in millimetres: {svg:.200}");
         assert!(svg.contains(holds) && !svg.contains(lacks), "{stage}: {svg:.400}");
         assert!(svg.contains("id=\"drills\"") && svg.ends_with("</svg>\n"), "{stage} is whole");
     }
