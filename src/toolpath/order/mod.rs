@@ -205,7 +205,7 @@ mod tests {
     }
 
     #[test]
-    #[ignore = "takes seconds in a debug build"]
+    #[cfg_attr(debug_assertions, ignore = "takes seconds in a debug build")]
     fn ten_thousand_holes_are_within_five_percent_of_the_best_order() {
         let ratio = strewn(10_000);
         assert!(ratio <= 0.7168 * 1.05, "{ratio}");
