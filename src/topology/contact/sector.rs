@@ -54,6 +54,18 @@ impl Sector {
         }
     }
 
+    /// The same for a way between whole nanometres, which may lie `slack` nanometres beyond an arm.
+    pub(super) fn nearly_holds(&self, way: (f64, f64), slack: f64) -> bool {
+        let (s, e) = self.arms();
+        // How far the way's end lies left of an arm.
+        let left = |arm: Vector| (arm.x.to_f64() * way.1 - arm.y.to_f64() * way.0) / arm.length();
+        if self.is_wide() {
+            self.is_whole() || !(left(e) > slack && left(s) < -slack)
+        } else {
+            left(s) >= -slack && left(e) <= slack
+        }
+    }
+
     /// Whether it goes all the way round: where both arms have the same direction.
     fn is_whole(&self) -> bool {
         let (s, e) = self.arms();
