@@ -4,6 +4,8 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
+use zip::result::ZipError;
+
 use super::error::Error;
 use super::gerber::ApertureList;
 use super::jobfile::Job;
@@ -97,21 +99,15 @@ impl Gathered {
 
     fn zip(&mut self, shown: &str, bytes: Vec<u8>) -> Result<(), Error> {
         let limit = (UNPACKED.1 * bytes.len() as u64).clamp(UNPACKED.0, MOST_BYTES);
-        let broken = |error: &dyn std::fmt::Display| {
-            Error::content(
-                shown,
-                format!("the zip archive cannot be read: {error}"),
-                "unpack it and give the folder",
-            )
-        };
-        let mut archive = zip::ZipArchive::new(io::Cursor::new(bytes)).map_err(|error| broken(&error))?;
+        let broken = |error: ZipError| broken_zip(shown, &error);
+        let mut archive = zip::ZipArchive::new(io::Cursor::new(bytes)).map_err(broken)?;
         if archive.len() > MOST_ENTRIES {
             let what = format!("the zip archive has {} entries, more than {MOST_ENTRIES}", archive.len());
             return Err(Error::content(shown, what, "give the folder of one board"));
         }
         let mut entries: Vec<(String, usize)> = Vec::new();
         for index in 0..archive.len() {
-            let entry = archive.by_index_raw(index).map_err(|error| broken(&error))?;
+            let entry = archive.by_index_raw(index).map_err(broken)?;
             let name = String::from_utf8_lossy(entry.name_raw()).replace('\\', "/");
             if !entry.is_dir() && !name.starts_with("__MACOSX/") {
                 entries.push((name, index));
@@ -125,9 +121,9 @@ impl Gathered {
                 self.ignored.push(name);
                 continue;
             }
-            let entry = archive.by_index(index).map_err(|error| broken(&error))?;
+            let entry = archive.by_index(index).map_err(broken)?;
             let mut content = Vec::new();
-            entry.take(left + 1).read_to_end(&mut content).map_err(|error| broken(&error))?;
+            entry.take(left + 1).read_to_end(&mut content).map_err(|error| broken(ZipError::Io(error)))?;
             left = left.checked_sub(content.len() as u64).ok_or_else(|| {
                 let what = format!("the zip archive unpacks to more than {} MiB", limit >> 20);
                 Error::content(shown, what, "unpack it yourself if you trust it, and give the folder")
@@ -171,6 +167,31 @@ pub(super) fn read_file(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
         return Err(Error::content(shown, what, "no layer of a board is as large"));
     }
     Ok(bytes)
+}
+
+/// Why an archive cannot be read, in the words of someone who downloaded it.
+fn broken_zip(shown: &str, error: &ZipError) -> Error {
+    match error {
+        ZipError::InvalidPassword | ZipError::UnsupportedArchive(ZipError::PASSWORD_REQUIRED) => {
+            Error::content(
+                shown,
+                "the zip archive is encrypted",
+                "unpack it with its password and give the folder",
+            )
+        }
+        ZipError::UnsupportedArchive(_) | ZipError::CompressionMethodNotSupported(_) => {
+            let what = format!("the zip archive cannot be read: {error}");
+            Error::content(shown, what, "unpack it and give the folder")
+        }
+        _ => {
+            let what = "the zip archive is damaged or was cut off";
+            Error::content(
+                shown,
+                what,
+                "download or pack it again, or unpack it yourself and give the folder",
+            )
+        }
+    }
 }
 
 fn unreadable(shown: &str, error: &io::Error) -> Error {

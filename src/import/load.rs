@@ -78,6 +78,7 @@ fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<
     build.coppers(&gathered, &assigned, need)?;
     build.outline(&gathered, &assigned, selection.outline_gap.unwrap_or(outline::GAP))?;
     build.drills(&gathered, &assigned)?;
+    build.warn_of_size();
     build.set_aside(&gathered, &assigned);
     let read = [assigned.front, assigned.back, assigned.outline]
         .into_iter()
@@ -257,6 +258,19 @@ impl Build {
         }
     }
 
+    /// A board as wide as a table is a unit taken for another.
+    fn warn_of_size(&mut self) {
+        /// Chosen: the largest panels are 610 mm long; an inch taken for a millimetre makes 25 mm wider than this.
+        const WIDEST: Nm = Nm::from_mm(620);
+        let Some(bounds) = self.board.bounds() else { return };
+        if bounds.width().max(bounds.height()) > WIDEST {
+            let (width, height) = (bounds.width(), bounds.height());
+            let message =
+                format!("the board is {width:.1} × {height:.1} mm: the unit of a file may be another one");
+            self.warnings.push(Warning::new("size-implausible", message));
+        }
+    }
+
     /// Lists the aperture lists that `files` draw with.
     fn wheels<'a>(
         &mut self,
@@ -361,21 +375,28 @@ fn read_gerber(gathered: &Gathered, file: &Found, wanted: &str) -> Result<Image,
 
 /// What a file is that is no layer, in a few words.
 pub(super) fn describe(bytes: &[u8]) -> &'static str {
-    const KNOWN: [(&[u8], &str); 6] = [
+    const KNOWN: [(&[u8], &str); 9] = [
         (b"\x89PNG", "a PNG picture"),
         (b"\xff\xd8\xff", "a JPEG picture"),
         (b"%PDF", "a PDF document"),
         (b"PK", "a zip archive"),
-        (b"(kicad_pcb", "a KiCad board, not its plot"),
+        (b"(kicad_pcb", "a KiCad board and not its plot (File, Fabrication Outputs)"),
         (b"<?xml", "an XML file"),
+        (b"<!doctype", "a web page, as a failed download leaves"),
+        (b"<html", "a web page, as a failed download leaves"),
+        (b"g21", "a G-code program"),
     ];
     if bytes.iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
         return "an empty file";
     }
-    KNOWN
-        .iter()
-        .find(|(start, _)| bytes.starts_with(start))
-        .map_or("a file of another kind", |&(_, what)| what)
+    let lower = bytes[..bytes.len().min(16)].to_ascii_lowercase();
+    let begins = |start: &[u8]| bytes.starts_with(start) || lower.starts_with(start);
+    let text = |b: &u8| b.is_ascii_graphic() || b.is_ascii_whitespace() || *b >= 0xa0;
+    match KNOWN.iter().find(|(start, _)| begins(start)) {
+        Some((_, what)) => what,
+        None if bytes.iter().take(4096).all(text) => "a text of another kind",
+        None => "a file of another kind",
+    }
 }
 
 /// Why nothing could be milled, with what was found instead.
