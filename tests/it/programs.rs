@@ -199,7 +199,7 @@ fn every_option_is_done_as_was_planned() {
 }
 
 #[test]
-#[ignore = "takes minutes"]
+#[cfg_attr(debug_assertions, ignore = "takes minutes in a debug build")]
 fn every_dialect_does_with_real_boards_as_was_planned() {
     let folder =
         std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
