@@ -4,7 +4,7 @@ use crate::board::{Board, Copper, Side, Warning};
 use crate::geometry::{Nm, Path};
 use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate, share};
 use crate::toolpath::{Order, Placement, Section};
-use crate::topology::{self, Gap, Method, Nets, Sampling, Translucency};
+use crate::topology::{self, Gap, Method, Nets, Translucency};
 use crate::voronoi::{self, Boundaries, Boundary, Diagram, Owner, SiteKind};
 
 use super::options::{self, Sites, Strategy, Topology};
@@ -89,9 +89,7 @@ fn recover(copper: &Copper, method: Method) -> (Nets, Option<Translucency>) {
     if method != Method::Translucency {
         return (topology::recover(copper, method), None);
     }
-    let traces = topology::recover(copper, Method::Coincidence);
-    let found = topology::translucency(copper, &traces, Sampling::default());
-    let found = found.expect("500 DPI is neither too fine nor too large for any board");
+    let found = topology::by_translucency(copper);
     (found.nets.clone(), Some(found))
 }
 

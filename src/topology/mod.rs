@@ -64,14 +64,17 @@ pub enum Method {
 /// The nets of `copper`, found by `method`.
 #[must_use]
 pub fn recover(copper: &Copper, method: Method) -> Nets {
-    let coincident = coincidence::join(copper);
     match method {
-        Method::Coincidence => Nets::from_sets(copper, coincident),
-        Method::Contact => Nets::from_sets(copper, Bodies::new(copper).join(&coincident)),
-        Method::Translucency => {
-            let traces = Nets::from_sets(copper, coincident);
-            let found = translucency(copper, &traces, Sampling::default());
-            found.expect("500 DPI is neither too fine nor too large for any board").nets
-        }
+        Method::Coincidence => Nets::from_sets(copper, coincidence::join(copper)),
+        Method::Contact => Nets::from_sets(copper, Bodies::new(copper).join(&coincidence::join(copper))),
+        Method::Translucency => by_translucency(copper).nets,
     }
+}
+
+/// The nets of `copper` by Algorithm 1 and then Algorithm 2 at 500 DPI, with all that was seen on the way.
+#[must_use]
+pub fn by_translucency(copper: &Copper) -> Translucency {
+    let traces = Nets::from_sets(copper, coincidence::join(copper));
+    let found = translucency(copper, &traces, Sampling::default());
+    found.expect("500 DPI is neither too fine nor too large for any board")
 }

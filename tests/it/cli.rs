@@ -11,7 +11,7 @@ fn fixture(path: &str) -> PathBuf {
 }
 
 /// Runs the program in `folder`; a setting beside the board must not come from somewhere else.
-fn voromill(folder: &Path, arguments: &[&str]) -> Output {
+pub(crate) fn voromill(folder: &Path, arguments: &[&str]) -> Output {
     Command::new(env!("CARGO_BIN_EXE_voromill"))
         .args(arguments)
         .current_dir(folder)
@@ -19,11 +19,11 @@ fn voromill(folder: &Path, arguments: &[&str]) -> Output {
         .expect("the program runs")
 }
 
-fn stderr(output: &Output) -> String {
+pub(crate) fn stderr(output: &Output) -> String {
     String::from_utf8_lossy(&output.stderr).into_owned()
 }
 
-fn stdout(output: &Output) -> String {
+pub(crate) fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
