@@ -74,10 +74,9 @@ impl Mill {
         let loaded = self.input.load(&settings)?;
         let Some(folder) = &self.output else {
             drop(progress);
-            super::print(&format!(
-                "{}\n",
-                job::cache_key(&loaded, &settings, &[("no-verify", self.no_verify.to_string())])
-            ));
+            let choices = [("no-verify", self.no_verify), ("svg", self.svg), ("no-html", self.no_html)]
+                .map(|(name, chosen)| (name, chosen.to_string()));
+            super::print(&format!("{}\n", job::cache_key(&loaded, &settings, &choices)));
             return Ok(ExitCode::SUCCESS);
         };
         progress.say("finding the way between nets");

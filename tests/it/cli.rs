@@ -379,3 +379,19 @@ fn gaps_of_the_outline_are_closed_as_far_as_told() {
         "closed, and said: {closed}"
     );
 }
+
+#[test]
+fn a_cache_key_tells_apart_what_is_written() {
+    let folder = TempDir::new().expect("a folder");
+    let board = fixture("boards/blinker").to_string_lossy().into_owned();
+    let key = |more: &[&str]| {
+        let output = voromill(folder.path(), &[&["mill", &board, "--cache-key"], more].concat());
+        assert!(output.status.success(), "{more:?}: {}", stderr(&output));
+        stdout(&output)
+    };
+    let keys = [key(&[]), key(&["--svg"]), key(&["--no-html"]), key(&["--no-verify"])];
+    let different: std::collections::BTreeSet<_> = keys.iter().collect();
+    assert_eq!(different.len(), keys.len(), "each writes something else: {keys:?}");
+    assert_eq!(key(&["--deny", "warning"]), keys[0], "an exit code is not among the outputs");
+    assert!(listing(folder.path()).is_empty(), "and nothing is made");
+}
