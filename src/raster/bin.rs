@@ -1,4 +1,4 @@
-use super::block::{Block, Extent, LANES, SIDE};
+use super::canvas::{Canvas, Extent, LANES, SIDE};
 use super::cell::Cell;
 use super::half_plane::Cover;
 use super::mosaic::{Cuts, Mosaic};
@@ -140,39 +140,40 @@ impl Bin {
         self.shapes.len() + self.parts.len()
     }
 
-    /// Draws each primitive alone on a block for `cell`; `drawn` gets them in the order of labels.
+    /// Draws each primitive alone on a canvas as large as `cell`, a block; `drawn` gets them in the order of labels.
     pub(super) fn draw_each(
         &self,
         scene: &Scene,
         cell: Cell,
-        block: &mut Block,
-        mut drawn: impl FnMut(Label, &Block),
+        canvas: &mut Canvas,
+        mut drawn: impl FnMut(Label, &Canvas),
     ) {
-        block.place(cell);
+        canvas.stretch(cell);
+        canvas.place(cell);
         let shapes = self.shapes.iter().map(|shape| (shape.primitive, None));
         let parts = self.parts.iter().map(|part| (part.primitive, Some(part)));
         let mut all: Vec<_> = shapes.chain(parts).collect();
         all.sort_by_key(|(primitive, _)| scene.primitives[index(*primitive)].label);
         for (number, part) in all {
             let Primitive { label, shape } = &scene.primitives[index(number)];
-            block.clear();
+            canvas.clear();
             match (shape, part) {
                 (Shape::Polygon(polygon), Some(part)) => {
-                    polygon.draw(*label, part, &self.edges, Extent::Whole, block);
+                    polygon.draw(*label, part, &self.edges, Extent::Whole, canvas);
                 }
-                _ => shape.draw(*label, Cover::Part, false, block),
+                _ => shape.draw(*label, Cover::Part, false, canvas),
             }
-            drawn(*label, block);
+            drawn(*label, canvas);
         }
     }
 
-    /// Draws all of it on `block`, in the order of labels.
-    fn draw(&self, scene: &Scene, block: &mut Block) {
+    /// Draws all of it on the block of `canvas`, in the order of labels.
+    fn draw(&self, scene: &Scene, canvas: &mut Canvas) {
         let (mut shapes, mut parts) = (self.shapes.as_slice(), self.parts.as_slice());
         let label = |primitive: u32| scene.primitives[index(primitive)].label;
         let mut first = self.fills(scene);
         if !first {
-            block.clear();
+            canvas.clear();
         }
         loop {
             let shape_first = match (shapes, parts) {
@@ -183,12 +184,12 @@ impl Bin {
             if let (true, [candidate, rest @ ..]) = (shape_first, shapes) {
                 let cover = if candidate.far < f32::INFINITY { Cover::Whole } else { Cover::Part };
                 let primitive = &scene.primitives[index(candidate.primitive)];
-                primitive.shape.draw(primitive.label, cover, first, block);
+                primitive.shape.draw(primitive.label, cover, first, canvas);
                 shapes = rest;
             } else if let [part, rest @ ..] = parts {
                 if let Shape::Polygon(polygon) = &scene.primitives[index(part.primitive)].shape {
                     let extent = if first { Extent::First } else { Extent::Whole };
-                    polygon.draw(label(part.primitive), part, &self.edges, extent, block);
+                    polygon.draw(label(part.primitive), part, &self.edges, extent, canvas);
                 }
                 parts = rest;
             }
@@ -227,9 +228,9 @@ const fn grain(side: i32) -> (i32, usize) {
     }
 }
 
-/// Draws cells; owns the memory that takes.
+/// Draws cells; owns the memory that takes, and the canvas.
 pub(super) struct Painter {
-    block: Block,
+    pub canvas: Canvas,
     pub mosaic: Mosaic,
     /// What a level of the way down needs.
     levels: Vec<(Cuts, Vec<Bin>)>,
@@ -237,22 +238,21 @@ pub(super) struct Painter {
 
 impl Painter {
     pub(super) fn new() -> Self {
-        Self { block: Block::new(), mosaic: Mosaic::new(), levels: Vec::new() }
+        Self { canvas: Canvas::new(), mosaic: Mosaic::new(), levels: Vec::new() }
     }
 
-    /// Draws the cell whose bin is `bin`; `finished` gets it in blocks.
-    pub(super) fn paint(&mut self, scene: &Scene, bin: &Bin, cell: Cell, finished: &mut impl FnMut(&Block)) {
+    /// Draws the cell whose bin is `bin` on the canvas, in whose frame it lies.
+    pub(super) fn paint(&mut self, scene: &Scene, bin: &Bin, cell: Cell) {
         let (mut cuts, mut bins) = self.levels.pop().unwrap_or_default();
         let (pieces, few) = grain(cell.width.max(cell.height));
         cuts.even(cell, pieces);
         self.mosaic.split(scene, bin, cell, &cuts, &mut bins);
         for (piece, bin) in cuts.cells().zip(&bins) {
             if bin.len() <= few {
-                self.block.place(piece);
-                bin.draw(scene, &mut self.block);
-                finished(&self.block);
+                self.canvas.place(piece);
+                bin.draw(scene, &mut self.canvas);
             } else {
-                self.paint(scene, bin, piece, finished);
+                self.paint(scene, bin, piece);
             }
         }
         self.levels.push((cuts, bins));

@@ -4,7 +4,7 @@ use rayon::prelude::*;
 
 use super::Scene;
 use super::bin::Bin;
-use super::block::{Block, SIDE, count};
+use super::canvas::{Canvas, SIDE, count};
 use super::cell::Cell;
 use super::mosaic::{Cuts, Mosaic};
 use super::node::signed;
@@ -106,7 +106,7 @@ fn layered<P: Copy + Send + Sync>(
     let bands = pixels.par_chunks_mut(stride * count(SIDE)).zip(tops);
     bands.for_each(|(pixels, y)| {
         let band = Cell { y, height: (signed(height) - (y - cell.y)).min(SIDE), ..cell };
-        let mut layers = Layers { scene, block: Block::new(), mosaic: Mosaic::new(), layers: Vec::new() };
+        let mut layers = Layers { scene, canvas: Canvas::new(), mosaic: Mosaic::new(), layers: Vec::new() };
         let whole = Cuts { columns: vec![(band.x, band.width)], rows: vec![(band.y, band.height)] };
         let mut bins = Vec::new();
         layers.mosaic.split(scene, &root, cell, &whole, &mut bins);
@@ -121,7 +121,7 @@ fn layered<P: Copy + Send + Sync>(
 /// Draws all layers of a band of the picture.
 struct Layers<'a> {
     scene: &'a Scene,
-    block: Block,
+    canvas: Canvas,
     mosaic: Mosaic,
     /// For each pixel of a block.
     layers: Vec<Vec<Layer>>,
@@ -144,11 +144,11 @@ impl Layers<'_> {
 
     fn draw(&mut self, bin: &Bin, cell: Cell, done: &mut impl FnMut(Cell, (usize, usize), &mut Vec<Layer>)) {
         let width = count(cell.width);
-        let Self { scene, block, layers, .. } = self;
+        let Self { scene, canvas, layers, .. } = self;
         layers.iter_mut().for_each(Vec::clear);
         layers.resize(width * count(cell.height), Vec::new());
-        bin.draw_each(scene, cell, block, |label, block| {
-            let depths = block.finished().flat_map(|(depths, _)| depths);
+        bin.draw_each(scene, cell, canvas, |label, canvas| {
+            let depths = canvas.finished().flat_map(|(depths, _)| depths);
             for (layers, &depth) in layers.iter_mut().zip(depths).filter(|(_, depth)| **depth < f32::INFINITY)
             {
                 layers.push((depth, label.0));

@@ -82,22 +82,23 @@
 //! | bounds from a coarse picture of 8 × 8 blocks; blocks not cleared where the first primitive covers them | 4.0 |
 //! | bins split into 64 at once, neighbours told apart by gradients: dense scenes gain a third, this one loses a little | 4.0 |
 //! | blocks gathered into squares of 128 pixels before they go to memory: it takes rows of 512 bytes better than of 64 | 3.7 |
-//! | short rows copied without a call: a twentieth gained drawn, as much lost streamed, so left out | 3.7 |
+//! | primitives laid where the square is, not on a block that is copied there; eight squares side by side, rows of 4 KiB; a stride that is no power of two | 2.7 |
 //!
-//! What remains: streamed, without a picture to write, the same scene takes 2.2; one part is writing itself, half a part
-//! that the squares are read again. Of the 2.2, one is fragments, one bins, the rest moving blocks.
+//! What remains: streamed, without a picture to write, the same scene takes 2.0; three quarters of one part is writing
+//! long rows. Of the 2.0, one is fragments, most of which is square roots, the rest bins. (Four squares: 3.1; one: 3.7;
+//! sixteen, more than half of a second-level cache of 2 MiB: 3.0.)
 //!
 //! # How it grows
 //!
-//! Two threads, times writing 8 bytes a pixel (9 ms at 4096²) and in all; `cargo bench --bench raster` repeats it.
+//! Two threads, times writing 8 bytes a pixel (8.9 ms at 4096²) and in all; `cargo bench --bench raster` repeats it.
 //!
 //! | 4096², segments of about | number | ratio | ms | µs a segment |
 //! |---|---|---|---|---|
-//! | 100 pixels | 10² | 2.7 | 25 | 250 |
-//! | 100 pixels | 10³ | 3.2 | 30 | 30 |
-//! | 40 pixels | 10⁴ | 6.7 | 64 | 6.4 |
-//! | 12 pixels | 10⁵ | 33 | 340 | 3.4 |
-//! | 4 pixels | 10⁶ | 330 | 3000 | 3.0 |
+//! | 100 pixels | 10² | 1.8 | 17 | 170 |
+//! | 100 pixels | 10³ | 2.3 | 21 | 21 |
+//! | 40 pixels | 10⁴ | 5.6 | 50 | 5.0 |
+//! | 12 pixels | 10⁵ | 33 | 300 | 3.0 |
+//! | 4 pixels | 10⁶ | 270 | 2500 | 2.5 |
 //!
 //! Up to some thousand segments the pixels are paid for. Beyond that a block of 16 × 16 pixels has several sites, and
 //! each is weighed on its way down the levels (three for this picture) and drawn in the few blocks where it is seen: a
@@ -105,12 +106,12 @@
 //!
 //! | 2000 segments, a fortieth of the side long | 512² | 1024² | 2048² | 4096² | 8192² |
 //! |---|---|---|---|---|---|
-//! | ms | 5.3 | 6.8 | 18 | 34 | 120 |
-//! | ns a pixel | 20 | 6.5 | 4.3 | 2.0 | 1.8 |
+//! | ms | 3.5 | 5.2 | 9.9 | 24 | 74 |
+//! | ns a pixel | 13 | 4.9 | 2.4 | 1.5 | 1.1 |
 //!
 //! Here the segments are paid for first, and then the pixels. Streamed with tiles of 32 pixels, of which those of one owner
-//! are skipped (50 labels), the same picture at 2048², 4096², 8192² and 16384² takes 10, 21, 43 and 98 ms: the length of
-//! the boundaries, not the area. At 16384² 20 000 segments stream in 10 MiB, and in no more time a pixel than 2000 at 4096².
+//! are skipped (50 labels), the same picture at 2048², 4096², 8192² and 16384² takes 9, 18, 35 and 68 ms: the length of
+//! the boundaries, not the area. At 16384² 20 000 segments stream in 10 MiB, and in less time a pixel than 2000 at 4096².
 //!
 //! # Beside others
 //!
@@ -118,13 +119,13 @@
 //!
 //! | 4096², 2000 segments | ms | labels off by more than half a pixel |
 //! |---|---|---|
-//! | this engine | 33 | none |
-//! | OpenCV's labelled distance transform (5 × 5) | 392 | 0.39 % |
-//! | edt (distances, no labels) | 395 | |
-//! | SciPy's exact distance transform with indices | 2760 | 0.18 % (its sites are pixels) |
-//! | Mesa's llvmpipe: 64-sided cones and curtains as 264 000 triangles, limit 300 pixels | 1840 | |
+//! | this engine | 24 | none |
+//! | OpenCV's labelled distance transform (5 × 5) | 363 | 0.39 % |
+//! | edt (distances, no labels) | 348 | |
+//! | SciPy's exact distance transform with indices | 1930 | 0.18 % (its sites are pixels) |
+//! | Mesa's llvmpipe: 64-sided cones and curtains as 264 000 triangles, limit 300 pixels | 1700 to 1820 | |
 //!
-//! A pick among 10⁵ segments takes 2 µs, one of the ten nearest 6 µs.
+//! A pick among 10⁵ segments takes 2 µs, one of the ten nearest 5 µs.
 //!
 //! # References
 //!
@@ -136,7 +137,7 @@
 
 mod bin;
 pub mod blend;
-mod block;
+mod canvas;
 mod cell;
 mod fragment;
 mod half_plane;

@@ -2,7 +2,7 @@ use pulp::{Arch, Simd, WithSimd};
 
 use super::Scene;
 use super::bin::{Bin, Candidate, index};
-use super::block::{Field, LANES};
+use super::canvas::{Field, LANES};
 use super::cell::Cell;
 use super::lanes::Lanes;
 use super::primitive::{Reach, SLACK, Shape};
@@ -34,7 +34,7 @@ impl Cuts {
             let step = ((length + count - 1) / count + multiple - 1) / multiple * multiple;
             out.clear();
             out.extend(
-                (0..length).step_by(super::block::count(step)).map(|at| (from + at, step.min(length - at))),
+                (0..length).step_by(super::canvas::count(step)).map(|at| (from + at, step.min(length - at))),
             );
         };
         pieces(cell.x, cell.width, LANES, &mut self.columns);

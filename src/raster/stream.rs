@@ -1,13 +1,11 @@
 use rayon::prelude::*;
 
+use super::Scene;
 use super::bin::{Bin, Painter};
-use super::block::count;
 use super::cell::Cell;
 use super::mosaic::Cuts;
 use super::node::{Descent, Grid, Node, signed};
-use super::render::Window;
 use super::tile::{Tile, TileContent, TilePixels};
-use super::{Label, Scene};
 
 /// How a picture is streamed.
 #[derive(Clone, Debug, PartialEq)]
@@ -108,21 +106,13 @@ struct Job<'a> {
 /// The memory a worker draws tiles in.
 struct Worker {
     painter: Painter,
-    labels: Vec<u32>,
-    depths: Vec<f32>,
     cuts: Cuts,
     bins: Vec<Bin>,
 }
 
 impl Worker {
     fn new() -> Self {
-        Self {
-            painter: Painter::new(),
-            labels: Vec::new(),
-            depths: Vec::new(),
-            cuts: Cuts::default(),
-            bins: Vec::new(),
-        }
+        Self { painter: Painter::new(), cuts: Cuts::default(), bins: Vec::new() }
     }
 
     /// Draws a square of `size` × `size` tiles, row by row and from left to right.
@@ -163,19 +153,11 @@ impl Worker {
             Some(owner) => TileContent::Uniform(owner),
             None => {
                 let (x, y) = (signed(column0) - signed(apron), signed(row0) - signed(apron));
-                let stride = count(signed(width + 2 * apron));
-                let pixels = stride * count(signed(height + 2 * apron));
-                if cell.width < signed(width + 2 * apron) || cell.height < signed(height + 2 * apron) {
-                    self.labels.clear();
-                    self.depths.clear();
-                }
-                self.labels.resize(pixels, Label::BACKGROUND.0);
-                self.depths.resize(pixels, f32::INFINITY);
-                let (labels, depths) = (&mut self.labels[..], &mut self.depths[..]);
-                // The tiles beside one at the edge may be wider: what they look at beyond it is cut off here.
-                let mut window = Window { labels, depths, stride, x, y };
-                window.paint(&mut self.painter, job.scene, bin, cell);
-                TileContent::Pixels(TilePixels::new(&self.labels, &self.depths, stride, apron))
+                let (width, height) = (signed(width + 2 * apron), signed(height + 2 * apron));
+                self.painter.canvas.stretch(Cell { x, y, width, height });
+                self.painter.paint(job.scene, bin, cell);
+                self.painter.canvas.clear_around(cell);
+                TileContent::Pixels(TilePixels::new(&self.painter.canvas, apron))
             }
         };
         made(row, Tile { column0, row0, width, height, content });

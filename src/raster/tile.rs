@@ -1,4 +1,5 @@
 use super::Label;
+use super::canvas::Canvas;
 
 /// A piece of the picture.
 #[derive(Clone, Copy, Debug)]
@@ -32,13 +33,19 @@ pub enum TileContent<'a> {
 pub struct TilePixels<'a> {
     labels: &'a [u32],
     depths: &'a [f32],
+    /// From one row to the next.
     stride: usize,
+    /// Columns, apron included.
+    width: usize,
     apron: i32,
 }
 
 impl<'a> TilePixels<'a> {
-    pub(super) fn new(labels: &'a [u32], depths: &'a [f32], stride: usize, apron: u32) -> Self {
-        Self { labels, depths, stride, apron: super::node::signed(apron) }
+    /// What has been drawn on the frame of a canvas.
+    pub(super) fn new(canvas: &'a Canvas, apron: u32) -> Self {
+        let (depths, labels, stride) = canvas.pixels();
+        let width = super::canvas::count(canvas.frame().width);
+        Self { labels, depths, stride, width, apron: super::node::signed(apron) }
     }
 
     /// The label at a column and row.
@@ -48,7 +55,7 @@ impl<'a> TilePixels<'a> {
     /// Outside the tile and its apron.
     #[must_use]
     pub fn label(&self, column: i32, row: i32) -> Label {
-        Label(self.label_row(row)[super::block::count(column + self.apron)])
+        Label(self.label_row(row)[super::canvas::count(column + self.apron)])
     }
 
     /// The depth at a column and row.
@@ -58,7 +65,7 @@ impl<'a> TilePixels<'a> {
     /// Outside the tile and its apron.
     #[must_use]
     pub fn depth(&self, column: i32, row: i32) -> f32 {
-        self.depth_row(row)[super::block::count(column + self.apron)]
+        self.depth_row(row)[super::canvas::count(column + self.apron)]
     }
 
     /// The labels of a row, apron included: the first is that of column −apron.
@@ -68,7 +75,7 @@ impl<'a> TilePixels<'a> {
     /// Outside the tile and its apron.
     #[must_use]
     pub fn label_row(&self, row: i32) -> &'a [u32] {
-        &self.labels[super::block::count(row + self.apron) * self.stride..][..self.stride]
+        &self.labels[super::canvas::count(row + self.apron) * self.stride..][..self.width]
     }
 
     /// The depths of a row, apron included: the first is that of column −apron.
@@ -78,6 +85,6 @@ impl<'a> TilePixels<'a> {
     /// Outside the tile and its apron.
     #[must_use]
     pub fn depth_row(&self, row: i32) -> &'a [f32] {
-        &self.depths[super::block::count(row + self.apron) * self.stride..][..self.stride]
+        &self.depths[super::canvas::count(row + self.apron) * self.stride..][..self.width]
     }
 }

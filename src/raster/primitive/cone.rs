@@ -1,7 +1,7 @@
 use pulp::Simd;
 
 use super::super::PixelPoint;
-use super::super::block::{Field, Slope};
+use super::super::canvas::{Field, Slope};
 use super::super::lanes::Lanes;
 use super::stroke::StrokeLanes;
 use super::{Bounds, Stroke};

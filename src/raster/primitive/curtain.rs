@@ -1,6 +1,6 @@
 use pulp::Simd;
 
-use super::super::block::{Field, Slope};
+use super::super::canvas::{Field, Slope};
 use super::super::half_plane::{Convex, HalfPlane};
 use super::super::lanes::Lanes;
 use super::super::mosaic::Mosaic;

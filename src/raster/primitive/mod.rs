@@ -16,7 +16,7 @@ pub(super) use ring::Ring;
 pub(super) use stroke::{SLACK, Stroke};
 pub(super) use triangle::Triangle;
 
-use super::block::{Block, Extent, Field, position};
+use super::canvas::{Canvas, Extent, Field, position};
 use super::cell::Cell;
 use super::half_plane::{Convex, Cover};
 use super::lanes::Lanes;
@@ -92,19 +92,19 @@ impl Shape {
         true
     }
 
-    /// Draws it on `block`, of which it covers what `cover` says; `first` where nothing is drawn there yet and it
+    /// Draws it on the block of `canvas`, of which it covers what `cover` says; `first` where nothing is drawn there yet and it
     /// covers all. Polygons are drawn by their [`Part`]s instead.
-    pub(super) fn draw(&self, label: Label, cover: Cover, first: bool, block: &mut Block) {
+    pub(super) fn draw(&self, label: Label, cover: Cover, first: bool, canvas: &mut Canvas) {
         match self {
-            Self::Cone(cone) => lay(cone, label, cover, first, cone.stroke, &Convex([]), block),
+            Self::Cone(cone) => lay(cone, label, cover, first, cone.stroke, &Convex([]), canvas),
             Self::Curtain(curtain) if cover == Cover::Whole => {
-                lay(curtain, label, cover, first, curtain.stroke, &Convex([]), block);
+                lay(curtain, label, cover, first, curtain.stroke, &Convex([]), canvas);
             }
             Self::Curtain(curtain) => {
-                lay(curtain, label, cover, first, curtain.stroke, &curtain.region(), block)
+                lay(curtain, label, cover, first, curtain.stroke, &curtain.region(), canvas)
             }
-            Self::Ring(ring) => ring.draw(label, cover, block),
-            Self::Triangle(triangle) => triangle.draw(label, block),
+            Self::Ring(ring) => ring.draw(label, cover, canvas),
+            Self::Triangle(triangle) => triangle.draw(label, canvas),
             Self::Polygon(_) => {}
         }
     }
@@ -162,16 +162,16 @@ fn lay<const N: usize>(
     first: bool,
     stroke: Stroke,
     region: &Convex<N>,
-    block: &mut Block,
+    canvas: &mut Canvas,
 ) {
     if cover == Cover::Whole {
-        block.lay(label, field, if first { Extent::First } else { Extent::Whole });
+        canvas.lay(label, field, if first { Extent::First } else { Extent::Whole });
         return;
     }
-    let (all, cell) = (block.padded_columns(), block.cell());
-    let mut columns = std::mem::take(&mut block.columns);
+    let (all, cell) = (canvas.padded_columns(), canvas.block());
+    let mut columns = std::mem::take(&mut canvas.columns);
     columns.clear();
     columns.extend((cell.y..cell.y + cell.height).map(|row| region.columns(sample(row), all.clone())));
-    block.lay(label, field, Extent::Part(&columns, stroke.limit));
-    block.columns = columns;
+    canvas.lay(label, field, Extent::Part(&columns, stroke.limit));
+    canvas.columns = columns;
 }

@@ -3,7 +3,7 @@ use std::ops::Range;
 use pulp::Simd;
 
 use super::super::bin::Bin;
-use super::super::block::{Block, Extent, Field, SIDE, Slope, count, put};
+use super::super::canvas::{Canvas, Extent, Field, SIDE, Slope, count, put};
 use super::super::cell::Cell;
 use super::super::lanes::Lanes;
 use super::super::mosaic::{ACROSS, Cuts};
@@ -215,15 +215,15 @@ impl Polygon {
         part: &Part,
         edges: &[u32],
         extent: Extent<'_>,
-        block: &mut Block,
+        canvas: &mut Canvas,
     ) {
         if part.edges.is_empty() {
-            block.lay(label, &Flat(self.depth), extent);
+            canvas.lay(label, &Flat(self.depth), extent);
             return;
         }
         let edges = &edges[part.edges.clone()];
-        let (cell, depth) = (block.cell(), self.depth);
-        for (row, depths, labels) in block.rows() {
+        let (cell, depth) = (canvas.block(), self.depth);
+        for (row, depths, labels) in canvas.rows() {
             let changes = self.changes(part.winding, edges, cell, sample(row));
             let mut winding = 0;
             for ((old, owner), change) in depths.iter_mut().zip(labels).zip(changes) {

@@ -2,7 +2,7 @@ use std::ops::Range;
 
 use pulp::Simd;
 
-use super::super::block::{Block, Extent, Field, Slope};
+use super::super::canvas::{Canvas, Extent, Field, Slope};
 use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
 use super::super::lanes::Lanes;
@@ -89,15 +89,15 @@ impl Ring {
     }
 
     /// Lays it on a block: its strip on the sector, its round ends on the rest.
-    pub(super) fn draw(&self, label: Label, cover: Cover, block: &mut Block) {
+    pub(super) fn draw(&self, label: Label, cover: Cover, canvas: &mut Canvas) {
         let sector = self.sector();
         let limit = self.stroke.limit;
-        if cover == Cover::Whole && sector.cover(block.cell()) == Cover::Whole {
-            block.lay(label, &Strip(*self), Extent::Whole);
+        if cover == Cover::Whole && sector.cover(canvas.block()) == Cover::Whole {
+            canvas.lay(label, &Strip(*self), Extent::Whole);
             return;
         }
-        let (all, cell) = (block.padded_columns(), block.cell());
-        let mut columns = std::mem::take(&mut block.columns);
+        let (all, cell) = (canvas.padded_columns(), canvas.block());
+        let mut columns = std::mem::take(&mut canvas.columns);
         // In each row the convex region leaves two pieces: the one before it and the one beyond.
         for piece in [Piece::Within, Piece::Before, Piece::Beyond] {
             let rows = (cell.y..cell.y + cell.height).map(sample);
@@ -110,12 +110,12 @@ impl Ring {
                 }
             }
             if matches!(sector, Sector::Rest(_)) == (piece == Piece::Within) {
-                block.lay(label, &Ends(*self), Extent::Part(&columns, limit));
+                canvas.lay(label, &Ends(*self), Extent::Part(&columns, limit));
             } else {
-                block.lay(label, &Strip(*self), Extent::Part(&columns, limit));
+                canvas.lay(label, &Strip(*self), Extent::Part(&columns, limit));
             }
         }
-        block.columns = columns;
+        canvas.columns = columns;
     }
 }
 

@@ -1,6 +1,6 @@
 use pulp::Simd;
 
-use super::super::block::Slope;
+use super::super::canvas::Slope;
 use super::super::lanes::Lanes;
 
 /// How distance becomes depth: the half-width of a stroke and where it ends.

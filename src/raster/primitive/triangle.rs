@@ -1,4 +1,4 @@
-use super::super::block::{Block, count, put};
+use super::super::canvas::{Canvas, count, put};
 use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
 use super::super::subpixel::sample;
@@ -96,10 +96,10 @@ impl Triangle {
         self.depth + ((x - f64::from(x0)) * self.slope.0 + (y - f64::from(y0)) * self.slope.1)
     }
 
-    pub(super) fn draw(&self, label: Label, block: &mut Block) {
+    pub(super) fn draw(&self, label: Label, canvas: &mut Canvas) {
         let region = self.region();
-        let cell = block.cell();
-        for (row, depths, labels) in block.rows() {
+        let cell = canvas.block();
+        for (row, depths, labels) in canvas.rows() {
             let y = sample(row);
             let columns = region.columns(y, cell.x..cell.x + cell.width);
             for column in columns {

@@ -10,7 +10,7 @@ use super::{Fragment, Label};
 /// Pixels that a row is padded to: as many as any processor works on at once. Cells are cut at multiples of it.
 pub(super) const LANES: i32 = 8;
 
-/// Pixels along a side of the largest block. Chosen: 8 KiB, a quarter of a first-level cache.
+/// Pixels along a side of the largest block of pixels drawn at a time. Chosen: 8 KiB, a quarter of a first-level cache.
 pub(super) const SIDE: i32 = 32;
 
 /// Sample positions of neighbouring pixels from the first one on, in steps.
@@ -62,89 +62,143 @@ pub(super) enum Extent<'a> {
     Part(&'a [Range<i32>], f32),
 }
 
-/// Depths and labels of a small cell while primitives are laid on it.
+/// Depths and labels of a rectangle of pixels, its frame, while primitives are laid on it block by block.
 ///
-/// Rows are padded to whole lanes; what lies beyond the cell is drawn along and never read.
-pub(super) struct Block {
+/// Rows of a block are padded to whole lanes; what lies beyond it is drawn along. Blocks that are cut from the left of the
+/// frame at multiples of [`LANES`] do not reach into each other.
+pub(super) struct Canvas {
     arch: Arch,
-    cell: Cell,
+    frame: Cell,
+    /// From one row to the next.
+    stride: usize,
     depths: Vec<f32>,
     labels: Vec<u32>,
+    /// The block that is drawn on, and where its first pixel is.
+    block: Cell,
+    at: usize,
     /// Scratch for the columns of a part.
     pub columns: Vec<Range<i32>>,
 }
 
-impl Block {
-    /// A block to be used again and again.
+impl Canvas {
+    /// A canvas to be used again and again.
     pub(super) fn new() -> Self {
-        let pixels = count(SIDE) * count(SIDE);
-        Self {
-            arch: Arch::new(),
-            cell: Cell { x: 0, y: 0, width: 1, height: 1 },
-            depths: vec![0.0; pixels],
-            labels: vec![0; pixels],
-            columns: Vec::new(),
+        let cell = Cell { x: 0, y: 0, width: 1, height: 1 };
+        let (depths, labels, columns) = (Vec::new(), Vec::new(), Vec::new());
+        Self { arch: Arch::new(), frame: cell, stride: 1, depths, labels, block: cell, at: 0, columns }
+    }
+
+    /// Stretches it on `frame`; what was drawn before is still there.
+    pub(super) fn stretch(&mut self, frame: Cell) {
+        self.frame = frame;
+        // Room for a block that does not begin at the frame's left, and a stride that is no power of two: rows of a
+        // block a power of two apart would push one another out of the cache.
+        self.stride = count(frame.width).next_multiple_of(count(LANES)) + 2 * count(LANES);
+        let pixels = self.stride * count(frame.height);
+        if self.depths.len() < pixels {
+            self.depths.resize(pixels, f32::INFINITY);
+            self.labels.resize(pixels, Label::BACKGROUND.0);
         }
     }
 
-    /// Takes the place of `cell`, at most [`SIDE`] wide and high; what was drawn before is still there.
-    pub(super) const fn place(&mut self, cell: Cell) {
-        self.cell = cell;
+    /// Draws from now on at `block`, at most [`SIDE`] wide and high and inside the frame.
+    pub(super) const fn place(&mut self, block: Cell) {
+        self.block = block;
+        self.at = self.index(block.x, block.y);
     }
 
-    /// Wipes what was drawn.
+    const fn index(&self, x: i32, y: i32) -> usize {
+        count(y - self.frame.y) * self.stride + count(x - self.frame.x)
+    }
+
+    /// Wipes what was drawn on the block.
     pub(super) fn clear(&mut self) {
-        let pixels = self.stride() * count(self.cell.height);
-        self.depths[..pixels].fill(f32::INFINITY);
-        self.labels[..pixels].fill(Label::BACKGROUND.0);
+        for (_, depths, labels) in self.rows() {
+            depths.fill(f32::INFINITY);
+            labels.fill(Label::BACKGROUND.0);
+        }
+    }
+
+    /// Wipes what was drawn in the frame outside of `cell`, which lies in it.
+    pub(super) fn clear_around(&mut self, cell: Cell) {
+        if cell == self.frame {
+            return;
+        }
+        let Self { frame, stride, .. } = *self;
+        let rows = self.depths.chunks_exact_mut(stride).zip(self.labels.chunks_exact_mut(stride));
+        let inside = count(cell.x - frame.x)..count(cell.x + cell.width - frame.x);
+        for (y, (depths, labels)) in (frame.y..frame.y + frame.height).zip(rows) {
+            let kept = if (cell.y..cell.y + cell.height).contains(&y) { inside.clone() } else { 0..0 };
+            for outside in [0..kept.start, kept.end..stride] {
+                depths[outside.clone()].fill(f32::INFINITY);
+                labels[outside].fill(Label::BACKGROUND.0);
+            }
+        }
     }
 
     /// The pixels it stands for.
-    pub(super) const fn cell(&self) -> Cell {
-        self.cell
+    pub(super) const fn frame(&self) -> Cell {
+        self.frame
     }
 
-    fn stride(&self) -> usize {
-        count(self.cell.width).next_multiple_of(count(LANES))
+    /// The pixels of the block.
+    pub(super) const fn block(&self) -> Cell {
+        self.block
     }
 
-    /// The columns of its rows, padding included.
-    pub(super) fn padded_columns(&self) -> Range<i32> {
-        let lanes = (self.cell.width + LANES - 1) / LANES;
-        self.cell.x..self.cell.x + lanes * LANES
+    /// The columns of the block's rows, padding included.
+    pub(super) const fn padded_columns(&self) -> Range<i32> {
+        let lanes = (self.block.width + LANES - 1) / LANES;
+        self.block.x..self.block.x + lanes * LANES
+    }
+
+    const fn padded_width(&self) -> usize {
+        count(self.block.width).next_multiple_of(count(LANES))
     }
 
     /// Lays a surface on it.
     ///
     /// Primitives come in the order of their labels, so that a tie is left with the earlier.
     pub(super) fn lay(&mut self, label: Label, field: &impl Field, extent: Extent<'_>) {
-        let (stride, cell) = (self.stride(), self.cell);
-        let pixels = stride * count(cell.height);
-        let (depths, labels) = (&mut self.depths[..pixels], &mut self.labels[..pixels]);
-        self.arch.dispatch(Lay { field, label, extent, cell, stride, depths, labels });
+        let Self { stride, block, at, .. } = *self;
+        let width = self.padded_width();
+        let (depths, labels) = (&mut self.depths[at..], &mut self.labels[at..]);
+        self.arch.dispatch(Lay { field, label, extent, block, width, stride, depths, labels });
     }
 
-    /// Its rows from the top as (row, depths, labels), padding included.
+    /// The block's rows from the top as (row, depths, labels), padding included.
     pub(super) fn rows(&mut self) -> impl Iterator<Item = (i32, &mut [f32], &mut [u32])> {
-        let (cell, stride) = (self.cell, self.stride());
-        let rows = self.depths.chunks_exact_mut(stride).zip(self.labels.chunks_exact_mut(stride));
-        (cell.y..cell.y + cell.height).zip(rows).map(|(row, (depths, labels))| (row, depths, labels))
+        let Self { block, stride, at, .. } = *self;
+        let width = self.padded_width();
+        let rows = self.depths[at..].chunks_mut(stride).zip(self.labels[at..].chunks_mut(stride));
+        let rows = (block.y..block.y + block.height).zip(rows);
+        rows.map(move |(row, (depths, labels))| (row, &mut depths[..width], &mut labels[..width]))
     }
 
-    /// Its finished rows from the top, as wide as the cell.
+    /// The pixels of the frame: depths, labels, and how many pixels it is from one row to the next.
+    pub(super) fn pixels(&self) -> (&[f32], &[u32], usize) {
+        let pixels = self.stride * count(self.frame.height);
+        (&self.depths[..pixels], &self.labels[..pixels], self.stride)
+    }
+
+    /// The finished rows of the frame from the top, as wide as it is.
     pub(super) fn finished(&self) -> impl Iterator<Item = (&[f32], &[u32])> {
-        let (width, stride) = (count(self.cell.width), self.stride());
-        let rows = self.depths.chunks_exact(stride).zip(self.labels.chunks_exact(stride));
-        rows.take(count(self.cell.height)).map(move |(depths, labels)| (&depths[..width], &labels[..width]))
+        let width = count(self.frame.width);
+        let (depths, labels, stride) = self.pixels();
+        let rows = depths.chunks_exact(stride).zip(labels.chunks_exact(stride));
+        rows.map(move |(depths, labels)| (&depths[..width], &labels[..width]))
     }
 }
 
-/// The call of [`Block::lay`], to be compiled for each kind of processor.
+/// The call of [`Canvas::lay`], to be compiled for each kind of processor.
 struct Lay<'a, F> {
     field: &'a F,
     label: Label,
     extent: Extent<'a>,
-    cell: Cell,
+    block: Cell,
+    /// Columns, padding included.
+    width: usize,
+    /// From one row to the next.
     stride: usize,
     depths: &'a mut [f32],
     labels: &'a mut [u32],
@@ -156,23 +210,24 @@ impl<F: Field> WithSimd for Lay<'_, F> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let label = simd.splat_u32s(self.label.0);
-        let Self { field, extent, cell, stride, mut depths, mut labels, .. } = self;
+        let Self { field, extent, block, width, stride, mut depths, mut labels, .. } = self;
         let mut columns = match extent {
             Extent::Part(columns, _) => columns.iter(),
             Extent::First | Extent::Whole => [].iter(),
         };
         // Split row by row: chunks of a length not known beforehand would cost a division each time.
-        for y in cell.y..cell.y + cell.height {
+        for y in block.y..block.y + block.height {
             let (row_depths, row_labels);
-            (row_depths, depths) = depths.split_at_mut(stride);
-            (row_labels, labels) = labels.split_at_mut(stride);
+            (row_depths, depths) = depths.split_at_mut(stride.min(depths.len()));
+            (row_labels, labels) = labels.split_at_mut(stride.min(labels.len()));
+            let (row_depths, row_labels) = (&mut row_depths[..width], &mut row_labels[..width]);
             let row = field.row(simd, position(y));
             match extent {
-                Extent::First => along(simd, cell.x, row_depths, row_labels, |x, old_depth, old_label| {
+                Extent::First => along(simd, block.x, row_depths, row_labels, |x, old_depth, old_label| {
                     *old_depth = F::depth(row, x).value;
                     *old_label = label;
                 }),
-                Extent::Whole => along(simd, cell.x, row_depths, row_labels, |x, old_depth, old_label| {
+                Extent::Whole => along(simd, block.x, row_depths, row_labels, |x, old_depth, old_label| {
                     let depth = F::depth(row, x);
                     let closer = depth.less(Lanes::new(simd, *old_depth)).value;
                     *old_depth = simd.select_f32s(closer, depth.value, *old_depth);
@@ -185,7 +240,7 @@ impl<F: Field> WithSimd for Lay<'_, F> {
                     let limit = Lanes::splat(simd, limit);
                     let from = Lanes::splat(simd, position(columns.start));
                     let to = Lanes::splat(simd, position(columns.end));
-                    along(simd, cell.x, row_depths, row_labels, |x, old_depth, old_label| {
+                    along(simd, block.x, row_depths, row_labels, |x, old_depth, old_label| {
                         let depth = F::depth(row, x);
                         let inside = from.at_most(x).and(x.less(to)).and(depth.at_most(limit));
                         let closer = depth.less(Lanes::new(simd, *old_depth)).and(inside).value;
