@@ -282,6 +282,17 @@ impl Diagram {
         buffers.depths().to_vec()
     }
 
+    /// How many pixels are drawn to find the boundaries: those of the tiles that no one owner has to itself.
+    #[must_use]
+    pub fn pixels_drawn(&self) -> u64 {
+        let mut drawn = 0;
+        let area = |tile: raster::Tile<'_>| u64::from(tile.width) * u64::from(tile.height);
+        raster::stream(&self.scene(&self.grid), &passes::options(TILE, APRON, None), area, |area| {
+            drawn += area
+        });
+        drawn
+    }
+
     fn scene(&self, grid: &Grid) -> Scene {
         self.sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
     }
