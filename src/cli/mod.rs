@@ -9,8 +9,10 @@ mod init;
 mod input;
 mod inspect;
 mod isolate;
+mod level;
 mod mill;
 mod output;
+mod probe;
 mod progress;
 mod tools;
 mod verify;
@@ -45,6 +47,8 @@ Examples:
   voromill verify out/*.ngc --board board/     what programs, anybody's, do to the board
   voromill diff old/ new/                      what copper changes between programs
   voromill draw board/ --stage voronoi -o v.png  a picture of one stage
+  voromill probe board/ -o probe.ngc           touch the surface of the board on the machine
+  voromill level front.ngc --map probe.txt     bend a program to what was touched
   voromill tools                               the tools, and how wide they cut at which depth
   voromill init                                write voromill.toml with every setting and its default
 
@@ -59,6 +63,8 @@ enum Command {
     Inspect(inspect::Inspect),
     Verify(verify::Verify),
     Diff(diff::Diff),
+    Probe(probe::Probe),
+    Level(level::Level),
     Tools(tools::Tools),
     Init(init::Init),
 }
@@ -92,6 +98,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Inspect(inspect) => inspect.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Verify(verify) => verify.run(cli.shared),
         Command::Diff(diff) => diff.run(cli.shared),
+        Command::Probe(probe) => probe.run(cli.shared).map(|()| ExitCode::SUCCESS),
+        Command::Level(level) => level.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Tools(tools) => tools.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Init(init) => init.run(cli.shared).map(|()| ExitCode::SUCCESS),
     });

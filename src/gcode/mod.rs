@@ -2,14 +2,17 @@
 //!
 //! [`write()`] puts a [`Program`](crate::toolpath::Program) into the words of a [`Dialect`], which is data, so it cannot get the
 //! motion wrong. [`read()`] is the other way, from the specification, for anybody's programs; the two share no code, so
-//! that reading back what was written says something.
+//! that reading back what was written says something. [`level()`](level::level) bends a text to a surface that was touched before.
 
 pub mod dialect;
 mod header;
+pub mod level;
+mod probe;
 pub mod read;
 mod write;
 
 pub use dialect::Dialect;
 pub use header::{Header, Input};
+pub use probe::{ProbeError, Touching, write_probe};
 pub use read::{ReadError, read};
 pub use write::{write, write_each};

@@ -53,9 +53,9 @@ struct Rounded {
     z: i64,
 }
 
-struct Writer<'a> {
+pub(super) struct Writer<'a> {
     dialect: &'a Dialect,
-    text: String,
+    pub(super) text: String,
     /// One unit of the last digit, in nanometres.
     unit: i64,
     line: u32,
@@ -66,13 +66,13 @@ struct Writer<'a> {
 }
 
 impl<'a> Writer<'a> {
-    fn new(dialect: &'a Dialect) -> Self {
+    pub(super) fn new(dialect: &'a Dialect) -> Self {
         let unit = 10_i64.pow(u32::try_from(6_usize.saturating_sub(dialect.decimals)).unwrap_or(0));
         Self { dialect, text: String::new(), unit, line: 0, at: None, planned: None, feed: None }
     }
 
     /// Header, start lines, and the first lift.
-    fn begin(&mut self, program: &Program, header: &Header) {
+    pub(super) fn begin(&mut self, program: &Program, header: &Header) {
         self.comment(&program.title);
         for line in header.lines() {
             self.comment(&line);
@@ -117,7 +117,7 @@ impl<'a> Writer<'a> {
     }
 
     /// The last lift, the spindle off, and the end lines.
-    fn finish(&mut self, program: &Program) {
+    pub(super) fn finish(&mut self, program: &Program) {
         let safe = self.round(program.safe);
         if self.at.is_some_and(|at| at.z != safe) {
             self.lift(program.safe);
@@ -136,7 +136,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Up to the safe height, whatever the height is: after a tool change nobody knows.
-    fn lift(&mut self, safe: Nm) {
+    pub(super) fn lift(&mut self, safe: Nm) {
         let z = self.round(safe);
         self.line(&format!("G0 Z{}", self.number(z)));
         self.at = self.at.map(|at| Rounded { z, ..at });
@@ -177,7 +177,7 @@ impl<'a> Writer<'a> {
         });
     }
 
-    fn step(&mut self, step: &Move) {
+    pub(super) fn step(&mut self, step: &Move) {
         match *step {
             Move::Dwell { milliseconds } => self.dwell(milliseconds),
             Move::Rapid { to } => self.straight("G0", to, None),
@@ -293,6 +293,11 @@ impl<'a> Writer<'a> {
         }
     }
 
+    /// A length as the dialect writes it.
+    pub(super) fn length(&self, length: Nm) -> String {
+        self.number(self.round(length))
+    }
+
     fn feed_word(&mut self, line: &mut String, feed: Feed) {
         if self.feed != Some(feed) {
             self.feed = Some(feed);
@@ -317,7 +322,7 @@ impl<'a> Writer<'a> {
     }
 
     /// A comment in as many lines as it needs.
-    fn comment(&mut self, text: &str) {
+    pub(super) fn comment(&mut self, text: &str) {
         let (open, close) = match self.dialect.comments {
             Comments::Parentheses => ("(", ")"),
             Comments::Semicolon => ("; ", ""),
@@ -329,7 +334,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn line(&mut self, text: &str) {
+    pub(super) fn line(&mut self, text: &str) {
         if self.dialect.line_numbers == LineNumbers::ByTens {
             self.line += 10;
             _ = write!(self.text, "N{} ", self.line);
@@ -356,7 +361,7 @@ fn word(turn: Turn) -> &'static str {
 }
 
 /// Text that every controller bears in a comment: printable ASCII, without what ends a comment or acts at once.
-fn plain(text: &str) -> String {
+pub(super) fn plain(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -24,6 +24,6 @@ pub mod outline;
 mod settle;
 mod wheel;
 
-pub(crate) use digest::sha256;
+pub use digest::sha256;
 pub use error::{Diagnosis, Error};
 pub use load::{Loaded, Selection, load, load_copper, survey};

@@ -14,6 +14,7 @@ mod page;
 mod paper;
 mod pattern;
 mod pipeline;
+mod probing;
 mod quantity;
 mod settings;
 mod settings_file;
@@ -31,6 +32,7 @@ pub use options::{DialectName, Narrow, Options, Origin, ParseDialectError, Sites
 pub use paper::paper;
 pub use pattern::Pattern;
 pub use pipeline::{Job, mill};
+pub use probing::{ParseProbeGridError, ProbeGrid, Probing, probe};
 pub use quantity::{DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, Place, Tiles, Triple};
 pub use settings::{Cutting, Holding, Settings};
 pub use settings_file::{DEFAULTS, FILE_NAME};

@@ -154,7 +154,7 @@ fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cuto
 }
 
 /// What every program says of itself.
-fn header(sources: &[Source]) -> Header {
+pub(super) fn header(sources: &[Source]) -> Header {
     let used = sources.iter().filter(|source| !source.role.starts_with("ignored"));
     let input = |source: &Source| Input { file: source.file.clone(), sha256: source.sha256.clone() };
     Header {

@@ -8,7 +8,7 @@
 //! ```
 
 use crate::board::{Board, Hole, Plating, Side};
-use crate::geometry::{Nm, Path, Rect, Vector};
+use crate::geometry::{Nm, Path, Point, Rect, Vector};
 use crate::toolpath::strategy::{Drilling, drill};
 use crate::toolpath::{Order, Placement, Program, Tiling, alignment_holes};
 
@@ -53,6 +53,15 @@ impl Stock {
         match side {
             Side::Front => self.front,
             Side::Back => self.front.turned_over(self.axis),
+        }
+    }
+
+    /// All tiles when `side` is up.
+    pub(super) fn area(&self, side: Side) -> Rect {
+        let over = |p: Point| Point::new(self.axis * 2 - p.x, p.y);
+        match side {
+            Side::Front => self.bounds,
+            Side::Back => Rect::new(over(self.bounds.min()), over(self.bounds.max())),
         }
     }
 

@@ -11,6 +11,7 @@ mod gl_parity;
 mod job;
 mod layering;
 mod layers;
+mod level;
 mod nonsense;
 mod oracle;
 mod outline;

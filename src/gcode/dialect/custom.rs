@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use serde::Deserialize;
 
-use super::{ALL, Arcs, Comments, Dialect, Dwell, LineNumbers, Text, ToolChange};
+use super::{ALL, Arcs, Comments, Dialect, Dwell, LineNumbers, Text, ToolChange, Touches};
 
 /// Why a text does not describe a dialect.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -50,6 +50,7 @@ struct Keys {
     start: Option<Vec<String>>,
     end: Option<Vec<String>>,
     coolant: Option<(String, String)>,
+    touches: Option<Touches>,
 }
 
 impl Dialect {
@@ -95,6 +96,7 @@ impl Dialect {
             start: lines(keys.start, base.start),
             end: lines(keys.end, base.end),
             coolant: keys.coolant.map(|(on, off)| (Cow::Owned(on), Cow::Owned(off))).or(base.coolant),
+            touches: keys.touches.unwrap_or(base.touches),
         })
     }
 }

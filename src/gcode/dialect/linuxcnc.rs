@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange, Touches};
 
 /// LinuxCNC. G64 lets it blend corners by at most 5 µm, instead of stopping at each or rounding without bound.
 pub(super) const LINUXCNC: Dialect = Dialect {
@@ -17,4 +17,5 @@ pub(super) const LINUXCNC: Dialect = Dialect {
     start: Borrowed(&[Borrowed("G17 G21 G40 G49 G80 G90 G91.1 G94"), Borrowed("G64 P0.005")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
+    touches: Touches::Logged,
 };

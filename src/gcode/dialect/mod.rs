@@ -44,6 +44,8 @@ pub struct Dialect {
     pub end: Cow<'static, [Text]>,
     /// What turns the coolant (or the vacuum) on and off; none leaves it alone.
     pub coolant: Option<(Text, Text)>,
+    /// What becomes of the touches of a probe.
+    pub touches: Touches,
 }
 
 /// How arcs are written.
@@ -92,6 +94,18 @@ pub enum ToolChange {
     Pause,
     /// `M0` with the text behind it, which the machine shows.
     PauseWithText,
+}
+
+/// What becomes of the touches of a probe (G38.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Touches {
+    /// It is not known to probe.
+    None,
+    /// The controller reports each, and who is connected keeps them.
+    Reported,
+    /// They go into a file that the program names: `(PROBEOPEN …)`.
+    Logged,
 }
 
 /// Numbers before the lines.

@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange, Touches};
 
 /// TinyG and g2core. G64 is their continuous mode, which keeps within the junction tolerance that is set there.
 pub(super) const TINYG: Dialect = Dialect {
@@ -17,4 +17,5 @@ pub(super) const TINYG: Dialect = Dialect {
     start: Borrowed(&[Borrowed("G17 G21 G40 G80 G90 G94"), Borrowed("G64")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
+    touches: Touches::None,
 };

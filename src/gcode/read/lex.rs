@@ -4,14 +4,14 @@ use super::error::ReadError;
 
 /// A decimal number, exactly: `mantissa` / 10^`decimals`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Number {
-    pub(super) mantissa: i64,
-    pub(super) decimals: u32,
+pub(in crate::gcode) struct Number {
+    pub(in crate::gcode) mantissa: i64,
+    pub(in crate::gcode) decimals: u32,
 }
 
 impl Number {
     /// The number of `unit`s it stands for, in whole ones, halves away from zero; none beyond an `i64`.
-    pub(super) fn times(self, unit: i64) -> Option<i64> {
+    pub(in crate::gcode) fn times(self, unit: i64) -> Option<i64> {
         let scale = 10_i128.pow(self.decimals);
         let scaled = i128::from(self.mantissa) * i128::from(unit);
         let half = scale / 2 * scaled.signum();
@@ -21,28 +21,28 @@ impl Number {
 
 /// A letter, its number, and where it stands.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Word<'a> {
-    pub(super) letter: char,
-    pub(super) number: Number,
-    pub(super) column: u32,
-    pub(super) text: &'a str,
+pub(in crate::gcode) struct Word<'a> {
+    pub(in crate::gcode) letter: char,
+    pub(in crate::gcode) number: Number,
+    pub(in crate::gcode) column: u32,
+    pub(in crate::gcode) text: &'a str,
 }
 
 /// Makes errors that point into a line.
 #[derive(Clone, Copy)]
-pub(super) struct Pointer<'a> {
-    pub(super) line: u32,
-    pub(super) source: &'a str,
+pub(in crate::gcode) struct Pointer<'a> {
+    pub(in crate::gcode) line: u32,
+    pub(in crate::gcode) source: &'a str,
 }
 
 impl Pointer<'_> {
-    pub(super) fn error(self, column: u32, text: &str, expected: impl Into<String>) -> ReadError {
+    pub(in crate::gcode) fn error(self, column: u32, text: &str, expected: impl Into<String>) -> ReadError {
         ReadError { line: self.line, column, text: text.to_owned(), expected: expected.into() }
     }
 }
 
 /// The words of a line, without comments.
-pub(super) fn words<'a>(pointer: Pointer<'a>) -> Result<Vec<Word<'a>>, ReadError> {
+pub(in crate::gcode) fn words<'a>(pointer: Pointer<'a>) -> Result<Vec<Word<'a>>, ReadError> {
     let source = pointer.source;
     let bytes = source.as_bytes();
     let (mut at, mut words) = (0, Vec::new());

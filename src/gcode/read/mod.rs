@@ -8,7 +8,7 @@
 
 mod error;
 mod interpret;
-mod lex;
+pub(super) mod lex;
 
 pub use error::ReadError;
 pub use interpret::read;

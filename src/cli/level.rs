@@ -1,0 +1,173 @@
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use voromill::gcode::level::{Frame, HeightMap, LevelError, Levelling, MapError, level};
+use voromill::geometry::Nm;
+use voromill::import::sha256;
+use voromill::job::{Length, Place, Triple};
+
+use super::output::Output;
+use super::{Failure, Shared};
+
+/// A program bent to the surface that a probe has found
+///
+/// Reads anybody's program and a map of heights, and adds the height of the surface to every z below the height for travel. Cuts
+/// and arcs are split where the surface asks for it; comments, tools, feeds and rapids above the board stay as they are. The map is
+/// bCNC's .probe, OpenCNCPilot's .hmap, a probe log of LinuxCNC, or a log with Grbl's [PRB:...] lines, known by what is in it.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Level {
+    /// Program to bend
+    #[arg(value_name = "PROGRAM")]
+    program: PathBuf,
+
+    /// Heights that were probed
+    #[arg(long, value_name = "PROBE")]
+    map: PathBuf,
+
+    /// Program to write; `-` for stdout [default: PROGRAM with -levelled after its name]
+    #[arg(long, short, value_name = "OUT")]
+    output: Option<PathBuf>,
+
+    /// How far the tool may leave its depth below the surface between the points where a cut is split
+    #[arg(long, value_name = "LENGTH", default_value = "5um")]
+    tolerance: Length,
+
+    /// How far outside the probed area the program may cut; the surface is taken to go on level there
+    #[arg(long, value_name = "LENGTH", default_value = "2mm")]
+    margin: Length,
+
+    /// Height from which on nothing is bent [default: that of the program's lowest level rapid]
+    #[arg(long, value_name = "LENGTH")]
+    safe_z: Option<Length>,
+
+    /// What the map's numbers count
+    #[arg(long, value_enum, default_value = "mm")]
+    map_unit: Unit,
+
+    /// Where the work's zero is in the map's coordinates, as for Grbl's logs without a WCO: report
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    map_zero: Option<Triple>,
+
+    /// Take the height at this place as zero: where z was set to zero after probing, with another tool
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    zero_at: Option<Place>,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  voromill level out/board-front.ngc --map board.probe
+  voromill level flatcam.nc --map board.hmap -o bent.nc --tolerance 2um
+  voromill level front.ngc --map grbl.log --map-zero -120mm,-80mm,-31.2mm
+  voromill level front.ngc --map board-front-probe.txt --zero-at 0mm,0mm";
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Unit {
+    Mm,
+    In,
+}
+
+impl Level {
+    pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
+        let text = read(&self.program)?;
+        let (map, format) = self.map()?;
+        let (program, name) = (name(&self.program), name(&self.map));
+        let hash = sha256(read(&self.map)?.as_bytes());
+        let levelling = Levelling {
+            tolerance: positive("--tolerance", self.tolerance)?,
+            margin: self.margin.nm().max(Nm::ZERO),
+            safe: self.safe_z.map(Length::nm),
+            note: format!(
+                "levelled by voromill {} to {name} sha256 {} within {}",
+                env!("CARGO_PKG_VERSION"),
+                &hash[..12],
+                self.tolerance
+            )
+            .replace(['(', ')', '?', '!', '~', ';', '%'], "."),
+        };
+        let done = level(&text, &map, &levelling)
+            .map_err(|error| Failure::new(format!("{program}: {error}"), hint(&error)))?;
+        let output = self.output.unwrap_or_else(|| beside(&self.program));
+        if output == Path::new("-") {
+            super::print(&done.text);
+            return Ok(());
+        }
+        let mut files = Output::new();
+        files.stage(&output, done.text.as_bytes())?;
+        files.commit()?;
+        let (columns, rows) = map.size();
+        let [low, high] = done.heights.unwrap_or_default();
+        shared.report(&format!(
+            "{}: {} motions below {:.3} mm follow a surface from {low:.3} mm to {high:.3} mm, {} lines more\n{name}: {}, {columns} by {rows} touches\n",
+            output.display(),
+            done.bent,
+            done.safe,
+            done.added,
+            format,
+        ));
+        Ok(())
+    }
+
+    fn map(&self) -> Result<(HeightMap, &'static str), Failure> {
+        let text = read(&self.map)?;
+        let unit = match self.map_unit {
+            Unit::Mm => Nm::from_mm(1),
+            Unit::In => Nm::from_um(25_400),
+        };
+        let zero = self.map_zero.map(|Triple(zero)| zero.map(Length::nm));
+        let (map, format) = HeightMap::read(&text, &Frame { unit, zero })
+            .map_err(|error| Failure::new(format!("{}: {error}", name(&self.map)), map_hint(&error)))?;
+        Ok((self.zero_at.map_or(map.clone(), |place| map.zeroed_at(place.into())), format.name))
+    }
+}
+
+fn positive(option: &str, length: Length) -> Result<Nm, Failure> {
+    /// A cut split more often than each micrometre of height is longer than any machine has patience for.
+    const LEAST: Nm = Nm::from_um(1);
+    if length.nm() >= LEAST {
+        return Ok(length.nm());
+    }
+    Err(Failure::new(format!("{option}: `{length}` makes no sense: expected at least {}", Length(LEAST)), ""))
+}
+
+fn read(path: &Path) -> Result<String, Failure> {
+    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+fn name(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}
+
+/// `front.ngc` → `front-levelled.ngc`.
+fn beside(program: &Path) -> PathBuf {
+    let stem = program.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = program.extension().map_or(String::new(), |ending| format!(".{}", ending.to_string_lossy()));
+    program.with_file_name(format!("{stem}-levelled{ending}"))
+}
+
+fn hint(error: &LevelError) -> &'static str {
+    match error {
+        LevelError::Outside { .. } => {
+            "probe a larger area, allow more with --margin, or lay the program where it was probed"
+        }
+        LevelError::High { .. } => {
+            "raise the program's height for travel, or set z to zero anew and probe again"
+        }
+        LevelError::Nowhere { .. } => "say with --safe-z from which height on nothing is to be bent",
+        _ => "",
+    }
+}
+
+fn map_hint(error: &MapError) -> &'static str {
+    match error {
+        MapError::Zero { .. } => {
+            "say it with --map-zero X,Y,Z (what $# shows for G54), or keep a status report with WCO: in the log"
+        }
+        MapError::Steep { .. } => "--map-unit says what the map counts; or probe that place again",
+        MapError::Missing { .. } | MapError::Count { .. } => {
+            "probe what is missing, or the whole board again"
+        }
+        _ => "",
+    }
+}

@@ -1,0 +1,94 @@
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use voromill::board::Side;
+use voromill::job::{self, Length, ProbeGrid, Probing};
+use voromill::toolpath::Feed;
+
+use super::config::Config;
+use super::draw::SideName;
+use super::input::Input;
+use super::output::Output;
+use super::{Failure, Shared};
+
+/// The program that touches a board's surface, for `voromill level`
+///
+/// Touches the copper in a grid over the board as it will lie on the machine (with the same --origin, --rotate, --tile and
+/// --mirror-axis as `voromill mill`), with the tool itself, a wire on it and the spindle off. LinuxCNC keeps the touches in a
+/// file that the program names; of Grbl keep what it reports. Work zero stays where it was.
+#[derive(Args)]
+#[command(after_help = EXAMPLES)]
+pub(super) struct Probe {
+    #[command(flatten)]
+    input: Input,
+
+    /// Program to write; `-` for stdout
+    #[arg(long, short, value_name = "FILE")]
+    output: PathBuf,
+
+    /// The side that is up
+    #[arg(long, value_enum, default_value = "front")]
+    side: SideName,
+
+    /// The most way between two touches, or how many columns and rows, such as 7x5
+    #[arg(long, value_name = "LENGTH|NxM", default_value = "10mm", help_heading = "Probing")]
+    probe_grid: ProbeGrid,
+
+    /// How far below zero the surface is looked for
+    #[arg(long, value_name = "LENGTH", default_value = "1mm", help_heading = "Probing")]
+    probe_depth: Length,
+
+    /// Height for the way from touch to touch
+    #[arg(long, value_name = "LENGTH", default_value = "1mm", help_heading = "Probing")]
+    probe_clearance: Length,
+
+    /// Speed of a touch
+    #[arg(long, value_name = "SPEED", default_value = "50mm/min", help_heading = "Probing")]
+    probe_feed: Feed,
+
+    /// How far inside the board's edge the outermost touches are
+    #[arg(long, value_name = "LENGTH", default_value = "0mm", help_heading = "Probing")]
+    probe_inset: Length,
+
+    #[command(flatten)]
+    config: Config,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  voromill probe board/ -o probe.ngc --dialect linuxcnc
+  voromill probe board/ -o probe.ngc --probe-grid 7x5 --probe-depth 0.5mm
+  voromill probe board/ -o probe.ngc --side back --tile 3x2
+
+Then, with what the machine has found:
+  voromill level out/board-front.ngc --map board-front-probe.txt";
+
+impl Probe {
+    pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
+        let settings = self.config.settings(&self.input.paths)?;
+        let loaded = self.input.survey(&settings)?;
+        let side = match self.side {
+            SideName::Front => Side::Front,
+            SideName::Back => Side::Back,
+        };
+        let probing = Probing {
+            side,
+            grid: self.probe_grid,
+            inset: self.probe_inset,
+            depth: self.probe_depth,
+            clearance: self.probe_clearance,
+            feed: self.probe_feed,
+        };
+        let text = job::probe(&loaded, &settings, &probing)?;
+        if self.output == Path::new("-") {
+            super::print(&text);
+            return Ok(());
+        }
+        let mut output = Output::new();
+        output.stage(&self.output, text.as_bytes())?;
+        output.commit()?;
+        let touches = text.lines().filter(|line| line.contains("G38.2")).count();
+        shared.report(&format!("{}: {touches} touches\n", self.output.display()));
+        Ok(())
+    }
+}

@@ -1,0 +1,143 @@
+use crate::geometry::Nm;
+use crate::geometry::Point;
+
+use crate::gcode::read::ReadError;
+
+/// Why a text is not a map of heights.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MapError {
+    /// A line that does not say what it should.
+    #[error("line {line}: `{text}`: {expected}")]
+    Line {
+        /// From 1.
+        line: usize,
+        /// What stands there.
+        text: String,
+        /// What was expected.
+        expected: &'static str,
+    },
+    /// Not the form of any program that probes.
+    #[error(
+        "this is no height map: expected bCNC's .probe, OpenCNCPilot's .hmap, a probe log of LinuxCNC (lines of x y z), or Grbl's [PRB:x,y,z:1] lines"
+    )]
+    Unknown,
+    /// XML that is broken.
+    #[error("{0}")]
+    Xml(String),
+    /// Fewer or more points than the file says.
+    #[error("the map says {said} points, and has {found}")]
+    Count {
+        /// So many it should have.
+        said: usize,
+        /// So many it has.
+        found: usize,
+    },
+    /// Too little to have a surface.
+    #[error("the touched places make {columns} columns and {rows} rows: expected at least two of each")]
+    Few {
+        /// Different x.
+        columns: usize,
+        /// Different y.
+        rows: usize,
+    },
+    /// A grid with holes.
+    #[error(
+        "{count} places of the {columns} by {rows} grid were not touched, the first at x = {x:.3} mm, y = {y:.3} mm"
+    )]
+    Missing {
+        /// How many.
+        count: usize,
+        /// Columns of the grid.
+        columns: usize,
+        /// Its rows.
+        rows: usize,
+        /// Where the first is.
+        x: Nm,
+        /// Where the first is.
+        y: Nm,
+    },
+    /// Steeper than any sheet: the unit is wrong, or a touch was.
+    #[error(
+        "the surface rises by {rise:.3} mm within {run:.3} mm near x = {x:.3} mm, y = {y:.3} mm: expected the heights of a sheet, in the unit of its places"
+    )]
+    Steep {
+        /// How much higher.
+        rise: Nm,
+        /// How far apart.
+        run: Nm,
+        /// Where.
+        x: Nm,
+        /// Where.
+        y: Nm,
+    },
+    /// Places that count from the machine's zero.
+    #[error(
+        "line {line}: Grbl reports touches from the machine's zero, and nothing here says where the work's zero is"
+    )]
+    Zero {
+        /// From 1.
+        line: usize,
+    },
+}
+
+/// Why a program cannot be bent to a map.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LevelError {
+    /// The program cannot be followed.
+    #[error(transparent)]
+    Read(#[from] ReadError),
+    /// It cuts where nobody has touched.
+    #[error(
+        "line {line}: it cuts at x = {x:.3} mm, y = {y:.3} mm, outside what was probed, x {left:.3} to {right:.3} mm and y {bottom:.3} to {top:.3} mm, by more than {margin:.3} mm"
+    )]
+    Outside {
+        /// From 1.
+        line: u32,
+        /// Where.
+        x: Nm,
+        /// Where.
+        y: Nm,
+        /// The probed area.
+        left: Nm,
+        /// The probed area.
+        right: Nm,
+        /// The probed area.
+        bottom: Nm,
+        /// The probed area.
+        top: Nm,
+        /// How far outside it may go.
+        margin: Nm,
+    },
+    /// It goes down before it says where.
+    #[error("line {line}: it goes below {safe:.3} mm before it has said where in x and y")]
+    Nowhere {
+        /// From 1.
+        line: u32,
+        /// The height for travel.
+        safe: Nm,
+    },
+    /// Travel would hit the surface.
+    #[error(
+        "the surface rises to {height:.3} mm at x = {x:.3} mm, y = {y:.3} mm, and the program travels at {safe:.3} mm"
+    )]
+    High {
+        /// The highest place of the map.
+        height: Nm,
+        /// Where it is.
+        x: Nm,
+        /// Where it is.
+        y: Nm,
+        /// The height for travel.
+        safe: Nm,
+    },
+}
+
+impl LevelError {
+    /// The place that lies `outside` the rectangle with these corners.
+    pub(super) fn outside(line: u32, p: Point, area: crate::geometry::Rect, margin: Nm) -> Self {
+        let (min, max) = (area.min(), area.max());
+        Self::Outside { line, x: p.x, y: p.y, left: min.x, right: max.x, bottom: min.y, top: max.y, margin }
+    }
+}

@@ -1,0 +1,84 @@
+//! The files in which touches come: one file and one constant each, listed in [`FORMATS`], told apart by what is in them.
+
+mod bcnc;
+mod columns;
+mod grbl;
+mod opencncpilot;
+
+use crate::geometry::Nm;
+
+use super::error::MapError;
+use super::height_map::HeightMap;
+
+/// What a file does not say of its numbers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frame {
+    /// The length that its numbers count.
+    pub unit: Nm,
+    /// Where the work's zero is in its coordinates; none where they count from there, or where it says so itself.
+    pub zero: Option<[Nm; 3]>,
+}
+
+/// Millimetres from the work's zero.
+impl Default for Frame {
+    fn default() -> Self {
+        Self { unit: Nm::from_mm(1), zero: None }
+    }
+}
+
+/// Touched points, each x, y and z.
+type Touches = Vec<[f64; 3]>;
+
+/// A kind of file with touches in it.
+#[derive(Debug)]
+pub struct Format {
+    /// What it is, as a person says it.
+    pub name: &'static str,
+    recognises: fn(&str) -> bool,
+    /// The touches in its own numbers, those that count from the machine's zero moved to the work's where the file says how.
+    read: fn(&str, &Frame) -> Result<Touches, MapError>,
+}
+
+/// All that are read; of several that recognise a file the first reads it.
+pub const FORMATS: &[Format] = &[opencncpilot::OPENCNCPILOT, grbl::GRBL, bcnc::BCNC, columns::COLUMNS];
+
+impl HeightMap {
+    /// The map in a file, and what kind of file that is.
+    ///
+    /// # Errors
+    ///
+    /// [`MapError`] for a text that is no map, or whose touches are no grid.
+    pub fn read(text: &str, frame: &Frame) -> Result<(Self, &'static Format), MapError> {
+        let format = FORMATS.iter().find(|format| (format.recognises)(text)).ok_or(MapError::Unknown)?;
+        let unit = frame.unit.to_f64();
+        let zero = frame.zero.map_or([0.0; 3], |zero| zero.map(Nm::to_f64));
+        let placed = |point: [f64; 3]| [0, 1, 2].map(|axis| point[axis] * unit - zero[axis]);
+        let points: Vec<_> = (format.read)(text, frame)?.into_iter().map(placed).collect();
+        Ok((Self::through(&points)?, format))
+    }
+}
+
+/// The numbers of a line between blanks, commas or semicolons; none where something else is among them.
+fn numbers(line: &str) -> Option<Vec<f64>> {
+    let parts = line.split([' ', '\t', ',', ';']).map(str::trim).filter(|part| !part.is_empty());
+    let number = |part: &str| {
+        let value: f64 = part.parse().ok()?;
+        // Beyond a kilometre there is no machine, and `inf` and `nan` parse too.
+        (value.abs() < 1e6).then_some(value)
+    };
+    parts.map(number).collect()
+}
+
+/// Lines that say something, with their numbers from 1.
+fn said(text: &str) -> impl Iterator<Item = (usize, &str)> {
+    let lines = (1..).zip(text.lines().map(str::trim));
+    lines.filter(|(_, line)| !line.is_empty() && !line.starts_with(['#', ';', '(', '%']))
+}
+
+/// Three of a line's numbers.
+fn point(line: usize, text: &str) -> Result<[f64; 3], MapError> {
+    match numbers(text).as_deref() {
+        Some([x, y, z, ..]) => Ok([*x, *y, *z]),
+        _ => Err(MapError::Line { line, text: text.to_owned(), expected: "expected x, y and z" }),
+    }
+}

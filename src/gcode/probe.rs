@@ -1,0 +1,118 @@
+use crate::geometry::{Nm, Point, Rect};
+use crate::toolpath::{Feed, Move, Position, Program};
+
+use super::dialect::{ALL, Dialect, Touches};
+use super::header::Header;
+use super::write::{Writer, plain};
+
+/// A surface that is to be touched in a grid of points.
+///
+/// ```text
+///   safe ──╮               ╭──
+///          │               │
+///   clear  ├─╮  ╭─╮  ╭─╮  ╭┤      row by row, every other from the right
+///   0 ═════╪═╧══╧═╧══╧═╧══╧╪══
+///   depth  no deeper: there the controller stops with an alarm
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Touching {
+    /// What is touched, as the operator reads it.
+    pub title: String,
+    /// The rectangle; its edges are touched too.
+    pub area: Rect,
+    /// How many points side by side; at least 2.
+    pub columns: u32,
+    /// How many one above the other; at least 2.
+    pub rows: u32,
+    /// The height for the way there and back.
+    pub safe: Nm,
+    /// The height for the way from point to point, above any place of the surface.
+    pub clearance: Nm,
+    /// How far below zero it looks for the surface.
+    pub depth: Nm,
+    /// How fast.
+    pub feed: Feed,
+    /// The file for the touches, where the controller keeps one.
+    pub log: String,
+}
+
+/// Why there is no program that probes.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("nothing is known of probing in the dialect {dialect}: expected {known}")]
+pub struct ProbeError {
+    dialect: String,
+    known: String,
+}
+
+/// The program that touches a surface with the tool itself, a wire on it and the spindle off.
+///
+/// # Errors
+///
+/// [`ProbeError`] for a dialect that is not known to probe.
+pub fn write_probe(touching: &Touching, dialect: &Dialect, header: &Header) -> Result<String, ProbeError> {
+    let note = match dialect.touches {
+        Touches::None => return Err(ProbeError::new(dialect)),
+        Touches::Reported => {
+            "keep what the controller reports, a status with WCO: and each [PRB:, in a file for voromill level".to_owned()
+        }
+        Touches::Logged => format!("the touches go into {} for voromill level", touching.log),
+    };
+    let program = Program {
+        title: touching.title.clone(),
+        notes: vec![
+            format!(
+                "touches {} by {} points with the spindle off, probe wires on tool and copper",
+                touching.columns, touching.rows
+            ),
+            note,
+        ],
+        safe: touching.safe,
+        sections: Vec::new(),
+    };
+    let mut writer = Writer::new(dialect);
+    writer.begin(&program, header);
+    writer.line("M5");
+    if dialect.touches == Touches::Logged {
+        writer.line(&format!("(PROBEOPEN {})", plain(&touching.log)));
+    }
+    let mut height = touching.safe;
+    for point in touching.points() {
+        writer.step(&Move::Rapid { to: Position::over(point, height) });
+        if height != touching.clearance {
+            height = touching.clearance;
+            writer.step(&Move::Rapid { to: Position::over(point, height) });
+        }
+        let (z, feed) = (writer.length(-touching.depth), touching.feed.number());
+        writer.line(&format!("G38.2 Z{z} F{feed}"));
+        writer.lift(height);
+    }
+    if dialect.touches == Touches::Logged {
+        writer.line("(PROBECLOSE)");
+    }
+    writer.finish(&program);
+    Ok(writer.text)
+}
+
+impl Touching {
+    /// The points, row by row, there and back.
+    fn points(&self) -> impl Iterator<Item = Point> + '_ {
+        let place = |least: Nm, length: Nm, index: u32, count: u32| {
+            least + Nm::new(length.get() * i64::from(index) / i64::from(count.max(2) - 1))
+        };
+        (0..self.rows).flat_map(move |row| {
+            (0..self.columns).map(move |column| {
+                let column = if row % 2 == 0 { column } else { self.columns - 1 - column };
+                let x = place(self.area.min().x, self.area.width(), column, self.columns);
+                Point::new(x, place(self.area.min().y, self.area.height(), row, self.rows))
+            })
+        })
+    }
+}
+
+impl ProbeError {
+    fn new(dialect: &Dialect) -> Self {
+        let known = ALL.iter().filter(|dialect| dialect.touches != Touches::None);
+        let known: Vec<&str> = known.map(|dialect| dialect.name.as_ref()).collect();
+        Self { dialect: dialect.name.to_string(), known: known.join(" or ") }
+    }
+}
