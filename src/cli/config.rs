@@ -6,6 +6,7 @@ use clap::Args;
 use voromill::job::{FILE_NAME, Options, Settings};
 
 use super::Failure;
+use super::input::Input;
 
 /// The options of a job, and where to find the rest.
 #[derive(Args)]
@@ -19,10 +20,11 @@ pub(super) struct Config {
 }
 
 impl Config {
-    /// The settings for a job on `inputs`.
-    pub(super) fn settings(&self, inputs: &[PathBuf]) -> Result<Settings, Failure> {
-        let from_file = Self::found(self.config.as_deref(), inputs)?;
-        Ok(Settings::resolve(self.options.clone().or(from_file))?)
+    /// The settings for a job: the command line's, then a millproject's, then the file's.
+    pub(super) fn settings(&self, input: &Input) -> Result<Settings, Failure> {
+        let from_file = Self::found(self.config.as_deref(), &input.paths())?;
+        let from_project = input.project()?.options;
+        Ok(Settings::resolve(self.options.clone().or(from_project).or(from_file))?)
     }
 
     /// What the settings file says: the one that was `named`, or one beside `inputs`; nothing where there is none.

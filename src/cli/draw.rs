@@ -115,7 +115,7 @@ impl FromStr for Window {
 
 impl Draw {
     pub(super) fn run(self, _: Shared) -> Result<(), Failure> {
-        let settings = self.config.settings(&self.input.paths)?;
+        let settings = self.config.settings(&self.input)?;
         let loaded = self.input.load(&settings)?;
         let side = self.side(loaded.board.front.is_some(), loaded.board.back.is_some())?;
         let area = self.window.map(|Window(rect)| rect);

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 use voromill::import::{self, Loaded, Selection};
-use voromill::job::Settings;
+use voromill::job::{MillProject, ProjectFiles, Settings};
 use voromill::report::document::WarningEntry;
 
 use super::Failure;
@@ -11,8 +11,12 @@ use super::Failure;
 #[derive(Args)]
 pub(super) struct Input {
     /// A folder, a zip archive, or the files themselves
-    #[arg(required = true, value_name = "PATH")]
-    pub(super) paths: Vec<PathBuf>,
+    #[arg(required_unless_present = "millproject", value_name = "PATH")]
+    paths: Vec<PathBuf>,
+
+    /// Take options and files over from a millproject of pcb2gcode; options given here win
+    #[arg(long, value_name = "FILE")]
+    millproject: Option<PathBuf>,
 
     /// File with the front copper, where names leave it open
     #[arg(long, value_name = "FILE", help_heading = "Files")]
@@ -42,12 +46,12 @@ pub(super) struct Input {
 impl Input {
     /// The board to be milled: without copper it is none.
     pub(super) fn load(&self, settings: &Settings) -> Result<Loaded, Failure> {
-        Ok(import::load(&self.paths, &self.selection(settings))?)
+        self.read(settings, import::load)
     }
 
     /// The board to be looked at, which may be a drill file or an outline alone.
     pub(super) fn survey(&self, settings: &Settings) -> Result<Loaded, Failure> {
-        Ok(import::survey(&self.paths, &self.selection(settings))?)
+        self.read(settings, import::survey)
     }
 
     /// Fails for `warnings` where they are denied.
@@ -60,14 +64,56 @@ impl Input {
         Err(Failure::new(cause, "mend the files, or leave --deny-warnings out"))
     }
 
-    fn selection(&self, settings: &Settings) -> Selection {
-        Selection {
-            front: self.front.clone(),
-            back: self.back.clone(),
-            outline: self.outline.clone(),
-            drill: self.drill_files.clone(),
-            name: self.name.clone(),
-            outline_gap: Some(settings.outline_gap),
+    /// What to read: what is named here, or else the files of the millproject.
+    pub(super) fn paths(&self) -> Vec<PathBuf> {
+        if !self.paths.is_empty() {
+            return self.paths.clone();
         }
+        let ProjectFiles { front, back, outline, drill } = self.project().unwrap_or_default().files;
+        [front, back, outline, drill].into_iter().flatten().collect()
+    }
+
+    /// What the millproject says, its files as seen from here; nothing where none is named.
+    pub(super) fn project(&self) -> Result<MillProject, Failure> {
+        let Some(path) = &self.millproject else { return Ok(MillProject::default()) };
+        let text = std::fs::read_to_string(path).map_err(|error| Failure::io("read", path, &error))?;
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let mut project = MillProject::read(&name, &text)?;
+        let ProjectFiles { front, back, outline, drill } = &mut project.files;
+        for file in [front, back, outline, drill, &mut project.output].into_iter().flatten() {
+            *file = path.with_file_name("").join(&*file);
+        }
+        Ok(project)
+    }
+
+    fn read(
+        &self,
+        settings: &Settings,
+        read: fn(&[PathBuf], &Selection) -> Result<Loaded, import::Error>,
+    ) -> Result<Loaded, Failure> {
+        let project = self.project()?;
+        // With files named here, those of the project are of another board.
+        let files = if self.paths.is_empty() { project.files } else { ProjectFiles::default() };
+        let drill = if self.drill_files.is_empty() {
+            files.drill.into_iter().collect()
+        } else {
+            self.drill_files.clone()
+        };
+        let selection = Selection {
+            front: self.front.clone().or(files.front),
+            back: self.back.clone().or(files.back),
+            outline: self.outline.clone().or(files.outline),
+            drill,
+            name: self.name.clone().or(project.name),
+            outline_gap: Some(settings.outline_gap),
+        };
+        let paths = self.paths();
+        if paths.is_empty() {
+            let hint = "name files, a folder or an archive, or `front` and `back` in the project";
+            return Err(Failure::new("the millproject names no file of a board", hint));
+        }
+        let mut loaded = read(&paths, &selection)?;
+        loaded.warnings.extend(project.left);
+        Ok(loaded)
     }
 }

@@ -36,7 +36,7 @@ enum Format {
 
 impl Inspect {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
-        let settings = self.config.settings(&self.input.paths)?;
+        let settings = self.config.settings(&self.input)?;
         let loaded = self.input.survey(&settings)?;
         let mut inspection = inspect(&loaded, &settings);
         if self.paper {

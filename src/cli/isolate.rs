@@ -33,7 +33,7 @@ pub(super) struct Isolate {
 
 impl Isolate {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
-        let settings = self.config.settings(&self.input.paths)?;
+        let settings = self.config.settings(&self.input)?;
         let progress = Progress::start(shared);
         let mut loaded = self.input.load(&settings)?;
         match self.side {
@@ -50,8 +50,16 @@ impl Isolate {
         let document = job.describe(&settings);
         self.input.judge(&document.warnings)?;
         drop(progress);
-        let program = job.programs.iter().find(|program| matches!(program.part, Part::Front | Part::Back));
-        let text = program.map_or("", |program| &program.text);
+        let mut programs =
+            job.programs.iter().filter(|program| matches!(program.part, Part::Front | Part::Back));
+        let text = programs.next().map_or("", |program| &program.text);
+        if programs.next().is_some() {
+            let hint = "`voromill mill` writes them all";
+            return Err(Failure::new(
+                "the dialect wants a file for each tool, and this is for one file",
+                hint,
+            ));
+        }
         if self.output == Path::new("-") {
             super::print(text);
             return Ok(());

@@ -27,8 +27,8 @@ pub(super) struct Mill {
     #[command(flatten)]
     input: Input,
 
-    /// Folder for what is made
-    #[arg(long, short, value_name = "OUT", required_unless_present = "cache_key")]
+    /// Folder for what is made [default: a millproject's output-dir]
+    #[arg(long, short, value_name = "OUT", required_unless_present_any = ["cache_key", "millproject"])]
     output: Option<PathBuf>,
 
     /// Do not read the programs back, mill them on a picture and compare with the board
@@ -64,15 +64,21 @@ Examples:
   voromill mill board/ -o out
   voromill mill board.zip -o out --dialect linuxcnc --feed 8in/min
   voromill mill board/ -o out --tool endmill:0.2mm --depth 0.08mm --limit 1mm
-  voromill mill board-B_Cu.gbr board.drl -o out --cutout-tool endmill:2mm";
+  voromill mill board-B_Cu.gbr board.drl -o out --cutout-tool endmill:2mm
+  voromill mill --millproject millproject      what pcb2gcode was told, as far as there is a counterpart";
 
 impl Mill {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
-        let settings = self.config.settings(&self.input.paths)?;
+        let settings = self.config.settings(&self.input)?;
         let progress = Progress::start(shared);
         progress.say("reading");
         let loaded = self.input.load(&settings)?;
-        let Some(folder) = &self.output else {
+        let folder = self.output.clone().or(self.input.project()?.output).filter(|_| !self.cache_key);
+        if folder.is_none() && !self.cache_key {
+            let hint = "say -o OUT, or output-dir in the project";
+            return Err(Failure::new("nothing says where to write", hint));
+        }
+        let Some(folder) = &folder else {
             drop(progress);
             let choices = [("no-verify", self.no_verify), ("svg", self.svg), ("no-html", self.no_html)]
                 .map(|(name, chosen)| (name, chosen.to_string()));

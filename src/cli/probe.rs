@@ -65,7 +65,7 @@ Then, with what the machine has found:
 
 impl Probe {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
-        let settings = self.config.settings(&self.input.paths)?;
+        let settings = self.config.settings(&self.input)?;
         let loaded = self.input.survey(&settings)?;
         let side = match self.side {
             SideName::Front => Side::Front,

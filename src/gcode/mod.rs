@@ -15,4 +15,4 @@ pub use dialect::Dialect;
 pub use header::{Header, Input};
 pub use probe::{ProbeError, Touching, write_probe};
 pub use read::{ReadError, read};
-pub use write::{write, write_each};
+pub use write::write;

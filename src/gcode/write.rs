@@ -28,23 +28,6 @@ pub fn write(program: &Program, dialect: &Dialect, header: &Header) -> String {
     writer.text
 }
 
-/// The program in one text for each tool, for machines on which a tool cannot be changed within one; each with the
-/// tool's name and number.
-#[must_use]
-pub fn write_each(program: &Program, dialect: &Dialect, header: &Header) -> Vec<(Tool, String)> {
-    let mut tools: Vec<&Tool> = Vec::new();
-    for section in &program.sections {
-        if !tools.contains(&&section.tool) {
-            tools.push(&section.tool);
-        }
-    }
-    let only = |tool: &Tool| Program {
-        sections: program.sections.iter().filter(|section| section.tool == *tool).cloned().collect(),
-        ..program.clone()
-    };
-    tools.into_iter().map(|tool| (tool.clone(), write(&only(tool), dialect, header))).collect()
-}
-
 /// A position in whole units of the last digit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Rounded {
@@ -155,10 +138,11 @@ impl<'a> Writer<'a> {
                 self.comment(&text);
                 self.line(&format!("T{} M6", tool.number));
             }
-            ToolChange::Pause | ToolChange::PauseWithText if first => {
+            ToolChange::Pause | ToolChange::PauseWithText | ToolChange::Files if first => {
                 self.comment(&format!("starts with {text}"))
             }
-            ToolChange::Pause => {
+            // A program for files has one tool; with more it waits, as the safest.
+            ToolChange::Pause | ToolChange::Files => {
                 self.comment(&format!("fit {text}"));
                 self.line("M0");
             }

@@ -37,6 +37,9 @@ pub enum Error {
     /// A file that was cut off: what it lost would be milled away, or left to join nets.
     #[error("{0}")]
     Truncated(String),
+    /// A gap that the cut does not fit, where none may be so narrow.
+    #[error("{0}")]
+    Narrow(String),
     /// A side that cannot be isolated.
     #[error("{side}: {reason}")]
     Voronoi {
@@ -67,6 +70,9 @@ impl Error {
             Self::Verify(_) => "with --no-verify the programs are written unjudged",
             Self::NoCopper(_) => {
                 "`voromill inspect` shows what was found; --front and --back name the copper files"
+            }
+            Self::Narrow(_) => {
+                "take a finer --tool or less --depth, let a V-bit rise with --adaptive-depth, or allow it with --narrow centre"
             }
             Self::Truncated(_) => {
                 "plot or copy the file again; `voromill inspect` and `draw` show what is left of it"

@@ -7,9 +7,9 @@ use crate::report::methods::MethodsEntry;
 use crate::topology::{self, Electrical, Nets, Sampling};
 
 use super::Settings;
+use super::choice::Topology;
 use super::describe::{drills, gap_entry, net_entries};
 use super::layer::method;
-use super::options::Topology;
 
 /// What is known of a board before anything is done to it.
 #[must_use]

@@ -7,7 +7,7 @@ use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, Nets, Translucency};
 use crate::voronoi::{self, Boundaries, Boundary, Diagram, Owner, SiteKind};
 
-use super::options::{self, Sites, Strategy, Topology};
+use super::choice::{self, Sites, Strategy, Topology};
 use super::{Cutting, Error, Settings};
 
 /// What became of one side.
@@ -172,8 +172,9 @@ fn cut(
             order: Order::default(),
             machine: &settings.machine,
             narrow: match settings.narrow {
-                options::Narrow::Centre => Narrow::Centre,
-                options::Narrow::Skip => Narrow::Skip,
+                // What fails for it fails where all sides are known.
+                choice::Narrow::Centre | choice::Narrow::Error => Narrow::Centre,
+                choice::Narrow::Skip => Narrow::Skip,
             },
             adaptive: settings.adaptive_depth,
         };

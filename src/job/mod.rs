@@ -4,11 +4,16 @@
 //! defaults, complete and checked; [`mill`] does the work, in memory. Who calls it decides what becomes a file.
 
 mod cache_key;
+mod choice;
+mod cutting;
 mod describe;
 mod error;
+mod holding;
 mod ignore;
 mod inspect;
 mod layer;
+mod merge;
+mod millproject;
 mod options;
 mod page;
 mod paper;
@@ -25,16 +30,22 @@ mod verification;
 mod written;
 
 pub use cache_key::cache_key;
+pub use choice::{DialectChoice, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
+pub use cutting::Cutting;
 pub use error::Error;
+pub use holding::Holding;
 pub use inspect::inspect;
 pub use layer::Layer;
-pub use options::{DialectName, Narrow, Options, Origin, ParseDialectError, Sites, Strategy, Topology};
+pub use millproject::{MillProject, ProjectFiles};
+pub use options::Options;
 pub use paper::paper;
 pub use pattern::Pattern;
 pub use pipeline::{Job, mill};
 pub use probing::{ParseProbeGridError, ProbeGrid, Probing, probe};
-pub use quantity::{DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, Place, Tiles, Triple};
-pub use settings::{Cutting, Holding, Settings};
+pub use quantity::{
+    DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, Place, Tiles, ToolChangeAt, Triple,
+};
+pub use settings::Settings;
 pub use settings_file::{DEFAULTS, FILE_NAME};
 pub use tools::{Library, OwnTool, ToolChoice, Workbench};
 pub use written::{Part, Written};

@@ -1,17 +1,14 @@
 //! The options of a job, each known once: its name on the command line is its key in `voromill.toml` and in the
 //! report, its text is read by the same parser everywhere.
 
-use std::fmt;
-use std::str::FromStr;
-
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::{Deserialize, Serialize};
 
-use crate::gcode::{self, dialect};
 use crate::toolpath::{Angle, Feed};
 
+use super::choice::{DialectChoice, Narrow, Origin, Sites, Strategy, Topology};
 use super::pattern::Pattern;
-use super::quantity::{Drills, Length, Place, Tiles, Triple, list, text};
+use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, list, text};
 use super::tools::{Library, ToolChoice};
 
 /// What a person asked for; what they left open is none.
@@ -110,7 +107,7 @@ pub struct Options {
     #[serde(with = "text")]
     pub tolerance: Option<Length>,
 
-    /// Where the cut does not fit: keep it centred (centre) or leave the gap uncut (skip)
+    /// Where the cut does not fit: keep it centred (centre), leave the gap uncut (skip), or fail (error)
     #[arg(long, value_enum, hide_possible_values = true, value_name = "WHAT", help_heading = "Isolation")]
     pub narrow: Option<Narrow>,
 
@@ -138,10 +135,10 @@ pub struct Options {
     #[serde(with = "text")]
     pub safe_z: Option<Length>,
 
-    /// What the machine speaks: grbl, linuxcnc, mach3, marlin, smoothieware or tinyg
+    /// What the machine speaks: grbl, linuxcnc, mach3, marlin, smoothieware, tinyg, or a file such as mine.toml that describes a dialect
     #[arg(long, value_name = "DIALECT", help_heading = "Machine")]
     #[serde(with = "text")]
-    pub dialect: Option<DialectName>,
+    pub dialect: Option<DialectChoice>,
 
     /// Where x and y are zero: lower-left, center, or keep the file's coordinates
     #[arg(long, value_enum, hide_possible_values = true, value_name = "PLACE", help_heading = "Machine")]
@@ -151,6 +148,11 @@ pub struct Options {
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text")]
     pub rotate: Option<Angle>,
+
+    /// Move the board on the machine, after --origin
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub offset: Option<Place>,
 
     /// Where x is when the board is turned over for the back [default: its middle]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Machine")]
@@ -172,10 +174,10 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub machine_travel: Option<Triple>,
 
-    /// Where the machine waits for a tool to be changed
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Machine")]
+    /// Where the machine waits for a tool to be changed, such as 0mm,0mm,30mm; or how high, above where it is
+    #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
-    pub tool_change_at: Option<Triple>,
+    pub tool_change_at: Option<ToolChangeAt>,
 
     /// Drills at hand, such as 0.8mm,1mm,3.2mm; else one for each diameter in the files
     #[arg(long, value_name = "LENGTHS", help_heading = "Drilling and cutting out")]
@@ -191,6 +193,16 @@ pub struct Options {
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_peck: Option<Length>,
+
+    /// Speed of a drill into the material [default: by its diameter]
+    #[arg(long, value_name = "SPEED", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub drill_plunge: Option<Feed>,
+
+    /// Spindle speed of a drill in turns per minute [default: by its diameter]
+    #[arg(long, value_name = "RPM", help_heading = "Drilling and cutting out")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drill_spindle: Option<u32>,
 
     /// Bore slots and holes without a drill with the cutout's end mill
     #[arg(long, num_args = 0, default_missing_value = "true", help_heading = "Drilling and cutting out")]
@@ -283,162 +295,4 @@ impl Options {
         let set = options.into_iter().filter(|(_, value)| !value.is_null());
         set.map(|(key, value)| (key, shown(value))).collect()
     }
-
-    /// These, and where they leave something open, `others`.
-    #[must_use]
-    pub fn or(self, others: Self) -> Self {
-        // A pixel said in either way replaces a pixel said in the other.
-        let resolution_is_open = self.pixel.is_none() && self.dpi.is_none();
-        let (pixel, dpi) =
-            if resolution_is_open { (others.pixel, others.dpi) } else { (self.pixel, self.dpi) };
-        let width_is_open = self.width.is_none() && self.passes.is_none() && self.clear.is_none();
-        let (width, passes, clear) = if width_is_open {
-            (others.width, others.passes, others.clear)
-        } else {
-            (self.width, self.passes, self.clear)
-        };
-        let depth_is_open = self.depth.is_none() && self.kerf.is_none();
-        let (depth, kerf) = if depth_is_open { (others.depth, others.kerf) } else { (self.depth, self.kerf) };
-        let tools = if self.tools.is_empty() { others.tools.yielding(&self) } else { self.tools.clone() };
-        let tabs_are_open = self.tabs.is_none() && self.tab_spacing.is_none() && self.tab_at.is_empty();
-        let (tabs, tab_spacing, tab_at) = if tabs_are_open {
-            (others.tabs, others.tab_spacing, others.tab_at)
-        } else {
-            (self.tabs, self.tab_spacing, self.tab_at)
-        };
-        Self {
-            tool: if self.tool.is_empty() { others.tool } else { self.tool },
-            ignore: if self.ignore.is_empty() { others.ignore } else { self.ignore },
-            tile: self.tile.or(others.tile),
-            tile_spacing: self.tile_spacing.or(others.tile_spacing),
-            machine_travel: self.machine_travel.or(others.machine_travel),
-            tool_change_at: self.tool_change_at.or(others.tool_change_at),
-            alignment_holes: self.alignment_holes.or(others.alignment_holes),
-            alignment_margin: self.alignment_margin.or(others.alignment_margin),
-            depth,
-            kerf,
-            strategy: self.strategy.or(others.strategy),
-            sites: self.sites.or(others.sites),
-            limit: self.limit.or(others.limit),
-            width,
-            passes,
-            clear,
-            overlap: self.overlap.or(others.overlap),
-            pixel,
-            dpi,
-            frame: self.frame.or(others.frame),
-            min_width: self.min_width.or(others.min_width),
-            topology: self.topology.or(others.topology),
-            tolerance: self.tolerance.or(others.tolerance),
-            narrow: self.narrow.or(others.narrow),
-            adaptive_depth: self.adaptive_depth.or(others.adaptive_depth),
-            rotate: self.rotate.or(others.rotate),
-            mirror_axis: self.mirror_axis.or(others.mirror_axis),
-            drills: self.drills.or(others.drills),
-            drill_tolerance: self.drill_tolerance.or(others.drill_tolerance),
-            drill_peck: self.drill_peck.or(others.drill_peck),
-            drill_bore: self.drill_bore.or(others.drill_bore),
-            feed: self.feed.or(others.feed),
-            plunge: self.plunge.or(others.plunge),
-            spindle: self.spindle.or(others.spindle),
-            safe_z: self.safe_z.or(others.safe_z),
-            dialect: self.dialect.or(others.dialect),
-            origin: self.origin.or(others.origin),
-            drill_depth: self.drill_depth.or(others.drill_depth),
-            outline_gap: self.outline_gap.or(others.outline_gap),
-            cutout_tool: self.cutout_tool.or(others.cutout_tool),
-            cutout_depth: self.cutout_depth.or(others.cutout_depth),
-            cutout_pass: self.cutout_pass.or(others.cutout_pass),
-            cutout_ramp: self.cutout_ramp.or(others.cutout_ramp),
-            tabs,
-            tab_spacing,
-            tab_at,
-            tab_width: self.tab_width.or(others.tab_width),
-            tab_height: self.tab_height.or(others.tab_height),
-            tools,
-        }
-    }
-}
-
-/// How copper is isolated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Strategy {
-    /// One cut midway between neighbouring nets.
-    Voronoi,
-    /// A loop round each net.
-    Outline,
-}
-
-/// What a cut is midway between.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Sites {
-    /// The copper's true edge.
-    Copper,
-    /// The axes it was drawn along (the paper).
-    Core,
-}
-
-/// What is done where the gap is narrower than the cut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Narrow {
-    /// The cut stays in the middle and takes copper on both sides.
-    Centre,
-    /// The gap is left, and the nets joined.
-    Skip,
-}
-
-/// How touching copper is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Topology {
-    /// Exact geometry.
-    Contact,
-    /// Shared end points and centres alone (the paper's Algorithm 1).
-    Coincidence,
-    /// Those and overlaps that show in a picture of 500 DPI (the paper's Algorithm 2).
-    Translucency,
-    /// All three, held against each other by `inspect`; the nets are those of exact geometry.
-    All,
-}
-
-/// What the machine speaks: one of [`dialect::ALL`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DialectName(pub &'static gcode::Dialect);
-
-/// A dialect that nobody knows.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not a dialect: expected {known}", known = known_dialects())]
-pub struct ParseDialectError(String);
-
-fn known_dialects() -> String {
-    dialect::ALL.iter().map(|dialect| dialect.name.as_ref()).collect::<Vec<_>>().join(" or ")
-}
-
-impl FromStr for DialectName {
-    type Err = ParseDialectError;
-
-    fn from_str(text: &str) -> Result<Self, Self::Err> {
-        gcode::Dialect::by_name(text).map(Self).ok_or_else(|| ParseDialectError(text.to_owned()))
-    }
-}
-
-impl fmt::Display for DialectName {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0.name)
-    }
-}
-
-/// Where x and y are zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Origin {
-    /// The board's lower left corner.
-    LowerLeft,
-    /// Where the files have it.
-    Keep,
-    /// The board's middle.
-    Center,
 }

@@ -1,6 +1,7 @@
 use rayon::prelude::*;
 
 use crate::board::{Board, Side, Source, Warning};
+use crate::gcode::dialect::ToolChange;
 use crate::gcode::{Header, Input};
 use crate::import::Loaded;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
@@ -9,13 +10,15 @@ use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
 use super::stock::Stock;
-use super::{Error, Layer, Part, Settings, Written};
+use super::{Error, Layer, Narrow, Part, Settings, Written};
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
 
 /// The one warning of the reader that forbids milling.
 const TRUNCATED: &str = "truncated-file";
+/// What is found where the cut does not fit.
+const NARROW: &str = "gap-narrower-than-tool";
 
 /// A board with everything that was made of it.
 pub struct Job {
@@ -57,6 +60,9 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let bounds = board.bounds().ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
     let stock = Stock::new(bounds, settings);
     let layers = isolate(&board, &stock, settings)?;
+    if settings.narrow == Narrow::Error {
+        refuse_narrow(&layers)?;
+    }
     let header = header(&sources);
     let write = |part: Part, side: Side, program: Program| {
         Written::new(part, program, &header, stock.tiling(side), settings)
@@ -66,15 +72,17 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         .map(|program| Written::new(Part::Alignment, program, &header, None, settings))
         .into_iter()
         .collect();
-    programs.par_extend(
-        layers
-            .par_iter()
-            .map(|layer| write(part(layer.side), layer.side, isolation(layer, &board, settings))),
-    );
+    programs.par_extend(layers.par_iter().flat_map_iter(|layer| {
+        let files = in_files(isolation(layer, &board, settings), settings);
+        files.into_iter().map(|program| write(part(layer.side), layer.side, program))
+    }));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
         let (sections, found) = drill_holes(&board, &stock.front, settings);
-        programs.push(write(Part::Drill, Side::Front, whole("drill", &board, sections, settings)));
+        let drilling = whole("drill", &board, sections, settings);
+        programs.extend(
+            in_files(drilling, settings).into_iter().map(|program| write(Part::Drill, Side::Front, program)),
+        );
         warnings.extend(found);
     }
     if let Some(outline) = &board.outline {
@@ -105,6 +113,25 @@ fn isolate(board: &Board, stock: &Stock, settings: &Settings) -> Result<Vec<Laye
     sides.par_iter().filter(|copper| !copper.features.is_empty()).map(isolate).collect()
 }
 
+/// Fails for the first gap that the cut does not fit.
+fn refuse_narrow(layers: &[Layer]) -> Result<(), Error> {
+    let warnings = layers.iter().flat_map(|layer| &layer.warnings);
+    let narrow: Vec<&Warning> = warnings.filter(|warning| warning.code == NARROW).collect();
+    let Some(first) = narrow.first() else { return Ok(()) };
+    let side = first.side.map_or(String::new(), |side| format!("{side}: "));
+    // What would have been done is not what is done.
+    let gap = first.message.split(": ").next().unwrap_or_default();
+    let place = first
+        .at
+        .map_or(String::new(), |at| format!(" at x = {:.3} mm, y = {:.3} mm of the files", at.x, at.y));
+    let more = match narrow.len() - 1 {
+        0 => String::new(),
+        1 => ", and one more is".to_owned(),
+        more => format!(", and {more} more are"),
+    };
+    Err(Error::Narrow(format!("{side}{gap}{place}{more}")))
+}
+
 const fn part(side: Side) -> Part {
     match side {
         Side::Front => Part::Front,
@@ -119,6 +146,11 @@ fn isolation(layer: &Layer, board: &Board, settings: &Settings) -> Program {
         program.notes.push(format!("turned over left to right about the vertical line x = {axis:.3} mm"));
     }
     program
+}
+
+/// A program, or one for each tool where the machine wants each in a file of its own.
+fn in_files(program: Program, settings: &Settings) -> Vec<Program> {
+    if settings.dialect.tool_change == ToolChange::Files { program.by_tool() } else { vec![program] }
 }
 
 fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings) -> Program {
@@ -139,6 +171,7 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
         placement,
         order: Order::default(),
         dwell: 0,
+        speeds: settings.drill_speeds,
     };
     drill(&board.holes, &drilling)
 }

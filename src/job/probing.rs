@@ -96,12 +96,12 @@ pub fn probe(loaded: &Loaded, settings: &Settings, probing: &Probing) -> Result<
     let mut header = header(&loaded.sources);
     header.settings = settings.options().listed();
     header.settings.retain(|(option, _)| PLACING.contains(&option.as_str()));
-    write_probe(&touching, settings.dialect, &header)
+    write_probe(&touching, &settings.dialect, &header)
         .map_err(|error| Error::Value { key: "dialect", problem: error.to_string() })
 }
 
 /// The options that say where the board lies.
-const PLACING: [&str; 6] = ["origin", "rotate", "mirror-axis", "tile", "tile-spacing", "safe-z"];
+const PLACING: [&str; 7] = ["origin", "rotate", "offset", "mirror-axis", "tile", "tile-spacing", "safe-z"];
 
 impl Probing {
     /// Columns and rows, where everything makes sense.

@@ -69,6 +69,36 @@ impl From<Place> for Point {
     }
 }
 
+/// Where the machine waits for a tool: a place, written as three lengths, or a height above where it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ToolChangeAt {
+    /// Such as `0mm,0mm,30mm`.
+    Place(Triple),
+    /// Such as `30mm`.
+    Height(Length),
+}
+
+impl FromStr for ToolChangeAt {
+    type Err = ParsePlaceError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        if text.contains(',') {
+            text.parse().map(Self::Place)
+        } else {
+            Ok(Self::Height(text.trim().parse()?))
+        }
+    }
+}
+
+impl fmt::Display for ToolChangeAt {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Place(place) => place.fmt(f),
+            Self::Height(height) => height.fmt(f),
+        }
+    }
+}
+
 /// Three lengths: along x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Triple(pub [Length; 3]);

@@ -1,13 +1,14 @@
 use crate::gcode::Dialect;
-use crate::geometry::{Nm, Point};
-use crate::toolpath::strategy::TabPlaces;
-use crate::toolpath::{self, Angle, Heights, Machine, Position, Tool, ToolKind};
-use crate::voronoi::Widening;
+use crate::geometry::{Nm, Vector};
+use crate::toolpath::{self, Angle, Feed, Heights, Machine, Tool, ToolKind};
 
 use super::Error;
-use super::options::{Narrow, Options, Origin, Sites, Strategy, Topology};
+use super::Options;
+use super::choice::{Narrow, Origin, Sites, Strategy, Topology};
+use super::cutting::{Cutting, isolation};
+use super::holding::{Holding, holding};
 use super::pattern::Pattern;
-use super::quantity::{DrillChoice, Drills, Length, Tiles, Triple};
+use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Triple};
 use super::tools::{self, Fetched, ToolChoice, Workshop};
 
 /// Everything a job needs to know, complete and checked.
@@ -27,7 +28,7 @@ pub struct Settings {
     /// How often the board is made from one piece of stock, and how far its copies are apart.
     pub tiles: Option<(Tiles, Nm)>,
     /// Where the machine waits for a tool to be changed.
-    pub tool_change: Option<Position>,
+    pub tool_change: Option<ToolChangeAt>,
     /// The diameter of the holes for turning the board over on pins, and their distance from it.
     pub alignment: Option<(Nm, Nm)>,
     /// Voronoi or outline.
@@ -47,7 +48,7 @@ pub struct Settings {
     /// How far a fitted cut may leave its place.
     pub tolerance: Nm,
     /// What the machine speaks.
-    pub dialect: &'static Dialect,
+    pub dialect: Dialect,
     /// Where x and y are zero.
     pub origin: toolpath::Origin,
     /// Where the cut does not fit.
@@ -56,10 +57,14 @@ pub struct Settings {
     pub adaptive_depth: Option<Nm>,
     /// How the board is turned on the machine.
     pub rotate: Angle,
+    /// How far it is moved on the machine from its origin.
+    pub offset: Vector,
     /// The line about which it is turned over; none for its middle.
     pub mirror_axis: Option<Nm>,
     /// The drills at hand; none for one of each diameter.
     pub drills: Vec<Tool>,
+    /// The speeds of drills that have none of their own; none for those that suit their diameters.
+    pub drill_speeds: (Option<Feed>, Option<u32>),
     /// How far a drill may differ from its hole.
     pub drill_tolerance: Nm,
     /// Whether slots, and holes without a drill, are bored with the cutout's end mill.
@@ -84,57 +89,6 @@ pub struct Settings {
     pub tab_height: Nm,
 }
 
-/// Where tabs hold the board.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Holding {
-    /// So many on each contour round a board.
-    Count(u32),
-    /// As many as keep them this near to each other.
-    Spacing(Nm),
-    /// Next to these points of the board.
-    At(Vec<Point>),
-}
-
-impl Holding {
-    /// How many there are on each contour, where that is what was asked for.
-    #[must_use]
-    pub const fn count(&self) -> Option<u32> {
-        match self {
-            Self::Count(count) => Some(*count),
-            Self::Spacing(_) | Self::At(_) => None,
-        }
-    }
-
-    /// As cutting out takes it.
-    #[must_use]
-    pub fn places(&self) -> TabPlaces<'_> {
-        match self {
-            Self::Count(count) => TabPlaces::Count(*count),
-            Self::Spacing(apart) => TabPlaces::Spacing(*apart),
-            Self::At(points) => TabPlaces::At(points),
-        }
-    }
-}
-
-/// A tool that isolates.
-#[derive(Clone, Debug)]
-pub struct Cutting {
-    /// The tool, with its speeds.
-    pub tool: Tool,
-    /// How high and deep it goes.
-    pub heights: Heights,
-    /// How far it clears the gap beside every net; none for a single cut.
-    pub widening: Option<Widening>,
-}
-
-impl Cutting {
-    /// The width of its cut at the surface.
-    #[must_use]
-    pub fn kerf(&self) -> Nm {
-        self.tool.width_at(self.heights.cut)
-    }
-}
-
 /// The height above the copper from which the tool goes down at the plunge feed. Chosen: clear of any burr, and not
 /// long enough to cost time.
 const APPROACH: Nm = Nm::from_um(200);
@@ -156,6 +110,7 @@ impl Settings {
             feed: options.feed.expect(open),
             plunge: options.plunge.expect(open),
             spindle: options.spindle.expect(open),
+            drilling: (options.drill_plunge, options.drill_spindle),
         };
         let cutout_tool = end_mill(
             "cutout-tool",
@@ -180,11 +135,7 @@ impl Settings {
             safe,
             ignore: options.ignore.clone(),
             tiles: tiles(&options, &cutout_tool)?,
-            tool_change: options.tool_change_at.map(|Triple([x, y, z])| Position {
-                x: x.nm(),
-                y: y.nm(),
-                z: z.nm(),
-            }),
+            tool_change: options.tool_change_at,
             alignment: alignment(&options)?,
             drilling: heights(
                 positive("drill-depth", options.drill_depth)?,
@@ -193,8 +144,10 @@ impl Settings {
             narrow: options.narrow.expect(open),
             adaptive_depth: given("adaptive-depth", options.adaptive_depth)?,
             rotate: options.rotate.expect(open),
+            offset: options.offset.map_or_else(Vector::default, |to| Vector::new(to.x.nm(), to.y.nm())),
             mirror_axis: options.mirror_axis.map(Length::nm),
             drills,
+            drill_speeds: workshop.drilling,
             drill_tolerance: options.drill_tolerance.expect(open).nm(),
             drill_bore: options.drill_bore.expect(open),
             outline_gap: outline_gap(&options)?,
@@ -208,7 +161,7 @@ impl Settings {
             min_width: options.min_width.expect(open),
             topology: options.topology.expect(open),
             tolerance: positive("tolerance", options.tolerance)?,
-            dialect: options.dialect.expect(open).0,
+            dialect: options.dialect.clone().expect(open).0,
             origin: match options.origin.expect(open) {
                 Origin::LowerLeft => toolpath::Origin::LowerLeft,
                 Origin::Keep => toolpath::Origin::Keep,
@@ -245,49 +198,6 @@ impl Settings {
     }
 }
 
-/// The tools that isolate, the widest first.
-fn isolation(
-    options: &Options,
-    workshop: &Workshop<'_>,
-    heights: impl Fn(Nm) -> Heights,
-) -> Result<Vec<Cutting>, Error> {
-    let mut fetched: Vec<Fetched> =
-        options.tool.iter().map(|choice| workshop.fetch("tool", choice)).collect::<Result<_, _>>()?;
-    tools::number(&mut fetched);
-    let mut cuttings = Vec::with_capacity(fetched.len());
-    for Fetched { tool, depth, .. } in fetched {
-        let tool = not_a_drill("tool", tool)?;
-        let heights = heights(depth_of(&tool, depth, options)?);
-        let widening = widening(options, tool.width_at(heights.cut))?;
-        cuttings.push(Cutting { tool, heights, widening });
-    }
-    cuttings.sort_by_key(|cutting| std::cmp::Reverse(cutting.kerf()));
-    if let Some(pair) = cuttings.windows(2).find(|pair| pair[0].kerf() == pair[1].kerf()) {
-        let [first, second] = [&pair[0], &pair[1]].map(|cutting| &cutting.tool.name);
-        let problem = format!("`{first}` and `{second}` cut equally wide: one of them is enough");
-        return Err(Error::Value { key: "tool", problem });
-    }
-    Ok(cuttings)
-}
-
-/// How deep a tool isolates: as its table says, or the kerf or depth of the settings.
-fn depth_of(tool: &Tool, own: Option<Nm>, options: &Options) -> Result<Nm, Error> {
-    match (own, options.kerf, tool.kind) {
-        (Some(depth), ..) => Ok(depth),
-        (None, Some(kerf), ToolKind::VBit { .. }) => {
-            tools::depth_for(tool.kind, kerf).map_err(|problem| Error::Value { key: "kerf", problem })
-        }
-        (None, Some(kerf), ToolKind::EndMill { diameter } | ToolKind::Drill { diameter })
-            if options.tool.len() == 1 && kerf.nm() != diameter =>
-        {
-            let problem = format!("`{}` cuts {} at any depth", tool.kind, Length(diameter));
-            Err(Error::Value { key: "kerf", problem })
-        }
-        // With several tools the kerf is what the V-bits cut.
-        (None, ..) => positive("depth", options.depth.or(Options::defaults().depth)),
-    }
-}
-
 /// Diameter and distance of the holes for turning the board over.
 fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
     let margin = positive("alignment-margin", options.alignment_margin)?;
@@ -303,14 +213,6 @@ fn tiles(options: &Options, cutout_tool: &Tool) -> Result<Option<(Tiles, Nm)>, E
     Ok(options.tile.filter(|tiles| tiles.columns * tiles.rows > 1).map(|tiles| (tiles, spacing)))
 }
 
-fn holding(options: &Options) -> Result<Holding, Error> {
-    if !options.tab_at.is_empty() {
-        return Ok(Holding::At(options.tab_at.iter().map(|&place| place.into()).collect()));
-    }
-    let spacing = given("tab-spacing", options.tab_spacing)?;
-    Ok(spacing.map_or_else(|| Holding::Count(options.tabs.unwrap_or(0)), Holding::Spacing))
-}
-
 fn ramp(angle: Option<Angle>) -> Result<Option<Angle>, Error> {
     if let Some(angle) = angle.filter(|&angle| angle <= Angle::ZERO || angle >= Angle::from_degrees(90)) {
         let problem = format!("`{angle}` is no ramp: expected an angle between 0deg and 90deg");
@@ -320,7 +222,7 @@ fn ramp(angle: Option<Angle>) -> Result<Option<Angle>, Error> {
 }
 
 /// A length that may be left open.
-fn given(key: &'static str, length: Option<Length>) -> Result<Option<Nm>, Error> {
+pub(super) fn given(key: &'static str, length: Option<Length>) -> Result<Option<Nm>, Error> {
     length.map(|length| positive(key, Some(length))).transpose()
 }
 
@@ -328,8 +230,8 @@ fn given(key: &'static str, length: Option<Length>) -> Result<Option<Nm>, Error>
 fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Result<Vec<Tool>, Error> {
     let drill = |choice: &DrillChoice| match choice {
         DrillChoice::Diameter(length) => {
-            let tool = Tool::new(ToolKind::Drill { diameter: positive("drills", Some(*length))? });
-            Ok(Fetched { tool, number: None, depth: None })
+            let diameter = positive("drills", Some(*length))?;
+            workshop.fetch("drills", &ToolChoice::Kind(ToolKind::Drill { diameter }))
         }
         DrillChoice::Named(name) => {
             let fetched = workshop.fetch("drills", &ToolChoice::Named(name.clone()))?;
@@ -345,7 +247,7 @@ fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Result<Vec<Tool>
     Ok(fetched.into_iter().map(|fetched| fetched.tool).collect())
 }
 
-fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {
+pub(super) fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {
     let length = length.expect("the defaults leave no length open");
     if length.nm() > Nm::ZERO {
         return Ok(length.nm());
@@ -365,29 +267,6 @@ fn outline_gap(options: &Options) -> Result<Nm, Error> {
     Ok(gap.nm())
 }
 
-/// Wider than any gap.
-const EVERYTHING: Nm = Nm::from_mm(1000);
-
-/// How wide the gap is to be, from a width or a number of passes.
-fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
-    let overlap = match options.overlap {
-        None => kerf / 10,
-        Some(overlap) if overlap.nm() < Nm::ZERO || overlap.nm() >= kerf => {
-            let problem =
-                format!("passes that share `{overlap}` of a kerf of {} do not advance", Length(kerf));
-            return Err(Error::Value { key: "overlap", problem });
-        }
-        Some(overlap) => overlap.nm(),
-    };
-    let width = match (options.width, options.passes) {
-        _ if options.clear == Some(true) => EVERYTHING,
-        (Some(width), _) => positive("width", Some(width))?,
-        (None, Some(passes)) => kerf + (kerf - overlap) * (i64::from(passes) - 1),
-        (None, None) => return Ok(None),
-    };
-    Ok(Some(Widening { kerf, width, overlap }))
-}
-
 fn pixel(options: &Options) -> Result<Nm, Error> {
     let inch = Nm::from_um(25_400);
     let (key, pixel) = match options.dpi {
@@ -401,16 +280,6 @@ fn pixel(options: &Options) -> Result<Nm, Error> {
         });
     }
     Ok(pixel)
-}
-
-fn not_a_drill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
-    match tool.kind {
-        ToolKind::VBit { .. } | ToolKind::EndMill { .. } => Ok(tool),
-        ToolKind::Drill { .. } => Err(Error::Value {
-            key,
-            problem: format!("`{}` cannot cut sideways: name a vbit or an endmill", tool.name),
-        }),
-    }
 }
 
 fn end_mill(key: &'static str, tool: Tool) -> Result<Tool, Error> {

@@ -173,6 +173,19 @@ impl Library {
         self
     }
 
+    /// These tools, and those of `others` whose names are not among them.
+    pub(super) fn with(mut self, others: Self) -> Self {
+        for (name, tool) in others.0 {
+            self.0.entry(name).or_insert(tool);
+        }
+        self
+    }
+
+    /// A tool more.
+    pub(super) fn add(&mut self, name: &str, tool: OwnTool) {
+        self.0.insert(name.to_owned(), tool);
+    }
+
     /// All names, those that are built in first; an own tool replaces a built-in one of its name.
     #[must_use]
     pub fn names(&self) -> Vec<String> {
@@ -234,6 +247,7 @@ impl Workbench {
             feed: self.options.feed.expect(open),
             plunge: self.options.plunge.expect(open),
             spindle: self.options.spindle.expect(open),
+            drilling: (self.options.drill_plunge, self.options.drill_spindle),
         };
         workshop.fetch("tools", choice).map(|fetched| fetched.tool)
     }
@@ -245,6 +259,8 @@ pub(super) struct Workshop<'a> {
     pub(super) feed: Feed,
     pub(super) plunge: Feed,
     pub(super) spindle: u32,
+    /// The speeds of drills that do not say theirs; none for those that suit their diameters.
+    pub(super) drilling: (Option<Feed>, Option<u32>),
 }
 
 /// A tool out of the workshop.
@@ -267,7 +283,11 @@ impl Workshop<'_> {
         };
         // The settings' speeds are a cutter's; drills have usual ones of their own.
         let usual = match own.kind {
-            ToolKind::Drill { .. } => Tool::new(own.kind),
+            ToolKind::Drill { .. } => {
+                let (usual, (plunge, spindle)) = (Tool::new(own.kind), self.drilling);
+                let (plunge, spindle) = (plunge.unwrap_or(usual.plunge), spindle.unwrap_or(usual.spindle));
+                Tool { plunge, spindle, ..usual }
+            }
             ToolKind::VBit { .. } | ToolKind::EndMill { .. } => {
                 Tool { feed: self.feed, plunge: self.plunge, spindle: self.spindle, ..Tool::new(own.kind) }
             }
@@ -316,7 +336,13 @@ mod tests {
         let file = options(ENGRAVER);
         let fetch = |options: Options| {
             let feed = options.feed.unwrap_or(Feed::from_mm_per_min(200));
-            let workshop = Workshop { library: &options.tools, feed, plunge: feed, spindle: 9000 };
+            let workshop = Workshop {
+                library: &options.tools,
+                feed,
+                plunge: feed,
+                spindle: 9000,
+                drilling: (None, None),
+            };
             workshop.fetch("tool", &"fine".parse().expect("a name")).expect("a tool").tool
         };
         let tool = fetch(Options::default().or(file.clone()));

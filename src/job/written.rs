@@ -1,8 +1,11 @@
 use crate::board::Warning;
+use crate::gcode::dialect::ToolChange;
 use crate::gcode::{self, Header};
+use crate::geometry::Point;
 use crate::toolpath::{Program, Statistics, Tiling, measure};
 
 use super::Settings;
+use super::quantity::{ToolChangeAt, Triple};
 
 /// What a program is for; its file is named after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,7 +45,7 @@ impl Part {
         match option {
             "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
             "feed" | "plunge" | "spindle" | "safe-z" | "dialect" | "origin" | "tile" | "tile-spacing"
-            | "machine-travel" | "tool-change-at" => true,
+            | "machine-travel" | "tool-change-at" | "offset" => true,
             _ if option.starts_with("alignment") => self == Self::Alignment,
             "drill-depth" => matches!(self, Self::Alignment | Self::Drill),
             _ if option.starts_with("drill") => self == Self::Drill,
@@ -75,7 +78,10 @@ impl Written {
         settings: &Settings,
     ) -> Self {
         let wait = |program: Program| match settings.tool_change {
-            Some(place) => program.waiting_at(place),
+            Some(ToolChangeAt::Place(Triple([x, y, z]))) => {
+                program.waiting_at(Some(Point::new(x.nm(), y.nm())), z.nm())
+            }
+            Some(ToolChangeAt::Height(z)) => program.waiting_at(None, z.nm()),
             None => program,
         };
         let whole = wait(tiling.map_or_else(|| program.clone(), |tiling| program.clone().tiled(tiling)));
@@ -83,8 +89,8 @@ impl Written {
         let mut options = settings.options().listed();
         options.retain(|(option, _)| part.is_changed_by(option));
         let header = Header { settings: options, seconds: Some(statistics.seconds), ..header.clone() };
-        let text = gcode::write(&whole, settings.dialect, &header);
-        let tile = tiling.map(|_| gcode::write(&wait(program.clone()), settings.dialect, &header));
+        let text = gcode::write(&whole, &settings.dialect, &header);
+        let tile = tiling.map(|_| gcode::write(&wait(program.clone()), &settings.dialect, &header));
         let warning = whole.check_travel(&settings.machine);
         Self { part, program, statistics, text, tile, warning }
     }
@@ -92,6 +98,12 @@ impl Written {
     /// The name of its file.
     #[must_use]
     pub fn file_name(&self, board: &str, settings: &Settings) -> String {
-        format!("{board}-{}.{}", self.part.name(), settings.dialect.extension)
+        let tool = match self.program.sections.first() {
+            Some(section) if settings.dialect.tool_change == ToolChange::Files => {
+                format!("-tool-{}", section.tool.number)
+            }
+            _ => String::new(),
+        };
+        format!("{board}-{}{tool}.{}", self.part.name(), settings.dialect.extension)
     }
 }

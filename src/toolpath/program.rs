@@ -101,3 +101,24 @@ pub struct Program {
     /// One after another, with a tool change before each.
     pub sections: Vec<Section>,
 }
+
+impl Program {
+    /// A program for each tool, in the order in which they are first needed.
+    #[must_use]
+    pub fn by_tool(self) -> Vec<Self> {
+        let mut programs: Vec<Self> = Vec::new();
+        let Self { title, notes, safe, sections } = self;
+        for section in sections {
+            match programs.iter_mut().find(|program| program.sections[0].tool == section.tool) {
+                Some(program) => program.sections.push(section),
+                None => programs.push(Self {
+                    title: title.clone(),
+                    notes: notes.clone(),
+                    safe,
+                    sections: vec![section],
+                }),
+            }
+        }
+        if programs.is_empty() { vec![Self { title, notes, safe, sections: Vec::new() }] } else { programs }
+    }
+}

@@ -41,16 +41,17 @@ impl Program {
         self
     }
 
-    /// The program with the machine waiting at `place`, or at the safe height over it if that is higher, wherever another tool is fitted.
+    /// The program with the machine waiting at height `z`, or the safe height if that is higher, wherever another tool is fitted: over `place`,
+    /// or over where it is.
     #[must_use]
-    pub fn waiting_at(mut self, place: Position) -> Self {
-        let place = Position { z: place.z.max(self.safe), ..place };
+    pub fn waiting_at(mut self, place: Option<Point>, z: Nm) -> Self {
+        let z = z.max(self.safe);
         let tools: Vec<Tool> = self.sections.iter().map(|section| section.tool.clone()).collect();
         for (section, pair) in self.sections.iter_mut().zip(tools.windows(2)) {
             let end = section.moves.iter().rev().find_map(Move::to);
             if let Some(end) = end.filter(|_| pair[0] != pair[1]) {
-                section.moves.push(Move::Rapid { to: Position { z: place.z, ..end } });
-                section.moves.push(Move::Rapid { to: place });
+                section.moves.push(Move::Rapid { to: Position { z, ..end } });
+                section.moves.extend(place.map(|place| Move::Rapid { to: Position::over(place, z) }));
             }
         }
         self

@@ -83,7 +83,7 @@ impl Machining {
         };
         let placement = program.placement.or_else(|| {
             let front = origin(stated.origin.as_deref().unwrap_or("keep"), stated.degrees, board)?;
-            Some(Placement { mirror: stated.mirror, ..front })
+            Some(Placement { mirror: stated.mirror, shift: front.shift + stated.offset, ..front })
         });
         let placement = placement.unwrap_or_default();
         let file = program.file.clone();

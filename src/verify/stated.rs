@@ -1,7 +1,7 @@
 //! What a program says of itself in its comments, where it is one of ours: the tools, what it is for, how the board lies.
 
 use crate::board::Side;
-use crate::geometry::Nm;
+use crate::geometry::{Nm, Vector};
 
 use super::{Cutter, Role};
 
@@ -14,6 +14,8 @@ pub(super) struct Stated {
     pub(super) role: Option<Role>,
     /// Where zero is: `lower-left`, `keep`, `center`.
     pub(super) origin: Option<String>,
+    /// How far the board was moved from there.
+    pub(super) offset: Vector,
     /// How far the board was turned, counter-clockwise in degrees.
     pub(super) degrees: f64,
     /// The line about which the board was turned over.
@@ -46,6 +48,13 @@ impl Stated {
             ["rotate", angle] => {
                 let degrees = angle.strip_suffix("deg").and_then(|number| number.parse().ok());
                 self.degrees = degrees.filter(|degrees: &f64| degrees.is_finite()).unwrap_or(0.0);
+            }
+            ["offset", way] => {
+                let way: Option<Vec<Nm>> = way.split(',').map(|length| length.parse().ok()).collect();
+                self.offset = match way.as_deref() {
+                    Some([x, y]) => Vector::new(*x, *y),
+                    _ => Vector::default(),
+                };
             }
             ["origin", origin] => self.origin = Some((*origin).to_owned()),
             [.., "line", "x", "=", axis, "mm"] if comment.contains("turned over") => {

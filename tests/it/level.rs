@@ -295,7 +295,7 @@ fn lines() -> impl Strategy<Value = Vec<String>> {
             x % 10,
             y / 10
         )),
-        (1..40_i32).prop_map(|r| format!("G3 I-{}.{} J0 (circle)", r / 10, r % 10)),
+        (1..20_i32).prop_map(|r| format!("G3 I-{}.{} J0 (circle)", r / 10, r % 10)),
         (at.clone(), at).prop_map(|(x, y)| format!("G90 G1 X{}.5 Y{}.25", x / 10, y / 10)),
         (0..9_i32).prop_map(|x| format!("G91\nG1 X0.{x} Y-0.{x}\nG90")),
         (0..9_i32).prop_map(|x| format!("G20\nG1 X0.{x}1 Y.{x}\nG21")),

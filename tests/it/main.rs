@@ -2,6 +2,7 @@
 
 mod aperture_lists;
 mod cli;
+mod dialect_files;
 mod excellon;
 mod gcode;
 mod gerber;
@@ -12,6 +13,7 @@ mod job;
 mod layering;
 mod layers;
 mod level;
+mod millproject;
 mod nonsense;
 mod oracle;
 mod outline;

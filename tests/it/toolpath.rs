@@ -262,6 +262,7 @@ fn drilling<'a>(drills: &'a [Tool], mill: Option<&'a Tool>, placement: &'a Place
         placement,
         order: Order::Improved,
         dwell: 0,
+        speeds: (None, None),
     }
 }
 

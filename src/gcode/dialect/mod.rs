@@ -94,6 +94,8 @@ pub enum ToolChange {
     Pause,
     /// `M0` with the text behind it, which the machine shows.
     PauseWithText,
+    /// Never within a program: each tool has a file of its own.
+    Files,
 }
 
 /// What becomes of the touches of a probe (G38.2).

@@ -7,7 +7,7 @@ use crate::board::{Hole, Warning};
 use crate::geometry::{Nm, Path, Point, Segment, Vector};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
-use crate::toolpath::{Heights, Placement, Section, Tool, ToolKind};
+use crate::toolpath::{Feed, Heights, Placement, Section, Tool, ToolKind};
 
 /// How holes are drilled.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +26,8 @@ pub struct Drilling<'a> {
     pub order: Order,
     /// How long the drill stays at the bottom, in milliseconds.
     pub dwell: u32,
+    /// The plunge feed and turns per minute of drills that are only taken to be at hand; none for those that suit their diameters.
+    pub speeds: (Option<Feed>, Option<u32>),
 }
 
 /// Drills all holes: a section for each drill, thin ones first, then one for what is bored.
@@ -69,7 +71,10 @@ fn free(number: u32, sections: &[Section]) -> u32 {
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.
 fn bit(hole: &Hole, settings: &Drilling<'_>) -> Option<Tool> {
     if settings.drills.is_empty() {
-        return Some(Tool::new(ToolKind::Drill { diameter: hole.diameter }));
+        let usual = Tool::new(ToolKind::Drill { diameter: hole.diameter });
+        let (plunge, spindle) = settings.speeds;
+        let (plunge, spindle) = (plunge.unwrap_or(usual.plunge), spindle.unwrap_or(usual.spindle));
+        return Some(Tool { plunge, spindle, ..usual });
     }
     let off = |tool: &&Tool| (tool.width_at(Nm::ZERO) - hole.diameter).abs();
     let nearest =

@@ -1,0 +1,103 @@
+use crate::geometry::Nm;
+use crate::toolpath::{Heights, Tool, ToolKind};
+use crate::voronoi::Widening;
+
+use super::quantity::Length;
+use super::settings::positive;
+use super::tools::{self, Fetched, Workshop};
+use super::{Error, Options};
+
+/// A tool that isolates.
+#[derive(Clone, Debug)]
+pub struct Cutting {
+    /// The tool, with its speeds.
+    pub tool: Tool,
+    /// How high and deep it goes.
+    pub heights: Heights,
+    /// How far it clears the gap beside every net; none for a single cut.
+    pub widening: Option<Widening>,
+}
+
+impl Cutting {
+    /// The width of its cut at the surface.
+    #[must_use]
+    pub fn kerf(&self) -> Nm {
+        self.tool.width_at(self.heights.cut)
+    }
+}
+
+/// The tools that isolate, the widest first.
+pub(super) fn isolation(
+    options: &Options,
+    workshop: &Workshop<'_>,
+    heights: impl Fn(Nm) -> Heights,
+) -> Result<Vec<Cutting>, Error> {
+    let mut fetched: Vec<Fetched> =
+        options.tool.iter().map(|choice| workshop.fetch("tool", choice)).collect::<Result<_, _>>()?;
+    tools::number(&mut fetched);
+    let mut cuttings = Vec::with_capacity(fetched.len());
+    for Fetched { tool, depth, .. } in fetched {
+        let tool = not_a_drill("tool", tool)?;
+        let heights = heights(depth_of(&tool, depth, options)?);
+        let widening = widening(options, tool.width_at(heights.cut))?;
+        cuttings.push(Cutting { tool, heights, widening });
+    }
+    cuttings.sort_by_key(|cutting| std::cmp::Reverse(cutting.kerf()));
+    if let Some(pair) = cuttings.windows(2).find(|pair| pair[0].kerf() == pair[1].kerf()) {
+        let [first, second] = [&pair[0], &pair[1]].map(|cutting| &cutting.tool.name);
+        let problem = format!("`{first}` and `{second}` cut equally wide: one of them is enough");
+        return Err(Error::Value { key: "tool", problem });
+    }
+    Ok(cuttings)
+}
+
+/// How deep a tool isolates: as its table says, or the kerf or depth of the settings.
+fn depth_of(tool: &Tool, own: Option<Nm>, options: &Options) -> Result<Nm, Error> {
+    match (own, options.kerf, tool.kind) {
+        (Some(depth), ..) => Ok(depth),
+        (None, Some(kerf), ToolKind::VBit { .. }) => {
+            tools::depth_for(tool.kind, kerf).map_err(|problem| Error::Value { key: "kerf", problem })
+        }
+        (None, Some(kerf), ToolKind::EndMill { diameter } | ToolKind::Drill { diameter })
+            if options.tool.len() == 1 && kerf.nm() != diameter =>
+        {
+            let problem = format!("`{}` cuts {} at any depth", tool.kind, Length(diameter));
+            Err(Error::Value { key: "kerf", problem })
+        }
+        // With several tools the kerf is what the V-bits cut.
+        (None, ..) => positive("depth", options.depth.or(Options::defaults().depth)),
+    }
+}
+
+/// Wider than any gap.
+const EVERYTHING: Nm = Nm::from_mm(1000);
+
+/// How wide the gap is to be, from a width or a number of passes.
+fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
+    let overlap = match options.overlap {
+        None => kerf / 10,
+        Some(overlap) if overlap.nm() < Nm::ZERO || overlap.nm() >= kerf => {
+            let problem =
+                format!("passes that share `{overlap}` of a kerf of {} do not advance", Length(kerf));
+            return Err(Error::Value { key: "overlap", problem });
+        }
+        Some(overlap) => overlap.nm(),
+    };
+    let width = match (options.width, options.passes) {
+        _ if options.clear == Some(true) => EVERYTHING,
+        (Some(width), _) => positive("width", Some(width))?,
+        (None, Some(passes)) => kerf + (kerf - overlap) * (i64::from(passes) - 1),
+        (None, None) => return Ok(None),
+    };
+    Ok(Some(Widening { kerf, width, overlap }))
+}
+
+fn not_a_drill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
+    match tool.kind {
+        ToolKind::VBit { .. } | ToolKind::EndMill { .. } => Ok(tool),
+        ToolKind::Drill { .. } => Err(Error::Value {
+            key,
+            problem: format!("`{}` cannot cut sideways: name a vbit or an endmill", tool.name),
+        }),
+    }
+}

@@ -1,0 +1,83 @@
+//! Options of one place over those of another: the command line over the settings file, that over the defaults.
+
+use super::Options;
+
+impl Options {
+    /// These, and where they leave something open, `others`.
+    #[must_use]
+    pub fn or(self, others: Self) -> Self {
+        // A pixel said in either way replaces a pixel said in the other.
+        let resolution_is_open = self.pixel.is_none() && self.dpi.is_none();
+        let (pixel, dpi) =
+            if resolution_is_open { (others.pixel, others.dpi) } else { (self.pixel, self.dpi) };
+        let width_is_open = self.width.is_none() && self.passes.is_none() && self.clear.is_none();
+        let (width, passes, clear) = if width_is_open {
+            (others.width, others.passes, others.clear)
+        } else {
+            (self.width, self.passes, self.clear)
+        };
+        let depth_is_open = self.depth.is_none() && self.kerf.is_none();
+        let (depth, kerf) = if depth_is_open { (others.depth, others.kerf) } else { (self.depth, self.kerf) };
+        let tools = self.tools.clone().with(others.tools.yielding(&self));
+        let tabs_are_open = self.tabs.is_none() && self.tab_spacing.is_none() && self.tab_at.is_empty();
+        let (tabs, tab_spacing, tab_at) = if tabs_are_open {
+            (others.tabs, others.tab_spacing, others.tab_at)
+        } else {
+            (self.tabs, self.tab_spacing, self.tab_at)
+        };
+        Self {
+            tool: if self.tool.is_empty() { others.tool } else { self.tool },
+            ignore: if self.ignore.is_empty() { others.ignore } else { self.ignore },
+            tile: self.tile.or(others.tile),
+            tile_spacing: self.tile_spacing.or(others.tile_spacing),
+            machine_travel: self.machine_travel.or(others.machine_travel),
+            tool_change_at: self.tool_change_at.or(others.tool_change_at),
+            alignment_holes: self.alignment_holes.or(others.alignment_holes),
+            alignment_margin: self.alignment_margin.or(others.alignment_margin),
+            depth,
+            kerf,
+            strategy: self.strategy.or(others.strategy),
+            sites: self.sites.or(others.sites),
+            limit: self.limit.or(others.limit),
+            width,
+            passes,
+            clear,
+            overlap: self.overlap.or(others.overlap),
+            pixel,
+            dpi,
+            frame: self.frame.or(others.frame),
+            min_width: self.min_width.or(others.min_width),
+            topology: self.topology.or(others.topology),
+            tolerance: self.tolerance.or(others.tolerance),
+            narrow: self.narrow.or(others.narrow),
+            adaptive_depth: self.adaptive_depth.or(others.adaptive_depth),
+            offset: self.offset.or(others.offset),
+            rotate: self.rotate.or(others.rotate),
+            mirror_axis: self.mirror_axis.or(others.mirror_axis),
+            drills: self.drills.or(others.drills),
+            drill_tolerance: self.drill_tolerance.or(others.drill_tolerance),
+            drill_peck: self.drill_peck.or(others.drill_peck),
+            drill_plunge: self.drill_plunge.or(others.drill_plunge),
+            drill_spindle: self.drill_spindle.or(others.drill_spindle),
+            drill_bore: self.drill_bore.or(others.drill_bore),
+            feed: self.feed.or(others.feed),
+            plunge: self.plunge.or(others.plunge),
+            spindle: self.spindle.or(others.spindle),
+            safe_z: self.safe_z.or(others.safe_z),
+            dialect: self.dialect.or(others.dialect),
+            origin: self.origin.or(others.origin),
+            drill_depth: self.drill_depth.or(others.drill_depth),
+            outline_gap: self.outline_gap.or(others.outline_gap),
+            cutout_tool: self.cutout_tool.or(others.cutout_tool),
+            cutout_depth: self.cutout_depth.or(others.cutout_depth),
+            cutout_pass: self.cutout_pass.or(others.cutout_pass),
+            cutout_ramp: self.cutout_ramp.or(others.cutout_ramp),
+            tabs,
+            tab_spacing,
+            tab_at,
+            tab_width: self.tab_width.or(others.tab_width),
+            tab_height: self.tab_height.or(others.tab_height),
+            tools,
+        }
+    }
+}
