@@ -5,6 +5,7 @@
 //! (see [`polarity`]). Coordinates are the file's own: seen from the front, x to the right, y up, also for the back.
 
 mod copper;
+mod excerpt;
 mod feature;
 mod hole;
 mod outline;
@@ -13,11 +14,12 @@ mod source;
 mod warning;
 
 pub use copper::{Attributes, Copper, Side};
+pub use excerpt::{Excerpt, Severity, show};
 pub use feature::{Axis, Feature, Shape};
 pub use hole::{Hole, Plating};
 pub use outline::Outline;
 pub use source::{ApertureUse, Source};
-pub use warning::{SourceSpan, Warning};
+pub use warning::{Help, SourceSpan, Warning};
 
 use crate::geometry::{Nm, Rect};
 

@@ -59,8 +59,9 @@ impl Input {
         if !self.deny_warnings || warnings.is_empty() {
             return Ok(());
         }
-        let lines: String = warnings.iter().map(|warning| format!("\n  {warning}")).collect();
-        let cause = format!("--deny-warnings allows no warning, and here are {}:{lines}", warnings.len());
+        let shown: String = warnings.iter().map(WarningEntry::to_text).collect();
+        let all = shown.trim_end();
+        let cause = format!("--deny-warnings allows no warning, and here are {}:\n{all}", warnings.len());
         Err(Failure::new(cause, "mend the files, or leave --deny-warnings out"))
     }
 

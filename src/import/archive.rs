@@ -6,10 +6,11 @@ use std::path::Path;
 
 use zip::result::ZipError;
 
-use super::error::Error;
+use super::error::{self, Error, locate};
 use super::gerber::ApertureList;
 use super::jobfile::Job;
 use super::layers::Kind;
+use crate::board::SourceSpan;
 
 /// The largest file that is read, and the most that an archive may unpack to.
 ///
@@ -36,6 +37,17 @@ pub(super) struct Found {
     pub(super) kind: Kind,
     /// Whether the person named it, rather than the folder it lies in.
     pub(super) named: bool,
+}
+
+impl Found {
+    /// Its first line, for what concerns all of it.
+    pub(super) fn first_line(&self) -> SourceSpan {
+        self.at_line(1)
+    }
+
+    pub(super) fn at_line(&self, number: u32) -> SourceSpan {
+        locate(&self.name, &self.bytes, error::line(&self.bytes, number))
+    }
 }
 
 /// What lies under the paths that a person gave.

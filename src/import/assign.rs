@@ -3,12 +3,13 @@
 use std::path::{Path, PathBuf};
 
 use super::archive::{Found, Gathered, name_of, read_file};
-use super::error::Error;
+use super::error::{self, Error, find, locate};
 use super::jobfile::Job;
 use super::layers::{self, Kind, Role};
 use super::load::{Selection, describe};
 use super::{naming, settle};
 use crate::board::{Side, Warning};
+use crate::import::flaw;
 
 /// Which of the gathered files is what, as indices.
 #[derive(Debug, Default)]
@@ -162,7 +163,10 @@ fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
             Err(error) => {
                 let message =
                     format!("the job file {name} cannot be read ({error}), so names and attributes decide");
-                warnings.push(Warning::new("job-file-unreadable", message));
+                let start = error::line(bytes, u32::try_from(error.line()).unwrap_or(u32::MAX)).start;
+                let at = (start + error.column().saturating_sub(1)).min(bytes.len());
+                let span = locate(name, bytes, at..at + 1);
+                warnings.push(flaw::JOB_FILE_UNREADABLE.warning(message).caused_by(span));
             }
         }
     }
@@ -171,7 +175,13 @@ fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
     };
     for (file, _) in merged.files.iter().filter(missing) {
         let message = format!("the job file lists {file}, which is not among the files");
-        warnings.push(Warning::new("job-file-incomplete", message));
+        let warning = flaw::JOB_FILE_INCOMPLETE.warning(message);
+        let places = gathered.jobs.iter().filter_map(|(name, bytes)| {
+            let at = find(bytes, file.as_bytes())?;
+            Some(locate(name, bytes, at..at + file.len()))
+        });
+        let place = places.into_iter().next();
+        warnings.push(place.map_or_else(|| warning.clone(), |place| warning.clone().caused_by(place)));
     }
     merged
 }
@@ -232,11 +242,9 @@ fn take_the_only_one(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigne
     let mut unknown = votes.iter().filter(free);
     if let (Some(vote), None) = (unknown.next(), unknown.next()) {
         assigned.front = Some(vote.file);
-        let message = format!(
-            "nothing tells the side of {}, so it is taken for the front",
-            gathered.files[vote.file].name
-        );
-        assigned.warnings.push(Warning::new("side-assumed", message));
+        let file = &gathered.files[vote.file];
+        let message = format!("nothing tells the side of {}, so it is taken for the front", file.name);
+        assigned.warnings.push(flaw::SIDE_ASSUMED.warning(message).caused_by(file.first_line()));
     }
 }
 
@@ -249,10 +257,10 @@ fn set_aside(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigned) {
         let what = match vote.role {
             Some(Role::Other(what)) => what,
             None => {
-                let file = &gathered.files[vote.file].name;
+                let file = &gathered.files[vote.file];
                 if !assigned.by_hand.contains(&vote.file) {
-                    let message = format!("nothing tells what layer {file} is, so it is left aside");
-                    assigned.warnings.push(Warning::new("role-unknown", message));
+                    let message = format!("nothing tells what layer {} is, so it is left aside", file.name);
+                    assigned.warnings.push(flaw::ROLE_UNKNOWN.warning(message).caused_by(file.first_line()));
                 }
                 "unknown role"
             }

@@ -6,9 +6,8 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use annotate_snippets::{AnnotationKind, Level, Origin, Renderer, Snippet};
-
-use crate::board::{SourceSpan, Warning};
+use super::flaw::Flaw;
+use crate::board::{self, Excerpt, Severity, SourceSpan, Warning};
 
 /// Why a file could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -40,15 +39,11 @@ pub struct Diagnosis {
     pub expected: String,
     /// What to do about it; may be empty.
     pub hint: String,
-    /// The line (or, of a long one, what surrounds the place), printable.
-    excerpt: String,
-    /// The offending text within the excerpt, in bytes.
-    marked: Range<usize>,
 }
 
 impl std::fmt::Display for Diagnosis {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let SourceSpan { file, line, column, text } = &self.span;
+        let SourceSpan { file, line, column, text, .. } = &self.span;
         write!(f, "{file}:{line}:{column}: {} at `{text}`; expected {}", self.what, self.expected)?;
         if self.hint.is_empty() { Ok(()) } else { write!(f, "; {}", self.hint) }
     }
@@ -64,10 +59,9 @@ impl Error {
         expected: impl Into<String>,
         hint: impl Into<String>,
     ) -> Self {
-        let span = locate(file, bytes, place.clone());
-        let (excerpt, marked) = excerpt(bytes, place);
+        let span = locate(file, bytes, place);
         let (what, expected, hint) = (what.into(), expected.into(), hint.into());
-        Self::Syntax(Box::new(Diagnosis { span, what, expected, hint, excerpt, marked }))
+        Self::Syntax(Box::new(Diagnosis { span, what, expected, hint }))
     }
 
     /// An error about the file `file` as a whole.
@@ -79,20 +73,8 @@ impl Error {
     #[must_use]
     pub fn render(&self) -> String {
         let Self::Syntax(diagnosis) = self else { return format!("error: {self}") };
-        let Diagnosis { span, what, expected, hint, excerpt, marked } = diagnosis.as_ref();
-        let snippet = Snippet::source(excerpt.as_str())
-            .line_start(span.line as usize)
-            .annotation(AnnotationKind::Primary.span(marked.clone()).label(format!("expected {expected}")));
-        let title = Level::ERROR.primary_title(what.as_str());
-        // The column counts from the start of the excerpt, which is that of the line unless that is long.
-        let group = if marked.start + 1 == span.column as usize {
-            title.element(snippet.path(span.file.as_str()))
-        } else {
-            let place = Origin::path(span.file.as_str()).line(span.line as usize);
-            title.element(place.char_column(span.column as usize)).element(snippet)
-        };
-        let group = if hint.is_empty() { group } else { group.element(Level::HELP.message(hint.as_str())) };
-        Renderer::plain().render(&[group])
+        let Diagnosis { span, what, expected, hint } = diagnosis.as_ref();
+        board::show(Severity::Error, what, Some(span), expected, hint)
     }
 }
 
@@ -102,25 +84,39 @@ const SHOWN: usize = 60;
 /// The place of the bytes `place` of a file: CR, LF and CR LF each end a line.
 pub(in crate::import) fn locate(file: &str, bytes: &[u8], place: Range<usize>) -> SourceSpan {
     let start = place.start.min(bytes.len());
-    let before = &bytes[..start];
-    let ends = |i: usize| match before[i] {
-        b'\n' => true,
-        b'\r' => bytes.get(i + 1) != Some(&b'\n'),
-        _ => false,
-    };
-    let lines = (0..start).filter(|&i| ends(i)).count();
-    let line_start = (0..start).rev().find(|&i| ends(i)).map_or(0, |i| i + 1);
+    let lines = (0..start).filter(|&i| ends_line(bytes, i)).count();
+    let line_start = (0..start).rev().find(|&i| ends_line(bytes, i)).map_or(0, |i| i + 1);
     let shown = place.end.clamp(start, bytes.len()).min(start + SHOWN);
     SourceSpan {
         file: file.to_owned(),
         line: u32::try_from(lines + 1).unwrap_or(u32::MAX),
         column: u32::try_from(start - line_start + 1).unwrap_or(u32::MAX),
         text: printable(&bytes[start..shown]).trim_end().to_owned(),
+        excerpt: excerpt(bytes, place),
     }
 }
 
+const fn ends_line(bytes: &[u8], at: usize) -> bool {
+    match bytes[at] {
+        b'\n' => true,
+        b'\r' => at + 1 == bytes.len() || bytes[at + 1] != b'\n',
+        _ => false,
+    }
+}
+
+/// What stands on line `number`, counted from 1, without its end; the last line where there is no such one.
+pub(in crate::import) fn line(bytes: &[u8], number: u32) -> Range<usize> {
+    let mut ends = (0..bytes.len()).filter(|&i| ends_line(bytes, i));
+    let before = (number as usize).checked_sub(2);
+    let Some(start) = before.map_or(Some(0), |skipped| ends.nth(skipped).map(|i| i + 1)) else {
+        return last_line(bytes);
+    };
+    let end = ends.next().unwrap_or(bytes.len());
+    start..start + bytes[start..end].trim_ascii_end().len()
+}
+
 /// The line around `place`, at most [`SHOWN`] bytes of it on either side, and where in it the place is.
-fn excerpt(bytes: &[u8], place: Range<usize>) -> (String, Range<usize>) {
+fn excerpt(bytes: &[u8], place: Range<usize>) -> Excerpt {
     let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
     let start = place.start.min(bytes.len());
     let end = place.end.clamp(start, bytes.len()).min(start + SHOWN);
@@ -132,7 +128,7 @@ fn excerpt(bytes: &[u8], place: Range<usize>) -> (String, Range<usize>) {
     let marked = printable(&bytes[start..end]);
     let after = printable(&bytes[end..to]);
     let range = before.len()..before.len() + marked.len();
-    (before + &marked + &after, range)
+    Excerpt::new(before + &marked + &after, range)
 }
 
 /// The bytes as text: Latin-1, with a middle dot for what cannot be seen.
@@ -147,6 +143,18 @@ pub(in crate::import) fn printable(bytes: &[u8]) -> String {
         .collect()
 }
 
+/// Where `words` stand first in `bytes`.
+pub(in crate::import) fn find(bytes: &[u8], words: &[u8]) -> Option<usize> {
+    bytes.windows(words.len().max(1)).position(|window| window == words)
+}
+
+/// The last line of a file that says anything, for what is wrong with a file's end or with all of it.
+pub(in crate::import) fn last_line(bytes: &[u8]) -> Range<usize> {
+    let end = bytes.iter().rposition(|&b| b > b' ').map_or(0, |i| i + 1);
+    let start = bytes[..end].iter().rposition(|b| matches!(b, b'\n' | b'\r')).map_or(0, |i| i + 1);
+    start.max(end.saturating_sub(SHOWN))..end
+}
+
 /// What was repaired or left out while reading one file: of each kind the first place, and how many there were.
 ///
 /// A file with a habit has it on every line, and a thousand equal warnings hide the one that matters.
@@ -155,9 +163,17 @@ pub(in crate::import) struct Warnings<'a> {
     file: &'a str,
     bytes: &'a [u8],
     /// By code and message: the first place, and the count.
-    found: BTreeMap<(&'static str, String), (Range<usize>, u32)>,
-    /// How many of each code there were.
-    kinds: BTreeMap<&'static str, u32>,
+    found: BTreeMap<(&'static str, String), Found>,
+    /// By code: how many messages there are, and one more than are kept.
+    kinds: BTreeMap<&'static str, Found>,
+}
+
+/// A flaw, where it stands first, and how often it does.
+#[derive(Debug)]
+struct Found {
+    flaw: &'static Flaw,
+    place: Range<usize>,
+    count: u32,
 }
 
 /// How many different messages of one code are kept; the rest are only counted.
@@ -169,50 +185,48 @@ impl<'a> Warnings<'a> {
         Self { file, bytes, found: BTreeMap::new(), kinds: BTreeMap::new() }
     }
 
-    /// Notes a warning at the bytes `place`. The same code and message again only counts.
+    /// Notes a flaw at the bytes `place`. The same flaw and message again only counts.
     pub(in crate::import) fn add(
         &mut self,
-        code: &'static str,
+        flaw: &'static Flaw,
         place: Range<usize>,
         message: impl Into<String>,
     ) {
-        let key = (code, message.into());
-        if let Some((_, count)) = self.found.get_mut(&key) {
-            *count += 1;
+        let key = (flaw.code, message.into());
+        if let Some(found) = self.found.get_mut(&key) {
+            found.count += 1;
             return;
         }
-        let kinds = self.kinds.entry(code).or_default();
-        *kinds += 1;
-        if *kinds <= KEPT_OF_A_KIND {
-            self.found.insert(key, (place, 1));
+        let kind = self.kinds.entry(flaw.code).or_insert(Found { flaw, place: place.clone(), count: 0 });
+        kind.count += 1;
+        if kind.count <= KEPT_OF_A_KIND {
+            self.found.insert(key, Found { flaw, place, count: 1 });
+        } else if kind.count == KEPT_OF_A_KIND + 1 {
+            kind.place = place;
         }
     }
 
     /// All warnings, in file order.
     pub(in crate::import) fn finish(self) -> Vec<Warning> {
-        let mut found: Vec<_> = self.found.into_iter().collect();
-        found.sort_by_key(|(_, (place, _))| place.start);
-        let mut warnings: Vec<Warning> = found
-            .into_iter()
-            .map(|((code, message), (place, count))| {
-                let message =
-                    if count > 1 { format!("{message} (and {} more times)", count - 1) } else { message };
-                Warning::new(code, message).caused_by(locate(self.file, self.bytes, place))
-            })
-            .collect();
-        warnings.extend(self.kinds.into_iter().filter(|&(_, count)| count > KEPT_OF_A_KIND).map(
-            |(code, count)| {
-                let rest = count - KEPT_OF_A_KIND;
-                Warning::new(code, format!("{rest} more of this kind in {}", self.file))
-            },
-        ));
-        warnings
+        let mut found: Vec<_> =
+            self.found.into_iter().map(|((_, message), found)| (message, found)).collect();
+        found.sort_by_key(|(_, found)| found.place.start);
+        for (message, Found { count, .. }) in found.iter_mut().filter(|(_, found)| found.count > 1) {
+            *message += &format!(" (and {} more times)", *count - 1);
+        }
+        let more = self.kinds.into_values().filter(|kind| kind.count > KEPT_OF_A_KIND);
+        found.extend(more.map(|kind| (format!("{} more of this kind", kind.count - KEPT_OF_A_KIND), kind)));
+        let warning = |(message, Found { flaw, place, .. }): (String, Found)| {
+            flaw.warning(message).caused_by(locate(self.file, self.bytes, place))
+        };
+        found.into_iter().map(warning).collect()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::import::flaw;
 
     #[test]
     fn every_kind_of_line_end_counts_once() {
@@ -243,7 +257,7 @@ mod tests {
     fn a_habit_is_reported_once_with_a_count() {
         let mut warnings = Warnings::new("f", b"abc");
         for _ in 0..3 {
-            warnings.add("habit", 1..2, "does it");
+            warnings.add(&flaw::MISSING_STAR, 1..2, "does it");
         }
         let warnings = warnings.finish();
         assert_eq!(warnings.len(), 1, "one entry");

@@ -2,32 +2,35 @@
 
 use crate::board::{Axis, Feature, Hole, Shape, Warning};
 use crate::geometry::{Nm, Path, Point, Segment};
+use crate::import::flaw;
 
+use super::archive::Found;
 use super::gerber::Image;
 use super::layers;
 
-/// The holes that `image`, read from the file `name`, draws; and a warning for what is no hole.
-pub(super) fn holes(name: &str, image: &Image) -> (Vec<Hole>, Option<Warning>) {
-    let plating = layers::plating(image.function.as_deref(), name);
+/// The holes that `image`, read from `file`, draws; and a warning for what is no hole.
+pub(super) fn holes(file: &Found, image: &Image) -> (Vec<Hole>, Option<Warning>) {
+    let plating = layers::plating(image.function.as_deref(), &file.name);
     let mut sizes: Vec<Nm> = image.features.iter().filter_map(cutter).map(|(_, size)| size).collect();
     sizes.sort();
     sizes.dedup();
     let mut holes = Vec::new();
-    let mut left_out = None::<(u32, Point)>;
+    let mut left_out = None::<(u32, Point, u32)>;
     for feature in &image.features {
         let Some((path, diameter)) = cutter(feature) else {
-            let at = feature.shape.bounds().min();
-            left_out = Some(left_out.map_or((1, at), |(count, first)| (count + 1, first)));
+            let (count, at, line) = left_out.unwrap_or((0, feature.shape.bounds().min(), feature.line));
+            left_out = Some((count + 1, at, line));
             continue;
         };
         let tool = sizes.binary_search(&diameter).ok().and_then(|i| u32::try_from(i + 1).ok()).unwrap_or(0);
         holes.push(Hole { path, diameter, plating, tool, line: feature.line });
     }
-    let warning = left_out.map(|(count, at)| {
+    let warning = left_out.map(|(count, at, line)| {
         let message = format!(
-            "{count} shapes of the drill file {name} are neither round nor obround, so no drill makes them"
+            "{count} shapes of the drill file {} are neither round nor obround, so no drill makes them",
+            file.name
         );
-        Warning::new("not-a-hole", message).at(at)
+        flaw::NOT_A_HOLE.warning(message).at(at).caused_by(file.at_line(line))
     });
     (holes, warning)
 }

@@ -12,6 +12,7 @@ use super::layers::Kind;
 use super::{gerber_drill, outline};
 use crate::board::{Axis, Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point, Rect};
+use crate::import::flaw;
 
 /// What a person says of the files, where names do not tell or tell wrong.
 #[derive(Clone, Debug, Default)]
@@ -107,7 +108,7 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
     let mut build = Build::new(super::naming::stem(&found.name).to_owned());
     let mut gathered = Gathered::default();
     gathered.look_beside(path, &found.bytes);
-    build.copper(read_gerber(&gathered, &found, "a copper layer")?, side);
+    build.copper(&found, read_gerber(&gathered, &found, "a copper layer")?, side);
     build.wheels(&gathered, [&found])?;
     build.require_copper(&[&found])?;
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })
@@ -128,12 +129,13 @@ impl Build {
     fn coppers(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
         let file = |index: usize| &gathered.files[index];
         let read = |index: Option<usize>| {
-            index.map(|index| read_gerber(gathered, file(index), "a copper layer")).transpose()
+            let read = |index| Ok((file(index), read_gerber(gathered, file(index), "a copper layer")?));
+            index.map(read).transpose()
         };
         let (front, back) = rayon::join(|| read(assigned.front), || read(assigned.back));
         for (side, image) in [(Side::Front, front?), (Side::Back, back?)] {
-            if let Some(image) = image {
-                self.copper(image, side);
+            if let Some((file, image)) = image {
+                self.copper(file, image, side);
             }
         }
         let read: Vec<&Found> = [assigned.front, assigned.back].into_iter().flatten().map(file).collect();
@@ -141,7 +143,7 @@ impl Build {
             && (!read.is_empty() || assigned.outline.is_some() || !assigned.drill.is_empty())
         {
             if read.is_empty() {
-                self.warnings.push(Warning::new("copper-missing", "no copper layer is among the files"));
+                self.warnings.push(flaw::COPPER_MISSING.warning("no copper layer is among the files"));
             }
             return Ok(());
         }
@@ -152,19 +154,22 @@ impl Build {
     }
 
     /// Takes over a copper layer; one that draws nothing is a warning.
-    fn copper(&mut self, image: Image, side: Side) {
-        self.warnings.extend(image.warnings.into_iter().map(|warning| warning.on(side)));
-        let file = image.source.file.clone();
+    fn copper(&mut self, file: &Found, image: Image, side: Side) {
+        let mut warnings = image.warnings;
+        let name = &file.name;
         self.sources.push(Source { role: format!("{side}-copper"), ..image.source });
-        let drawn = image.features.len();
-        let features: Vec<Feature> = image.features.into_iter().filter(has_area).collect();
-        if features.len() < drawn {
-            let message =
-                format!("{} features of {file} have no width and so no copper", drawn - features.len());
-            self.warnings.push(Warning::new("zero-width-copper", message).on(side));
+        let (features, bare): (Vec<Feature>, Vec<Feature>) = image.features.into_iter().partition(has_area);
+        if let Some(first) = bare.first() {
+            let message = format!("{} features of {name} have no width and so no copper", bare.len());
+            let warning = flaw::ZERO_WIDTH_COPPER.warning(message).at(first.shape.anchor());
+            warnings.push(warning.caused_by(file.at_line(first.line)));
         }
         if features.is_empty() {
-            self.warnings.push(Warning::new("empty-copper", format!("{file} draws no copper")).on(side));
+            let warning = flaw::EMPTY_COPPER.warning(format!("{name} draws no copper"));
+            warnings.push(warning.caused_by(file.first_line()));
+        }
+        self.warnings.extend(warnings.into_iter().map(|warning| warning.on(side)));
+        if features.is_empty() {
             return;
         }
         let copper = Copper { side, features, attributes: image.attributes };
@@ -187,13 +192,13 @@ impl Build {
     fn outline(&mut self, gathered: &Gathered, assigned: &Assigned, gap: Nm) -> Result<(), Error> {
         let Some(file) = assigned.outline.map(|index| &gathered.files[index]) else {
             let message = "no outline layer is among the files, so the board's edge is not known";
-            self.warnings.push(Warning::new("outline-missing", message));
+            self.warnings.push(flaw::OUTLINE_MISSING.warning(message));
             return Ok(());
         };
         let image = read_gerber(gathered, file, "an outline layer")?;
         self.warnings.extend(image.warnings);
         self.sources.push(Source { role: "outline".to_owned(), ..image.source });
-        let joined = outline::join(&file.name, &image.features, gap);
+        let joined = outline::join(&file.name, &file.bytes, &image.features, gap);
         self.board.outline = joined.outline;
         self.warnings.extend(joined.warnings);
         Ok(())
@@ -215,7 +220,7 @@ impl Build {
                 }
             };
             self.sources.push(Source { role: "drill".to_owned(), ..source });
-            self.add_holes(holes, &file.name, &mut warnings);
+            self.add_holes(holes, file, &mut warnings);
         }
         // Programs write an empty file for a kind of hole that a board does not have.
         let any = !self.board.holes.is_empty();
@@ -225,7 +230,7 @@ impl Build {
     }
 
     /// Takes over `holes`, less those that another file has drilled already.
-    fn add_holes(&mut self, holes: Vec<Hole>, file: &str, warnings: &mut Vec<Warning>) {
+    fn add_holes(&mut self, holes: Vec<Hole>, file: &Found, warnings: &mut Vec<Warning>) {
         /// The cell in which two holes of different files are looked for.
         const CELL: i64 = 20_000;
         let cell = |p: Point| (p.x.get().div_euclid(CELL), p.y.get().div_euclid(CELL));
@@ -233,7 +238,7 @@ impl Build {
         for (index, hole) in self.board.holes.iter().enumerate() {
             known.entry(cell(hole.path.start)).or_default().push(index);
         }
-        let mut doubles = None::<(u32, Point)>;
+        let mut doubles = None::<(u32, Point, u32)>;
         let before = std::mem::take(&mut self.board.holes);
         let fresh: Vec<Hole> = holes
             .into_iter()
@@ -243,18 +248,21 @@ impl Build {
                 let double =
                     near.filter_map(|cell| known.get(&cell)).flatten().any(|&i| same_hole(&before[i], hole));
                 if double {
-                    let first = doubles.map_or(hole.path.start, |(_, at)| at);
-                    doubles = Some((doubles.map_or(1, |(count, _)| count + 1), first));
+                    let (count, at, line) = doubles.unwrap_or((0, hole.path.start, hole.line));
+                    doubles = Some((count + 1, at, line));
                 }
                 !double
             })
             .collect();
         self.board.holes = before;
         self.board.holes.extend(fresh);
-        if let Some((count, at)) = doubles {
-            let message =
-                format!("{count} holes of {file} stand in another drill file too and are drilled once");
-            warnings.push(Warning::new("duplicate-holes", message).at(at));
+        if let Some((count, at, line)) = doubles {
+            let message = format!(
+                "{count} holes of {} stand in another drill file too and are drilled once",
+                file.name
+            );
+            let warning = flaw::DUPLICATE_HOLES.warning(message).at(at);
+            warnings.push(warning.caused_by(file.at_line(line)));
         }
     }
 
@@ -267,7 +275,7 @@ impl Build {
             let (width, height) = (bounds.width(), bounds.height());
             let message =
                 format!("the board is {width:.1} × {height:.1} mm: the unit of a file may be another one");
-            self.warnings.push(Warning::new("size-implausible", message));
+            self.warnings.push(flaw::SIZE_IMPLAUSIBLE.warning(message));
         }
     }
 
@@ -334,7 +342,7 @@ fn gerber_holes(
             "a Gerber file where a drill file was expected, and its file function is not Plated or NonPlated";
         return Err(Error::content(&file.shown, what, "give an Excellon drill file with --drill"));
     }
-    let (holes, warning) = gerber_drill::holes(&file.name, &image);
+    let (holes, warning) = gerber_drill::holes(file, &image);
     warnings.extend(image.warnings);
     warnings.extend(warning);
     let mut source = image.source;

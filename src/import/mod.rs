@@ -14,6 +14,7 @@ mod assign;
 mod digest;
 mod error;
 pub mod excellon;
+mod flaw;
 pub mod gerber;
 mod gerber_drill;
 mod jobfile;

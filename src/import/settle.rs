@@ -7,6 +7,7 @@ use super::layers::Role;
 use super::outline;
 use crate::board::{Side, Warning};
 use crate::geometry::{Nm, Point, Rect};
+use crate::import::flaw;
 
 /// gEDA's numbered groups: the first is the component side, the last the solder side, where nothing better tells.
 pub(super) fn groups(votes: &mut [Vote]) {
@@ -84,14 +85,14 @@ pub(super) fn outlines(votes: &mut [Vote], gathered: &Gathered, warnings: &mut V
             .filter(|vote| vote.file == index)
             .for_each(|vote| vote.role = Some(Role::Other("outline")));
         let message = format!("{} is not taken for the outline: it {reason}", gathered.files[index].name);
-        warnings.push(Warning::new("outline-twice", message));
+        warnings.push(flaw::OUTLINE_TWICE.warning(message).caused_by(gathered.files[index].first_line()));
     }
 }
 
 /// The rectangle around the edge that a file draws, if it closes.
 fn edge_of(gathered: &Gathered, file: &Found) -> Option<Rect> {
     let image = gathered.read_gerber(file).ok()?;
-    let joined = outline::join(&file.name, &image.features, outline::GAP);
+    let joined = outline::join(&file.name, &file.bytes, &image.features, outline::GAP);
     joined.outline.map(|edge| edge.bounds())
 }
 

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::board::{Side, Source, SourceSpan, Warning};
+use crate::board::{Help, Side, Source, SourceSpan, Warning};
 use crate::geometry::{Nm, Point};
 use crate::toolpath::Statistics;
 
@@ -171,6 +171,9 @@ pub struct WarningEntry {
     /// The place in a file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub source: Option<SourceSpan>,
+    /// What was expected there, and what to do about it.
+    #[serde(flatten)]
+    pub help: Option<Help>,
 }
 
 impl From<Point> for Place {
@@ -187,6 +190,7 @@ impl From<&Warning> for WarningEntry {
             side: warning.side,
             at: warning.at.map(Place::from),
             source: warning.source.clone(),
+            help: warning.help,
         }
     }
 }

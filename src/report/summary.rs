@@ -1,8 +1,9 @@
 //! The report as a person reads it in ten seconds.
 
-use std::fmt::{self, Write as _};
+use std::fmt::Write as _;
 
 use super::document::{Document, Figures, WarningEntry};
+use crate::board::{self, Severity};
 
 /// Warnings of one kind that are shown; the rest are counted.
 const SHOWN: usize = 3;
@@ -76,7 +77,7 @@ pub(super) fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
         let shown = if verbose { usize::MAX } else { SHOWN };
         let same = || warnings.iter().filter(|warning| warning.code == code);
         for warning in same().take(shown) {
-            let _ = writeln!(text, "  warning: {warning}");
+            text.push_str(&warning.to_text());
         }
         let rest = same().count().saturating_sub(shown);
         if rest > 0 {
@@ -86,29 +87,24 @@ pub(super) fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
     text
 }
 
-/// Its place, the sentence, and the code to filter by.
-impl fmt::Display for WarningEntry {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}{} [{}]", place(self), self.message, self.code)
+impl WarningEntry {
+    /// The sentence with the code to filter by, the place with what stands there, and what to do: indented lines.
+    #[must_use]
+    pub fn to_text(&self) -> String {
+        let what = format!("{}{} [{}]", self.place(), self.message, self.code);
+        let help = self.help.unwrap_or_default();
+        let shown = board::show(Severity::Warning, &what, self.source.as_ref(), help.expected, help.advice);
+        shown.lines().flat_map(|line| ["  ", line, "\n"]).collect()
     }
-}
 
-/// The most of an offending text that a line of a summary shows, in characters.
-const SHOWN_TEXT: usize = 40;
-
-/// Where a warning belongs: in the file, with the text that stands there; on the board; or nowhere in particular.
-fn place(warning: &WarningEntry) -> String {
-    if let Some(source) = &warning.source {
-        let text: String = source.text.chars().take(SHOWN_TEXT).collect();
-        let cut = if text.len() < source.text.len() { "…" } else { "" };
-        let text = if text.is_empty() { text } else { format!("`{text}{cut}`: ") };
-        return format!("{}:{}:{}: {text}", source.file, source.line, source.column);
-    }
-    let side = warning.side.map_or(String::new(), |side| format!("{side} "));
-    match warning.at {
-        Some(at) => format!("{side}at {:.3}, {:.3} mm: ", at.x_mm.0, at.y_mm.0),
-        None if side.is_empty() => side,
-        None => format!("{}: ", side.trim_end()),
+    /// Where on the board it belongs; nothing for what concerns all of it.
+    fn place(&self) -> String {
+        let side = self.side.map_or(String::new(), |side| format!("{side} "));
+        match self.at {
+            Some(at) => format!("{side}at {:.3}, {:.3} mm: ", at.x_mm.0, at.y_mm.0),
+            None if side.is_empty() || self.source.is_some() => String::new(),
+            None => format!("{}: ", side.trim_end()),
+        }
     }
 }
 
@@ -144,6 +140,7 @@ mod tests {
             side: None,
             at: None,
             source: None,
+            help: None,
         };
         let all: Vec<_> = (1..=5).map(one).collect();
         let short = warnings(&all, false);

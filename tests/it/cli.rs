@@ -39,16 +39,22 @@ fn listing(folder: &Path) -> Vec<String> {
 /// Asserts that the program fails with one short message that contains `words`, and leaves nothing in `folder` but
 /// `left`.
 fn fails(folder: &TempDir, arguments: &[&str], words: &[&str], left: &[&str]) {
+    let message = refused(folder, arguments, words, left);
+    assert!(message.lines().count() <= 10, "{arguments:?} is short: {message}");
+}
+
+/// The message with which the program fails; it contains `words`, and nothing is left in `folder` but `left`.
+fn refused(folder: &TempDir, arguments: &[&str], words: &[&str], left: &[&str]) -> String {
     let output = voromill(folder.path(), arguments);
     let message = stderr(&output);
     assert_eq!(output.status.code(), Some(2), "{arguments:?} must fail: {message}");
     assert!(message.starts_with("error: "), "{arguments:?} begins with what it is: {message}");
-    assert!(message.lines().count() <= 10, "{arguments:?} is short: {message}");
     assert!(stdout(&output).is_empty(), "{arguments:?} prints no result");
     for word in words {
         assert!(message.contains(word), "{arguments:?} says `{word}`: {message}");
     }
     assert_eq!(listing(folder.path()), left, "{arguments:?} leaves nothing half-written");
+    message
 }
 
 fn folder() -> TempDir {
@@ -337,10 +343,11 @@ fn denied_warnings_fail_and_write_nothing() {
     let out = folder();
     fs::copy(fixture("gerber/missing_end.gbr"), out.path().join("amp-F_Cu.gbr")).expect("copied");
     let left = ["amp-F_Cu.gbr"];
-    let words = ["--deny-warnings", "amp-F_Cu.gbr:", "[missing-end-of-file]"];
-    fails(&out, &["mill", "amp-F_Cu.gbr", "-o", "out", "--deny-warnings"], &words, &left);
-    fails(&out, &["isolate", "amp-F_Cu.gbr", "-o", "a.ngc", "--deny-warnings"], &words, &left);
-    fails(&out, &["draw", "amp-F_Cu.gbr", "-o", "a.png", "--deny-warnings"], &words, &left);
+    let words =
+        ["--deny-warnings", "amp-F_Cu.gbr:", "[missing-end-of-file]", "^^^ expected `M02*`", "help: "];
+    refused(&out, &["mill", "amp-F_Cu.gbr", "-o", "out", "--deny-warnings"], &words, &left);
+    refused(&out, &["isolate", "amp-F_Cu.gbr", "-o", "a.ngc", "--deny-warnings"], &words, &left);
+    refused(&out, &["draw", "amp-F_Cu.gbr", "-o", "a.png", "--deny-warnings"], &words, &left);
     let inspected = voromill(out.path(), &["inspect", "amp-F_Cu.gbr", "--format", "json", "--deny-warnings"]);
     assert_eq!(inspected.status.code(), Some(2), "inspect fails too");
     let report: serde_json::Value =

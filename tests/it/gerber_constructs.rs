@@ -88,7 +88,7 @@ const CASES: &[Case] = &[
     ("missing_star", LINE, 1, &["missing-star"]),
     ("missing_percent", LINE, 1, &["missing-percent"]),
     ("missing_end", LINE, 1, &["missing-end-of-file"]),
-    ("cut_off", LINE, 1, &["truncated-file", "missing-end-of-file"]),
+    ("cut_off", LINE, 1, &["missing-end-of-file", "truncated-file"]),
     ("text_after_end", LINE, 1, &["text-after-end"]),
     ("unknown_command", LINE, 1, &["unknown-command"]),
     ("conflicting_g71", LINE, 1, &["conflicting-units"]),

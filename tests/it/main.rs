@@ -30,3 +30,4 @@ mod verify_cli;
 mod verify_foreign;
 mod verify_mutations;
 mod voronoi;
+mod warnings;

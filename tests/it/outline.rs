@@ -12,7 +12,8 @@ use voromill::import::outline::{GAP, Joined, join};
 fn joined(body: &str) -> Joined {
     let text = format!("%FSLAX33Y33*%\n%MOMM*%\n%ADD10C,0*%\nG75*\nG01*\nD10*\n{body}\nM02*\n");
     let image = gerber::read("edge.gbr", text.as_bytes(), &gerber::Options::default());
-    join("edge.gbr", &image.unwrap_or_else(|error| panic!("{}", error.render())).features, GAP)
+    let image = image.unwrap_or_else(|error| panic!("{}", error.render()));
+    join("edge.gbr", text.as_bytes(), &image.features, GAP)
 }
 
 /// Lines between the corners, each drawn for itself.
@@ -191,7 +192,7 @@ fn outlines_of_the_corpus_close() {
     for (name, expected, warnings) in cases {
         let Ok(bytes) = fs::read(folder.join(name)) else { continue };
         let image = gerber::read(name, &bytes, &gerber::Options::default()).expect(name);
-        let joined = join(name, &image.features, GAP);
+        let joined = join(name, &bytes, &image.features, GAP);
         assert_eq!(areas(&joined), expected, "{name}: areas");
         assert_eq!(codes(&joined), warnings, "{name}: warnings");
     }

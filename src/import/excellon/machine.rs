@@ -18,6 +18,7 @@ use super::route::{Center, Interpolation};
 use crate::board::{Hole, Plating};
 use crate::geometry::{Nm, Path, Point, Vector};
 use crate::import::error::{Error, Warnings};
+use crate::import::flaw;
 
 /// The most holes that a file may have, repeats included.
 ///
@@ -25,10 +26,12 @@ use crate::import::error::{Error, Warnings};
 pub(super) const MOST_HOLES: usize = 2_000_000;
 
 /// A drill or router bit.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Tool {
     pub(super) diameter: Nm,
     pub(super) plating: Plating,
+    /// Where the file defines it, or first takes it.
+    pub(super) place: Range<usize>,
 }
 
 /// What a run leaves behind.
@@ -179,7 +182,7 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
         } else if name == "ICI" {
             self.absolute = fields.get(1).is_none_or(|field| field != "ON");
         } else if name.starts_with("M97") || name.starts_with("M98") {
-            self.warnings.add("drilled-text", place.clone(), "text to be drilled is left out");
+            self.warnings.add(&flaw::DRILLED_TEXT, place.clone(), "text to be drilled is left out");
             self.text_follows = true;
         } else if !WITHOUT_EFFECT.contains(&name) && !name.starts_with("M4") {
             self.left_out(name, place);
@@ -188,14 +191,14 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
 
     pub(super) fn left_out(&mut self, what: &str, place: &Range<usize>) {
         let message = format!("`{what}` is no drill command that is known, so it is left out");
-        self.warnings.add("unknown-drill-command", place.clone(), message);
+        self.warnings.add(&flaw::UNKNOWN_DRILL_COMMAND, place.clone(), message);
     }
 
     /// The same unit again says nothing new; another one changes what follows.
     pub(super) fn units(&mut self, units: Units, place: &Range<usize>) {
         if units != self.format.units {
             let message = format!("the unit changes to {} here; what follows is read in it", units.name());
-            self.warnings.add("unit-changes", place.clone(), message);
+            self.warnings.add(&flaw::UNIT_CHANGES, place.clone(), message);
             self.format = NumberFormat { units, digits: units.default_digits(), zeros: self.format.zeros };
         }
     }

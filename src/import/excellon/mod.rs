@@ -26,7 +26,8 @@ use std::collections::BTreeMap;
 
 use crate::board::{ApertureUse, Hole, Plating, Source, Warning};
 use crate::geometry::{Nm, Point};
-use crate::import::error::{Error, Warnings};
+use crate::import::error::{Error, Warnings, last_line};
+use crate::import::flaw;
 use declared::Declared;
 use format::NumberFormat;
 use guess::Score;
@@ -67,14 +68,14 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
     reading.explain(file, context, &mut warnings);
     if let Some(line) = cut_off {
         let message = "the file ends within a line, which is left out: it may have been cut off; if it was not, end it with M30";
-        warnings.add("truncated-file", line.place, message);
+        warnings.add(&flaw::TRUNCATED_FILE, line.place, message);
     } else if !declared.ended {
         let message = "the file does not end with M30; if it was cut off, holes are missing";
-        warnings.add("missing-end-of-file", bytes.len()..bytes.len(), message);
+        warnings.add(&flaw::MISSING_END_OF_DRILL_FILE, last_line(bytes), message);
     }
     warn_of_size(&run, &mut warnings);
     if run.holes.is_empty() {
-        warnings.add("drill-without-holes", 0..0, "the drill file has no holes");
+        warnings.add(&flaw::DRILL_WITHOUT_HOLES, last_line(bytes), "the drill file has no holes");
     }
     let source = source(file, &reading, &run);
     Ok(Drilling { holes: run.holes, source, function: declared.function, warnings: warnings.finish() })
@@ -189,7 +190,7 @@ fn warn_of_size(run: &Run, warnings: &mut Warnings<'_>) {
     for (number, tool) in run.tools.iter().filter(|(number, tool)| tool.diameter > WIDEST && used(**number)) {
         let message =
             format!("tool T{number} drills {:.3} mm wide holes: the unit may be another one", tool.diameter);
-        warnings.add("drill-implausible", 0..0, message);
+        warnings.add(&flaw::DRILL_IMPLAUSIBLE, tool.place.clone(), message);
     }
 }
 
@@ -251,21 +252,21 @@ impl Reading {
             let message = format!(
                 "the file does not say its number format; {read_as}, with {on_pads} of {holes} holes on pads ({usual})"
             );
-            warnings.add("drill-format-guessed", place(), message);
+            warnings.add(&flaw::DRILL_FORMAT_GUESSED, place(), message);
         } else if file.declared.units.is_none() {
             let message = format!(
                 "the file does not say its units; {read_as}, with {on_pads} of {holes} holes on pads"
             );
-            warnings.add("drill-units-guessed", place(), message);
+            warnings.add(&flaw::DRILL_UNITS_GUESSED, place(), message);
         } else if self.rivals > 0 && undeclared && context.is_empty() {
             let message = format!("the file does not say its number format, and no copper tells; {read_as}");
-            warnings.add("drill-format-guessed", place(), message);
+            warnings.add(&flaw::DRILL_FORMAT_GUESSED, place(), message);
         }
         if !context.is_empty() && 2 * inside < holes && holes > 0 {
             let message = format!(
                 "only {inside} of {holes} holes lie within the copper ({read_as}): drill and copper may not belong together"
             );
-            warnings.add("drill-off-board", place(), message);
+            warnings.add(&flaw::DRILL_OFF_BOARD, place(), message);
         }
     }
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::geometry::{Arc, Nm, Point, Turn, Vector};
+use crate::import::flaw;
 
 use super::super::error::Error;
 use super::reader::{Quadrants, Reader, Words};
@@ -40,14 +41,14 @@ impl<'a> Reader<'a> {
                         "neither G74 nor G75 says how arcs are meant; they are read as G75, several quadrants"
                     }
                 };
-                self.warnings.add("quadrant-mode", place.clone(), message);
+                self.warnings.add(&flaw::QUADRANT_MODE, place.clone(), message);
                 Quadrants::Multi
             }
         };
         if offset == Vector::default() {
             if from != to {
                 let message = "an arc without a centre (I and J) is read as a line";
-                self.warnings.add("arc-without-centre", place.clone(), message);
+                self.warnings.add(&flaw::ARC_WITHOUT_CENTRE, place.clone(), message);
             }
             return Ok(None);
         }
@@ -60,7 +61,7 @@ impl<'a> Reader<'a> {
         if mismatch.abs() > RADII {
             let message = "the start and the end of an arc lie at different distances from its centre; the radius is \
                            changed evenly from one to the other";
-            self.warnings.add("arc-radius-mismatch", place.clone(), message);
+            self.warnings.add(&flaw::ARC_RADIUS_MISMATCH, place.clone(), message);
         }
         let turn = if self.placement.mirrors() { turn.reversed() } else { turn };
         let (start, end) = (self.place(from, place)?, self.place(to, place)?);

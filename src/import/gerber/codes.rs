@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::geometry::Turn;
+use crate::import::flaw;
 
 use super::super::error::Error;
 use super::lex::Number;
@@ -25,7 +26,7 @@ impl<'a> Reader<'a> {
                 (self.form, self.set) = (None, None);
                 if self.aperture.is_none_or(|number| !self.apertures.contains_key(&number)) {
                     let message = format!("aperture D{code} is selected, but not defined");
-                    self.warnings.add("undefined-aperture", place.clone(), message);
+                    self.warnings.add(&flaw::UNDEFINED_APERTURE, place.clone(), message);
                 }
                 Ok(None)
             }
@@ -73,7 +74,7 @@ impl<'a> Reader<'a> {
             }
             _ => {
                 let message = "this G code is not known; it is left out";
-                self.warnings.add("unknown-command", place.clone(), message);
+                self.warnings.add(&flaw::UNKNOWN_COMMAND, place.clone(), message);
             }
         }
         Ok(())
@@ -85,7 +86,7 @@ impl<'a> Reader<'a> {
             self.unit = Some(unit);
         } else if self.unit != Some(unit) {
             let message = "G70 or G71 contradicts %MO, which is followed";
-            self.warnings.add("conflicting-units", place.clone(), message);
+            self.warnings.add(&flaw::CONFLICTING_UNITS, place.clone(), message);
         }
     }
 
@@ -94,7 +95,7 @@ impl<'a> Reader<'a> {
             Some(0 | 2) => self.ended = true,
             Some(1) => {}
             _ => self.warnings.add(
-                "unknown-command",
+                &flaw::UNKNOWN_COMMAND,
                 place.clone(),
                 "this M code is not known; it is left out",
             ),

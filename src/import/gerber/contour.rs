@@ -2,6 +2,7 @@
 
 use crate::board::{Axis, Feature, Shape};
 use crate::geometry::{Nm, Point};
+use crate::import::flaw;
 
 use super::super::error::Error;
 use super::canvas::Refusal;
@@ -21,11 +22,11 @@ impl<'a> Reader<'a> {
         }
         if !contour.closed {
             let message = "the contour of a region does not end where it began; it is closed with a line";
-            self.warnings.add("region-not-closed", contour.place.clone(), message);
+            self.warnings.add(&flaw::REGION_NOT_CLOSED, contour.place.clone(), message);
         }
         if contour.pieces.is_empty() {
             let message = "the contour of a region has no area; it is left out";
-            self.warnings.add("nothing-drawn", contour.place, message);
+            self.warnings.add(&flaw::NOTHING_DRAWN, contour.place, message);
             return Ok(());
         }
         self.counts.regions += 1;

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::geometry::Nm;
+use crate::import::flaw;
 
 use super::super::error::{Error, printable};
 use super::aperture::{Hole, Template};
@@ -30,7 +31,7 @@ impl<'a> Reader<'a> {
         let function = self.attributes.aperture.clone();
         if self.apertures.insert(number, Aperture::new(template, function)).is_some() {
             let message = format!("aperture D{number} is defined twice; what follows uses the later one");
-            self.warnings.add("aperture-defined-twice", place, message);
+            self.warnings.add(&flaw::APERTURE_DEFINED_TWICE, place, message);
         }
         self.forget_aperture(number);
         Ok(())
@@ -64,7 +65,7 @@ impl<'a> Reader<'a> {
                 if numbers.iter().skip(usize::from(name != b"C") + 1).any(|n| n.mantissa < 0) =>
             {
                 let message = "a hole of an aperture is less than nothing; the aperture has none";
-                self.warnings.add("negative-hole", place.clone(), message);
+                self.warnings.add(&flaw::NEGATIVE_HOLE, place.clone(), message);
                 self.standard(name[0], &numbers, unit, place)
             }
             b"C" | b"R" | b"O" | b"P" => self.standard(name[0], &numbers, unit, place),
@@ -161,7 +162,7 @@ impl<'a> Reader<'a> {
         }
         if self.macros.insert(name, Macro { body }).is_some() {
             let message = format!("the aperture macro `{}` is defined twice", printable(name));
-            self.warnings.add("macro-defined-twice", block.place(), message);
+            self.warnings.add(&flaw::MACRO_DEFINED_TWICE, block.place(), message);
         }
         Ok(())
     }

@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::geometry::Nm;
+use crate::import::flaw;
 
 use super::super::error::{Error, printable};
 use super::lex::{Block, Number, is_blank};
@@ -41,7 +42,7 @@ impl<'a> Reader<'a> {
             b"IJ" | b"IO" | b"PF" | b"RO" => {
                 let code = printable(code);
                 let message = format!("%{code} was never used by tools and is not followed");
-                self.warnings.add("unknown-command", place, message);
+                self.warnings.add(&flaw::UNKNOWN_COMMAND, place, message);
                 Ok(())
             }
             b"KO" => Err(self.error(place, "%KO, knockout, is not handled", "%LPC and %LPD", "")),
@@ -57,7 +58,7 @@ impl<'a> Reader<'a> {
             _ => {
                 let shown = printable(&block.text[..block.text.len().min(20)]);
                 let message = format!("`{shown}` is no command that is known; it is left out");
-                self.warnings.add("unknown-command", place, message);
+                self.warnings.add(&flaw::UNKNOWN_COMMAND, place, message);
                 Ok(())
             }
         }

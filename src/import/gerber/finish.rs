@@ -3,9 +3,10 @@
 use crate::board::polarity::{self, Polarity};
 use crate::board::{ApertureUse, Axis, Feature, Shape, Source};
 use crate::geometry::{Polygon, Rect};
+use crate::import::flaw;
 
 use super::super::digest::sha256;
-use super::super::error::Error;
+use super::super::error::{Error, find, last_line};
 use super::Image;
 use super::lex::is_blank;
 use super::reader::{Aperture, Counts, Reader};
@@ -13,10 +14,10 @@ use super::state::{Format, Unit};
 
 impl<'a> Reader<'a> {
     pub(super) fn finish(mut self) -> Result<Image, Error> {
-        let end = self.bytes.len()..self.bytes.len();
+        let end = last_line(self.bytes);
         if self.region.is_some() {
             let message = "the file ends within a region, which is ended there";
-            self.warnings.add("truncated-file", end.clone(), message);
+            self.warnings.add(&flaw::TRUNCATED_FILE, end.clone(), message);
             self.end_contour()?;
         }
         while self.canvas.innermost().is_some() {
@@ -25,7 +26,7 @@ impl<'a> Reader<'a> {
             if !repeated {
                 self.canvas.close_block();
                 self.warnings.add(
-                    "truncated-file",
+                    &flaw::TRUNCATED_FILE,
                     end.clone(),
                     "the file ends within a block (%AB), which is left out",
                 );
@@ -36,14 +37,14 @@ impl<'a> Reader<'a> {
             if !rest.iter().all(|&b| is_blank(b) || b == b'%') {
                 let place = self.lexer.position()..self.bytes.len();
                 self.warnings.add(
-                    "text-after-end",
+                    &flaw::TEXT_AFTER_END,
                     place,
                     "what follows the end of the program (M02) is left out",
                 );
             }
         } else {
             let message = "the file does not end with M02; it may have been cut off";
-            self.warnings.add("missing-end-of-file", end, message);
+            self.warnings.add(&flaw::MISSING_END_OF_FILE, end, message);
         }
         self.into_image()
     }
@@ -51,11 +52,11 @@ impl<'a> Reader<'a> {
     pub(super) fn into_image(mut self) -> Result<Image, Error> {
         let source = self.source();
         let mut objects = self.canvas.finish();
-        if self.negative
+        if let Some(place) = self.negative.clone()
             && let Some(frame) = objects.iter().map(|(feature, _)| feature.shape.bounds()).reduce(Rect::union)
         {
             let message = "a negative image (%IPNEG) has no extent of its own; its ground is the rectangle round its objects";
-            self.warnings.add("negative-image", 0..0, message);
+            self.warnings.add(&flaw::NEGATIVE_IMAGE, place, message);
             for (_, polarity) in &mut objects {
                 *polarity = polarity.toggled();
             }
@@ -64,14 +65,16 @@ impl<'a> Reader<'a> {
             objects.insert(0, (ground, Polarity::Dark));
         }
         if self.attributes.negative {
+            let words = b"FilePolarity,Negative";
+            let place = find(self.bytes, words).map_or(0..0, |start| start..start + words.len());
             let message = "the file calls its polarity negative (.FilePolarity); it is read as it is drawn, dark for copper";
-            self.warnings.add("negative-file", 0..0, message);
+            self.warnings.add(&flaw::NEGATIVE_FILE, place, message);
         }
         let features = polarity::resolve(objects).map_err(|excess| {
             Error::content(self.name, excess.to_string(), "have the layer written without clear objects")
         })?;
         if features.is_empty() {
-            self.warnings.add("nothing-drawn", 0..0, "the file draws nothing");
+            self.warnings.add(&flaw::NOTHING_DRAWN, last_line(self.bytes), "the file draws nothing");
         }
         Ok(Image {
             features,

@@ -7,6 +7,7 @@ use super::extended::one_line;
 use super::lex::is_blank;
 use super::reader::Reader;
 use super::state::{Format, Unit, Zeros};
+use crate::import::flaw;
 
 impl<'a> Reader<'a> {
     /// The number format. Where none has been given yet, the file is searched for one that comes late.
@@ -18,7 +19,7 @@ impl<'a> Reader<'a> {
         let found = std::iter::from_fn(|| ahead.next()).find(|block| block.text.starts_with(b"FS"));
         if let Some(block) = found {
             self.warnings.add(
-                "late-format",
+                &flaw::LATE_FORMAT,
                 block.place(),
                 "the number format comes after the first coordinate",
             );
@@ -65,7 +66,7 @@ impl<'a> Reader<'a> {
                 "the unit, {}, comes after the first length; it holds for the whole file",
                 unit.name()
             );
-            self.warnings.add("late-units", block.place(), message);
+            self.warnings.add(&flaw::LATE_UNITS, block.place(), message);
             unit
         } else if let Some(list) = self.list {
             list.unit
@@ -76,7 +77,7 @@ impl<'a> Reader<'a> {
                 "the file does not say its unit; {} is assumed, as its number format suggests",
                 unit.name()
             );
-            self.warnings.add("missing-units", place.clone(), message);
+            self.warnings.add(&flaw::MISSING_UNITS, place.clone(), message);
             unit
         };
         self.unit = Some(unit);
@@ -120,7 +121,7 @@ impl<'a> Reader<'a> {
         if self.format.is_some_and(|before| before != format) {
             let message =
                 "the number format changes within the file; coordinates after it are read the new way";
-            self.warnings.add("format-changes", place, message);
+            self.warnings.add(&flaw::FORMAT_CHANGES, place, message);
         }
         self.format = Some(format);
         Ok(())
@@ -148,7 +149,7 @@ impl<'a> Reader<'a> {
         }
         if self.unit.is_some_and(|before| before != unit) {
             let message = "%MO contradicts G70 or G71 before it; %MO is followed";
-            self.warnings.add("conflicting-units", place, message);
+            self.warnings.add(&flaw::CONFLICTING_UNITS, place, message);
         }
         (self.unit, self.unit_by_mode) = (Some(unit), true);
         Ok(())

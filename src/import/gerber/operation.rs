@@ -6,6 +6,7 @@ use std::sync::Arc as Shared;
 use crate::board::polarity::Polarity;
 use crate::board::{Axis, Feature, Shape};
 use crate::geometry::{Nm, Point, Rect};
+use crate::import::flaw;
 
 use super::super::error::Error;
 use super::aperture::{Form, Template};
@@ -23,12 +24,12 @@ impl<'a> Reader<'a> {
             (Some(operation), _) => operation,
             (None, Some(operation)) => {
                 let message = "a coordinate without D01, D02 or D03 repeats the one before";
-                self.warnings.add("operation-code-missing", place.clone(), message);
+                self.warnings.add(&flaw::OPERATION_CODE_MISSING, place.clone(), message);
                 operation
             }
             (None, None) => {
                 let message = "a coordinate without D01, D02 or D03, and none before it, moves as D02 does";
-                self.warnings.add("operation-code-missing", place.clone(), message);
+                self.warnings.add(&flaw::OPERATION_CODE_MISSING, place.clone(), message);
                 Operation::Move
             }
         };
@@ -91,7 +92,7 @@ impl<'a> Reader<'a> {
     pub(super) fn flash(&mut self, at: Point, block: &Block<'a>) -> Result<(), Error> {
         let place = block.place();
         if self.region.is_some() {
-            self.warnings.add("flash-in-region", place, "a flash within G36 and G37 is left out");
+            self.warnings.add(&flaw::FLASH_IN_REGION, place, "a flash within G36 and G37 is left out");
             return Ok(());
         }
         let at = self.place(at, &place)?;
@@ -108,7 +109,7 @@ impl<'a> Reader<'a> {
         let shapes = draw::flash(&form, at);
         if shapes.is_empty() {
             self.warnings.add(
-                "nothing-drawn",
+                &flaw::NOTHING_DRAWN,
                 place,
                 format!("D{number} has no area; flashes of it are left out"),
             );

@@ -7,6 +7,7 @@ use rustc_hash::FxHashMap;
 
 use crate::board::polarity::Polarity;
 use crate::geometry::{Point, Turn};
+use crate::import::flaw;
 
 use super::super::error::{Error, Warnings, printable};
 use super::aperture::{Form, Template};
@@ -101,7 +102,7 @@ pub(super) struct Reader<'a> {
     pub(super) scale: f64,
     pub(super) placement: Placement,
     /// IPNEG.
-    pub(super) negative: bool,
+    pub(super) negative: Option<Range<usize>>,
     pub(super) forms: FxHashMap<(u32, [u64; 4]), Rc<Form>>,
     pub(super) position: Point,
     pub(super) aperture: Option<u32>,
@@ -169,7 +170,7 @@ impl<'a> Reader<'a> {
             rotation: 0.0,
             scale: 1.0,
             placement: Placement::new(),
-            negative: false,
+            negative: None,
             forms: FxHashMap::default(),
             position: Point::default(),
             aperture: None,
@@ -209,19 +210,19 @@ impl<'a> Reader<'a> {
             End::Star => {}
             End::Percent => {
                 self.warnings.add(
-                    "missing-star",
+                    &flaw::MISSING_STAR,
                     place,
                     "a command does not end with `*`; it is read as if it did",
                 );
             }
             End::File if block.text.trim_ascii() == b"M02" || block.text.trim_ascii() == b"M00" => {
-                self.warnings.add("missing-star", place, "the last command does not end with `*`");
+                self.warnings.add(&flaw::MISSING_STAR, place, "the last command does not end with `*`");
             }
             End::File if block.text.trim_ascii_end().is_empty() => return Ok(()),
             End::File => {
                 let message =
                     "the file ends in the middle of a command, which is left out: it may have been cut off";
-                self.warnings.add("truncated-file", place, message);
+                self.warnings.add(&flaw::TRUNCATED_FILE, place, message);
                 return Ok(());
             }
         }
@@ -229,7 +230,7 @@ impl<'a> Reader<'a> {
         self.bracketed ^= block.percents % 2 == 1;
         if extended != self.bracketed {
             let message = "a `%` is missing before or after this; it is read as what it looks like";
-            self.warnings.add("missing-percent", block.place(), message);
+            self.warnings.add(&flaw::MISSING_PERCENT, block.place(), message);
             self.bracketed = extended;
         }
         if extended { self.extended(block) } else { self.words(block.text, &block) }
@@ -258,7 +259,7 @@ impl<'a> Reader<'a> {
             let letter = letter.to_ascii_uppercase();
             if complete && letter != b'M' {
                 let message = "a command does not end with `*`; it is read as if it did";
-                self.warnings.add("missing-star", place.clone(), message);
+                self.warnings.add(&flaw::MISSING_STAR, place.clone(), message);
                 self.operate(words, block)?;
                 (words, drawn, complete) = (Words::default(), false, false);
             }
@@ -289,7 +290,7 @@ impl<'a> Reader<'a> {
         if at == 0 && !matches!(text[0], b'X' | b'Y' | b'D' | b'G' | b'I' | b'J') {
             let shown = printable(&text[..text.len().min(20)]);
             let message = format!("`{shown}` is no command that is known; it is left out");
-            self.warnings.add("unknown-command", place, message);
+            self.warnings.add(&flaw::UNKNOWN_COMMAND, place, message);
             return Ok(());
         }
         Err(self.error(

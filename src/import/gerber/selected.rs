@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::geometry::Nm;
+use crate::import::flaw;
 
 use super::super::error::Error;
 use super::aperture::Form;
@@ -26,7 +27,7 @@ impl<'a> Reader<'a> {
                 "the aperture list {} does not say its unit; its sizes are read as {unit}",
                 list.file
             );
-            self.warnings.add("aperture-units-guessed", 0..0, message);
+            self.warnings.add(&flaw::APERTURE_UNITS_GUESSED, 0..0, message);
         }
     }
 

@@ -60,8 +60,8 @@ impl<'a> Reader<'a> {
 
     pub(super) fn image_polarity(&mut self, text: &[u8], place: Range<usize>) -> Result<(), Error> {
         self.negative = match text.trim_ascii() {
-            b"POS" => false,
-            b"NEG" => true,
+            b"POS" => None,
+            b"NEG" => Some(place),
             _ => {
                 return Err(self.error(
                     place,

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::Notes;
 use super::edge::Edge;
 use crate::geometry::{Nm, Point, Rect};
+use crate::import::flaw;
 
 /// What an end that lies this near to another is not even worth mentioning: the rounding of a file's last digit.
 const ROUNDING: Nm = Nm::from_um(3);
@@ -42,7 +43,7 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
     if let Some((width, at)) = widest {
         let message =
             format!("{closed} gaps of the outline are closed, the widest of {:.3} mm", Nm::from_f64(width));
-        notes.add("outline-gap", message, Some((at, line_at(edges, at))));
+        notes.add(&flaw::OUTLINE_GAP, message, Some((at, line_at(edges, at))));
     }
 }
 
@@ -88,6 +89,8 @@ pub(super) struct Loose {
     pub(super) length: f64,
     /// A rectangle that holds it.
     pub(super) bounds: Rect,
+    /// Its first end, and the line that drew it.
+    pub(super) place: (Point, u32),
 }
 
 /// Leaves out edges that lead nowhere, until all that is left closes.
@@ -111,14 +114,13 @@ pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loos
             break;
         }
     }
-    if let Some(place) = first {
-        let message = format!(
-            "{dropped} lines of the outline layer, {:.1} mm in all, close no contour and are left out",
-            Nm::from_f64(length)
-        );
-        notes.add("outline-loose-lines", message, Some(place));
-    }
-    bounds.map(|bounds| Loose { length, bounds })
+    let (place, bounds) = first.zip(bounds)?;
+    let message = format!(
+        "{dropped} lines of the outline layer, {:.1} mm in all, close no contour and are left out",
+        Nm::from_f64(length)
+    );
+    notes.add(&flaw::OUTLINE_LOOSE_LINES, message, Some(place));
+    Some(Loose { length, bounds, place })
 }
 
 fn line_at(edges: &[Edge], at: Point) -> u32 {

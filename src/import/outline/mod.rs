@@ -15,8 +15,12 @@ mod faces;
 mod heal;
 mod nest;
 
-use crate::board::{Axis, Feature, Outline, Shape, SourceSpan, Warning};
+use std::collections::BTreeMap;
+
+use crate::board::{Axis, Feature, Outline, Shape, Warning};
 use crate::geometry::{Nm, Path, Point};
+use crate::import::error::{last_line, line, locate};
+use crate::import::flaw::{self, Flaw};
 use edge::Edge;
 
 /// How far apart two ends may lie and still be taken for one corner.
@@ -34,13 +38,14 @@ pub struct Joined {
     pub warnings: Vec<Warning>,
 }
 
-/// Joins the axes of `features`, read from `file`, into contours; ends up to `gap` apart meet.
+/// Joins the axes of `features`, read from the file `file` with content `bytes`, into contours; ends up to `gap` apart
+/// meet.
 #[must_use]
-pub fn join(file: &str, features: &[Feature], gap: Nm) -> Joined {
-    let mut notes = Notes { file, warnings: Vec::new() };
+pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
+    let mut notes = Notes { file, bytes, lines: BTreeMap::new(), warnings: Vec::new() };
     let (mut edges, mut contours) = collect(features, &mut notes);
     if edges.is_empty() && contours.is_empty() {
-        notes.add("outline-empty", "the outline layer draws nothing that could be cut", None);
+        notes.add(&flaw::OUTLINE_EMPTY, "the outline layer draws nothing that could be cut", None);
         return Joined { outline: None, warnings: notes.warnings };
     }
     edge::drop_doubles(&mut edges);
@@ -51,12 +56,12 @@ pub fn join(file: &str, features: &[Feature], gap: Nm) -> Joined {
     contours.sort_by_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
     contours.dedup();
     let contours = nest::without_decoration(contours, &mut notes);
-    let outline =
-        Outline::new(contours).filter(|outline| !loose.is_some_and(|loose| reaches_around(&loose, outline)));
+    let closes = |outline: &Outline| !loose.as_ref().is_some_and(|loose| reaches_around(loose, outline));
+    let outline = Outline::new(contours).filter(closes);
     if outline.is_none() {
         let message =
             "the outer edge of the board does not close, so the outline is not known; close it in the layer";
-        notes.add("outline-open", message, None);
+        notes.add(&flaw::OUTLINE_OPEN, message, loose.map(|loose| loose.place));
     }
     Joined { outline, warnings: notes.warnings }
 }
@@ -71,24 +76,37 @@ fn reaches_around(loose: &heal::Loose, outline: &Outline) -> bool {
 /// Warnings about one layer.
 pub(in crate::import::outline) struct Notes<'a> {
     file: &'a str,
+    bytes: &'a [u8],
+    /// The line of the file that drew a point first.
+    lines: BTreeMap<Point, u32>,
     warnings: Vec<Warning>,
 }
 
 impl Notes<'_> {
-    fn add(&mut self, code: &'static str, message: impl Into<String>, place: Option<(Point, u32)>) {
-        let warning = Warning::new(code, message);
-        let (warning, line) = match place {
-            Some((at, line)) => (warning.at(at), line),
-            None => (warning, 1),
+    /// Without a place, the file as a whole is meant.
+    fn add(&mut self, flaw: &Flaw, message: impl Into<String>, place: Option<(Point, u32)>) {
+        let warning = flaw.warning(message);
+        let (warning, bytes) = match place {
+            Some((at, number)) => (warning.at(at), line(self.bytes, number)),
+            None => (warning, last_line(self.bytes)),
         };
-        let source = SourceSpan { file: self.file.to_owned(), line, column: 1, text: String::new() };
-        self.warnings.push(warning.caused_by(source));
+        self.warnings.push(warning.caused_by(locate(self.file, self.bytes, bytes)));
+    }
+
+    fn drawn(&mut self, at: Point, line: u32) {
+        self.lines.entry(at).or_insert(line);
+    }
+
+    /// `at`, with the line that drew it; a point that crossing lines made is on the line of one beside it.
+    fn place(&self, at: Point) -> Option<(Point, u32)> {
+        let drawn = self.lines.range(at..).next().or_else(|| self.lines.last_key_value());
+        drawn.map(|(_, &line)| (at, line))
     }
 }
 
 /// The axes of drawn features as edges, and the contours of regions, closed as they come.
 fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>) {
-    let (mut edges, mut contours, mut flashes) = (Vec::new(), Vec::new(), 0_u32);
+    let (mut edges, mut contours, mut flashes) = (Vec::new(), Vec::new(), Vec::new());
     for feature in features {
         let line = feature.line;
         match (&feature.axis, &feature.shape) {
@@ -97,15 +115,22 @@ fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>
             (Axis::Arc(arc), _) => edges.push(Edge::arc(*arc, line)),
             (Axis::Region, Shape::Polygon(polygon)) => {
                 for ring in polygon.contours() {
+                    ring.iter().for_each(|&corner| notes.drawn(corner, line));
                     contours.extend(Path::polyline(ring.iter().copied().chain(ring.first().copied())));
                 }
             }
-            (Axis::Line(..) | Axis::Flash(_) | Axis::Region, _) => flashes += 1,
+            (Axis::Line(..) | Axis::Flash(_) | Axis::Region, _) => {
+                flashes.push((feature.shape.anchor(), line))
+            }
         }
     }
-    if flashes > 0 {
-        let message = format!("{flashes} flashes on the outline layer are no edge and are left out");
-        notes.add("outline-flashes", message, None);
+    for edge in &edges {
+        notes.drawn(edge.from, edge.line);
+        notes.drawn(edge.to, edge.line);
+    }
+    if let Some(&first) = flashes.first() {
+        let message = format!("{} flashes on the outline layer are no edge and are left out", flashes.len());
+        notes.add(&flaw::OUTLINE_FLASHES, message, Some(first));
     }
     (edges, contours)
 }

@@ -3,6 +3,7 @@
 use super::{Notes, area_mm2};
 use crate::board::FLATTEN;
 use crate::geometry::{Path, Polygon};
+use crate::import::flaw;
 
 /// The smallest area of a contour, in mm²: below lie letters' eyes and doubled lines, which nothing is cut along.
 const SMALLEST: f64 = 0.05;
@@ -17,10 +18,10 @@ const MOST: usize = 2_000;
 /// The contours without tiny ones, and without small ones that lie outside every board.
 pub(super) fn without_decoration(mut contours: Vec<Path>, notes: &mut Notes<'_>) -> Vec<Path> {
     let tiny = |contour: &mut Path| area_mm2(contour).abs() < SMALLEST;
-    let dropped = contours.extract_if(.., tiny).count();
-    if dropped > 0 {
-        let message = format!("{dropped} contours below {SMALLEST} mm² are left out of the outline");
-        notes.add("outline-tiny", message, None);
+    let dropped: Vec<Path> = contours.extract_if(.., tiny).collect();
+    if let Some(first) = dropped.first() {
+        let message = format!("{} contours below {SMALLEST} mm² are left out of the outline", dropped.len());
+        notes.add(&flaw::OUTLINE_TINY, message, notes.place(first.start));
     }
     if contours.len() < 2 || contours.len() > MOST {
         return contours;
@@ -42,7 +43,7 @@ pub(super) fn without_decoration(mut contours: Vec<Path>, notes: &mut Notes<'_>)
     if let Some(&first) = beside.first() {
         let message =
             format!("{} small contours beside the board are taken for lettering and left out", beside.len());
-        notes.add("outline-lettering", message, Some((contours[first].start, 1)));
+        notes.add(&flaw::OUTLINE_LETTERING, message, notes.place(contours[first].start));
     }
     let kept = |i: usize| !beside.contains(&i) && !nests[i].iter().any(|outer| beside.contains(outer));
     let kept: Vec<bool> = (0..rings.len()).map(kept).collect();

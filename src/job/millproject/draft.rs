@@ -217,7 +217,7 @@ impl<'a> Draft<'a> {
         let text = format!("{} = {}", entry.name, entry.value);
         let message = format!("{}:{}: `{text}` is not taken over: {why}", self.file, entry.line);
         let line = u32::try_from(entry.line).unwrap_or(u32::MAX);
-        let source = SourceSpan { file: self.file.to_owned(), line, column: 1, text };
+        let source = SourceSpan::of_line(self.file, line, &text);
         self.made.left.push(Warning { source: Some(source), ..Warning::new("millproject-option", message) });
     }
 

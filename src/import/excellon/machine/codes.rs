@@ -7,6 +7,7 @@ use crate::import::excellon::block::Block;
 use crate::import::excellon::format::Units;
 use crate::import::excellon::lex::{Line, Word};
 use crate::import::excellon::route::Interpolation;
+use crate::import::flaw;
 
 impl Machine<'_, '_, '_> {
     /// Changes the tool, defining it where a diameter is given.
@@ -20,13 +21,13 @@ impl Machine<'_, '_, '_> {
             };
             if size.number.decimals.is_none() {
                 let message = format!("the diameter has no decimal point and is taken for {diameter:.3} mm");
-                self.warnings.add("diameter-without-point", size.place.clone(), message);
+                self.warnings.add(&flaw::DIAMETER_WITHOUT_POINT, size.place.clone(), message);
             }
-            self.tools.insert(number, Tool { diameter, plating: self.plating });
+            self.tools.insert(number, Tool { diameter, plating: self.plating, place: word.place.clone() });
         } else if let (false, Some(&diameter)) =
             (self.tools.contains_key(&number), self.file.declared.commented.get(&number))
         {
-            self.tools.insert(number, Tool { diameter, plating: self.plating });
+            self.tools.insert(number, Tool { diameter, plating: self.plating, place: word.place.clone() });
         }
         self.raise()?;
         self.tool = (number != 0).then_some(number);
@@ -58,7 +59,7 @@ impl Machine<'_, '_, '_> {
             Some(4 | 7 | 34..=37 | 39 | 40 | 45..=47 | 85 | 87 | 92 | 93) => {}
             Some(41 | 42) => {
                 let message = "cutter compensation is not applied: the cut is centred on the programmed line";
-                self.warnings.add("cutter-compensation", word.place.clone(), message);
+                self.warnings.add(&flaw::CUTTER_COMPENSATION, word.place.clone(), message);
             }
             Some(70) => self.units(Units::Inch, &word.place),
             Some(71) => self.units(Units::Mm, &word.place),
@@ -111,7 +112,7 @@ impl Machine<'_, '_, '_> {
             Some(21..=23 | 70 | 80 | 90) if block.repeats_pattern() => {}
             Some(21..=23 | 70 | 80 | 90) => {
                 let message = "swapped or mirrored axes are not applied outside a repeated pattern";
-                self.warnings.add("axes-not-swapped", word.place.clone(), message);
+                self.warnings.add(&flaw::AXES_NOT_SWAPPED, word.place.clone(), message);
                 return Ok(true);
             }
             _ => self.left_out(&format!("M{:02}", word.number.digits), &word.place),

@@ -9,6 +9,7 @@ use crate::import::error::Error;
 use crate::import::excellon::block::Block;
 use crate::import::excellon::lex::Line;
 use crate::import::excellon::route::{self, Center, Interpolation};
+use crate::import::flaw;
 
 impl Machine<'_, '_, '_> {
     /// Goes to X and Y of the block, drilling or routing as the mode has it.
@@ -50,7 +51,7 @@ impl Machine<'_, '_, '_> {
         let Some(hole) = &mut self.routing else {
             if interpolation != Interpolation::Rapid {
                 let message = "the router moves here without having been lowered (M15), so nothing is cut";
-                self.warnings.add("router-not-lowered", line.place.clone(), message);
+                self.warnings.add(&flaw::ROUTER_NOT_LOWERED, line.place.clone(), message);
             }
             return Ok(());
         };

@@ -8,6 +8,7 @@ use crate::geometry::{Nm, Path, Point, Segment, Vector};
 use crate::import::error::Error;
 use crate::import::excellon::block::Block;
 use crate::import::excellon::lex::{Line, Word};
+use crate::import::flaw;
 
 impl Machine<'_, '_, '_> {
     /// `R#X#Y#`: the last hole again and again, each that much further.
@@ -33,7 +34,7 @@ impl Machine<'_, '_, '_> {
         }
         let Some((from, to)) = self.pattern else {
             let message = "M02 repeats no pattern, as none was ended with M01";
-            self.warnings.add("pattern-missing", word.place.clone(), message);
+            self.warnings.add(&flaw::PATTERN_MISSING, word.place.clone(), message);
             return Ok(());
         };
         let to = to.unwrap_or(self.holes.len());

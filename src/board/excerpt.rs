@@ -1,0 +1,86 @@
+//! What stands at a place of a file, as a terminal shows it: one look for errors and warnings.
+
+use std::ops::Range;
+
+use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+
+use super::SourceSpan;
+
+/// A line of a file, or of a long one what surrounds a place, with that place marked.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Excerpt {
+    text: String,
+    marked: Range<usize>,
+}
+
+impl Excerpt {
+    /// `text`, printable and without a line's end, with its bytes `marked`, which lie in it.
+    ///
+    /// # Panics
+    ///
+    /// If `marked` does not lie in `text`, or cuts a character.
+    #[must_use]
+    pub fn new(text: String, marked: Range<usize>) -> Self {
+        assert!(text.get(marked.clone()).is_some(), "the mark lies in the text");
+        Self { text, marked }
+    }
+}
+
+/// How bad what is shown is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The file could not be read.
+    Error,
+    /// It could.
+    Warning,
+}
+
+impl Severity {
+    const fn level(self) -> Level<'static> {
+        match self {
+            Self::Error => Level::ERROR,
+            Self::Warning => Level::WARNING,
+        }
+    }
+}
+
+/// ```text
+/// error: `what`
+///  --> file:line:column
+///   |
+/// 3 | the line, with
+///   |     ^^^^ expected `expected`
+///   |
+///   = help: `advice`
+/// ```
+///
+/// Without a place, what was expected is a note; `expected` and `advice` may be empty.
+#[must_use]
+pub fn show(
+    severity: Severity,
+    what: &str,
+    span: Option<&SourceSpan>,
+    expected: &str,
+    advice: &str,
+) -> String {
+    let mut group = Group::with_title(severity.level().primary_title(what));
+    let expected = if expected.is_empty() { String::new() } else { format!("expected {expected}") };
+    if let Some(span) = span {
+        let Excerpt { text, marked } = &span.excerpt;
+        let annotation = AnnotationKind::Primary.span(marked.clone()).label(expected.as_str());
+        let snippet = Snippet::source(text.as_str()).line_start(span.line as usize).annotation(annotation);
+        // The column counts from the start of the excerpt, which is that of the line unless that is long.
+        group = if marked.start + 1 == span.column as usize {
+            group.element(snippet.path(span.file.as_str()))
+        } else {
+            let place = Origin::path(span.file.as_str()).line(span.line as usize);
+            group.element(place.char_column(span.column as usize)).element(snippet)
+        };
+    } else if !expected.is_empty() {
+        group = group.element(Level::NOTE.message(expected.as_str()));
+    }
+    if !advice.is_empty() {
+        group = group.element(Level::HELP.message(advice));
+    }
+    Renderer::plain().render(&[group])
+}
