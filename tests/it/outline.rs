@@ -222,3 +222,27 @@ proptest! {
         prop_assert_eq!(areas(&first), areas(&joined(&body)), "the same twice");
     }
 }
+
+/// A hundred thousand lines that meet nothing: spread, in one chain, and all in one place.
+#[test]
+fn a_drawing_of_loose_lines_is_done_soon() {
+    const MANY: i64 = 100_000;
+    let spread = (0..MANY).map(|i| [i % 300 * 900, i / 300 * 900, i % 300 * 900 + 400, i / 300 * 900 + 300]);
+    let corner = |i: i64| {
+        let (row, along) = (i / 300, i % 300);
+        (if row % 2 == 0 { along } else { 299 - along } * 300, row * 300)
+    };
+    let chain = (0..MANY).map(|i| [corner(i).0, corner(i).1, corner(i + 1).0, corner(i + 1).1]);
+    let heap = (0..MANY).map(|i| [i % 300 * 5, i / 300 * 5, i % 300 * 5 + 50_000, i / 300 * 5 + 20_000]);
+    for (name, drawn) in [("spread", spread.collect::<Vec<_>>()), ("chain", chain.collect())] {
+        let joined = joined(&lines(&drawn));
+        assert!(joined.outline.is_none(), "{name}: nothing closes");
+        assert!(codes(&joined).contains(&"outline-loose-lines"), "{name}: {:?}", codes(&joined));
+    }
+    let joined = joined(&lines(&heap.collect::<Vec<_>>()));
+    assert!(
+        codes(&joined).contains(&"outline-gap"),
+        "in a heap all ends are near others: {:?}",
+        codes(&joined)
+    );
+}

@@ -1,6 +1,7 @@
 //! Ends that do not meet: near ones are joined, lonely ones are left out.
 
 use std::collections::BTreeMap;
+use std::iter::successors;
 
 use super::Notes;
 use super::edge::Edge;
@@ -10,12 +11,22 @@ use crate::import::flaw;
 /// What an end that lies this near to another is not even worth mentioning: the rounding of a file's last digit.
 const ROUNDING: Nm = Nm::from_um(3);
 
-/// How many edges end at each point.
-fn ends(edges: &[Edge]) -> BTreeMap<Point, u32> {
-    let mut ends = BTreeMap::new();
-    for edge in edges {
-        *ends.entry(edge.from).or_insert(0) += 1;
-        *ends.entry(edge.to).or_insert(0) += 1;
+/// What ends at a point.
+#[derive(Clone, Copy, Debug, Default)]
+struct End {
+    /// How many edges, one with both its ends there twice.
+    count: u32,
+    /// The last of them.
+    edge: usize,
+}
+
+fn ends(edges: &[Edge]) -> BTreeMap<Point, End> {
+    let mut ends = BTreeMap::<Point, End>::new();
+    for (index, edge) in edges.iter().enumerate() {
+        for p in [edge.from, edge.to] {
+            let end = ends.entry(p).or_default();
+            *end = End { count: end.count + 1, edge: index };
+        }
     }
     ends
 }
@@ -48,39 +59,78 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
 }
 
 /// Pairs of points within `gap`, the nearest first, none in two pairs: (distance, loose end, what it goes to).
+///
+/// The reach grows fourfold from one round to the next, and who has found a partner is out. So however many ends lie
+/// in one place, few of them are left to be looked at together, and the work grows with their number alone. That the
+/// nearest come first makes it the same as sorting all pairs at once.
 fn nearest_pairs(edges: &[Edge], gap: Nm, loose_only: bool) -> Vec<(f64, Point, Point)> {
-    let ends = ends(edges);
-    let partner =
-        |p: Point, q: Point| edges.iter().any(|e| (e.from, e.to) == (p, q) || (e.from, e.to) == (q, p));
+    let mut free = ends(edges);
+    free.retain(|_, end| end.count == 1 || !loose_only);
     let mut pairs = Vec::new();
-    for (&p, _) in ends.iter().filter(|&(_, &count)| count == 1) {
-        let low = Point::new(p.x - gap, Nm::MIN);
-        for (&q, &count) in ends.range(low..).take_while(|(q, _)| q.x <= p.x + gap) {
+    let first = (gap > Nm::ZERO).then_some(Nm::new(1));
+    for reach in successors(first, |&reach| (reach < gap).then(|| (reach * 4).min(gap))) {
+        let mut round = pairs_within(edges, &free, reach);
+        round.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        for pair in round {
+            if free.contains_key(&pair.1) && free.remove(&pair.2).is_some() {
+                free.remove(&pair.1);
+                pairs.push(pair);
+            }
+        }
+    }
+    pairs
+}
+
+/// All pairs of a loose end and another one of `free` within `reach`.
+fn pairs_within(edges: &[Edge], free: &BTreeMap<Point, End>, reach: Nm) -> Vec<(f64, Point, Point)> {
+    let cells = Cells::new(free.keys().copied(), reach);
+    let mut pairs = Vec::new();
+    for (&p, end) in free.iter().filter(|(_, end)| end.count == 1) {
+        for q in cells.around(p).filter(|&q| q != p) {
             let distance = p.distance(q);
-            let fits = q != p && distance <= gap.to_f64() && (count == 1 || !loose_only);
             // A loose end is joined to a loose one from one side only: to the smaller point.
-            if fits && (count != 1 || q < p) && (!partner(p, q) || is_open_circle(edges, p, q)) {
+            let fits = distance <= reach.to_f64() && (free[&q].count != 1 || q < p);
+            if fits && may_meet(&edges[end.edge], p, q, distance) {
                 pairs.push((distance, p, q));
             }
         }
     }
-    pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-    let mut used = std::collections::BTreeSet::new();
-    pairs.retain(|&(_, p, q)| {
-        let free = !used.contains(&p) && !used.contains(&q);
-        if free {
-            used.insert(p);
-            used.insert(q);
-        }
-        free
-    });
     pairs
 }
 
-/// Whether an edge from `p` to `q` is a circle drawn not quite to its start, whose ends may meet.
-fn is_open_circle(edges: &[Edge], p: Point, q: Point) -> bool {
-    let between = |e: &&Edge| (e.from, e.to) == (p, q) || (e.from, e.to) == (q, p);
-    edges.iter().filter(between).any(|e| e.length() > 2.0 * p.distance(q))
+/// Whether `p`, at which `edge` alone ends, may be moved to `q`. The two ends of one edge may not, unless it is a
+/// circle drawn not quite to its start.
+fn may_meet(edge: &Edge, p: Point, q: Point, distance: f64) -> bool {
+    let other = if edge.from == p { edge.to } else { edge.from };
+    other != q || edge.length() > 2.0 * distance
+}
+
+/// Points sorted into square cells.
+struct Cells {
+    size: Nm,
+    points: Vec<((i64, i64), Point)>,
+}
+
+impl Cells {
+    fn new(points: impl Iterator<Item = Point>, size: Nm) -> Self {
+        let mut points: Vec<_> = points.map(|p| (cell(p, size), p)).collect();
+        points.sort_unstable();
+        Self { size, points }
+    }
+
+    /// The points in the cell of `p` and the eight around it: all within the size of a cell, and some farther off.
+    fn around(&self, p: Point) -> impl Iterator<Item = Point> {
+        let (x, y) = cell(p, self.size);
+        (x - 1..=x + 1).flat_map(move |x| {
+            let start = self.points.partition_point(|(cell, _)| *cell < (x, y - 1));
+            let column = self.points[start..].iter().take_while(move |(cell, _)| *cell <= (x, y + 1));
+            column.map(|&(_, q)| q)
+        })
+    }
+}
+
+fn cell(p: Point, size: Nm) -> (i64, i64) {
+    (p.x.get().div_euclid(size.get()), p.y.get().div_euclid(size.get()))
 }
 
 /// What [`prune`] left out.
@@ -95,34 +145,128 @@ pub(super) struct Loose {
 
 /// Leaves out edges that lead nowhere, until all that is left closes.
 pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loose> {
-    let (mut dropped, mut length, mut first) = (0_u32, 0.0, None);
-    let mut bounds = None::<Rect>;
-    loop {
-        let ends = ends(edges);
-        let before = edges.len();
-        edges.retain(|edge| {
-            let loose = [edge.from, edge.to].into_iter().find(|p| ends[p] == 1);
-            if let Some(at) = loose {
-                dropped += 1;
-                length += edge.length();
-                bounds = Some(bounds.map_or(edge.bounds(), |b| b.union(edge.bounds())));
-                first = first.or(Some((at, edge.line)));
-            }
-            loose.is_none()
-        });
-        if edges.len() == before {
-            break;
-        }
-    }
-    let (place, bounds) = first.zip(bounds)?;
+    let dead = dead_ends(edges);
+    let left_out = || edges.iter().zip(&dead).filter_map(|(edge, &dead)| dead.then_some(edge));
+    let bounds = left_out().map(Edge::bounds).reduce(Rect::union)?;
+    let length = left_out().map(Edge::length).fold(0.0, |sum, length| sum + length);
+    let ends = ends(edges);
+    let loose = |edge: &Edge| [edge.from, edge.to].into_iter().find(|p| ends[p].count == 1);
+    let place = left_out().find_map(|edge| Some((loose(edge)?, edge.line)))?;
     let message = format!(
-        "{dropped} lines of the outline layer, {:.1} mm in all, close no contour and are left out",
+        "{} lines of the outline layer, {:.1} mm in all, close no contour and are left out",
+        left_out().count(),
         Nm::from_f64(length)
     );
     notes.add(&flaw::OUTLINE_LOOSE_LINES, message, Some(place));
+    let mut dead = dead.into_iter();
+    edges.retain(|_| !dead.next().unwrap_or(false));
     Some(Loose { length, bounds, place })
+}
+
+/// Which edges lead nowhere: those with a loose end, and those whose end is loose without them, one after the other.
+fn dead_ends(edges: &[Edge]) -> Vec<bool> {
+    let mut meeting: BTreeMap<Point, Vec<usize>> = BTreeMap::new();
+    for (index, edge) in edges.iter().enumerate() {
+        meeting.entry(edge.from).or_default().push(index);
+        meeting.entry(edge.to).or_default().push(index);
+    }
+    let mut live: BTreeMap<Point, usize> = meeting.iter().map(|(&p, edges)| (p, edges.len())).collect();
+    let mut dead = vec![false; edges.len()];
+    let mut loose: Vec<Point> = live.iter().filter(|&(_, &count)| count == 1).map(|(&p, _)| p).collect();
+    while let Some(p) = loose.pop() {
+        let Some(&last) = meeting[&p].iter().find(|&&edge| !dead[edge]) else { continue };
+        dead[last] = true;
+        for end in [edges[last].from, edges[last].to] {
+            let count = live.entry(end).and_modify(|count| *count -= 1).or_default();
+            if *count == 1 {
+                loose.push(end);
+            }
+        }
+    }
+    dead
 }
 
 fn line_at(edges: &[Edge], at: Point) -> u32 {
     edges.iter().find(|edge| edge.from == at || edge.to == at).map_or(1, |edge| edge.line)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// As [`nearest_pairs`], the obvious way: every pair of ends, sorted once.
+    fn obvious_pairs(edges: &[Edge], gap: Nm, loose_only: bool) -> Vec<(f64, Point, Point)> {
+        let ends = ends(edges);
+        let between = |e: &&Edge, p, q| (e.from, e.to) == (p, q) || (e.from, e.to) == (q, p);
+        let mut pairs = Vec::new();
+        for &p in ends.keys().filter(|p| ends[p].count == 1) {
+            for &q in ends.keys().filter(|&&q| q != p && (ends[&q].count == 1 || !loose_only)) {
+                let distance = p.distance(q);
+                let mut joining = edges.iter().filter(|e| between(e, p, q));
+                let partner = edges.iter().any(|e| between(&e, p, q));
+                let open = joining.any(|e| e.length() > 2.0 * distance);
+                let one_way = ends[&q].count != 1 || q < p;
+                if distance <= gap.to_f64() && one_way && (!partner || open) {
+                    pairs.push((distance, p, q));
+                }
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        let mut used = BTreeSet::new();
+        pairs.retain(|&(_, p, q)| {
+            let free = !used.contains(&p) && !used.contains(&q);
+            if free {
+                used.extend([p, q]);
+            }
+            free
+        });
+        pairs
+    }
+
+    /// As [`dead_ends`], the obvious way: pass after pass.
+    fn what_closes(mut edges: Vec<Edge>) -> Vec<Edge> {
+        loop {
+            let ends = ends(&edges);
+            let before = edges.len();
+            edges.retain(|edge| ends[&edge.from].count > 1 && ends[&edge.to].count > 1);
+            if edges.len() == before {
+                return edges;
+            }
+        }
+    }
+
+    /// Lines between few places, some of them near each other, so that all that can happen does.
+    fn drawings() -> impl Strategy<Value = Vec<Edge>> {
+        let place = (0..4_i64, 0..4_i64, 0..60_i64, 0..3_i64).prop_map(|(x, y, beside, above)| {
+            Point::new(Nm::new(x * 1_000 + beside), Nm::new(y * 1_000 + above * 30))
+        });
+        let edge = (place.clone(), place).prop_map(|(from, to)| Edge::line(from, to, 1));
+        proptest::collection::vec(edge, 0..40).prop_map(|mut edges| {
+            super::super::edge::drop_doubles(&mut edges);
+            edges
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn ends_meet_as_if_all_pairs_were_sorted(edges in drawings(), gap in 1..2_500_i64, loose_only: bool) {
+            let gap = Nm::new(gap);
+            prop_assert_eq!(
+                nearest_pairs(&edges, gap, loose_only),
+                obvious_pairs(&edges, gap, loose_only),
+                "the same pairs in the same order"
+            );
+        }
+
+        #[test]
+        fn what_leads_nowhere_is_what_pass_after_pass_leaves_out(edges in drawings()) {
+            let dead = dead_ends(&edges);
+            let left: Vec<Edge> = edges.iter().zip(dead).filter(|(_, dead)| !dead).map(|(e, _)| *e).collect();
+            prop_assert_eq!(left, what_closes(edges), "the same edges");
+        }
+    }
 }
