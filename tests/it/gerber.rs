@@ -148,8 +148,8 @@ const MISMATCH: f64 = 0.0006;
 ///
 /// The arcs of `gerbv_protel_se_sg`, in steps of a thousandth of an inch, have radii at their ends that differ by up to that;
 /// which one holds is not specified (§4.7.2). The other program takes the first, this one goes over evenly from the
-/// first to the second, so that both ends are met. In `kicad_custom_pads` a gap between two turns of a coil, drawn as one
-/// outline primitive (§4.5.1.6), narrows to nothing; the two pixels lie within it by 6 µm.
+/// first to the second, so that both ends are met. In `kicad_custom_pads` two edges of an outline primitive (§4.5.1) meet at
+/// an acute angle; the two pixels lie in the wedge between them, 6 µm outside, where the winding number is zero.
 const BEYOND: &[(&str, usize)] =
     &[("gerbv_protel_se_sg/front", 4), ("gerbv_protel_se_sg/back", 6), ("kicad_custom_pads/front", 2)];
 
