@@ -7,7 +7,7 @@
 mod matching;
 
 use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::collections::{BTreeMap, BinaryHeap};
 
 use rustc_hash::FxHashMap;
 
@@ -83,10 +83,44 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> Vec<usize>
     let candidate = |pair: &Pair| Candidate { nodes: (pair.from, pair.to), cost: pair.seconds };
     let candidates: Vec<Candidate> = pairs.iter().map(candidate).collect();
     let mut again = vec![false; links.len()];
-    for chosen in matching::join(nodes, &candidates, lift / 2.0) {
-        pairs[chosen].way.iter().for_each(|&link| again[link] ^= true);
+    let chosen: Vec<&Pair> =
+        matching::join(nodes, &candidates, lift / 2.0).into_iter().map(|index| &pairs[index]).collect();
+    for pair in &chosen {
+        pair.way.iter().for_each(|&link| again[link] ^= true);
     }
+    spare(nodes, links, &odd, &chosen, &mut again);
     (0..links.len()).filter(|&link| again[link]).collect()
+}
+
+/// Takes back the dearest join of each part whose odd nodes are all joined: with the last two left, it is still one trail.
+///
+/// A way over links that must be cut anyway can be taken back without the part falling apart.
+fn spare(nodes: usize, links: &[Link], odd: &[bool], chosen: &[&Pair], again: &mut [bool]) {
+    let mut part: Vec<usize> = (0..nodes).collect();
+    for (link, _) in links.iter().zip(&*again).filter(|(link, again)| link.must || **again) {
+        let Some(ends) = link.ends else { continue };
+        let (a, b) = (root(&mut part, ends.0 as usize), root(&mut part, ends.1 as usize));
+        part[a.max(b)] = a.min(b);
+    }
+    let mut alone = vec![false; nodes];
+    let mut joined = vec![false; nodes];
+    chosen.iter().for_each(|pair| (joined[pair.from], joined[pair.to]) = (true, true));
+    for node in (0..nodes).filter(|&node| odd[node] && !joined[node]) {
+        alone[root(&mut part, node)] = true;
+    }
+    let mut dearest: BTreeMap<usize, (f64, &Pair)> = BTreeMap::new();
+    for pair in chosen.iter().filter(|pair| pair.way.iter().all(|&link| links[link].must)) {
+        // What ways share is passed neither time, and would have to be again.
+        let saved =
+            pair.way.iter().map(|&link| if again[link] { links[link].seconds } else { -links[link].seconds });
+        let (saved, part) = (saved.sum::<f64>(), root(&mut part, pair.from));
+        if !alone[part] && saved > 0.0 && dearest.get(&part).is_none_or(|&(before, _)| saved > before) {
+            dearest.insert(part, (saved, pair));
+        }
+    }
+    for (_, pair) in dearest.values() {
+        pair.way.iter().for_each(|&link| again[link] ^= true);
+    }
 }
 
 /// Two odd nodes and the shortest way between them.
@@ -259,6 +293,19 @@ mod tests {
         assert_eq!(walk(4, &star, 0.5).len(), 2, "four odd nodes, two trails");
         let trails = walk(4, &star, 1.5);
         assert_eq!((trails.len(), times(&trails, 0)), (1, 2), "the shortest arm is cut twice");
+    }
+
+    #[test]
+    fn what_is_one_trail_anyway_is_not_cut_twice() {
+        assert_eq!(
+            walk(2, &[link(0, 1, 1.0)], 5.0),
+            [[Step { link: 0, backwards: false }]],
+            "one edge, once"
+        );
+        let star = [link(0, 1, 1.0), link(0, 2, 2.0), link(0, 3, 3.0)];
+        let trails = walk(4, &star, 50.0);
+        assert_eq!((trails.len(), trails[0].len()), (1, 4), "of two joins the dearer is spared");
+        assert_eq!(times(&trails, 0), 2, "the shortest arm is what is cut twice");
     }
 
     #[test]
