@@ -156,7 +156,8 @@ impl Comparison {
 
     /// What differs, on this grid, band by band.
     fn regions(&self, grid: &Grid) -> Result<Vec<Region>, Error> {
-        let mut rows = Joiner::default();
+        // What is cut and what is left each hang together by themselves, though they may touch.
+        let (mut cut, mut left) = (Joiner::default(), Joiner::default());
         for top in (0..grid.height()).step_by(BAND as usize) {
             let height = BAND.min(grid.height() - top);
             let corner = grid.corner(0, i64::from(top));
@@ -164,21 +165,23 @@ impl Comparison {
             let band = Grid::covering(Rect::new(corner, below), grid.pitch())?;
             let spots = self.spots(&band);
             for (row, spots) in (top..).zip(spots.chunks_exact(grid.width() as usize)) {
-                rows.row(row, &runs(spots));
+                cut.row(row, &runs(spots, Change::Cut));
+                left.row(row, &runs(spots, Change::Left));
             }
         }
         let mm2 = grid.pitch().to_mm() * grid.pitch().to_mm();
-        let region = |part: super::pieces::Part| {
+        let region = |change: Change, part: super::pieces::Part| {
             let corner = |column: u32, row: u32| grid.corner(i64::from(column), i64::from(row));
             let extent = part.extent;
             let rect =
                 Rect::new(corner(extent.left, extent.top), corner(extent.right + 1, extent.bottom + 1));
-            let change = if part.label == CUT { Change::Cut } else { Change::Left };
             #[expect(clippy::cast_precision_loss, reason = "a display figure")]
             let area = part.pixels as f64 * mm2;
             Region { change, rect, area }
         };
-        let mut regions: Vec<Region> = rows.parts().into_iter().map(region).collect();
+        let cut = cut.parts().into_iter().map(|part| region(Change::Cut, part));
+        let left = left.parts().into_iter().map(|part| region(Change::Left, part));
+        let mut regions: Vec<Region> = cut.chain(left).collect();
         regions.sort_by(|a, b| {
             b.area.total_cmp(&a.area).then((a.rect.min(), a.change).cmp(&(b.rect.min(), b.change)))
         });
@@ -186,20 +189,14 @@ impl Comparison {
     }
 }
 
-/// The labels of runs.
-const CUT: u32 = 1;
-const LEFT: u32 = 2;
-
-/// The differences in a row of pixels.
-fn runs(spots: &[Spot]) -> Vec<Run> {
+/// The differences of one kind in a row of pixels.
+fn runs(spots: &[Spot], change: Change) -> Vec<Run> {
     let mut start = 0_u32;
     let mut runs = Vec::new();
     for same in spots.chunk_by(|a, b| a == b) {
         let end = start + u32::try_from(same.len()).expect("a picture is at most 2¹⁶ wide");
-        match same[0] {
-            Spot::One(Change::Cut) => runs.push(Run { start, end, label: CUT }),
-            Spot::One(Change::Left) => runs.push(Run { start, end, label: LEFT }),
-            Spot::Neither | Spot::Both => {}
+        if same[0] == Spot::One(change) {
+            runs.push(Run { start, end, label: 0 });
         }
         start = end;
     }

@@ -118,3 +118,22 @@ fn what_is_not_cut_any_more_is_found_with_place_and_area() {
     let all = diff(&nothing, &loops, Nm::from_um(5), &Settings::default()).expect("compared");
     assert_eq!(all.total(Change::Cut).0, 2, "two loops where there was nothing");
 }
+
+#[test]
+fn a_loop_that_moved_is_cut_in_one_place_and_left_in_another() {
+    let loops = program("loops.nc", "endmill:0.2mm", Side::Front);
+    // A side of a loop moved by half the kerf: the strip left and the strip cut lie on either side of what both cut.
+    let text = loops.text.replace("X3.1500", "X3.2500");
+    let moved = diff(&loops, &Program { text, ..loops.clone() }, Nm::from_um(5), &Settings::default());
+    let moved = moved.expect("compared");
+    // By more than the kerf: the two strips touch nothing but what both cut at their ends.
+    let text = loops.text.replace("X3.1500", "X3.3500");
+    let beside = diff(&loops, &Program { text, ..loops.clone() }, Nm::from_um(5), &Settings::default());
+    let beside = beside.expect("compared");
+    for (found, wide) in [(moved, 0.1), (beside, 0.2)] {
+        let [(cut, cut_area), (left, left_area)] = [found.total(Change::Cut), found.total(Change::Left)];
+        assert_eq!((cut, left), (1, 1), "{:?}", found.regions);
+        assert!((cut_area - 2.5 * wide).abs() < 0.1, "{cut_area} mm² more");
+        assert!((left_area - 2.3 * wide).abs() < 0.1, "{left_area} mm² less");
+    }
+}

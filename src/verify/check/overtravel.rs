@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! The program fits the machine: in no axis do its motions span more than the machine can travel, where somebody has said how much
-//! that is.
+//! The program fits the machine: in no axis do its motions, arcs included, span more than the machine can travel, where somebody has
+//! said how much that is.
 //!
 //! # Why
 //!
@@ -13,8 +13,8 @@
 //! not give are refused by the reader.
 
 use super::{Check, Run, Severity};
-use crate::gcode::read::{Motion, Place};
-use crate::geometry::Nm;
+use crate::gcode::read::{Motion, Way};
+use crate::geometry::{Arc, Nm};
 use crate::verify::Settings;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -27,13 +27,32 @@ pub(super) const CHECK: Check = Check {
 
 const NAME: &str = "overtravel";
 
-/// The coordinate of one axis.
-type Axis = fn(&Place) -> Option<Nm>;
+/// How low and how high a motion goes along an axis.
+type Axis = fn(&Motion) -> Option<(Nm, Nm)>;
 
 fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
     let Some([x, y, z]) = settings.travel else { return Vec::new() };
-    let axes: [(&str, Nm, Axis); 3] = [("x", x, |at| at.x), ("y", y, |at| at.y), ("z", z, |at| at.z)];
+    let axes: [(&str, Nm, Axis); 3] = [("x", x, along_x), ("y", y, along_y), ("z", z, along_z)];
     axes.into_iter().filter_map(|(name, travel, axis)| beyond(program, name, travel, axis)).collect()
+}
+
+fn along_x(motion: &Motion) -> Option<(Nm, Nm)> {
+    let bounds = arc(motion).map(|arc| arc.bounds());
+    bounds.map(|bounds| (bounds.min().x, bounds.max().x)).or_else(|| motion.to.x.map(|x| (x, x)))
+}
+
+fn along_y(motion: &Motion) -> Option<(Nm, Nm)> {
+    let bounds = arc(motion).map(|arc| arc.bounds());
+    bounds.map(|bounds| (bounds.min().y, bounds.max().y)).or_else(|| motion.to.y.map(|y| (y, y)))
+}
+
+fn along_z(motion: &Motion) -> Option<(Nm, Nm)> {
+    motion.to.z.map(|z| (z, z))
+}
+
+fn arc(motion: &Motion) -> Option<Arc> {
+    let Way::Arc { center, turn } = motion.way else { return None };
+    Some(Arc { start: motion.from.point()?, end: motion.to.point()?, center, turn })
 }
 
 /// The motion after which an axis has spanned more than it can.
@@ -41,8 +60,8 @@ fn beyond(program: &Machining, name: &str, travel: Nm, axis: Axis) -> Option<Fin
     let mut span: Option<(Nm, Nm)> = None;
     let mut first: Option<&Motion> = None;
     for motion in &program.motions {
-        let Some(at) = axis(&motion.to) else { continue };
-        let (low, high) = span.map_or((at, at), |(low, high)| (low.min(at), high.max(at)));
+        let Some(own) = axis(motion) else { continue };
+        let (low, high) = span.map_or(own, |(low, high)| (low.min(own.0), high.max(own.1)));
         span = Some((low, high));
         if high - low > travel {
             first = first.or(Some(motion));
