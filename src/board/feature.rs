@@ -1,4 +1,4 @@
-use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
+use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Turn, Vector};
 
 use super::polarity;
 
@@ -53,6 +53,22 @@ impl Shape {
             Self::Stroke { from, to, radius } => Rect::new(*from, *to).inflate(*radius),
             Self::Arc { arc, radius } => arc.bounds().inflate(*radius),
             Self::Polygon(polygon) => polygon.bounds(),
+        }
+    }
+
+    /// Moved by `way`.
+    #[must_use]
+    pub fn translated(&self, way: Vector) -> Self {
+        match self {
+            Self::Disc { center, radius } => Self::Disc { center: *center + way, radius: *radius },
+            Self::Stroke { from, to, radius } => {
+                Self::Stroke { from: *from + way, to: *to + way, radius: *radius }
+            }
+            Self::Arc { arc, radius } => {
+                let [start, end, center] = [arc.start, arc.end, arc.center].map(|p| p + way);
+                Self::Arc { arc: Arc { start, end, center, ..*arc }, radius: *radius }
+            }
+            Self::Polygon(polygon) => Self::Polygon(polygon.translated(way)),
         }
     }
 

@@ -1,3 +1,4 @@
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::str::FromStr;
@@ -6,6 +7,7 @@ use clap::{Args, ValueEnum};
 use voromill::board::{Board, Side};
 use voromill::geometry::{Nm, Vector};
 use voromill::import::{self, Selection};
+use voromill::job::{self, Pattern, Tiles, Topology};
 use voromill::report::Verdict;
 use voromill::toolpath::Angle;
 use voromill::verify::{self, Cutter, Orientation, Placement, Program, Role, Severity};
@@ -76,6 +78,18 @@ pub(super) struct Verify {
     #[arg(long, value_name = "NUMBER")]
     tabs: Option<u32>,
 
+    /// Nets that were not to be isolated, as for mill [default: as the programs' comments say]
+    #[arg(long, value_name = "PATTERN", value_delimiter = ',')]
+    ignore: Vec<Pattern>,
+
+    /// How many boards there are in the stock, such as 3x2 [default: as the programs' comments say]
+    #[arg(long, value_name = "NxM")]
+    tile: Option<Tiles>,
+
+    /// How far these are apart [default: as the programs' comments say]
+    #[arg(long, value_name = "LENGTH")]
+    tile_spacing: Option<Nm>,
+
     /// The pixel of the picture [default: a quarter of the kerf, within 5um to 25um]
     #[arg(long, value_name = "LENGTH")]
     resolution: Option<Nm>,
@@ -145,24 +159,26 @@ fn lengths<const COUNT: usize>(text: &str) -> Option<[Nm; COUNT]> {
 
 impl Verify {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
-        let loaded = import::load(&self.board, &Selection::default())?;
+        let mut board = import::load(&self.board, &Selection::default())?.board;
+        let mut programs =
+            self.programs.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
+        self.leave_out(&mut board, &programs);
         let settings = verify::Settings {
             copper: self.copper,
             gouge: self.max_gouge,
             sliver: self.sliver,
             travel: self.travel.map(|Travel(travel)| travel),
             tabs: self.tabs,
+            tiles: self.tiles(&programs)?,
             pixel: self.resolution,
             ..verify::Settings::default()
         };
-        let mut programs =
-            self.programs.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
         if self.register {
             for program in &mut programs {
-                self.lay(program, &loaded.board, &settings, shared)?;
+                self.lay(program, &board, &settings, shared)?;
             }
         }
-        let report = verify::verify(&programs, &loaded.board, &[], &settings)?;
+        let report = verify::verify(&programs, &board, &[], &settings)?;
         let verdict = Verdict::from(&report);
         match self.format {
             Format::Text => shared.report(&verdict.to_text(shared.verbose)),
@@ -171,6 +187,35 @@ impl Verify {
             Format::Junit => super::print(&verdict.to_junit(self.deny)),
         }
         Ok(if report.passes(self.deny) { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    /// Takes the nets out of the copper that were not to be isolated.
+    fn leave_out(&self, board: &mut Board, programs: &[Program]) {
+        let mut patterns = self.ignore.clone();
+        if patterns.is_empty() {
+            let said = programs.iter().filter_map(|program| verify::said(&program.text, "ignore"));
+            let all: BTreeSet<&str> = said.flat_map(str::split_whitespace).collect();
+            patterns = all.into_iter().filter_map(|name| name.parse().ok()).collect();
+        }
+        let said = programs.iter().find_map(|program| verify::said(&program.text, "topology"));
+        let topology = said.and_then(|name| Topology::from_str(name, true).ok());
+        // That a pattern means no net was said when the program was made.
+        let _ = job::ignore(board, &patterns, topology.unwrap_or(Topology::Contact));
+    }
+
+    /// How many boards there are.
+    fn tiles(&self, programs: &[Program]) -> Result<Option<verify::Tiles>, Failure> {
+        let said = |setting| programs.iter().find_map(|program| verify::said(&program.text, setting));
+        let tiles = self.tile.or_else(|| said("tile")?.parse().ok());
+        let Some(Tiles { columns, rows }) = tiles.filter(|tiles| tiles.columns * tiles.rows > 1) else {
+            return Ok(None);
+        };
+        let spacing = self.tile_spacing.or_else(|| said("tile-spacing")?.parse().ok());
+        let Some(spacing) = spacing else {
+            let cause = format!("nothing says how far the {columns}x{rows} boards are apart");
+            return Err(Failure::new(cause, "say it: --tile-spacing 3mm"));
+        };
+        Ok(Some(verify::Tiles { columns, rows, spacing }))
     }
 
     /// Finds how the board lies under a program, and says so.

@@ -1,4 +1,4 @@
-use super::{Arc, Nm, Point, Rect, Turn};
+use super::{Arc, Nm, Point, Rect, Turn, Vector};
 
 /// A step of a [`Path`], from where the one before it ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -70,6 +70,16 @@ impl Path {
     #[must_use]
     pub fn end(&self) -> Point {
         self.segments.last().map_or(self.start, Segment::to)
+    }
+
+    /// Moved by `way`.
+    #[must_use]
+    pub fn translated(&self, way: Vector) -> Self {
+        let moved = |segment: &Segment| match *segment {
+            Segment::Line { to } => Segment::Line { to: to + way },
+            Segment::Arc { to, center, turn } => Segment::Arc { to: to + way, center: center + way, turn },
+        };
+        Self { start: self.start + way, segments: self.segments.iter().map(moved).collect() }
     }
 
     /// Whether it ends where it begins, having gone somewhere.

@@ -84,6 +84,17 @@ impl Polygon {
         Self { contours: self.contours.iter().map(|ring| ring.iter().map(|&p| p + way).collect()).collect() }
     }
 
+    /// What of it lies within `rect`, contour by contour; none where nothing does. Edges may run along those of the rectangle more than
+    /// once, there and back: the area is right, but the polygon is not simple.
+    #[must_use]
+    pub fn clipped(&self, rect: Rect) -> Option<Self> {
+        let within = |bounds: Rect| rect.contains(bounds.min()) && rect.contains(bounds.max());
+        if within(self.bounds()) {
+            return Some(self.clone());
+        }
+        Self::new(self.contours.iter().map(|ring| clip(ring.clone(), rect)).collect())
+    }
+
     /// The total length of all edges, in nanometres.
     #[must_use]
     pub fn perimeter(&self) -> f64 {
@@ -130,12 +141,48 @@ impl Polygon {
     }
 }
 
+/// What of a ring lies within `rect`, side by side (Sutherland and Hodgman 1974).
+fn clip(mut ring: Vec<Point>, rect: Rect) -> Vec<Point> {
+    let (min, max) = (rect.min(), rect.max());
+    let sides = [(true, min.x, false), (true, max.x, true), (false, min.y, false), (false, max.y, true)];
+    for (in_x, limit, upper) in sides {
+        let along = |p: Point| if in_x { p.x } else { p.y };
+        let holds = |p: Point| if upper { along(p) <= limit } else { along(p) >= limit };
+        let crossing = |a: Point, b: Point| {
+            let part = (limit - along(a)).to_f64() / (along(b) - along(a)).to_f64();
+            let ((ax, ay), (bx, by)) = (a.to_f64(), b.to_f64());
+            Point::from_f64(ax + (bx - ax) * part, ay + (by - ay) * part)
+        };
+        let mut kept = Vec::with_capacity(ring.len() + 4);
+        for (at, &to) in ring.iter().enumerate() {
+            let from = ring[(at + ring.len() - 1) % ring.len()];
+            if holds(from) != holds(to) {
+                kept.push(crossing(from, to));
+            }
+            if holds(to) {
+                kept.push(to);
+            }
+        }
+        ring = kept;
+    }
+    ring
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::from_um(x), Nm::from_um(y))
+    }
+
+    #[test]
+    fn what_is_clipped_keeps_the_area_within() {
+        let comb = [(0, 0), (10, 0), (10, 10), (8, 10), (8, 2), (2, 2), (2, 10), (0, 10)];
+        let comb = Polygon::new(vec![comb.map(|(x, y)| at(x, y)).to_vec()]).expect("eight corners");
+        let clipped = comb.clipped(Rect::new(at(-5, 5), at(20, 20))).expect("two teeth");
+        assert!((clipped.area_mm2() - 20e-6).abs() < 1e-12, "two teeth of 2 by 5: {}", clipped.area_mm2());
+        assert_eq!(comb.clipped(Rect::new(at(3, 5), at(7, 20))), None, "nothing between them");
     }
 
     #[test]

@@ -3,19 +3,19 @@
 use crate::board::{Board, Copper, Side, Warning};
 use crate::topology::{self, Nets};
 
-use super::Settings;
 use super::layer::method;
+use super::{Pattern, Topology};
 
 /// Takes the nets that a pattern means out of the copper of `board`: cuts go through them as if they were not there.
 ///
 /// Warned about: `nets-ignored` on each side that has some, `pattern-without-net` for what means none.
-pub(super) fn ignore(board: &mut Board, settings: &Settings) -> Vec<Warning> {
-    let mut meant = vec![false; settings.ignore.len()];
+pub fn ignore(board: &mut Board, patterns: &[Pattern], topology: Topology) -> Vec<Warning> {
+    let mut meant = vec![false; patterns.len()];
     let mut warnings = Vec::new();
     for copper in [&mut board.front, &mut board.back].into_iter().flatten() {
-        warnings.extend(thin(copper, settings, &mut meant));
+        warnings.extend(thin(copper, patterns, topology, &mut meant));
     }
-    for (pattern, _) in settings.ignore.iter().zip(meant).filter(|(_, meant)| !meant) {
+    for (pattern, _) in patterns.iter().zip(meant).filter(|(_, meant)| !meant) {
         let message = format!("no net is called `{pattern}`, so it leaves none out");
         warnings.push(Warning::new("pattern-without-net", message));
     }
@@ -23,12 +23,17 @@ pub(super) fn ignore(board: &mut Board, settings: &Settings) -> Vec<Warning> {
 }
 
 /// One side; `meant` learns which patterns mean a net.
-fn thin(copper: &mut Copper, settings: &Settings, meant: &mut [bool]) -> Option<Warning> {
-    let nets = topology::recover(copper, method(settings.topology));
+fn thin(
+    copper: &mut Copper,
+    patterns: &[Pattern],
+    topology: Topology,
+    meant: &mut [bool],
+) -> Option<Warning> {
+    let nets = topology::recover(copper, method(topology));
     let mut left_out = Vec::new();
     for id in (0..).map(topology::NetId).take(nets.nets().len()) {
         let names = names(copper, &nets, id);
-        for (pattern, meant) in settings.ignore.iter().zip(meant.iter_mut()) {
+        for (pattern, meant) in patterns.iter().zip(meant.iter_mut()) {
             if names.iter().any(|name| pattern.matches(name)) {
                 *meant = true;
                 left_out.push(id);

@@ -34,6 +34,7 @@ pub use choice::{DialectChoice, Narrow, Origin, ParseDialectError, Sites, Strate
 pub use cutting::Cutting;
 pub use error::Error;
 pub use holding::Holding;
+pub use ignore::ignore;
 pub use inspect::inspect;
 pub use layer::Layer;
 pub use millproject::{MillProject, ProjectFiles};

@@ -55,7 +55,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         return Err(Error::Truncated(format!("{place}{}", cut_off.message)));
     }
     if !settings.ignore.is_empty() {
-        warnings.extend(ignore(&mut board, settings));
+        warnings.extend(ignore(&mut board, &settings.ignore, settings.topology));
     }
     let bounds = board.bounds().ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
     let stock = Stock::new(bounds, settings);

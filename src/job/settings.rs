@@ -122,6 +122,7 @@ impl Settings {
         let cutout_depth = positive("cutout-depth", options.cutout_depth)?;
         let tab_height = positive("tab-height", options.tab_height)?;
         let tabs = holding(&options)?;
+        let tiles = tiles(&options, &cutout_tool)?;
         if tabs != Holding::Count(0) && tab_height >= cutout_depth {
             let problem = format!(
                 "tabs of {} in a cut of {} would leave it uncut",
@@ -134,7 +135,7 @@ impl Settings {
             isolation: isolation(&options, &workshop, |cut| heights(cut, None))?,
             safe,
             ignore: options.ignore.clone(),
-            tiles: tiles(&options, &cutout_tool)?,
+            tiles,
             tool_change: options.tool_change_at,
             alignment: alignment(&options)?,
             drilling: heights(
@@ -175,7 +176,11 @@ impl Settings {
             tabs,
             tab_width: positive("tab-width", options.tab_width)?,
             tab_height,
-            options,
+            // Said though nobody gave it, so that the program tells where all tiles lie.
+            options: Options {
+                tile_spacing: tiles.map(|(_, spacing)| Length(spacing)).or(options.tile_spacing),
+                ..options
+            },
         })
     }
 

@@ -87,7 +87,9 @@ impl Written {
         let whole = wait(tiling.map_or_else(|| program.clone(), |tiling| program.clone().tiled(tiling)));
         let statistics = measure(&whole, &settings.machine);
         let mut options = settings.options().listed();
-        options.retain(|(option, _)| part.is_changed_by(option));
+        // How the board is turned every program must say, so that it can be judged by itself.
+        let turned = |option: &str, value: &str| option == "rotate" && value != "0deg";
+        options.retain(|(option, value)| part.is_changed_by(option) || turned(option, value));
         let header = Header { settings: options, seconds: Some(statistics.seconds), ..header.clone() };
         let text = gcode::write(&whole, &settings.dialect, &header);
         let tile = tiling.map(|_| gcode::write(&wait(program.clone()), &settings.dialect, &header));

@@ -30,6 +30,17 @@ pub(super) fn hits(sheet: &Sheet<'_>, tolerance: Nm) -> Vec<Hit> {
     hits
 }
 
+/// Hits this near to each other are one. Chosen: what one looks at at once.
+const TOGETHER: Nm = Nm::from_um(500);
+
+/// Hits in order, those together that follow one another or are near each other.
+pub(super) fn clusters(hits: &[Hit]) -> impl Iterator<Item = &[Hit]> {
+    hits.chunk_by(|a, b| {
+        let near = b.cut - a.cut.min(b.cut) <= 2 || a.at.distance(b.at) <= TOGETHER.to_f64();
+        (a.net, a.forced) == (b.net, b.forced) && near
+    })
+}
+
 /// The nets that a piece of a cut takes copper of, each once, at its deepest.
 fn taken(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, tolerance: Nm) -> Vec<Hit> {
     let half = cut.swept.half();

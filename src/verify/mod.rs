@@ -18,13 +18,16 @@ mod cutter;
 mod diff;
 mod flood;
 mod hit;
+mod interior;
 mod machining;
 mod pieces;
 mod placement;
 mod register;
+mod remains;
 mod report;
 mod sheet;
 mod stated;
+mod tiles;
 mod walls;
 
 use std::fmt;
@@ -42,6 +45,8 @@ pub use diff::{Change, Comparison, Region, Spot, diff};
 pub use placement::Placement;
 pub use register::{Orientation, register};
 pub use report::{Finding, Judged, Report, Severity};
+pub use stated::said;
+pub use tiles::Tiles;
 
 use machining::Machining;
 use sheet::Sheet;
@@ -107,6 +112,8 @@ pub struct Settings {
     pub travel: Option<[Nm; 3]>,
     /// How many tabs were asked for; none where nobody said so: at least one for each board.
     pub tabs: Option<u32>,
+    /// How many boards there are in the stock; none for one.
+    pub tiles: Option<Tiles>,
     /// The pixel of the picture; none for a quarter of the narrowest kerf, within 5 µm to 25 µm.
     pub pixel: Option<Nm>,
 }
@@ -128,6 +135,7 @@ impl Default for Settings {
             board: Nm::from_um(1600),
             travel: None,
             tabs: None,
+            tiles: None,
             pixel: None,
         }
     }
@@ -223,6 +231,10 @@ pub fn verify(
         .par_iter()
         .map(|program| Machining::read(program, board, settings))
         .collect::<Result<_, _>>()?;
+    // All lie alike: what one program says of how the board is turned goes for all tiles.
+    let degrees = read.first().map_or(0.0, |machining| machining.placement.degrees);
+    let tiled = settings.tiles.map(|tiles| tiles.lay(board, degrees));
+    let (board, known) = tiled.as_ref().map_or((board, known), |tiled| (tiled, &[]));
     let mut roles: Vec<Role> = read.iter().map(|machining| machining.role).collect();
     roles.sort_unstable();
     roles.dedup();

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use crate::board::{Board, Copper, FLATTEN, Shape, Side};
+use crate::board::{Board, Copper, FLATTEN, Shape, Side, polarity};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::grid::Grid;
 use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
@@ -11,6 +11,7 @@ use crate::topology::{Method, NetId, Nets, Proximity, recover, surface};
 use super::hit::{Hit, hits};
 use super::machining::{Machining, Swept, with_radius};
 use super::pieces::{Extent, Part, pieces};
+use super::remains::Remains;
 use super::walls::Walls;
 use super::{Error, Settings};
 
@@ -32,8 +33,8 @@ pub(super) struct Sheet<'a> {
     pub(super) cuts: Vec<Cut<'a>>,
     /// What is left, in connected pieces, of a picture with kerfs narrower by [`DOUBT`]: whatever may hang together does.
     pub(super) parts: Vec<Part>,
-    /// The same with kerfs wider by as much: whatever may be cut apart is. None where the cuts leave all nets alone.
-    pub(super) parted: Option<Vec<Part>>,
+    /// The same exactly, where the picture leaves a doubt.
+    pub(super) remains: Remains,
     /// Where the cuts take copper of nets.
     pub(super) hits: Vec<Hit>,
     /// What bounds the copper that is left.
@@ -58,15 +59,13 @@ pub(super) enum Show {
     Left,
     /// The nets as designed, and the outside.
     Design,
-    /// The cuts alone.
-    Cuts,
     /// How far it is to the way of the nearest cut, less what half its kerf has beyond half the narrowest.
     Ways,
     /// How far it is to the board's edge.
     Edge,
 }
 
-/// In pixels, how much narrower or wider the cuts are drawn so that nothing that hangs together, or is apart, is missed.
+/// In pixels, how much narrower the cuts are drawn so that nothing that hangs together is missed.
 ///
 /// A strip of a width of √2 pixels holds a row of pixel centres that share edges, whichever way it lies. A gap of any
 /// width between two cuts that are narrower by three quarters of a pixel each is wider than that.
@@ -97,7 +96,7 @@ impl<'a> Sheet<'a> {
             proximity: Proximity::new(copper),
             cuts,
             parts: Vec::new(),
-            parted: None,
+            remains: Remains::default(),
             hits: Vec::new(),
             walls,
             half,
@@ -105,15 +104,15 @@ impl<'a> Sheet<'a> {
             grid,
         };
         sheet.hits = hits(&sheet, settings.gouge);
-        sheet.parts = sheet.pieces(-DOUBT);
-        sheet.parted = (!sheet.hits.is_empty()).then(|| sheet.pieces(DOUBT));
+        sheet.parts = sheet.pieces();
+        sheet.remains = Remains::new(&sheet, settings);
         Ok(sheet)
     }
 
-    /// What hangs together with all kerfs wider by twice so many pixels.
-    fn pieces(&self, wider: f64) -> Vec<Part> {
-        let wider = Nm::from_f64(self.pitch().to_f64() * wider);
-        let scene = self.scene(&self.grid, Show::Left, wider);
+    /// What hangs together with all kerfs narrower by [`DOUBT`] on either side.
+    fn pieces(&self) -> Vec<Part> {
+        let narrower = Nm::from_f64(self.pitch().to_f64() * DOUBT);
+        let scene = self.scene(&self.grid, Show::Left, -narrower);
         pieces(&scene, |label| label != CUT && label != OUTSIDE)
     }
 
@@ -125,6 +124,15 @@ impl<'a> Sheet<'a> {
     /// The part of the board that the picture shows.
     pub(super) fn rect(&self) -> Rect {
         self.grid.rect()
+    }
+
+    /// The board as far as it lies within `rect`.
+    pub(super) fn ground(&self, rect: Rect) -> Vec<Polygon> {
+        let clipped = match &self.outline {
+            Some(outline) => outline.clipped(rect),
+            None => Polygon::rectangle(self.rect()).clipped(rect),
+        };
+        clipped.map_or(Vec::new(), |clipped| polarity::clean(clipped.contours()))
     }
 
     /// Whether a point lies on the board.
@@ -165,7 +173,7 @@ impl<'a> Sheet<'a> {
     /// What is to be drawn on `grid`, all cuts wider by twice `wider`.
     fn scene(&self, grid: &Grid, show: Show, wider: Nm) -> Scene {
         let mut scene = Scene::new(grid.width(), grid.height());
-        if matches!(show, Show::Left | Show::Cuts) {
+        if show == Show::Left {
             for swept in self.cuts.iter().map(|cut| cut.swept) {
                 let shape = with_radius(&swept.shape, (swept.half() + wider).max(Nm::ZERO));
                 if shape.bounds().touches(grid.rect()) {
@@ -196,7 +204,7 @@ impl<'a> Sheet<'a> {
     /// The outside as an area, or the edge as what distances are counted from.
     fn edge(&self, outline: &Polygon, grid: &Grid, show: Show, scene: &mut Scene) {
         match show {
-            Show::Cuts | Show::Ways => {}
+            Show::Ways => {}
             Show::Edge => {
                 for (from, to) in outline.edges() {
                     let edge = Shape::Stroke { from, to, radius: Nm::ZERO };
@@ -229,10 +237,4 @@ fn area(copper: &Copper, outline: Option<&Polygon>, cuts: &[Cut<'_>], pitch: Nm)
     let features = copper.features.iter().map(|feature| feature.shape.bounds());
     let all = features.chain(cuts.iter().map(|cut| cut.swept.shape.bounds())).reduce(Rect::union);
     all.unwrap_or(Rect::new(Point::default(), Point::default())).inflate(Nm::from_mm(1))
-}
-
-/// The pixels of a picture with their columns and rows, row by row.
-pub(super) fn places(grid: &Grid) -> impl Iterator<Item = (i64, i64)> + use<> {
-    let (width, height) = (i64::from(grid.width()), i64::from(grid.height()));
-    (0..height).flat_map(move |row| (0..width).map(move |column| (column, row)))
 }

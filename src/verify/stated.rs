@@ -65,6 +65,16 @@ impl Stated {
     }
 }
 
+/// What a program that voromill wrote says of a setting in its comments, `tile` or `ignore`; none where it says nothing.
+#[must_use]
+pub fn said<'a>(text: &'a str, setting: &str) -> Option<&'a str> {
+    let value = |comment: &'a str| comment.trim().strip_prefix(setting)?.strip_prefix(' ');
+    text.lines().take(HEADER).flat_map(comments).find_map(value).map(str::trim)
+}
+
+/// In so many lines at most a program says what it was made with. Chosen: several times as many as there are settings.
+const HEADER: usize = 200;
+
 /// The first line names the board and the part.
 fn role(title: &str) -> Option<Role> {
     if title.ends_with(" front isolation") {
@@ -111,5 +121,7 @@ mod tests {
         assert_eq!(stated.origin.as_deref(), Some("lower-left"), "the origin");
         let lines: Vec<u32> = stated.cutters.iter().map(|(line, _)| *line).collect();
         assert_eq!(lines, [2, 6], "each from its line on");
+        assert_eq!(said(text, "origin"), Some("lower-left"), "a setting");
+        assert_eq!(said(text, "ignore"), None, "none");
     }
 }

@@ -112,3 +112,122 @@ fn motions_that_break_tools_are_found() {
     let away = good.replace("X6.1500 Y0.8500", "X6.1500 Y-20");
     assert!(judged(away.clone()).contains(&"outside-stock"), "{:?}", judged(away));
 }
+
+/// The loops with another way cut after them.
+fn also(way: &str) -> String {
+    text("verify/loops.nc").replace("M05\n", &format!("{way}G00 Z2.0000\nM05\n"))
+}
+
+#[test]
+fn a_gouge_through_the_middle_of_a_pad_has_its_true_depth() {
+    let board = load(&["verify/pads-F_Cu.gbr"]).board;
+    // Into the middle of a pad of 1 mm and back: 1 mm and half the kerf, far beyond what a kerf reaches.
+    let deep = also("G00 X2 Y0.85\nG01 Z-0.1000\nG01 X2 Y2\n");
+    let report = judge(&board, foreign("loops.nc", deep, "endmill:0.2mm", FRONT));
+    let gouge = report.findings.iter().find(|finding| finding.name == "gouge").expect("a gouge");
+    let depth = gouge.size.expect("a depth");
+    assert!((depth - Nm::from_um(1100)).abs() <= Nm::from_um(5), "1.1 mm, not {depth}");
+    assert_eq!(names(&report, Severity::Error), ["gouge"], "half a cut leaves the pad whole");
+}
+
+#[test]
+fn a_part_thinner_than_a_pixel_is_cut_off_all_the_same() {
+    let board = load(&["verify/pads-F_Cu.gbr"]).board;
+    let judged = |x: &str| {
+        let across = also(&format!("G00 X{x} Y0.85\nG01 Z-0.1000\nG01 X{x} Y3.15\n"));
+        let loops = across.replace("X3.1500", "X3.0750").replace("X3.8500", "X3.9250");
+        names(&judge(&board, foreign("loops.nc", loops, "endmill:0.2mm", FRONT)), Severity::Error)
+    };
+    // The second loop ends 25 µm within the pad's edge at x = 3, and the cut beside it leaves 35 µm, then all but nothing.
+    assert!(judged("2.84").contains(&"open"), "35 µm: {:?}", judged("2.84"));
+    assert!(!judged("2.87").contains(&"open"), "5 µm are a crumb: {:?}", judged("2.87"));
+}
+
+#[test]
+fn a_thin_strip_at_the_edge_is_a_sliver() {
+    let board = load(&["verify/seven-F_Cu.gbr", "verify/seven-Edge_Cuts.gbr"]).board;
+    let judged = |y: &str| {
+        let program =
+            format!("G21 G90 G94 F100\nM3 S10000\nG0 Z2\nG0 X3 Y{y}\nG1 Z-0.1\nG1 X5\nG0 Z2\nM5\nM2\n");
+        let report = judge(&board, foreign("strip.nc", program, "endmill:0.2mm", FRONT));
+        report.findings.iter().find(|finding| finding.name == "sliver").and_then(|finding| finding.size)
+    };
+    assert_eq!(judged("0.13"), Some(Nm::from_um(30)), "30 µm between the kerf and the edge");
+    assert_eq!(judged("0.2"), None, "0.1 mm is no sliver");
+    assert_eq!(judged("0.05"), None, "nothing is left");
+}
+
+#[test]
+fn an_arc_goes_farther_than_its_ends() {
+    let board = load(&["verify/pads-F_Cu.gbr"]).board;
+    // From 0.85 to 3.15 and back in half a circle of a radius of 1.15: 2.3 mm in y as well.
+    let half = text("verify/arcs.nc");
+    let judged = |y: i64| {
+        let travel = Some([Nm::from_mm(100), Nm::from_um(y), Nm::from_mm(100)]);
+        let settings = Settings { travel, ..Settings::default() };
+        let program = foreign("arcs.nc", half.clone(), "endmill:0.2mm", FRONT);
+        let report = verify(&[program], &board, &[], &settings).expect("it can be judged");
+        report.findings.iter().any(|finding| finding.name == "overtravel")
+    };
+    assert!(judged(1100), "not even half of it");
+    assert!(!judged(2400), "all of it");
+}
+
+#[test]
+fn a_pad_that_is_milled_away_is_destroyed() {
+    let board = load(&["verify/pads-F_Cu.gbr"]).board;
+    let rows = (0..13).map(|row| {
+        let (y, [from, to]) = (900 + row * 183, if row % 2 == 0 { ["0.9", "3.1"] } else { ["3.1", "0.9"] });
+        format!("X{from} Y{}.{:03}\nX{to}\n", y / 1000, y % 1000)
+    });
+    let away = also(&format!("G00 X0.9 Y0.9\nG01 Z-0.1000\n{}", rows.collect::<String>()));
+    let report = judge(&board, foreign("loops.nc", away, "endmill:0.2mm", FRONT));
+    let destroyed = report.findings.iter().find(|finding| finding.name == "destroyed").expect("one is gone");
+    assert_eq!(destroyed.nets, ["LEFT"], "the left one alone: {:?}", report.findings);
+}
+
+#[test]
+fn a_trace_left_with_less_than_half_its_width_is_told() {
+    let board = load(&["verify/seven-F_Cu.gbr", "verify/seven-Edge_Cuts.gbr"]).board;
+    // A trace of 0.3 mm, its edge at x = 1.35; half the kerf is 0.2 mm.
+    let judged = |x: &str| {
+        let program =
+            format!("G21 G90 G94 F100\nM3 S10000\nG0 Z2\nG0 X{x} Y2.2\nG1 Z-0.1\nG1 Y4\nG0 Z2\nM5\nM2\n");
+        let report = judge(&board, foreign("trace.nc", program, "endmill:0.4mm", FRONT));
+        report
+            .findings
+            .iter()
+            .find(|finding| finding.name == "minimum-width")
+            .and_then(|finding| finding.size)
+    };
+    let left = judged("1.37").expect("0.12 mm are less than half");
+    assert!((left - Nm::from_um(120)).abs() <= Nm::from_um(8), "0.12 mm, not {left}");
+    assert_eq!(judged("1.45"), None, "0.2 mm of 0.3 mm");
+}
+
+#[test]
+fn what_is_cut_twice_is_told() {
+    let board = load(&["verify/pads-F_Cu.gbr"]).board;
+    let once = text("verify/loops.nc");
+    let begin = once.find("G00 X0.8500").expect("the loops");
+    let end = once.find("M05").expect("their end");
+    let twice = once.replace("M05", &format!("{}M05", &once[begin..end]));
+    let report = judge(&board, foreign("loops.nc", twice, "endmill:0.2mm", FRONT));
+    assert_eq!(names(&report, Severity::Info), ["recut"], "{:?}", report.findings);
+}
+
+#[test]
+fn a_board_that_nothing_holds_is_told() {
+    let board = load(&["verify/seven-F_Cu.gbr", "verify/seven-Edge_Cuts.gbr"]).board;
+    let judged = |top: &str| {
+        let around = format!(
+            "G21 G90 G94 F100\nM3 S10000\nG0 Z2\nG0 X-0.5 Y-0.5\nG1 Z-1.8\nG1 X10\nY8\n{top}X-0.5\nY-0.5\nG0 Z2\nM5\nM2\n"
+        );
+        names(
+            &judge(&board, foreign("around.nc", around, "endmill:1mm", Some(Role::Cutout))),
+            Severity::Warning,
+        )
+    };
+    assert_eq!(judged(""), ["tab-missing"], "all round");
+    assert_eq!(judged("X6\nG0 Z2\nX3\nG1 Z-1.8\n"), [""; 0], "held by a tab");
+}

@@ -105,3 +105,58 @@ fn diff_shows_what_copper_changes() {
     let mixed = voromill(out.path(), &["diff", "old", "new/added.nc"]);
     assert_eq!(mixed.status.code(), Some(2), "a folder and a file: {}", stdout(&mixed));
 }
+
+#[test]
+fn programs_for_several_tiles_say_so_and_are_judged_on_all_of_them() {
+    let out = TempDir::new().expect("a temporary folder");
+    let (copper, edge) = (fixture("seven-F_Cu.gbr"), fixture("seven-Edge_Cuts.gbr"));
+    let mill = [
+        "mill",
+        &copper,
+        &edge,
+        "-o",
+        "out",
+        "--tool",
+        "endmill:0.2mm",
+        "--tile",
+        "2x2",
+        "--rotate",
+        "90deg",
+    ];
+    let made = voromill(out.path(), &mill);
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    let front = out.path().join("out/seven-front.ngc").to_string_lossy().into_owned();
+    let cutout = out.path().join("out/seven-cutout.ngc").to_string_lossy().into_owned();
+    let judge = |more: &[&str]| {
+        voromill(out.path(), &[&["verify", &front, &cutout, "--board", &copper, &edge][..], more].concat())
+    };
+    let good = judge(&[]);
+    assert_eq!(good.status.code(), Some(0), "{}{}", stdout(&good), stderr(&good));
+    let elsewhere = judge(&["--tile-spacing", "5mm"]);
+    assert_eq!(elsewhere.status.code(), Some(1), "tiles elsewhere: {}", stdout(&elsewhere));
+    // What is cut last is missing on one tile alone.
+    let text = fs::read_to_string(&front).expect("a program");
+    let lines: Vec<&str> = text.lines().collect();
+    let lift = lines.iter().rposition(|line| line.starts_with("G0 X")).expect("the last path");
+    fs::write(&front, format!("{}\nM5\nM2\n", lines[..lift].join("\n"))).expect("written");
+    let spoilt = judge(&[]);
+    assert_eq!(spoilt.status.code(), Some(1), "{}", stdout(&spoilt));
+    assert!(stdout(&spoilt).contains("[short]"), "{}", stdout(&spoilt));
+}
+
+#[test]
+fn nets_that_were_left_out_are_not_missed() {
+    let out = TempDir::new().expect("a temporary folder");
+    let (copper, edge) = (fixture("seven-F_Cu.gbr"), fixture("seven-Edge_Cuts.gbr"));
+    let mill = ["mill", &copper, &edge, "-o", "out", "--tool", "endmill:0.2mm", "--ignore", "A*,B*"];
+    let made = voromill(out.path(), &mill);
+    assert_eq!(made.status.code(), Some(0), "{}", stderr(&made));
+    let front = out.path().join("out/seven-front.ngc").to_string_lossy().into_owned();
+    let judge = |more: &[&str]| {
+        voromill(out.path(), &[&["verify", &front, "--board", &copper, &edge][..], more].concat())
+    };
+    let good = judge(&[]);
+    assert_eq!(good.status.code(), Some(0), "as the program says: {}", stdout(&good));
+    let all = judge(&["--ignore", "nothing"]);
+    assert_eq!(all.status.code(), Some(1), "all nets: {}", stdout(&all));
+}

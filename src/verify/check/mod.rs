@@ -21,7 +21,6 @@ mod too_deep;
 use crate::board::{Board, Hole, Shape};
 use crate::gcode::read::Motion;
 use crate::geometry::{Nm, Point};
-use crate::topology::NetId;
 
 use super::machining::{Machining, Plunge};
 use super::report::Finding;
@@ -129,24 +128,6 @@ fn each_stretch(
         });
     }
     findings
-}
-
-/// The least area of a net that counts as a piece of it: a crumb, or of small nets three tenths.
-fn considerable(sheet: &Sheet<'_>, net: NetId, left: f64, settings: &Settings) -> f64 {
-    if left * 0.3 >= settings.crumb {
-        return settings.crumb;
-    }
-    (designed(sheet, net) * 0.3).min(settings.crumb)
-}
-
-/// The area of a net that lies on the board, in mm²; for small nets.
-fn designed(sheet: &Sheet<'_>, net: NetId) -> f64 {
-    let features = sheet.nets.nets()[net.index()].features.iter();
-    let bounds = features.map(|&feature| sheet.copper.features[feature as usize].shape.bounds());
-    let Some(bounds) = bounds.reduce(crate::geometry::Rect::union) else { return 0.0 };
-    let (grid, pictures) = sheet.window(bounds, Nm::from_um(2), 400, &[super::sheet::Show::Design]);
-    let label = net.0 + super::sheet::NETS;
-    area(pictures[0].labels().iter().filter(|&&own| own == label).count(), grid.pitch())
 }
 
 /// So many pixels in mm².

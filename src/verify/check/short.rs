@@ -1,7 +1,8 @@
 //! # What it checks
 //!
-//! No connected piece of what is left holds considerable parts of two nets. For every two that are joined: the bridge's narrowest place
-//! and its width, from face to face of the exact cuts on both sides of it.
+//! No connected piece of what is left holds considerable parts of two nets; where the picture leaves a doubt, the exact shapes
+//! decide. For every two that are joined: the bridge's narrowest place and its width, from face to face of the exact
+//! cuts on both sides of it.
 //!
 //! # Why
 //!
@@ -9,52 +10,43 @@
 //!
 //! # What it can miss
 //!
-//! A bridge within three pixels of a place where the cuts of the same two nets only just meet. Copper that is smeared across a groove.
+//! Copper that is smeared across a groove. Of a bridge in a tangle of thin strips, or within three pixels of a place where the cuts of
+//! the same two nets only just meet, the place and the width; not that there is one.
 
 use std::collections::BTreeMap;
 
-use super::{Check, Run, Severity, considerable};
+use super::{Check, Run, Severity};
 use crate::board::Shape;
-use crate::geometry::{Nm, Point, Rect};
+use crate::geometry::{Nm, Point};
 use crate::topology::NetId;
-use crate::verify::Settings;
 use crate::verify::flood::{Basin, Join, Water};
-use crate::verify::pieces::Part;
+use crate::verify::remains::Joined;
 use crate::verify::report::Finding;
 use crate::verify::sheet::{Cut, NETS, Sheet};
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "two nets joined by copper that was left", run: Run::Isolation(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "two nets joined by copper that was left",
+    run: Run::Isolation(|sheet, _| check(sheet)),
+};
 
 const NAME: &str = "short";
 
-fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
-    let pieces = sheet.parts.chunk_by(|a, b| a.piece == b.piece);
-    pieces.flat_map(|parts| joined(sheet, parts, settings)).collect()
+fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+    sheet.remains.joined.iter().flat_map(|joined| shorts(sheet, joined)).collect()
 }
 
 /// Places where cuts only just meet that are looked behind for a bridge. Chosen.
 const ROUNDS: usize = 20;
 
-/// The shorts of a piece.
-fn joined(sheet: &Sheet<'_>, parts: &[Part], settings: &Settings) -> Vec<Finding> {
-    let nets: Vec<NetId> = parts
-        .iter()
-        .filter_map(|part| {
-            let (net, area) = (Sheet::net(part.label)?, sheet.mm2(part.pixels));
-            let counts = area >= settings.crumb || area >= considerable(sheet, net, area, settings);
-            counts.then_some(net)
-        })
-        .collect();
-    if nets.len() < 2 {
-        return Vec::new();
-    }
-    let place = parts.iter().map(|part| sheet.place(part.extent)).reduce(Rect::union);
-    let basin = Basin::new(sheet, place.unwrap_or(sheet.rect()));
+/// The shorts of a connected piece: so many that they join all its nets.
+fn shorts(sheet: &Sheet<'_>, joined: &Joined) -> Vec<Finding> {
+    let nets = &joined.nets;
+    let basin = Basin::new(sheet, joined.place);
     let mut plugs: Vec<Point> = Vec::new();
     let mut found = Vec::new();
     for _ in 0..ROUNDS {
-        let (real, closed): (Vec<Bridge>, Vec<Bridge>) = bridges(sheet, &basin, &nets, &plugs)
+        let (real, closed): (Vec<Bridge>, Vec<Bridge>) = bridges(sheet, &basin, nets, &plugs)
             .into_iter()
             .partition(|bridge| bridge.width.is_none_or(|width| width > Nm::ZERO));
         found = real;
@@ -66,7 +58,30 @@ fn joined(sheet: &Sheet<'_>, parts: &[Part], settings: &Settings) -> Vec<Finding
             break;
         }
     }
+    unseen(sheet, nets, &mut found);
     found.iter().map(|bridge| finding(sheet, bridge, nets.len())).collect()
+}
+
+/// Adds what joins the nets that no bridge was found for: their copper is in one piece, though the picture is too coarse to
+/// show by what.
+fn unseen(sheet: &Sheet<'_>, nets: &[NetId], found: &mut Vec<Bridge>) {
+    let mut joined = vec![nets[0]];
+    loop {
+        let other = |bridge: &Bridge| {
+            let (a, b) = bridge.nets;
+            let [has_a, has_b] = [a, b].map(|net| joined.contains(&net));
+            (has_a != has_b).then_some(if has_a { b } else { a })
+        };
+        if let Some(next) = found.iter().find_map(other) {
+            joined.push(next);
+            continue;
+        }
+        let Some(&lonely) = nets.iter().find(|net| !joined.contains(net)) else { return };
+        let feature = sheet.nets.nets()[lonely.index()].features[0] as usize;
+        let at = sheet.copper.features[feature].shape.anchor();
+        let one = closest(sheet, at, &joined);
+        found.push(Bridge { nets: (one.min(lonely), one.max(lonely)), at, width: None, place: at });
+    }
 }
 
 /// Two nets and the narrowest place of what joins them.

@@ -1,6 +1,6 @@
 //! # What it checks
 //!
-//! No strip of clad between two cuts is thinner than given, along half a millimetre. Copper of nets is not clad: how thin
+//! No strip of clad between two cuts, or between a cut and the board's edge, is thinner than given, along half a millimetre. Copper of nets is not clad: how thin
 //! that is the design says, and `minimum-width`.
 //!
 //! # Why
@@ -9,7 +9,7 @@
 //!
 //! # What it can miss
 //!
-//! Strips between a cut and the board's edge. Shorter ones: where two cuts meet at a sharp angle there always is one, and its end
+//! Shorter ones: where two cuts meet at a sharp angle there always is one, and its end
 //! holds it.
 
 use rayon::prelude::*;
@@ -22,8 +22,11 @@ use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::walls::Neck;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a thin strip of copper left between two cuts", run: Run::Isolation(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a thin strip of copper left between two cuts, or at the edge",
+    run: Run::Isolation(check),
+};
 
 const NAME: &str = "sliver";
 
@@ -54,18 +57,35 @@ fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
     long.map(|strip| finding(sheet, strip)).collect()
 }
 
-/// The thin places between a cut and those before it.
+/// The thin places between a cut and those before it, or the board's edge.
 fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
     let near = sheet.walls.beside(cut, sliver);
     // Of ways that follow one another one touches the other: what is between the first and the third is no strip.
-    let apart = near.into_iter().filter(|(other, neck)| *other < cut && neck.width > 0.0);
+    let apart = near
+        .into_iter()
+        .filter(|(other, neck)| (*other < cut || *other >= sheet.cuts.len()) && neck.width > 0.0);
     let is_clad = |neck: &Neck| {
         let spot = Shape::Disc { center: neck.at, radius: Nm::ZERO };
         let covered = sheet.walls.around(neck.at, Nm::ZERO).iter().any(|wall| wall.distance < 0.0);
         !covered && sheet.holds(neck.at) && sheet.proximity.near(&spot, Nm::ZERO).is_empty()
     };
-    let strips = apart.filter(|(_, neck)| is_clad(neck));
+    let edge = |(other, neck): (usize, Neck)| {
+        let is_edge = other >= sheet.cuts.len();
+        let neck = if is_edge { at_edge(sheet, cut, other, neck, sliver)? } else { neck };
+        Some((other, neck))
+    };
+    let strips = apart.filter_map(edge).filter(|(_, neck)| is_clad(neck));
     strips.map(|(other, neck)| Thin { cut, neck, length: length(sheet, cut, other, sliver) }).collect()
+}
+
+/// The middle of what is left between a cut and the edge: the middle between the edge and the cutter's way lies in the kerf.
+fn at_edge(sheet: &Sheet<'_>, cut: usize, edge: usize, neck: Neck, sliver: Nm) -> Option<Neck> {
+    let walls = sheet.walls.around(neck.at, sheet.cuts[cut].swept.half() + sliver);
+    let foot = walls.iter().find(|wall| wall.index == edge)?.foot;
+    let ((x, y), way, length) = (foot.to_f64(), neck.at - foot, neck.at.distance(foot));
+    let part = neck.width / 2.0 / length;
+    let at = Point::from_f64(x + way.x.to_f64() * part, y + way.y.to_f64() * part);
+    (length > 0.0).then_some(Neck { at, ..neck })
 }
 
 /// Along how much of a cut another is so near, in nanometres.

@@ -1,0 +1,357 @@
+//! What is left, exactly: polygons where the picture leaves a doubt.
+//!
+//! The picture tells cheaply what is beyond doubt: drawn with narrower kerfs, a piece that holds one net has no short. Whatever it
+//! leaves in doubt, and every net that a cut may part, is asked here: the sheet less all kerfs, and the copper of each net
+//! less all kerfs, as polygons ([`polarity`]), around the place in doubt only. A program without faults costs nothing here.
+//!
+//! ```text
+//!   ▒▒▒▒╲ · ╱▒▒▒▒     A cut along a net leaves it whole; one across it leaves two pieces, however thin one
+//!   ▒▒▒▒▒╲·╱▒▒▒▒▒     of them is, and however fine the pixel would have to be to show it.
+//! ```
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use rayon::prelude::*;
+
+use crate::board::{FLATTEN, Shape, polarity};
+use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::topology::NetId;
+
+use super::Settings;
+use super::hit::Hit;
+use super::machining::with_radius;
+use super::sheet::{Cut, Sheet};
+
+/// What is left where it is not beyond doubt.
+#[derive(Debug, Default)]
+pub(super) struct Remains {
+    /// Connected pieces of what is left that hold considerable copper of several nets.
+    pub(super) joined: Vec<Joined>,
+    /// The nets that a cut may have parted.
+    pub(super) nets: BTreeMap<NetId, Rest>,
+}
+
+/// Nets that are joined.
+#[derive(Clone, Debug)]
+pub(super) struct Joined {
+    /// Where all of it lies.
+    pub(super) place: Rect,
+    /// In order.
+    pub(super) nets: Vec<NetId>,
+}
+
+/// What became of a net.
+#[derive(Clone, Debug)]
+pub(super) struct Rest {
+    /// Its copper as designed, as far as it lies on the board.
+    pub(super) designed: Vec<Polygon>,
+    /// Its considerable parts, the largest first.
+    pub(super) parts: Vec<Remnant>,
+}
+
+/// A connected piece of a net's copper.
+#[derive(Clone, Debug)]
+pub(super) struct Remnant {
+    pub(super) polygon: Polygon,
+    /// In mm².
+    pub(super) area: f64,
+    /// The connected piece of clad that it is part of.
+    piece: usize,
+}
+
+impl Rest {
+    /// Its area as designed, in mm².
+    pub(super) fn area(&self) -> f64 {
+        self.designed.iter().map(Polygon::area_mm2).sum()
+    }
+
+    /// The parts by what they conduct to, each group the largest first; more than one for a net that is cut in two.
+    pub(super) fn apart(&self) -> Vec<Vec<&Remnant>> {
+        let mut groups: Vec<Vec<&Remnant>> = Vec::new();
+        for part in &self.parts {
+            match groups.iter_mut().find(|group| group[0].piece == part.piece) {
+                Some(group) => group.push(part),
+                None => groups.push(vec![part]),
+            }
+        }
+        groups
+    }
+}
+
+/// A part of the board in doubt.
+#[derive(Clone, Debug)]
+struct Doubt {
+    rect: Rect,
+    /// The nets that may be joined.
+    nets: BTreeSet<NetId>,
+    /// Of these, those that may be parted; all of each lies in the rectangle.
+    parted: BTreeSet<NetId>,
+}
+
+/// In shares of a crumb, the copper of a net in the picture from which on a piece is in doubt. Chosen: pixels are coarse.
+const HINT: f64 = 0.1;
+
+impl Remains {
+    pub(super) fn new(sheet: &Sheet<'_>, settings: &Settings) -> Self {
+        let bounds: Vec<Rect> = sheet.cuts.par_iter().map(|cut| cut.swept.shape.bounds()).collect();
+        let mut doubts: Vec<Doubt> = Vec::new();
+        for doubt in doubts_of(sheet, &bounds, settings) {
+            merge(&mut doubts, doubt);
+        }
+        let looked_at: Vec<Self> =
+            doubts.par_iter().map(|doubt| Self::within(sheet, &bounds, doubt, settings)).collect();
+        let mut all = Self::default();
+        for mut remains in looked_at {
+            all.joined.append(&mut remains.joined);
+            all.nets.append(&mut remains.nets);
+        }
+        all
+    }
+
+    /// What is left in a part of the board.
+    fn within(sheet: &Sheet<'_>, bounds: &[Rect], doubt: &Doubt, settings: &Settings) -> Self {
+        let bounded = |polygon: Polygon| (polygon.bounds(), polygon);
+        let kerfs: Vec<(Rect, Polygon)> = kerfs(sheet, bounds, doubt.rect).into_iter().map(bounded).collect();
+        let ground = sheet.ground(doubt.rect);
+        let clad: Vec<(Rect, Polygon)> = left(&ground, &kerfs).into_iter().map(bounded).collect();
+        let within = Within { rect: doubt.rect, ground, kerfs, clad };
+        let nets: Vec<NetId> = doubt.nets.iter().copied().collect();
+        let rests: Vec<Rest> = nets.par_iter().map(|&net| within.rest(sheet, net, settings)).collect();
+        let mut by_piece: BTreeMap<usize, Vec<NetId>> = BTreeMap::new();
+        for (net, rest) in nets.iter().zip(&rests) {
+            let pieces: BTreeSet<usize> = rest.parts.iter().map(|part| part.piece).collect();
+            pieces.into_iter().for_each(|piece| by_piece.entry(piece).or_default().push(*net));
+        }
+        let several = by_piece.into_iter().filter(|(_, nets)| nets.len() > 1);
+        let joined = several.map(|(piece, nets)| Joined { place: within.clad[piece].0, nets }).collect();
+        let parted = nets.into_iter().zip(rests).filter(|(net, _)| doubt.parted.contains(net)).collect();
+        Self { joined, nets: parted }
+    }
+}
+
+/// What the picture leaves in doubt.
+fn doubts_of(sheet: &Sheet<'_>, bounds: &[Rect], settings: &Settings) -> Vec<Doubt> {
+    let mut doubts = Vec::new();
+    let mut reach: BTreeMap<NetId, Rect> = BTreeMap::new();
+    for parts in sheet.parts.chunk_by(|a, b| a.piece == b.piece) {
+        let place = parts.iter().map(|part| sheet.place(part.extent)).reduce(Rect::union);
+        let Some(rect) = place.map(|rect| rect.inflate(sheet.pitch() * 2)) else { continue };
+        let held = parts.iter().filter_map(|part| Some((Sheet::net(part.label)?, part.pixels)));
+        let mut nets = BTreeSet::new();
+        for (net, pixels) in held {
+            reach.entry(net).and_modify(|all| *all = all.union(rect)).or_insert(rect);
+            if sheet.mm2(pixels) >= settings.crumb * HINT {
+                nets.insert(net);
+            }
+        }
+        if nets.len() > 1 {
+            doubts.push(Doubt { rect, nets, parted: BTreeSet::new() });
+        }
+    }
+    let hits: Vec<&[Hit]> = sheet.hits.chunk_by(|a, b| a.net == b.net).collect();
+    let parted: Vec<NetId> = hits
+        .into_par_iter()
+        .filter(|hits| may_part(sheet, bounds, hits, settings))
+        .map(|hits| hits[0].net)
+        .collect();
+    for net in parted {
+        let nets = BTreeSet::from([net]);
+        let features = sheet.nets.nets()[net.index()].features.iter();
+        let places = features.map(|&feature| sheet.copper.features[feature as usize].shape.bounds());
+        let rect = places.chain(reach.get(&net).copied()).reduce(Rect::union);
+        doubts.extend(rect.map(|rect| Doubt { rect, parted: nets.clone(), nets }));
+    }
+    doubts
+}
+
+/// Adds a doubt, as one with all whose rectangles touch its own.
+fn merge(doubts: &mut Vec<Doubt>, mut doubt: Doubt) {
+    while let Some(at) = doubts.iter().position(|other| other.rect.touches(doubt.rect)) {
+        let mut other = doubts.swap_remove(at);
+        doubt.rect = doubt.rect.union(other.rect);
+        doubt.nets.append(&mut other.nets);
+        doubt.parted.append(&mut other.parted);
+    }
+    doubts.push(doubt);
+}
+
+/// How far curves are flattened where areas count: of a strip of a tenth of a millimetre that is a thousandth. Chosen.
+const FINE: Nm = Nm::new(50);
+/// Below this area, in mm², a piece at the edge of a window round a cut is nothing. Chosen: a hundredth of a millimetre square.
+const NOTHING: f64 = 1e-4;
+
+/// Whether cuts may part the copper of a net: the middle of one goes through it, or around some there are more pieces after than
+/// before.
+fn may_part(sheet: &Sheet<'_>, bounds: &[Rect], hits: &[Hit], settings: &Settings) -> bool {
+    hits.iter().any(|hit| hit.through)
+        || windows(bounds, hits).into_par_iter().any(|rect| parts(sheet, bounds, hits[0].net, rect, settings))
+}
+
+/// Windows that hold what these cuts take, each of a few cuts that follow one another.
+fn windows(bounds: &[Rect], hits: &[Hit]) -> Vec<Rect> {
+    let is_small = |rect: Rect| rect.width().max(rect.height()) <= WINDOW;
+    let mut windows: Vec<Rect> = Vec::new();
+    for rect in hits.iter().map(|hit| bounds[hit.cut]) {
+        match windows.last_mut() {
+            Some(last) if is_small(last.union(rect)) => *last = last.union(rect),
+            _ => windows.push(rect),
+        }
+    }
+    windows
+}
+
+/// How large a window is, unless a single cut is larger. Chosen: a few pieces of a cut.
+const WINDOW: Nm = Nm::from_mm(1);
+/// How far curves are flattened where only pieces are counted; kerfs are wider by twice as much, so that none is too narrow.
+const COARSE: Nm = Nm::from_um(1);
+
+/// Whether within a window there are more pieces of a net after the cuts than before. Crumbs do not count, unless the window cuts
+/// them off from more.
+fn parts(sheet: &Sheet<'_>, bounds: &[Rect], net: NetId, cut: Rect, settings: &Settings) -> bool {
+    let rect = cut.inflate(sheet.half * 2);
+    let kerfs = rough_kerfs(sheet, bounds, rect);
+    let inner = rect.inflate(-EDGE);
+    let counts = |piece: &&Polygon| {
+        let (area, bounds) = (piece.area_mm2(), piece.bounds());
+        let at_edge = !(inner.contains(bounds.min()) && inner.contains(bounds.max()));
+        area >= settings.crumb * HINT || (at_edge && area >= NOTHING)
+    };
+    let pieces = |whole: &Polygon| polarity::difference(whole, &kerfs).iter().filter(counts).count();
+    copper(sheet, net, rect, COARSE).iter().filter(counts).any(|whole| pieces(whole) != 1)
+}
+
+/// This near to the edge of a window is at it.
+const EDGE: Nm = Nm::new(10);
+
+/// The kerfs that touch `rect`.
+fn kerfs(sheet: &Sheet<'_>, bounds: &[Rect], rect: Rect) -> Vec<Polygon> {
+    let near: Vec<usize> = (0..bounds.len()).filter(|&cut| bounds[cut].touches(rect)).collect();
+    near.par_iter().filter_map(|&cut| sheet.cuts[cut].swept.shape.polygon(FINE)).collect()
+}
+
+/// The same but roughly: a little wider, and arcs as chords, each with its own kerf.
+fn rough_kerfs(sheet: &Sheet<'_>, bounds: &[Rect], rect: Rect) -> Vec<Polygon> {
+    let near = bounds.iter().zip(&sheet.cuts).filter(|(bounds, _)| bounds.touches(rect));
+    let wider = |cut: &Cut<'_>| {
+        let radius = cut.swept.half() + COARSE * 2;
+        match &cut.swept.shape {
+            Shape::Arc { arc, .. } => {
+                let points: Vec<Point> = std::iter::once(arc.start).chain(arc.flatten(COARSE)).collect();
+                let chord = |pair: &[Point]| Shape::Stroke { from: pair[0], to: pair[1], radius };
+                points.windows(2).filter(|pair| pair[0] != pair[1]).map(chord).collect()
+            }
+            other => vec![with_radius(other, radius)],
+        }
+    };
+    near.flat_map(|(_, cut)| wider(cut)).filter_map(|shape| shape.polygon(COARSE)).collect()
+}
+
+/// The copper of a net that cuts take away, in mm².
+pub(super) fn lost(sheet: &Sheet<'_>, hits: &[Hit]) -> f64 {
+    let kerf = |hit: &Hit| sheet.cuts[hit.cut].swept.shape.polygon(FLATTEN);
+    let kerfs: Vec<Polygon> = hits.iter().filter_map(kerf).collect();
+    let Some(rect) = kerfs.iter().map(Polygon::bounds).reduce(Rect::union) else { return 0.0 };
+    let whole = copper(sheet, hits[0].net, rect, FLATTEN);
+    let area = |polygons: &[Polygon]| polygons.iter().map(Polygon::area_mm2).sum::<f64>();
+    let left = |whole: &Polygon| area(&polarity::difference(whole, &kerfs));
+    area(&whole) - whole.iter().map(left).sum::<f64>()
+}
+
+/// The copper of a net within `rect`, one polygon for each connected piece.
+fn copper(sheet: &Sheet<'_>, net: NetId, rect: Rect, tolerance: Nm) -> Vec<Polygon> {
+    let features = sheet.nets.nets()[net.index()].features.iter();
+    let shapes = features.map(|&feature| &sheet.copper.features[feature as usize].shape);
+    let near = shapes.filter(|shape| shape.bounds().touches(rect));
+    let clipped: Vec<Polygon> = near.filter_map(|shape| shape.polygon(tolerance)?.clipped(rect)).collect();
+    polarity::union(&clipped)
+}
+
+/// What kerfs leave of polygons.
+fn left(whole: &[Polygon], kerfs: &[(Rect, Polygon)]) -> Vec<Polygon> {
+    let less = |polygon: &Polygon| {
+        let rect = polygon.bounds();
+        let near = kerfs.iter().filter(|(bounds, _)| bounds.touches(rect)).map(|(_, kerf)| kerf);
+        polarity::difference(polygon, near)
+    };
+    whole.iter().flat_map(less).collect()
+}
+
+/// A part of the board, milled.
+struct Within {
+    rect: Rect,
+    /// The board.
+    ground: Vec<Polygon>,
+    /// All kerfs, each with its bounds; and what they leave of the board.
+    kerfs: Vec<(Rect, Polygon)>,
+    clad: Vec<(Rect, Polygon)>,
+}
+
+impl Within {
+    /// What became of a net.
+    fn rest(&self, sheet: &Sheet<'_>, net: NetId, settings: &Settings) -> Rest {
+        let copper = copper(sheet, net, self.rect, FINE);
+        let both = |copper: &Polygon| {
+            let on_board = self.ground.iter().flat_map(|ground| polarity::intersection(copper, ground));
+            on_board.collect::<Vec<_>>()
+        };
+        let designed: Vec<Polygon> = copper.iter().flat_map(both).collect();
+        let mut rest = Rest { parts: Vec::new(), designed };
+        // A crumb, or of small nets three tenths.
+        let least = (rest.area() * 0.3).min(settings.crumb);
+        let parts = left(&rest.designed, &self.kerfs).into_iter();
+        rest.parts = parts.filter_map(|polygon| self.remnant(polygon, least)).collect();
+        rest.parts.sort_by(|a, b| b.area.total_cmp(&a.area));
+        rest
+    }
+
+    /// A part of a net with its place, where it has so many mm².
+    fn remnant(&self, polygon: Polygon, least: f64) -> Option<Remnant> {
+        let area = polygon.area_mm2();
+        let p = if area >= least { inside(&polygon)? } else { return None };
+        let holds = |(bounds, clad): &(Rect, Polygon)| bounds.contains(p) && clad.contains(p);
+        let piece = self.clad.iter().position(holds)?;
+        Some(Remnant { polygon, area, piece })
+    }
+}
+
+/// Rows that are looked along for a point inside. Chosen.
+const ROWS: u32 = 7;
+
+/// A point inside a simple polygon, far from its edges as such points go: the middle of the longest way across it in a few rows.
+fn inside(polygon: &Polygon) -> Option<Point> {
+    let bounds = polygon.bounds();
+    let row = |row: u32| {
+        let y = bounds.min().y.to_f64() + bounds.height().to_f64() * (f64::from(row) + 0.5) / f64::from(ROWS);
+        // Between two values of y that corners can have.
+        let y = libm::floor(y) + 0.5;
+        let mut crossings: Vec<f64> = polygon
+            .edges()
+            .map(|(a, b)| (a.to_f64(), b.to_f64()))
+            .filter(|((_, ay), (_, by))| (*ay < y) != (*by < y))
+            .map(|((ax, ay), (bx, by))| ax + (bx - ax) * (y - ay) / (by - ay))
+            .collect();
+        crossings.sort_by(f64::total_cmp);
+        let spans = crossings.chunks_exact(2).map(|pair| (pair[1] - pair[0], (pair[0] + pair[1]) / 2.0));
+        spans.reduce(|a, b| if b.0 > a.0 { b } else { a }).map(|(width, x)| (width, Point::from_f64(x, y)))
+    };
+    let rows = (0..ROWS).filter_map(row);
+    rows.reduce(|a, b| if b.0 > a.0 { b } else { a }).map(|(_, p)| p)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_point_inside_a_ring_lies_in_its_copper() {
+        let square = |low: i64, high: i64| {
+            let at = |um: i64| Point::new(Nm::from_um(um), Nm::from_um(um));
+            Rect::new(at(low), at(high)).corners().to_vec()
+        };
+        let mut hole = square(10, 990);
+        hole.reverse();
+        let ring = Polygon::new(vec![square(0, 1000), hole]).expect("a ring");
+        let p = inside(&ring).expect("a point");
+        assert!(ring.winding(p) == Some(1), "{p:?} lies in the ring, 10 µm wide");
+    }
+}
