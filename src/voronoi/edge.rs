@@ -8,6 +8,7 @@ use crate::board::{FLATTEN, Outline, polarity};
 use crate::geometry::{Path, Point, Polygon, Rect};
 
 use super::Settings;
+use super::plane::Spot;
 use super::site::Rings;
 
 /// The border of the picture.
@@ -52,6 +53,11 @@ impl Border {
         let mut contours = vec![beyond.corners().to_vec()];
         contours.extend(self.inside.iter().flat_map(Polygon::contours).cloned());
         contours
+    }
+
+    /// How far `p` lies beyond the border, in nanometres; negative on the board.
+    pub(super) fn distance(&self, p: Spot) -> f64 {
+        self.rings.border(0..self.ring_count, p).distance
     }
 
     /// Whether `p` lies on the board.

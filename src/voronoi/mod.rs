@@ -13,9 +13,11 @@
 //! picture of the whole board. Labels are sites, so a pixel names the feature that it is nearest to, and placing costs a few distances.
 
 mod copper;
+mod cross;
 mod edge;
 mod fit;
 mod measure;
+mod near;
 pub mod paper;
 mod passes;
 mod place;
@@ -23,7 +25,9 @@ mod plane;
 mod seed;
 mod site;
 mod stitch;
+mod tip;
 mod trace;
+mod trim;
 
 use rayon::prelude::*;
 
@@ -38,10 +42,12 @@ pub use passes::Widening;
 
 use copper::Edges;
 use edge::Border;
+use near::Near;
 use place::Placer;
 use plane::Spot;
 use seed::Sites;
 use stitch::{Line, Stitcher};
+use tip::Tips;
 use trace::{APRON, Course, Pixels};
 
 /// The owner number of nothing at all.
@@ -183,6 +189,8 @@ pub struct Diagram {
     sites: Sites,
     /// The owner of each label: a table of its own, because every pixel asks.
     owners: Vec<u32>,
+    /// The sites by place, where they are the copper's edges.
+    near: Option<Near>,
     /// The copper's own edges, where the sites are not they.
     edges: Option<Edges>,
     border: Border,
@@ -220,12 +228,13 @@ impl Diagram {
         aside.iter().for_each(|(net, _)| kept[net.index()] = false);
         let keep = |feature: usize| kept[nets.of(feature).index()];
         let sites = Sites::new(copper, nets, settings, keep);
-        let edges = match settings.sites {
-            SiteKind::Copper => None,
-            SiteKind::Core => Edges::new(copper, nets, settings, keep),
+        let (near, edges) = match settings.sites {
+            SiteKind::Copper => (Near::new(&sites), None),
+            SiteKind::Core => (None, Edges::new(copper, nets, settings, keep)),
         };
         let grid = Grid::covering(border.window, settings.pitch)?;
-        Ok(Self { owners: sites.owners(), sites, edges, border, grid, settings: settings.clone(), warnings })
+        let (owners, settings) = (sites.owners(), settings.clone());
+        Ok(Self { sites, owners, near, edges, border, grid, settings, warnings })
     }
 
     /// The grid on which boundaries are found.
@@ -302,24 +311,36 @@ impl Diagram {
     pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
         let stitcher = self.trace(&self.scene(&self.grid), None);
         let mut warnings = Vec::new();
-        if stitcher.unplaced > 0 {
+        let unplaced = stitcher.unplaced;
+        let mut lines = stitcher.lines();
+        let unplaced = unplaced + self.extend_tips(&mut lines);
+        if unplaced > 0 {
             let message = format!(
                 "{} boundary points kept their pixel's place, up to {:.3} mm off: use smaller pixels to place them exactly",
-                stitcher.unplaced,
+                unplaced,
                 self.grid.pitch()
             );
             warnings.push(Warning::new("boundary-not-placed", message));
         }
-        (self.graph(&stitcher.lines()), warnings)
+        (self.graph(&lines), warnings)
+    }
+
+    /// Places the nodes that the picture left open; returns how many remain so. Among core axes with copper above them, all do.
+    fn extend_tips(&self, lines: &mut Vec<Line>) -> u32 {
+        let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
+        match &self.near {
+            Some(near) => Tips { sites: &self.sites, near, border: &self.border, level }.extend(lines),
+            None => open_nodes(lines),
+        }
     }
 
     /// Draws, traces and places all tiles that a boundary crosses: between regions, or between what lies within `cut` of copper
     /// and what lies beyond.
     fn trace(&self, scene: &Scene, cut: Option<Nm>) -> Stitcher {
         let placer = Placer {
-            sites: &self.sites.sites,
+            sites: &self.sites,
             owners: &self.owners,
-            rings: &self.sites.rings,
+            near: self.near.as_ref(),
             border: &self.border.rings,
             border_rings: self.border.ring_count,
             leash: 1.5 * self.grid.pitch().to_f64(),
@@ -419,6 +440,15 @@ impl Diagram {
         }
         Boundaries { nodes, edges }
     }
+}
+
+/// How many nodes are open.
+fn open_nodes(lines: &[Line]) -> u32 {
+    let corners = lines.iter().filter_map(|line| line.ends).flat_map(|(from, to)| [from, to]);
+    let mut open: Vec<_> = corners.filter(|corner| corner.open).map(|corner| corner.key()).collect();
+    open.sort_unstable();
+    open.dedup();
+    u32::try_from(open.len()).expect("below 2³² nodes")
 }
 
 /// The nets of which nothing lies on the board, each with a place.

@@ -4,19 +4,34 @@
 //! (or = the limit); a node satisfies two. Newton's steps solve them on the sites' exact distances, starting at most
 //! a pixel away; nothing may move further than a pixel and a half. Where Newton does not settle (the nearest site of a net
 //! changes right there), the same equation is bisected along its gradient.
+//!
+//! The equation begins with the sites seen in the pixels round the point. The nearest may not be among them: where one site of a net takes
+//! over from another, its region may begin in a wedge thinner than a pixel. So an index of all sites is asked whether any is
+//! nearer at the place found; if so it joins the equation, which is solved again. What comes out is as far from both nets as
+//! can be, whatever the pixels showed.
 
 use crate::geometry::Nm;
 
+use super::BACKGROUND;
+use super::near::Near;
 use super::plane::Spot;
-use super::site::{Reach, Rings, Site};
+use super::seed::Sites;
+use super::site::{Reach, Rings};
 
 /// How close to the true place Newton's steps must come, in nanometres of distance difference.
 const SETTLED: f64 = 0.05;
 /// What a point may be off at the very most when its steps run out, in nanometres.
 const ACCEPTED: f64 = 5.0;
 const STEPS: usize = 8;
+/// Where curves meet at an angle, pixels show the place off by the inverse of its sine; below this they are followed no further. Chosen: what lies
+/// farther away is found as the tip of a wedge.
+const SHALLOW: f64 = 0.25;
+/// A site must be nearer by more than this to join an equation, in nanometres.
+const NEARER: f64 = 1.0;
+/// How often sites may join an equation at one point. Chosen: more than three is not seen.
+const ROUNDS: usize = 6;
 
-/// A few labels of sites: those seen in the pixels round a point.
+/// A few labels of sites: those seen in the pixels round a point, and nearer ones found beside them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Candidates {
     labels: [u32; 16],
@@ -29,6 +44,12 @@ impl Candidates {
             self.labels[self.len] = label;
             self.len += 1;
         }
+    }
+
+    /// Adds a label that is nearer than the others, in place of the last one where there is no room.
+    fn admit(&mut self, label: u32) {
+        self.len = self.len.min(self.labels.len() - 1);
+        self.add(label);
     }
 
     pub(super) fn as_slice(&self) -> &[u32] {
@@ -81,10 +102,11 @@ struct Miss {
 
 /// The sites of a layer and how far points may move among them.
 pub(super) struct Placer<'a> {
-    pub(super) sites: &'a [Site],
+    pub(super) sites: &'a Sites,
     /// The owner of each of them: a table of its own, because every sample asks.
     pub(super) owners: &'a [u32],
-    pub(super) rings: &'a Rings,
+    /// All of them by place; none where regions are not those of the nearest site alone.
+    pub(super) near: Option<&'a Near>,
     /// The rings of the board's border.
     pub(super) border: &'a Rings,
     pub(super) border_rings: u32,
@@ -96,7 +118,7 @@ impl Placer<'_> {
     fn reach(&self, candidates: &Candidates, p: Spot) -> Reach {
         let far = Reach { distance: f64::INFINITY, away: Spot::default() };
         candidates.as_slice().iter().fold(far, |nearest, &label| {
-            let reach = self.sites[label as usize].reach(self.rings, p);
+            let reach = self.sites.sites[label as usize].reach(&self.sites.rings, p);
             if reach.distance < nearest.distance { reach } else { nearest }
         })
     }
@@ -123,13 +145,61 @@ impl Placer<'_> {
         }
     }
 
+    /// Who is nearest to `p`, if anybody within `level`; none where only the picture can tell.
+    pub(super) fn owner(&self, p: Spot, level: f64) -> Option<u32> {
+        let (owner, reach) = self.near?.nearest(self.sites, p, |_| true);
+        Some(if reach.distance > level { BACKGROUND } else { owner })
+    }
+
     /// The distance from `p` to the copper that the target speaks of, in nanometres.
     pub(super) fn clearance(&self, target: &Target, p: Spot) -> f64 {
         self.miss(target, p).clearance
     }
 
     /// The point near `from` that satisfies `target`; none where there is none within the leash.
-    pub(super) fn project(&self, target: &Target, from: Spot) -> Option<Vertex> {
+    pub(super) fn project(&self, target: &mut Target, from: Spot) -> Option<Vertex> {
+        self.project_sloped(target, from).map(|(vertex, _)| vertex)
+    }
+
+    /// The same, with a vector across the boundary there. Sites that prove nearer join the target.
+    pub(super) fn project_sloped(&self, target: &mut Target, from: Spot) -> Option<(Vertex, Spot)> {
+        for _ in 0..ROUNDS {
+            let found = self.solve(target, from)?;
+            if !self.admit(target, found.0) {
+                return Some(found);
+            }
+        }
+        None
+    }
+
+    /// Takes the site into `target` that is nearer to a place than those it has; false if there is none.
+    fn admit(&self, target: &mut Target, place: Vertex) -> bool {
+        let owner = |candidates: &Candidates| {
+            candidates.as_slice().first().map_or(BACKGROUND, |&label| self.owners[label as usize])
+        };
+        let owners = match target {
+            Target::Between(a, b) => [owner(a), owner(b)],
+            Target::At(a, _) => [owner(a); 2],
+            Target::OnBorder => return false,
+        };
+        let bound = place.clearance - NEARER;
+        let label = self
+            .near
+            .and_then(|near| near.nearer(self.sites, place.at, bound, |owner| owners.contains(&owner)));
+        match (label, target) {
+            (Some(label), Target::Between(a, _) | Target::At(a, _))
+                if self.owners[label as usize] == owners[0] =>
+            {
+                a.admit(label);
+            }
+            (Some(label), Target::Between(_, b)) => b.admit(label),
+            (Some(_), Target::At(..) | Target::OnBorder) | (None, _) => return false,
+        }
+        true
+    }
+
+    /// The point near `from` that satisfies `target` as it stands, with a vector across the boundary there.
+    fn solve(&self, target: &Target, from: Spot) -> Option<(Vertex, Spot)> {
         let mut p = from;
         let mut miss = self.miss(target, p);
         for _ in 0..STEPS {
@@ -149,11 +219,11 @@ impl Placer<'_> {
         if miss.value.abs() > ACCEPTED {
             return self.bisect(target, from);
         }
-        Some(Vertex { at: p, clearance: miss.clearance })
+        Some((Vertex { at: p, clearance: miss.clearance }, miss.slope))
     }
 
     /// The same by halving the interval of one leash on either side along the gradient.
-    fn bisect(&self, target: &Target, from: Spot) -> Option<Vertex> {
+    fn bisect(&self, target: &Target, from: Spot) -> Option<(Vertex, Spot)> {
         let slope = self.miss(target, from).slope;
         let length = slope.length();
         if length < 1e-3 {
@@ -173,11 +243,21 @@ impl Placer<'_> {
             }
         }
         let miss = self.miss(target, low);
-        (miss.value.abs() <= ACCEPTED).then_some(Vertex { at: low, clearance: miss.clearance })
+        (miss.value.abs() <= ACCEPTED).then_some((Vertex { at: low, clearance: miss.clearance }, miss.slope))
     }
 
     /// The point near `from` that satisfies both targets; none where there is none within the leash.
-    pub(super) fn meet(&self, first: &Target, second: &Target, from: Spot) -> Option<Vertex> {
+    pub(super) fn meet(&self, first: &mut Target, second: &mut Target, from: Spot) -> Option<Vertex> {
+        for _ in 0..ROUNDS {
+            let found = self.solve_both(first, second, from)?;
+            if !self.admit(first, found) && !self.admit(second, found) {
+                return Some(found);
+            }
+        }
+        None
+    }
+
+    fn solve_both(&self, first: &Target, second: &Target, from: Spot) -> Option<Vertex> {
         let mut p = from;
         for _ in 0..STEPS * 2 {
             let (a, b) = (self.miss(first, p), self.miss(second, p));
@@ -193,7 +273,8 @@ impl Placer<'_> {
                 b.value * a.slope.x - a.value * b.slope.x,
             ) * (1.0 / determinant);
             p = p - step;
-            if (p - from).length() > self.leash {
+            let sine = determinant.abs() / (a.slope.length() * b.slope.length());
+            if (p - from).length() * sine.max(SHALLOW) > self.leash {
                 return None;
             }
         }

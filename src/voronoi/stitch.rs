@@ -41,11 +41,11 @@ impl Stitcher {
 
     /// The edges, in the order of their first pieces.
     pub(super) fn lines(self) -> Vec<Line> {
-        let mut partners: FxHashMap<(u32, u32), [Option<End>; 2]> = FxHashMap::default();
+        let mut partners: FxHashMap<(u32, u32, bool), [Option<End>; 2]> = FxHashMap::default();
         for (i, piece) in self.pieces.iter().enumerate() {
             for (corner, tail) in [(piece.from, false), (piece.to, true)] {
                 if !corner.node {
-                    let pair = partners.entry((corner.column, corner.row)).or_default();
+                    let pair = partners.entry(corner.key()).or_default();
                     pair[usize::from(pair[0].is_some())] = Some(End { piece: count(i), tail });
                 }
             }
@@ -68,7 +68,7 @@ impl Stitcher {
     /// Walks from one end of a piece, entering each next piece at the end that lies there.
     fn line(
         &self,
-        partners: &FxHashMap<(u32, u32), [Option<End>; 2]>,
+        partners: &FxHashMap<(u32, u32, bool), [Option<End>; 2]>,
         used: &mut [bool],
         start: End,
     ) -> Line {
@@ -92,7 +92,7 @@ impl Stitcher {
                 return Line { vertices, left, right, ends: Some((from, exit)) };
             }
             let leaving = |end: &End| end.piece == entered.piece && end.tail != entered.tail;
-            let next = partners[&(exit.column, exit.row)].iter().flatten().find(|end| !leaving(end)).copied();
+            let next = partners[&exit.key()].iter().flatten().find(|end| !leaving(end)).copied();
             match next {
                 Some(next) if !used[next.piece as usize] => entered = next,
                 _ => return Line { vertices, left, right, ends: None },

@@ -27,6 +27,18 @@ impl Crack {
         }
     }
 
+    /// The same crack from its other end.
+    pub(super) const fn reversed(self) -> Self {
+        let (x, y) = self.end();
+        let heading = match self.heading {
+            Heading::East => Heading::West,
+            Heading::South => Heading::North,
+            Heading::West => Heading::East,
+            Heading::North => Heading::South,
+        };
+        Self { x, y, heading }
+    }
+
     /// The pixels on its left and right.
     pub(super) const fn sides(self) -> ((i32, i32), (i32, i32)) {
         let (x, y) = (self.x, self.y);

@@ -1,7 +1,7 @@
 //! Which equation a boundary satisfies at a crack or corner, read from the pixels round it; and nodes, which satisfy two.
 
 use super::Tracer;
-use super::crack::Crack;
+use super::crack::{Crack, Heading};
 use crate::voronoi::place::{Candidates, Target, Vertex};
 use crate::voronoi::plane::Spot;
 use crate::voronoi::{BACKGROUND, OUTSIDE};
@@ -64,7 +64,7 @@ impl Tracer<'_> {
 
     /// Those candidates that are a trace's own copper above the cones, if the first one is.
     fn flat(&self, candidates: Candidates) -> Option<Candidates> {
-        let is_flat = |label: u32| self.placer.sites[label as usize].flat;
+        let is_flat = |label: u32| self.placer.sites.sites[label as usize].flat;
         let first = *candidates.as_slice().first()?;
         is_flat(first).then(|| {
             let mut flats = Candidates::default();
@@ -78,15 +78,33 @@ impl Tracer<'_> {
         })
     }
 
-    /// The place of a piece's end: the same whichever piece, of whichever tile, asks.
-    pub(super) fn end_vertex(&mut self, at: (i32, i32)) -> Vertex {
+    /// The place of a piece's end, and whether it is open: the same whichever piece, of whichever tile, asks. `crack` leaves from there.
+    pub(super) fn end_vertex(&mut self, at: (i32, i32), crack: Crack) -> (Vertex, bool) {
         let window = (at.0 - 2, at.1 - 2, at.0 + 1, at.1 + 1);
         let spot = self.spot(f64::from(at.0), f64::from(at.1));
+        if self.joined(at).is_some() {
+            let mut target = self.anchor(crack).target;
+            return (self.placed(&mut target, self.beside(at, crack)), false);
+        }
         if self.degree(at) > 2 {
             self.node(at, window, spot)
         } else {
-            self.placed(&self.passing(at, window), spot)
+            (self.placed(&mut self.passing(at, window), spot), false)
         }
+    }
+
+    /// A place between a checkerboard corner and the centre of the pixel that the boundary passes round there.
+    fn beside(&self, at: (i32, i32), crack: Crack) -> Spot {
+        let others = [Heading::North, Heading::East, Heading::South, Heading::West]
+            .map(|heading| Crack { x: at.0, y: at.1, heading })
+            .into_iter()
+            .find(|other| *other != crack && self.branch(*other) == self.branch(crack));
+        let sides = |crack: Crack| [crack.sides().0, crack.sides().1];
+        let round = others.and_then(|other| sides(other).into_iter().find(|p| sides(crack).contains(p)));
+        let (x, y) = round.map_or((0.0, 0.0), |(x, y)| {
+            (f64::from(x) + 0.5 - f64::from(at.0), f64::from(y) + 0.5 - f64::from(at.1))
+        });
+        self.spot(f64::from(at.0) + x / 2.0, f64::from(at.1) + y / 2.0)
     }
 
     /// The equation at a corner that passes a boundary on.
@@ -104,8 +122,9 @@ impl Tracer<'_> {
             .map(|(x, y)| (self.pixels.owner(x, y), self.pixels.label(x, y)))
     }
 
-    /// The place where three or more regions meet: equally far from the first three, or on the limit, or on the border.
-    fn node(&mut self, at: (i32, i32), window: (i32, i32, i32, i32), spot: Spot) -> Vertex {
+    /// The place where three or more regions meet: equally far from the first three, or on the limit, or on the border. It is open where
+    /// none such is near: a region that ends in a wedge thinner than a pixel is seen to end too early.
+    fn node(&self, at: (i32, i32), window: (i32, i32, i32, i32), spot: Spot) -> (Vertex, bool) {
         let mut regions = self.around(at).to_vec();
         regions.sort_unstable();
         // A groove has no border to be placed on: what meets there runs on along its own course.
@@ -116,27 +135,24 @@ impl Tracer<'_> {
         let target = |a: (u32, u32), b: (u32, u32)| self.target((a.0, b.0), (a.1, b.1), window);
         let mut wedge = false;
         let met = match regions.as_slice() {
-            [a, b] => self.placer.project(&target(*a, *b), spot),
+            [a, b] => self.placer.project(&mut target(*a, *b), spot),
             [a, b, c, ..] => {
                 // Sorted by owner: background and outside come first, so both equations hold with what follows.
-                let (first, second) = match a.0 {
+                let (mut first, mut second) = match a.0 {
                     BACKGROUND | OUTSIDE => {
                         (target(*a, *b), if b.0 == OUTSIDE { target(*a, *c) } else { target(*b, *c) })
                     }
                     _ => (target(*a, *b), target(*a, *c)),
                 };
-                let met = self.placer.meet(&first, &second, spot);
-                // A region that ends in a wedge thinner than a pixel is seen to end too early; its tip is not placed.
+                let met = self.placer.meet(&mut first, &mut second, spot);
                 wedge = met.is_none();
-                met.or_else(|| self.placer.project(&first, spot))
+                met.or_else(|| self.placer.project(&mut first, spot))
             }
             _ => None,
         };
         let fallback = target(regions[regions.len() - 1], regions[0]);
-        self.traced.unplaced += u32::from(wedge && met.is_some());
-        met.unwrap_or_else(|| {
-            self.traced.unplaced += 1;
-            Vertex { at: spot, clearance: self.placer.clearance(&fallback, spot).max(0.0) }
-        })
+        let open = wedge || met.is_none();
+        let kept = || Vertex { at: spot, clearance: self.placer.clearance(&fallback, spot).max(0.0) };
+        (met.unwrap_or_else(kept), open)
     }
 }

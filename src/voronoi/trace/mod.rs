@@ -1,16 +1,16 @@
 //! The borders between differently owned pixels of one tile, placed.
 //!
 //! Between two pixels of different owners runs a *crack*, a unit edge between pixel corners. A corner where two
-//! cracks meet only passes a boundary on; where three or four meet, regions meet, and the corner is a node. A
-//! checkerboard corner (A B / B A) has four cracks and is a node like any other: all four boundaries end there, so
-//! neither region is joined or torn by a guess.
+//! cracks meet only passes a boundary on; where three or four meet, regions meet, and the corner is a node. At a
+//! checkerboard corner (A B / C A, where B and C may be one), whoever owns the corner itself decides: if it is A, both of its
+//! pixels are joined, and one boundary passes round B, another round C. If not, all four boundaries end there.
 //!
 //! ```text
-//!     A A │ B          A A │ C                  a tile owns the left and upper crack of each of its
-//!     ────┘ B          ────┼────                pixels; pieces end at its border and are stitched
-//!     C  ...           B B │ C                  at the corners there (see `stitch`)
-//!     two cracks:      four cracks:
-//!     passed on        a node
+//!     A A │ B          A A │ C          A A ╰ B      a tile owns the left and upper crack of each of its
+//!     ────┘ B          ────┼────        ───╮ ───     pixels; pieces end at its border and are stitched
+//!     A  ...           B B │ C          C C │ A      at the corners there (see `stitch`)
+//!     two cracks:      four cracks:     a corner of A:
+//!     passed on        a node           two passed on
 //! ```
 //!
 //! Each piece is placed as it is traced, on the worker that drew the tile: cracks are sampled, moved to the true
@@ -22,19 +22,31 @@ mod equation;
 mod pixels;
 mod sample;
 
+use super::OUTSIDE;
 use super::place::{Placer, Vertex};
 use super::plane::Spot;
 
 use crack::{Crack, HEADINGS, Heading};
 pub(super) use pixels::{APRON, Pixels};
-pub(super) use sample::CHORD;
+pub(super) use sample::{CHORD, is_straight};
 
 /// A pixel corner of the picture: its key for stitching, and whether boundaries end there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Corner {
     pub(super) column: u32,
     pub(super) row: u32,
+    /// At a checkerboard corner that passes two boundaries on, which of them.
+    pub(super) branch: bool,
     pub(super) node: bool,
+    /// Whether the place of the node could not be told from the pixels round it.
+    pub(super) open: bool,
+}
+
+impl Corner {
+    /// What tells it from others.
+    pub(super) const fn key(&self) -> (u32, u32, bool) {
+        (self.column, self.row, self.branch)
+    }
 }
 
 /// A stretch of boundary within one tile: `vertices[first..first + len]`, both corners' places included.
@@ -90,6 +102,15 @@ pub(super) fn trace(pixels: Pixels<'_>, placer: &Placer<'_>, course: Course) -> 
     let mut tracer = Tracer { pixels, placer, course, visited, traced: Traced::default() };
     tracer.run();
     tracer.traced
+}
+
+/// The pixels that a checkerboard corner joins, by the direction in which they lie to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Joined {
+    /// From the upper left to the lower right.
+    Falling,
+    /// From the lower left to the upper right.
+    Rising,
 }
 
 impl Tracer<'_> {
@@ -158,7 +179,41 @@ impl Tracer<'_> {
 
     /// Whether pieces end at this corner: on the tile's border, and at nodes.
     fn is_end(&self, (x, y): (i32, i32)) -> bool {
-        x == 0 || y == 0 || x == self.pixels.width || y == self.pixels.height || self.degree((x, y)) > 2
+        x == 0 || y == 0 || x == self.pixels.width || y == self.pixels.height || self.is_node((x, y))
+    }
+
+    fn is_node(&self, at: (i32, i32)) -> bool {
+        self.degree(at) > 2 && self.joined(at).is_none()
+    }
+
+    /// Which pixels round a checkerboard corner are joined, because their owner has the corner, too.
+    fn joined(&self, at: (i32, i32)) -> Option<Joined> {
+        let (x, y) = at;
+        let owner = |x: i32, y: i32| self.pixels.owner(x, y);
+        let (upper, lower) = ([owner(x - 1, y - 1), owner(x, y - 1)], [owner(x - 1, y), owner(x, y)]);
+        let falling = (upper[0] == lower[1]).then_some((upper[0], Joined::Falling));
+        let rising = (upper[1] == lower[0]).then_some((upper[1], Joined::Rising));
+        let four =
+            upper[0] != upper[1] && upper[0] != lower[0] && lower[1] != upper[1] && lower[1] != lower[0];
+        if !four
+            || (falling.is_none() && rising.is_none())
+            || upper.contains(&OUTSIDE)
+            || lower.contains(&OUTSIDE)
+        {
+            return None;
+        }
+        let here = self.placer.owner(self.spot(f64::from(x), f64::from(y)), self.course.level)?;
+        [falling, rising].into_iter().flatten().find(|(owner, _)| *owner == here).map(|(_, joined)| joined)
+    }
+
+    /// Which of two boundaries leaves a checkerboard corner by this crack: that to the north, or that to the south.
+    fn branch(&self, crack: Crack) -> bool {
+        match (self.joined((crack.x, crack.y)), crack.heading) {
+            (None, _) | (Some(_), Heading::North) => false,
+            (Some(_), Heading::South) => true,
+            (Some(joined), Heading::East) => joined == Joined::Rising,
+            (Some(joined), Heading::West) => joined == Joined::Falling,
+        }
     }
 
     fn pieces_from(&mut self, (x, y): (i32, i32)) {
@@ -177,11 +232,7 @@ impl Tracer<'_> {
         let start = (first.x, first.y);
         let mut at = first.end();
         while at != start && !self.is_end(at) {
-            let next = HEADINGS
-                .iter()
-                .map(|&heading| Crack { x: at.0, y: at.1, heading })
-                .find(|&crack| self.is_crack(crack) && !self.seen(crack));
-            let Some(next) = next else { break };
+            let Some(next) = self.next(cracks[cracks.len() - 1]) else { break };
             self.mark(next);
             cracks.push(next);
             at = next.end();
@@ -189,11 +240,11 @@ impl Tracer<'_> {
         let first_vertex = self.traced.vertices.len();
         let (left, right) = first.sides();
         let (left, right) = (self.pixels.owner(left.0, left.1), self.pixels.owner(right.0, right.1));
-        self.place(&cracks, start, at);
+        let (from_open, to_open) = self.place(&cracks, start, at);
         let count = |n: usize| u32::try_from(n).expect("a tile has few vertices");
         let piece = Piece {
-            from: self.corner(start),
-            to: self.corner(at),
+            from: self.corner(first, from_open),
+            to: self.corner(cracks[cracks.len() - 1].reversed(), to_open),
             left,
             right,
             first: count(first_vertex),
@@ -202,17 +253,34 @@ impl Tracer<'_> {
         self.traced.pieces.push(piece);
     }
 
+    /// The crack that goes on from the end of another.
+    fn next(&self, crack: Crack) -> Option<Crack> {
+        let back = crack.reversed();
+        let onward = |heading: &Heading| Crack { heading: *heading, ..back };
+        let mut free = HEADINGS.iter().map(onward).filter(|&next| self.is_crack(next) && !self.seen(next));
+        let first = free.next()?;
+        match free.next() {
+            None => Some(first),
+            Some(second) => {
+                [first, second].into_iter().chain(free).find(|&next| self.branch(next) == self.branch(back))
+            }
+        }
+    }
+
     fn mark(&mut self, crack: Crack) {
         let (plane, at) = self.slot(crack);
         self.visited[plane][at] = true;
     }
 
+    /// The corner from which a crack leaves.
     #[expect(clippy::cast_sign_loss, reason = "corners of the tile are not negative")]
-    fn corner(&self, at: (i32, i32)) -> Corner {
+    fn corner(&self, crack: Crack, open: bool) -> Corner {
         Corner {
-            column: self.pixels.column0 + at.0 as u32,
-            row: self.pixels.row0 + at.1 as u32,
-            node: self.degree(at) > 2,
+            column: self.pixels.column0 + crack.x as u32,
+            row: self.pixels.row0 + crack.y as u32,
+            branch: self.branch(crack),
+            node: self.is_node((crack.x, crack.y)),
+            open,
         }
     }
 

@@ -17,12 +17,21 @@ const HALVINGS: u32 = 6;
 const LOOK_AHEAD: usize = 6;
 
 impl Tracer<'_> {
-    /// Writes the vertices of a piece: its first corner, samples along its cracks, its last corner.
-    pub(super) fn place(&mut self, cracks: &[Crack], start: (i32, i32), end: (i32, i32)) {
-        let (left, right) = cracks[0].sides();
-        let first = self.end_vertex(start);
-        let last = if start == end { first } else { self.end_vertex(end) };
+    /// Writes the vertices of a piece: its first corner, samples along its cracks, its last corner. Says whether the corners' places are open.
+    pub(super) fn place(&mut self, cracks: &[Crack], start: (i32, i32), end: (i32, i32)) -> (bool, bool) {
+        let last_crack = cracks[cracks.len() - 1].reversed();
+        let (first, first_open) = self.end_vertex(start, cracks[0]);
+        let closed = start == end && self.branch(cracks[0]) == self.branch(last_crack);
+        let (last, last_open) = if closed { (first, first_open) } else { self.end_vertex(end, last_crack) };
         self.traced.vertices.push(first);
+        self.between(cracks, first, last);
+        self.traced.vertices.push(last);
+        (first_open, last_open)
+    }
+
+    /// Writes what lies between the corners of a piece.
+    fn between(&mut self, cracks: &[Crack], first: Vertex, last: Vertex) {
+        let (left, right) = cracks[0].sides();
         if self.is_wanted(self.pixels.owner(left.0, left.1), self.pixels.owner(right.0, right.1)) {
             let pairs = cracks.iter().map(|crack| {
                 let (left, right) = crack.sides();
@@ -30,19 +39,19 @@ impl Tracer<'_> {
             });
             let run = Run { pairs: pairs.collect(), cracks };
             if self.straight(&run, first, last) {
-                self.traced.vertices.push(last);
                 return;
             }
-            let (head, tail) = (self.short_of(cracks, first), self.short_of_reversed(cracks, last));
-            self.halve(&head.1, first, head.2, HALVINGS);
+            let (head, tail) = (self.short_of(&run, first), self.short_of_reversed(&run, last));
             if head.0 < tail.0 {
+                self.halve(&mut head.1.clone(), first, head.2, HALVINGS);
                 self.traced.vertices.push(head.2);
                 self.sample(&run, (head.0, head.2), (tail.0, tail.2));
                 self.traced.vertices.push(tail.2);
-                self.halve(&tail.1, tail.2, last, HALVINGS);
+                self.halve(&mut tail.1.clone(), tail.2, last, HALVINGS);
+            } else {
+                self.halve(&mut head.1.join(&tail.1), first, last, HALVINGS);
             }
         } // Nobody cuts along the others: their corners are enough.
-        self.traced.vertices.push(last);
     }
 
     /// Whether one curve bounds the whole piece and its middle lies on the chord of its ends; writes the middle if so.
@@ -51,11 +60,13 @@ impl Tracer<'_> {
         if count < 4 || !run.is_one_curve(0, count - 1) {
             return false;
         }
-        let anchor = self.anchor(run.cracks[count / 2]);
-        let Some(middle) = self.placer.project(&anchor.target, anchor.at) else { return false };
+        let mut anchor = self.anchor(run.cracks[count / 2]);
+        let Some((middle, slope)) = self.placer.project_sloped(&mut anchor.target, anchor.at) else {
+            return false;
+        };
         let way = last.at - first.at;
         let between = (middle.at - first.at).dot(way) > 0.0 && (last.at - middle.at).dot(way) > 0.0;
-        let straight = between && is_straight(first, middle, last);
+        let straight = between && is_straight(first, (middle, slope), last);
         if straight {
             self.traced.vertices.push(middle);
         }
@@ -75,7 +86,11 @@ impl Tracer<'_> {
     ///
     /// Near a node a crack may be moved past it, along the continuation of the boundary that the third region cuts off;
     /// going there and back would cut into that region.
-    fn short_of(&mut self, cracks: &[Crack], start: Vertex) -> (usize, Target, Vertex) {
+    fn short_of(&mut self, run: &Run<'_>, start: Vertex) -> (usize, Target, Vertex) {
+        self.short_of_end(run.cracks, start)
+    }
+
+    fn short_of_end(&mut self, cracks: &[Crack], start: Vertex) -> (usize, Target, Vertex) {
         let mut here = self.placed_crack(cracks[0]);
         for (i, &next) in cracks.iter().enumerate().skip(1).take(LOOK_AHEAD) {
             let ahead = self.placed_crack(next);
@@ -88,28 +103,33 @@ impl Tracer<'_> {
     }
 
     /// The same from the end of the piece.
-    fn short_of_reversed(&mut self, cracks: &[Crack], end: Vertex) -> (usize, Target, Vertex) {
-        let tail: Vec<Crack> = cracks.iter().rev().take(LOOK_AHEAD + 1).copied().collect();
-        let (i, target, vertex) = self.short_of(&tail, end);
-        (cracks.len() - 1 - i, target, vertex)
+    fn short_of_reversed(&mut self, run: &Run<'_>, end: Vertex) -> (usize, Target, Vertex) {
+        let tail: Vec<Crack> = run.cracks.iter().rev().take(LOOK_AHEAD + 1).copied().collect();
+        let (i, target, vertex) = self.short_of_end(&tail, end);
+        (run.cracks.len() - 1 - i, target, vertex)
     }
 
     fn placed_crack(&mut self, crack: Crack) -> (Target, Vertex) {
-        let anchor = self.anchor(crack);
-        (anchor.target, self.placed(&anchor.target, anchor.at))
+        let mut anchor = self.anchor(crack);
+        let vertex = self.placed(&mut anchor.target, anchor.at);
+        (anchor.target, vertex)
     }
 
     /// Samples between two placed cracks until chords follow the boundary; writes what lies between.
     fn sample(&mut self, run: &Run<'_>, (i, from): (usize, Vertex), (j, to): (usize, Vertex)) {
         if j == i + 1 {
-            let (a, b) = (self.anchor(run.cracks[i]), self.anchor(run.cracks[j]));
-            self.halve(&a.target.join(&b.target), from, to, HALVINGS);
+            let [a, b] = [i, j].map(|k| self.anchor(run.cracks[k]).target);
+            self.halve(&mut a.join(&b), from, to, HALVINGS);
             return;
         }
         let middle = usize::midpoint(i, j);
-        let anchor = self.anchor(run.cracks[middle]);
-        let vertex = self.placed(&anchor.target, anchor.at);
-        let settled = run.is_one_curve(i, j) && is_straight(from, vertex, to);
+        let mut anchor = self.anchor(run.cracks[middle]);
+        let sloped = self.placer.project_sloped(&mut anchor.target, anchor.at);
+        let vertex = match sloped {
+            Some((vertex, _)) => vertex,
+            None => self.placed(&mut anchor.target, anchor.at),
+        };
+        let settled = run.is_one_curve(i, j) && sloped.is_some_and(|sloped| is_straight(from, sloped, to));
         if !settled {
             self.sample(run, (i, from), (middle, vertex));
         }
@@ -120,12 +140,13 @@ impl Tracer<'_> {
     }
 
     /// Samples between two neighbouring places by halving.
-    fn halve(&mut self, target: &Target, from: Vertex, to: Vertex, left: u32) {
+    fn halve(&mut self, target: &mut Target, from: Vertex, to: Vertex, left: u32) {
         if left == 0 || (to.at - from.at).length() < 4.0 * CHORD {
             return;
         }
-        let Some(vertex) = self.placer.project(target, from.at.midpoint(to.at)) else { return };
-        if is_straight(from, vertex, to) {
+        let Some(sloped) = self.placer.project_sloped(target, from.at.midpoint(to.at)) else { return };
+        let vertex = sloped.0;
+        if is_straight(from, sloped, to) {
             return;
         }
         // A projection that runs off along the boundary would fold the path back on itself.
@@ -138,7 +159,7 @@ impl Tracer<'_> {
         self.halve(target, vertex, to, left - 1);
     }
 
-    pub(super) fn placed(&mut self, target: &Target, at: Spot) -> Vertex {
+    pub(super) fn placed(&mut self, target: &mut Target, at: Spot) -> Vertex {
         self.placer.project(target, at).unwrap_or_else(|| {
             self.traced.unplaced += 1;
             Vertex { at, clearance: self.placer.clearance(target, at).max(0.0) }
@@ -159,8 +180,13 @@ impl Run<'_> {
     }
 }
 
-/// Whether a sample half way lies on the chord, and its clearance on the interpolation.
-fn is_straight(from: Vertex, middle: Vertex, to: Vertex) -> bool {
+/// Whether a sample half way lies on the chord and runs along it, and its clearance on the interpolation.
+///
+/// `across` is a vector across the boundary at the sample. A boundary that bends one way and then the other may cross its chord half way; then it
+/// does so at an angle. A cubic that crosses at an angle whose sine is s leaves a chord of length L by 0.19 s L.
+pub(in crate::voronoi) fn is_straight(from: Vertex, (middle, across): (Vertex, Spot), to: Vertex) -> bool {
+    let skew = across.dot(to.at - from.at).abs();
     middle.at.distance_to_chord(from.at, to.at) <= CHORD
+        && 0.19 * skew <= CHORD * across.length()
         && (middle.clearance - f64::midpoint(from.clearance, to.clearance)).abs() <= CLEARANCE_CHORD
 }

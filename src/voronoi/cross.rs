@@ -1,0 +1,192 @@
+//! Where four regions all but meet.
+//!
+//! ```text
+//!     A ╲   C   ╱ B         A ╲   C   ╱ B        Between the two nodes C and D touch, or A and B do. Where the nodes lie closer
+//!        ●─────●               ╲    ╱            together than pixels can tell, the picture has what the pixels chanced to show,
+//!     A ╱   D   ╲ B             ●             and each of its nodes, placed where its three regions are equally far, lies in
+//!                               │                the region of the fourth. Then the other two touch.
+//!                               ●
+//!                              ╱ ╲
+//! ```
+//!
+//! And where four regions meet at one corner of the pixels, one node stands for both.
+
+use rustc_hash::FxHashMap;
+
+use super::OUTSIDE;
+use super::place::Vertex;
+use super::plane::Spot;
+use super::stitch::Line;
+use super::tip::{End, NEARER, SETTLED, STEPS, Tips, third_owner};
+use super::trace::Corner;
+
+/// Crossing over one boundary may let the next one: rounds at most. Chosen: more than one is rare.
+const ROUNDS: usize = 4;
+
+/// The ends of lines at each node.
+type Nodes = FxHashMap<(u32, u32, bool), Vec<End>>;
+
+/// A boundary between two nodes that belongs between the other two regions there.
+struct Crossing {
+    line: usize,
+    /// The regions on its left and right, at its start and at its end.
+    regions: [u32; 4],
+    /// Its new nodes: with the region on the left, and with that on the right.
+    places: [Vertex; 2],
+}
+
+impl Tips<'_> {
+    /// Turns the boundaries that part the wrong two regions of four.
+    pub(super) fn cross(&self, lines: &mut [Line]) {
+        let mut nodes = nodes(lines);
+        for _ in 0..ROUNDS {
+            let mut crossed = false;
+            for line in 0..lines.len() {
+                if let Some(crossing) = self.crossing(lines, &nodes, line) {
+                    self.turn(lines, &mut nodes, &crossing);
+                    crossed = true;
+                }
+            }
+            if !crossed {
+                return;
+            }
+        }
+    }
+
+    fn crossing(&self, lines: &[Line], nodes: &Nodes, i: usize) -> Option<Crossing> {
+        let line = &lines[i];
+        let (from, to) = line.ends?;
+        let (here, there) = (from.key(), to.key());
+        if here == there || line.left == OUTSIDE || line.right == OUTSIDE {
+            return None;
+        }
+        let (first, last) = (line.vertices[0], line.vertices[line.vertices.len() - 1]);
+        let behind = third_owner(lines, &nodes[&here], line)?;
+        let ahead = third_owner(lines, &nodes[&there], line)?;
+        if behind == ahead || !self.is_nearer(first, ahead) || !self.is_nearer(last, behind) {
+            return None;
+        }
+        let middle = first.at.midpoint(last.at);
+        let place = |third: u32| self.equally_far([behind, ahead, third], middle);
+        let places = [place(line.left)?, place(line.right)?];
+        Some(Crossing { line: i, regions: [line.left, line.right, behind, ahead], places })
+    }
+
+    /// Puts a boundary of the regions behind and ahead in place of one of those on its left and right.
+    fn turn(&self, lines: &mut [Line], nodes: &mut Nodes, crossing: &Crossing) {
+        let Crossing { line: turned, regions: [left, _, behind, ahead], places } = crossing;
+        let Some((from, to)) = lines[*turned].ends else { return };
+        let keys = [from.key(), to.key()];
+        let others: Vec<End> =
+            keys.iter().flat_map(|key| &nodes[key]).filter(|end| end.line != *turned).copied().collect();
+        let mut met = [vec![End { line: *turned, tail: false }], vec![End { line: *turned, tail: true }]];
+        for end in others {
+            let line = &lines[end.line];
+            let side = usize::from(line.left != *left && line.right != *left);
+            self.move_end(lines, end, [from, to][side], places[side]);
+            met[side].push(end);
+        }
+        let pair = (*ahead, *behind);
+        let vertices = self.between(pair, places[0], places[1]);
+        lines[*turned] = Line { vertices, left: pair.0, right: pair.1, ends: Some((from, to)) };
+        for (key, ends) in keys.into_iter().zip(met) {
+            nodes.insert(key, ends);
+        }
+    }
+
+    /// Parts nodes of four regions that truly are two.
+    pub(super) fn part(&self, lines: &mut Vec<Line>) {
+        let mut nodes = nodes(lines);
+        for i in 0..lines.len() {
+            for corner in lines[i].ends.into_iter().flat_map(|(from, to)| [from, to]) {
+                let Some(ends) = nodes.get(&corner.key()).filter(|ends| ends.len() == 4) else { continue };
+                let Some(([a, b, c, _], places)) = self.parted(lines, ends) else { continue };
+                let corners = [false, true].map(|branch| Corner { branch, open: false, ..corner });
+                for end in nodes.remove(&corner.key()).into_iter().flatten() {
+                    let side = usize::from(lines[end.line].left != b && lines[end.line].right != b);
+                    self.move_end(lines, end, corners[side], places[side]);
+                }
+                let vertices = self.between((a, c), places[0], places[1]);
+                lines.push(Line { vertices, left: a, right: c, ends: Some((corners[0], corners[1])) });
+            }
+        }
+    }
+
+    /// Four regions round a node, counter-clockwise, of which the first and the third touch, and the two places where they meet the second and
+    /// the fourth; none where all four meet in one point.
+    fn parted(&self, lines: &[Line], ends: &[End]) -> Option<([u32; 4], [Vertex; 2])> {
+        let [a, b, c, d] = regions_round(lines, ends)?;
+        let line = &lines[ends[0].line];
+        let node = line.vertices[if ends[0].tail { line.vertices.len() - 1 } else { 0 }];
+        if ![a, b, c, d].into_iter().any(|owner| self.is_nearer(node, owner)) {
+            return None;
+        }
+        [[a, b, c, d], [b, c, d, a]].into_iter().find_map(|[a, b, c, d]| {
+            let first = self.equally_far([a, b, c], node.at)?;
+            let second = self.equally_far([a, c, d], node.at)?;
+            let true_places = !self.is_nearer(first, d) && !self.is_nearer(second, b);
+            true_places.then_some(([a, b, c, d], [first, second]))
+        })
+    }
+
+    /// Makes an end of a line lie at another node.
+    fn move_end(&self, lines: &mut [Line], end: End, corner: Corner, place: Vertex) {
+        let line = &mut lines[end.line];
+        if let Some(ends) = &mut line.ends {
+            *(if end.tail { &mut ends.1 } else { &mut ends.0 }) = corner;
+        }
+        self.lead(line, end.tail, place);
+    }
+
+    /// Whether a region is nearer to a place than those whose boundaries meet there.
+    fn is_nearer(&self, place: Vertex, owner: u32) -> bool {
+        let bound = place.clearance - NEARER;
+        self.near.nearer(self.sites, place.at, bound, |other| other == owner).is_some()
+    }
+
+    /// The place near `from` that is equally far from three regions.
+    fn equally_far(&self, owners: [u32; 3], from: Spot) -> Option<Vertex> {
+        let mut p = from;
+        for _ in 0..STEPS {
+            let [a, b, c] = owners.map(|owner| self.reach(owner, p));
+            let (first, second) = (a.distance - b.distance, a.distance - c.distance);
+            if first.abs() <= SETTLED && second.abs() <= SETTLED {
+                return Some(Vertex { at: p, clearance: a.distance.min(b.distance).min(c.distance) });
+            }
+            let (across, along) = (a.away - b.away, a.away - c.away);
+            let determinant = across.cross(along);
+            if determinant.abs() < 1e-6 || !determinant.is_finite() {
+                return None;
+            }
+            let step = Spot::new(first * along.y - second * across.y, second * across.x - first * along.x);
+            p = p - step * (1.0 / determinant);
+        }
+        None
+    }
+}
+
+fn nodes(lines: &[Line]) -> Nodes {
+    let mut nodes = Nodes::default();
+    for (i, line) in lines.iter().enumerate() {
+        for (corner, tail) in line.ends.iter().flat_map(|&(from, to)| [(from, false), (to, true)]) {
+            nodes.entry(corner.key()).or_default().push(End { line: i, tail });
+        }
+    }
+    nodes
+}
+
+/// Four different regions round a node, counter-clockwise; none where there are others than four, or the outside.
+fn regions_round(lines: &[Line], ends: &[End]) -> Option<[u32; 4]> {
+    // Seen from the node, a line parts the region on its right from the next one counter-clockwise on its left.
+    let sides = |end: &End| {
+        let line = &lines[end.line];
+        if end.tail { (line.left, line.right) } else { (line.right, line.left) }
+    };
+    let after = |owner: u32| ends.iter().map(sides).find(|(right, _)| *right == owner).map(|(_, left)| left);
+    let a = sides(ends.first()?).0;
+    let (b, c) = (after(a)?, after(after(a)?)?);
+    let d = after(c)?;
+    let ring = [a, b, c, d];
+    let different = (0..4).all(|i| !ring[i + 1..].contains(&ring[i]));
+    (after(d)? == a && different && !ring.contains(&OUTSIDE)).then_some(ring)
+}

@@ -1,0 +1,114 @@
+//! Sites by place: the distance to any owner, wherever one asks.
+
+use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use super::BACKGROUND;
+use super::plane::Spot;
+use super::seed::Sites;
+use super::site::{Form, Reach, Rings, Site};
+
+/// An index of the sites that have an edge of their own.
+pub(super) struct Near {
+    labels: Vec<u32>,
+    index: StaticAABB2DIndex<f64>,
+}
+
+impl Near {
+    /// The index of `sites`; none where there are none.
+    pub(super) fn new(sites: &Sites) -> Option<Self> {
+        let boxes: Vec<(u32, [f64; 4])> = (0..)
+            .zip(&sites.sites)
+            .filter_map(|(label, site)| Some((label, bounds(site, &sites.rings, label)?)))
+            .collect();
+        let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
+        for (_, [left, bottom, right, top]) in &boxes {
+            builder.add(*left, *bottom, *right, *top);
+        }
+        let index = builder.build().ok()?;
+        Some(Self { labels: boxes.into_iter().map(|(label, _)| label).collect(), index })
+    }
+
+    /// The site of an accepted owner that is nearer to `p` than `bound`, in nanometres: the nearest such. `p` lies on no copper.
+    pub(super) fn nearer(
+        &self,
+        sites: &Sites,
+        p: Spot,
+        bound: f64,
+        accept: impl Fn(u32) -> bool,
+    ) -> Option<u32> {
+        let mut nearest = (bound, None);
+        self.index.visit_query(p.x - bound, p.y - bound, p.x + bound, p.y + bound, &mut |i: usize| {
+            let label = self.labels[i];
+            let site = &sites.sites[label as usize];
+            if accept(site.owner) {
+                let rank = rank(site, site.reach(&sites.rings, p));
+                if rank < nearest.0 {
+                    nearest = (rank, Some(label));
+                }
+            }
+        });
+        nearest.1
+    }
+
+    /// The distance from `p` to the nearest site, in nanometres; zero inside it.
+    pub(super) fn distance(&self, sites: &Sites, p: Spot) -> f64 {
+        self.reach(sites, p, |_| true).distance.max(0.0)
+    }
+
+    /// The signed distance from `p` to the nearest site whose owner is accepted.
+    pub(super) fn reach(&self, sites: &Sites, p: Spot, accept: impl Fn(u32) -> bool) -> Reach {
+        self.nearest(sites, p, accept).1
+    }
+
+    /// The owner of the nearest site among those accepted, and the signed distance to it.
+    pub(super) fn nearest(&self, sites: &Sites, p: Spot, accept: impl Fn(u32) -> bool) -> (u32, Reach) {
+        let mut nearest = (BACKGROUND, Reach { distance: f64::INFINITY, away: Spot::default() });
+        let mut least = f64::INFINITY;
+        self.index.visit_neighbors(p.x, p.y, &mut |i: usize, squared: f64| {
+            if squared.sqrt() >= least {
+                return Control::Break(());
+            }
+            let site = &sites.sites[self.labels[i] as usize];
+            if accept(site.owner) {
+                let reach = site.reach(&sites.rings, p);
+                if rank(site, reach) < least {
+                    (least, nearest) = (rank(site, reach), (site.owner, reach));
+                }
+            }
+            Control::Continue
+        });
+        nearest
+    }
+}
+
+/// What sites are compared by: how far their copper is. An edge of a ring that shows its back is no nearer for that.
+fn rank(site: &Site, reach: Reach) -> f64 {
+    match site.form {
+        Form::Chain { .. } => reach.distance.abs(),
+        Form::Point(_) | Form::Line(..) | Form::Arc { .. } | Form::Inside { .. } | Form::Outside => {
+            reach.distance
+        }
+    }
+}
+
+/// The box round a site's edge: left, bottom, right, top; none for what has no edge of its own.
+fn bounds(site: &Site, rings: &Rings, label: u32) -> Option<[f64; 4]> {
+    let around = |spots: &mut dyn Iterator<Item = Spot>, radius: f64| {
+        let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        let [left, bottom, right, top] = spots.fold(far, |[left, bottom, right, top], p| {
+            [left.min(p.x), bottom.min(p.y), right.max(p.x), top.max(p.y)]
+        });
+        [left - radius, bottom - radius, right + radius, top + radius]
+    };
+    match &site.form {
+        Form::Point(p) if label > 1 => Some(around(&mut [*p].into_iter(), site.radius)),
+        Form::Line(a, b) => Some(around(&mut [*a, *b].into_iter(), site.radius)),
+        Form::Arc { center, radius, .. } => Some(around(&mut [*center].into_iter(), radius + site.radius)),
+        Form::Chain { ring, first, count } => {
+            let vertices = rings.ring(*ring);
+            let mut run = vertices.iter().cycle().skip(*first as usize).take(*count as usize + 1).copied();
+            Some(around(&mut run, 0.0))
+        }
+        Form::Point(_) | Form::Inside { .. } | Form::Outside => None,
+    }
+}

@@ -1,0 +1,291 @@
+//! The tips of regions that taper off between two others.
+//!
+//! ```text
+//!     A     A     A     A        A region C that ends in a wedge thinner than a pixel is last seen before its tip: the
+//!    ────────●┄┄┄┄┄┄┄○────       picture's node ● lies short of the true one ○, and what the picture takes for the
+//!     C  C  ╱   C ┄┄             boundary of A and B in between runs inside C.
+//!    ──────╱┄┄┄┄┄  B     B
+//! ```
+//!
+//! A wedge may also be seen again farther on, where a pixel's centre happens to fall into it, and the picture then has an island of C. The
+//! boundary of A and B between the two is none: it is taken out, and the borders of C are joined past it.
+//!
+//! The true node is found by following the boundary of A and B for as long as C is nearer than both, and from there
+//! both borders of C are followed back to where they were seen. Distances are asked of all sites, through an index: those seen round the
+//! node need not be the nearest at the tip.
+
+use std::collections::BTreeMap;
+
+use super::edge::Border;
+use super::near::Near;
+use super::place::Vertex;
+use super::plane::Spot;
+use super::seed::Sites;
+use super::site::Reach;
+use super::stitch::Line;
+use super::trace::is_straight;
+use super::{BACKGROUND, OUTSIDE};
+
+/// A third region must be nearer by more than this to be one, in nanometres: what placing may be off.
+pub(super) const NEARER: f64 = 2.0;
+/// How exactly points are placed, and at worst, in nanometres of distance difference.
+pub(super) const SETTLED: f64 = 0.05;
+const ACCEPTED: f64 = 5.0;
+pub(super) const STEPS: usize = 16;
+/// How often the way to a tip is halved at most: to a nanometre, from a metre.
+const BISECTIONS: usize = 30;
+/// Samples on the way to a tip are halved at most so often.
+pub(super) const HALVINGS: u32 = 10;
+
+/// Moves nodes whose place the picture could not tell to where they belong.
+pub(super) struct Tips<'a> {
+    pub(super) sites: &'a Sites,
+    pub(super) near: &'a Near,
+    pub(super) border: &'a Border,
+    /// The distance that bounds regions against the background, in nanometres.
+    pub(super) level: f64,
+}
+
+/// One end of a line.
+#[derive(Clone, Copy)]
+pub(super) struct End {
+    pub(super) line: usize,
+    pub(super) tail: bool,
+}
+
+impl Tips<'_> {
+    /// Extends lines to the true places of their open nodes; returns how many of these could not be found.
+    pub(super) fn extend(&self, lines: &mut Vec<Line>) -> u32 {
+        self.part(lines);
+        while let Some((bridge, joints)) = self.bridge(lines) {
+            self.take_out(lines, bridge, joints);
+        }
+        let lost = open_nodes(lines).values().map(|ends| u32::from(!self.node(lines, ends))).sum();
+        self.cross(lines);
+        self.trim(lines);
+        lost
+    }
+
+    /// A line that lies inside a third region from one open node to another, with the two pairs of ends that are to be joined past it.
+    fn bridge(&self, lines: &[Line]) -> Option<(usize, [(End, End); 2])> {
+        let nodes = open_nodes(lines);
+        lines.iter().enumerate().find_map(|(i, line)| {
+            let (from, to) = line.ends.filter(|(from, to)| from.open && to.open)?;
+            let (here, there) = (&nodes[&from.key()], &nodes[&to.key()]);
+            let third = third_owner(lines, here, line)?;
+            if from.key() == to.key() || third_owner(lines, there, line)? != third {
+                return None;
+            }
+            let joint = |owner: u32| {
+                let parts = |end: &&End| {
+                    let other = &lines[end.line];
+                    end.line != i && [other.left, other.right].contains(&owner)
+                };
+                Some((*here.iter().find(parts)?, *there.iter().find(parts)?))
+            };
+            let joints = [joint(line.left)?, joint(line.right)?];
+            self.is_swallowed(line, third).then_some((i, joints))
+        })
+    }
+
+    /// Whether a line lies in the region of `third` altogether.
+    fn is_swallowed(&self, line: &Line, third: u32) -> bool {
+        let pair = (line.left, line.right);
+        let inner = &line.vertices[1..line.vertices.len() - 1];
+        if inner.is_empty() {
+            let middle = line.vertices[0].at.midpoint(line.vertices[line.vertices.len() - 1].at);
+            return self.project(pair, middle).is_some_and(|middle| self.is_inside(pair, third, middle.at));
+        }
+        inner.iter().all(|vertex| self.is_inside(pair, third, vertex.at))
+    }
+
+    /// Takes a line out and joins the others that end at its nodes.
+    fn take_out(&self, lines: &mut Vec<Line>, bridge: usize, joints: [(End, End); 2]) {
+        let mut gone = vec![bridge];
+        for (here, there) in joints {
+            let third = [lines[bridge].left, lines[bridge].right]
+                .into_iter()
+                .find(|owner| ![lines[here.line].left, lines[here.line].right].contains(owner));
+            let joined = self.joined(lines, (here, there), third.unwrap_or(OUTSIDE));
+            lines[here.line] = joined;
+            if there.line != here.line {
+                gone.push(there.line);
+            }
+        }
+        gone.sort_unstable();
+        for line in gone.into_iter().rev() {
+            lines.remove(line);
+        }
+    }
+
+    /// The line that runs up to one end and on from the other, without what lies in the region of `third` there; a loop where both are
+    /// ends of one line.
+    fn joined(&self, lines: &[Line], (here, there): (End, End), third: u32) -> Line {
+        let first = &lines[here.line];
+        let (left, right) = if here.tail { (first.left, first.right) } else { (first.right, first.left) };
+        let pair = (left, right);
+        let clear = |end: End| {
+            let mut vertices = outward(&lines[end.line], end.tail);
+            let clear = self.first_clear(&vertices, pair, third).unwrap_or(vertices.len() - 1);
+            vertices.split_off(clear)
+        };
+        let (mut vertices, onward) = (clear(here), clear(there));
+        vertices.reverse();
+        let (before, after) = (vertices[vertices.len() - 1], onward[0]);
+        self.halve(pair, before, after, HALVINGS, &mut vertices);
+        let far = |end: End| lines[end.line].ends.map(|(from, to)| if end.tail { from } else { to });
+        if here.line == there.line {
+            // One line round: what it has beyond the gap, it has already.
+            let open = vertices.iter().position(|vertex| *vertex == after).unwrap_or(0);
+            vertices.drain(..open);
+            vertices.push(after);
+            return Line { vertices, left, right, ends: None };
+        }
+        vertices.extend(onward);
+        Line { vertices, left, right, ends: far(here).zip(far(there)) }
+    }
+
+    /// Moves the node at which three lines end to its place; false if it cannot be found.
+    fn node(&self, lines: &mut [Line], ends: &[End]) -> bool {
+        let found = ends.iter().find_map(|end| {
+            let line = &lines[end.line];
+            let third = third_owner(lines, ends, line)?;
+            self.tip(&outward(line, end.tail), (line.left, line.right), third)
+        });
+        let Some(tip) = found else { return false };
+        for end in ends {
+            let line = &lines[end.line];
+            let Some(third) = third_owner(lines, ends, line) else { continue };
+            let mut vertices = self.led_to(&outward(line, end.tail), tip, (line.left, line.right), third);
+            if end.tail {
+                vertices.reverse();
+            }
+            lines[end.line].vertices = vertices;
+        }
+        true
+    }
+
+    /// Where the boundary of `pair` emerges from the region of `third`, if it begins in there.
+    fn tip(&self, vertices: &[Vertex], pair: (u32, u32), third: u32) -> Option<Vertex> {
+        let clear = self.first_clear(vertices, pair, third)?;
+        let mut inside = self.project(pair, vertices[clear - 1].at)?;
+        let mut outside = self.project(pair, vertices[clear].at)?;
+        if !self.is_inside(pair, third, inside.at) {
+            return None;
+        }
+        for _ in 0..BISECTIONS {
+            let middle = self.project(pair, inside.at.midpoint(outside.at))?;
+            if self.is_inside(pair, third, middle.at) {
+                inside = middle;
+            } else {
+                outside = middle;
+            }
+        }
+        let nearest = self.near.reach(self.sites, outside.at, |_| true).distance.min(self.level);
+        (nearest >= outside.clearance - ACCEPTED).then_some(outside)
+    }
+
+    /// The first vertex after the node that does not lie in the region of `third`.
+    fn first_clear(&self, vertices: &[Vertex], pair: (u32, u32), third: u32) -> Option<usize> {
+        (1..vertices.len()).find(|&i| !self.is_inside(pair, third, vertices[i].at))
+    }
+
+    /// The line from `tip` to the end of `vertices`, along the boundary of `pair`, without what lies in the region of `third`.
+    fn led_to(&self, vertices: &[Vertex], tip: Vertex, pair: (u32, u32), third: u32) -> Vec<Vertex> {
+        let clear = self.first_clear(vertices, pair, third).unwrap_or(vertices.len() - 1);
+        let mut led = vec![tip];
+        self.halve(pair, tip, vertices[clear], HALVINGS, &mut led);
+        led.extend(&vertices[clear..]);
+        led
+    }
+
+    /// Samples between two places by halving.
+    pub(super) fn halve(
+        &self,
+        pair: (u32, u32),
+        from: Vertex,
+        to: Vertex,
+        left: u32,
+        samples: &mut Vec<Vertex>,
+    ) {
+        let way = to.at - from.at;
+        let Some(sloped) = self.project_sloped(pair, from.at.midpoint(to.at)) else { return };
+        let middle = sloped.0;
+        let onward = (middle.at - from.at).dot(way) > 0.0 && (to.at - middle.at).dot(way) > 0.0;
+        if left == 0 || !onward || is_straight(from, sloped, to) {
+            return;
+        }
+        self.halve(pair, from, middle, left - 1, samples);
+        samples.push(middle);
+        self.halve(pair, middle, to, left - 1, samples);
+    }
+
+    fn is_inside(&self, pair: (u32, u32), third: u32, p: Spot) -> bool {
+        let other = self.reach(pair.0, p).distance.min(self.reach(pair.1, p).distance);
+        self.reach(third, p).distance < other - NEARER
+    }
+
+    pub(super) fn reach(&self, owner: u32, p: Spot) -> Reach {
+        if owner == BACKGROUND {
+            return Reach { distance: self.level, away: Spot::default() };
+        }
+        self.near.reach(self.sites, p, |other| other == owner)
+    }
+
+    /// The point near `from` that is equally far from both.
+    fn project(&self, pair: (u32, u32), from: Spot) -> Option<Vertex> {
+        self.project_sloped(pair, from).map(|(vertex, _)| vertex)
+    }
+
+    /// The same, with a vector across their boundary there.
+    fn project_sloped(&self, (a, b): (u32, u32), from: Spot) -> Option<(Vertex, Spot)> {
+        let mut p = from;
+        for step in 0..STEPS {
+            let (a, b) = (self.reach(a, p), self.reach(b, p));
+            let (miss, slope) = (a.distance - b.distance, a.away - b.away);
+            let steepness = slope.dot(slope);
+            if miss.abs() <= SETTLED || (step + 1 == STEPS && miss.abs() <= ACCEPTED) {
+                return Some((Vertex { at: p, clearance: a.distance.min(b.distance) }, slope));
+            }
+            if steepness < 1e-6 || !steepness.is_finite() {
+                return None;
+            }
+            p = p - slope * (miss / steepness);
+        }
+        None
+    }
+}
+
+/// The open nodes with the ends of the lines there, by their corners.
+fn open_nodes(lines: &[Line]) -> BTreeMap<(u32, u32, bool), Vec<End>> {
+    let mut nodes: BTreeMap<(u32, u32, bool), Vec<End>> = BTreeMap::new();
+    for (i, line) in lines.iter().enumerate() {
+        for (corner, tail) in line.ends.iter().flat_map(|&(from, to)| [(from, false), (to, true)]) {
+            if corner.open {
+                nodes.entry(corner.key()).or_default().push(End { line: i, tail });
+            }
+        }
+    }
+    nodes
+}
+
+/// The owner that meets those of `line` at a node of three lines; none where another number of regions meets, or the border.
+pub(super) fn third_owner(lines: &[Line], ends: &[End], line: &Line) -> Option<u32> {
+    let mut owners: Vec<u32> =
+        ends.iter().flat_map(|end| [lines[end.line].left, lines[end.line].right]).collect();
+    owners.sort_unstable();
+    owners.dedup();
+    if ends.len() != 3 || owners.len() != 3 || owners.contains(&OUTSIDE) {
+        return None;
+    }
+    owners.into_iter().find(|&owner| owner != line.left && owner != line.right)
+}
+
+/// The vertices of a line from one of its ends on.
+fn outward(line: &Line, tail: bool) -> Vec<Vertex> {
+    let mut vertices = line.vertices.clone();
+    if tail {
+        vertices.reverse();
+    }
+    vertices
+}
