@@ -141,7 +141,7 @@ impl Tips<'_> {
     /// Whether a region is nearer to a place than those whose boundaries meet there.
     fn is_nearer(&self, place: Vertex, owner: u32) -> bool {
         let bound = place.clearance - NEARER;
-        self.near.nearer(self.sites, place.at, bound, |other| other == owner).is_some()
+        self.near.nearer(self.sites, place.at, bound, |_, other| other == owner).is_some()
     }
 
     /// The place near `from` that is equally far from three regions.

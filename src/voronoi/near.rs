@@ -10,6 +10,8 @@ use super::site::{Form, Reach, Rings, Site};
 /// An index of the sites that have an edge of their own.
 pub(super) struct Near {
     labels: Vec<u32>,
+    /// The box of each, left, bottom, right, top: a look at it spares most distances.
+    boxes: Vec<[f64; 4]>,
     index: StaticAABB2DIndex<f64>,
 }
 
@@ -25,22 +27,24 @@ impl Near {
             builder.add(*left, *bottom, *right, *top);
         }
         let index = builder.build().ok()?;
-        Some(Self { labels: boxes.into_iter().map(|(label, _)| label).collect(), index })
+        let (labels, boxes) = boxes.into_iter().unzip();
+        Some(Self { labels, boxes, index })
     }
 
-    /// The site of an accepted owner that is nearer to `p` than `bound`, in nanometres: the nearest such. `p` lies on no copper.
+    /// The site that is nearer to `p` than `bound`, in nanometres, among those that are accepted by label and owner: the nearest such. `p` lies
+    /// on no copper.
     pub(super) fn nearer(
         &self,
         sites: &Sites,
         p: Spot,
         bound: f64,
-        accept: impl Fn(u32) -> bool,
+        accept: impl Fn(u32, u32) -> bool,
     ) -> Option<u32> {
         let mut nearest = (bound, None);
         self.index.visit_query(p.x - bound, p.y - bound, p.x + bound, p.y + bound, &mut |i: usize| {
             let label = self.labels[i];
             let site = &sites.sites[label as usize];
-            if accept(site.owner) {
+            if accept(label, site.owner) && self.is_box_within(i, p, nearest.0) {
                 let rank = rank(site, site.reach(&sites.rings, p));
                 if rank < nearest.0 {
                     nearest = (rank, Some(label));
@@ -48,6 +52,14 @@ impl Near {
             }
         });
         nearest.1
+    }
+
+    /// Whether the box of entry `i` comes nearer to `p` than `bound`, in nanometres.
+    fn is_box_within(&self, i: usize, p: Spot, bound: f64) -> bool {
+        let [left, bottom, right, top] = self.boxes[i];
+        let x = (left - p.x).max(p.x - right).max(0.0);
+        let y = (bottom - p.y).max(p.y - top).max(0.0);
+        x * x + y * y < bound * bound
     }
 
     /// The distance from `p` to the nearest site, in nanometres; zero inside it.

@@ -76,6 +76,14 @@ pub(super) enum Target {
 }
 
 impl Target {
+    fn has(&self, label: u32) -> bool {
+        match self {
+            Self::Between(a, b) => a.as_slice().contains(&label) || b.as_slice().contains(&label),
+            Self::At(a, _) => a.as_slice().contains(&label),
+            Self::OnBorder => false,
+        }
+    }
+
     /// The same equation, with the sites of another point of the same boundary considered too.
     pub(super) fn join(&self, other: &Self) -> Self {
         match (self, other) {
@@ -183,9 +191,8 @@ impl Placer<'_> {
             Target::OnBorder => return false,
         };
         let bound = place.clearance - NEARER;
-        let label = self
-            .near
-            .and_then(|near| near.nearer(self.sites, place.at, bound, |owner| owners.contains(&owner)));
+        let is_new = |label: u32, owner: u32| owners.contains(&owner) && !target.has(label);
+        let label = self.near.and_then(|near| near.nearer(self.sites, place.at, bound, is_new));
         match (label, target) {
             (Some(label), Target::Between(a, _) | Target::At(a, _))
                 if self.owners[label as usize] == owners[0] =>

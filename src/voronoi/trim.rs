@@ -66,7 +66,7 @@ impl Tips<'_> {
 
     /// Whether a point of the boundary of two regions lies in the region of any other.
     fn lies_elsewhere(&self, (a, b): (u32, u32), vertex: Vertex) -> bool {
-        let other = |owner: u32| owner != a && owner != b;
+        let other = |_, owner: u32| owner != a && owner != b;
         self.near.nearer(self.sites, vertex.at, vertex.clearance - NEARER, other).is_some()
     }
 }
