@@ -322,7 +322,7 @@ impl Diagram {
             );
             warnings.push(Warning::new("boundary-not-placed", message));
         }
-        (self.graph(&lines), warnings)
+        (self.graph(lines), warnings)
     }
 
     /// Places the nodes that the picture left open; returns how many remain so. Among core axes with copper above them, all do.
@@ -417,11 +417,13 @@ impl Diagram {
     }
 
     /// Lines fitted, with nodes in the order in which lines meet them.
-    fn graph(&self, lines: &[Line]) -> Boundaries {
-        let fitted: Vec<_> = lines
-            .par_iter()
-            .map(|line| fit::fit(&line.vertices, self.settings.tolerance, self.settings.arcs))
-            .collect();
+    fn graph(&self, lines: Vec<Line>) -> Boundaries {
+        // Two nodes that fall on the same nanometre are one, and nothing runs between them.
+        let fit = |line: Line| {
+            let fitted = fit::fit(&line.vertices, self.settings.tolerance, self.settings.arcs)?;
+            Some((fitted, (line.left, line.right), line.ends.is_none()))
+        };
+        let fitted: Vec<_> = lines.into_par_iter().filter_map(fit).collect();
         let mut numbers = rustc_hash::FxHashMap::default();
         let mut nodes = Vec::new();
         let mut node = |at: Point| {
@@ -430,14 +432,12 @@ impl Diagram {
                 NodeId(u32::try_from(nodes.len() - 1).expect("below 2³² nodes"))
             })
         };
-        let mut edges = Vec::new();
-        for (line, fitted) in lines.iter().zip(fitted) {
-            // Two nodes that fall on the same nanometre are one, and nothing runs between them.
-            let Some((path, clearance)) = fitted else { continue };
-            let ends = line.ends.map(|_| (node(path.start), node(path.end())));
-            let (left, right) = (Owner::from_number(line.left), Owner::from_number(line.right));
-            edges.push(Boundary { path, clearance, left, right, ends });
-        }
+        let edge = |((path, clearance), (left, right), is_loop): ((Path, Vec<Nm>), (u32, u32), bool)| {
+            let ends = (!is_loop).then(|| (node(path.start), node(path.end())));
+            let (left, right) = (Owner::from_number(left), Owner::from_number(right));
+            Boundary { path, clearance, left, right, ends }
+        };
+        let edges = fitted.into_iter().map(edge).collect();
         Boundaries { nodes, edges }
     }
 }

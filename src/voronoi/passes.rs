@@ -69,7 +69,7 @@ impl Diagram {
             if empty == 2 {
                 break;
             }
-            all.append(self.graph(&lines));
+            all.append(self.graph(lines));
         }
         all
     }
