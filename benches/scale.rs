@@ -1,4 +1,5 @@
-//! Time by stage and peak memory over boards of 10 to 10⁶ features: `cargo bench --bench scale [-- FEATURES…]`.
+//! Time by stage and peak memory over boards of 10 to 10⁶ features: `cargo bench --bench scale [-- FEATURES…]`; and of a panel of
+//! 300 × 300 mm at 5 µm, 3.6 gigapixels: `cargo bench --bench scale -- panel`.
 //!
 //! A plain program: each size runs in a process of its own, so that its peak memory can be told. Without sizes it takes
 //! 10 to 100 000; a million takes some minutes. Times are seconds on all cores, except for the last column.
@@ -11,32 +12,43 @@ use std::process::Command;
 use std::time::Instant;
 
 use voromill::board::Side;
+use voromill::geometry::Nm;
 use voromill::import;
-use voromill::job::{self, Options, Settings};
+use voromill::job::{self, Length, Options, Settings};
 use voromill::topology::{self, Method};
 
+/// Names the board to the process that mills it.
+const ONE: &str = "VOROMILL_SCALE_ONE";
+
 fn main() {
-    let sizes: Vec<usize> = std::env::args().skip(1).filter_map(|argument| argument.parse().ok()).collect();
-    if let ([size], Some(_)) = (&sizes[..], std::env::var_os("VOROMILL_SCALE_ONE")) {
-        return one(*size);
+    if let Some(board) = std::env::var_os(ONE) {
+        return one(board.to_str().expect("a number or `panel`"));
+    }
+    let asked =
+        std::env::args().skip(1).filter(|argument| argument == "panel" || argument.parse::<u32>().is_ok());
+    let mut boards: Vec<String> = asked.collect();
+    if boards.is_empty() {
+        boards = ["10", "100", "1000", "10000", "100000"].map(str::to_owned).to_vec();
     }
     println!("features       read     nets      gap     rest    total  nets/rest  µs/feature  peak MiB");
-    let default = [10, 100, 1000, 10_000, 100_000];
-    for size in if sizes.is_empty() { default.to_vec() } else { sizes } {
+    for board in boards {
         let own = std::env::current_exe().expect("a program has a name");
-        let status = Command::new(own).arg(size.to_string()).env("VOROMILL_SCALE_ONE", "1").status();
-        assert!(status.expect("it starts").success(), "a board of {size} features is milled");
+        let status = Command::new(own).env(ONE, &board).status().expect("it starts");
+        assert!(status.success(), "a board of {board} features is milled");
     }
 }
 
 /// Mills one board, stage by stage first and then as a whole.
-fn one(size: usize) {
-    let (text, features) = synthetic::gerber(size);
-    let folder = std::env::temp_dir().join(format!("voromill-scale-{size}-{}", std::process::id()));
+fn one(board: &str) {
+    let is_panel = board == "panel";
+    let (text, features) =
+        if is_panel { synthetic::panel(30) } else { synthetic::gerber(board.parse().expect("a number")) };
+    let pixel = is_panel.then(|| Length(Nm::from_um(5)));
+    let folder = std::env::temp_dir().join(format!("voromill-scale-{board}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder to write to");
     let path = folder.join("synthetic.gbr");
     std::fs::write(&path, text).expect("writable");
-    let figures = stages(&path);
+    let figures = stages(&path, pixel);
     std::fs::remove_dir_all(&folder).expect("ours");
     let [read, nets, gap, rest] = figures;
     let total = read + nets + gap + rest;
@@ -50,13 +62,13 @@ fn one(size: usize) {
 }
 
 /// Seconds to read the file, to find the nets, the smallest gap, and for all that comes after.
-fn stages(path: &Path) -> [f64; 4] {
+fn stages(path: &Path, pixel: Option<Length>) -> [f64; 4] {
     let (loaded, read) = timed(|| import::load_copper(path, Side::Front).expect("a good file"));
     let copper = loaded.board.copper(Side::Front).expect("a front");
     let (found, nets) = timed(|| topology::recover(copper, Method::Contact));
     let (_, gap) = timed(|| topology::smallest_gap(copper, &found));
     drop(found);
-    let settings = Settings::resolve(Options::default()).expect("the defaults");
+    let settings = Settings::resolve(Options { pixel, ..Options::default() }).expect("the defaults");
     let (_, whole) = timed(|| job::mill(loaded, &settings).expect("it is milled"));
     [read, nets, gap, whole - nets - gap]
 }

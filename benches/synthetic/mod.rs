@@ -21,19 +21,27 @@ impl Random {
 
 /// A copper layer of about `features` features, and how many it has.
 pub(crate) fn gerber(features: usize) -> (String, usize) {
+    let along = i64::try_from((features / 90).max(1).isqrt().max(1)).expect("small");
+    let places = (0..).flat_map(|row| (0..along).map(move |column| (column, row)));
+    tiles(places, |drawn| drawn >= features)
+}
+
+/// A copper layer of `side` × `side` tiles, and how many features it has.
+#[allow(dead_code, reason = "not every benchmark needs it")]
+pub(crate) fn panel(side: i64) -> (String, usize) {
+    tiles((0..side).flat_map(|row| (0..side).map(move |column| (column, row))), |_| false)
+}
+
+/// Tiles at these columns and rows, until there are enough features.
+fn tiles(places: impl Iterator<Item = (i64, i64)>, enough: impl Fn(usize) -> bool) -> (String, usize) {
     let mut layer = Layer { text: HEADER.to_owned(), features: 0, origin: (0, 0) };
     let mut random = Random(7);
-    let along = (features / 90).max(1).isqrt().max(1);
-    for number in 0.. {
-        if layer.features >= features {
+    for (column, row) in places {
+        if enough(layer.features) {
             break;
         }
-        let tile = (number % along, number / along);
-        layer.origin = (
-            i64::try_from(tile.0).expect("small") * TILE * 1000,
-            i64::try_from(tile.1).expect("small") * TILE * 1000,
-        );
-        match (tile.0 + tile.1 * 3) % 4 {
+        layer.origin = (column * TILE * 1000, row * TILE * 1000);
+        match (column + row * 3) % 4 {
             0 => layer.bus(&mut random),
             1 => layer.field(),
             2 => layer.plane(),

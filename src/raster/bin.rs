@@ -89,6 +89,13 @@ impl Bin {
         Self { sees_through: true, ..self }
     }
 
+    /// Gives back memory that it does not need, for a bin that is to be kept.
+    pub(super) fn shrink(&mut self) {
+        self.shapes.shrink_to_fit();
+        self.parts.shrink_to_fit();
+        self.edges.shrink_to_fit();
+    }
+
     /// Empties it, to be filled from `from`.
     pub(super) fn clear(&mut self, from: &Self) {
         self.shapes.clear();
@@ -136,7 +143,8 @@ impl Bin {
             .chain(self.parts.iter().map(|part| part.primitive))
     }
 
-    fn len(&self) -> usize {
+    /// How many there are.
+    pub(super) fn len(&self) -> usize {
         self.shapes.len() + self.parts.len()
     }
 

@@ -1,3 +1,5 @@
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::Scene;
@@ -60,11 +62,22 @@ pub(super) struct Descent<'a> {
     skip: bool,
     /// Tiles along a side of the squares that come out.
     size: u32,
-    rows: Vec<(u32, Vec<Node>)>,
+    rows: Vec<Row>,
+}
+
+/// A row of squares of `count` tiles a side, of whose rows of pieces the first few are already cut off.
+struct Row {
+    count: u32,
+    nodes: Vec<Node>,
+    cut: u32,
 }
 
 /// Pieces along a side that a square is cut into at most.
 const FAN: u32 = 8;
+
+/// Candidates in a row of squares beyond which its pieces are cut off a row at a time. In the largest squares one may be seen in
+/// half a dozen pieces; cutting all at once would take that many times the memory of the scene. Chosen: 1.5 MiB of them.
+const HEAVY: usize = 65_536;
 
 impl<'a> Descent<'a> {
     /// Cuts down to squares of `size` tiles (a power of two); squares that are uniform in respect of `levels` are
@@ -74,21 +87,29 @@ impl<'a> Descent<'a> {
         let count = columns.max(rows).next_power_of_two().max(size);
         let root =
             grid.cell(0, 0, count).map(|cell| Node { column: 0, row: 0, cell, bin: Bin::root(scene, cell) });
-        let rows = root.map(|root| (count, vec![root])).into_iter().collect();
+        let rows = root.map(|root| Row { count, nodes: vec![root], cut: 0 }).into_iter().collect();
         Self { scene, grid, levels, skip, size, rows }
     }
 
-    /// The squares of `count` tiles a side in a square of `from` tiles, by rows.
-    fn children(&self, mosaic: &mut Mosaic, node: &Node, from: u32, count: u32) -> Vec<Vec<Node>> {
-        let (columns, rows) = self.grid.size();
-        let firsts = |first: u32, end: u32| (first..end.min(first + from)).step_by(count as usize);
-        let (columns, rows) = (firsts(node.column, columns), firsts(node.row, rows));
+    /// The squares of `count` tiles a side in a square of `from` tiles, by those rows of them that are asked for.
+    fn children(
+        &self,
+        mosaic: &mut Mosaic,
+        node: &Node,
+        (from, count): (u32, u32),
+        rows: Range<u32>,
+    ) -> Vec<Vec<Node>> {
+        let (columns, end) = self.grid.size();
+        let firsts = |first: u32, end: u32| (first..end).step_by(count as usize);
+        let columns = firsts(node.column, columns.min(node.column + from));
+        let rows = firsts(node.row + rows.start * count, end.min(node.row + rows.end * count));
         let cuts = Cuts {
             columns: columns.clone().map(|tile| self.grid.span(tile, count, self.grid.width)).collect(),
             rows: rows.clone().map(|tile| self.grid.span(tile, count, self.grid.height)).collect(),
         };
         let mut bins = Vec::new();
         mosaic.split(self.scene, &node.bin, node.cell, &cuts, &mut bins);
+        bins.iter_mut().for_each(Bin::shrink);
         let mut pieces = cuts.cells().zip(bins);
         let row_of = |row| {
             let row_pieces = columns.clone().zip(&mut pieces);
@@ -103,19 +124,26 @@ impl Iterator for Descent<'_> {
     type Item = Vec<Node>;
 
     fn next(&mut self) -> Option<Vec<Node>> {
-        while let Some((from, nodes)) = self.rows.pop() {
+        while let Some(Row { count: from, nodes, cut }) = self.rows.pop() {
             if from == self.size {
                 return Some(nodes);
             }
             let count = (from / FAN).max(self.size);
-            let split = |mosaic: &mut Mosaic, node: &Node| self.children(mosaic, node, from, count);
+            let heavy = nodes.iter().map(|node| node.bin.len()).sum::<usize>() > HEAVY;
+            let ahead = cut..if heavy { cut + 1 } else { from / count };
+            let split =
+                |mosaic: &mut Mosaic, node: &Node| self.children(mosaic, node, (from, count), ahead.clone());
             let split: Vec<_> = nodes.par_iter().map_init(Mosaic::new, split).collect();
-            let mut rows: Vec<(u32, Vec<Node>)> = Vec::new();
-            rows.resize_with(split.first().map_or(0, Vec::len), || (count, Vec::new()));
-            for node in split {
-                rows.iter_mut().zip(node).for_each(|(row, nodes)| row.1.extend(nodes));
+            if ahead.end < from / count {
+                self.rows.push(Row { count: from, nodes, cut: ahead.end });
             }
-            self.rows.extend(rows.into_iter().rev().filter(|row| !row.1.is_empty()));
+            let mut rows: Vec<Vec<Node>> = Vec::new();
+            rows.resize_with(split.first().map_or(0, Vec::len), Vec::new);
+            for node in split {
+                rows.iter_mut().zip(node).for_each(|(row, nodes)| row.extend(nodes));
+            }
+            let rows = rows.into_iter().rev().filter(|nodes| !nodes.is_empty());
+            self.rows.extend(rows.map(|nodes| Row { count, nodes, cut: 0 }));
         }
         None
     }

@@ -36,6 +36,11 @@ impl Scene {
         }
     }
 
+    /// Makes room for so many more primitives at once.
+    pub fn reserve(&mut self, primitives: usize) {
+        self.primitives.reserve_exact(primitives);
+    }
+
     /// Says which owner each label belongs to (the index is the label); a label beyond the list is its own owner,
     /// and so are all before the first call.
     ///

@@ -39,6 +39,8 @@ pub(super) fn fit(vertices: &[Vertex], tolerance: Nm, arcs: bool) -> Option<(Pat
             clearance.push(Nm::from_f64(finite(vertices[i].clearance)));
         }
     }
+    path.segments.shrink_to_fit();
+    clearance.shrink_to_fit();
     (!path.segments.is_empty()).then_some((path, clearance))
 }
 

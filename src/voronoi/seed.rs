@@ -60,6 +60,7 @@ impl Sites {
             }
         }
         sites.sites.push(nobody(Form::Outside, OUTSIDE));
+        sites.sites.shrink_to_fit();
         sites
     }
 
@@ -161,6 +162,7 @@ impl Sites {
     pub(super) fn scene(&self, grid: &Grid, border: &Border, limit: Option<f32>) -> Scene {
         let mut scene = Scene::new(grid.width(), grid.height());
         scene.set_owners(self.owners());
+        scene.reserve(self.sites.len());
         let at = |spot: Spot| grid.pixel(spot.rounded());
         let contours =
             border.outside().iter().map(|ring| ring.iter().map(|&p| grid.pixel(p)).collect()).collect();
