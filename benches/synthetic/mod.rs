@@ -19,22 +19,30 @@ impl Random {
     }
 }
 
-/// A copper layer of about `features` features, and how many it has.
+/// A copper layer of about `features` features, and how many it has. Beyond 300 000 everything is half as large, or the board
+/// would be larger than a metre.
 pub(crate) fn gerber(features: usize) -> (String, usize) {
+    let unit = if features > 300_000 { 500 } else { 1000 };
     let along = i64::try_from((features / 90).max(1).isqrt().max(1)).expect("small");
     let places = (0..).flat_map(|row| (0..along).map(move |column| (column, row)));
-    tiles(places, |drawn| drawn >= features)
+    tiles(unit, places, |drawn| drawn >= features)
 }
 
 /// A copper layer of `side` × `side` tiles, and how many features it has.
 #[allow(dead_code, reason = "not every benchmark needs it")]
 pub(crate) fn panel(side: i64) -> (String, usize) {
-    tiles((0..side).flat_map(|row| (0..side).map(move |column| (column, row))), |_| false)
+    tiles(1000, (0..side).flat_map(|row| (0..side).map(move |column| (column, row))), |_| false)
 }
 
-/// Tiles at these columns and rows, until there are enough features.
-fn tiles(places: impl Iterator<Item = (i64, i64)>, enough: impl Fn(usize) -> bool) -> (String, usize) {
-    let mut layer = Layer { text: HEADER.to_owned(), features: 0, origin: (0, 0) };
+/// Tiles at these columns and rows, until there are enough features; `unit` nanometres stand for a micrometre.
+fn tiles(
+    unit: i64,
+    places: impl Iterator<Item = (i64, i64)>,
+    enough: impl Fn(usize) -> bool,
+) -> (String, usize) {
+    let text = "%FSLAX46Y46*%\n%MOMM*%\n".to_owned();
+    let mut layer = Layer { text, features: 0, origin: (0, 0), unit };
+    layer.define();
     let mut random = Random(7);
     for (column, row) in places {
         if enough(layer.features) {
@@ -52,20 +60,38 @@ fn tiles(places: impl Iterator<Item = (i64, i64)>, enough: impl Fn(usize) -> boo
     (layer.text, layer.features)
 }
 
-/// Apertures: 10 trace, 11 round pad, 12 fine pad lying, 13 fine pad standing, 14 via, 15 antipad, 16 spoke.
-const HEADER: &str = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.2*%\n%ADD11C,1.6*%\n%ADD12R,0.8X0.3*%\n%ADD13R,0.3X0.8*%\n\
-    %ADD14C,0.5*%\n%ADD15C,1.2*%\n%ADD16C,0.25*%\nG01*\n";
+/// Apertures in micrometres from D10 on: trace, round pad, fine pad lying, fine pad standing, via, antipad, spoke.
+const APERTURES: [(char, &[i64]); 7] = [
+    ('C', &[200]),
+    ('C', &[1600]),
+    ('R', &[800, 300]),
+    ('R', &[300, 800]),
+    ('C', &[500]),
+    ('C', &[1200]),
+    ('C', &[250]),
+];
 
 struct Layer {
     text: String,
     features: usize,
     /// The tile's corner in micrometres.
     origin: (i64, i64),
+    /// Nanometres in a micrometre, as it were.
+    unit: i64,
 }
 
 impl Layer {
+    fn define(&mut self) {
+        for (number, (shape, sizes)) in (10..).zip(APERTURES) {
+            let millimetres = |nm: i64| format!("{}.{:06}", nm / 1_000_000, nm % 1_000_000);
+            let sizes: Vec<String> = sizes.iter().map(|size| millimetres(size * self.unit)).collect();
+            let _ = writeln!(self.text, "%ADD{number}{shape},{}*%", sizes.join("X"));
+        }
+        self.text.push_str("G01*\n");
+    }
+
     fn say(&mut self, aperture: u32, at: (i64, i64), operation: &str) {
-        let (x, y) = ((self.origin.0 + at.0) * 1000, (self.origin.1 + at.1) * 1000);
+        let (x, y) = ((self.origin.0 + at.0) * self.unit, (self.origin.1 + at.1) * self.unit);
         let _ = writeln!(self.text, "D{aperture}*\nX{x}Y{y}{operation}*");
     }
 
@@ -114,8 +140,8 @@ impl Layer {
 
     /// A filled area with sixteen pads of its own on four spokes each, cut free by clear discs.
     fn plane(&mut self) {
-        let (x0, y0) = ((self.origin.0 + 300) * 1000, (self.origin.1 + 300) * 1000);
-        let (x1, y1) = (x0 + 9_400_000, y0 + 9_400_000);
+        let (x0, y0) = ((self.origin.0 + 300) * self.unit, (self.origin.1 + 300) * self.unit);
+        let (x1, y1) = (x0 + 9400 * self.unit, y0 + 9400 * self.unit);
         let _ = writeln!(
             self.text,
             "G36*\nX{x0}Y{y0}D02*\nX{x1}Y{y0}D01*\nX{x1}Y{y1}D01*\nX{x0}Y{y1}D01*\nX{x0}Y{y0}D01*\nG37*"
