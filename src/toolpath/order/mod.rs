@@ -176,6 +176,15 @@ mod tests {
         }
     }
 
+    #[test]
+    fn the_end_to_begin_with_need_not_be_among_the_nearest() {
+        let far = Stretch::open(at(7_020_000, 2_230_000), at(3_810_000, 5_560_000));
+        let near = Stretch::open(at(3_690_000, 5_640_000), at(2_600_000, 7_960_000));
+        let stretches = [near, far];
+        let legs = arrange(&stretches, Point::default(), Order::Improved);
+        assert_eq!(legs.iter().map(|leg| leg.stretch).collect::<Vec<_>>(), [1, 0], "it saves a millimetre");
+    }
+
     /// The way through `count` points strewn over a square, as a multiple of √(count · area).
     fn strewn(count: u32) -> f64 {
         const SIDE: u64 = 100_000_000;

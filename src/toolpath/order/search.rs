@@ -1,5 +1,6 @@
 //! Local search: Or-opt moves and chains of 2-opt moves until none helps, then double bridges.
 
+use std::cmp::Ordering;
 use std::collections::VecDeque;
 
 use crate::geometry::Point;
@@ -57,6 +58,8 @@ struct Search {
     home: End,
     near: Vec<End>,
     width: usize,
+    /// Of few stretches, home sees more ends than the others do, who leave out their own.
+    near_home: Vec<End>,
     tour: Tour,
     queue: VecDeque<End>,
     queued: Vec<bool>,
@@ -83,13 +86,14 @@ impl Search {
                 buckets.nearest_few(point, width, |other| other / 2 != index / 2).iter().map(|n| n.1),
             );
         }
-        near.extend(buckets.nearest_few(start, width, |_| true).iter().map(|n| n.1));
+        let near_home = buckets.nearest_few(start, NEAR, |_| true).iter().map(|n| n.1).collect();
         let mut points: Vec<(f64, f64)> = flat.iter().map(|p| p.to_f64()).collect();
         points.extend([start.to_f64(); 2]);
         let home = end(ends.len());
         let queue: VecDeque<End> = tour.entered().iter().flat_map(|&entry| [entry, entry ^ 1]).collect();
         let queued = vec![true; points.len()];
-        Self { points, home, near, width, tour, queue, queued, length: 0.0, random: 0x9E37_79B9_7F4A_7C15 }
+        let random = 0x9E37_79B9_7F4A_7C15;
+        Self { points, home, near, width, near_home, tour, queue, queued, length: 0.0, random }
     }
 
     fn distance(&self, a: End, b: End) -> f64 {
@@ -103,8 +107,11 @@ impl Search {
 
     /// The near ends of `end`: home has them where it is left, none where it is entered.
     fn near(&self, end: End) -> &[End] {
-        let list = if end > self.home { self.home } else { end } as usize;
-        if end == self.home { &[] } else { &self.near[list * self.width..(list + 1) * self.width] }
+        match end.cmp(&self.home) {
+            Ordering::Less => &self.near[end as usize * self.width..(end as usize + 1) * self.width],
+            Ordering::Equal => &[],
+            Ordering::Greater => &self.near_home,
+        }
     }
 
     fn link(&self, end: End) -> f64 {
