@@ -11,20 +11,15 @@
 //!
 //! And where four regions meet at one corner of the pixels, one node stands for both.
 
-use rustc_hash::FxHashMap;
-
 use super::OUTSIDE;
 use super::place::Vertex;
 use super::plane::Spot;
 use super::stitch::Line;
-use super::tip::{End, NEARER, SETTLED, STEPS, Tips, third_owner};
+use super::tip::{End, NEARER, Nodes, SETTLED, STEPS, Tips, nodes, third_owner};
 use super::trace::Corner;
 
 /// Crossing over one boundary may let the next one: rounds at most. Chosen: more than one is rare.
 const ROUNDS: usize = 4;
-
-/// The ends of lines at each node.
-type Nodes = FxHashMap<(u32, u32, bool), Vec<End>>;
 
 /// A boundary between two nodes that belongs between the other two regions there.
 struct Crossing {
@@ -38,7 +33,7 @@ struct Crossing {
 impl Tips<'_> {
     /// Turns the boundaries that part the wrong two regions of four.
     pub(super) fn cross(&self, lines: &mut [Line]) {
-        let mut nodes = nodes(lines);
+        let mut nodes = nodes(lines, |_| true);
         for _ in 0..ROUNDS {
             let mut crossed = false;
             for line in 0..lines.len() {
@@ -96,7 +91,7 @@ impl Tips<'_> {
 
     /// Parts nodes of four regions that truly are two.
     pub(super) fn part(&self, lines: &mut Vec<Line>) {
-        let mut nodes = nodes(lines);
+        let mut nodes = nodes(lines, |_| true);
         for i in 0..lines.len() {
             for corner in lines[i].ends.into_iter().flat_map(|(from, to)| [from, to]) {
                 let Some(ends) = nodes.get(&corner.key()).filter(|ends| ends.len() == 4) else { continue };
@@ -163,16 +158,6 @@ impl Tips<'_> {
         }
         None
     }
-}
-
-fn nodes(lines: &[Line]) -> Nodes {
-    let mut nodes = Nodes::default();
-    for (i, line) in lines.iter().enumerate() {
-        for (corner, tail) in line.ends.iter().flat_map(|&(from, to)| [(from, false), (to, true)]) {
-            nodes.entry(corner.key()).or_default().push(End { line: i, tail });
-        }
-    }
-    nodes
 }
 
 /// Four different regions round a node, counter-clockwise; none where there are others than four, or the outside.

@@ -330,7 +330,7 @@ impl Diagram {
         let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
         match &self.near {
             Some(near) => Tips { sites: &self.sites, near, border: &self.border, level }.extend(lines),
-            None => open_nodes(lines),
+            None => u32::try_from(tip::open_nodes(lines).len()).expect("below 2³² nodes"),
         }
     }
 
@@ -440,15 +440,6 @@ impl Diagram {
         let edges = fitted.into_iter().map(edge).collect();
         Boundaries { nodes, edges }
     }
-}
-
-/// How many nodes are open.
-fn open_nodes(lines: &[Line]) -> u32 {
-    let corners = lines.iter().filter_map(|line| line.ends).flat_map(|(from, to)| [from, to]);
-    let mut open: Vec<_> = corners.filter(|corner| corner.open).map(|corner| corner.key()).collect();
-    open.sort_unstable();
-    open.dedup();
-    u32::try_from(open.len()).expect("below 2³² nodes")
 }
 
 /// The nets of which nothing lies on the board, each with a place.

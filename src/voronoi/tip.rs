@@ -23,7 +23,7 @@ use super::plane::Spot;
 use super::seed::Sites;
 use super::site::Reach;
 use super::stitch::Line;
-use super::trace::is_straight;
+use super::trace::{Corner, is_straight};
 use super::{BACKGROUND, OUTSIDE};
 
 /// A third region must be nearer by more than this to be one, in nanometres: what placing may be off.
@@ -256,17 +256,25 @@ impl Tips<'_> {
     }
 }
 
-/// The open nodes with the ends of the lines there, by their corners.
-fn open_nodes(lines: &[Line]) -> BTreeMap<(u32, u32, bool), Vec<End>> {
-    let mut nodes: BTreeMap<(u32, u32, bool), Vec<End>> = BTreeMap::new();
+/// The ends of lines at each node, by its corner.
+pub(super) type Nodes = BTreeMap<(u32, u32, bool), Vec<End>>;
+
+/// The nodes that are `wanted`.
+pub(super) fn nodes(lines: &[Line], wanted: impl Fn(&Corner) -> bool) -> Nodes {
+    let mut nodes = Nodes::new();
     for (i, line) in lines.iter().enumerate() {
         for (corner, tail) in line.ends.iter().flat_map(|&(from, to)| [(from, false), (to, true)]) {
-            if corner.open {
+            if wanted(&corner) {
                 nodes.entry(corner.key()).or_default().push(End { line: i, tail });
             }
         }
     }
     nodes
+}
+
+/// The nodes whose place the picture could not tell.
+pub(super) fn open_nodes(lines: &[Line]) -> Nodes {
+    nodes(lines, |corner| corner.open)
 }
 
 /// The owner that meets those of `line` at a node of three lines; none where another number of regions meets, or the border.

@@ -41,13 +41,13 @@ impl Tracer<'_> {
             if self.straight(&run, first, last) {
                 return;
             }
-            let (head, tail) = (self.short_of(&run, first), self.short_of_reversed(&run, last));
+            let (mut head, mut tail) = (self.short_of(cracks, first), self.short_of_reversed(cracks, last));
             if head.0 < tail.0 {
-                self.halve(&mut head.1.clone(), first, head.2, HALVINGS);
+                self.halve(&mut head.1, first, head.2, HALVINGS);
                 self.traced.vertices.push(head.2);
                 self.sample(&run, (head.0, head.2), (tail.0, tail.2));
                 self.traced.vertices.push(tail.2);
-                self.halve(&mut tail.1.clone(), tail.2, last, HALVINGS);
+                self.halve(&mut tail.1, tail.2, last, HALVINGS);
             } else {
                 self.halve(&mut head.1.join(&tail.1), first, last, HALVINGS);
             }
@@ -86,11 +86,7 @@ impl Tracer<'_> {
     ///
     /// Near a node a crack may be moved past it, along the continuation of the boundary that the third region cuts off;
     /// going there and back would cut into that region.
-    fn short_of(&mut self, run: &Run<'_>, start: Vertex) -> (usize, Target, Vertex) {
-        self.short_of_end(run.cracks, start)
-    }
-
-    fn short_of_end(&mut self, cracks: &[Crack], start: Vertex) -> (usize, Target, Vertex) {
+    fn short_of(&mut self, cracks: &[Crack], start: Vertex) -> (usize, Target, Vertex) {
         let mut here = self.placed_crack(cracks[0]);
         for (i, &next) in cracks.iter().enumerate().skip(1).take(LOOK_AHEAD) {
             let ahead = self.placed_crack(next);
@@ -103,10 +99,10 @@ impl Tracer<'_> {
     }
 
     /// The same from the end of the piece.
-    fn short_of_reversed(&mut self, run: &Run<'_>, end: Vertex) -> (usize, Target, Vertex) {
-        let tail: Vec<Crack> = run.cracks.iter().rev().take(LOOK_AHEAD + 1).copied().collect();
-        let (i, target, vertex) = self.short_of_end(&tail, end);
-        (run.cracks.len() - 1 - i, target, vertex)
+    fn short_of_reversed(&mut self, cracks: &[Crack], end: Vertex) -> (usize, Target, Vertex) {
+        let tail: Vec<Crack> = cracks.iter().rev().take(LOOK_AHEAD + 1).copied().collect();
+        let (i, target, vertex) = self.short_of(&tail, end);
+        (cracks.len() - 1 - i, target, vertex)
     }
 
     fn placed_crack(&mut self, crack: Crack) -> (Target, Vertex) {
