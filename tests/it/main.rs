@@ -1,5 +1,6 @@
 //! The integration tests: one module a stage, one binary.
 
+mod accuracy;
 mod aperture_lists;
 mod cli;
 mod dialect_files;
@@ -21,6 +22,7 @@ mod page;
 mod paper;
 mod programs;
 mod raster;
+mod real_boards;
 mod snapshot;
 mod toolpath;
 mod topology;

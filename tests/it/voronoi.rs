@@ -4,11 +4,11 @@ use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 use voromill::board::{Axis, Copper, Feature, Shape, Side};
 use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
-use voromill::import;
 use voromill::topology::{self, Method, Nets};
 use voromill::voronoi::{Boundaries, Boundary, Diagram, Owner, Settings, SiteKind, Widening};
 
 use crate::oracle::distance as oracle;
+use crate::real_boards::{self, Layer};
 
 fn at(x: i64, y: i64) -> Point {
     Point::new(Nm::from_um(x), Nm::from_um(y))
@@ -247,32 +247,10 @@ fn four_resolutions_give_the_same_paths() {
     });
 }
 
-/// The layers of the real boards, which are not part of the repository, by name.
-#[expect(clippy::print_stderr, reason = "a test that skips says so")]
-fn real_layers() -> Vec<(String, Copper)> {
-    let folder = std::env::var_os("VOROMILL_BOARDS").unwrap_or_else(|| "../shared/boards".into());
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        eprintln!("skipped: no boards in {} (set VOROMILL_BOARDS)", folder.display());
-        return Vec::new();
-    };
-    let mut folders: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    folders.sort();
-    let mut layers = Vec::new();
-    for folder in folders.into_iter().filter(|folder| folder.join("meta.json").is_file()) {
-        let Ok(loaded) = import::load(std::slice::from_ref(&folder), &import::Selection::default()) else {
-            continue;
-        };
-        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
-        let sides = [loaded.board.front, loaded.board.back].into_iter().flatten();
-        layers.extend(sides.map(|copper| (format!("{name} {}", copper.side), copper)));
-    }
-    layers
-}
-
 #[test]
 fn every_region_of_every_board_closes() {
     let mut wrong = Vec::new();
-    for (name, copper) in real_layers() {
+    for Layer { name, copper, .. } in real_boards::layers() {
         let nets = topology::recover(&copper, Method::Contact);
         let gap = topology::smallest_gap(&copper, &nets);
         let default = Settings::default().pitch;

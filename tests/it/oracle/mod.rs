@@ -1,4 +1,5 @@
 //! Each stage once more, slow and obvious, to hold the fast one against.
 
 pub(crate) mod distance;
+pub(crate) mod field;
 pub(crate) mod raster;

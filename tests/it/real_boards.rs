@@ -1,0 +1,39 @@
+//! The real boards, which are not part of the repository: `VOROMILL_BOARDS` names their folder.
+
+use std::path::PathBuf;
+
+use voromill::board::{Copper, Outline};
+use voromill::import;
+
+/// A layer of copper with the board's name and side.
+pub(crate) struct Layer {
+    pub(crate) name: String,
+    pub(crate) copper: Copper,
+    pub(crate) outline: Option<Outline>,
+}
+
+/// All layers, board by board; nothing, with a message, where there are no boards.
+#[expect(clippy::print_stderr, reason = "a test that skips says so")]
+pub(crate) fn layers() -> Vec<Layer> {
+    let folder =
+        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        eprintln!("skipped: no boards in {} (set VOROMILL_BOARDS)", folder.display());
+        return Vec::new();
+    };
+    let mut folders: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
+    folders.sort();
+    let mut layers = Vec::new();
+    for folder in folders.into_iter().filter(|folder| folder.join("meta.json").is_file()) {
+        let Ok(loaded) = import::load(std::slice::from_ref(&folder), &import::Selection::default()) else {
+            continue;
+        };
+        let board = loaded.board;
+        let name = folder.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        for copper in [board.front, board.back].into_iter().flatten() {
+            let name = format!("{name} {}", copper.side);
+            layers.push(Layer { name, copper, outline: board.outline.clone() });
+        }
+    }
+    layers
+}
