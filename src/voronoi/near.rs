@@ -94,7 +94,7 @@ impl Near {
 }
 
 /// What sites are compared by: how far their copper is. An edge of a ring that shows its back is no nearer for that.
-fn rank(site: &Site, reach: Reach) -> f64 {
+pub(super) fn rank(site: &Site, reach: Reach) -> f64 {
     match site.form {
         Form::Chain { .. } => reach.distance.abs(),
         Form::Point(_) | Form::Line(..) | Form::Arc { .. } | Form::Inside { .. } | Form::Outside => {

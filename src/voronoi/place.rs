@@ -13,7 +13,7 @@
 use crate::geometry::Nm;
 
 use super::BACKGROUND;
-use super::near::Near;
+use super::near::{Near, rank};
 use super::plane::Spot;
 use super::seed::Sites;
 use super::site::{Reach, Rings};
@@ -123,12 +123,19 @@ pub(super) struct Placer<'a> {
 }
 
 impl Placer<'_> {
+    /// The nearest of several sites. An edge of a ring that shows its back, across a thin piece of copper, is no nearer for that.
     fn reach(&self, candidates: &Candidates, p: Spot) -> Reach {
         let far = Reach { distance: f64::INFINITY, away: Spot::default() };
-        candidates.as_slice().iter().fold(far, |nearest, &label| {
-            let reach = self.sites.sites[label as usize].reach(&self.sites.rings, p);
-            if reach.distance < nearest.distance { reach } else { nearest }
-        })
+        let mut nearest = (f64::INFINITY, far);
+        for &label in candidates.as_slice() {
+            let site = &self.sites.sites[label as usize];
+            let reach = site.reach(&self.sites.rings, p);
+            let rank = rank(site, reach);
+            if rank < nearest.0 {
+                nearest = (rank, reach);
+            }
+        }
+        nearest.1
     }
 
     fn miss(&self, target: &Target, p: Spot) -> Miss {
