@@ -2,4 +2,5 @@
 
 pub(crate) mod distance;
 pub(crate) mod field;
+pub(crate) mod polyline;
 pub(crate) mod raster;
