@@ -3,6 +3,7 @@
 use crate::board::{Board, Copper, Side, Warning};
 use crate::topology::{self, Nets};
 
+use super::by_net::{names, without_net};
 use super::layer::method;
 use super::{Pattern, Topology};
 
@@ -16,8 +17,7 @@ pub fn ignore(board: &mut Board, patterns: &[Pattern], topology: Topology) -> Ve
         warnings.extend(thin(copper, patterns, topology, &mut meant));
     }
     for (pattern, _) in patterns.iter().zip(meant).filter(|(_, meant)| !meant) {
-        let message = format!("no net is called `{pattern}`, so it leaves none out");
-        warnings.push(Warning::new("pattern-without-net", message));
+        warnings.push(without_net(pattern, "it leaves none out"));
     }
     warnings
 }
@@ -34,7 +34,7 @@ fn thin(
     for id in (0..).map(topology::NetId).take(nets.nets().len()) {
         let names = names(copper, &nets, id);
         for (pattern, meant) in patterns.iter().zip(meant.iter_mut()) {
-            if names.iter().any(|name| pattern.matches(name)) {
+            if pattern.matches_any(&names) {
                 *meant = true;
                 left_out.push(id);
             }
@@ -50,20 +50,6 @@ fn thin(
         left_out.binary_search(&nets.of(index - 1)).is_err()
     });
     Some(said(&left_out, &nets, copper.side))
-}
-
-/// What a net is called: its names, its number, and what all its copper is for if that is one thing.
-fn names(copper: &Copper, nets: &Nets, id: topology::NetId) -> Vec<String> {
-    let net = &nets.nets()[id.index()];
-    let function = |&feature: &u32| copper.attributes_of(&copper.features[feature as usize]).function.clone();
-    let mut functions: Vec<Option<String>> = net.features.iter().map(function).collect();
-    functions.dedup();
-    let mut names = net.names.clone();
-    names.push(nets.label(id));
-    if let [Some(function)] = functions.as_slice() {
-        names.push(function.clone());
-    }
-    names
 }
 
 fn said(left_out: &[topology::NetId], nets: &Nets, side: Side) -> Warning {

@@ -1,14 +1,14 @@
 //! One side of a board: copper → nets → boundaries → what the machine does.
 
-use crate::board::{Board, Copper, Side, Warning};
+use crate::board::{Board, Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path};
 use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate, share};
 use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, Nets, Translucency};
-use crate::voronoi::{self, Boundaries, Boundary, Diagram, Owner, SiteKind};
+use crate::voronoi::{self, Boundaries, Boundary, Diagram, Loops, Owner, SiteKind};
 
-use super::choice::{self, Sites, Strategy, Topology};
-use super::{Cutting, Error, Settings};
+use super::choice::{self, Sites, Topology};
+use super::{Cutting, Error, Settings, by_net};
 
 /// What became of one side.
 pub struct Layer {
@@ -49,9 +49,8 @@ impl Layer {
         let side = copper.side;
         let (nets, translucency) = recover(copper, method(settings.topology));
         let gap = topology::smallest_gap(copper, &nets);
-        let diagram =
-            Diagram::new(copper, &nets, board.outline.as_ref(), &diagram_settings(settings, gap.as_ref()));
-        let diagram = diagram.map_err(|reason| Error::Voronoi { side, reason })?;
+        let diagram = diagram(copper, &nets, board.outline.as_ref(), gap.as_ref(), settings)
+            .map_err(|reason| Error::Voronoi { side, reason })?;
         let (boundaries, unplaced) = diagram.boundaries();
         let frame = needed_frame(&diagram, &boundaries);
         let lap = frame.as_ref().filter(|_| settings.frame);
@@ -108,6 +107,27 @@ const PIXELS_A_GAP: i64 = 3;
 /// The finest pixel that a narrow gap asks for: finer gaps no cutter fits.
 const FINEST: Nm = Nm::from_um(5);
 
+/// The diagram in which every net has its own strategy.
+fn diagram(
+    copper: &Copper,
+    nets: &Nets,
+    outline: Option<&Outline>,
+    gap: Option<&Gap>,
+    settings: &Settings,
+) -> Result<Diagram, voronoi::Error> {
+    let plain = diagram_settings(settings, gap);
+    // Half the kerf, and what fitting may take of it: a loop never touches the copper it goes round.
+    let radius = settings.kerf() / 2 + settings.tolerance;
+    let looped = by_net::looped(copper, nets, settings);
+    if looped.is_empty() {
+        Diagram::new(copper, nets, outline, &plain)
+    } else if looped.len() == nets.nets().len() {
+        Diagram::new(copper, nets, outline, &voronoi::Settings { limit: Some(radius), ..plain })
+    } else {
+        Diagram::mixed(copper, nets, outline, &plain, &Loops { nets: looped, radius })
+    }
+}
+
 fn diagram_settings(settings: &Settings, gap: Option<&Gap>) -> voronoi::Settings {
     let seen = gap.map_or(settings.pixel, |gap| (gap.width / PIXELS_A_GAP).max(FINEST));
     voronoi::Settings {
@@ -116,11 +136,7 @@ fn diagram_settings(settings: &Settings, gap: Option<&Gap>) -> voronoi::Settings
             Sites::Copper => SiteKind::Copper,
             Sites::Core => SiteKind::Core,
         },
-        limit: match settings.strategy {
-            Strategy::Voronoi => settings.limit,
-            // Half the kerf, and what fitting may take of it: the loop never touches the copper it goes round.
-            Strategy::Outline => Some(settings.kerf() / 2 + settings.tolerance),
-        },
+        limit: settings.limit,
         min_width: settings.min_width,
         tolerance: settings.tolerance,
         // The end of a cut is round: with half a kerf beyond the outline its whole width reaches the edge, and a fine

@@ -37,6 +37,7 @@ impl Options {
             depth,
             kerf,
             strategy: self.strategy.or(others.strategy),
+            strategy_for: if self.strategy_for.is_empty() { others.strategy_for } else { self.strategy_for },
             sites: self.sites.or(others.sites),
             limit: self.limit.or(others.limit),
             width,

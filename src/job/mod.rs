@@ -3,6 +3,7 @@
 //! [`Options`] are what a person wrote, on the command line or in `voromill.toml`; [`Settings`] are those and the
 //! defaults, complete and checked; [`mill`] does the work, in memory. Who calls it decides what becomes a file.
 
+mod by_net;
 mod cache_key;
 mod choice;
 mod cutting;
@@ -29,6 +30,7 @@ mod tools;
 mod verification;
 mod written;
 
+pub use by_net::{ParseStrategyForError, StrategyFor};
 pub use cache_key::cache_key;
 pub use choice::{DialectChoice, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
 pub use cutting::Cutting;

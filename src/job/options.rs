@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::toolpath::{Angle, Feed};
 
+use super::by_net::StrategyFor;
 use super::choice::{DialectChoice, Narrow, Origin, Sites, Strategy, Topology};
 use super::pattern::Pattern;
 use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, list, text};
@@ -44,6 +45,11 @@ pub struct Options {
         help_heading = "Isolation"
     )]
     pub strategy: Option<Strategy>,
+
+    /// The strategy of some nets, by name as for --ignore, such as GND*=outline; the first that means a net decides
+    #[arg(long, value_name = "PATTERN=STRATEGY", value_delimiter = ',', help_heading = "Isolation")]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub strategy_for: Vec<StrategyFor>,
 
     /// What a cut is midway between: copper (its edge) or core (the axes it was drawn along)
     #[arg(long, value_enum, hide_possible_values = true, value_name = "SITES", help_heading = "Isolation")]

@@ -29,6 +29,11 @@ impl Pattern {
         }
         pattern[p..].iter().all(|&c| c == '*')
     }
+
+    /// Whether one of `names` is.
+    pub(super) fn matches_any(&self, names: &[String]) -> bool {
+        names.iter().any(|name| self.matches(name))
+    }
 }
 
 impl FromStr for Pattern {

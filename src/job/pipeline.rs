@@ -10,7 +10,7 @@ use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
 use super::stock::Stock;
-use super::{Error, Layer, Narrow, Part, Settings, Written};
+use super::{Error, Layer, Narrow, Part, Settings, Written, by_net};
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
@@ -76,6 +76,8 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let files = in_files(isolation(layer, &board, settings), settings);
         files.into_iter().map(|program| write(part(layer.side), layer.side, program))
     }));
+    let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
+    warnings.extend(by_net::idle(sides, settings));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
         let (sections, found) = drill_holes(&board, &stock.front, settings);

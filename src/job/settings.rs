@@ -4,6 +4,7 @@ use crate::toolpath::{self, Angle, Feed, Heights, Machine, Tool, ToolKind};
 
 use super::Error;
 use super::Options;
+use super::by_net::StrategyFor;
 use super::choice::{Narrow, Origin, Sites, Strategy, Topology};
 use super::cutting::{Cutting, isolation};
 use super::holding::{Holding, holding};
@@ -33,6 +34,8 @@ pub struct Settings {
     pub alignment: Option<(Nm, Nm)>,
     /// Voronoi or outline.
     pub strategy: Strategy,
+    /// What some nets have instead.
+    pub strategy_for: Vec<StrategyFor>,
     /// What cuts are midway between.
     pub sites: Sites,
     /// How far from copper a net's region may reach.
@@ -155,6 +158,7 @@ impl Settings {
             cutout: heights(cutout_depth, Some(positive("cutout-pass", options.cutout_pass)?)),
             cutout_tool,
             strategy: options.strategy.expect(open),
+            strategy_for: options.strategy_for.clone(),
             sites: options.sites.expect(open),
             limit: given("limit", options.limit)?,
             pixel: pixel(&options)?,

@@ -13,7 +13,8 @@ use super::site::Rings;
 
 /// The border of the picture.
 pub(super) struct Border {
-    inside: Vec<Polygon>,
+    /// What lies within it.
+    pub(super) inside: Vec<Polygon>,
     /// The rectangle that the picture must show.
     pub(super) window: Rect,
     /// The rings of the border, for distances.
@@ -36,14 +37,18 @@ impl Border {
             }
         };
         let bounds = inside.iter().map(Polygon::bounds).reduce(Rect::union).unwrap_or(copper);
+        // A few pixels of outside all round, so that no boundary meets the edge of the picture itself.
+        Self::round(inside, bounds.inflate(settings.pitch * 4), frame)
+    }
+
+    /// The border of what lies within `inside`, in a picture of `window`.
+    pub(super) fn round(inside: Vec<Polygon>, window: Rect, frame: Option<Path>) -> Self {
         let mut rings = Rings::default();
         let mut ring_count = 0;
         for contour in inside.iter().flat_map(Polygon::contours) {
             rings.push(contour.iter().map(|&p| p.into()));
             ring_count += 1;
         }
-        // A few pixels of outside all round, so that no boundary meets the edge of the picture itself.
-        let window = bounds.inflate(settings.pitch * 4);
         Self { inside, window, rings, ring_count, frame }
     }
 

@@ -16,7 +16,9 @@ mod copper;
 mod cross;
 mod edge;
 mod fit;
+mod junction;
 mod measure;
+mod mixed;
 mod near;
 pub mod paper;
 mod passes;
@@ -38,10 +40,12 @@ use crate::raster::{self, Scene, TileContent};
 use crate::topology::{NetId, Nets};
 
 pub use fit::fit_points;
+pub use mixed::Loops;
 pub use passes::Widening;
 
 use copper::Edges;
 use edge::Border;
+use mixed::Mixed;
 use near::Near;
 use place::Placer;
 use plane::Spot;
@@ -197,6 +201,8 @@ pub struct Diagram {
     grid: Grid,
     settings: Settings,
     warnings: Vec<Warning>,
+    /// What makes it one of loops and of boundaries midway, where nets differ.
+    mixed: Option<Box<Mixed>>,
 }
 
 impl Diagram {
@@ -227,14 +233,26 @@ impl Diagram {
         let mut kept = vec![true; nets.nets().len()];
         aside.iter().for_each(|(net, _)| kept[net.index()] = false);
         let keep = |feature: usize| kept[nets.of(feature).index()];
-        let sites = Sites::new(copper, nets, settings, keep);
+        Ok(Self { warnings, ..Self::within(border, copper, nets, settings, keep)? })
+    }
+
+    /// The diagram, within `border`, of the features that `keep` accepts.
+    fn within(
+        border: Border,
+        copper: &Copper,
+        nets: &Nets,
+        settings: &Settings,
+        keep: impl Fn(usize) -> bool,
+    ) -> Result<Self, Error> {
+        let sites = Sites::new(copper, nets, settings, &keep);
         let (near, edges) = match settings.sites {
             SiteKind::Copper => (Near::new(&sites), None),
             SiteKind::Core => (None, Edges::new(copper, nets, settings, keep)),
         };
         let grid = Grid::covering(border.window, settings.pitch)?;
         let (owners, settings) = (sites.owners(), settings.clone());
-        Ok(Self { sites, owners, near, edges, border, grid, settings, warnings })
+        let warnings = Vec::new();
+        Ok(Self { sites, owners, near, edges, border, grid, settings, warnings, mixed: None })
     }
 
     /// The grid on which boundaries are found.
@@ -256,8 +274,16 @@ impl Diagram {
     }
 
     /// Shows `paint` who owns each pixel of `grid` (column, row, owner), tile by tile: nothing holds the whole picture but
-    /// what `paint` makes of it.
+    /// what `paint` makes of it. A pixel may be painted again.
     pub fn regions(&self, grid: &Grid, mut paint: impl FnMut(u32, u32, Owner)) {
+        match &self.mixed {
+            Some(mixed) => mixed.regions(self, grid, &mut paint),
+            None => self.paint(grid, &mut paint),
+        }
+    }
+
+    /// [`Diagram::regions`] of this diagram alone.
+    fn paint(&self, grid: &Grid, paint: &mut dyn FnMut(u32, u32, Owner)) {
         let scene = self.scene(grid);
         let work = |tile: raster::Tile<'_>| {
             let owners = match &tile.content {
@@ -309,6 +335,9 @@ impl Diagram {
     /// The boundaries between all regions, with what could not be placed.
     #[must_use]
     pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
+        if let Some(mixed) = &self.mixed {
+            return mixed.boundaries(self);
+        }
         let stitcher = self.trace(&self.scene(&self.grid), None);
         let mut warnings = Vec::new();
         let unplaced = stitcher.unplaced;
@@ -448,7 +477,7 @@ fn nets_beyond(copper: &Copper, nets: &Nets, border: &Border) -> Vec<(NetId, Poi
     let outlined = border.frame.is_none();
     for (i, feature) in copper.features.iter().enumerate() {
         let net = nets.of(i).index();
-        on_board[net] = on_board[net] || !outlined || touches(&feature.shape, border);
+        on_board[net] = on_board[net] || !outlined || touches(&feature.shape, |p| border.holds(p));
     }
     let beyond = (0_u32..).zip(nets.nets()).filter(|(id, _)| !on_board[NetId(*id).index()]);
     beyond
@@ -456,15 +485,13 @@ fn nets_beyond(copper: &Copper, nets: &Nets, border: &Border) -> Vec<(NetId, Poi
         .collect()
 }
 
-/// Whether some of the shape's own points lie on the board.
-fn touches(shape: &Shape, border: &Border) -> bool {
+/// Whether some of the shape's own points lie where `holds` says.
+fn touches(shape: &Shape, holds: impl Fn(Point) -> bool) -> bool {
     match shape {
-        Shape::Disc { center, .. } => border.holds(*center),
-        Shape::Stroke { from, to, .. } => {
-            border.holds(*from) || border.holds(*to) || border.holds(from.midpoint(*to))
-        }
-        Shape::Arc { arc, .. } => border.holds(arc.start) || border.holds(arc.end),
-        Shape::Polygon(polygon) => polygon.contours().iter().flatten().any(|&p| border.holds(p)),
+        Shape::Disc { center, .. } => holds(*center),
+        Shape::Stroke { from, to, .. } => holds(*from) || holds(*to) || holds(from.midpoint(*to)),
+        Shape::Arc { arc, .. } => holds(arc.start) || holds(arc.end),
+        Shape::Polygon(polygon) => polygon.contours().iter().flatten().any(|&p| holds(p)),
     }
 }
 

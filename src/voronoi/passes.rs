@@ -14,7 +14,7 @@ use crate::geometry::Nm;
 use crate::raster;
 
 use super::stitch::Line;
-use super::{BACKGROUND, Boundaries, Diagram, OUTSIDE};
+use super::{BACKGROUND, Boundaries, Diagram, OUTSIDE, Owner};
 
 /// How the gap beside copper is widened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -54,16 +54,14 @@ impl Diagram {
         let reach = self.grid.pixels(widening.kerf - step);
         let mut all = base;
         let mut empty = 0;
-        for level in
-            levels.into_iter().filter(|&level| self.settings.limit.is_none_or(|limit| level != limit))
-        {
+        for level in levels.into_iter().filter(|&level| !self.has_loops_of_all_at(level)) {
             let mut scene = self.sites.scene(&self.grid, &self.border, None);
             for edge in all.edges.iter().filter(|edge| !edge.is_border()) {
                 self.sites.add_groove(&mut scene, &self.grid, &edge.path, reach);
             }
             self.add_wider(&mut scene, widening.kerf, before);
-            let lines: Vec<Line> =
-                self.trace(&scene, Some(level)).lines().into_iter().filter(is_level).collect();
+            let mut lines = self.trace(&scene, Some(level)).lines();
+            lines.retain(|line| is_level(line) && !self.has_loop_at(level, line));
             // One level may lie in the grooves of others altogether; two in a row mean that there is no room further out.
             empty = if lines.is_empty() { empty + 1 } else { 0 };
             if empty == 2 {
@@ -72,6 +70,17 @@ impl Diagram {
             all.append(self.graph(lines));
         }
         all
+    }
+
+    /// Whether every net has a loop at this distance already.
+    fn has_loops_of_all_at(&self, level: Nm) -> bool {
+        self.mixed.is_none() && self.settings.limit == Some(level)
+    }
+
+    /// Whether the net that `line` goes round has one.
+    fn has_loop_at(&self, level: Nm, line: &Line) -> bool {
+        let owner = Owner::from_number(line.left.max(line.right));
+        self.settings.limit == Some(level) && self.mixed.as_ref().is_none_or(|mixed| mixed.has_loop(owner))
     }
 
     /// Draws the grooves of wider tools, so wide that a cut of `kerf` along their edges clears next to nothing beside them: with a part of the

@@ -189,6 +189,15 @@ fn from_foot(p: Spot, foot: Spot) -> Reach {
     Reach { distance, away }
 }
 
+/// The point of `arc` nearest to `p`.
+pub(super) fn foot_on_arc(p: Spot, arc: &Arc) -> Spot {
+    let (from, to) = match arc.turn {
+        Turn::CounterClockwise => (arc.start, arc.end),
+        Turn::Clockwise => (arc.end, arc.start),
+    };
+    nearest_on_arc(p, arc.center.into(), arc.radius(), from.into(), to.into(), from == to)
+}
+
 /// The point of a counter-clockwise arc nearest to `p`.
 fn nearest_on_arc(p: Spot, center: Spot, radius: f64, from: Spot, to: Spot, whole: bool) -> Spot {
     let (way, a, b) = (p - center, from - center, to - center);

@@ -221,6 +221,26 @@ fn ignored_nets_are_not_isolated() {
 }
 
 #[test]
+fn nets_may_have_a_strategy_of_their_own() {
+    let cut = |settings: &str| {
+        let (job, settings) = job("regulator", settings);
+        assert!(is_sound(&job, &settings), "{:?} isolate every net", settings.strategy_for);
+        cut_mm(&job, Part::Front)
+    };
+    let (voronoi, outline) = (cut(""), cut("strategy = \"outline\""));
+    let ground = cut("strategy-for = \"GND=outline\"");
+    assert!(voronoi < ground && ground < outline, "{voronoi}, {ground}, {outline} mm");
+    // Every other net has a loop, and the rest is ground.
+    let rest = cut("strategy = \"outline\"\nstrategy-for = [\"GND=voronoi\", \"G*=outline\"]");
+    assert!(rest < outline / 2.0, "{rest} of {outline} mm: the first pattern decides");
+    let passes = cut("strategy-for = \"GND=outline\"\npasses = 2");
+    assert!(passes > ground, "a second pass beside all: {passes} mm");
+    cut("strategy-for = \"SW=outline\"\ntool = [\"endmill:0.2mm\", \"endmill:0.6mm\"]");
+    let (same, _) = job("regulator", "strategy-for = \"NOBODY=outline\"");
+    assert!(warned(&same, "pattern-without-net"), "{:?}", same.warnings);
+}
+
+#[test]
 fn tabs_stand_where_they_are_asked_for() {
     let (job, settings) = job("regulator", "tab-at = [\"110mm,-60mm\", \"110mm,-100mm\", \"100mm,100mm\"]");
     assert!(warned(&job, "tab-off-the-outline"), "far away: {:?}", job.warnings);

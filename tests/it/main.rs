@@ -16,6 +16,7 @@ mod layering;
 mod layers;
 mod level;
 mod millproject;
+mod mixed;
 mod nonsense;
 mod oracle;
 mod outline;

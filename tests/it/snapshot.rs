@@ -5,7 +5,7 @@
 use std::path::Path;
 
 use voromill::import::{self, Selection};
-use voromill::job::{self, Job, Options, Settings};
+use voromill::job::{self, Job, Options, Part, Settings};
 
 /// Mills `fixtures/boards/<board>` in memory.
 fn mill(board: &str, options: Options) -> (Job, Settings) {
@@ -54,4 +54,13 @@ fn outlines_for_linuxcnc_with_an_end_mill_are_as_before() {
         "strategy = \"outline\"\ndialect = \"linuxcnc\"\ntool = \"endmill:0.3mm\"\norigin = \"keep\"\n";
     let options = Options::from_toml("voromill.toml", file).expect("sound options");
     matches_snapshots("blinker", "blinker-outline", options);
+}
+
+#[test]
+fn loops_among_boundaries_midway_are_as_before() {
+    let options =
+        Options::from_toml("voromill.toml", "strategy-for = \"GND=outline\"\n").expect("sound options");
+    let (job, _) = mill("blinker", options);
+    let back = job.programs.iter().find(|program| program.part == Part::Back).expect("a side with copper");
+    matches_snapshot("gcode", "blinker-mixed-back", &back.text);
 }

@@ -1,0 +1,289 @@
+//! Boundaries that end on a loop, joined to it: the loop gets a node there, and the boundary is led on to it.
+//!
+//! ```text
+//!   ┃         ┃
+//!   ┃ ───  →  ┣────
+//!   ┃         ┃
+//! ```
+
+use rustc_hash::FxHashMap;
+
+use crate::geometry::{Nm, Path, Point, Segment};
+
+use super::plane::{Spot, nearest_on_chord};
+use super::site::foot_on_arc;
+use super::{Boundaries, Boundary, NodeId};
+
+/// Loops, and what is joined to them.
+pub(super) struct Junctions {
+    nodes: Vec<Point>,
+    loops: Vec<Boundary>,
+    /// Where each loop is parted.
+    cuts: Vec<Vec<Cut>>,
+    /// The nodes that stand on loops.
+    known: FxHashMap<Point, NodeId>,
+    others: Vec<Boundary>,
+    /// How far from a loop what ends on it may end, in nanometres.
+    leash: f64,
+}
+
+/// A place on a loop.
+#[derive(Clone, Copy)]
+struct Cut {
+    segment: usize,
+    /// How far along the segment, in nanometres.
+    along: f64,
+    node: NodeId,
+}
+
+impl Junctions {
+    pub(super) fn new(loops: Boundaries, leash: f64) -> Self {
+        let Boundaries { nodes, edges } = loops;
+        let ends = edges.iter().filter_map(|edge| edge.ends).flat_map(|(a, b)| [a, b]);
+        let known = ends.map(|node| (nodes[node.0 as usize], node)).collect();
+        Self { nodes, cuts: vec![Vec::new(); edges.len()], loops: edges, known, others: Vec::new(), leash }
+    }
+
+    /// Adds those edges of `found` that `keep` accepts. Where they meet one that is not kept they end on a loop, if one is near.
+    /// `clearance` tells the distance from a point to the nearest copper of all.
+    pub(super) fn add(
+        &mut self,
+        found: Boundaries,
+        keep: impl Fn(&Boundary) -> bool,
+        clearance: impl Fn(Point) -> Nm,
+    ) {
+        let (kept, dropped): (Vec<_>, Vec<_>) = found.edges.into_iter().partition(keep);
+        let mut at_loop = vec![false; found.nodes.len()];
+        for (a, b) in dropped.into_iter().filter_map(|edge| edge.ends) {
+            (at_loop[a.0 as usize], at_loop[b.0 as usize]) = (true, true);
+        }
+        let mut used = vec![None; found.nodes.len()];
+        for mut edge in kept {
+            edge.ends = edge.ends.map(|ends| {
+                let mut node = |NodeId(old): NodeId| {
+                    let at = found.nodes[old as usize];
+                    *used[old as usize].get_or_insert_with(|| self.node(at, at_loop[old as usize]))
+                };
+                (node(ends.0), node(ends.1))
+            });
+            let vertices = std::iter::once(edge.path.start).chain(edge.path.segments.iter().map(Segment::to));
+            edge.clearance = vertices.zip(&edge.clearance).map(|(p, &nm)| clearance(p).min(nm)).collect();
+            self.lead_on(&mut edge, &clearance);
+            self.others.push(edge);
+        }
+    }
+
+    /// The number of a node at `at`, or of the place nearby on a loop where it is to stand.
+    fn node(&mut self, at: Point, on_loop: bool) -> NodeId {
+        let near = if on_loop { self.nearest(at.into()) } else { None };
+        let Some((index, segment, foot)) = near else { return push(&mut self.nodes, at) };
+        let foot = foot.rounded();
+        if let Some(&known) = self.known.get(&foot) {
+            return known;
+        }
+        let node = push(&mut self.nodes, foot);
+        self.known.insert(foot, node);
+        let path = &self.loops[index].path;
+        let from = segment.checked_sub(1).map_or(path.start, |before| path.segments[before].to());
+        let along = with_end(path.segments[segment], foot).length(from);
+        self.cuts[index].push(Cut { segment, along, node });
+        node
+    }
+
+    /// The loop nearest to `p` within the leash: its index, that of its segment there, and the place.
+    fn nearest(&self, p: Spot) -> Option<(usize, usize, Spot)> {
+        let mut best = (self.leash, None);
+        let reach = Nm::from_f64(self.leash);
+        for (index, edge) in self.loops.iter().enumerate() {
+            if edge.path.bounds().inflate(reach).contains(p.rounded()) {
+                let (segment, foot, distance) = foot(&edge.path, p);
+                if distance < best.0 {
+                    best = (distance, Some((index, segment, foot)));
+                }
+            }
+        }
+        best.1
+    }
+
+    /// Draws lines from the ends of a boundary to its nodes, where these have moved.
+    fn lead_on(&self, edge: &mut Boundary, clearance: impl Fn(Point) -> Nm) {
+        let Some((from, to)) = edge.ends.map(|(a, b)| (self.nodes[a.0 as usize], self.nodes[b.0 as usize]))
+        else {
+            return;
+        };
+        if edge.path.end() != to {
+            edge.path.segments.push(Segment::Line { to });
+            edge.clearance.push(clearance(to));
+        }
+        if edge.path.start != from {
+            edge.path.segments.insert(0, Segment::Line { to: edge.path.start });
+            edge.path.start = from;
+            edge.clearance.insert(0, clearance(from));
+        }
+    }
+
+    /// The graph.
+    pub(super) fn finish(self) -> Boundaries {
+        let mut edges = Vec::with_capacity(self.loops.len() + self.others.len());
+        for (edge, cuts) in self.loops.into_iter().zip(self.cuts) {
+            part(edge, cuts, &self.nodes, &mut edges);
+        }
+        edges.extend(self.others);
+        Boundaries { nodes: self.nodes, edges }
+    }
+}
+
+fn push(nodes: &mut Vec<Point>, at: Point) -> NodeId {
+    nodes.push(at);
+    NodeId(u32::try_from(nodes.len() - 1).expect("below 2³² nodes"))
+}
+
+/// The point of `path` nearest to `p`: the index of its segment, the point, and how far it is, in nanometres.
+pub(super) fn foot(path: &Path, p: Spot) -> (usize, Spot, f64) {
+    let mut best = (0, path.start.into(), f64::INFINITY);
+    for (index, (from, segment)) in path.steps().enumerate() {
+        let foot = match segment.arc(from) {
+            Some(arc) => foot_on_arc(p, &arc),
+            None => nearest_on_chord(p, from.into(), segment.to().into()),
+        };
+        let distance = (p - foot).length();
+        if distance < best.2 {
+            best = (index, foot, distance);
+        }
+    }
+    best
+}
+
+/// A segment that ends earlier.
+const fn with_end(segment: Segment, to: Point) -> Segment {
+    match segment {
+        Segment::Line { .. } => Segment::Line { to },
+        Segment::Arc { center, turn, .. } => Segment::Arc { to, center, turn },
+    }
+}
+
+/// Parts `edge` at its cuts into edges from node to node; one without a node is parted into a loop with one at least.
+fn part(mut edge: Boundary, mut cuts: Vec<Cut>, nodes: &[Point], parts: &mut Vec<Boundary>) {
+    cuts.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.along.total_cmp(&b.along)));
+    if cuts.is_empty() {
+        return parts.push(edge);
+    }
+    let mut marks = mark(&mut edge, &cuts, nodes);
+    let ends = edge.ends.unwrap_or_else(|| {
+        let (first, node) = marks.remove(0);
+        begin_at(&mut edge, first);
+        marks.iter_mut().for_each(|(vertex, _)| *vertex -= first);
+        (node, node)
+    });
+    let mut start = (0, ends.0);
+    for end in marks.into_iter().chain([(edge.path.segments.len(), ends.1)]) {
+        if end.0 > start.0 {
+            let segments = edge.path.segments[start.0..end.0].to_vec();
+            let path = Path { start: vertex(&edge.path, start.0), segments };
+            let clearance = edge.clearance[start.0..=end.0].to_vec();
+            parts.push(Boundary { path, clearance, ends: Some((start.1, end.1)), ..edge.clone() });
+        }
+        start = end;
+    }
+}
+
+/// Gives the path a vertex at each cut; their indices, with the nodes.
+fn mark(edge: &mut Boundary, cuts: &[Cut], nodes: &[Point]) -> Vec<(usize, NodeId)> {
+    let mut marks = Vec::with_capacity(cuts.len());
+    let mut added = 0;
+    for cut in cuts {
+        let (at, index) = (nodes[cut.node.0 as usize], cut.segment + added);
+        let segment = edge.path.segments[index];
+        if at == vertex(&edge.path, index) {
+            marks.push((index, cut.node));
+        } else if at == segment.to() {
+            marks.push((index + 1, cut.node));
+        } else {
+            edge.path.segments.insert(index, with_end(segment, at));
+            edge.clearance.insert(index + 1, edge.clearance[index].min(edge.clearance[index + 1]));
+            marks.push((index + 1, cut.node));
+            added += 1;
+        }
+    }
+    marks
+}
+
+/// The vertex of `path` with this index: the start, then the ends of the segments.
+fn vertex(path: &Path, index: usize) -> Point {
+    index.checked_sub(1).map_or(path.start, |before| path.segments[before].to())
+}
+
+/// Turns a loop so that it begins at the vertex with this index.
+fn begin_at(edge: &mut Boundary, first: usize) {
+    edge.path.start = vertex(&edge.path, first);
+    edge.path.segments.rotate_left(first);
+    edge.clearance.pop();
+    edge.clearance.rotate_left(first);
+    edge.clearance.push(edge.clearance[0]);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Turn;
+    use crate::topology::NetId;
+    use crate::voronoi::Owner;
+
+    fn at(x: i64, y: i64) -> Point {
+        Point::new(Nm::from_um(x), Nm::from_um(y))
+    }
+
+    fn edge(path: Path, ends: Option<(u32, u32)>) -> Boundary {
+        let clearance = vec![Nm::from_um(100); path.segments.len() + 1];
+        let ends = ends.map(|(a, b)| (NodeId(a), NodeId(b)));
+        Boundary { path, clearance, left: Owner::Net(NetId(0)), right: Owner::Background, ends }
+    }
+
+    /// A circle of one millimetre round zero, and lines that end near it at x = 1000 and y = 1000.
+    fn joined(ends: &[Point]) -> Boundaries {
+        let start = at(-1000, 0);
+        let circle = Segment::Arc { to: start, center: at(0, 0), turn: Turn::CounterClockwise };
+        let circle = edge(Path { start, segments: vec![circle] }, None);
+        let mut junctions = Junctions::new(Boundaries { nodes: vec![], edges: vec![circle] }, 30_000.0);
+        let far = at(3000, 3000);
+        let line = |(index, &from): (u32, &Point)| {
+            edge(Path::polyline([from, far]).expect("points"), Some((index, u32::MAX)))
+        };
+        let mut edges: Vec<_> = (0..).zip(ends).map(line).collect();
+        let last = u32::try_from(ends.len()).expect("few");
+        edges.iter_mut().for_each(|edge| edge.ends = edge.ends.map(|(a, _)| (a, NodeId(last))));
+        // What is not kept marks the nodes that stand on the loop.
+        let mark = |index: u32| Boundary {
+            right: Owner::Outside,
+            ..edge(Path::polyline([far]).expect("a point"), Some((index, index)))
+        };
+        edges.extend((0..last).map(mark));
+        let nodes = ends.iter().copied().chain([far]).collect();
+        junctions.add(Boundaries { nodes, edges }, |edge| !edge.is_border(), |_| Nm::from_um(70));
+        junctions.finish()
+    }
+
+    #[test]
+    fn a_loop_is_parted_where_boundaries_end_and_keeps_its_length() {
+        let graph = joined(&[at(1010, 0), at(0, 990)]);
+        assert_eq!(graph.edges.len(), 4, "two halves of the loop, two lines");
+        let (halves, lines) = graph.edges.split_at(2);
+        let length: f64 = halves.iter().map(|half| half.path.length()).sum();
+        assert!((length / 1e6 - core::f64::consts::TAU).abs() < 1e-6, "{length}");
+        for line in lines {
+            let (from, _) = line.ends.expect("ends");
+            assert_eq!(graph.nodes[from.0 as usize], line.path.start, "begins at its node");
+            assert_eq!((line.path.segments.len(), line.clearance.len()), (2, 3), "led on to the loop");
+            let meets = halves.iter().filter(|half| half.ends.is_some_and(|(a, b)| a == from || b == from));
+            assert_eq!(meets.count(), 2, "both halves meet there");
+        }
+    }
+
+    #[test]
+    fn boundaries_that_end_at_one_place_share_its_node_and_far_ones_stay() {
+        let graph = joined(&[at(1010, 0), at(1020, 0), at(1500, 0)]);
+        let starts: Vec<_> = graph.edges[1..].iter().map(|edge| edge.path.start).collect();
+        assert_eq!(starts, [at(1000, 0), at(1000, 0), at(1500, 0)], "the third is no neighbour of the loop");
+        assert_eq!(graph.edges[0].ends.map(|(a, b)| a == b), Some(true), "a loop with one node");
+    }
+}
