@@ -22,7 +22,7 @@ use super::{Failure, Shared};
 /// A picture of one stage
 ///
 /// A pixel shows what lies at its centre; row 0 is on top; both sides are seen from the front. `copper` is white on
-/// black and nothing between. The picture's pixel is that of --pixel or --dpi, which also finds the boundaries. A name
+/// black and nothing between. The picture's pixel is that of --pixel or --dpi, or 1000 to the inch. A name
 /// that ends in .svg gives lines and areas instead of pixels, and `-` shows the picture in the terminal.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
@@ -120,11 +120,12 @@ impl Draw {
         let side = self.side(loaded.board.front.is_some(), loaded.board.back.is_some())?;
         let area = self.window.map(|Window(rect)| rect);
         let format = self.format.unwrap_or_else(|| Format::of(&self.output));
-        let margin = if format == Format::Svg { MARGIN } else { settings.pixel * 4 };
+        let margin = if format == Format::Svg { MARGIN } else { settings.picture_pixel() * 4 };
         let area = area.or_else(|| picture::whole(&loaded.board, margin));
         let area = area.ok_or_else(|| job::Error::NoCopper("to draw".to_owned()))?;
-        let sampled = if self.stage == Stage::Copper { off_ties(area, settings.pixel) } else { area };
-        let grid = format.grid(sampled, settings.pixel)?;
+        let sampled =
+            if self.stage == Stage::Copper { off_ties(area, settings.picture_pixel()) } else { area };
+        let grid = format.grid(sampled, settings.picture_pixel())?;
         let read: Vec<WarningEntry> = loaded.warnings.iter().map(WarningEntry::from).collect();
         let mut loaded = loaded;
         match side {

@@ -106,6 +106,20 @@ pub(super) fn method(topology: Topology) -> Method {
 const PIXELS_A_GAP: i64 = 3;
 /// The finest pixel that a narrow gap asks for: finer gaps no cutter fits.
 const FINEST: Nm = Nm::from_um(5);
+/// The coarsest pixel that is taken unasked. Chosen: half as many again save next to nothing.
+const COARSEST: Nm = Nm::from_um(100);
+/// The same as a part of the kerf where cuts follow the copper at a distance, which pixels must tell from each other. Chosen.
+const PIXELS_A_KERF: i64 = 4;
+
+/// The pixel that sees the smallest gap, and what the settings ask for.
+fn pitch(settings: &Settings, gap: Option<&Gap>, has_loops: bool) -> Nm {
+    let follows = has_loops
+        || settings.limit.is_some()
+        || settings.isolation.iter().any(|cutting| cutting.widening.is_some());
+    let unasked = if follows { COARSEST.min(settings.finest_kerf() / PIXELS_A_KERF) } else { COARSEST };
+    let asked = settings.pixel.unwrap_or(unasked);
+    gap.map_or(asked, |gap| asked.min((gap.width / PIXELS_A_GAP).max(FINEST)))
+}
 
 /// The diagram in which every net has its own strategy.
 fn diagram(
@@ -115,10 +129,10 @@ fn diagram(
     gap: Option<&Gap>,
     settings: &Settings,
 ) -> Result<Diagram, voronoi::Error> {
-    let plain = diagram_settings(settings, gap);
+    let looped = by_net::looped(copper, nets, settings);
+    let plain = diagram_settings(settings, pitch(settings, gap, !looped.is_empty()));
     // Half the kerf, and what fitting may take of it: a loop never touches the copper it goes round.
     let radius = settings.kerf() / 2 + settings.tolerance;
-    let looped = by_net::looped(copper, nets, settings);
     if looped.is_empty() {
         Diagram::new(copper, nets, outline, &plain)
     } else if looped.len() == nets.nets().len() {
@@ -128,10 +142,9 @@ fn diagram(
     }
 }
 
-fn diagram_settings(settings: &Settings, gap: Option<&Gap>) -> voronoi::Settings {
-    let seen = gap.map_or(settings.pixel, |gap| (gap.width / PIXELS_A_GAP).max(FINEST));
+fn diagram_settings(settings: &Settings, pitch: Nm) -> voronoi::Settings {
     voronoi::Settings {
-        pitch: settings.pixel.min(seen),
+        pitch,
         sites: match settings.sites {
             Sites::Copper => SiteKind::Copper,
             Sites::Core => SiteKind::Core,

@@ -86,9 +86,9 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub overlap: Option<Length>,
 
-    /// Size of a pixel of the picture that finds the boundaries; smaller where the smallest gap asks for it
+    /// Size of a pixel of the picture that finds the boundaries, at most [default: as coarse as the smallest gap allows]
     #[arg(long, value_name = "LENGTH", conflicts_with = "dpi", help_heading = "Isolation")]
-    #[serde(with = "text")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Length>,
 
     /// The same in pixels per inch

@@ -40,8 +40,8 @@ pub struct Settings {
     pub sites: Sites,
     /// How far from copper a net's region may reach.
     pub limit: Option<Nm>,
-    /// The pixel of the picture that finds the boundaries.
-    pub pixel: Nm,
+    /// The pixel of the picture that finds the boundaries, at most; none for as coarse as the smallest gap allows.
+    pub pixel: Option<Nm>,
     /// Whether a lap is cut round copper without an outline.
     pub frame: bool,
     /// Whether with core axes every region holds at least its net's copper.
@@ -99,7 +99,16 @@ const APPROACH: Nm = Nm::from_um(200);
 /// The finest pixel.
 const FINEST: Nm = Nm::from_um(1);
 
+/// The pixel of pictures: 1000 to the inch.
+const PICTURE: Nm = Nm::new(25_400);
+
 impl Settings {
+    /// The pixel of pictures that are drawn of the board: that asked for, or one of 1000 to the inch.
+    #[must_use]
+    pub fn picture_pixel(&self) -> Nm {
+        self.pixel.unwrap_or(PICTURE)
+    }
+
     /// What `options` say, and the defaults where they leave something open.
     ///
     /// # Errors
@@ -276,13 +285,13 @@ fn outline_gap(options: &Options) -> Result<Nm, Error> {
     Ok(gap.nm())
 }
 
-fn pixel(options: &Options) -> Result<Nm, Error> {
+fn pixel(options: &Options) -> Result<Option<Nm>, Error> {
     let inch = Nm::from_um(25_400);
     let (key, pixel) = match options.dpi {
-        Some(dpi) => ("dpi", Nm::new((inch.get() + i64::from(dpi) / 2) / i64::from(dpi))),
-        None => ("pixel", positive("pixel", options.pixel)?),
+        Some(dpi) => ("dpi", Some(Nm::new((inch.get() + i64::from(dpi) / 2) / i64::from(dpi)))),
+        None => ("pixel", given("pixel", options.pixel)?),
     };
-    if pixel < FINEST {
+    if let Some(pixel) = pixel.filter(|&pixel| pixel < FINEST) {
         return Err(Error::Value {
             key,
             problem: format!("a pixel of {} is finer than 0.001mm, the finest", Length(pixel)),
@@ -313,7 +322,7 @@ mod tests {
     fn the_defaults_are_settings() {
         let settings = Settings::resolve(Options::default()).expect("the defaults");
         assert_eq!(settings.kerf(), Nm::new(153_590), "0.1 + 2 · 0.1 · tan 15°");
-        assert_eq!(settings.pixel, Nm::from_um(25) + Nm::new(400), "1000 DPI");
+        assert_eq!(settings.pixel, None, "as the smallest gap allows");
     }
 
     #[test]
@@ -324,12 +333,12 @@ mod tests {
 
     #[test]
     fn dpi_and_pixel_replace_each_other() {
-        assert_eq!(settings("dpi = 500").expect("settings").pixel, Nm::new(50_800), "an inch by 500");
+        assert_eq!(settings("dpi = 500").expect("settings").pixel, Some(Nm::new(50_800)), "an inch by 500");
         let over = Options::from_toml("f", "pixel = \"20um\"").expect("options");
         let under = Options::from_toml("f", "dpi = 500").expect("options");
         assert_eq!(
             Settings::resolve(over.or(under)).expect("settings").pixel,
-            Nm::from_um(20),
+            Some(Nm::from_um(20)),
             "the later wins"
         );
     }

@@ -50,7 +50,7 @@ impl Job {
                 canvas
             })
         };
-        let grid = legend::grid(area, settings.pixel, MOST);
+        let grid = legend::grid(area, settings.picture_pixel(), MOST);
         Some(grid.map(draw).map_err(Error::from))
     }
 

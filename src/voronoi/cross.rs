@@ -12,8 +12,8 @@
 //! And where four regions meet at one corner of the pixels, one node stands for both.
 
 use super::OUTSIDE;
-use super::place::Vertex;
 use super::plane::Spot;
+use super::span::Vertex;
 use super::stitch::Line;
 use super::tip::{End, NEARER, Nodes, SETTLED, STEPS, Tips, nodes, third_owner};
 use super::trace::Corner;
@@ -135,7 +135,7 @@ impl Tips<'_> {
 
     /// Whether a region is nearer to a place than those whose boundaries meet there.
     fn is_nearer(&self, place: Vertex, owner: u32) -> bool {
-        let bound = place.clearance - NEARER;
+        let bound = place.clearance() - NEARER;
         self.near.nearer(self.sites, place.at, bound, |_, other| other == owner).is_some()
     }
 
@@ -146,7 +146,7 @@ impl Tips<'_> {
             let [a, b, c] = owners.map(|owner| self.reach(owner, p));
             let (first, second) = (a.distance - b.distance, a.distance - c.distance);
             if first.abs() <= SETTLED && second.abs() <= SETTLED {
-                return Some(Vertex { at: p, clearance: a.distance.min(b.distance).min(c.distance) });
+                return Some(Vertex::new(p, a.distance.min(b.distance).min(c.distance)));
             }
             let (across, along) = (a.away - b.away, a.away - c.away);
             let determinant = across.cross(along);

@@ -8,9 +8,8 @@
 
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 
-use super::place::Vertex;
 use super::plane::Spot;
-use super::trace::CHORD;
+use super::span::{CHORD, Sample};
 
 /// Clearance may dip between vertices by this much before a vertex is kept there, in nanometres.
 const DIP: f64 = 2_000.0;
@@ -24,7 +23,7 @@ const SHARE: f64 = 0.5;
 const REACH: usize = 4096;
 
 /// A fitted path with the clearance at its vertices: the start's, then each segment's end.
-pub(super) fn fit(vertices: &[Vertex], tolerance: Nm, arcs: bool) -> Option<(Path, Vec<Nm>)> {
+pub(super) fn fit(vertices: &[Sample], tolerance: Nm, arcs: bool) -> Option<(Path, Vec<Nm>)> {
     let start = vertices.first()?;
     let mut path = Path { start: start.at.rounded(), segments: Vec::new() };
     let mut clearance = vec![Nm::from_f64(finite(start.clearance))];
@@ -46,8 +45,8 @@ pub(super) fn fit(vertices: &[Vertex], tolerance: Nm, arcs: bool) -> Option<(Pat
 
 /// The path of few lines and arcs within `tolerance` of a polyline; none for less than two points.
 pub fn fit_points(points: impl IntoIterator<Item = Point>, tolerance: Nm) -> Option<Path> {
-    let vertices: Vec<Vertex> =
-        points.into_iter().map(|point| Vertex { at: point.into(), clearance: 0.0 }).collect();
+    let vertices: Vec<Sample> =
+        points.into_iter().map(|point| Sample { at: point.into(), clearance: 0.0 }).collect();
     fit(&vertices, tolerance, true).map(|(path, _)| path)
 }
 
@@ -57,7 +56,7 @@ fn finite(clearance: f64) -> f64 {
 }
 
 struct Fitter<'a> {
-    vertices: &'a [Vertex],
+    vertices: &'a [Sample],
     tolerance: f64,
     arcs: bool,
 }
@@ -171,8 +170,8 @@ fn circle(a: Spot, b: Spot, c: Spot) -> Option<Spot> {
 mod tests {
     use super::*;
 
-    fn vertex(x: f64, y: f64, clearance: f64) -> Vertex {
-        Vertex { at: Spot::new(x, y), clearance }
+    fn vertex(x: f64, y: f64, clearance: f64) -> Sample {
+        Sample { at: Spot::new(x, y), clearance }
     }
 
     #[test]

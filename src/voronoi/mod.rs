@@ -26,6 +26,7 @@ mod place;
 mod plane;
 mod seed;
 mod site;
+mod span;
 mod stitch;
 mod tip;
 mod trace;
@@ -395,11 +396,7 @@ impl Diagram {
                 column0: tile.column0,
                 row0: tile.row0,
             };
-            let mut traced = trace::trace(pixels, &placer, course);
-            if let Some(edges) = &self.edges {
-                traced.vertices.iter_mut().for_each(|vertex| vertex.clearance = edges.distance(vertex.at));
-            }
-            Some(traced)
+            Some(trace::trace(pixels, &placer, course))
         };
         let options = passes::options(TILE, APRON, depth);
         raster::stream(scene, &options, work, |traced| {
@@ -449,7 +446,11 @@ impl Diagram {
     fn graph(&self, lines: Vec<Line>) -> Boundaries {
         // Two nodes that fall on the same nanometre are one, and nothing runs between them.
         let fit = |line: Line| {
-            let fitted = fit::fit(&line.vertices, self.settings.tolerance, self.settings.arcs)?;
+            let mut samples = span::samples(&line.vertices);
+            if let Some(edges) = &self.edges {
+                samples.iter_mut().for_each(|sample| sample.clearance = edges.distance(sample.at));
+            }
+            let fitted = fit::fit(&samples, self.settings.tolerance, self.settings.arcs)?;
             Some((fitted, (line.left, line.right), line.ends.is_none()))
         };
         let fitted: Vec<_> = lines.into_par_iter().filter_map(fit).collect();

@@ -16,18 +16,24 @@ use super::BACKGROUND;
 use super::near::{Near, rank};
 use super::plane::Spot;
 use super::seed::Sites;
-use super::site::{Reach, Rings};
+use super::site::{Form, Reach, Rings};
+use super::span::Vertex;
 
 /// How close to the true place Newton's steps must come, in nanometres of distance difference.
 const SETTLED: f64 = 0.05;
 /// What a point may be off at the very most when its steps run out, in nanometres.
 const ACCEPTED: f64 = 5.0;
 const STEPS: usize = 8;
+/// Where the slope of an equation is less, it leads nowhere.
+const LEVEL: f64 = 1e-3;
 /// Where curves meet at an angle, pixels show the place off by the inverse of its sine; below this they are followed no further. Chosen: what lies
 /// farther away is found as the tip of a wedge.
 const SHALLOW: f64 = 0.25;
 /// A site must be nearer by more than this to join an equation, in nanometres.
 const NEARER: f64 = 1.0;
+/// Sites in directions that differ by less, in radians, let a boundary go on as if they were one. Derived: over a tenth of a millimetre, the corner is off by
+/// a quarter of a micrometre at most.
+const SMOOTH: f64 = 0.02;
 /// How often sites may join an equation at one point. Chosen: more than three is not seen.
 const ROUNDS: usize = 6;
 
@@ -94,18 +100,37 @@ impl Target {
     }
 }
 
-/// A point of a boundary with its distance to the nearest copper, both in nanometres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Vertex {
-    pub(super) at: Spot,
-    pub(super) clearance: f64,
-}
-
-/// How far a point is off its target, and which way that grows.
+/// How far a point is off its target, and which way that grows; with its clearance, and which way that grows.
 struct Miss {
     value: f64,
     slope: Spot,
     clearance: f64,
+    away: Spot,
+}
+
+impl Miss {
+    /// The point, on the course of those that satisfy the target, too.
+    fn vertex(&self, at: Spot) -> Vertex {
+        Vertex::across(at, self.clearance, self.slope, self.away)
+    }
+}
+
+/// The curve on which a boundary runs at a point: what the nearest sites on either side make it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Curve {
+    /// The bisector of two sites, that of the lower owner first.
+    Between(u32, u32),
+    /// At a distance from one.
+    At(u32),
+    /// The border of the board.
+    Border,
+}
+
+/// A vertex with the curve it lies on.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Placed {
+    pub(super) vertex: Vertex,
+    pub(super) curve: Curve,
 }
 
 /// The sites of a layer and how far points may move among them.
@@ -125,17 +150,66 @@ pub(super) struct Placer<'a> {
 impl Placer<'_> {
     /// The nearest of several sites. An edge of a ring that shows its back, across a thin piece of copper, is no nearer for that.
     fn reach(&self, candidates: &Candidates, p: Spot) -> Reach {
-        let far = Reach { distance: f64::INFINITY, away: Spot::default() };
-        let mut nearest = (f64::INFINITY, far);
+        self.nearest(candidates, p).1
+    }
+
+    /// The nearest of several sites, and its distance.
+    fn nearest(&self, candidates: &Candidates, p: Spot) -> (u32, Reach) {
+        let mut nearest = (BACKGROUND, Reach { distance: f64::INFINITY, away: Spot::default() });
+        let mut least = f64::INFINITY;
         for &label in candidates.as_slice() {
-            let site = &self.sites.sites[label as usize];
-            let reach = site.reach(&self.sites.rings, p);
-            let rank = rank(site, reach);
-            if rank < nearest.0 {
-                nearest = (rank, reach);
+            let reach = self.site(label, p);
+            let rank = rank(&self.sites.sites[label as usize], reach);
+            if rank < least {
+                (least, nearest) = (rank, (label, reach));
             }
         }
-        nearest.1
+        nearest
+    }
+
+    fn site(&self, label: u32, p: Spot) -> Reach {
+        self.sites.sites[label as usize].reach(&self.sites.rings, p)
+    }
+
+    /// The curve of `target` at a point of it.
+    fn curve(&self, target: &Target, p: Spot) -> Curve {
+        let nearest = |candidates: &Candidates| match candidates.as_slice() {
+            [only] => *only,
+            _ => self.nearest(candidates, p).0,
+        };
+        match target {
+            Target::Between(a, b) => {
+                let (a, b) = (nearest(a), nearest(b));
+                if self.owners[a as usize] < self.owners[b as usize] {
+                    Curve::Between(a, b)
+                } else {
+                    Curve::Between(b, a)
+                }
+            }
+            Target::At(a, _) => Curve::At(nearest(a)),
+            Target::OnBorder => Curve::Border,
+        }
+    }
+
+    /// The vertex with its curve.
+    pub(super) fn on_curve(&self, target: &Target, vertex: Vertex) -> Placed {
+        Placed { vertex, curve: self.curve(target, vertex.at) }
+    }
+
+    /// Whether one curve goes over into another without a corner worth the name, as seen from a point near both.
+    pub(super) fn is_smooth(&self, one: Curve, other: Curve, p: Spot) -> bool {
+        let alike = |a: u32, b: u32| {
+            let (one, other) = (self.site(a, p), self.site(b, p));
+            let apart = (one.distance - other.distance).abs();
+            a == b
+                || ((one.away - other.away).length() < SMOOTH && apart < SMOOTH * SMOOTH * one.distance.abs())
+        };
+        match (one, other) {
+            (Curve::Between(a, b), Curve::Between(c, d)) => alike(a, c) && alike(b, d),
+            (Curve::At(a), Curve::At(b)) => alike(a, b),
+            (Curve::Border, Curve::Border) => true,
+            (Curve::Between(..) | Curve::At(_) | Curve::Border, _) => false,
+        }
     }
 
     fn miss(&self, target: &Target, p: Spot) -> Miss {
@@ -146,16 +220,18 @@ impl Placer<'_> {
                     value: a.distance - b.distance,
                     slope: a.away - b.away,
                     clearance: a.distance.min(b.distance),
+                    away: a.away,
                 }
             }
             Target::At(a, level) => {
                 let a = self.reach(a, p);
-                Miss { value: a.distance - level, slope: a.away, clearance: a.distance }
+                Miss { value: a.distance - level, slope: a.away, clearance: a.distance, away: a.away }
             }
             Target::OnBorder => {
                 let border = self.border.border(0..self.border_rings, p);
                 // The frame is far from copper, and finite so that it can be interpolated.
-                Miss { value: border.distance, slope: border.away, clearance: Nm::MAX.to_f64() }
+                let (clearance, away) = (Nm::MAX.to_f64(), Spot::default());
+                Miss { value: border.distance, slope: border.away, clearance, away }
             }
         }
     }
@@ -171,20 +247,77 @@ impl Placer<'_> {
         self.miss(target, p).clearance
     }
 
-    /// The point near `from` that satisfies `target`; none where there is none within the leash.
+    /// The point near `from` that satisfies `target`, with its course; none where there is none within the leash. Sites that prove
+    /// nearer join the target.
     pub(super) fn project(&self, target: &mut Target, from: Spot) -> Option<Vertex> {
-        self.project_sloped(target, from).map(|(vertex, _)| vertex)
-    }
-
-    /// The same, with a vector across the boundary there. Sites that prove nearer join the target.
-    pub(super) fn project_sloped(&self, target: &mut Target, from: Spot) -> Option<(Vertex, Spot)> {
         for _ in 0..ROUNDS {
             let found = self.solve(target, from)?;
-            if !self.admit(target, found.0) {
+            if !self.admit(target, found) {
                 return Some(found);
             }
         }
         None
+    }
+
+    /// A node as a vertex of the curve that `target` has there: on its course, if it satisfies that. Sites that prove nearer join the target.
+    pub(super) fn join_node(&self, target: &mut Target, node: Vertex) -> Placed {
+        for _ in 0..ROUNDS {
+            if !self.admit(target, node) {
+                break;
+            }
+        }
+        let miss = self.miss(target, node.at);
+        let fits = miss.value.abs() <= ACCEPTED && (miss.clearance - node.clearance()).abs() <= ACCEPTED;
+        self.on_curve(target, if fits { miss.vertex(node.at) } else { node })
+    }
+
+    /// Whether a curve may have corners of its own: beside the edges of a ring, which a site hands on to the next one.
+    pub(super) fn is_angular(&self, curve: Curve) -> bool {
+        let is_ring = |label: u32| matches!(self.sites.sites[label as usize].form, Form::Chain { .. });
+        match curve {
+            Curve::Between(a, b) => is_ring(a) || is_ring(b),
+            Curve::At(a) => is_ring(a),
+            Curve::Border => true,
+        }
+    }
+
+    /// Where one curve ends and another begins, near `from`: on the course of either; none where there is no such corner within the leash, or where on
+    /// both sides another site takes over, which must be at two places.
+    pub(super) fn kink(&self, one: Curve, other: Curve, level: f64, from: Spot) -> Option<[Placed; 2]> {
+        let in_common = match (one, other) {
+            (Curve::Between(a, b), Curve::Between(c, d)) => a == c || b == d,
+            (Curve::At(_), Curve::At(_)) => true,
+            (Curve::Between(..) | Curve::At(_) | Curve::Border, _) => false,
+        };
+        if !in_common {
+            return None;
+        }
+        let mut targets = [one, other].map(|curve| self.target_of(curve, level));
+        let [first, second] = &mut targets;
+        let met = self.meet(first, second, from)?;
+        let placed = targets.map(|target| self.on_curve(&target, self.miss(&target, met.at).vertex(met.at)));
+        (placed[0].curve == one && placed[1].curve == other).then_some(placed)
+    }
+
+    /// The equation of a curve; `level` is the distance that bounds regions against the background.
+    fn target_of(&self, curve: Curve, level: f64) -> Target {
+        let only = |label: u32| {
+            let mut candidates = Candidates::default();
+            candidates.add(label);
+            candidates
+        };
+        match curve {
+            Curve::Between(a, b) => Target::Between(only(a), only(b)),
+            Curve::At(a) if self.sites.sites[a as usize].flat => Target::At(only(a), 0.0),
+            Curve::At(a) => Target::At(only(a), level),
+            Curve::Border => Target::OnBorder,
+        }
+    }
+
+    /// The equation that holds on either of two curves.
+    pub(super) fn either(&self, one: Curve, other: Curve, level: f64) -> Target {
+        let [one, other] = [one, other].map(|curve| self.target_of(curve, level));
+        one.join(&other)
     }
 
     /// Takes the site into `target` that is nearer to a place than those it has; false if there is none.
@@ -197,7 +330,7 @@ impl Placer<'_> {
             Target::At(a, _) => [owner(a); 2],
             Target::OnBorder => return false,
         };
-        let bound = place.clearance - NEARER;
+        let bound = place.clearance() - NEARER;
         let is_new = |label: u32, owner: u32| owners.contains(&owner) && !target.has(label);
         let label = self.near.and_then(|near| near.nearer(self.sites, place.at, bound, is_new));
         match (label, target) {
@@ -212,8 +345,8 @@ impl Placer<'_> {
         true
     }
 
-    /// The point near `from` that satisfies `target` as it stands, with a vector across the boundary there.
-    fn solve(&self, target: &Target, from: Spot) -> Option<(Vertex, Spot)> {
+    /// The point near `from` that satisfies `target` as it stands.
+    fn solve(&self, target: &Target, from: Spot) -> Option<Vertex> {
         let mut p = from;
         let mut miss = self.miss(target, p);
         for _ in 0..STEPS {
@@ -221,7 +354,7 @@ impl Placer<'_> {
                 break;
             }
             let steepness = miss.slope.dot(miss.slope);
-            if steepness < 1e-6 {
+            if steepness < LEVEL * LEVEL {
                 return None;
             }
             p = p - miss.slope * (miss.value / steepness);
@@ -233,14 +366,14 @@ impl Placer<'_> {
         if miss.value.abs() > ACCEPTED {
             return self.bisect(target, from);
         }
-        Some((Vertex { at: p, clearance: miss.clearance }, miss.slope))
+        Some(miss.vertex(p))
     }
 
     /// The same by halving the interval of one leash on either side along the gradient.
-    fn bisect(&self, target: &Target, from: Spot) -> Option<(Vertex, Spot)> {
+    fn bisect(&self, target: &Target, from: Spot) -> Option<Vertex> {
         let slope = self.miss(target, from).slope;
         let length = slope.length();
-        if length < 1e-3 {
+        if length < LEVEL {
             return None;
         }
         let way = slope * (self.leash / length);
@@ -257,7 +390,7 @@ impl Placer<'_> {
             }
         }
         let miss = self.miss(target, low);
-        (miss.value.abs() <= ACCEPTED).then_some((Vertex { at: low, clearance: miss.clearance }, miss.slope))
+        (miss.value.abs() <= ACCEPTED).then(|| miss.vertex(low))
     }
 
     /// The point near `from` that satisfies both targets; none where there is none within the leash.
@@ -276,7 +409,7 @@ impl Placer<'_> {
         for _ in 0..STEPS * 2 {
             let (a, b) = (self.miss(first, p), self.miss(second, p));
             if a.value.abs() <= SETTLED && b.value.abs() <= SETTLED {
-                return Some(Vertex { at: p, clearance: a.clearance.min(b.clearance) });
+                return Some(Vertex::new(p, a.clearance.min(b.clearance)));
             }
             let determinant = a.slope.cross(b.slope);
             if determinant.abs() < 1e-4 {
@@ -293,7 +426,6 @@ impl Placer<'_> {
             }
         }
         let (a, b) = (self.miss(first, p), self.miss(second, p));
-        (a.value.abs().max(b.value.abs()) <= ACCEPTED)
-            .then_some(Vertex { at: p, clearance: a.clearance.min(b.clearance) })
+        (a.value.abs().max(b.value.abs()) <= ACCEPTED).then_some(Vertex::new(p, a.clearance.min(b.clearance)))
     }
 }

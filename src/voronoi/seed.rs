@@ -32,6 +32,11 @@ const OUTSIDE_DEPTH: f32 = -1.0;
 /// points leaves.
 const ROUNDING: f64 = 1_000.0;
 
+/// Edges within this of their chord, in nanometres, are as good as one. Chosen: half of it is what a boundary beside them may be off.
+const STRAIGHT: f64 = 500.0;
+/// The sine of the most by which an arc's edges turn: 5°.
+const SMOOTH: f64 = 0.087;
+
 /// The owner number of a net.
 pub(super) fn owner_of(net: crate::topology::NetId) -> u32 {
     net.0 + 2
@@ -250,7 +255,19 @@ fn coarse(ring: &[Spot], tolerance: f64) -> Vec<(u32, u32)> {
     runs.into_iter().map(|(first, count)| (number(first), number(count))).collect()
 }
 
+/// Whether so many edges may be drawn as one: they stay within `tolerance` of it and bend all one way, as the edges of an arc do, or leave it next to
+/// nowhere. Beside others a boundary has corners, which two labels must tell of.
 fn is_chord(ring: &[Spot], first: usize, count: usize, tolerance: f64) -> bool {
-    let (a, b) = (ring[first], ring[(first + count) % ring.len()]);
-    ring[first + 1..first + count].iter().all(|p| p.distance_to_chord(a, b) <= tolerance)
+    let vertex = |i: usize| ring[(first + i) % ring.len()];
+    let (a, b) = (vertex(0), vertex(count));
+    let off = (1..count).map(|i| vertex(i).distance_to_chord(a, b)).fold(0.0, f64::max);
+    let turn = |i: usize| {
+        let (before, after) = (vertex(i) - vertex(i - 1), vertex(i + 1) - vertex(i));
+        before.cross(after) / (before.length() * after.length())
+    };
+    let is_arc = || {
+        let way = turn(1).signum();
+        (1..count).all(|i| (0.0..=SMOOTH).contains(&(turn(i) * way)))
+    };
+    off <= tolerance && (off <= STRAIGHT || is_arc())
 }

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 use rustc_hash::FxHashMap;
 
-use super::place::Vertex;
+use super::span::Vertex;
 use super::trace::{Corner, Piece, Traced};
 
 /// An edge of the graph before fitting: its vertices from node to node, or round.

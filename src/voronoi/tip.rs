@@ -18,12 +18,12 @@ use std::collections::BTreeMap;
 
 use super::edge::Border;
 use super::near::Near;
-use super::place::Vertex;
 use super::plane::Spot;
 use super::seed::Sites;
 use super::site::Reach;
+use super::span::{Span, Vertex};
 use super::stitch::Line;
-use super::trace::{Corner, is_straight};
+use super::trace::Corner;
 use super::{BACKGROUND, OUTSIDE};
 
 /// A third region must be nearer by more than this to be one, in nanometres: what placing may be off.
@@ -182,7 +182,7 @@ impl Tips<'_> {
             }
         }
         let nearest = self.near.reach(self.sites, outside.at, |_| true).distance.min(self.level);
-        (nearest >= outside.clearance - ACCEPTED).then_some(outside)
+        (nearest >= outside.clearance() - ACCEPTED).then_some(outside)
     }
 
     /// The first vertex after the node that does not lie in the region of `third`.
@@ -193,6 +193,7 @@ impl Tips<'_> {
     /// The line from `tip` to the end of `vertices`, along the boundary of `pair`, without what lies in the region of `third`.
     fn led_to(&self, vertices: &[Vertex], tip: Vertex, pair: (u32, u32), third: u32) -> Vec<Vertex> {
         let clear = self.first_clear(vertices, pair, third).unwrap_or(vertices.len() - 1);
+        let tip = self.on_course(pair, tip);
         let mut led = vec![tip];
         self.halve(pair, tip, vertices[clear], HALVINGS, &mut led);
         led.extend(&vertices[clear..]);
@@ -209,15 +210,28 @@ impl Tips<'_> {
         samples: &mut Vec<Vertex>,
     ) {
         let way = to.at - from.at;
-        let Some(sloped) = self.project_sloped(pair, from.at.midpoint(to.at)) else { return };
-        let middle = sloped.0;
-        let onward = (middle.at - from.at).dot(way) > 0.0 && (to.at - middle.at).dot(way) > 0.0;
-        if left == 0 || !onward || is_straight(from, sloped, to) {
-            return;
+        let onward =
+            |v: &Vertex| left > 0 && (v.at - from.at).dot(way) > 0.0 && (to.at - v.at).dot(way) > 0.0;
+        let Some(middle) = self.project(pair, from.at.midpoint(to.at)).filter(onward) else {
+            return samples.extend(from.chord(to));
+        };
+        let settled = Span::new(from, to).holds(middle);
+        if !settled {
+            self.halve(pair, from, middle, left - 1, samples);
         }
-        self.halve(pair, from, middle, left - 1, samples);
         samples.push(middle);
-        self.halve(pair, middle, to, left - 1, samples);
+        if !settled {
+            self.halve(pair, middle, to, left - 1, samples);
+        }
+    }
+
+    /// A node with the course that the boundary of two regions has there.
+    pub(super) fn on_course(&self, (a, b): (u32, u32), node: Vertex) -> Vertex {
+        let (a, b) = (self.reach(a, node.at), self.reach(b, node.at));
+        if (a.distance - b.distance).abs() > ACCEPTED {
+            return Vertex::new(node.at, node.clearance());
+        }
+        Vertex::across(node.at, node.clearance(), a.away - b.away, a.away)
     }
 
     fn is_inside(&self, pair: (u32, u32), third: u32, p: Spot) -> bool {
@@ -233,19 +247,14 @@ impl Tips<'_> {
     }
 
     /// The point near `from` that is equally far from both.
-    fn project(&self, pair: (u32, u32), from: Spot) -> Option<Vertex> {
-        self.project_sloped(pair, from).map(|(vertex, _)| vertex)
-    }
-
-    /// The same, with a vector across their boundary there.
-    fn project_sloped(&self, (a, b): (u32, u32), from: Spot) -> Option<(Vertex, Spot)> {
+    fn project(&self, (a, b): (u32, u32), from: Spot) -> Option<Vertex> {
         let mut p = from;
         for step in 0..STEPS {
             let (a, b) = (self.reach(a, p), self.reach(b, p));
             let (miss, slope) = (a.distance - b.distance, a.away - b.away);
             let steepness = slope.dot(slope);
             if miss.abs() <= SETTLED || (step + 1 == STEPS && miss.abs() <= ACCEPTED) {
-                return Some((Vertex { at: p, clearance: a.distance.min(b.distance) }, slope));
+                return Some(Vertex::across(p, a.distance.min(b.distance), slope, a.away));
             }
             if steepness < 1e-6 || !steepness.is_finite() {
                 return None;

@@ -4,7 +4,7 @@
 //! going there and back would cut into that region. And a node that was moved since has left a gap.
 
 use super::OUTSIDE;
-use super::place::Vertex;
+use super::span::Vertex;
 use super::stitch::Line;
 use super::tip::{HALVINGS, NEARER, Tips};
 
@@ -35,6 +35,7 @@ impl Tips<'_> {
 
     /// Writes the boundary of `pair` from one place to another.
     pub(super) fn between(&self, pair: (u32, u32), from: Vertex, to: Vertex) -> Vec<Vertex> {
+        let (from, to) = (self.on_course(pair, from), self.on_course(pair, to));
         let mut vertices = vec![from];
         self.halve(pair, from, to, HALVINGS, &mut vertices);
         vertices.push(to);
@@ -67,7 +68,7 @@ impl Tips<'_> {
     /// Whether a point of the boundary of two regions lies in the region of any other.
     fn lies_elsewhere(&self, (a, b): (u32, u32), vertex: Vertex) -> bool {
         let other = |_, owner: u32| owner != a && owner != b;
-        self.near.nearer(self.sites, vertex.at, vertex.clearance - NEARER, other).is_some()
+        self.near.nearer(self.sites, vertex.at, vertex.clearance() - NEARER, other).is_some()
     }
 }
 

@@ -100,7 +100,7 @@ fn the_report_names_everything_that_was_read_and_written() {
     assert!(report.sources.iter().all(|source| source.sha256.len() == 64), "files by their content");
     assert!(report.electrical_nets.is_some(), "sides joined through holes");
     let key = |name: &str| report.settings.contains_key(name);
-    assert!(key("tool") && key("depth") && key("pixel"), "the settings: {:?}", report.settings);
+    assert!(key("tool") && key("depth") && key("sites"), "the settings: {:?}", report.settings);
     let text = report.summary(false);
     assert!(text.lines().count() < 40 && text.contains("total"), "short:\n{text}");
 }

@@ -2,8 +2,9 @@
 
 use super::Tracer;
 use super::crack::{Crack, Heading};
-use crate::voronoi::place::{Candidates, Target, Vertex};
+use crate::voronoi::place::{Candidates, Placed, Target};
 use crate::voronoi::plane::Spot;
+use crate::voronoi::span::Vertex;
 use crate::voronoi::{BACKGROUND, OUTSIDE};
 
 /// A place to sample: where the pixels have the boundary, and what equation holds there.
@@ -16,13 +17,26 @@ pub(super) struct Anchor {
 impl Tracer<'_> {
     pub(super) fn anchor(&self, crack: Crack) -> Anchor {
         let (left, right) = crack.sides();
-        let (ex, ey) = crack.end();
-        let at = self.spot(f64::from(crack.x + ex) / 2.0, f64::from(crack.y + ey) / 2.0);
+        let at = self.middle(crack);
         let (x0, x1) = (left.0.min(right.0), left.0.max(right.0));
         let (y0, y1) = (left.1.min(right.1), left.1.max(right.1));
         let owners = (self.pixels.owner(left.0, left.1), self.pixels.owner(right.0, right.1));
         let pair = (self.pixels.label(left.0, left.1), self.pixels.label(right.0, right.1));
-        Anchor { at, target: self.target(owners, pair, (x0 - 1, y0 - 1, x1 + 1, y1 + 1)) }
+        let apron = self.apron(owners);
+        Anchor { at, target: self.target(owners, pair, (x0 - apron, y0 - apron, x1 + apron, y1 + apron)) }
+    }
+
+    /// The place half way along a crack.
+    pub(super) fn middle(&self, crack: Crack) -> Spot {
+        let (x, y) = crack.end();
+        self.spot(f64::from(crack.x + x) / 2.0, f64::from(crack.y + y) / 2.0)
+    }
+
+    /// How far beyond the pixels at a boundary of `owners` sites are looked for. Between two nets an index of all sites tells of nearer ones, where
+    /// there is one; it does not tell of polygons that a limit curve may run into.
+    const fn apron(&self, owners: (u32, u32)) -> i32 {
+        let bare = owners.0 == BACKGROUND || owners.1 == BACKGROUND;
+        if self.placer.near.is_some() && !bare { 0 } else { 1 }
     }
 
     /// The equation of a boundary between two owners, with the sites seen in a window of pixels.
@@ -79,17 +93,17 @@ impl Tracer<'_> {
     }
 
     /// The place of a piece's end, and whether it is open: the same whichever piece, of whichever tile, asks. `crack` leaves from there.
-    pub(super) fn end_vertex(&mut self, at: (i32, i32), crack: Crack) -> (Vertex, bool) {
-        let window = (at.0 - 2, at.1 - 2, at.0 + 1, at.1 + 1);
+    pub(super) fn end_vertex(&mut self, at: (i32, i32), crack: Crack) -> (Placed, bool) {
         let spot = self.spot(f64::from(at.0), f64::from(at.1));
         if self.joined(at).is_some() {
             let mut target = self.anchor(crack).target;
             return (self.placed(&mut target, self.beside(at, crack)), false);
         }
         if self.degree(at) > 2 {
-            self.node(at, window, spot)
+            let (vertex, open) = self.node(at, spot);
+            (self.placer.join_node(&mut self.anchor(crack).target, vertex), open)
         } else {
-            (self.placed(&mut self.passing(at, window), spot), false)
+            (self.placed(&mut self.passing(at), spot), false)
         }
     }
 
@@ -108,12 +122,12 @@ impl Tracer<'_> {
     }
 
     /// The equation at a corner that passes a boundary on.
-    fn passing(&self, at: (i32, i32), window: (i32, i32, i32, i32)) -> Target {
+    fn passing(&self, at: (i32, i32)) -> Target {
         let regions = self.around(at);
         let first = regions[0];
         let other = regions.into_iter().find(|r| r.0 != first.0).unwrap_or(first);
         let (a, b) = if first.0 < other.0 { (first, other) } else { (other, first) };
-        self.target((a.0, b.0), (a.1, b.1), window)
+        self.target((a.0, b.0), (a.1, b.1), round(at, 1 + self.apron((a.0, b.0))))
     }
 
     /// Owner and label of the four pixels round a corner.
@@ -124,7 +138,8 @@ impl Tracer<'_> {
 
     /// The place where three or more regions meet: equally far from the first three, or on the limit, or on the border. It is open where
     /// none such is near: a region that ends in a wedge thinner than a pixel is seen to end too early.
-    fn node(&self, at: (i32, i32), window: (i32, i32, i32, i32), spot: Spot) -> (Vertex, bool) {
+    fn node(&self, at: (i32, i32), spot: Spot) -> (Vertex, bool) {
+        let window = round(at, 2);
         let mut regions = self.around(at).to_vec();
         regions.sort_unstable();
         // A groove has no border to be placed on: what meets there runs on along its own course.
@@ -152,7 +167,12 @@ impl Tracer<'_> {
         };
         let fallback = target(regions[regions.len() - 1], regions[0]);
         let open = wedge || met.is_none();
-        let kept = || Vertex { at: spot, clearance: self.placer.clearance(&fallback, spot).max(0.0) };
+        let kept = || Vertex::new(spot, self.placer.clearance(&fallback, spot).max(0.0));
         (met.unwrap_or_else(kept), open)
     }
+}
+
+/// The window of so many pixels on every side of a corner.
+const fn round((x, y): (i32, i32), reach: i32) -> (i32, i32, i32, i32) {
+    (x - reach, y - reach, x + reach - 1, y + reach - 1)
 }

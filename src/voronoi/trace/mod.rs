@@ -14,7 +14,7 @@
 //! ```
 //!
 //! Each piece is placed as it is traced, on the worker that drew the tile: cracks are sampled, moved to the true
-//! boundary, and sampled again between wherever the true boundary leaves the chord or its clearance bends. A straight piece costs
+//! boundary, and again between wherever the true boundary leaves the curve between two vertices (see `span`). A piece of one curve costs
 //! three samples, whatever its length.
 
 mod crack;
@@ -23,12 +23,12 @@ mod pixels;
 mod sample;
 
 use super::OUTSIDE;
-use super::place::{Placer, Vertex};
+use super::place::Placer;
 use super::plane::Spot;
+use super::span::Vertex;
 
 use crack::{Crack, HEADINGS, Heading};
 pub(super) use pixels::{APRON, Pixels};
-pub(super) use sample::{CHORD, is_straight};
 
 /// A pixel corner of the picture: its key for stitching, and whether boundaries end there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -173,8 +173,14 @@ impl Tracer<'_> {
         self.visited[plane][at]
     }
 
+    /// How many cracks meet at a corner.
     fn degree(&self, (x, y): (i32, i32)) -> usize {
-        HEADINGS.iter().filter(|&&heading| self.is_crack(Crack { x, y, heading })).count()
+        let at = self.pixels.index(x, y);
+        let above = at - self.pixels.index(0, 0) + self.pixels.index(0, -1);
+        let owners = self.pixels.owners;
+        let (upper, lower) = ((owners[above - 1], owners[above]), (owners[at - 1], owners[at]));
+        let cracks = [upper.0 != upper.1, lower.0 != lower.1, upper.0 != lower.0, upper.1 != lower.1];
+        cracks.into_iter().map(usize::from).sum()
     }
 
     /// Whether pieces end at this corner: on the tile's border, and at nodes.
