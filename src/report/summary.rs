@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::document::{Document, Figures, WarningEntry};
+use super::document::{Document, Figures, LayerEntry, WarningEntry};
 use crate::board::{self, Severity};
 
 /// Warnings of one kind that are shown; the rest are counted.
@@ -18,7 +18,8 @@ impl Document {
                 let [a, b] = &gap.between;
                 format!(", smallest gap {:.3} mm between {a} and {b}", gap.width_mm.0)
             });
-            let _ = writeln!(text, "  {}: {}{gap}", layer.side, count(layer.nets.len(), "net"));
+            let lengths = layer.lengths();
+            let _ = writeln!(text, "  {}: {}{gap}, {lengths}", layer.side, count(layer.nets.len(), "net"));
             if let Some(colours) = layer.translucency.as_ref().filter(|_| verbose) {
                 let _ = write!(text, "  {}", colours.to_text());
             }
@@ -61,6 +62,17 @@ impl Document {
             text.push_str(&row("total", &self.total));
         }
         text
+    }
+}
+
+impl LayerEntry {
+    /// How long its boundaries are, without and with the lap round the frame.
+    fn lengths(&self) -> String {
+        let bare = self.boundary_length_mm.0;
+        let lap = self
+            .frame_length_mm
+            .map_or(String::new(), |lap| format!(", {:.0} mm with the lap round the frame", bare + lap.0));
+        format!("boundaries {bare:.0} mm{lap}")
     }
 }
 
@@ -131,6 +143,8 @@ fn duration(seconds: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Nm;
+    use crate::report::document::Millimetres;
 
     #[test]
     fn many_warnings_of_one_kind_are_counted() {
@@ -147,6 +161,24 @@ mod tests {
         assert!(short.contains("gap 3") && !short.contains("gap 4"), "{short}");
         assert!(short.contains("2 more [narrow]"), "{short}");
         assert!(warnings(&all, true).contains("gap 5"), "verbose shows all");
+    }
+
+    #[test]
+    fn lengths_are_told_with_the_frame_and_without() {
+        let layer = |frame_length_mm: Option<Millimetres>| LayerEntry {
+            side: board::Side::Front,
+            features: 0,
+            nets: Vec::new(),
+            translucency: None,
+            smallest_gap: None,
+            boundaries: 1,
+            junctions: 0,
+            boundary_length_mm: Millimetres(Nm::from_mm(208)),
+            frame_length_mm,
+        };
+        assert_eq!(layer(None).lengths(), "boundaries 208 mm", "an outline is no lap");
+        let framed = layer(Some(Millimetres(Nm::from_mm(81)))).lengths();
+        assert_eq!(framed, "boundaries 208 mm, 289 mm with the lap round the frame", "both lengths");
     }
 
     #[test]
