@@ -1,0 +1,143 @@
+//! Boundaries by stage, over boards and resolutions: `cargo bench --bench voronoi [-- BOARD…]`, where a board is the name of one of
+//! `fixtures/boards` or a number of features for a synthetic one.
+//!
+//! * *regions*: the tiles that a boundary crosses are drawn, and nothing made of them;
+//! * *trace and place*: what `Diagram::boundaries` takes beside drawing and fitting. A piece of boundary is placed as it is
+//!   traced, on the worker that drew its tile, so there is no line to be drawn between the two;
+//! * *fit*: lines and arcs through all placed points.
+//!
+//! A plain program: each board and resolution runs in a process of its own, on one thread, so that its peak memory can be told and
+//! its time be that of the processor, whatever else the machine does.
+#![allow(clippy::print_stdout, reason = "a program that prints its figures")]
+
+mod synthetic;
+
+use std::fs;
+use std::hint::black_box;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use voromill::board::{Board, Side};
+use voromill::geometry::{Nm, Point};
+use voromill::import::{self, Selection};
+use voromill::topology::{self, Method};
+use voromill::voronoi::{Diagram, Settings, fit_points};
+
+/// Names board and resolution to the process that measures them.
+const ONE: &str = "VOROMILL_VORONOI_ONE";
+const RESOLUTIONS: [i64; 4] = [250, 500, 1000, 2000];
+/// How often each stage is timed; the least counts.
+const ROUNDS: u32 = 3;
+
+/// What is measured of one board at one resolution.
+struct Figures {
+    /// CPU seconds to draw, to trace and place, to fit, and for all of it.
+    seconds: [f64; 4],
+    /// Peak resident memory in MiB.
+    peak: f64,
+}
+
+fn main() {
+    if let Some(asked) = std::env::var_os(ONE) {
+        let asked = asked.into_string().expect("a board and a resolution");
+        let (board, dpi) = asked.split_once(' ').expect("a board and a resolution");
+        return one(board, dpi.parse().expect("a number"));
+    }
+    let mut boards: Vec<String> =
+        std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
+    if boards.is_empty() {
+        boards = ["regulator", "qfn-breakout", "1000", "10000"].map(str::to_owned).to_vec();
+    }
+    println!(
+        "| board | DPI | regions s | trace and place s | fit s | all s | peak MiB | × time | × memory |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for board in boards {
+        let mut before: Option<Figures> = None;
+        for dpi in RESOLUTIONS {
+            let found = measured(&board, dpi);
+            let [regions, placed, fitted, all] = found.seconds;
+            let growth = before.map_or(" | ".to_owned(), |before| {
+                format!("{:.2} | {:.2}", all / before.seconds[3], found.peak / before.peak)
+            });
+            println!(
+                "| {board} | {dpi} | {regions:.4} | {placed:.4} | {fitted:.4} | {all:.4} | {:.1} | {growth} |",
+                found.peak
+            );
+            before = Some(found);
+        }
+    }
+}
+
+/// The figures of a process of its own.
+fn measured(board: &str, dpi: i64) -> Figures {
+    let own = std::env::current_exe().expect("a program has a name");
+    let output = Command::new(own).env(ONE, format!("{board} {dpi}")).output().expect("it starts");
+    let text = String::from_utf8_lossy(&output.stdout);
+    let numbers: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
+    let [regions, placed, fitted, all, peak] = numbers[..] else {
+        panic!("{board} at {dpi} DPI: {}", String::from_utf8_lossy(&output.stderr))
+    };
+    Figures { seconds: [regions, placed, fitted, all], peak }
+}
+
+/// Measures one board at one resolution and prints the figures.
+fn one(board: &str, dpi: i64) {
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+    alone.build_global().expect("the first pool");
+    let board = load(board);
+    let copper = board.copper(Side::Front).expect("a front");
+    let nets = topology::recover(copper, Method::Contact);
+    let settings = Settings { pitch: Nm::new(25_400_000 / dpi), ..Settings::default() };
+    let diagram = || Diagram::new(copper, &nets, board.outline.as_ref(), &settings).expect("a diagram");
+    // Boundaries first: what is asked for after them must not count as their peak.
+    let all = least(|| _ = black_box(diagram().boundaries()));
+    let peak = peak_mib();
+    let regions = least(|| _ = black_box(diagram().pixels_drawn()));
+    // With a tolerance of a nanometre every placed point is a vertex.
+    let bare = Settings { tolerance: Nm::new(1), arcs: false, ..settings.clone() };
+    let placed =
+        Diagram::new(copper, &nets, board.outline.as_ref(), &bare).expect("a diagram").boundaries().0;
+    let lines: Vec<Vec<Point>> = placed.edges.iter().map(|edge| edge.path.flatten(Nm::new(1))).collect();
+    let fit = |line: &Vec<Point>| _ = black_box(fit_points(line.iter().copied(), settings.tolerance));
+    let fitted = least(|| lines.iter().for_each(fit));
+    println!("{regions} {} {fitted} {all} {peak}", all - regions - fitted);
+}
+
+fn load(board: &str) -> Board {
+    let Ok(features) = board.parse() else {
+        let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards").join(board);
+        return import::load(&[folder], &Selection::default()).expect("a board of ours").board;
+    };
+    let folder = std::env::temp_dir().join(format!("voromill-voronoi-{}", std::process::id()));
+    fs::create_dir_all(&folder).expect("a folder to write to");
+    let path = folder.join("synthetic.gbr");
+    fs::write(&path, synthetic::gerber(features).0).expect("writable");
+    let loaded = import::load_copper(Path::new(&path), Side::Front).expect("a good file");
+    fs::remove_dir_all(&folder).expect("ours");
+    loaded.board
+}
+
+/// CPU seconds of the fastest of some rounds.
+fn least(mut work: impl FnMut()) -> f64 {
+    let once = |_| {
+        let start = cpu_seconds();
+        work();
+        cpu_seconds() - start
+    };
+    (0..ROUNDS).map(once).fold(f64::INFINITY, f64::min)
+}
+
+/// CPU seconds of this thread so far, as Linux counts them.
+fn cpu_seconds() -> f64 {
+    let text = fs::read_to_string("/proc/thread-self/schedstat").expect("a Linux with scheduler statistics");
+    let nanoseconds = text.split_whitespace().next().and_then(|word| word.parse::<f64>().ok());
+    nanoseconds.expect("nanoseconds on the processor") / 1e9
+}
+
+/// Peak resident memory of the process so far, in MiB.
+fn peak_mib() -> f64 {
+    let status = fs::read_to_string("/proc/self/status").expect("a Linux");
+    let line = status.lines().find(|line| line.starts_with("VmHWM:")).expect("a peak");
+    line.split_whitespace().nth(1).and_then(|kib| kib.parse::<f64>().ok()).expect("KiB") / 1024.0
+}
