@@ -1,4 +1,4 @@
-//! A closed tour through stretches, kept as an array, changed by reversals that can be taken back.
+//! A closed tour through stretches, kept as an array, changed by exchanges that can be taken back.
 //!
 //! Stretch k has the ends 2k and 2k + 1; the tour lists for each the end by which it is entered, and leaves it by
 //! the other (`end ^ 1`). Every end has one partner, the end linked to it through the air:
@@ -14,8 +14,16 @@ pub(super) type End = u32;
 pub(super) struct Tour {
     entered: Vec<End>,
     place: Vec<u32>,
-    /// The reversals since the last [`Tour::mark`], each by its first and last place.
-    log: Vec<(u32, u32)>,
+    partners: Vec<End>,
+    /// The exchanges since the last [`Tour::mark`].
+    log: Vec<Exchange>,
+}
+
+/// Two links exchanged, a–b and c–d for a–c and b–d, and the first and last place of what was reversed for it.
+#[derive(Clone, Copy)]
+struct Exchange {
+    ends: [End; 4],
+    places: Option<(u32, u32)>,
 }
 
 impl Tour {
@@ -25,7 +33,12 @@ impl Tour {
         for (index, &end) in (0_u32..).zip(&entered) {
             place[(end / 2) as usize] = index;
         }
-        Self { entered, place, log: Vec::new() }
+        let mut partners = vec![0; 2 * entered.len()];
+        for (&end, &next) in entered.iter().zip(entered.iter().cycle().skip(1)) {
+            partners[(end ^ 1) as usize] = next;
+            partners[next as usize] = end ^ 1;
+        }
+        Self { entered, place, partners, log: Vec::new() }
     }
 
     /// The ends by which the stretches are entered, in order.
@@ -53,18 +66,13 @@ impl Tour {
 
     /// The end at the other side of the air.
     pub(super) fn partner(&self, end: End) -> End {
-        let (place, last) = (self.place(end), self.count() - 1);
-        if self.entered_at(place) == end {
-            self.entered_at(if place == 0 { last } else { place - 1 }) ^ 1
-        } else {
-            self.entered_at(if place == last { 0 } else { place + 1 })
-        }
+        self.partners[end as usize]
     }
 
-    /// How many stretches lie between two ends, the shorter way round.
-    pub(super) fn span(&self, a: End, b: End) -> u32 {
-        let apart = self.place(a).abs_diff(self.place(b));
-        apart.min(self.count() - apart)
+    /// Whether the tour, from the stretch of `first` on, comes to that of `end` no later than to that of `last`.
+    pub(super) fn is_between(&self, first: End, end: End, last: End) -> bool {
+        let [first, end, last] = [first, end, last].map(|end| self.place(end));
+        if first <= last { first <= end && end <= last } else { first <= end || end <= last }
     }
 
     /// Unlinks a from b and c from d, and links a to c and b to d. The pairs must be partners, and a must be an
@@ -72,12 +80,20 @@ impl Tour {
     pub(super) fn exchange(&mut self, a: End, b: End, c: End, d: End) {
         let (first, last) = if self.is_entry(a) { (b, d) } else { (a, c) };
         let after = |place: u32| if place + 1 == self.count() { 0 } else { place + 1 };
-        self.reverse(after(self.place(first)), self.place(last));
+        let places = self.reverse(after(self.place(first)), self.place(last));
+        self.log.push(Exchange { ends: [a, b, c, d], places });
+        self.join(a, c);
+        self.join(b, d);
+    }
+
+    fn join(&mut self, a: End, b: End) {
+        self.partners[a as usize] = b;
+        self.partners[b as usize] = a;
     }
 
     /// Reverses the places from `first` through `last`, round the end if need be, or the rest, which gives
-    /// the same tour walked the other way, if that is shorter.
-    fn reverse(&mut self, first: u32, last: u32) {
+    /// the same tour walked the other way, if that is shorter; which places these were, if any.
+    fn reverse(&mut self, first: u32, last: u32) -> Option<(u32, u32)> {
         let count = self.count();
         let inner = (last + count - first) % count + 1;
         let (i, j, length) = if inner * 2 <= count {
@@ -85,10 +101,10 @@ impl Tour {
         } else {
             ((last + 1) % count, (first + count - 1) % count, count - inner)
         };
-        if length > 0 {
-            self.log.push((i, j));
+        (length > 0).then(|| {
             self.turn(i, j);
-        }
+            (i, j)
+        })
     }
 
     /// Reverses exactly these places, round the end if need be.
@@ -113,21 +129,19 @@ impl Tour {
         self.place[(end / 2) as usize] = place;
     }
 
-    /// Forgets the reversals: what is now cannot be taken back.
+    /// Forgets the exchanges: what is now cannot be taken back.
     pub(super) fn mark(&mut self) {
         self.log.clear();
     }
 
-    /// How many reversals could be taken back.
-    pub(super) fn changes(&self) -> usize {
-        self.log.len()
-    }
-
-    /// Takes back all reversals but the first `keep`.
-    pub(super) fn take_back(&mut self, keep: usize) {
-        while self.log.len() > keep {
-            let (i, j) = self.log.pop().expect("longer than `keep`");
-            self.turn(i, j);
+    /// Takes back all exchanges since the mark.
+    pub(super) fn take_back(&mut self) {
+        while let Some(Exchange { ends: [a, b, c, d], places }) = self.log.pop() {
+            if let Some((first, last)) = places {
+                self.turn(first, last);
+            }
+            self.join(a, b);
+            self.join(c, d);
         }
     }
 }
