@@ -21,7 +21,7 @@ const BRIDGE: u64 = 50;
 /// Double bridges for each stretch. Measured: three times as many shorten the way through a thousand by a quarter of a percent.
 const SHAKES_EACH: usize = 60;
 /// How many ends are looked at in the end, beyond which nothing is shaken: ten thousand stretches are in order within two seconds.
-const MOST_LOOKS: u64 = 4_000_000;
+const MOST_LOOKS: u64 = 3_000_000;
 /// After how many double bridges in vain, for each stretch and for all, the order is taken for as good as it gets.
 /// Measured: of a hundred stretches longer trials shorten the way by a tenth of a percent.
 const IDLE_EACH: usize = 12;
