@@ -96,7 +96,7 @@ impl<'a> Writer<'a> {
         if let Some((on, _)) = &self.dialect.coolant {
             self.line(on);
         }
-        self.dwell(SPIN_UP);
+        self.dwell(self.dialect.spin_up);
     }
 
     /// The last lift, the spindle off, and the end lines.
@@ -327,9 +327,6 @@ impl<'a> Writer<'a> {
         self.text.push('\n');
     }
 }
-
-/// How long the spindle is given to come up to speed, in milliseconds. Chosen: what small spindles need.
-const SPIN_UP: u32 = 3000;
 
 /// How far chords may leave an arc that is written as lines.
 const CHORD: Nm = Nm::from_um(1);

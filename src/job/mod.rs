@@ -46,7 +46,8 @@ pub use pattern::Pattern;
 pub use pipeline::{Job, mill};
 pub use probing::{ParseProbeGridError, ProbeGrid, Probing, probe};
 pub use quantity::{
-    DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, Place, Tiles, ToolChangeAt, Triple,
+    DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, ParseWaitError, Place, Tiles,
+    ToolChangeAt, Triple, Wait,
 };
 pub use settings::Settings;
 pub use settings_file::{DEFAULTS, FILE_NAME};

@@ -9,7 +9,7 @@ use crate::toolpath::{Angle, Feed};
 use super::by_net::StrategyFor;
 use super::choice::{DialectChoice, Narrow, Origin, Sites, Strategy, Topology};
 use super::pattern::Pattern;
-use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, list, text};
+use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::tools::{Library, ToolChoice};
 
 /// What a person asked for; what they left open is none.
@@ -136,6 +136,11 @@ pub struct Options {
     #[arg(long, value_name = "RPM", help_heading = "Machine")]
     pub spindle: Option<u32>,
 
+    /// How long the spindle is given to come up to speed [default: 3s, or as the dialect says]
+    #[arg(long, value_name = "TIME", help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub spin_up: Option<Wait>,
+
     /// Height for travel above the copper
     #[arg(long, value_name = "LENGTH", help_heading = "Machine")]
     #[serde(with = "text")]
@@ -199,6 +204,11 @@ pub struct Options {
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_peck: Option<Length>,
+
+    /// How long a drill stays at the bottom of each hole
+    #[arg(long, value_name = "TIME", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub drill_dwell: Option<Wait>,
 
     /// Speed of a drill into the material [default: by its diameter]
     #[arg(long, value_name = "SPEED", help_heading = "Drilling and cutting out")]

@@ -172,7 +172,7 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
         heights: settings.drilling,
         placement,
         order: Order::default(),
-        dwell: 0,
+        dwell: settings.drill_dwell,
         speeds: settings.drill_speeds,
     };
     drill(&board.holes, &drilling)

@@ -25,6 +25,48 @@ impl FromStr for Length {
     }
 }
 
+/// A time to wait, written as `3s` or `200ms`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Wait {
+    /// In milliseconds.
+    pub milliseconds: u32,
+}
+
+/// The longest time to wait, in milliseconds. Chosen: an hour is a mistake in the unit.
+const LONGEST_WAIT: f64 = 600_000.0;
+
+/// A text that is no time to wait.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{0}` is no time to wait: expected up to ten minutes with a unit, such as `3s` or `200ms`")]
+pub struct ParseWaitError(String);
+
+impl FromStr for Wait {
+    type Err = ParseWaitError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let error = || ParseWaitError(text.to_owned());
+        let (number, unit) = match text.strip_suffix("ms") {
+            Some(number) => (number, 1.0),
+            None => (text.strip_suffix('s').ok_or_else(error)?, 1000.0),
+        };
+        let count: f64 = number.trim().parse().map_err(|_| error())?;
+        if !(0.0..=LONGEST_WAIT).contains(&(count * unit)) {
+            return Err(error());
+        }
+        let milliseconds = u32::try_from(Nm::from_f64(count * unit).get()).map_err(|_| error())?;
+        Ok(Self { milliseconds })
+    }
+}
+
+impl fmt::Display for Wait {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.milliseconds {
+            whole if whole % 1000 == 0 => write!(f, "{}s", whole / 1000),
+            milliseconds => write!(f, "{milliseconds}ms"),
+        }
+    }
+}
+
 /// A place on the board or a step from one to another, written as `10mm,5mm`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {

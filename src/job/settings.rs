@@ -9,7 +9,7 @@ use super::choice::{Narrow, Origin, Sites, Strategy, Topology};
 use super::cutting::{Cutting, isolation};
 use super::holding::{Holding, holding};
 use super::pattern::Pattern;
-use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Triple};
+use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Triple, Wait};
 use super::tools::{self, Fetched, ToolChoice, Workshop};
 
 /// Everything a job needs to know, complete and checked.
@@ -68,6 +68,8 @@ pub struct Settings {
     pub drills: Vec<Tool>,
     /// The speeds of drills that have none of their own; none for those that suit their diameters.
     pub drill_speeds: (Option<Feed>, Option<u32>),
+    /// How long a drill stays at the bottom of a hole, in milliseconds.
+    pub drill_dwell: u32,
     /// How far a drill may differ from its hole.
     pub drill_tolerance: Nm,
     /// Whether slots, and holes without a drill, are bored with the cutout's end mill.
@@ -135,6 +137,10 @@ impl Settings {
         let tab_height = positive("tab-height", options.tab_height)?;
         let tabs = holding(&options)?;
         let tiles = tiles(&options, &cutout_tool)?;
+        let mut dialect = options.dialect.clone().expect(open).0;
+        if let Some(Wait { milliseconds }) = options.spin_up {
+            dialect.spin_up = milliseconds;
+        }
         if tabs != Holding::Count(0) && tab_height >= cutout_depth {
             let problem = format!(
                 "tabs of {} in a cut of {} would leave it uncut",
@@ -161,6 +167,7 @@ impl Settings {
             mirror_axis: options.mirror_axis.map(Length::nm),
             drills,
             drill_speeds: workshop.drilling,
+            drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
             drill_tolerance: options.drill_tolerance.expect(open).nm(),
             drill_bore: options.drill_bore.expect(open),
             outline_gap: outline_gap(&options)?,
@@ -175,15 +182,16 @@ impl Settings {
             min_width: options.min_width.expect(open),
             topology: options.topology.expect(open),
             tolerance: positive("tolerance", options.tolerance)?,
-            dialect: options.dialect.clone().expect(open).0,
+            machine: Machine {
+                travel: options.machine_travel.map(|Triple(travel)| travel.map(Length::nm)),
+                spin_up: dialect.spin_up,
+                ..Machine::default()
+            },
+            dialect,
             origin: match options.origin.expect(open) {
                 Origin::LowerLeft => toolpath::Origin::LowerLeft,
                 Origin::Keep => toolpath::Origin::Keep,
                 Origin::Center => toolpath::Origin::Center,
-            },
-            machine: Machine {
-                travel: options.machine_travel.map(|Triple(travel)| travel.map(Length::nm)),
-                ..Machine::default()
             },
             cutout_ramp: ramp(options.cutout_ramp)?,
             tabs,

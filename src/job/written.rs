@@ -44,8 +44,8 @@ impl Part {
     fn is_changed_by(self, option: &str) -> bool {
         match option {
             "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
-            "feed" | "plunge" | "spindle" | "safe-z" | "dialect" | "origin" | "tile" | "tile-spacing"
-            | "machine-travel" | "tool-change-at" | "offset" => true,
+            "feed" | "plunge" | "spindle" | "spin-up" | "safe-z" | "dialect" | "origin" | "tile"
+            | "tile-spacing" | "machine-travel" | "tool-change-at" | "offset" => true,
             _ if option.starts_with("alignment") => self == Self::Alignment,
             "drill-depth" => matches!(self, Self::Alignment | Self::Drill),
             _ if option.starts_with("drill") => self == Self::Drill,

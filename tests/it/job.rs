@@ -221,6 +221,21 @@ fn ignored_nets_are_not_isolated() {
 }
 
 #[test]
+fn spindle_and_drills_are_given_the_time_that_is_asked_for() {
+    let (job, settings) = job("regulator", "spin-up = \"4s\"\ndrill-dwell = \"250ms\"");
+    let drill = job.programs.iter().find(|program| program.part == Part::Drill).expect("holes");
+    let waits = |seconds: &str| drill.text.lines().filter(|line| *line == format!("G4 P{seconds}")).count();
+    assert_eq!(waits("4"), drill.program.sections.len(), "once for each drill");
+    let holes = job.board.holes.iter().filter(|hole| !hole.is_slot()).count();
+    assert!(waits("0.25") >= holes, "{} times in {holes} holes", waits("0.25"));
+    assert_eq!(settings.machine.spin_up, 4000, "and the estimate knows");
+    for wrong in ["spin-up = \"3\"", "drill-dwell = \"-1s\"", "drill-dwell = \"1h\""] {
+        let error = Options::from_toml("voromill.toml", wrong).expect_err(wrong).to_string();
+        assert!(error.contains("such as `3s` or `200ms`"), "{error}");
+    }
+}
+
+#[test]
 fn nets_may_have_a_strategy_of_their_own() {
     let cut = |settings: &str| {
         let (job, settings) = job("regulator", settings);

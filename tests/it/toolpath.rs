@@ -158,7 +158,11 @@ fn a_gap_narrower_than_the_kerf_is_listed_with_its_place_and_its_nets() {
 fn a_v_bit_rises_where_the_gap_is_narrow() {
     let (tool, placement, machine) = (tool("vbit:0.1mm:30deg"), Placement::default(), Machine::default());
     let settings = Isolation { adaptive: Some(Nm::from_um(20)), ..isolation(&tool, &placement, &machine) };
-    let (section, _) = isolate("isolate front", &forks(), &[], |_| Role::Cut, name, &settings);
+    let (section, narrow) = isolate("isolate front", &forks(), &[], |_| Role::Cut, name, &settings);
+    assert!(narrow.is_empty(), "nothing is narrower than the cut at its least depth: {narrow:?}");
+    let shallow = Isolation { adaptive: Some(Nm::from_um(50)), ..settings };
+    let (_, narrow) = isolate("isolate front", &forks(), &[], |_| Role::Cut, name, &shallow);
+    assert!(narrow.len() == 1 && narrow[0].message.contains("kerf of 126.8 µm"), "{narrow:?}");
     assert_safe(&section, settings.heights);
     let around: Vec<Nm> = section
         .moves

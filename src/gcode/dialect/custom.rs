@@ -50,6 +50,7 @@ struct Keys {
     start: Option<Vec<String>>,
     end: Option<Vec<String>>,
     coolant: Option<(String, String)>,
+    spin_up: Option<u32>,
     touches: Option<Touches>,
 }
 
@@ -96,6 +97,7 @@ impl Dialect {
             start: lines(keys.start, base.start),
             end: lines(keys.end, base.end),
             coolant: keys.coolant.map(|(on, off)| (Cow::Owned(on), Cow::Owned(off))).or(base.coolant),
+            spin_up: keys.spin_up.unwrap_or(base.spin_up),
             touches: keys.touches.unwrap_or(base.touches),
         })
     }

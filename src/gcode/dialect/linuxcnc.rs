@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange, Touches};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// LinuxCNC. G64 lets it blend corners by at most 5 µm, instead of stopping at each or rounding without bound.
 pub(super) const LINUXCNC: Dialect = Dialect {
@@ -17,5 +17,6 @@ pub(super) const LINUXCNC: Dialect = Dialect {
     start: Borrowed(&[Borrowed("G17 G21 G40 G49 G80 G90 G91.1 G94"), Borrowed("G64 P0.005")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
+    spin_up: SPIN_UP,
     touches: Touches::Logged,
 };

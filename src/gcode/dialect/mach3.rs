@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange, Touches};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// Mach3. G91.1 because its own default for centres is a setting; G64 without a tolerance, which it does not know, would
 /// round corners by the feed, so it runs in exact stop.
@@ -18,5 +18,6 @@ pub(super) const MACH3: Dialect = Dialect {
     start: Borrowed(&[Borrowed("G17 G21 G40 G49 G80 G90 G91.1 G94"), Borrowed("G61")]),
     end: Borrowed(&[Borrowed("M30")]),
     coolant: None,
+    spin_up: SPIN_UP,
     touches: Touches::None,
 };

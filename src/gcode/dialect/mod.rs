@@ -44,9 +44,14 @@ pub struct Dialect {
     pub end: Cow<'static, [Text]>,
     /// What turns the coolant (or the vacuum) on and off; none leaves it alone.
     pub coolant: Option<(Text, Text)>,
+    /// How long the spindle is given to come up to speed, in milliseconds.
+    pub spin_up: u32,
     /// What becomes of the touches of a probe.
     pub touches: Touches,
 }
+
+/// What small spindles need. Chosen.
+const SPIN_UP: u32 = 3000;
 
 /// How arcs are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]

@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange, Touches};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// Smoothieware. Its G4 takes P in seconds or milliseconds by a setting, S always in seconds; its arcs cut corners by
 /// another setting, so arcs are written as lines.
@@ -18,5 +18,6 @@ pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     start: Borrowed(&[Borrowed("G17 G21 G90")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
+    spin_up: SPIN_UP,
     touches: Touches::None,
 };

@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, ToolChange, Touches};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// TinyG and g2core. G64 is their continuous mode, which keeps within the junction tolerance that is set there.
 pub(super) const TINYG: Dialect = Dialect {
@@ -17,5 +17,6 @@ pub(super) const TINYG: Dialect = Dialect {
     start: Borrowed(&[Borrowed("G17 G21 G40 G80 G90 G94"), Borrowed("G64")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
+    spin_up: SPIN_UP,
     touches: Touches::None,
 };

@@ -86,7 +86,6 @@ const LEFT: &[&str] = &[
     "preamble-text",
     "preserve-thermal-reliefs",
     "spindown-time",
-    "spinup-time",
     "svg",
     "tolerance",
     "tsp-2opt",
@@ -161,6 +160,7 @@ impl<'a> Draft<'a> {
             "zchange" => options.tool_change_at = Some(ToolChangeAt::Height(Length(entry.length(units)?))),
             "mill-feed" => options.feed = Some(entry.feed(units)?),
             "mill-vertfeed" => options.plunge = Some(entry.feed(units)?),
+            "spinup-time" => options.spin_up = Some(entry.wait()?),
             "mill-speed" => options.spindle = Some(entry.turns()?),
             "zdrill" => options.drill_depth = Some(Length(entry.depth(units)?)),
             "drill-feed" => options.drill_plunge = Some(entry.feed(units)?),
@@ -215,7 +215,7 @@ impl<'a> Draft<'a> {
     /// Notes an option that is not taken over.
     fn leave(&mut self, entry: &Entry<'_>, why: &str) {
         let text = format!("{} = {}", entry.name, entry.value);
-        let message = format!("{}:{}: `{text}` is not taken over: {why}", self.file, entry.line);
+        let message = format!("`{}` is not taken over: {why}", entry.name);
         let line = u32::try_from(entry.line).unwrap_or(u32::MAX);
         let source = SourceSpan::of_line(self.file, line, &text);
         self.made.left.push(Warning { source: Some(source), ..Warning::new("millproject-option", message) });

@@ -1,5 +1,6 @@
 use crate::geometry::Nm;
 use crate::job::Error;
+use crate::job::quantity::Wait;
 use crate::toolpath::Feed;
 
 /// What bare numbers count.
@@ -93,6 +94,18 @@ impl Entry<'_> {
         turns.ok_or_else(|| self.wrong("turns per minute"))
     }
 
+    /// A time; a bare number counts milliseconds.
+    pub(super) fn wait(&self) -> Result<Wait, Wrong> {
+        let end = self.value.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(self.value.len());
+        let (number, unit) = (self.value[..end].trim(), self.value[end..].trim());
+        let wait = match unit {
+            "" | "ms" | "millisecond" | "milliseconds" => format!("{number}ms").parse().ok(),
+            "s" | "sec" | "second" | "seconds" => format!("{number}s").parse().ok(),
+            _ => None,
+        };
+        wait.ok_or_else(|| self.wrong("a time, such as 3s"))
+    }
+
     pub(super) fn count(&self) -> Result<u32, Wrong> {
         self.value.parse().map_err(|_| self.wrong("a whole number"))
     }
@@ -161,6 +174,10 @@ mod tests {
         for (text, feed) in [("10", "254mm/min"), ("5mm/s", "300mm/min"), ("200mm/min", "200mm/min")] {
             assert_eq!(entry(text).feed(Units::Inches).expect(text).to_string(), feed, "{text}");
         }
+        for (text, milliseconds) in [("2 s", 2000), ("1.5sec", 1500), ("40", 40), ("250 ms", 250)] {
+            assert_eq!(entry(text).wait().expect(text), Wait { milliseconds }, "{text}");
+        }
+        assert!(entry("3 fortnights").wait().is_err() && entry("-1s").wait().is_err(), "no time");
         assert_eq!(entry("12000 rpm").turns().expect("turns"), 12_000, "with its unit");
         assert!(entry("-1").turns().is_err() && entry("0").feed(Units::Metric).is_err(), "no sense");
     }

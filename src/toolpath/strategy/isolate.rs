@@ -54,7 +54,7 @@ pub struct Isolation<'a> {
 /// Cuts every boundary that `role` says to cut, once, and the closed `laps` (the frame) beside.
 ///
 /// `name` says what people call an owner, for the warnings: one `gap-narrower-than-tool` per boundary whose clearance
-/// falls below half the kerf, at its narrowest place, in board coordinates.
+/// falls below half the kerf, that of the least depth where the tool may rise, at its narrowest place, in board coordinates.
 pub fn isolate(
     label: impl Into<String>,
     boundaries: &Boundaries,
@@ -63,7 +63,9 @@ pub fn isolate(
     name: impl Fn(Owner) -> String,
     settings: &Isolation<'_>,
 ) -> (Section, Vec<Warning>) {
-    let kerf = settings.tool.width_at(settings.heights.cut);
+    // A tool that may rise takes no more copper than at its least depth.
+    let least = settings.adaptive.unwrap_or(settings.heights.cut).min(settings.heights.cut);
+    let kerf = settings.tool.width_at(least);
     let mut warnings = Vec::new();
     let mut ways = Vec::new();
     for boundary in &boundaries.edges {
