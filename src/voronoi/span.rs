@@ -29,6 +29,12 @@ const UNEVEN: f64 = 3.0;
 const CLEARANCE_CHORD: f64 = 1_000.0;
 /// A slope of less says nothing of a course.
 const LEVEL: f64 = 1e-3;
+/// A vertex that a curve passes by so closely need not be kept, in nanometres. Chosen: a tenth of what probes find good enough.
+const PASSED: f64 = 20.0;
+/// The same for the clearance.
+const PASSED_CLEARANCE: f64 = 100.0;
+/// So many vertices in a row are taken out at most, less one: all of them are looked at for each.
+const MOST_PASSED: usize = 12;
 /// A curve is cut into so many chords at most. Chosen: one of a metre needs fewer.
 const MOST_CHORDS: u32 = 4096;
 
@@ -137,11 +143,16 @@ impl Span {
     /// A boundary that bends one way and then the other may cross the curve half way; then it does so at an angle. A cubic that
     /// crosses at an angle whose sine is s leaves a curve of length L by 0.19 s L.
     pub(super) fn holds(&self, probe: Vertex) -> bool {
+        self.is_near(probe, BEND, CLEARANCE_BEND)
+    }
+
+    /// The same, with how far it and its clearance may be off.
+    fn is_near(&self, probe: Vertex, bend: f64, clearance: f64) -> bool {
         let Some(t) = self.parameter(probe.at).filter(|_| self.is_even()) else { return false };
         let speed = self.speed(t);
-        (probe.at - self.place(t)).length() <= BEND
-            && 0.19 * speed.cross(probe.along()).abs() <= BEND
-            && (probe.clearance() - self.clearance(t)).abs() <= CLEARANCE_BEND
+        (probe.at - self.place(t)).length() <= bend
+            && 0.19 * speed.cross(probe.along()).abs() <= bend
+            && (probe.clearance() - self.clearance(t)).abs() <= clearance
     }
 
     /// Whether the curve bends all along rather than at one end, where the boundary may have a corner that a probe half way does not see.
@@ -198,6 +209,28 @@ fn control(from: Vertex, to: Vertex) -> Option<Spot> {
     (before.dot(chord) >= 0.0 && after.dot(chord) >= 0.0 && before.dot(after) >= 0.0).then_some(control)
 }
 
+/// Takes out the vertices that the curve between their neighbours passes through anyway: where tiles met, for the most part.
+pub(super) fn thin(vertices: &mut Vec<Vertex>) {
+    let (mut kept, mut last) = (0, 0);
+    for next in 2..vertices.len() {
+        let span = Span::new(vertices[kept], vertices[next]);
+        let passes = |probe: &Vertex| span.is_near(*probe, PASSED, PASSED_CLEARANCE);
+        let held = next - last <= MOST_PASSED && vertices[last + 1..next].iter().all(passes);
+        if !held {
+            // The curve to the vertex before this one held all between.
+            kept += 1;
+            last = next - 1;
+            vertices[kept] = vertices[last];
+        }
+    }
+    if vertices.len() > 1 {
+        let end = vertices[vertices.len() - 1];
+        vertices.truncate(kept + 1);
+        vertices.push(end);
+    }
+    vertices.shrink_to_fit();
+}
+
 /// Samples along all vertices, so dense that chords follow the curves between them.
 pub(super) fn samples(vertices: &[Vertex]) -> Vec<Sample> {
     let Some(first) = vertices.first() else { return Vec::new() };
@@ -252,6 +285,24 @@ mod tests {
         }
         let least = samples.iter().map(|sample| sample.clearance).fold(f64::INFINITY, f64::min);
         assert!((least - 2e5).abs() <= CLEARANCE_CHORD, "the narrowest place is seen: {least}");
+    }
+
+    #[test]
+    fn vertices_on_one_curve_are_thinned_and_corners_are_kept() {
+        let mut vertices: Vec<Vertex> =
+            (-20..=20_i32).map(|i| on_parabola(f64::from(i) * 1e4, 3e5)).collect();
+        vertices.push(Vertex::new(Spot::new(1e6, 0.0), 1e5));
+        vertices.push(Vertex::new(Spot::new(1e6, 1e6), 1e5));
+        let all = vertices.clone();
+        thin(&mut vertices);
+        assert!(vertices.len() < 9, "{} of {} vertices", vertices.len(), all.len());
+        assert!(vertices.ends_with(&all[40..]), "the corner and the end: {vertices:?}");
+        assert_eq!(vertices[0], all[0], "the start");
+        let spans: Vec<Span> = vertices.windows(2).map(|pair| Span::new(pair[0], pair[1])).collect();
+        for vertex in &all[1..40] {
+            let is_passed = spans.iter().any(|span| span.is_near(*vertex, PASSED, PASSED_CLEARANCE));
+            assert!(is_passed || vertices.contains(vertex), "still on the way: {vertex:?}");
+        }
     }
 
     #[test]

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 use rustc_hash::FxHashMap;
 
-use super::span::Vertex;
+use super::span::{self, Vertex};
 use super::trace::{Corner, Piece, Traced};
 
 /// An edge of the graph before fitting: its vertices from node to node, or round.
@@ -201,6 +201,7 @@ impl Stitcher {
                 vertices.extend(link.vertices.iter().skip(skip));
             }
         }
+        span::thin(&mut vertices);
         self.lines.push((Rank { is_loop, piece: number }, Line { vertices, left, right, ends }));
     }
 }
