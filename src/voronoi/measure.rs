@@ -13,8 +13,6 @@ impl Boundaries {
     }
 
     /// The area of each of the first `nets` nets' regions, in square nanometres.
-    ///
-    /// Regions must be closed: along an outline, which [`Diagram`](super::Diagram) does not follow exactly, areas are as coarse as its pixels.
     #[must_use]
     pub fn areas(&self, nets: usize) -> Vec<f64> {
         let mut areas = vec![0.0; nets];

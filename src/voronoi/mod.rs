@@ -12,6 +12,7 @@
 //! Only tiles that a boundary may cross are drawn, each on a worker that at once traces and places what it sees; no stage holds a
 //! picture of the whole board. Labels are sites, so a pixel names the feature that it is nearest to, and placing costs a few distances.
 
+mod artifact;
 mod copper;
 mod cross;
 mod edge;
@@ -24,6 +25,7 @@ pub mod paper;
 mod passes;
 mod place;
 mod plane;
+mod rim;
 mod seed;
 mod site;
 mod span;
@@ -333,7 +335,7 @@ impl Diagram {
         self.sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
     }
 
-    /// The boundaries between all regions, with what could not be placed.
+    /// The boundaries between all regions, with what could not be placed and what was too small to be cut.
     #[must_use]
     pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
         if let Some(mixed) = &self.mixed {
@@ -344,6 +346,9 @@ impl Diagram {
         let unplaced = stitcher.unplaced;
         let mut lines = stitcher.lines();
         let unplaced = unplaced + self.extend_tips(&mut lines);
+        let sizes = artifact::Sizes { stub: self.settings.tolerance / 2, sliver: self.grid.pitch() * 2 };
+        warnings.extend(sizes.merge(&mut lines));
+        self.border.follow(&mut lines, self.grid.pitch());
         if unplaced > 0 {
             let message = format!(
                 "{} boundary points kept their pixel's place, up to {:.3} mm off: use smaller pixels to place them exactly",

@@ -2,8 +2,8 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
-use voromill::board::{Axis, Copper, Feature, Shape, Side};
-use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
+use voromill::board::{Axis, Copper, Feature, Outline, Shape, Side};
+use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn, Vector};
 use voromill::topology::{self, Method, Nets};
 use voromill::voronoi::{Boundaries, Boundary, Diagram, Owner, Settings, SiteKind, Widening};
 
@@ -160,6 +160,26 @@ fn a_net_inside_another_has_a_loop() {
     let (nets, found) = boundaries(&copper, &Settings::default());
     assert_eq!(found.edges.iter().filter(|edge| !edge.is_border()).count(), 1, "one loop");
     assert!(worst(&copper, &nets, &found, None) < 2_000.0, "off centre");
+}
+
+#[test]
+fn boundaries_along_an_outline_have_its_corners() {
+    let corners =
+        [at(-1500, -1500), at(5500, -1500), at(5500, 2000), at(3000, 2000), at(3000, 3500), at(-1500, 3500)];
+    let lap = Path::polyline(corners.into_iter().chain([corners[0]])).expect("six corners");
+    let outline = Outline::new(vec![lap]);
+    let copper = layer([disc(0, 0, 500), disc(4000, 0, 500), disc(0, 2600, 400)]);
+    let nets = topology::recover(&copper, Method::Contact);
+    let settings = Settings { overlap: Nm::ZERO, ..Settings::default() };
+    let diagram = Diagram::new(&copper, &nets, outline.as_ref(), &settings).expect("a diagram");
+    let (found, warnings) = diagram.boundaries();
+    assert!(warnings.is_empty(), "{warnings:?}");
+    assert_euler(&found, 3);
+    let border = found.edges.iter().filter(|edge| edge.is_border());
+    let length: f64 = border.map(|edge| edge.path.length()).sum();
+    assert!((length - 24e6).abs() < 100.0, "once round is 24 mm, not {length} nm");
+    let area: f64 = found.areas(3).iter().sum();
+    assert!((area - (35.0 - 3.75) * 1e12).abs() < 1e9, "all regions fill the board: {area} nm²");
 }
 
 #[test]
@@ -364,6 +384,104 @@ fn shape() -> impl Strategy<Value = Shape> {
             Polygon::rectangle(Rect::new(at(x, y), at(x + w, y + h)))
         )),
     ]
+}
+
+/// The cells that a flood from copper goes through, where cuts are as wide as a cell and a half; their side in nanometres is `CELL`.
+struct Flood {
+    columns: i64,
+    rows: i64,
+    origin: Point,
+    /// The net whose copper a cell's centre lies on, counted from 1; [`Flood::CUT`] where a cut passes.
+    cells: Vec<u32>,
+}
+
+impl Flood {
+    const CELL: i64 = 20_000;
+    const CUT: u32 = u32::MAX;
+
+    /// The copper of a layer within `window`, cut along all edges.
+    fn new(copper: &Copper, nets: &Nets, found: &Boundaries, window: Rect) -> Self {
+        let count = |extent: Nm| extent.get() / Self::CELL + 1;
+        let (columns, rows) = (count(window.width()), count(window.height()));
+        let cells = vec![0; usize::try_from(columns * rows).expect("a small window")];
+        let mut flood = Self { columns, rows, origin: window.min(), cells };
+        for (i, feature) in copper.features.iter().enumerate() {
+            flood.mark(&feature.shape, feature.shape.bounds(), nets.of(i).0 + 1);
+        }
+        for edge in &found.edges {
+            for pair in edge.path.flatten(Nm::new(1_000)).windows(2) {
+                let radius = Nm::new(Self::CELL * 3 / 4);
+                let cut = Shape::Stroke { from: pair[0], to: pair[1], radius };
+                flood.mark(&cut, Rect::new(pair[0], pair[1]).inflate(radius), Self::CUT);
+            }
+        }
+        flood
+    }
+
+    fn mark(&mut self, shape: &Shape, bounds: Rect, what: u32) {
+        let cell =
+            |p: Point| ((p.x - self.origin.x).get() / Self::CELL, (p.y - self.origin.y).get() / Self::CELL);
+        let ((x0, y0), (x1, y1)) = (cell(bounds.min()), cell(bounds.max()));
+        for y in y0.max(0)..=y1.min(self.rows - 1) {
+            for x in x0.max(0)..=x1.min(self.columns - 1) {
+                let center = self.origin + Vector::new(Nm::new(x * Self::CELL), Nm::new(y * Self::CELL));
+                let (px, py) = center.to_f64();
+                if oracle::distance(shape, px, py) <= 0.0 {
+                    self.cells[usize::try_from(y * self.columns + x).expect("in the window")] = what;
+                }
+            }
+        }
+    }
+
+    /// Two nets that no cut parts, if there are such.
+    fn joined(mut self) -> Option<(u32, u32)> {
+        for start in 0..self.cells.len() {
+            if self.cells[start] == Self::CUT {
+                continue;
+            }
+            let mut net = 0;
+            let mut open = vec![i64::try_from(start).expect("a small window")];
+            while let Some(at) = open.pop() {
+                let cell = &mut self.cells[usize::try_from(at).expect("in the window")];
+                let here = std::mem::replace(cell, Self::CUT);
+                if here == Self::CUT {
+                    continue;
+                }
+                if here != 0 && net != 0 && here != net {
+                    return Some((net, here));
+                }
+                net = net.max(here);
+                let (x, y) = (at % self.columns, at / self.columns);
+                let beside = [(x - 1, y), (x + 1, y), (x, y - 1), (x, y + 1)];
+                let inside =
+                    |&(x, y): &(i64, i64)| (0..self.columns).contains(&x) && (0..self.rows).contains(&y);
+                open.extend(beside.into_iter().filter(inside).map(|(x, y)| y * self.columns + x));
+            }
+        }
+        None
+    }
+}
+
+#[test]
+fn what_is_merged_leaves_no_nets_joined() {
+    let merged = std::cell::Cell::new(0);
+    in_random_scenes(5, 12, |copper, nets| {
+        let gap = topology::smallest_gap(copper, nets);
+        prop_assume!(gap.is_none_or(|gap| gap.width > Nm::from_um(80)));
+        let window = copper.bounds().expect("copper").inflate(Nm::from_mm(1));
+        // Large pixels, a large tolerance and a limit make many stubs and slivers.
+        for limit in [None, Some(Nm::from_um(150)), Some(Nm::from_um(400)), Some(Nm::from_um(700))] {
+            let settings = Settings { limit, tolerance: Nm::from_um(20), ..Settings::default() };
+            let diagram = Diagram::new(copper, nets, None, &settings).expect("a diagram");
+            let (found, warnings) = diagram.boundaries();
+            let some = warnings.iter().any(|warning| warning.code == "boundary-artifacts");
+            merged.set(merged.get() + u32::from(some));
+            let joined = Flood::new(copper, nets, &found, window).joined();
+            prop_assert!(joined.is_none(), "{:?} are joined with {:?}: {:?}", joined, limit, warnings);
+        }
+        Ok(())
+    });
+    assert!(merged.get() > 0, "something was merged in some scene");
 }
 
 /// Random scenes whose gaps are wide enough to be seen, the same on every run: a failure is met by whoever caused it.
