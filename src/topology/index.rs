@@ -6,13 +6,13 @@ use crate::geometry::Rect;
 
 /// Rectangles by place: a packed R-tree, filled once.
 #[derive(Debug)]
-pub(super) struct RectIndex {
+pub(crate) struct RectIndex {
     tree: StaticAABB2DIndex<i64>,
 }
 
 impl RectIndex {
     /// The index of `rects`, numbered as they come.
-    pub(super) fn new(rects: impl ExactSizeIterator<Item = Rect>) -> Self {
+    pub(crate) fn new(rects: impl ExactSizeIterator<Item = Rect>) -> Self {
         let mut builder = StaticAABB2DIndexBuilder::new(rects.len());
         for rect in rects {
             let (min, max) = (rect.min(), rect.max());
@@ -24,6 +24,17 @@ impl RectIndex {
     /// The numbers of all rectangles, neighbours close to each other: the order in which to ask about all of them.
     pub(super) fn order(&self) -> &[usize] {
         self.tree.item_indices()
+    }
+
+    /// The numbers of all rectangles that share a point with `window`, in order.
+    pub(crate) fn touching(&self, window: Rect) -> Vec<usize> {
+        let mut found = Vec::new();
+        let _ = self.visit(window, &mut Vec::new(), |number| {
+            found.push(number);
+            ControlFlow::Continue(())
+        });
+        found.sort_unstable();
+        found
     }
 
     /// Calls `visit` with the number of every rectangle that shares a point with `window`, until it breaks.

@@ -38,6 +38,7 @@ mod translucency;
 pub use differences::{Differences, Missed, Reason, differences};
 pub use electrical::{Electrical, ElectricalNet, electrical};
 pub use gap::{Gap, smallest_gap};
+pub(crate) use index::RectIndex;
 pub use names::{islands_of_names, names_check};
 pub use nets::{Net, NetId, Nets};
 pub use proximity::{Near, Proximity};

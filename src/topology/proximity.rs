@@ -32,9 +32,18 @@ impl Proximity {
     /// Every feature within `reach` of `shape`, by its index.
     #[must_use]
     pub fn near(&self, shape: &Shape, reach: Nm) -> Vec<Near> {
+        self.near_of(shape, reach, |_| true)
+    }
+
+    /// The same of the features whose index is `wanted`.
+    #[must_use]
+    pub fn near_of(&self, shape: &Shape, reach: Nm, wanted: impl Fn(usize) -> bool) -> Vec<Near> {
         let body = Body::new(shape);
         let (mut found, mut scratch) = (Vec::new(), Scratch::default());
         let _ = self.bodies.index.visit(body.bounds().inflate(reach), &mut Vec::new(), |feature| {
+            if !wanted(feature) {
+                return ControlFlow::Continue(());
+            }
             let place = body.narrowest(&self.bodies.bodies[feature], reach, &mut scratch);
             found.extend(place.map(|place| Near { feature, width: place.width, at: place.at }));
             ControlFlow::Continue(())

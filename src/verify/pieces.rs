@@ -144,6 +144,11 @@ impl Joiner {
         }
     }
 
+    /// The runs of the row that was taken last, each with what stands for its region; see [`find`](Self::find).
+    pub(super) fn last(&self) -> &[(Run, u32)] {
+        &self.above
+    }
+
     /// Takes the next row, the one below the row before.
     pub(super) fn row(&mut self, row: u32, runs: &[Run]) {
         let above = std::mem::take(&mut self.above);
@@ -177,7 +182,8 @@ impl Joiner {
         own
     }
 
-    fn find(&mut self, mut node: u32) -> u32 {
+    /// The piece that a region belongs to, as far as rows were taken.
+    pub(super) fn find(&mut self, mut node: u32) -> u32 {
         while self.nodes[node as usize].parent != node {
             let above = self.nodes[self.nodes[node as usize].parent as usize].parent;
             self.nodes[node as usize].parent = above;

@@ -13,14 +13,14 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use rayon::prelude::*;
 
-use crate::board::{FLATTEN, Shape, polarity};
+use crate::board::polarity;
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::topology::NetId;
 
 use super::Settings;
 use super::hit::Hit;
-use super::machining::with_radius;
-use super::sheet::{Cut, Sheet};
+use super::parting::may_part;
+use super::sheet::Sheet;
 
 /// What is left where it is not beyond doubt.
 #[derive(Debug, Default)]
@@ -89,17 +89,16 @@ struct Doubt {
 }
 
 /// In shares of a crumb, the copper of a net in the picture from which on a piece is in doubt. Chosen: pixels are coarse.
-const HINT: f64 = 0.1;
+pub(super) const HINT: f64 = 0.1;
 
 impl Remains {
     pub(super) fn new(sheet: &Sheet<'_>, settings: &Settings) -> Self {
-        let bounds: Vec<Rect> = sheet.cuts.par_iter().map(|cut| cut.swept.shape.bounds()).collect();
         let mut doubts: Vec<Doubt> = Vec::new();
-        for doubt in doubts_of(sheet, &bounds, settings) {
+        for doubt in doubts_of(sheet, settings) {
             merge(&mut doubts, doubt);
         }
         let looked_at: Vec<Self> =
-            doubts.par_iter().map(|doubt| Self::within(sheet, &bounds, doubt, settings)).collect();
+            doubts.par_iter().map(|doubt| Self::within(sheet, doubt, settings)).collect();
         let mut all = Self::default();
         for mut remains in looked_at {
             all.joined.append(&mut remains.joined);
@@ -109,9 +108,9 @@ impl Remains {
     }
 
     /// What is left in a part of the board.
-    fn within(sheet: &Sheet<'_>, bounds: &[Rect], doubt: &Doubt, settings: &Settings) -> Self {
+    fn within(sheet: &Sheet<'_>, doubt: &Doubt, settings: &Settings) -> Self {
         let bounded = |polygon: Polygon| (polygon.bounds(), polygon);
-        let kerfs: Vec<(Rect, Polygon)> = kerfs(sheet, bounds, doubt.rect).into_iter().map(bounded).collect();
+        let kerfs: Vec<(Rect, Polygon)> = kerfs(sheet, doubt.rect).into_iter().map(bounded).collect();
         let ground = sheet.ground(doubt.rect);
         let clad: Vec<(Rect, Polygon)> = left(&ground, &kerfs).into_iter().map(bounded).collect();
         let within = Within { rect: doubt.rect, ground, kerfs, clad };
@@ -130,7 +129,7 @@ impl Remains {
 }
 
 /// What the picture leaves in doubt.
-fn doubts_of(sheet: &Sheet<'_>, bounds: &[Rect], settings: &Settings) -> Vec<Doubt> {
+fn doubts_of(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Doubt> {
     let mut doubts = Vec::new();
     let mut reach: BTreeMap<NetId, Rect> = BTreeMap::new();
     for parts in sheet.parts.chunk_by(|a, b| a.piece == b.piece) {
@@ -149,11 +148,8 @@ fn doubts_of(sheet: &Sheet<'_>, bounds: &[Rect], settings: &Settings) -> Vec<Dou
         }
     }
     let hits: Vec<&[Hit]> = sheet.hits.chunk_by(|a, b| a.net == b.net).collect();
-    let parted: Vec<NetId> = hits
-        .into_par_iter()
-        .filter(|hits| may_part(sheet, bounds, hits, settings))
-        .map(|hits| hits[0].net)
-        .collect();
+    let parted: Vec<NetId> =
+        hits.into_par_iter().filter(|hits| may_part(sheet, hits, settings)).map(|hits| hits[0].net).collect();
     for net in parted {
         let nets = BTreeSet::from([net]);
         let features = sheet.nets.nets()[net.index()].features.iter();
@@ -177,84 +173,10 @@ fn merge(doubts: &mut Vec<Doubt>, mut doubt: Doubt) {
 
 /// How far curves are flattened where areas count: of a strip of a tenth of a millimetre that is a thousandth. Chosen.
 const FINE: Nm = Nm::new(50);
-/// Below this area, in mm², a piece at the edge of a window round a cut is nothing. Chosen: a hundredth of a millimetre square.
-const NOTHING: f64 = 1e-4;
-
-/// Whether cuts may part the copper of a net: the middle of one goes through it, or around some there are more pieces after than
-/// before.
-fn may_part(sheet: &Sheet<'_>, bounds: &[Rect], hits: &[Hit], settings: &Settings) -> bool {
-    hits.iter().any(|hit| hit.through)
-        || windows(bounds, hits).into_par_iter().any(|rect| parts(sheet, bounds, hits[0].net, rect, settings))
-}
-
-/// Windows that hold what these cuts take, each of a few cuts that follow one another.
-fn windows(bounds: &[Rect], hits: &[Hit]) -> Vec<Rect> {
-    let is_small = |rect: Rect| rect.width().max(rect.height()) <= WINDOW;
-    let mut windows: Vec<Rect> = Vec::new();
-    for rect in hits.iter().map(|hit| bounds[hit.cut]) {
-        match windows.last_mut() {
-            Some(last) if is_small(last.union(rect)) => *last = last.union(rect),
-            _ => windows.push(rect),
-        }
-    }
-    windows
-}
-
-/// How large a window is, unless a single cut is larger. Chosen: a few pieces of a cut.
-const WINDOW: Nm = Nm::from_mm(1);
-/// How far curves are flattened where only pieces are counted; kerfs are wider by twice as much, so that none is too narrow.
-const COARSE: Nm = Nm::from_um(1);
-
-/// Whether within a window there are more pieces of a net after the cuts than before. Crumbs do not count, unless the window cuts
-/// them off from more.
-fn parts(sheet: &Sheet<'_>, bounds: &[Rect], net: NetId, cut: Rect, settings: &Settings) -> bool {
-    let rect = cut.inflate(sheet.half * 2);
-    let kerfs = rough_kerfs(sheet, bounds, rect);
-    let inner = rect.inflate(-EDGE);
-    let counts = |piece: &&Polygon| {
-        let (area, bounds) = (piece.area_mm2(), piece.bounds());
-        let at_edge = !(inner.contains(bounds.min()) && inner.contains(bounds.max()));
-        area >= settings.crumb * HINT || (at_edge && area >= NOTHING)
-    };
-    let pieces = |whole: &Polygon| polarity::difference(whole, &kerfs).iter().filter(counts).count();
-    copper(sheet, net, rect, COARSE).iter().filter(counts).any(|whole| pieces(whole) != 1)
-}
-
-/// This near to the edge of a window is at it.
-const EDGE: Nm = Nm::new(10);
-
 /// The kerfs that touch `rect`.
-fn kerfs(sheet: &Sheet<'_>, bounds: &[Rect], rect: Rect) -> Vec<Polygon> {
-    let near: Vec<usize> = (0..bounds.len()).filter(|&cut| bounds[cut].touches(rect)).collect();
+fn kerfs(sheet: &Sheet<'_>, rect: Rect) -> Vec<Polygon> {
+    let near = sheet.places.cuts.touching(rect);
     near.par_iter().filter_map(|&cut| sheet.cuts[cut].swept.shape.polygon(FINE)).collect()
-}
-
-/// The same but roughly: a little wider, and arcs as chords, each with its own kerf.
-fn rough_kerfs(sheet: &Sheet<'_>, bounds: &[Rect], rect: Rect) -> Vec<Polygon> {
-    let near = bounds.iter().zip(&sheet.cuts).filter(|(bounds, _)| bounds.touches(rect));
-    let wider = |cut: &Cut<'_>| {
-        let radius = cut.swept.half() + COARSE * 2;
-        match &cut.swept.shape {
-            Shape::Arc { arc, .. } => {
-                let points: Vec<Point> = std::iter::once(arc.start).chain(arc.flatten(COARSE)).collect();
-                let chord = |pair: &[Point]| Shape::Stroke { from: pair[0], to: pair[1], radius };
-                points.windows(2).filter(|pair| pair[0] != pair[1]).map(chord).collect()
-            }
-            other => vec![with_radius(other, radius)],
-        }
-    };
-    near.flat_map(|(_, cut)| wider(cut)).filter_map(|shape| shape.polygon(COARSE)).collect()
-}
-
-/// The copper of a net that cuts take away, in mm².
-pub(super) fn lost(sheet: &Sheet<'_>, hits: &[Hit]) -> f64 {
-    let kerf = |hit: &Hit| sheet.cuts[hit.cut].swept.shape.polygon(FLATTEN);
-    let kerfs: Vec<Polygon> = hits.iter().filter_map(kerf).collect();
-    let Some(rect) = kerfs.iter().map(Polygon::bounds).reduce(Rect::union) else { return 0.0 };
-    let whole = copper(sheet, hits[0].net, rect, FLATTEN);
-    let area = |polygons: &[Polygon]| polygons.iter().map(Polygon::area_mm2).sum::<f64>();
-    let left = |whole: &Polygon| area(&polarity::difference(whole, &kerfs));
-    area(&whole) - whole.iter().map(left).sum::<f64>()
 }
 
 /// The copper of a net within `rect`, one polygon for each connected piece.

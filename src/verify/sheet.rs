@@ -6,11 +6,12 @@ use crate::board::{Board, Copper, FLATTEN, Shape, Side, polarity};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::grid::Grid;
 use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
-use crate::topology::{Method, NetId, Nets, Proximity, recover, surface};
+use crate::topology::{Method, NetId, Nets, Proximity, RectIndex, recover, surface};
 
 use super::hit::{Hit, hits};
 use super::machining::{Machining, Swept, with_radius};
-use super::pieces::{Extent, Part, pieces};
+use super::milled;
+use super::pieces::{Extent, Part};
 use super::remains::Remains;
 use super::walls::Walls;
 use super::{Error, Settings};
@@ -41,8 +42,17 @@ pub(super) struct Sheet<'a> {
     pub(super) walls: Walls,
     /// Half the narrowest kerf.
     pub(super) half: Nm,
-    outline: Option<Polygon>,
-    grid: Grid,
+    pub(super) places: Places,
+    /// The board's edge, where it is known.
+    pub(super) outline: Option<Polygon>,
+    /// The pixels of its picture.
+    pub(super) grid: Grid,
+}
+
+/// Where cuts and features lie, by their bounds.
+pub(super) struct Places {
+    pub(super) cuts: RectIndex,
+    pub(super) features: RectIndex,
 }
 
 /// A piece of what is cut, and whose it is.
@@ -57,8 +67,6 @@ pub(super) struct Cut<'a> {
 pub(super) enum Show {
     /// What is left: nets, clad, cuts, the outside.
     Left,
-    /// The nets as designed, and the outside.
-    Design,
     /// How far it is to the way of the nearest cut, less what half its kerf has beyond half the narrowest.
     Ways,
     /// How far it is to the board's edge.
@@ -89,6 +97,10 @@ impl<'a> Sheet<'a> {
         let walls = Walls::new(&cuts, outline.as_ref());
         let area = area(copper, outline.as_ref(), &cuts, pitch);
         let grid = Grid::covering(area, pitch)?;
+        let places = Places {
+            cuts: RectIndex::new(cuts.iter().map(|cut| cut.swept.shape.bounds())),
+            features: RectIndex::new(copper.features.iter().map(|feature| feature.shape.bounds())),
+        };
         let mut sheet = Self {
             side: copper.side,
             copper,
@@ -100,20 +112,14 @@ impl<'a> Sheet<'a> {
             hits: Vec::new(),
             walls,
             half,
+            places,
             outline,
             grid,
         };
         sheet.hits = hits(&sheet, settings.gouge);
-        sheet.parts = sheet.pieces();
+        sheet.parts = milled::pieces(&sheet, Nm::from_f64(sheet.pitch().to_f64() * DOUBT));
         sheet.remains = Remains::new(&sheet, settings);
         Ok(sheet)
-    }
-
-    /// What hangs together with all kerfs narrower by [`DOUBT`] on either side.
-    fn pieces(&self) -> Vec<Part> {
-        let narrower = Nm::from_f64(self.pitch().to_f64() * DOUBT);
-        let scene = self.scene(&self.grid, Show::Left, -narrower);
-        pieces(&scene, |label| label != CUT && label != OUTSIDE)
     }
 
     /// The pixel of its picture.
@@ -133,6 +139,16 @@ impl<'a> Sheet<'a> {
             None => Polygon::rectangle(self.rect()).clipped(rect),
         };
         clipped.map_or(Vec::new(), |clipped| polarity::clean(clipped.contours()))
+    }
+
+    /// The copper of a net near `rect`; of polygons what lies within it.
+    pub(super) fn within(&self, net: NetId, rect: Rect) -> impl Iterator<Item = Shape> {
+        let features = self.places.features.touching(rect).into_iter();
+        let own = features.filter(move |&feature| self.nets.of(feature) == net);
+        own.filter_map(move |feature| match &self.copper.features[feature].shape {
+            Shape::Polygon(polygon) => polygon.clipped(rect).map(Shape::Polygon),
+            shape => Some(shape.clone()),
+        })
     }
 
     /// Whether a point lies on the board.
@@ -164,21 +180,18 @@ impl<'a> Sheet<'a> {
         let grid = Grid::covering(rect, pitch).expect("as many pixels as asked for");
         let draw = |show: &Show| {
             let mut buffers = Buffers::new();
-            render(&self.scene(&grid, *show, Nm::ZERO), &mut buffers);
+            render(&self.scene(&grid, *show), &mut buffers);
             buffers
         };
         (grid, show.iter().map(draw).collect())
     }
 
-    /// What is to be drawn on `grid`, all cuts wider by twice `wider`.
-    fn scene(&self, grid: &Grid, show: Show, wider: Nm) -> Scene {
+    /// What is to be drawn on `grid`.
+    fn scene(&self, grid: &Grid, show: Show) -> Scene {
         let mut scene = Scene::new(grid.width(), grid.height());
         if show == Show::Left {
-            for swept in self.cuts.iter().map(|cut| cut.swept) {
-                let shape = with_radius(&swept.shape, (swept.half() + wider).max(Nm::ZERO));
-                if shape.bounds().touches(grid.rect()) {
-                    scene.add(Label(CUT), surface(&shape, grid, Some(0.0)));
-                }
+            for index in self.places.cuts.touching(grid.rect()) {
+                scene.add(Label(CUT), surface(&self.cuts[index].swept.shape, grid, Some(0.0)));
             }
         }
         if show == Show::Ways {
@@ -187,12 +200,10 @@ impl<'a> Sheet<'a> {
                 scene.add(Label(CUT), surface(&shape, grid, None));
             }
         }
-        if matches!(show, Show::Left | Show::Design) {
-            for (index, feature) in self.copper.features.iter().enumerate() {
-                if feature.shape.bounds().touches(grid.rect()) {
-                    let label = Label(NETS + self.nets.of(index).0);
-                    scene.add(label, surface(&feature.shape, grid, Some(0.0)));
-                }
+        if show == Show::Left {
+            for index in self.places.features.touching(grid.rect()) {
+                let label = Label(NETS + self.nets.of(index).0);
+                scene.add(label, surface(&self.copper.features[index].shape, grid, Some(0.0)));
             }
         }
         if let Some(outline) = &self.outline {
@@ -211,7 +222,7 @@ impl<'a> Sheet<'a> {
                     scene.add(Label(OUTSIDE), surface(&edge, grid, None));
                 }
             }
-            Show::Left | Show::Design => {
+            Show::Left => {
                 let around = grid.rect().union(outline.bounds()).inflate(grid.pitch() * 4);
                 let mut contours = vec![around.corners().to_vec()];
                 contours.extend(outline.contours().iter().cloned());

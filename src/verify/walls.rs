@@ -56,8 +56,13 @@ impl Walls {
 
     /// The walls whose faces are within `reach` of `p`, the nearest first.
     pub(super) fn around(&self, p: Point, reach: Nm) -> Vec<Wall> {
+        self.around_of(p, reach, |_| true)
+    }
+
+    /// The same of those that are `wanted`.
+    pub(super) fn around_of(&self, p: Point, reach: Nm, wanted: impl Fn(usize) -> bool) -> Vec<Wall> {
         let spot = Shape::Disc { center: p, radius: Nm::ZERO };
-        let near = self.near.near(&spot, self.widest + reach);
+        let near = self.near.near_of(&spot, self.widest + reach, wanted);
         let wall = |near: &crate::topology::Near| Wall {
             index: near.feature,
             distance: near.width - self.halves[near.feature].to_f64(),
@@ -71,14 +76,19 @@ impl Walls {
 
     /// The point of a wall's axis nearest to a place within its kerf.
     pub(super) fn foot(&self, index: usize, p: Point) -> Point {
-        let walls = self.around(p, Nm::ZERO);
-        walls.iter().find(|wall| wall.index == index).map_or(p, |wall| wall.foot)
+        self.around_of(p, Nm::ZERO, |wall| wall == index).first().map_or(p, |wall| wall.foot)
     }
 
-    /// The walls whose faces come within `reach` of that of wall `index`: which, how far, and the middle between the axes.
-    pub(super) fn beside(&self, index: usize, reach: Nm) -> Vec<(usize, Neck)> {
+    /// The walls that are `wanted` and whose faces come within `reach` of that of wall `index`: which, how far, and the middle between
+    /// the axes.
+    pub(super) fn beside(
+        &self,
+        index: usize,
+        reach: Nm,
+        wanted: impl Fn(usize) -> bool,
+    ) -> Vec<(usize, Neck)> {
         let own = self.halves[index];
-        let near = self.near.near(&self.axes[index], own + self.widest + reach);
+        let near = self.near.near_of(&self.axes[index], own + self.widest + reach, wanted);
         let gap = |near: crate::topology::Near| {
             let width = near.width - (own + self.halves[near.feature]).to_f64();
             (near.feature, Neck { at: near.at, width })
@@ -98,7 +108,7 @@ impl Walls {
             if here.width < best.width {
                 best = here;
             }
-            let facing = self.beside(one, reach + reach).into_iter().find(|(index, _)| *index == other);
+            let facing = self.beside(one, reach + reach, |wall| wall == other).pop();
             // Two ways that meet elsewhere say nothing about this place.
             let Some((_, neck)) = facing.filter(|(_, neck)| neck.at.distance(p) <= room.to_f64()) else {
                 break;

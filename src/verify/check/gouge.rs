@@ -19,7 +19,7 @@ use crate::geometry::Nm;
 use crate::verify::Settings;
 use crate::verify::hit::{Hit, clusters};
 use crate::verify::interior::{Deepest, Interior};
-use crate::verify::remains::lost;
+use crate::verify::loss::lost;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 

@@ -9,20 +9,21 @@
 //!
 //! # What it can miss
 //!
-//! It looks across at the deepest place of each cut, in a picture with pixels of 5 µm and 0.6 mm to each side: what
-//! was wider than that is not narrow. Where the cutter's middle goes through a net, `gouge` and `open` tell of it.
+//! It looks straight across at the deepest place of each cut, no farther than 0.6 mm: what was wider than that is not narrow. Where the cutter's middle goes through a net, `gouge` and `open` tell of it.
 
+use std::borrow::Borrow;
 use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
 use super::{Check, Run, Severity};
+use crate::board::Shape;
 use crate::geometry::{Nm, Point, Rect};
-use crate::grid::Grid;
 use crate::topology::NetId;
 use crate::verify::hit::Hit;
 use crate::verify::report::Finding;
-use crate::verify::sheet::{NETS, Sheet, Show};
+use crate::verify::ruling::Ruling;
+use crate::verify::sheet::Sheet;
 
 pub(super) const CHECK: Check = Check {
     name: NAME,
@@ -34,8 +35,8 @@ const NAME: &str = "minimum-width";
 
 /// How far it looks. Chosen: wider than most traces.
 const AROUND: Nm = Nm::from_um(600);
-/// The pixel.
-const PITCH: Nm = Nm::from_um(5);
+/// So much further in than a face is, in nanometres, is behind it: places are whole nanometres. Chosen.
+const BEHIND: f64 = 1_000.0;
 /// Places of a net that are looked at, the deepest first. Chosen: a net so often cut has other findings.
 const PLACES: usize = 8;
 
@@ -77,37 +78,46 @@ fn across(sheet: &Sheet<'_>, hit: &Hit) -> Option<Width> {
     if length < 1.0 {
         return None;
     }
-    let (ux, uy) = (dx.to_f64() / length, dy.to_f64() / length);
-    let place = Rect::new(foot, foot).inflate(AROUND + swept.half());
-    let (grid, pictures) = sheet.window(place, PITCH, 1000, &[Show::Left, Show::Design]);
-    let label = hit.net.0 + NETS;
-    let (x, y) = foot.to_f64();
-    let at = |way: f64| Point::from_f64(x + ux * way, y + uy * way);
-    let run = |labels: &[u32], from: f64, step: f64| {
-        let most = (AROUND.to_f64() / step.abs()).ceil();
-        let mut count = 0.0;
-        while count < most && label_at(&grid, labels, at(from + step * count)) == Some(label) {
-            count += 1.0;
-        }
-        count * step.abs()
-    };
-    let (face, step) = (swept.half().to_f64(), PITCH.to_f64() / 2.0);
-    let left = run(pictures[0].labels(), face + step, step);
-    let designed = run(pictures[1].labels(), face - hit.depth + step * 2.0, step);
-    (designed + step < AROUND.to_f64()).then(|| Width {
+    let (share, (x, y)) = ((AROUND + swept.half()).to_f64() / length, foot.to_f64());
+    let far = Point::from_f64(x + dx.to_f64() * share, y + dy.to_f64() * share);
+    let ruling = Ruling::line(foot, far);
+    let near = Rect::new(foot, far).inflate(Nm::from_um(10));
+    let kerfs = sheet.places.cuts.touching(near).into_iter().map(|cut| &sheet.cuts[cut].swept.shape);
+    let (cut, copper) = (ruled(&ruling, kerfs), ruled(&ruling, sheet.within(hit.net, near)));
+    let board = sheet.outline.as_ref().and_then(|outline| outline.clipped(near)).map(Shape::Polygon);
+    let face = swept.half().to_f64();
+    let edge = face - hit.depth;
+    let brink = end(&ruled(&ruling, board.into_iter()), edge + BEHIND).unwrap_or(f64::INFINITY);
+    let designed = end(&copper, edge + BEHIND)?.min(brink) - edge;
+    let reached = end(&cut, face - BEHIND).unwrap_or(face);
+    let next = cut.iter().map(|(from, _)| *from).find(|from| *from > reached).unwrap_or(brink);
+    let left = end(&copper, reached + BEHIND).map_or(0.0, |end| end.min(next).min(brink) - reached);
+    (designed < AROUND.to_f64()).then(|| Width {
         hit: *hit,
         left: Nm::from_f64(left),
         designed: Nm::from_f64(designed),
     })
 }
 
-fn label_at(grid: &Grid, labels: &[u32], p: Point) -> Option<u32> {
-    let corner = grid.corner(0, 0);
-    let (column, row) =
-        ((p.x - corner.x).get() / grid.pitch().get(), (corner.y - p.y).get() / grid.pitch().get());
-    let (column, row) = (usize::try_from(column).ok()?, usize::try_from(row).ok()?);
-    let width = grid.width() as usize;
-    (column < width).then(|| labels.get(row * width + column).copied()).flatten()
+/// Where a line runs through shapes, from the first stretch to the last, none touching another.
+fn ruled(ruling: &Ruling, shapes: impl Iterator<Item = impl Borrow<Shape>>) -> Vec<(f64, f64)> {
+    let mut stretches = Vec::new();
+    shapes.for_each(|shape| ruling.rule(shape.borrow(), 0..1, &mut |_, from, to| stretches.push((from, to))));
+    stretches.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    // What is less than a micrometre apart touches.
+    stretches.dedup_by(|next, last| {
+        let touch = next.0 <= last.1 + BEHIND;
+        if touch {
+            last.1 = last.1.max(next.1);
+        }
+        touch
+    });
+    stretches
+}
+
+/// Where the stretch ends that holds a place.
+fn end(stretches: &[(f64, f64)], place: f64) -> Option<f64> {
+    stretches.iter().find(|(from, to)| *from <= place && place <= *to).map(|(_, to)| *to)
 }
 
 fn finding(sheet: &Sheet<'_>, width: &Width) -> Finding {

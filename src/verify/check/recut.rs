@@ -65,13 +65,10 @@ fn samples(cut: &Cut<'_>) -> Vec<(Point, f64)> {
 fn is_cut(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, at: Point) -> bool {
     let half = cut.swept.half();
     // As far from the face as a quarter of the kerf beside the middle is.
-    sheet.walls.around(at, -(half / 2)).into_iter().any(|wall| {
-        let earlier = sheet.cuts.get(wall.index).filter(|_| wall.index < index);
-        earlier.is_some_and(|earlier| {
-            let swept = earlier.swept;
-            let near = wall.distance <= (half / 2 - swept.half()).to_f64();
-            near && swept.depth >= cut.swept.depth - PASS && is_inside(&swept.shape, wall.foot)
-        })
+    sheet.walls.around_of(at, -(half / 2), |wall| wall < index).into_iter().any(|wall| {
+        let swept = sheet.cuts[wall.index].swept;
+        let near = wall.distance <= (half / 2 - swept.half()).to_f64();
+        near && swept.depth >= cut.swept.depth - PASS && is_inside(&swept.shape, wall.foot)
     })
 }
 

@@ -59,11 +59,9 @@ fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
 
 /// The thin places between a cut and those before it, or the board's edge.
 fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
-    let near = sheet.walls.beside(cut, sliver);
+    let near = sheet.walls.beside(cut, sliver, |other| other < cut || other >= sheet.cuts.len());
     // Of ways that follow one another one touches the other: what is between the first and the third is no strip.
-    let apart = near
-        .into_iter()
-        .filter(|(other, neck)| (*other < cut || *other >= sheet.cuts.len()) && neck.width > 0.0);
+    let apart = near.into_iter().filter(|(_, neck)| neck.width > 0.0);
     let is_clad = |neck: &Neck| {
         let spot = Shape::Disc { center: neck.at, radius: Nm::ZERO };
         let covered = sheet.walls.around(neck.at, Nm::ZERO).iter().any(|wall| wall.distance < 0.0);
@@ -80,8 +78,8 @@ fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
 
 /// The middle of what is left between a cut and the edge: the middle between the edge and the cutter's way lies in the kerf.
 fn at_edge(sheet: &Sheet<'_>, cut: usize, edge: usize, neck: Neck, sliver: Nm) -> Option<Neck> {
-    let walls = sheet.walls.around(neck.at, sheet.cuts[cut].swept.half() + sliver);
-    let foot = walls.iter().find(|wall| wall.index == edge)?.foot;
+    let reach = sheet.cuts[cut].swept.half() + sliver;
+    let foot = sheet.walls.around_of(neck.at, reach, |wall| wall == edge).first()?.foot;
     let ((x, y), way, length) = (foot.to_f64(), neck.at - foot, neck.at.distance(foot));
     let part = neck.width / 2.0 / length;
     let at = Point::from_f64(x + way.x.to_f64() * part, y + way.y.to_f64() * part);
@@ -92,8 +90,7 @@ fn at_edge(sheet: &Sheet<'_>, cut: usize, edge: usize, neck: Neck, sliver: Nm) -
 fn length(sheet: &Sheet<'_>, cut: usize, other: usize, sliver: Nm) -> f64 {
     let swept = sheet.cuts[cut].swept;
     let is_near = |&(at, _): &(Point, f64)| {
-        let walls = sheet.walls.around(at, swept.half() + sliver);
-        walls.iter().any(|wall| wall.index == other)
+        !sheet.walls.around_of(at, swept.half() + sliver, |wall| wall == other).is_empty()
     };
     along(&swept.shape, PLACES).iter().filter(|place| is_near(place)).map(|(_, length)| length).sum()
 }

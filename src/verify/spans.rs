@@ -1,0 +1,204 @@
+//! Rows of pixels whose centres lie in shapes, as runs.
+
+use std::ops::Range;
+
+use crate::board::Shape;
+use crate::grid::Grid;
+
+use super::pieces::Run;
+use super::ruling::Ruling;
+
+/// Runs of pixels in some rows of a grid.
+pub(super) struct Spans {
+    ruling: Ruling,
+    pitch: f64,
+    width: u32,
+    first: u32,
+    rows: Vec<Vec<Run>>,
+}
+
+impl Spans {
+    /// Nothing yet, in `rows` of `grid`.
+    pub(super) fn new(grid: &Grid, rows: Range<u32>) -> Self {
+        Self {
+            ruling: Ruling::rows(grid),
+            pitch: grid.pitch().to_f64(),
+            width: grid.width(),
+            first: rows.start,
+            rows: rows.map(|_| Vec::new()).collect(),
+        }
+    }
+
+    /// Adds the pixels of a shape.
+    pub(super) fn add(&mut self, shape: &Shape, label: u32) {
+        let Self { ruling, pitch, width, first, rows } = self;
+        let lines = i64::from(*first)..i64::from(*first) + i64::try_from(rows.len()).unwrap_or(0);
+        ruling.rule(shape, lines.clone(), &mut |line, from, to| {
+            let row = usize::try_from(line - lines.start).expect("one of these lines");
+            rows[row].extend(run(from / *pitch, to / *pitch, *width).map(|run| Run { label, ..run }));
+        });
+    }
+
+    /// Adds all pixels.
+    pub(super) fn fill(&mut self, label: u32) {
+        let whole = Run { start: 0, end: self.width, label };
+        self.rows.iter_mut().for_each(|row| row.push(whole));
+    }
+
+    /// Row by row, runs that share no pixel: see [`apart`].
+    pub(super) fn into_rows(self) -> impl Iterator<Item = Vec<Run>> {
+        self.rows.into_iter().map(apart)
+    }
+}
+
+/// The pixels of a row whose centres lie within a stretch of it; both in pixels.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the row")]
+fn run(from: f64, to: f64, width: u32) -> Option<Run> {
+    let column = |at: f64| at.clamp(0.0, f64::from(width)) as u32;
+    let (start, end) = (column((from - 0.5).ceil()), column((to - 0.5).floor() + 1.0));
+    (start < end).then_some(Run { start, end, label: 0 })
+}
+
+/// Runs from left to right that share no pixel: those of one label that touch as one; where labels overlap, the one that began first
+/// keeps the pixels.
+fn apart(mut runs: Vec<Run>) -> Vec<Run> {
+    runs.sort_unstable_by_key(|run| (run.start, run.label, run.end));
+    let mut apart: Vec<Run> = Vec::with_capacity(runs.len());
+    for run in runs {
+        match apart.last_mut() {
+            Some(last) if last.end >= run.end => {}
+            Some(last) if last.end >= run.start && last.label == run.label => last.end = run.end,
+            Some(&mut last) => apart.push(Run { start: run.start.max(last.end), ..run }),
+            None => apart.push(run),
+        }
+    }
+    apart
+}
+
+/// The same with what lies between them under `label`, in a row so wide.
+pub(super) fn filled(runs: &[Run], label: u32, width: u32) -> Vec<Run> {
+    let mut filled = Vec::with_capacity(runs.len() * 2 + 1);
+    let mut at = 0;
+    for &run in runs {
+        if at < run.start {
+            filled.push(Run { start: at, end: run.start, label });
+        }
+        filled.push(run);
+        at = run.end;
+    }
+    if at < width {
+        filled.push(Run { start: at, end: width, label });
+    }
+    filled
+}
+
+/// What `holes` leave of runs; both from left to right.
+pub(super) fn less(runs: &[Run], holes: &[Run]) -> Vec<Run> {
+    let mut left = Vec::with_capacity(runs.len() + holes.len());
+    let mut first = 0;
+    for &run in runs {
+        while holes.get(first).is_some_and(|hole| hole.end <= run.start) {
+            first += 1;
+        }
+        let mut at = run.start;
+        for hole in holes[first..].iter().take_while(|hole| hole.start < run.end) {
+            if at < hole.start {
+                left.push(Run { start: at, end: hole.start, ..run });
+            }
+            at = hole.end;
+        }
+        if at < run.end {
+            left.push(Run { start: at, ..run });
+        }
+    }
+    left
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
+
+    fn at(x: i64, y: i64) -> Point {
+        Point::new(Nm::from_um(x), Nm::from_um(y))
+    }
+
+    /// A picture of a shape as text, 16 by 8 pixels of 100 µm.
+    fn drawn(shape: &Shape) -> String {
+        let grid = Grid::covering(Rect::new(at(0, 0), at(1600, 800)), Nm::from_um(100)).expect("small");
+        let mut spans = Spans::new(&grid, 0..grid.height());
+        spans.add(shape, 1);
+        let row = |runs: Vec<Run>| {
+            let inside = |column: u32| runs.iter().any(|run| (run.start..run.end).contains(&column));
+            (0..grid.width()).map(|column| if inside(column) { '#' } else { '.' }).collect::<String>()
+        };
+        spans.into_rows().map(row).collect::<Vec<_>>().join("\n")
+    }
+
+    /// The same, pixel by pixel, by the distances of their centres.
+    fn expected(holds: impl Fn(f64, f64) -> bool) -> String {
+        let row = |row: u32| {
+            let inside =
+                |column: u32| holds(f64::from(column) * 100.0 + 50.0, 750.0 - f64::from(row) * 100.0);
+            (0..16).map(|column| if inside(column) { '#' } else { '.' }).collect::<String>()
+        };
+        (0..8).map(row).collect::<Vec<_>>().join("\n")
+    }
+
+    #[test]
+    fn a_stroke_holds_what_is_near_its_way() {
+        let radius = Nm::from_um(170);
+        let stroke = Shape::Stroke { from: at(300, 210), to: at(1250, 560), radius };
+        let near = |x: f64, y: f64| {
+            let share = ((x - 300.0) * 950.0 + (y - 210.0) * 350.0) / (950.0 * 950.0 + 350.0 * 350.0);
+            let share = share.clamp(0.0, 1.0);
+            let (dx, dy) = (x - 300.0 - 950.0 * share, y - 210.0 - 350.0 * share);
+            dx * dx + dy * dy < 170.0 * 170.0
+        };
+        assert_eq!(drawn(&stroke), expected(near), "a slanting stroke");
+    }
+
+    #[test]
+    fn an_arc_holds_what_is_near_it_whichever_way_it_turns() {
+        let (radius, center) = (Nm::from_um(110), at(800, 300));
+        let (start, end) = (at(1200, 300), at(400, 300));
+        let on = |x: f64, y: f64, above: bool| {
+            let (dx, dy) = (x - 800.0, y - 300.0);
+            let ring = ((dx * dx + dy * dy).sqrt() - 400.0).abs() < 110.0 && (dy > 0.0) == above;
+            let cap = |x0: f64| (x - x0) * (x - x0) + dy * dy < 110.0 * 110.0;
+            ring || cap(400.0) || cap(1200.0)
+        };
+        for (turn, above) in [(Turn::CounterClockwise, true), (Turn::Clockwise, false)] {
+            let arc = Arc { start, end, center, turn };
+            assert_eq!(drawn(&Shape::Arc { arc, radius }), expected(|x, y| on(x, y, above)), "{turn:?}");
+        }
+        let three_quarters = Arc { start, end: at(800, 700), center, turn: Turn::Clockwise };
+        let drawn = drawn(&Shape::Arc { arc: three_quarters, radius });
+        assert!(drawn.lines().nth(2).is_some_and(|row| row.starts_with("...####")), "left above:\n{drawn}");
+        assert!(drawn.lines().nth(2).is_some_and(|row| row.ends_with(".......")), "right above:\n{drawn}");
+    }
+
+    #[test]
+    fn a_polygon_holds_what_it_winds_round() {
+        let ring = |low: i64, high: i64| vec![at(low, 100), at(high, 100), at(high, 700), at(low, 700)];
+        let mut hole = ring(500, 900);
+        hole.reverse();
+        let polygon = Polygon::new(vec![ring(100, 1400), hole]).expect("a ring");
+        let row = ".####....#####..";
+        let rows = [vec!["................"], vec![row; 6], vec!["................"]].concat();
+        assert_eq!(drawn(&Shape::Polygon(polygon)), rows.join("\n"), "a frame");
+    }
+
+    #[test]
+    fn runs_are_parted_filled_and_taken_away() {
+        let run = |(start, end, label): (u32, u32, u32)| Run { start, end, label };
+        let told =
+            |runs: Vec<Run>| runs.iter().map(|run| (run.start, run.end, run.label)).collect::<Vec<_>>();
+        let runs = apart([(7, 9, 5), (0, 4, 5), (2, 6, 5), (5, 8, 6)].map(run).to_vec());
+        assert_eq!(told(runs.clone()), [(0, 6, 5), (6, 8, 6), (8, 9, 5)], "the first keeps its pixels");
+        assert_eq!(told(filled(&runs[..1], 0, 8)), [(0, 6, 5), (6, 8, 0)], "the rest of the row");
+        let holes = [(1, 2, 1), (5, 7, 1)].map(run);
+        let left = less(&runs, &holes);
+        assert_eq!(told(left), [(0, 1, 5), (2, 5, 5), (7, 8, 6), (8, 9, 5)], "with holes in them");
+    }
+}
