@@ -1,29 +1,136 @@
-//! Judging a board's programs beside making them: the bound is once the time.
+//! Judging a board's programs beside making them, in time and in memory: `cargo bench --bench verify [-- BOARD…]`.
+//!
+//! A plain program: each board is milled in one process, which writes the programs, and these are judged in another, so that the
+//! peak memory of each can be told. Both begin with the board as it was read. Times are CPU seconds of all threads, the least of
+//! several rounds. The boards are ours and, where there are some, those of `VOROMILL_BOARDS`.
+#![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
-use std::hint::black_box;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
-use criterion::{Criterion, criterion_group, criterion_main};
+use voromill::board::Board;
 use voromill::import::{self, Selection};
 use voromill::job::{self, Options, Settings};
+use voromill::verify::{self, Program, verify};
 
-fn boards(criterion: &mut Criterion) {
-    let mut group = criterion.benchmark_group("verify");
-    group.sample_size(10);
-    for name in ["blinker", "regulator", "qfn-breakout"] {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards").join(name);
-        let settings = Settings::resolve(Options::default()).expect("the defaults are valid");
-        let load = || import::load(std::slice::from_ref(&folder), &Selection::default()).expect("a fixture");
-        let job = job::mill(load(), &settings).expect("a fixture can be milled");
-        group.bench_function(format!("{name}/mill"), |bencher| {
-            bencher.iter_with_setup(load, |loaded| job::mill(black_box(loaded), &settings));
-        });
-        group.bench_function(format!("{name}/verify"), |bencher| {
-            bencher.iter(|| black_box(&job).verify(&settings));
-        });
+/// What a process is to do: `mill` or `judge`; the board is its first argument, the folder of programs the second.
+const TASK: &str = "VOROMILL_VERIFY_TASK";
+
+/// Rounds go on until they have taken so many CPU seconds, or there are enough of them.
+const ENOUGH: f64 = 0.5;
+const ROUNDS: u32 = 20;
+
+fn main() {
+    let arguments: Vec<String> =
+        std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    match std::env::var(TASK).as_deref() {
+        Ok("mill") => return mill(Path::new(&arguments[0]), Path::new(&arguments[1])),
+        Ok(_) => return judge(Path::new(&arguments[0]), Path::new(&arguments[1])),
+        Err(_) => {}
     }
-    group.finish();
+    println!("{:24} {:>9} {:>9} {:>6} {:>8} {:>8} {:>6}", "", "made, s", "judged, s", "", "MiB", "MiB", "");
+    let boards = boards().into_iter().filter(|(name, _)| arguments.is_empty() || arguments.contains(name));
+    for (name, board) in boards {
+        let folder = std::env::temp_dir().join(format!("voromill-verify-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder to write to");
+        let [made, judged] = ["mill", "judge"].map(|task| measured(task, &board, &folder));
+        std::fs::remove_dir_all(&folder).expect("ours");
+        let [time, memory] = [judged.0 / made.0, judged.1 / made.1];
+        println!(
+            "{name:24} {:9.4} {:9.4} {time:6.2} {:8.1} {:8.1} {memory:6.2}",
+            made.0, judged.0, made.1, judged.1
+        );
+    }
 }
 
-criterion_group!(benches, boards);
-criterion_main!(benches);
+/// Names and folders, ours first.
+fn boards() -> Vec<(String, PathBuf)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let theirs = std::env::var_os("VOROMILL_BOARDS").map_or(root.join("../shared/boards"), PathBuf::from);
+    let within = |folder: &Path, holds: &str| {
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.path());
+        let mut found: Vec<PathBuf> =
+            entries.filter(|path| path.is_dir() && path.join(holds).exists()).collect();
+        found.sort();
+        found
+    };
+    let ours = within(&root.join("fixtures/boards"), "");
+    let name = |path: PathBuf| Some((path.file_name()?.to_str()?.to_owned(), path));
+    ours.into_iter().chain(within(&theirs, "meta.json")).filter_map(name).collect()
+}
+
+/// CPU seconds and MiB of a task in a process of its own.
+fn measured(task: &str, board: &Path, folder: &Path) -> (f64, f64) {
+    let own = std::env::current_exe().expect("a program has a name");
+    let output = Command::new(own).env(TASK, task).arg(board).arg(folder).output().expect("it starts");
+    let told = String::from_utf8_lossy(&output.stdout);
+    let mut figures = told.split_whitespace().filter_map(|word| word.parse().ok());
+    match (figures.next(), figures.next()) {
+        (Some(seconds), Some(mib)) => (seconds, mib),
+        _ => panic!("{task} of {}: {}", board.display(), String::from_utf8_lossy(&output.stderr)),
+    }
+}
+
+/// Makes the programs, and writes them into `folder`.
+fn mill(board: &Path, folder: &Path) {
+    let settings = Settings::resolve(Options::default()).expect("the defaults");
+    let made = rounds(|| job::mill(load(board), &settings).expect("it is milled"));
+    for program in &made.programs {
+        let name = program.file_name(&made.board.name, &settings);
+        std::fs::write(folder.join(name), &program.text).expect("writable");
+    }
+}
+
+/// Judges the programs in `folder`.
+fn judge(board: &Path, folder: &Path) {
+    let mut paths: Vec<PathBuf> =
+        std::fs::read_dir(folder).expect("programs").flatten().map(|entry| entry.path()).collect();
+    paths.sort();
+    let program = |path: &PathBuf| Program {
+        file: path.display().to_string(),
+        text: std::fs::read_to_string(path).expect("it was written"),
+        ..Program::default()
+    };
+    let programs: Vec<Program> = paths.iter().map(program).collect();
+    let board: Board = load(board).board;
+    rounds(|| verify(&programs, &board, &[], &verify::Settings::default()).expect("it is judged"));
+}
+
+fn load(board: &Path) -> import::Loaded {
+    import::load(&[board.to_owned()], &Selection::default()).expect("a good board")
+}
+
+/// Does it several times, and prints the CPU seconds that the quickest took, and the peak memory in MiB.
+fn rounds<T>(work: impl Fn() -> T) -> T {
+    let (mut spent, mut least) = (0.0, f64::INFINITY);
+    let mut last = None;
+    for _ in 0..ROUNDS {
+        let start = cpu_seconds();
+        last = Some(work());
+        let took = cpu_seconds() - start;
+        spent += took;
+        least = least.min(took);
+        if spent >= ENOUGH {
+            break;
+        }
+    }
+    println!("{least:.6} {:.1}", peak_mib());
+    last.expect("at least one round")
+}
+
+/// What all threads of the process have computed so far. Rayon's threads live as long as it does.
+fn cpu_seconds() -> f64 {
+    let threads = std::fs::read_dir("/proc/self/task").expect("Linux").flatten();
+    let spent = |path: PathBuf| {
+        let told = std::fs::read_to_string(path.join("schedstat")).ok()?;
+        told.split_whitespace().next()?.parse::<f64>().ok()
+    };
+    threads.filter_map(|thread| spent(thread.path())).sum::<f64>() / 1e9
+}
+
+/// Peak resident memory of the process so far.
+fn peak_mib() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
+    let line = status.lines().find(|line| line.starts_with("VmHWM:")).expect("Linux");
+    line.split_whitespace().nth(1).and_then(|kib| kib.parse::<f64>().ok()).expect("a number") / 1024.0
+}
