@@ -9,9 +9,9 @@ use voromill::grid::Grid;
 use voromill::import::Loaded;
 use voromill::job::{self, Job, Settings};
 use voromill::report::document::WarningEntry;
-use voromill::report::picture::{self, Shown};
+use voromill::report::picture::{self, Depth, Shown};
 use voromill::report::svg::{self, Over};
-use voromill::report::translucent::translucent;
+use voromill::report::translucent::Translucent;
 use voromill::report::{Canvas, png, terminal};
 
 use super::config::Config;
@@ -258,12 +258,21 @@ impl Drawn {
         Ok(self.job.as_ref().and_then(|job| job.shown(self.side)).ok_or_else(|| no_copper(self.side))?)
     }
 
-    /// As a PNG, band by band where the stage is drawn in colours.
+    /// As a PNG, band by band.
     fn png(&self, grid: Grid) -> Result<Vec<u8>, Failure> {
         Ok(match self.stage {
-            Stage::Copper => png::grey(&grid, &picture::copper(self.copper()?, &grid)),
-            Stage::Depth => png::grey(&grid, &picture::depth(self.shown()?.diagram, &grid)),
-            Stage::Translucent => png::rgb(self.canvas(grid)?),
+            Stage::Copper => {
+                let copper = self.copper()?;
+                png::grey_bands(&grid, |band| picture::copper(copper, &band))
+            }
+            Stage::Depth => {
+                let depth = Depth::new(self.shown()?.diagram, &grid);
+                png::grey_bands(&grid, |band| depth.greys(&band))
+            }
+            Stage::Translucent => {
+                let translucent = self.translucent(&grid)?;
+                png::bands(&grid, |band| translucent.draw(band))
+            }
             Stage::Nets | Stage::Voronoi | Stage::Boundaries | Stage::Heat | Stage::Toolpath => {
                 let shown = self.shown()?;
                 png::bands(&grid, |band| self.stage.coloured(&shown, band))
@@ -275,12 +284,16 @@ impl Drawn {
     fn canvas(&self, grid: Grid) -> Result<Canvas, Failure> {
         Ok(match self.stage {
             Stage::Copper => Canvas::grey(grid, &picture::copper(self.copper()?, &grid)),
-            Stage::Depth => Canvas::grey(grid, &picture::depth(self.shown()?.diagram, &grid)),
-            Stage::Translucent => translucent(self.copper()?, &grid).map_err(job::Error::from)?,
+            Stage::Depth => Canvas::grey(grid, &Depth::new(self.shown()?.diagram, &grid).greys(&grid)),
+            Stage::Translucent => self.translucent(&grid)?.draw(grid),
             Stage::Nets | Stage::Voronoi | Stage::Boundaries | Stage::Heat | Stage::Toolpath => {
                 self.stage.coloured(&self.shown()?, grid)
             }
         })
+    }
+
+    fn translucent(&self, grid: &Grid) -> Result<Translucent<'_>, Failure> {
+        Ok(Translucent::new(self.copper()?, grid.pitch()).map_err(job::Error::from)?)
     }
 
     /// As lines and areas.

@@ -11,7 +11,7 @@ use crate::topology::{self, Nets};
 use crate::voronoi::{Boundaries, Diagram, Owner};
 
 use super::palette::{COLD, COPPER, CUT, EDGE, GROUND, HOLE, HOT, INK, RAPID, SUBSTRATE, WARM, tints, vivid};
-use super::{Canvas, Lettering, Rgb};
+use super::{Canvas, Lettering, Rgb, png};
 
 /// What was done to one side of a board, as far as a picture shows it.
 #[derive(Clone, Copy)]
@@ -38,7 +38,7 @@ pub struct Shown<'a> {
 #[must_use]
 pub fn copper(copper: &Copper, grid: &Grid) -> Vec<u8> {
     let mut scene = Scene::new(grid.width(), grid.height());
-    for feature in &copper.features {
+    for feature in copper.features.iter().filter(|feature| feature.shape.bounds().touches(grid.rect())) {
         scene.add(Label(1), topology::surface(&feature.shape, grid, Some(0.0)));
     }
     let mut buffers = Buffers::new();
@@ -115,14 +115,35 @@ fn dimmed(side: &Shown<'_>, grid: Grid) -> Canvas {
     canvas
 }
 
-/// How far each pixel is from copper: dark near it, light far from it.
-#[must_use]
-pub fn depth(diagram: &Diagram, grid: &Grid) -> Vec<u8> {
-    let depths = diagram.depths(grid);
-    let deepest = depths.iter().copied().filter(|depth| depth.is_finite()).fold(1.0_f32, f32::max);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 0..=255")]
-    let grey = |depth: f32| if depth.is_finite() { (depth / deepest * 255.0) as u8 } else { u8::MAX };
-    depths.into_iter().map(grey).collect()
+/// How far pixels are from copper: dark near it, light far from it, white where nothing is in reach.
+#[derive(Clone, Copy)]
+pub struct Depth<'a> {
+    diagram: &'a Diagram,
+    /// The farthest of all that are in reach, in pixels.
+    deepest: f32,
+}
+
+impl<'a> Depth<'a> {
+    /// The greys of a picture of `grid`, which is looked through band by band for its deepest pixel.
+    #[must_use]
+    pub fn new(diagram: &'a Diagram, grid: &Grid) -> Self {
+        let mut deepest = 1.0_f32;
+        png::each_band(grid, |band| {
+            let depths = diagram.depths(&band).into_iter().filter(|depth| depth.is_finite());
+            deepest = depths.fold(deepest, f32::max);
+        });
+        Self { diagram, deepest }
+    }
+
+    /// The pixels of a band of the picture, one byte each.
+    #[must_use]
+    pub fn greys(&self, band: &Grid) -> Vec<u8> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within 0..=255")]
+        let grey = |depth: f32| {
+            if depth.is_finite() { (depth / self.deepest * 255.0) as u8 } else { u8::MAX }
+        };
+        self.diagram.depths(band).into_iter().map(grey).collect()
+    }
 }
 
 /// Everything: regions, copper, cuts at their true width, holes; with the tool's way through the air where `rapids`.

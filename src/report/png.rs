@@ -15,12 +15,12 @@ const BAND: u32 = 240;
 ///
 /// No more than a band is ever held as pixels.
 pub fn bands(grid: &Grid, draw: impl Fn(Grid) -> Canvas) -> Vec<u8> {
-    encode(grid, ColorType::Rgb, |file| {
-        for top in (0..grid.height()).step_by(BAND as usize) {
-            let band = grid.rows(top, BAND.min(grid.height() - top));
-            file(&draw(band).into_rgb());
-        }
-    })
+    encode(grid, ColorType::Rgb, |file| each_band(grid, |band| file(&draw(band).into_rgb())))
+}
+
+/// The same in grey values, one byte a pixel of each band, row 0 on top.
+pub fn grey_bands(grid: &Grid, draw: impl Fn(Grid) -> Vec<u8>) -> Vec<u8> {
+    encode(grid, ColorType::Grayscale, |file| each_band(grid, |band| file(&draw(band))))
 }
 
 /// A picture as the bytes of a PNG file.
@@ -29,9 +29,11 @@ pub fn rgb(canvas: Canvas) -> Vec<u8> {
     encode(&grid, ColorType::Rgb, |file| file(&canvas.into_rgb()))
 }
 
-/// Grey values, one byte a pixel of `grid`, row 0 on top, as the bytes of a PNG file.
-pub fn grey(grid: &Grid, pixels: &[u8]) -> Vec<u8> {
-    encode(grid, ColorType::Grayscale, |file| file(pixels))
+/// Parts of `grid` as wide as it is, from the top.
+pub(super) fn each_band(grid: &Grid, mut take: impl FnMut(Grid)) {
+    for top in (0..grid.height()).step_by(BAND as usize) {
+        take(grid.rows(top, BAND.min(grid.height() - top)));
+    }
 }
 
 /// A file into which `paint` puts its pixels from the top.

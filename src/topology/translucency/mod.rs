@@ -76,7 +76,8 @@ impl Translucency {
     #[must_use]
     pub fn picture(&self, copper: &Copper, traces: &Nets, grid: &Grid) -> Vec<Colour> {
         let mut scene = Scene::new(grid.width(), grid.height());
-        for (index, feature) in copper.features.iter().enumerate() {
+        let features = copper.features.iter().enumerate();
+        for (index, feature) in features.filter(|(_, feature)| feature.shape.bounds().touches(grid.rect())) {
             // Label 0 is the background's.
             scene.add(Label(traces.of(index).0 + 1), surface(&feature.shape, grid, Some(0.0)));
         }
