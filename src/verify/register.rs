@@ -5,6 +5,8 @@
 //! until the least clearances are as large as they can be, which centres cuts between nets and loops round them alike. What drills is
 //! laid on the holes, what cuts out on the outline.
 
+use std::borrow::Cow;
+
 use rayon::prelude::*;
 
 use crate::board::{Board, Copper, Shape, Side};
@@ -44,7 +46,7 @@ struct Fit {
 /// Points that are looked at. Chosen: enough for one part of a millimetre square each on a small board.
 const POINTS: usize = 600;
 
-/// Finds how the board lies under `program`.
+/// Finds how the board lies under `program`; of several tiles, the first.
 ///
 /// # Errors
 ///
@@ -55,11 +57,15 @@ pub fn register(
     known: &Orientation,
     settings: &Settings,
 ) -> Result<Placement, Error> {
+    let laid = |degrees: f64| match settings.tiles {
+        Some(tiles) => Cow::Owned(tiles.lay(board, degrees)),
+        None => Cow::Borrowed(board),
+    };
     let mut best: Option<(Fit, Placement)> = None;
     for (degrees, mirror) in orientations(known, program.role) {
         let placement = Placement { degrees, shift: Vector::default(), mirror };
         let trial = trial(program, board, placement, settings)?;
-        let Some(fit) = lay(&trial, board) else { continue };
+        let Some(fit) = lay(&trial, &laid(degrees)) else { continue };
         // Of a board that is its own mirror image, the orientation that is likelier comes first, and stays.
         if best.is_none_or(|(best, _)| fit.score > best.score + best.score.abs() * 0.02) {
             best = Some((fit, trial.placement));
@@ -67,7 +73,7 @@ pub fn register(
     }
     let (fit, placement) = best.ok_or_else(|| Error::Unplaced(program.file.clone()))?;
     let trial = trial(program, board, placement, settings)?;
-    let fine = refine(&trial, board, fit.shift);
+    let fine = refine(&trial, &laid(placement.degrees), fit.shift);
     Ok(Placement { shift: whole(turned_by(fine, placement.degrees)), ..placement })
 }
 
