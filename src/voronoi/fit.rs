@@ -15,10 +15,10 @@ use super::span::{CHORD, Sample};
 const DIP: f64 = 2_000.0;
 /// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight. Chosen.
 const RADII: std::ops::Range<f64> = 5_000.0..2e8;
-/// The part of the tolerance that fitting uses. Chosen: with half, paths from two pictures of the same board differ by no more than the tolerance,
+/// The part of the tolerance that fitting uses. Chosen: with less than half, paths from two pictures of the same board differ by no more than the tolerance,
 /// and so do the distances to either side, for a point off the middle by t is nearer to one side than to the other by 2 t. At 1, that difference went
 /// beyond the tolerance at 12 % of the points of a dense board, at 0.6 at 1 %, for a sixth more segments.
-const SHARE: f64 = 0.5;
+const SHARE: f64 = 0.45;
 /// A minimum is looked for at most so many vertices apart; beyond, the search would become quadratic.
 const REACH: usize = 4096;
 
