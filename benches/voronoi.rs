@@ -26,8 +26,8 @@ use voromill::voronoi::{Diagram, Settings, fit_points};
 /// Names board and resolution to the process that measures them.
 const ONE: &str = "VOROMILL_VORONOI_ONE";
 const RESOLUTIONS: [i64; 4] = [250, 500, 1000, 2000];
-/// How often each stage is timed; the least counts.
-const ROUNDS: u32 = 3;
+/// Each stage is repeated for so many CPU seconds.
+const ENOUGH: f64 = 0.5;
 
 /// What is measured of one board at one resolution.
 struct Figures {
@@ -61,7 +61,7 @@ fn main() {
                 format!("{:.2} | {:.2}", all / before.seconds[3], found.peak / before.peak)
             });
             println!(
-                "| {board} | {dpi} | {regions:.4} | {placed:.4} | {fitted:.4} | {all:.4} | {:.1} | {growth} |",
+                "| {board} | {dpi} | {regions:.4} | {placed:.4} | {fitted:.5} | {all:.4} | {:.1} | {growth} |",
                 found.peak
             );
             before = Some(found);
@@ -91,16 +91,16 @@ fn one(board: &str, dpi: i64) {
     let settings = Settings { pitch: Nm::new(25_400_000 / dpi), ..Settings::default() };
     let diagram = || Diagram::new(copper, &nets, board.outline.as_ref(), &settings).expect("a diagram");
     // Boundaries first: what is asked for after them must not count as their peak.
-    let all = least(|| _ = black_box(diagram().boundaries()));
+    let all = mean(|| _ = black_box(diagram().boundaries()));
     let peak = peak_mib();
-    let regions = least(|| _ = black_box(diagram().pixels_drawn()));
+    let regions = mean(|| _ = black_box(diagram().pixels_drawn()));
     // With a tolerance of a nanometre every placed point is a vertex.
     let bare = Settings { tolerance: Nm::new(1), arcs: false, ..settings.clone() };
     let placed =
         Diagram::new(copper, &nets, board.outline.as_ref(), &bare).expect("a diagram").boundaries().0;
     let lines: Vec<Vec<Point>> = placed.edges.iter().map(|edge| edge.path.flatten(Nm::new(1))).collect();
     let fit = |line: &Vec<Point>| _ = black_box(fit_points(line.iter().copied(), settings.tolerance));
-    let fitted = least(|| lines.iter().for_each(fit));
+    let fitted = mean(|| lines.iter().for_each(fit));
     println!("{regions} {} {fitted} {all} {peak}", all - regions - fitted);
 }
 
@@ -118,14 +118,18 @@ fn load(board: &str) -> Board {
     loaded.board
 }
 
-/// CPU seconds of the fastest of some rounds.
-fn least(mut work: impl FnMut()) -> f64 {
-    let once = |_| {
-        let start = cpu_seconds();
+/// CPU seconds of a round, in the mean of as many as take half a second: the system counts in ticks of some milliseconds.
+fn mean(mut work: impl FnMut()) -> f64 {
+    let start = cpu_seconds();
+    let mut rounds = 0.0;
+    loop {
         work();
-        cpu_seconds() - start
-    };
-    (0..ROUNDS).map(once).fold(f64::INFINITY, f64::min)
+        rounds += 1.0;
+        let spent = cpu_seconds() - start;
+        if spent >= ENOUGH {
+            return spent / rounds;
+        }
+    }
 }
 
 /// CPU seconds of this thread so far, as Linux counts them.
