@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 
 use crate::geometry::{Nm, Point};
 
+use super::few::{FEW, shortest};
 use super::neighbours::Buckets;
 use super::step::Step;
 use super::tour::{End, Tour};
@@ -29,7 +30,8 @@ const IDLE: usize = 100;
 
 /// Improves an order of stretches with these `ends`, begun from `start`.
 pub(super) fn improve(legs: &mut Vec<Leg>, ends: &[[Point; 2]], start: Point, effort: Effort) {
-    if legs.len() < 2 {
+    if legs.len() <= FEW {
+        *legs = shortest(ends, start);
         return;
     }
     let home = u32::try_from(2 * ends.len()).expect("ends are numbered in 32 bits");
