@@ -140,11 +140,6 @@ class Pane {
   // What the machine has done up to now.
   drawWork() {
     const { on, player } = this.stage, context = this.work, seen = this.begin(context);
-    if (on.lines && !on.milled) {
-      context.strokeStyle = theme.tool;
-      context.lineWidth = 1.25 * this.pixel;
-      context.stroke(this.side.lines);
-    }
     if (on.drills) this.drawHoles(context);
     for (const program of this.programs) {
       const done = player.done(program);
@@ -160,6 +155,12 @@ class Pane {
       }
       if (isolates ? on.rapids : drills && on.drillPath) this.drawRapids(context, program, drills ? theme.path : theme.rapid);
       if (!isolates && !drills && on.rapids) this.drawRapids(context, program, theme.rapid);
+    }
+    // Over the cuts, which follow them.
+    if (on.lines && !on.milled) {
+      context.strokeStyle = theme.tool;
+      context.lineWidth = 1.25 * this.pixel;
+      context.stroke(this.side.lines);
     }
     if (on.heat) {
       context.lineWidth = Math.max(3 * this.pixel, this.side.kerf * 0.5);
