@@ -17,15 +17,13 @@ use super::near::{Near, rank};
 use super::plane::Spot;
 use super::seed::Sites;
 use super::site::{Form, Reach, Rings};
-use super::span::Vertex;
+use super::span::{LEVEL, Vertex};
 
 /// How close to the true place Newton's steps must come, in nanometres of distance difference.
 const SETTLED: f64 = 0.05;
 /// What a point may be off at the very most when its steps run out, in nanometres.
 const ACCEPTED: f64 = 5.0;
 const STEPS: usize = 8;
-/// Where the slope of an equation is less, it leads nowhere.
-const LEVEL: f64 = 1e-3;
 /// Where curves meet at an angle, pixels show the place off by the inverse of its sine; below this they are followed no further. Chosen: what lies
 /// farther away is found as the tip of a wedge.
 const SHALLOW: f64 = 0.25;

@@ -27,8 +27,8 @@ const CLEARANCE_BEND: f64 = 1_000.0;
 const UNEVEN: f64 = 3.0;
 /// How far the clearance may leave its chord between two samples, in nanometres.
 const CLEARANCE_CHORD: f64 = 1_000.0;
-/// A slope of less says nothing of a course.
-const LEVEL: f64 = 1e-3;
+/// Where the slope of an equation is less, it leads nowhere, and says nothing of a course.
+pub(super) const LEVEL: f64 = 1e-3;
 /// A vertex that a curve passes by so closely need not be kept, in nanometres. Chosen: a tenth of what probes find good enough.
 const PASSED: f64 = 20.0;
 /// The same for the clearance.
@@ -69,6 +69,12 @@ impl Vertex {
     /// The two places without their courses: from the one to the other leads the chord.
     pub(super) fn chord(self, to: Self) -> [Self; 2] {
         [self, to].map(|vertex| Self::new(vertex.at, vertex.clearance()))
+    }
+
+    /// Whether it lies between two others. One that ran off along the boundary would fold the path back on itself.
+    pub(super) fn is_between(self, from: Self, to: Self) -> bool {
+        let way = to.at - from.at;
+        (self.at - from.at).dot(way) > 0.0 && (to.at - self.at).dot(way) > 0.0
     }
 
     /// The distance to the nearest copper, in nanometres.

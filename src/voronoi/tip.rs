@@ -209,9 +209,7 @@ impl Tips<'_> {
         left: u32,
         samples: &mut Vec<Vertex>,
     ) {
-        let way = to.at - from.at;
-        let onward =
-            |v: &Vertex| left > 0 && (v.at - from.at).dot(way) > 0.0 && (to.at - v.at).dot(way) > 0.0;
+        let onward = |middle: &Vertex| left > 0 && middle.is_between(from, to);
         let Some(middle) = self.project(pair, from.at.midpoint(to.at)).filter(onward) else {
             return samples.extend(from.chord(to));
         };

@@ -137,7 +137,7 @@ impl Tracer<'_> {
         let corner = self.placer.kink(from.curve, to.curve, self.course.level, near)?;
         let away = |k: &usize| (self.middle(run[*k]) - corner[0].vertex.at).length();
         let k = (i..j).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(i);
-        is_between(from.vertex, corner[0].vertex, to.vertex).then_some((k, corner))
+        corner[0].vertex.is_between(from.vertex, to.vertex).then_some((k, corner))
     }
 
     /// A place between two stations, if there is one.
@@ -147,7 +147,7 @@ impl Tracer<'_> {
             let mut anchor = self.anchor(run[middle]);
             let placed = self.project(&mut anchor.target, anchor.at);
             let onward = |placed: &Placed| {
-                is_between(from.vertex, placed.vertex, to.vertex)
+                placed.vertex.is_between(from.vertex, to.vertex)
                     || (middle - i > LOOK_AHEAD && j - middle > LOOK_AHEAD)
             };
             if let Some(placed) = placed.filter(onward) {
@@ -156,7 +156,7 @@ impl Tracer<'_> {
         }
         let mut target = self.placer.either(from.curve, to.curve, self.course.level);
         let placed = self.project(&mut target, from.vertex.at.midpoint(to.vertex.at))?;
-        is_between(from.vertex, placed.vertex, to.vertex).then_some((middle, placed))
+        placed.vertex.is_between(from.vertex, to.vertex).then_some((middle, placed))
     }
 
     fn labels(&self, crack: Crack) -> (u32, u32) {
@@ -177,10 +177,4 @@ impl Tracer<'_> {
             self.placer.on_curve(target, Vertex::new(at, clearance))
         })
     }
-}
-
-/// Whether a place lies between two others. One that ran off along the boundary would fold the path back on itself.
-fn is_between(from: Vertex, vertex: Vertex, to: Vertex) -> bool {
-    let way = to.at - from.at;
-    (vertex.at - from.at).dot(way) > 0.0 && (to.at - vertex.at).dot(way) > 0.0
 }
