@@ -152,12 +152,34 @@ async function reads(page) {
   assert.deepEqual(unnamed, [], 'everything that can be used has a name');
 }
 
+// What lies beside the board is shown with some of the board.
+async function keepsSight(page) {
+  const seen = await page.evaluate(() => {
+    const [, , right, top] = drawing.bounds, pane = stage.panes[0], view = stage.around(right + 40000, top + 20000);
+    return Math.max((view.x - right) * view.scale / pane.width, (view.y - top) * view.scale / pane.height);
+  });
+  assert(seen < 0.5, `the corner of the board is in sight, ${seen} of the window from its middle`);
+}
+
+async function prints(page) {
+  const folded = () => page.locator('.group:not([open])').count();
+  const before = await folded();
+  assert(before > 0, 'something is folded');
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  assert.equal(await folded(), 0, 'on paper nothing is');
+  assert.equal(await page.getAttribute('html', 'data-theme'), 'light', 'and it is light');
+  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+  assert.equal(await folded(), before, 'as before');
+}
+
 for (const file of pages) await opens(file);
 const { page, wrong, shoot } = await open(pages[0]);
 await moves(page);
 await layers(page);
 await plays(page, shoot);
 await shows(page, shoot);
+await keepsSight(page);
+await prints(page);
 await reads(page);
 assert.deepEqual(wrong, [], 'nothing went wrong meanwhile');
 for (const file of pages.slice(1)) {

@@ -6,7 +6,7 @@ const $ = id => document.getElementById(id);
 applyTheme();
 const sides = drawing.sides.map((side, index) => new BoardSide(side, report.layers[index]));
 const programs = drawing.programs.map(program => new Program(program));
-const items = collectItems(report);
+const items = collectItems(report, drawing.bounds);
 const stage = new Stage($('stage'), drawing, sides, programs, items);
 const player = stage.player = new Player(stage);
 
@@ -25,7 +25,7 @@ const actions = {
   },
   place(side, x, y) {
     if (side && stage.mode !== 'both' && stage.mode !== side) showSide(side);
-    stage.go({ x, y, scale: Math.max(stage.whole().scale * 1.5, stage.panes[0].width / 5000) });
+    stage.go(stage.around(x, y));
   },
   layer(id, on) {
     stage.on[id] = on;
@@ -223,13 +223,20 @@ function transport() {
 }
 
 function printing() {
-  let kept = '';
+  let kept = '', folded = [];
   addEventListener('beforeprint', () => {
     kept = themeName;
+    // Nothing can be unfolded on paper.
+    folded = [...document.querySelectorAll('.group:not([open])')];
+    folded.forEach(group => { group.open = true; });
     applyTheme('light');
     stage.panes.forEach(pane => { pane.render(); pane.drawOver(); });
   });
-  addEventListener('afterprint', () => { applyTheme(kept); stage.update(); });
+  addEventListener('afterprint', () => {
+    folded.forEach(group => { group.open = false; });
+    applyTheme(kept);
+    stage.update();
+  });
 }
 
 header();

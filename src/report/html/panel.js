@@ -22,8 +22,8 @@ function duration(seconds) {
   return h ? `${h}:${two(m)}:${two(s)}` : `${m}:${two(s)}`;
 }
 
-// What was found and what was warned of, the worst first, each with its place in micrometres.
-function collectItems(report) {
+// What was found and what was warned of, the worst first, what lies beside the board behind what lies on it; each with its place in micrometres.
+function collectItems(report, bounds) {
   const place = at => (at ? [at.x_mm * 1000, at.y_mm * 1000] : null);
   const cut = text => (text.length > 52 ? `${text.slice(0, 50)}…` : text);
   const short = ({ name, message, size_mm: size }) => cut(size ? `${name.replaceAll('-', ' ')}, ${size < 1 ? `${Math.round(size * 1000)} µm` : mm(size)}` : message);
@@ -34,7 +34,8 @@ function collectItems(report) {
     ...warning, severity: 'warning', at: place(warning.at), short: cut(warning.message), nets: [],
   }));
   const items = [...findings, ...warnings];
-  const order = item => RANK[item.severity] * 4 + (item.verified ? 0 : 2) + (item.at ? 0 : 1);
+  const off = at => (at ? Number(beside(bounds, ...at).some(way => way > 0)) : 2);
+  const order = item => RANK[item.severity] * 6 + (item.verified ? 0 : 3) + off(item.at);
   items.sort((a, b) => order(a) - order(b));
   items.forEach((item, index) => { item.index = index; });
   return items;

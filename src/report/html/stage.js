@@ -20,6 +20,11 @@ const LAYERS = [
   { id: 'findings', name: 'Findings', on: true, swatch: 'error' },
 ];
 
+// How far a place is beside a box, across and up.
+function beside([left, bottom, right, top], x, y) {
+  return [Math.max(left - x, 0, x - right), Math.max(bottom - y, 0, y - top)];
+}
+
 class Pane {
   constructor(stage, side) {
     this.stage = stage;
@@ -470,6 +475,13 @@ class Stage {
     const [left, bottom, right, top] = this.drawing.bounds, pane = this.panes[0];
     const scale = Math.min((pane.width - 64) / (right - left || 1), (pane.height - 72) / (top - bottom || 1));
     return { x: (left + right) / 2, y: (bottom + top) / 2, scale: Math.max(1e-4, scale) };
+  }
+
+  // The view of a place: close, but of one beside the board no closer than shows how it lies to it.
+  around(x, y) {
+    const pane = this.panes[0], [dx, dy] = beside(this.drawing.bounds, x, y);
+    const close = Math.max(this.whole().scale * 1.5, pane.width / 5000), some = 5000;
+    return { x, y, scale: dx || dy ? Math.min(close, pane.width / 2 / (dx + some), pane.height / 2 / (dy + some)) : close };
   }
 
   fit(smooth = true) { this.go(this.all = this.whole(), smooth); }
