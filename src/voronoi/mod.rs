@@ -30,6 +30,7 @@ mod seed;
 mod site;
 mod span;
 mod stitch;
+mod sweep;
 mod tip;
 mod trace;
 mod trim;
@@ -50,21 +51,14 @@ use copper::Edges;
 use edge::Border;
 use mixed::Mixed;
 use near::Near;
-use place::Placer;
-use plane::Spot;
 use seed::Sites;
-use stitch::{Line, Stitcher};
+use stitch::Line;
 use tip::Tips;
-use trace::{APRON, Course, Pixels};
 
 /// The owner number of nothing at all.
 const BACKGROUND: u32 = 0;
 /// The owner number of what lies beyond the border.
 const OUTSIDE: u32 = 1;
-
-/// Pixels along a side of a tile. Measured: with 32, an eighth less time than with 64 or 16; smaller ones hug the boundaries
-/// closer, and pay more for their aprons.
-const TILE: u32 = 32;
 
 /// What lies on one side of a boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -325,9 +319,7 @@ impl Diagram {
     pub fn pixels_drawn(&self) -> u64 {
         let mut drawn = 0;
         let area = |tile: raster::Tile<'_>| u64::from(tile.width) * u64::from(tile.height);
-        raster::stream(&self.scene(&self.grid), &passes::options(TILE, APRON, None), area, |area| {
-            drawn += area
-        });
+        raster::stream(&self.scene(&self.grid), &sweep::options(Vec::new()), area, |area| drawn += area);
         drawn
     }
 
@@ -341,7 +333,7 @@ impl Diagram {
         if let Some(mixed) = &self.mixed {
             return mixed.boundaries(self);
         }
-        let stitcher = self.trace(&self.scene(&self.grid), None);
+        let stitcher = self.trace(&self.scene(&self.grid));
         let mut warnings = Vec::new();
         let unplaced = stitcher.unplaced;
         let mut lines = stitcher.lines();
@@ -367,84 +359,6 @@ impl Diagram {
             Some(near) => Tips { sites: &self.sites, near, border: &self.border, level }.extend(lines),
             None => u32::try_from(tip::open_nodes(lines).len()).expect("below 2³² nodes"),
         }
-    }
-
-    /// Draws, traces and places all tiles that a boundary crosses: between regions, or between what lies within `cut` of copper
-    /// and what lies beyond.
-    fn trace(&self, scene: &Scene, cut: Option<Nm>) -> Stitcher {
-        let placer = Placer {
-            sites: &self.sites,
-            owners: &self.owners,
-            near: self.near.as_ref(),
-            border: &self.border.rings,
-            border_rings: self.border.ring_count,
-            leash: 1.5 * self.grid.pitch().to_f64(),
-        };
-        let depth = cut.map(|level| self.depth(level));
-        let course = Course {
-            origin: Spot::from(self.grid.corner(0, 0)),
-            pitch: self.grid.pitch().to_f64(),
-            level: cut.or(self.settings.limit).map_or(f64::INFINITY, Nm::to_f64),
-            groove: self.sites.groove(),
-            framed: self.border.frame.is_some(),
-            levels_only: cut.is_some(),
-        };
-        let mut stitcher = Stitcher::default();
-        let work = |tile: raster::Tile<'_>| {
-            let (owners, labels) = self.pixels(&tile, depth)?;
-            let count = |n: u32| i32::try_from(n).expect("a tile is small");
-            let pixels = Pixels {
-                owners: &owners,
-                labels: &labels,
-                width: count(tile.width),
-                height: count(tile.height),
-                column0: tile.column0,
-                row0: tile.row0,
-            };
-            Some(trace::trace(pixels, &placer, course))
-        };
-        let options = passes::options(TILE, APRON, depth);
-        raster::stream(scene, &options, work, |traced| {
-            traced.into_iter().for_each(|traced| stitcher.add(traced))
-        });
-        stitcher
-    }
-
-    /// Owners and labels of a tile with its apron, beyond the picture the outside and beyond `depth` the background; none for a
-    /// tile of one owner.
-    fn pixels(&self, tile: &raster::Tile<'_>, depth: Option<f32>) -> Option<(Vec<u32>, Vec<u32>)> {
-        let TileContent::Pixels(pixels) = &tile.content else { return None };
-        let signed = |n: u32| i32::try_from(n).expect("a picture has at most 2¹⁶ pixels a side");
-        let apron = signed(APRON);
-        // Columns and rows of the picture, counted from the tile.
-        let columns = -signed(tile.column0)..signed(self.grid.width()) - signed(tile.column0);
-        let rows = -signed(tile.row0)..signed(self.grid.height()) - signed(tile.row0);
-        let inner = columns.contains(&-apron)
-            && columns.contains(&(signed(tile.width) + apron - 1))
-            && rows.contains(&-apron)
-            && rows.contains(&(signed(tile.height) + apron - 1));
-        let area = ((tile.width + 2 * APRON) * (tile.height + 2 * APRON)) as usize;
-        let (mut owners, mut labels) = (Vec::with_capacity(area), Vec::with_capacity(area));
-        for row in -apron..signed(tile.height) + apron {
-            let start = labels.len();
-            labels.extend_from_slice(pixels.label_row(row));
-            if !inner {
-                for (column, label) in (-apron..).zip(&mut labels[start..]) {
-                    if !columns.contains(&column) || !rows.contains(&row) {
-                        *label = OUTSIDE;
-                    }
-                }
-            }
-            owners.extend(labels[start..].iter().map(|&label| self.owners[label as usize]));
-            if let Some(depth) = depth {
-                for (owner, &deep) in owners[start..].iter_mut().zip(pixels.depth_row(row)) {
-                    if *owner > OUTSIDE && deep > depth {
-                        *owner = BACKGROUND;
-                    }
-                }
-            }
-        }
-        Some((owners, labels))
     }
 
     /// Lines fitted, with nodes in the order in which lines meet them.

@@ -6,15 +6,18 @@
 //!          ╰─kerf─╯    boundary                     as far as there is room
 //! ```
 //!
-//! What earlier cuts have cleared is drawn above everything, as wide as passes overlap: where a pass would run nearer than that to
-//! an earlier cut, it clears nothing that its neighbours do not, and is left out; and what lies between two passes that do run is never wider
-//! than a kerf, so no sliver stays.
+//! What the first cut has cleared is drawn above everything, as wide as passes overlap: where a pass would run nearer than that to
+//! it, it clears nothing that its neighbours do not, and is left out; and what lies between two passes that do run is never wider
+//! than a kerf, so no sliver stays. Passes need not mind each other: a step apart in their distance from copper, they are no nearer anywhere.
 
 use crate::geometry::Nm;
 use crate::raster;
 
 use super::stitch::Line;
-use super::{BACKGROUND, Boundaries, Diagram, OUTSIDE, Owner};
+use super::{Boundaries, Diagram, Owner};
+
+/// How much farther than the last pass is drawn, in pixels: what tracing looks at beyond a tile, and one.
+const SPARE: f32 = 3.0;
 
 /// How the gap beside copper is widened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,15 +31,15 @@ pub struct Widening {
 }
 
 impl Widening {
-    /// The distances from copper at which passes run, from the nearest to the farthest, evenly spaced.
-    fn levels(&self, first: Nm) -> Vec<Nm> {
+    /// The distances from copper at which passes run, from the nearest to the farthest, evenly spaced; none of more than `most`.
+    fn levels(&self, first: Nm, most: Nm) -> Vec<Nm> {
         let last = self.width - self.kerf / 2;
-        let most = (self.kerf - self.overlap).max(Nm::new(1));
+        let advance = (self.kerf - self.overlap).max(Nm::new(1));
         if last <= first {
             return vec![first];
         }
-        let gaps = (last - first + most - Nm::new(1)).get() / most.get();
-        (0..=gaps).map(|i| first + (last - first) * i / gaps).collect()
+        let gaps = (last - first + advance - Nm::new(1)).get() / advance.get();
+        (0..=gaps).map(|i| first + (last - first) * i / gaps).take_while(|&level| level <= most).collect()
     }
 }
 
@@ -49,24 +52,21 @@ impl Diagram {
     #[must_use]
     pub fn widened(&self, base: Boundaries, widening: &Widening, before: &[(Nm, Boundaries)]) -> Boundaries {
         let first = widening.kerf / 2 + self.settings.tolerance;
-        let levels = widening.levels(first);
+        let picture = self.grid.rect();
+        let levels = widening.levels(first, picture.width() + picture.height());
         let step = levels.get(1).map_or(widening.kerf - widening.overlap, |&second| second - levels[0]);
+        let levels: Vec<Nm> = levels.into_iter().filter(|&level| !self.has_loops_of_all_at(level)).collect();
+        let Some(&last) = levels.last() else { return base };
+        let mut scene = self.sites.scene(&self.grid, &self.border, Some(self.grid.pixels(last) + SPARE));
         let reach = self.grid.pixels(widening.kerf - step);
+        for edge in base.edges.iter().filter(|edge| !edge.is_border()) {
+            self.sites.add_groove(&mut scene, &self.grid, &edge.path, reach);
+        }
+        self.add_wider(&mut scene, widening.kerf, before);
         let mut all = base;
-        let mut empty = 0;
-        for level in levels.into_iter().filter(|&level| !self.has_loops_of_all_at(level)) {
-            let mut scene = self.sites.scene(&self.grid, &self.border, None);
-            for edge in all.edges.iter().filter(|edge| !edge.is_border()) {
-                self.sites.add_groove(&mut scene, &self.grid, &edge.path, reach);
-            }
-            self.add_wider(&mut scene, widening.kerf, before);
-            let mut lines = self.trace(&scene, Some(level)).lines();
-            lines.retain(|line| is_level(line) && !self.has_loop_at(level, line));
-            // One level may lie in the grooves of others altogether; two in a row mean that there is no room further out.
-            empty = if lines.is_empty() { empty + 1 } else { 0 };
-            if empty == 2 {
-                break;
-            }
+        for (&level, passes) in levels.iter().zip(self.trace_levels(&scene, &levels)) {
+            let mut lines = passes.lines();
+            lines.retain(|line| !self.has_loop_at(level, line));
             all.append(self.graph(lines));
         }
         all
@@ -94,17 +94,6 @@ impl Diagram {
             }
         }
     }
-
-    /// The depth in the picture of a distance in nanometres.
-    pub(super) fn depth(&self, level: Nm) -> f32 {
-        self.grid.pixels(level)
-    }
-}
-
-/// Whether a line parts the near side of a level from the far side.
-fn is_level(line: &Line) -> bool {
-    let (low, high) = (line.left.min(line.right), line.left.max(line.right));
-    low == BACKGROUND && high > OUTSIDE
 }
 
 impl Boundaries {
@@ -117,9 +106,4 @@ impl Boundaries {
             edge
         }));
     }
-}
-
-/// The options that a picture cut at `level` is streamed with.
-pub(super) fn options(tile: u32, apron: u32, level: Option<f32>) -> raster::Options {
-    raster::Options { tile, apron, levels: level.into_iter().collect(), skip_uniform: true }
 }

@@ -316,31 +316,29 @@ fn a_wide_gap_is_cleared_and_no_copper_touched() {
     let nets = topology::recover(&copper, Method::Contact);
     let settings = Settings::default();
     let diagram = Diagram::new(&copper, &nets, None, &settings).expect("a diagram");
-    let widening = Widening { kerf: Nm::from_um(200), width: Nm::from_um(700), overlap: Nm::from_um(20) };
-    let cuts = diagram.widened(diagram.boundaries().0, &widening, &[]);
-    let paths: Vec<Vec<Point>> = cuts
-        .edges
-        .iter()
-        .filter(|edge| !edge.is_border())
-        .map(|edge| edge.path.flatten(Nm::new(100)))
-        .collect();
-    for &p in paths.iter().flatten() {
-        let (x, y) = p.to_f64();
-        let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
-        assert!(nearest >= 100_000.0, "{nearest} nm from copper at {p:?}");
-    }
-    for (x, y) in lattice() {
-        let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
-        if nearest > 5_000.0 && nearest < 695_000.0 {
-            let to_cut = |pair: &[Point]| {
-                oracle::distance(&Shape::Stroke { from: pair[0], to: pair[1], radius: Nm::ZERO }, x, y)
-            };
-            let cleared =
-                paths.iter().flat_map(|path| path.windows(2)).map(to_cut).fold(f64::INFINITY, f64::min);
-            assert!(
-                cleared <= 104_000.0,
-                "copper left {nearest} nm from a net at {x}, {y}: {cleared} nm from a cut"
-            );
+    for overlap in [20, 100, 140].map(Nm::from_um) {
+        let widening = Widening { kerf: Nm::from_um(200), width: Nm::from_um(700), overlap };
+        let cuts = diagram.widened(diagram.boundaries().0, &widening, &[]);
+        let inner = cuts.edges.iter().filter(|edge| !edge.is_border());
+        let paths: Vec<Vec<Point>> = inner.map(|edge| edge.path.flatten(Nm::new(100))).collect();
+        for &p in paths.iter().flatten() {
+            let (x, y) = p.to_f64();
+            let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+            assert!(nearest >= 100_000.0, "{nearest} nm from copper at {p:?}");
+        }
+        for (x, y) in lattice() {
+            let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+            if nearest > 5_000.0 && nearest < 695_000.0 {
+                let to_cut = |pair: &[Point]| {
+                    oracle::distance(&Shape::Stroke { from: pair[0], to: pair[1], radius: Nm::ZERO }, x, y)
+                };
+                let cleared =
+                    paths.iter().flat_map(|path| path.windows(2)).map(to_cut).fold(f64::INFINITY, f64::min);
+                assert!(
+                    cleared <= 104_000.0,
+                    "overlap {overlap}: copper left {nearest} nm from a net at {x}, {y}: {cleared} nm from a cut"
+                );
+            }
         }
     }
 }

@@ -56,24 +56,35 @@ pub(super) struct Leg {
     pub entry: Option<usize>,
 }
 
-/// Every stretch once; the first is sought from `start`. Improving never makes the way longer.
-pub(super) fn arrange(stretches: &[Stretch], start: Point, order: Order) -> Vec<Leg> {
+/// Beside cuts so many times as long, the way between them is worth no long search. Measured: a long one takes as long as all the rest of a wide isolation
+/// together, and shortens its way by a fifth, which is 0.2 % of the time on the machine.
+const CUT_A_WAY: f64 = 10.0;
+
+/// Every stretch once; the first is sought from `start`. Improving never makes the way longer; it goes on less long where the way is next to
+/// nothing beside the `cut` nanometres of the stretches themselves.
+pub(super) fn arrange(stretches: &[Stretch], start: Point, order: Order, cut: f64) -> Vec<Leg> {
     let ends: Vec<[Point; 2]> = stretches.iter().map(|stretch| [stretch.from, stretch.to]).collect();
     let mut greedy = nearest_next(&ends, start);
     let mut improved = (order == Order::Improved).then(|| greedy.clone());
-    let shortest = improved.as_mut().map(|legs| improve_all(legs, stretches, &ends, start));
+    let shortest = improved.as_mut().map(|legs| improve_all(legs, stretches, &ends, start, cut));
     let first = enter_well(&mut greedy, stretches, &mut ends.clone(), start);
     improved.filter(|_| shortest.is_some_and(|shortest| shortest <= first)).unwrap_or(greedy)
 }
 
 /// Improves an order, chooses where closed stretches are entered, and improves it once more; the length of the way.
-fn improve_all(legs: &mut Vec<Leg>, stretches: &[Stretch], ends: &[[Point; 2]], start: Point) -> f64 {
+fn improve_all(
+    legs: &mut Vec<Leg>,
+    stretches: &[Stretch],
+    ends: &[[Point; 2]],
+    start: Point,
+    cut: f64,
+) -> f64 {
     let mut ends = ends.to_vec();
     if stretches.iter().any(|stretch| !stretch.entries.is_empty()) {
         improve(legs, &ends, start, Effort::Quick);
-        enter_well(legs, stretches, &mut ends, start);
     }
-    improve(legs, &ends, start, Effort::Full);
+    let way = enter_well(legs, stretches, &mut ends, start);
+    improve(legs, &ends, start, if way * CUT_A_WAY < cut { Effort::Quick } else { Effort::Full });
     enter_well(legs, stretches, &mut ends, start)
 }
 
@@ -157,8 +168,8 @@ mod tests {
         fn every_stretch_is_cut_once_and_improving_never_makes_it_longer(
             stretches in prop::collection::vec(any_stretch(), 0..60),
         ) {
-            let greedy = arrange(&stretches, Point::default(), Order::Greedy);
-            let improved = arrange(&stretches, Point::default(), Order::Improved);
+            let greedy = arrange(&stretches, Point::default(), Order::Greedy, 0.0);
+            let improved = arrange(&stretches, Point::default(), Order::Improved, 0.0);
             for legs in [&greedy, &improved] {
                 let mut seen: Vec<usize> = legs.iter().map(|leg| leg.stretch).collect();
                 seen.sort_unstable();
@@ -173,7 +184,7 @@ mod tests {
             stretches in prop::collection::vec(any_stretch(), 1..5),
         ) {
             let open: Vec<_> = stretches.iter().map(|s| Stretch::open(s.from, s.to)).collect();
-            let found = travel(&open, &arrange(&open, Point::default(), Order::Improved));
+            let found = travel(&open, &arrange(&open, Point::default(), Order::Improved, 0.0));
             let best = shortest(&open, &mut vec![false; open.len()], Point::default());
             prop_assert!(found <= best + 1.0, "found {found}, possible {best}");
         }
@@ -184,7 +195,7 @@ mod tests {
         let far = Stretch::open(at(7_020_000, 2_230_000), at(3_810_000, 5_560_000));
         let near = Stretch::open(at(3_690_000, 5_640_000), at(2_600_000, 7_960_000));
         let stretches = [near, far];
-        let legs = arrange(&stretches, Point::default(), Order::Improved);
+        let legs = arrange(&stretches, Point::default(), Order::Improved, 0.0);
         assert_eq!(legs.iter().map(|leg| leg.stretch).collect::<Vec<_>>(), [1, 0], "it saves a millimetre");
     }
 
@@ -204,7 +215,7 @@ mod tests {
                 Stretch::open(hole, hole)
             })
             .collect();
-        let way = travel(&holes, &arrange(&holes, Point::default(), Order::Improved));
+        let way = travel(&holes, &arrange(&holes, Point::default(), Order::Improved, 0.0));
         way / (f64::from(count).sqrt() * 1e8)
     }
 

@@ -36,7 +36,7 @@ pub(super) fn bore(
     let paths: Vec<Path> = holes.iter().map(|hole| placement.path(&hole.path)).collect();
     let stretches: Vec<Stretch> = paths.iter().map(|path| Stretch::open(path.start, path.start)).collect();
     let mut head = Head::new(heights, mill.plunge);
-    for leg in arrange(&stretches, Point::default(), order) {
+    for leg in arrange(&stretches, Point::default(), order, 0.0) {
         let (path, hole) = (&paths[leg.stretch], holes[leg.stretch]);
         let reaches = reaches(hole.diameter, mill.width_at(Nm::ZERO));
         for (reach, inside) in reaches.iter().zip((0..reaches.len()).rev()) {

@@ -95,7 +95,7 @@ fn section(tool: Tool, holes: &[&Hole], settings: &Drilling<'_>) -> Section {
         holes.iter().map(|hole| chain(&settings.placement.path(&hole.path), hole.diameter)).collect();
     let ends = |chain: &Vec<Point>| Stretch::open(chain[0], chain[chain.len() - 1]);
     let stretches: Vec<Stretch> = chains.iter().map(ends).collect();
-    for leg in arrange(&stretches, Point::default(), settings.order) {
+    for leg in arrange(&stretches, Point::default(), settings.order, 0.0) {
         let mut points = chains[leg.stretch].clone();
         if leg.reversed {
             points.reverse();

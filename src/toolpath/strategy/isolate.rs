@@ -168,7 +168,8 @@ fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move>
     let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
     let mut head = Head::new(settings.heights, settings.tool.plunge);
     let mut before = None;
-    for leg in arrange(&stretches, Point::default(), settings.order) {
+    let length = lines.iter().map(|line| line.path.length()).sum();
+    for leg in arrange(&stretches, Point::default(), settings.order, length) {
         let line = &mut lines[leg.stretch];
         line.begin_at(leg.entry.unwrap_or(0));
         if leg.reversed {

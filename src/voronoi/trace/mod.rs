@@ -243,9 +243,12 @@ impl Tracer<'_> {
             cracks.push(next);
             at = next.end();
         }
-        let first_vertex = self.traced.vertices.len();
         let (left, right) = first.sides();
         let (left, right) = (self.pixels.owner(left.0, left.1), self.pixels.owner(right.0, right.1));
+        if self.course.levels_only && !self.is_wanted(left, right) {
+            return;
+        }
+        let first_vertex = self.traced.vertices.len();
         let (from_open, to_open) = self.place(&cracks, start, at);
         let count = |n: usize| u32::try_from(n).expect("a tile has few vertices");
         let piece = Piece {

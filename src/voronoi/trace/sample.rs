@@ -43,7 +43,7 @@ impl Tracer<'_> {
     }
 
     /// Whether anybody cuts along the boundary between two owners.
-    const fn is_wanted(&self, left: u32, right: u32) -> bool {
+    pub(super) const fn is_wanted(&self, left: u32, right: u32) -> bool {
         let bare = left == BACKGROUND || right == BACKGROUND;
         if left == OUTSIDE || right == OUTSIDE {
             return self.course.framed && !bare && !self.course.levels_only;

@@ -150,7 +150,7 @@ fn cut_all(head: &mut Head, rings: &[Ring], held: &[Vec<f64>], settings: &Cutout
     };
     let stretches: Vec<Stretch> = placed.iter().zip(&starts).map(stretch).collect();
     let start = head.at().map_or(Point::default(), Position::point);
-    for leg in arrange(&stretches, start, Order::Improved) {
+    for leg in arrange(&stretches, start, Order::Improved, 0.0) {
         let (ring, length) = (&placed[leg.stretch], placed[leg.stretch].length());
         let from = starts[leg.stretch][leg.entry.unwrap_or(0)];
         let mut middles: Vec<f64> =
