@@ -76,8 +76,7 @@ impl Layer {
 
 /// The lap without which nets that reach the frame stay joined; none where there is no frame, or none reaches it.
 fn needed_frame(diagram: &Diagram, boundaries: &Boundaries) -> Option<Path> {
-    let bare = |edge: &Boundary| edge.left == Owner::Background || edge.right == Owner::Background;
-    let reached = boundaries.edges.iter().any(|edge| edge.is_border() && !bare(edge));
+    let reached = boundaries.edges.iter().any(|edge| edge.is_border() && !edge.is_bare());
     diagram.frame().filter(|_| reached).cloned()
 }
 
@@ -184,8 +183,7 @@ fn cut(
 ) -> (Vec<Section>, Vec<Warning>) {
     // What lies along the outline is cut with the board; along a frame it is part of the graph, and joins what ends there.
     let role = |boundary: &Boundary| {
-        let bare = boundary.left == Owner::Background || boundary.right == Owner::Background;
-        if boundary.is_border() && (bare || frame.is_none()) { Role::Leave } else { Role::Cut }
+        if boundary.is_border() && (boundary.is_bare() || frame.is_none()) { Role::Leave } else { Role::Cut }
     };
     let name = |owner: Owner| match owner {
         Owner::Net(net) => nets.label(net),

@@ -107,6 +107,12 @@ impl Boundary {
     pub fn is_border(&self) -> bool {
         self.left == Owner::Outside || self.right == Owner::Outside
     }
+
+    /// Whether there is a side that nobody owns: it runs at the limit of regions.
+    #[must_use]
+    pub fn is_bare(&self) -> bool {
+        self.left == Owner::Background || self.right == Owner::Background
+    }
 }
 
 /// The boundaries of one layer as a planar graph.

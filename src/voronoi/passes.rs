@@ -14,7 +14,7 @@ use crate::geometry::Nm;
 use crate::raster;
 
 use super::stitch::Line;
-use super::{Boundaries, Diagram, Owner};
+use super::{Boundaries, Boundary, Diagram, Owner};
 
 /// How much farther than the last pass is drawn, in pixels: what tracing looks at beyond a tile, and one.
 const SPARE: f32 = 3.0;
@@ -59,7 +59,9 @@ impl Diagram {
         let Some(&last) = levels.last() else { return base };
         let mut scene = self.sites.scene(&self.grid, &self.border, Some(self.grid.pixels(last) + SPARE));
         let reach = self.grid.pixels(widening.kerf - step);
-        for edge in base.edges.iter().filter(|edge| !edge.is_border()) {
+        // Loops at the first level are passes themselves.
+        let is_pass = |edge: &Boundary| self.settings.limit == Some(first) && edge.is_bare();
+        for edge in base.edges.iter().filter(|edge| !edge.is_border() && !is_pass(edge)) {
             self.sites.add_groove(&mut scene, &self.grid, &edge.path, reach);
         }
         self.add_wider(&mut scene, widening.kerf, before);
