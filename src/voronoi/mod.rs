@@ -29,6 +29,7 @@ mod rim;
 mod seed;
 mod site;
 mod span;
+mod spike;
 mod stitch;
 mod sweep;
 mod tip;

@@ -10,9 +10,12 @@
 //! it, it clears nothing that its neighbours do not, and is left out; and what lies between two passes that do run is never wider
 //! than a kerf, so no sliver stays. Passes need not mind each other: a step apart in their distance from copper, they are no nearer anywhere.
 
-use crate::geometry::Nm;
+use rayon::prelude::*;
+
+use crate::geometry::{Nm, Point};
 use crate::raster;
 
+use super::spike::Spikes;
 use super::stitch::Line;
 use super::{Boundaries, Boundary, Diagram, Owner};
 
@@ -65,13 +68,32 @@ impl Diagram {
             self.sites.add_groove(&mut scene, &self.grid, &edge.path, reach);
         }
         self.add_wider(&mut scene, widening.kerf, before);
+        let spikes = Spikes {
+            kerf: widening.kerf.to_f64(),
+            step: step.to_f64(),
+            clearance: &|at| self.clearance(at),
+            nearest: first.to_f64(),
+        };
         let mut all = base;
         for (&level, passes) in levels.iter().zip(self.trace_levels(&scene, &levels)) {
             let mut lines = passes.lines();
             lines.retain(|line| !self.has_loop_at(level, line));
-            all.append(self.graph(lines));
+            let mut passes = self.graph(lines);
+            if level > first {
+                passes.edges.par_iter_mut().for_each(|pass| spikes.add(pass));
+            }
+            all.append(passes);
         }
         all
+    }
+
+    /// How far a place is from copper, in nanometres.
+    fn clearance(&self, at: Point) -> f64 {
+        match (&self.near, &self.edges) {
+            (Some(near), _) => near.distance(&self.sites, at.into()),
+            (None, Some(edges)) => edges.distance(at.into()),
+            (None, None) => 0.0,
+        }
     }
 
     /// Whether every net has a loop at this distance already.

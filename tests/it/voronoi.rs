@@ -313,32 +313,52 @@ fn lattice() -> impl Iterator<Item = (f64, f64)> {
 #[test]
 fn a_wide_gap_is_cleared_and_no_copper_touched() {
     let copper = layer([disc(0, 0, 500), disc(3500, 300, 300), disc(1200, 1900, 400)]);
-    let nets = topology::recover(&copper, Method::Contact);
-    let settings = Settings::default();
-    let diagram = Diagram::new(&copper, &nets, None, &settings).expect("a diagram");
-    for overlap in [20, 100, 140].map(Nm::from_um) {
-        let widening = Widening { kerf: Nm::from_um(200), width: Nm::from_um(700), overlap };
-        let cuts = diagram.widened(diagram.boundaries().0, &widening, &[]);
-        let inner = cuts.edges.iter().filter(|edge| !edge.is_border());
-        let paths: Vec<Vec<Point>> = inner.map(|edge| edge.path.flatten(Nm::new(100))).collect();
-        for &p in paths.iter().flatten() {
-            let (x, y) = p.to_f64();
-            let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
-            assert!(nearest >= 100_000.0, "{nearest} nm from copper at {p:?}");
-        }
-        for (x, y) in lattice() {
-            let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
-            if nearest > 5_000.0 && nearest < 695_000.0 {
-                let to_cut = |pair: &[Point]| {
-                    oracle::distance(&Shape::Stroke { from: pair[0], to: pair[1], radius: Nm::ZERO }, x, y)
-                };
-                let cleared =
-                    paths.iter().flat_map(|path| path.windows(2)).map(to_cut).fold(f64::INFINITY, f64::min);
-                assert!(
-                    cleared <= 104_000.0,
-                    "overlap {overlap}: copper left {nearest} nm from a net at {x}, {y}: {cleared} nm from a cut"
-                );
-            }
+    for overlap in [20, 100, 140] {
+        assert_cleared(&copper, 700, overlap, lattice());
+    }
+}
+
+#[test]
+fn nothing_stays_between_the_corners_of_passes() {
+    // A right angle and one of 27°, both inside one net, from where the first pass reaches on.
+    let corners = [(0, 0), (3000, 0), (3000, 300), (500, 300), (500, 2300), (-800, -300)];
+    let ring = Polygon::new(vec![corners.map(|(x, y)| at(x, y)).to_vec()]).expect("a ring");
+    let thorn = [(-4000, 0), (-2000, -1000), (-1900, -340), (-3300, 0), (-1900, 340), (-2000, 1000)];
+    let thorn = Polygon::new(vec![thorn.map(|(x, y)| at(x, y)).to_vec()]).expect("a ring");
+    let copper = layer([Shape::Polygon(ring), Shape::Polygon(thorn)]);
+    let right_angle = (0..60_i32).map(|i| 535_000.0 + 7e3 * f64::from(i)).map(|x| (x, x - 200_000.0));
+    let along = (0..160_i32).map(|i| (-2_810_000.0 + 5e3 * f64::from(i), 0.0));
+    for overlap in [20, 40] {
+        assert_cleared(&copper, 560, overlap, right_angle.clone().chain(along.clone()));
+    }
+}
+
+/// Passes of 200 µm that share so many micrometres keep off the copper and clear these places, as far as they lie within this width of it.
+fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterator<Item = (f64, f64)>) {
+    let nets = topology::recover(copper, Method::Contact);
+    let diagram = Diagram::new(copper, &nets, None, &Settings::default()).expect("a diagram");
+    let (kerf, wide, overlap) = (Nm::from_um(200), Nm::from_um(width), Nm::from_um(overlap));
+    let cuts = diagram.widened(diagram.boundaries().0, &Widening { kerf, width: wide, overlap }, &[]);
+    let inner = cuts.edges.iter().filter(|edge| !edge.is_border());
+    let paths: Vec<Vec<Point>> = inner.map(|edge| edge.path.flatten(Nm::new(100))).collect();
+    let to_copper =
+        |x: f64, y: f64| oracle::distances(copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+    for &p in paths.iter().flatten() {
+        let (x, y) = p.to_f64();
+        assert!(to_copper(x, y) >= 100_000.0, "{} nm from copper at {p:?}", to_copper(x, y));
+    }
+    for (x, y) in places {
+        let nearest = to_copper(x, y);
+        if nearest > 5_000.0 && nearest < wide.to_f64() - 5_000.0 {
+            let to_cut = |pair: &[Point]| {
+                oracle::distance(&Shape::Stroke { from: pair[0], to: pair[1], radius: Nm::ZERO }, x, y)
+            };
+            let cleared =
+                paths.iter().flat_map(|path| path.windows(2)).map(to_cut).fold(f64::INFINITY, f64::min);
+            assert!(
+                cleared <= 104_000.0,
+                "passes that share {overlap}: copper left {nearest} nm from a net at {x}, {y}: {cleared} nm from a cut"
+            );
         }
     }
 }

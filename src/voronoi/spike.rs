@@ -1,0 +1,124 @@
+//! Corners of passes, cut out to their tips.
+//!
+//! ```text
+//!   ▓▓▓▓▓▓▓▓▓▓▓▓        Beside an inner corner of copper passes have corners, too, and these lie farther apart than
+//!   ▓▓┌───────── near   the passes. A round cutter leaves a speck of copper between two of them where the passes
+//!   ▓▓│ ╲               share little. So the far one goes towards the near one from its corner, and back: a spike
+//!   ▓▓│  ┌────── far    just so long that nothing stays.
+//! ```
+//!
+//! In a narrow wedge the picture shows a corner cut off, where it becomes thinner than a pixel: what turns within a quarter of a kerf is one corner.
+
+use crate::geometry::{Nm, Path, Point, Segment, Turn};
+
+use super::plane::Spot;
+use super::{Boundary, Owner};
+
+/// Ways that turn back on themselves have no tip: 2°.
+const LEAST_SINE: f64 = 0.02;
+/// A speck that a shorter spike would clear is too small to see, in nanometres.
+const LEAST_LENGTH: f64 = 1_000.0;
+
+/// Leads the corners of passes out to their tips.
+pub(super) struct Spikes<'a> {
+    /// How wide the cutter clears, in nanometres.
+    pub(super) kerf: f64,
+    /// How far passes lie apart.
+    pub(super) step: f64,
+    /// How far a place is from copper, in nanometres.
+    pub(super) clearance: &'a (dyn Fn(Point) -> f64 + Sync),
+    /// How near to copper a spike may come.
+    pub(super) nearest: f64,
+}
+
+/// A segment with the directions in which it begins and ends.
+struct Leg {
+    from: Spot,
+    to: Spot,
+    begins: Spot,
+    ends: Spot,
+}
+
+impl Spikes<'_> {
+    /// Adds what the corners of a pass need beside the pass that is a step nearer to copper.
+    pub(super) fn add(&self, pass: &mut Boundary) {
+        let legs: Vec<Leg> = pass.path.steps().map(|(from, segment)| Leg::new(from, segment)).collect();
+        let copper_on_left = matches!(pass.left, Owner::Net(_));
+        let mut tips = vec![None; legs.len()];
+        for corner in self.corners(&legs, pass.path.is_closed()) {
+            if let Some((last, tip)) = self.tip(&legs, &corner, copper_on_left) {
+                tips[last] = Some(tip);
+            }
+        }
+        let mut path = Path { start: pass.path.start, segments: Vec::with_capacity(legs.len()) };
+        let mut clearance = vec![pass.clearance[0]];
+        for ((segment, &room), tip) in pass.path.segments.iter().zip(&pass.clearance[1..]).zip(tips) {
+            path.segments.push(*segment);
+            clearance.push(room);
+            if let Some((to, narrow)) = tip {
+                path.segments.extend([Segment::Line { to }, Segment::Line { to: segment.to() }]);
+                clearance.extend([narrow, room]);
+            }
+        }
+        (pass.path, pass.clearance) = (path, clearance);
+    }
+
+    /// The corners of a way: runs of legs of which all but the first and the last are short, as their numbers.
+    fn corners(&self, legs: &[Leg], is_closed: bool) -> Vec<Vec<usize>> {
+        let is_long = |&i: &usize| (legs[i].to - legs[i].from).length() >= self.kerf / 4.0;
+        let Some(first) = (0..legs.len()).find(is_long) else { return Vec::new() };
+        let last = if is_closed { first + legs.len() } else { legs.len() - 1 };
+        let mut corners = Vec::new();
+        let mut run = vec![first];
+        for i in (first + 1..=last).map(|i| i % legs.len()) {
+            run.push(i);
+            if is_long(&i) {
+                corners.push(std::mem::replace(&mut run, vec![i]));
+            }
+        }
+        corners
+    }
+
+    /// The tip that a corner needs, its distance from copper, and after which leg it is cut; none where it needs none, or is none of an inner corner.
+    fn tip(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Option<(usize, (Point, Nm))> {
+        let (before, after) = (&legs[*corner.first()?], &legs[*corner.last()?]);
+        let turn = before.ends.cross(after.begins);
+        // A pass turns away from the copper at an inner corner of it.
+        let is_inner = (turn < 0.0) == copper_on_left;
+        // Half the angle between the two ways; its sine is the cosine of half the turn.
+        let sine = ((1.0 + before.ends.dot(after.begins)) / 2.0).max(0.0).sqrt();
+        let way = before.ends - after.begins;
+        if !is_inner || sine < LEAST_SINE || way.length() < LEAST_SINE {
+            return None;
+        }
+        let apex = before.to + before.ends * ((after.from - before.to).cross(after.begins) / turn);
+        let length = (self.step - self.kerf / 2.0 * (1.0 + sine)) / sine;
+        let way = way * (1.0 / way.length());
+        let tip = (apex + way * length).rounded();
+        let reach = |last: &usize| (Spot::from(tip) - legs[*last].to).length();
+        let last = corner[..corner.len() - 1].iter().copied().min_by(|a, b| reach(a).total_cmp(&reach(b)))?;
+        if (Spot::from(tip) - legs[last].to).dot(way) < LEAST_LENGTH {
+            return None;
+        }
+        let room = (self.clearance)(tip);
+        (room >= self.nearest).then(|| (last, (tip, Nm::from_f64(room))))
+    }
+}
+
+impl Leg {
+    fn new(from: Point, segment: &Segment) -> Self {
+        let unit = |way: Spot| if way.length() > 0.0 { way * (1.0 / way.length()) } else { way };
+        let (start, end) = (Spot::from(from), Spot::from(segment.to()));
+        let [begins, ends] = match segment.arc(from) {
+            None => [unit(end - start); 2],
+            Some(arc) => {
+                let round = if arc.turn == Turn::Clockwise { -1.0 } else { 1.0 };
+                [start, end].map(|at| {
+                    let out = at - Spot::from(arc.center);
+                    unit(Spot::new(-out.y, out.x) * round)
+                })
+            }
+        };
+        Self { from: start, to: end, begins, ends }
+    }
+}
