@@ -83,10 +83,11 @@ fn regions(copper: &Copper, grid: &Grid, limit: Option<Nm>) -> Result<Picture, v
     let settings = voronoi::Settings { sites: SiteKind::Core, limit, ..voronoi::Settings::default() };
     let diagram = Diagram::new(copper, &nets, None, &settings)?;
     let mut picture = Picture::from_pixel(grid.width(), grid.height(), image::Rgb([255; 3]));
-    diagram.regions(grid, |x, y, owner| {
+    diagram.regions(grid, |y, columns, owner| {
         if let Owner::Net(net) = owner {
             let shade = |k: u32| u8::try_from(100 + (net.0 + 1) * k % 150).unwrap_or(u8::MAX);
-            picture.put_pixel(x, y, image::Rgb([shade(67), shade(101), shade(43)]));
+            let colour = image::Rgb([shade(67), shade(101), shade(43)]);
+            columns.for_each(|x| picture.put_pixel(x, y, colour));
         }
     });
     Ok(picture)

@@ -1,5 +1,7 @@
 //! Board geometry on tiny-skia's pixmaps: the only file that speaks to the drawing library.
 
+use std::ops::Range;
+
 use tiny_skia::{
     Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform,
 };
@@ -57,9 +59,15 @@ impl Canvas {
     }
 
     /// Sets the pixel at a column and row.
-    pub fn set(&mut self, column: u32, row: u32, Rgb(r, g, b): Rgb) {
-        let at = row as usize * self.grid.width() as usize + column as usize;
-        self.pixmap.pixels_mut()[at] = PremultipliedColorU8::from_rgba(r, g, b, u8::MAX).expect("opaque");
+    pub fn set(&mut self, column: u32, row: u32, colour: Rgb) {
+        self.set_row(row, column..column + 1, colour);
+    }
+
+    /// Sets the pixels of a row in some columns.
+    pub fn set_row(&mut self, row: u32, columns: Range<u32>, Rgb(r, g, b): Rgb) {
+        let colour = PremultipliedColorU8::from_rgba(r, g, b, u8::MAX).expect("opaque");
+        let row = &mut self.pixmap.pixels_mut()[row as usize * self.grid.width() as usize..];
+        row[columns.start as usize..columns.end as usize].fill(colour);
     }
 
     /// Fills `shape`: all pixels whose centres it holds, and then smoothly up to its edge.
@@ -181,7 +189,12 @@ impl Canvas {
     /// The finished pixels, three bytes each, row 0 on top.
     #[must_use]
     pub fn into_rgb(self) -> Vec<u8> {
-        self.pixmap.pixels().iter().flat_map(|p| [p.red(), p.green(), p.blue()]).collect()
+        let pixels = self.pixmap.pixels();
+        let mut bytes = vec![[0; 3]; pixels.len()];
+        for (bytes, pixel) in bytes.iter_mut().zip(pixels) {
+            *bytes = [pixel.red(), pixel.green(), pixel.blue()];
+        }
+        bytes.into_flattened()
     }
 
     fn paint(&self, colour: Rgb, opacity: f32) -> Paint<'static> {

@@ -177,9 +177,9 @@ fn ground(side: &Shown<'_>, grid: Grid) -> Canvas {
     let mut canvas = Canvas::new(grid, GROUND);
     substrate(&mut canvas, side.board.outline.as_ref());
     let tints = tints(side.nets.nets().len(), side.boundaries);
-    side.diagram.regions(&grid, |column, row, owner| {
+    side.diagram.regions(&grid, |row, columns, owner| {
         if let Owner::Net(net) = owner {
-            canvas.set(column, row, tints[net.index()]);
+            canvas.set_row(row, columns, tints[net.index()]);
         }
     });
     for feature in &side.copper.features {

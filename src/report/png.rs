@@ -11,11 +11,25 @@ use super::Canvas;
 /// Rows that are drawn at a time. Chosen: a band of a large picture takes two megabytes, and there are few of them.
 const BAND: u32 = 240;
 
+/// Rows above a band that are drawn and thrown away: of what ends right above a picture, the drawing library lays the last row onto
+/// the picture's first.
+const APRON: u32 = 2;
+
 /// A picture of `grid` that `draw` paints band by band: it is given the grid of each, from the top.
 ///
 /// No more than a band is ever held as pixels.
 pub fn bands(grid: &Grid, draw: impl Fn(Grid) -> Canvas) -> Vec<u8> {
-    encode(grid, ColorType::Rgb, |file| each_band(grid, |band| file(&draw(band).into_rgb())))
+    encode(grid, ColorType::Rgb, |file| painted(grid, draw, file))
+}
+
+/// Gives `take` the pixels of a picture band by band.
+fn painted(grid: &Grid, draw: impl Fn(Grid) -> Canvas, take: &mut dyn FnMut(&[u8])) {
+    for top in (0..grid.height()).step_by(BAND as usize) {
+        let apron = APRON.min(top);
+        let band = grid.rows(top - apron, apron + BAND.min(grid.height() - top));
+        let pixels = draw(band).into_rgb();
+        take(&pixels[(apron * grid.width() * 3) as usize..]);
+    }
 }
 
 /// The same in grey values, one byte a pixel of each band, row 0 on top.
@@ -52,4 +66,36 @@ fn encode(grid: &Grid, colour: ColorType, paint: impl FnOnce(&mut dyn FnMut(&[u8
     stream.finish().expect(MEMORY);
     writer.finish().expect(MEMORY);
     bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Nm, Path, Point, Rect, Segment, Turn, Vector};
+    use crate::report::Rgb;
+
+    #[test]
+    fn bands_show_no_seams() {
+        let um = Nm::from_um;
+        let corner = Point::new(um(600), um(3_000));
+        let grid = Grid::covering(Rect::new(Point::default(), corner), um(10)).expect("a small grid");
+        // Rings that end near the first seam, each a tenth of a pixel lower than the one before.
+        let ring = |offset: i64| {
+            let center = Point::new(um(100 + offset * 20), um(3_000 - 2_340 - offset));
+            let start = center + Vector::new(um(50), Nm::ZERO);
+            Path { start, segments: vec![Segment::Arc { to: start, center, turn: Turn::CounterClockwise }] }
+        };
+        let rings: Vec<Path> = (0..20).map(ring).collect();
+        let draw = |grid: Grid| {
+            let mut canvas = Canvas::new(grid, Rgb(0, 0, 0));
+            rings.iter().for_each(|ring| canvas.stroke(ring, Nm::ZERO, Rgb(255, 255, 255), 1.0));
+            canvas
+        };
+        let mut pixels = Vec::new();
+        painted(&grid, draw, &mut |band| pixels.extend_from_slice(band));
+        let whole = draw(grid).into_rgb();
+        assert_eq!(pixels.len(), whole.len(), "all rows");
+        let off = pixels.iter().zip(&whole).map(|(a, b)| a.abs_diff(*b)).max();
+        assert!(off <= Some(2), "as drawn at once, but for roundings: {off:?}");
+    }
 }

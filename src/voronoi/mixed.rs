@@ -15,6 +15,7 @@
 //! already: a field with one net has no boundary. The ends of the fields' boundaries become junctions of the loops.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use crate::board::{Copper, Outline, Warning, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon, Rect};
@@ -98,14 +99,14 @@ impl Mixed {
     }
 
     /// As [`Diagram::regions`].
-    pub(super) fn regions(&self, all: &Diagram, grid: &Grid, paint: &mut dyn FnMut(u32, u32, Owner)) {
-        all.paint(grid, &mut |column, row, owner| {
-            paint(column, row, if self.has_loop(owner) { owner } else { Owner::Background });
+    pub(super) fn regions(&self, all: &Diagram, grid: &Grid, paint: &mut dyn FnMut(u32, Range<u32>, Owner)) {
+        all.paint(grid, &mut |row, columns, owner| {
+            paint(row, columns, if self.has_loop(owner) { owner } else { Owner::Background });
         });
         for field in &self.fields {
-            field.paint(grid, &mut |column, row, owner| {
+            field.paint(grid, &mut |row, columns, owner| {
                 if matches!(owner, Owner::Net(_)) {
-                    paint(column, row, owner);
+                    paint(row, columns, owner);
                 }
             });
         }

@@ -36,6 +36,8 @@ mod tip;
 mod trace;
 mod trim;
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use crate::board::{Copper, Outline, Shape, Warning};
@@ -277,9 +279,9 @@ impl Diagram {
         self.border.frame.as_ref()
     }
 
-    /// Shows `paint` who owns each pixel of `grid` (column, row, owner), tile by tile: nothing holds the whole picture but
-    /// what `paint` makes of it. A pixel may be painted again.
-    pub fn regions(&self, grid: &Grid, mut paint: impl FnMut(u32, u32, Owner)) {
+    /// Shows `paint` who owns the pixels of `grid` (row, columns, owner), tile by tile: nothing holds the whole picture but what
+    /// `paint` makes of it. A pixel may be painted again.
+    pub fn regions(&self, grid: &Grid, mut paint: impl FnMut(u32, Range<u32>, Owner)) {
         match &self.mixed {
             Some(mixed) => mixed.regions(self, grid, &mut paint),
             None => self.paint(grid, &mut paint),
@@ -287,30 +289,42 @@ impl Diagram {
     }
 
     /// [`Diagram::regions`] of this diagram alone.
-    fn paint(&self, grid: &Grid, paint: &mut dyn FnMut(u32, u32, Owner)) {
+    fn paint(&self, grid: &Grid, paint: &mut dyn FnMut(u32, Range<u32>, Owner)) {
         let scene = self.scene(grid);
         let work = |tile: raster::Tile<'_>| {
-            let owners = match &tile.content {
-                TileContent::Uniform(owner) => vec![*owner],
+            let rows = tile.row0..tile.row0 + tile.height;
+            let all = tile.column0..tile.column0 + tile.width;
+            match &tile.content {
+                TileContent::Uniform(owner) => rows.map(|row| (row, all.clone(), *owner)).collect(),
                 TileContent::Pixels(pixels) => {
-                    let rows = (0_i32..).take(tile.height as usize);
-                    let labels = rows.flat_map(|row| pixels.label_row(row));
-                    labels.map(|&label| self.owners[label as usize]).collect()
+                    let labels = (0_i32..).map(|row| pixels.label_row(row));
+                    rows.zip(labels)
+                        .flat_map(|(row, labels)| self.stretches(row, all.start, labels))
+                        .collect()
                 }
-            };
-            (tile.column0, tile.row0, tile.width, tile.height, owners)
+            }
         };
-        raster::stream(
-            &scene,
-            &raster::Options::default(),
-            work,
-            |(column0, row0, width, height, owners)| {
-                let pixels = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
-                for ((column, row), &owner) in pixels.zip(owners.iter().cycle()) {
-                    paint(column0 + column, row0 + row, Owner::from_number(owner));
-                }
-            },
-        );
+        raster::stream(&scene, &raster::Options::default(), work, |stretches: Vec<_>| {
+            for (row, columns, owner) in stretches {
+                paint(row, columns, Owner::from_number(owner));
+            }
+        });
+    }
+
+    /// What each owner has of a row of labels, the first of which is that of `column`.
+    fn stretches<'a>(
+        &'a self,
+        row: u32,
+        column: u32,
+        labels: &'a [u32],
+    ) -> impl Iterator<Item = (u32, Range<u32>, u32)> + 'a {
+        let owner = |label: u32| self.owners[label as usize];
+        let same = labels.chunk_by(move |&a, &b| a == b || owner(a) == owner(b));
+        same.scan(column, move |column, same| {
+            let from = *column;
+            *column += u32::try_from(same.len()).expect("as wide as a tile");
+            Some((row, from..*column, owner(same[0])))
+        })
     }
 
     /// How far each pixel's centre is from the sites, in pixels, row by row from the top; infinite where nothing is in reach.
