@@ -52,3 +52,30 @@ impl Proximity {
         found
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::board::{Axis, Feature, Side};
+    use crate::geometry::{Arc, Turn};
+
+    #[test]
+    fn an_arc_whose_radius_changes_is_where_it_runs() {
+        let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
+        let arc =
+            Arc { start: at(1340, 0), end: at(0, 1380), center: at(0, 0), turn: Turn::CounterClockwise };
+        let shape = Shape::Arc { arc, radius: Nm::from_um(100) };
+        let feature = Feature { shape, axis: Axis::Region, attributes: 0, line: 0 };
+        let copper =
+            Copper { side: Side::Front, features: vec![feature], attributes: vec![Default::default()] };
+        let proximity = Proximity::new(&copper);
+        for fraction in [0.1, 0.5, 0.9] {
+            let (x, y) = arc.at(fraction);
+            let outwards = 1.0 + 150_000.0 / (x * x + y * y).sqrt();
+            let spot = Point::from_f64(x * outwards, y * outwards);
+            let near = proximity.near(&Shape::Disc { center: spot, radius: Nm::ZERO }, Nm::from_um(100));
+            let width = near.first().map(|near| near.width).expect("it is near");
+            assert!((width - 50_000.0).abs() < 1_000.0, "50 µm from it at {fraction}: {width} nm");
+        }
+    }
+}

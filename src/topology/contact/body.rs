@@ -30,8 +30,21 @@ enum Line {
     Arc(Sector),
 }
 
+/// Radii at the ends of an arc that differ by more than this, in nanometres, are no circle: the wedge between the two would be found that
+/// much too early. Chosen: what rounding in a program makes of them.
+const ROUND: f64 = 2_000.0;
+/// How far chords may leave such a spiral. Chosen: far below what is tolerated.
+const CHORD: Nm = Nm::new(200);
+
 impl Body {
     pub(in crate::topology) fn new(shape: &Shape) -> Self {
+        if let Shape::Arc { arc, .. } = shape
+            && (arc.radius() - arc.center.distance(arc.end)).abs() > ROUND
+            && let Some(polygon) = shape.polygon(CHORD)
+        {
+            let core = Core::Area(Box::new(Area::new(&polygon)));
+            return Self { core, radius: Nm::ZERO, bounds: shape.bounds() };
+        }
         let (core, radius) = match shape {
             Shape::Disc { center, radius } => (Core::Line(Line::Point(*center)), *radius),
             Shape::Stroke { from, to, radius } => (Core::Line(Line::Segment(*from, *to)), *radius),

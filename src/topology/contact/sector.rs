@@ -5,7 +5,7 @@ use crate::geometry::{Arc, Point, Turn, Vector};
 /// An [`Arc`]'s ends are rounded to nanometres, so its two radii differ by up to 1.5 nm, and in sloppy files by more.
 /// In between the radius goes evenly from one to the other; the wedge between both circles holds that curve, and where
 /// the radii agree it is that curve. So contact with an arc is exact if both radii are equal, and else never missed and
-/// found early by at most their difference.
+/// found early by at most their difference. Where that is a matter of micrometres the arc is an area of chords instead.
 ///
 /// # Guarantees
 ///
