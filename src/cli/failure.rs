@@ -37,8 +37,15 @@ impl Failure {
         let label = if std::io::stderr().is_terminal() { "\x1b[1;31merror\x1b[0m" } else { "error" };
         let cause = self.cause.strip_prefix("error: ").unwrap_or(&self.cause);
         let hint = if self.hint.is_empty() { String::new() } else { format!("\nhint: {}", self.hint) };
+        let cause = shown(cause);
         super::print_to(&mut std::io::stderr().lock(), &format!("{label}: {cause}{hint}\n"));
     }
+}
+
+/// A text with what a file may hold to steer terminals made visible.
+fn shown(text: &str) -> String {
+    let escaped = |c: char| c.is_control() && c != '\n';
+    text.chars().map(|c| if escaped(c) { c.escape_default().to_string() } else { c.to_string() }).collect()
 }
 
 /// An error of the system without its number.

@@ -252,7 +252,8 @@ impl Verify {
         let degrees = self.rotate.map_or(0.0, Angle::degrees);
         let shift = self.offset.map_or(Vector::default(), |Offset(shift)| shift);
         Ok(Program {
-            file: path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            // As it was given: editors and code hosts find the file by it.
+            file: path.display().to_string(),
             text: String::from_utf8_lossy(&bytes).into_owned(),
             role,
             cutter: self.tool,

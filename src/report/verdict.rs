@@ -160,7 +160,8 @@ impl Verdict {
             .iter()
             .map(|check| json!({ "id": check.name, "shortDescription": { "text": check.about } }))
             .collect();
-        let results: Vec<_> = self.findings.iter().map(sarif).collect();
+        let results: Vec<_> =
+            self.findings.iter().map(|finding| sarif(finding, self.program(finding))).collect();
         to_json(&json!({
             "$schema": "https://json.schemastore.org/sarif-2.1.0.json",
             "version": "2.1.0",
@@ -169,6 +170,13 @@ impl Verdict {
                 "results": results,
             }],
         }))
+    }
+
+    /// The program that a finding is about: of what no line does, the first that should have done it.
+    fn program<'a>(&'a self, finding: &'a FindingEntry) -> Option<&'a str> {
+        let role = finding.side.map_or("drilling".to_owned(), |side| side.to_string());
+        let judged = || self.judged.iter().find(|judged| judged.role.starts_with(&role));
+        finding.program.as_deref().or_else(|| judged()?.programs.first().map(String::as_str))
     }
 
     /// As JUnit XML: a test case for each check, which fails once with all its findings of at least `deny`.
@@ -198,7 +206,7 @@ impl Verdict {
     }
 }
 
-fn sarif(finding: &FindingEntry) -> serde_json::Value {
+fn sarif(finding: &FindingEntry, program: Option<&str>) -> serde_json::Value {
     let level = match finding.severity {
         Severity::Info => "note",
         Severity::Warning => "warning",
@@ -211,7 +219,8 @@ fn sarif(finding: &FindingEntry) -> serde_json::Value {
         "message": { "text": finding.message },
         "properties": { "side": finding.side, "nets": finding.nets, "at": finding.at, "size_mm": finding.size_mm },
     });
-    if let Some(program) = &finding.program {
+    // Code hosts leave out what has no place.
+    if let Some(program) = program {
         let line = finding.line.unwrap_or(1);
         result["locations"] = json!([{ "physicalLocation": {
             "artifactLocation": { "uri": uri(program) },
@@ -221,9 +230,9 @@ fn sarif(finding: &FindingEntry) -> serde_json::Value {
     result
 }
 
-/// A file's name as a relative URI (RFC 3986 §2.1): what is not unreserved becomes bytes in hexadecimal.
+/// A file's name as a URI, relative unless it is absolute (RFC 3986 §2.1): what is not unreserved becomes bytes in hexadecimal.
 fn uri(name: &str) -> String {
-    let mut text = String::new();
+    let mut text = if name.starts_with('/') { "file://".to_owned() } else { String::new() };
     for byte in name.bytes() {
         if byte.is_ascii_alphanumeric() || matches!(byte, b'-' | b'.' | b'_' | b'~' | b'/') {
             text.push(char::from(byte));

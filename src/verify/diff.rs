@@ -120,7 +120,7 @@ impl Comparison {
     #[must_use]
     pub fn total(&self, change: Change) -> (usize, f64) {
         let of = || self.regions.iter().filter(|region| region.change == change);
-        (of().count(), of().map(|region| region.area).sum())
+        (of().count(), of().map(|region| region.area).fold(0.0, |all, area| all + area))
     }
 
     /// A picture of a part of the plane, of at most so many pixels each way; row 0 on top.

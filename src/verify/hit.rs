@@ -46,15 +46,16 @@ fn taken(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, tolerance: Nm) -> Vec<H
     let half = cut.swept.half();
     let mut hits: Vec<Hit> = Vec::new();
     for near in sheet.proximity.near(&cut.swept.axis(), half - tolerance) {
-        if near.width >= (half - tolerance).to_f64() || !sheet.holds(near.at) {
-            continue;
-        }
         let net = sheet.nets.of(near.feature);
         let depth = half.to_f64() - near.width;
+        let known = hits.iter().position(|other| other.net == net);
+        let is_deeper = known.is_none_or(|known| hits[known].depth < depth);
+        if near.width >= (half - tolerance).to_f64() || !is_deeper || !sheet.holds(near.at) {
+            continue;
+        }
         let hit = Hit { cut: index, net, depth, at: near.at, through: near.width <= 0.0, forced: false };
-        match hits.iter_mut().find(|other| other.net == net) {
-            Some(other) if other.depth >= depth => {}
-            Some(other) => *other = hit,
+        match known {
+            Some(known) => hits[known] = hit,
             None => hits.push(hit),
         }
     }

@@ -31,7 +31,8 @@ pub(super) fn lost(sheet: &Sheet<'_>, hits: &[Hit]) -> f64 {
     // What both cover is what each covers less what they cover together.
     let both: Stretches = cut.iter().chain(&copper).copied().collect();
     let common = length(cut) + length(copper) - length(both);
-    common * pitch.to_f64() / 1e12
+    // What a rounding leaves below nothing is nothing.
+    common.max(0.0) * pitch.to_f64() / 1e12
 }
 
 fn ruled(ruling: &Ruling, lines: Range<i64>, shapes: impl Iterator<Item = Shape>) -> Stretches {
@@ -44,7 +45,8 @@ fn ruled(ruling: &Ruling, lines: Range<i64>, shapes: impl Iterator<Item = Shape>
 
 /// How much of all lines is covered, in nanometres.
 fn length(mut stretches: Stretches) -> f64 {
-    stretches.sort_unstable_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+    // Those of a shape are in order: the stable sort merges what is.
+    stretches.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
     let mut all = 0.0;
     for line in stretches.chunk_by(|a, b| a.0 == b.0) {
         let mut reached = f64::NEG_INFINITY;

@@ -203,7 +203,7 @@ impl Error {
         match self {
             Self::NoTool { .. } => "name it: --tool vbit:0.1mm:30deg, or endmill:0.2mm",
             Self::NoSide(_) | Self::NoCopper { .. } => "name it: --side front, or back",
-            Self::Grid(_) => "choose a larger --pixel",
+            Self::Grid(_) => "choose a larger --resolution",
             Self::Unplaced(_) => "say how it lies: --offset, --mirror, --rotate",
             Self::Read { .. } | Self::Range { .. } | Self::NoMotion(_) => "",
         }

@@ -49,7 +49,35 @@ fn every_form_is_printed() {
     let sarif = stdout(&verify("arcs.nc", &["--format", "sarif"]));
     let log: serde_json::Value = serde_json::from_str(&sarif).expect("JSON");
     assert_eq!(log["version"], "2.1.0", "SARIF: {sarif}");
+    let uri = |log: &serde_json::Value| {
+        let place = &log["runs"][0]["results"][0]["locations"][0]["physicalLocation"];
+        place["artifactLocation"]["uri"].as_str().unwrap_or_default().to_owned()
+    };
+    assert!(uri(&log).starts_with("file:///"), "where the program is: {sarif}");
+    // No line of a program drills the second hole.
+    let folder = TempDir::new().expect("a folder");
+    let text = fs::read_to_string(fixture("cycle.nc")).expect("a program");
+    fs::create_dir(folder.path().join("out")).expect("writable");
+    fs::write(folder.path().join("out/one.nc"), text.replace("X5\n", "")).expect("writable");
+    let (copper, holes) = (fixture("pads-F_Cu.gbr"), fixture("pads.drl"));
+    let board = ["--board", &copper, &holes, "--tool", "drill:0.8mm", "--format", "sarif"];
+    let missing = voromill(folder.path(), &[&["verify", "out/one.nc"], &board[..]].concat());
+    let log: serde_json::Value = serde_json::from_str(&stdout(&missing)).expect("JSON");
+    assert_eq!(log["runs"][0]["results"][0]["ruleId"], "hole-missing", "{}", stdout(&missing));
+    assert_eq!(uri(&log), "out/one.nc", "code hosts leave out what has no place");
     assert!(stdout(&verify("arcs.nc", &["--format", "junit"])).starts_with("<?xml"), "JUnit");
+}
+
+#[test]
+fn a_text_that_steers_terminals_is_shown_as_a_text() {
+    let folder = TempDir::new().expect("a folder");
+    let program = folder.path().join("steers.nc");
+    fs::write(&program, "G90 G21\n\u{1b}[31mX1\n").expect("writable");
+    let board = ["--board", &fixture("pads-F_Cu.gbr"), "--tool", "endmill:0.2mm", "--side", "front"];
+    let refused = voromill(folder.path(), &[&["verify", "steers.nc"], &board[..]].concat());
+    assert_eq!(refused.status.code(), Some(2), "no program");
+    assert!(stderr(&refused).contains("`\\u{1b}[31mX1`"), "escaped: {:?}", stderr(&refused));
+    assert!(!stderr(&refused).contains('\u{1b}'), "and nothing else: {:?}", stderr(&refused));
 }
 
 #[test]
@@ -99,6 +127,7 @@ fn diff_shows_what_copper_changes() {
     assert_eq!(other.status.code(), Some(1), "{}{}", stdout(&other), stderr(&other));
     assert!(stdout(&other).contains("same.nc: the same copper"), "{}", stdout(&other));
     assert!(stdout(&other).contains("added.nc: "), "{}", stdout(&other));
+    assert!(!stdout(&other).contains("-0.0000"), "nothing is nothing: {}", stdout(&other));
     let picture = fs::read(out.path().join("pictures/added.nc.png")).expect("a picture");
     assert!(picture.starts_with(b"\x89PNG"), "of what differs");
     assert!(!out.path().join("pictures/same.nc.png").exists(), "and none of what does not");

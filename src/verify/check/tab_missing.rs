@@ -49,7 +49,8 @@ fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Fin
 
 fn missing(program: &Machining, outline: &Polygon, settings: &Settings) -> Vec<Finding> {
     let Some(half) = program.swept.iter().map(Swept::half).min() else { return Vec::new() };
-    let pitch = (half / 8).max(Nm::from_um(10));
+    // An eighth of the groove: no way through it is missed, and a tab is many pixels long.
+    let pitch = (half / 4).max(Nm::from_um(10));
     let rim = half * 4;
     let Ok(grid) = Grid::covering(outline.bounds().inflate(rim), pitch) else { return Vec::new() };
     let scene = scene(program, outline, &grid);
