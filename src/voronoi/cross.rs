@@ -15,7 +15,7 @@ use super::OUTSIDE;
 use super::plane::Spot;
 use super::span::Vertex;
 use super::stitch::Line;
-use super::tip::{End, NEARER, Nodes, SETTLED, STEPS, Tips, nodes, third_owner};
+use super::tip::{ACCEPTED, End, NEARER, Nodes, SETTLED, STEPS, Tips, end_vertex, nodes, third_owner};
 use super::trace::Corner;
 
 /// Crossing over one boundary may let the next one: rounds at most. Chosen: more than one is rare.
@@ -111,9 +111,10 @@ impl Tips<'_> {
     /// the fourth; none where all four meet in one point.
     fn parted(&self, lines: &[Line], ends: &[End]) -> Option<([u32; 4], [Vertex; 2])> {
         let [a, b, c, d] = regions_round(lines, ends)?;
-        let line = &lines[ends[0].line];
-        let node = line.vertices[if ends[0].tail { line.vertices.len() - 1 } else { 0 }];
-        if ![a, b, c, d].into_iter().any(|owner| self.is_nearer(node, owner)) {
+        // Where the picture has one node, it stands where three of the regions are equally far: the fourth may be nearer, or farther.
+        let node = end_vertex(lines, ends[0]);
+        let [least, most] = self.spread(&[a, b, c, d], node.at);
+        if most - least <= ACCEPTED {
             return None;
         }
         [[a, b, c, d], [b, c, d, a]].into_iter().find_map(|[a, b, c, d]| {

@@ -13,6 +13,7 @@
 //! picture of the whole board. Labels are sites, so a pixel names the feature that it is nearest to, and placing costs a few distances.
 
 mod artifact;
+mod bridge;
 mod copper;
 mod cross;
 mod edge;
@@ -40,7 +41,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::board::{Copper, Outline, Shape, Warning};
+use crate::board::{Copper, Outline, Shape, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect};
 use crate::grid::{Grid, GridError};
 use crate::raster::{self, Scene, TileContent};
@@ -54,6 +55,7 @@ use copper::Edges;
 use edge::Border;
 use mixed::Mixed;
 use near::Near;
+use place::Unplaced;
 use seed::Sites;
 use stitch::Line;
 use tip::Tips;
@@ -206,6 +208,7 @@ pub struct Diagram {
     border: Border,
     grid: Grid,
     settings: Settings,
+    side: Side,
     warnings: Vec<Warning>,
     /// What makes it one of loops and of boundaries midway, where nets differ.
     mixed: Option<Box<Mixed>>,
@@ -256,9 +259,9 @@ impl Diagram {
             SiteKind::Core => (None, Edges::new(copper, nets, settings, keep)),
         };
         let grid = Grid::covering(border.window, settings.pitch)?;
-        let (owners, settings) = (sites.owners(), settings.clone());
+        let (owners, settings, side) = (sites.owners(), settings.clone(), copper.side);
         let warnings = Vec::new();
-        Ok(Self { sites, owners, near, edges, border, grid, settings, warnings, mixed: None })
+        Ok(Self { sites, owners, near, edges, border, grid, settings, side, warnings, mixed: None })
     }
 
     /// The grid on which boundaries are found.
@@ -356,30 +359,40 @@ impl Diagram {
         }
         let stitcher = self.trace(&self.scene(&self.grid));
         let mut warnings = Vec::new();
-        let unplaced = stitcher.unplaced;
+        let (traced, torn) = (stitcher.unplaced, stitcher.torn());
         let mut lines = stitcher.lines();
-        let unplaced = unplaced + self.extend_tips(&mut lines);
+        let unplaced = traced.join(self.extend_tips(&mut lines));
         let sizes = artifact::Sizes { stub: self.settings.tolerance / 2, sliver: self.grid.pitch() * 2 };
         warnings.extend(sizes.merge(&mut lines));
         self.border.follow(&mut lines, self.grid.pitch());
-        if unplaced > 0 {
-            let message = format!(
-                "{} boundary points kept their pixel's place, up to {:.3} mm off: use smaller pixels to place them exactly",
-                unplaced,
-                self.grid.pitch()
-            );
-            warnings.push(Warning::new("boundary-not-placed", message));
-        }
+        warnings.extend(self.not_placed(unplaced));
+        warnings.extend(torn.first.map(|first| {
+            let message = format!("{} ends of boundaries hang loose: a fault of the program", torn.count);
+            Warning::new("boundary-torn", message).at(first.rounded()).on(self.side)
+        }));
         (self.graph(lines), warnings)
     }
 
-    /// Places the nodes that the picture left open; returns how many remain so. Among core axes with copper above them, all do.
-    fn extend_tips(&self, lines: &mut Vec<Line>) -> u32 {
+    /// Places the nodes that the picture left open; returns what is not where it belongs. Among core axes with copper above them, no open one is.
+    fn extend_tips(&self, lines: &mut Vec<Line>) -> Unplaced {
         let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
-        match &self.near {
-            Some(near) => Tips { sites: &self.sites, near, border: &self.border, level }.extend(lines),
-            None => u32::try_from(tip::open_nodes(lines).len()).expect("below 2³² nodes"),
+        if let Some(near) = &self.near {
+            return Tips { sites: &self.sites, near, border: &self.border, level }.extend(lines);
         }
+        let mut unplaced = Unplaced::default();
+        tip::open_nodes(lines).values().for_each(|ends| unplaced.add(tip::end_vertex(lines, ends[0]).at));
+        unplaced
+    }
+
+    /// What is to be said of points that are not where they belong.
+    fn not_placed(&self, unplaced: Unplaced) -> Option<Warning> {
+        let message = format!(
+            "{} boundary points kept their pixel's place, up to {:.3} mm off: use smaller pixels to place them exactly",
+            unplaced.count,
+            self.grid.pitch()
+        );
+        let first = unplaced.first?.rounded();
+        Some(Warning::new("boundary-not-placed", message).at(first).on(self.side))
     }
 
     /// Lines fitted, with nodes in the order in which lines meet them.

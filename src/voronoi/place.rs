@@ -98,6 +98,25 @@ impl Target {
     }
 }
 
+/// Points that are not where they belong: how many, and where the first of them is.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Unplaced {
+    pub(super) count: u32,
+    pub(super) first: Option<Spot>,
+}
+
+impl Unplaced {
+    pub(super) fn add(&mut self, at: Spot) {
+        self.count += 1;
+        self.first.get_or_insert(at);
+    }
+
+    /// These, and others that were found after them.
+    pub(super) fn join(self, other: Self) -> Self {
+        Self { count: self.count + other.count, first: self.first.or(other.first) }
+    }
+}
+
 /// How far a point is off its target, and which way that grows; with its clearance, and which way that grows.
 struct Miss {
     value: f64,

@@ -7,6 +7,7 @@ use std::collections::VecDeque;
 
 use rustc_hash::FxHashMap;
 
+use super::place::Unplaced;
 use super::span::{self, Vertex};
 use super::trace::{Corner, Piece, Traced};
 
@@ -38,7 +39,7 @@ pub(super) struct Stitcher {
     /// How many pieces have come.
     pieces: u64,
     lines: Vec<(Rank, Line)>,
-    pub(super) unplaced: u32,
+    pub(super) unplaced: Unplaced,
 }
 
 /// A row of pieces from its head to its tail.
@@ -75,6 +76,13 @@ impl Chain {
         if tail { to } else { from }
     }
 
+    /// The vertex at its head or tail.
+    fn end(&self, tail: bool) -> Vertex {
+        let link = if tail { self.links.back() } else { self.links.front() };
+        let Link { vertices, reversed, .. } = link.expect("a chain has pieces");
+        vertices[if *reversed == tail { 0 } else { vertices.len() - 1 }]
+    }
+
     fn turn(&mut self) {
         self.links.make_contiguous().reverse();
         self.links.iter_mut().for_each(Link::turn);
@@ -96,12 +104,26 @@ impl Stitcher {
             self.pieces += 1;
             self.hang(link);
         }
-        self.unplaced += traced.unplaced;
+        self.unplaced = self.unplaced.join(traced.unplaced);
     }
 
-    /// The edges, in the order of their first pieces.
+    /// The ends of chains that nothing continues although they are no nodes: none, unless two tiles disagree on what lies between them.
+    pub(super) fn torn(&self) -> Unplaced {
+        let mut torn = Unplaced::default();
+        for chain in self.chains.iter().filter(|chain| !chain.links.is_empty()) {
+            let ends = [false, true].into_iter().filter(|&tail| !chain.corner(tail).node);
+            ends.for_each(|tail| torn.add(chain.end(tail).at));
+        }
+        torn
+    }
+
+    /// The edges, in the order of their first pieces; what is torn ends where it does.
     pub(super) fn lines(mut self) -> Vec<Line> {
-        debug_assert!(self.loose.is_empty(), "every piece goes on at every corner that is no node");
+        for chain in 0..self.chains.len() {
+            if !self.chains[chain].links.is_empty() {
+                self.finish(chain);
+            }
+        }
         self.lines.sort_unstable_by_key(|(rank, _)| *rank);
         self.lines.into_iter().map(|(_, line)| line).collect()
     }
@@ -203,5 +225,44 @@ impl Stitcher {
         }
         span::thin(&mut vertices);
         self.lines.push((Rank { is_loop, piece: number }, Line { vertices, left, right, ends }));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::plane::Spot;
+    use super::*;
+
+    /// A piece between two corners on one row; those at odd columns are nodes.
+    fn piece(from: u32, to: u32) -> Traced {
+        let corner =
+            |column: u32| Corner { column, row: 0, branch: false, node: column % 2 == 1, open: false };
+        let vertices = [from, to].map(|column| Vertex::new(Spot::new(f64::from(column), 0.0), 1e5)).to_vec();
+        let piece = Piece { from: corner(from), to: corner(to), left: 2, right: 3, first: 0, len: 2 };
+        Traced { pieces: vec![piece], vertices, ..Traced::default() }
+    }
+
+    #[test]
+    fn pieces_become_one_line_in_any_order() {
+        for order in [[0, 1, 2], [2, 0, 1], [1, 2, 0]] {
+            let pieces = [(1, 4), (6, 4), (6, 9)];
+            let mut stitcher = Stitcher::default();
+            order.into_iter().for_each(|i: usize| stitcher.add(piece(pieces[i].0, pieces[i].1)));
+            assert_eq!(stitcher.torn().count, 0, "nothing is torn");
+            let lines = stitcher.lines();
+            assert_eq!(lines.len(), 1, "{order:?}: {lines:?}");
+        }
+    }
+
+    #[test]
+    fn what_is_torn_is_told_and_kept() {
+        let mut stitcher = Stitcher::default();
+        stitcher.add(piece(1, 4));
+        stitcher.add(piece(4, 6));
+        let torn = stitcher.torn();
+        assert_eq!((torn.count, torn.first), (1, Some(Spot::new(6.0, 0.0))), "at column 6");
+        let lines = stitcher.lines();
+        assert_eq!(lines.len(), 1, "{lines:?}");
+        assert!(lines[0].ends.is_some(), "it ends there");
     }
 }

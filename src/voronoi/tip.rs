@@ -7,9 +7,6 @@
 //!    ──────╱┄┄┄┄┄  B     B
 //! ```
 //!
-//! A wedge may also be seen again farther on, where a pixel's centre happens to fall into it, and the picture then has an island of C. The
-//! boundary of A and B between the two is none: it is taken out, and the borders of C are joined past it.
-//!
 //! The true node is found by following the boundary of A and B for as long as C is nearer than both, and from there
 //! both borders of C are followed back to where they were seen. Distances are asked of all sites, through an index: those seen round the
 //! node need not be the nearest at the tip.
@@ -18,6 +15,7 @@ use std::collections::BTreeMap;
 
 use super::edge::Border;
 use super::near::Near;
+use super::place::Unplaced;
 use super::plane::Spot;
 use super::seed::Sites;
 use super::site::Reach;
@@ -30,8 +28,10 @@ use super::{BACKGROUND, OUTSIDE};
 pub(super) const NEARER: f64 = 2.0;
 /// How exactly points are placed, and at worst, in nanometres of distance difference.
 pub(super) const SETTLED: f64 = 0.05;
-const ACCEPTED: f64 = 5.0;
+pub(super) const ACCEPTED: f64 = 5.0;
 pub(super) const STEPS: usize = 16;
+/// A node is not where it belongs if distances differ by more than this, in nanometres. Chosen: a twentieth of the default fitting tolerance.
+const MISPLACED: f64 = 100.0;
 /// How often the way to a tip is halved at most: to a nanometre, from a metre.
 const BISECTIONS: usize = 30;
 /// Samples on the way to a tip are halved at most so often.
@@ -47,112 +47,60 @@ pub(super) struct Tips<'a> {
 }
 
 /// One end of a line.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct End {
     pub(super) line: usize,
     pub(super) tail: bool,
 }
 
 impl Tips<'_> {
-    /// Extends lines to the true places of their open nodes; returns how many of these could not be found.
-    pub(super) fn extend(&self, lines: &mut Vec<Line>) -> u32 {
+    /// Extends lines to the true places of their open nodes; returns the nodes that are not where their regions are equally far.
+    pub(super) fn extend(&self, lines: &mut Vec<Line>) -> Unplaced {
         self.part(lines);
-        while let Some((bridge, joints)) = self.bridge(lines) {
-            self.take_out(lines, bridge, joints);
-        }
-        let lost = open_nodes(lines).values().map(|ends| u32::from(!self.node(lines, ends))).sum();
+        self.take_out_bridges(lines);
+        open_nodes(lines).values().for_each(|ends| self.node(lines, ends));
         self.cross(lines);
         self.trim(lines);
-        lost
+        self.misplaced(lines)
     }
 
-    /// A line that lies inside a third region from one open node to another, with the two pairs of ends that are to be joined past it.
-    fn bridge(&self, lines: &[Line]) -> Option<(usize, [(End, End); 2])> {
-        let nodes = open_nodes(lines);
-        lines.iter().enumerate().find_map(|(i, line)| {
-            let (from, to) = line.ends.filter(|(from, to)| from.open && to.open)?;
-            let (here, there) = (&nodes[&from.key()], &nodes[&to.key()]);
-            let third = third_owner(lines, here, line)?;
-            if from.key() == to.key() || third_owner(lines, there, line)? != third {
-                return None;
-            }
-            let joint = |owner: u32| {
-                let parts = |end: &&End| {
-                    let other = &lines[end.line];
-                    end.line != i && [other.left, other.right].contains(&owner)
-                };
-                Some((*here.iter().find(parts)?, *there.iter().find(parts)?))
-            };
-            let joints = [joint(line.left)?, joint(line.right)?];
-            self.is_swallowed(line, third).then_some((i, joints))
-        })
-    }
-
-    /// Whether a line lies in the region of `third` altogether.
-    fn is_swallowed(&self, line: &Line, third: u32) -> bool {
-        let pair = (line.left, line.right);
-        let inner = &line.vertices[1..line.vertices.len() - 1];
-        if inner.is_empty() {
-            let middle = line.vertices[0].at.midpoint(line.vertices[line.vertices.len() - 1].at);
-            return self.project(pair, middle).is_some_and(|middle| self.is_inside(pair, third, middle.at));
-        }
-        inner.iter().all(|vertex| self.is_inside(pair, third, vertex.at))
-    }
-
-    /// Takes a line out and joins the others that end at its nodes.
-    fn take_out(&self, lines: &mut Vec<Line>, bridge: usize, joints: [(End, End); 2]) {
-        let mut gone = vec![bridge];
-        for (here, there) in joints {
-            let third = [lines[bridge].left, lines[bridge].right]
-                .into_iter()
-                .find(|owner| ![lines[here.line].left, lines[here.line].right].contains(owner));
-            let joined = self.joined(lines, (here, there), third.unwrap_or(OUTSIDE));
-            lines[here.line] = joined;
-            if there.line != here.line {
-                gone.push(there.line);
+    /// The nodes from which not all regions that meet there are equally far.
+    fn misplaced(&self, lines: &[Line]) -> Unplaced {
+        let mut unplaced = Unplaced::default();
+        for ends in nodes(lines, |_| true).values() {
+            let node = end_vertex(lines, ends[0]).at;
+            let mut owners: Vec<u32> =
+                ends.iter().flat_map(|end| [lines[end.line].left, lines[end.line].right]).collect();
+            let at_border = owners.contains(&OUTSIDE);
+            owners.retain(|&owner| owner != OUTSIDE);
+            owners.sort_unstable();
+            owners.dedup();
+            let [least, most] = self.spread(&owners, node);
+            if most - least > MISPLACED || (at_border && self.border.distance(node).abs() > MISPLACED) {
+                unplaced.add(node);
             }
         }
-        gone.sort_unstable();
-        for line in gone.into_iter().rev() {
-            lines.remove(line);
-        }
+        unplaced
     }
 
-    /// The line that runs up to one end and on from the other, without what lies in the region of `third` there; a loop where both are
-    /// ends of one line.
-    fn joined(&self, lines: &[Line], (here, there): (End, End), third: u32) -> Line {
-        let first = &lines[here.line];
-        let (left, right) = if here.tail { (first.left, first.right) } else { (first.right, first.left) };
-        let pair = (left, right);
-        let clear = |end: End| {
-            let mut vertices = outward(&lines[end.line], end.tail);
-            let clear = self.first_clear(&vertices, pair, third).unwrap_or(vertices.len() - 1);
-            vertices.split_off(clear)
-        };
-        let (mut vertices, onward) = (clear(here), clear(there));
-        vertices.reverse();
-        let (before, after) = (vertices[vertices.len() - 1], onward[0]);
-        self.halve(pair, before, after, HALVINGS, &mut vertices);
-        let far = |end: End| lines[end.line].ends.map(|(from, to)| if end.tail { from } else { to });
-        if here.line == there.line {
-            // One line round: what it has beyond the gap, it has already.
-            let open = vertices.iter().position(|vertex| *vertex == after).unwrap_or(0);
-            vertices.drain(..open);
-            vertices.push(after);
-            return Line { vertices, left, right, ends: None };
-        }
-        vertices.extend(onward);
-        Line { vertices, left, right, ends: far(here).zip(far(there)) }
+    /// How far the nearest and the farthest of several regions are from a place.
+    pub(super) fn spread(&self, owners: &[u32], p: Spot) -> [f64; 2] {
+        owners
+            .iter()
+            .map(|&owner| self.reach(owner, p).distance)
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], distance| {
+                [least.min(distance), most.max(distance)]
+            })
     }
 
-    /// Moves the node at which three lines end to its place; false if it cannot be found.
-    fn node(&self, lines: &mut [Line], ends: &[End]) -> bool {
+    /// Moves the node at which three lines end to its place, if that can be found.
+    fn node(&self, lines: &mut [Line], ends: &[End]) {
         let found = ends.iter().find_map(|end| {
             let line = &lines[end.line];
             let third = third_owner(lines, ends, line)?;
             self.tip(&outward(line, end.tail), (line.left, line.right), third)
         });
-        let Some(tip) = found else { return false };
+        let Some(tip) = found else { return };
         for end in ends {
             let line = &lines[end.line];
             let Some(third) = third_owner(lines, ends, line) else { continue };
@@ -162,7 +110,6 @@ impl Tips<'_> {
             }
             lines[end.line].vertices = vertices;
         }
-        true
     }
 
     /// Where the boundary of `pair` emerges from the region of `third`, if it begins in there.
@@ -186,7 +133,7 @@ impl Tips<'_> {
     }
 
     /// The first vertex after the node that does not lie in the region of `third`.
-    fn first_clear(&self, vertices: &[Vertex], pair: (u32, u32), third: u32) -> Option<usize> {
+    pub(super) fn first_clear(&self, vertices: &[Vertex], pair: (u32, u32), third: u32) -> Option<usize> {
         (1..vertices.len()).find(|&i| !self.is_inside(pair, third, vertices[i].at))
     }
 
@@ -232,7 +179,7 @@ impl Tips<'_> {
         Vertex::across(node.at, node.clearance(), a.away - b.away, a.away)
     }
 
-    fn is_inside(&self, pair: (u32, u32), third: u32, p: Spot) -> bool {
+    pub(super) fn is_inside(&self, pair: (u32, u32), third: u32, p: Spot) -> bool {
         let other = self.reach(pair.0, p).distance.min(self.reach(pair.1, p).distance);
         self.reach(third, p).distance < other - NEARER
     }
@@ -245,7 +192,7 @@ impl Tips<'_> {
     }
 
     /// The point near `from` that is equally far from both.
-    fn project(&self, (a, b): (u32, u32), from: Spot) -> Option<Vertex> {
+    pub(super) fn project(&self, (a, b): (u32, u32), from: Spot) -> Option<Vertex> {
         let mut p = from;
         for step in 0..STEPS {
             let (a, b) = (self.reach(a, p), self.reach(b, p));
@@ -296,8 +243,14 @@ pub(super) fn third_owner(lines: &[Line], ends: &[End], line: &Line) -> Option<u
     owners.into_iter().find(|&owner| owner != line.left && owner != line.right)
 }
 
+/// The vertex at one end of a line.
+pub(super) fn end_vertex(lines: &[Line], end: End) -> Vertex {
+    let vertices = &lines[end.line].vertices;
+    vertices[if end.tail { vertices.len() - 1 } else { 0 }]
+}
+
 /// The vertices of a line from one of its ends on.
-fn outward(line: &Line, tail: bool) -> Vec<Vertex> {
+pub(super) fn outward(line: &Line, tail: bool) -> Vec<Vertex> {
     let mut vertices = line.vertices.clone();
     if tail {
         vertices.reverse();

@@ -21,9 +21,9 @@ const PITCHES: [i64; 4] = [101_600, 50_800, 25_400, 12_700];
 const APART: f64 = 2_000.0;
 /// Farther apart, in nanometres: one place each where pixels are four fifths as wide as the narrowest gap.
 const EXPLAINED: &[(&str, i64, f64)] = &[
-    ("gerbv_protel_se_sg front", 101_600, 2_400.0),
-    ("gerbv_protel_se_sg back", 101_600, 2_600.0),
-    ("ts_usbvil back", 101_600, 2_300.0),
+    ("gerbv_protel_se_sg front", 101_600, 2_100.0),
+    ("gerbv_protel_se_sg back", 101_600, 2_500.0),
+    ("ts_usbvil back", 101_600, 2_200.0),
 ];
 /// An unoptimised test looks at layers with at most so many features.
 const FEATURES_UNOPTIMISED: usize = 60;

@@ -216,6 +216,53 @@ fn the_resolution_does_not_move_the_cut() {
     }
 }
 
+#[test]
+fn two_nodes_that_pixels_see_as_one_are_two() {
+    for off in [15, 25, 35, 45, 60, 80] {
+        // A square's corners would all be equally far from its middle; with one of them moved out, two nodes lie up to 60 µm apart.
+        let shapes = [disc(0, 0, 400), disc(6000 + off, off, 400), disc(6000, 6000, 400), disc(0, 6000, 400)];
+        let copper = layer(shapes);
+        for pitch in [101_600, 50_800, 31_000, 25_400] {
+            let settings = Settings { pitch: Nm::new(pitch), ..Settings::default() };
+            let nets = topology::recover(&copper, Method::Contact);
+            let diagram = Diagram::new(&copper, &nets, None, &settings).expect("a diagram");
+            let (found, warnings) = diagram.boundaries();
+            let unplaced = warnings.iter().find(|warning| warning.code == "boundary-not-placed");
+            assert_eq!(unplaced, None, "{off} µm out, pixels of {pitch} nm");
+            let (worst, at) = worst_point(&copper, &nets, &found, None);
+            assert!(worst < 2_000.0, "{worst} nm off at {at:?}: {off} µm out, pixels of {pitch} nm");
+            assert_euler(&found, 4);
+        }
+    }
+}
+
+#[test]
+fn an_offset_curve_keeps_its_distance_in_concave_corners() {
+    // Two pads that overlap: where their offset curves meet is no place for a cutter that goes on.
+    for (shift, limit) in [(0, 100), (7, 100), (13, 100), (21, 100), (29, 150), (37, 60), (46, 250)] {
+        let one = Rect::new(at(-778, 1121), at(1744 + shift, 3643 + 2 * shift));
+        let other = Rect::new(at(1240 + shift, 671), at(5052, 4483));
+        let pads = [one, other].map(|pad| Shape::Polygon(Polygon::rectangle(pad)));
+        let copper = layer(pads.into_iter().chain([disc(9000, 2000, 500)]));
+        for pitch in [101_600, 50_800, 33_000, 25_400] {
+            let settings =
+                Settings { limit: Some(Nm::from_um(limit)), pitch: Nm::new(pitch), ..Settings::default() };
+            let (nets, found) = boundaries(&copper, &settings);
+            let points = found.edges.iter().filter(|edge| !edge.is_border());
+            for p in points.flat_map(|edge| edge.path.flatten(Nm::new(50))) {
+                let (x, y) = p.to_f64();
+                let nearest =
+                    oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+                let short = settings.limit.map_or(0.0, Nm::to_f64) - nearest;
+                assert!(
+                    short <= 2_000.0,
+                    "{short} nm too near at {p:?}: moved by {shift} µm, pixels of {pitch} nm"
+                );
+            }
+        }
+    }
+}
+
 /// How far the points of one graph are from another's paths between the same regions, at most, in nanometres.
 fn apart(one: &Boundaries, other: &Boundaries) -> f64 {
     let mut farthest: f64 = 0.0;

@@ -3,7 +3,8 @@
 //! Between two pixels of different owners runs a *crack*, a unit edge between pixel corners. A corner where two
 //! cracks meet only passes a boundary on; where three or four meet, regions meet, and the corner is a node. At a
 //! checkerboard corner (A B / C A, where B and C may be one), whoever owns the corner itself decides: if it is A, both of its
-//! pixels are joined, and one boundary passes round B, another round C. If not, all four boundaries end there.
+//! pixels are joined, and one boundary passes round B, another round C. If not, all four boundaries end there. Where B or C is the outside,
+//! the two pixels are joined: what lies across from the outside does not reach it there.
 //!
 //! ```text
 //!     A A │ B          A A │ C          A A ╰ B      a tile owns the left and upper crack of each of its
@@ -23,7 +24,7 @@ mod pixels;
 mod sample;
 
 use super::OUTSIDE;
-use super::place::Placer;
+use super::place::{Placer, Unplaced};
 use super::plane::Spot;
 use super::span::Vertex;
 
@@ -66,7 +67,7 @@ pub(super) struct Traced {
     pub(super) pieces: Vec<Piece>,
     pub(super) vertices: Vec<Vertex>,
     /// Samples that kept their pixel's place because the true one was not within reach.
-    pub(super) unplaced: u32,
+    pub(super) unplaced: Unplaced,
 }
 
 /// What tracing needs to know beside the pixels.
@@ -201,12 +202,13 @@ impl Tracer<'_> {
         let rising = (upper[1] == lower[0]).then_some((upper[1], Joined::Rising));
         let four =
             upper[0] != upper[1] && upper[0] != lower[0] && lower[1] != upper[1] && lower[1] != lower[0];
-        if !four
-            || (falling.is_none() && rising.is_none())
-            || upper.contains(&OUTSIDE)
-            || lower.contains(&OUTSIDE)
-        {
+        if !four || (falling.is_none() && rising.is_none()) {
             return None;
+        }
+        if upper.contains(&OUTSIDE) || lower.contains(&OUTSIDE) {
+            // The region between the two ends before it comes to the border, or reaches it by less than a pixel.
+            let alone = if rising.is_none() { falling } else { rising.xor(falling) };
+            return alone.filter(|(owner, _)| *owner != OUTSIDE).map(|(_, joined)| joined);
         }
         let here = self.placer.owner(self.spot(f64::from(x), f64::from(y)), self.course.level)?;
         [falling, rising].into_iter().flatten().find(|(owner, _)| *owner == here).map(|(_, joined)| joined)

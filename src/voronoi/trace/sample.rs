@@ -172,7 +172,7 @@ impl Tracer<'_> {
     /// The place of a boundary point near `at`, or `at` itself where there is none.
     pub(super) fn placed(&mut self, target: &mut Target, at: Spot) -> Placed {
         self.project(target, at).unwrap_or_else(|| {
-            self.traced.unplaced += 1;
+            self.traced.unplaced.add(at);
             let clearance = self.placer.clearance(target, at).max(0.0);
             self.placer.on_curve(target, Vertex::new(at, clearance))
         })
