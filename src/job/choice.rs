@@ -40,6 +40,16 @@ pub enum Narrow {
     Error,
 }
 
+/// The side that lies up while holes are drilled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum DrillSide {
+    /// As for the front.
+    Front,
+    /// Turned over, as for the back.
+    Back,
+}
+
 /// How touching copper is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

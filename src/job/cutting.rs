@@ -3,7 +3,7 @@ use crate::toolpath::{Heights, Tool, ToolKind};
 use crate::voronoi::Widening;
 
 use super::quantity::Length;
-use super::settings::positive;
+use super::settings::{given, positive};
 use super::tools::{self, Fetched, Workshop};
 use super::{Error, Options};
 
@@ -67,6 +67,34 @@ fn depth_of(tool: &Tool, own: Option<Nm>, options: &Options) -> Result<Nm, Error
         // With several tools the kerf is what the V-bits cut.
         (None, ..) => positive("depth", options.depth.or(Options::defaults().depth)),
     }
+}
+
+/// The least way between copper and the lap round it that is taken unasked. Chosen: what boards keep between copper and copper, so that the
+/// lap is no narrower a place than the rest.
+const LEAST_MARGIN: Nm = Nm::from_um(200);
+/// The same where copper is cleared, or belongs to nobody, farther out. Chosen.
+const ROOM: Nm = Nm::from_mm(1);
+
+/// How far the lap round copper without an outline keeps from it: so that the cut itself is clear, and as far as the gap is to be cleared.
+pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm, Error> {
+    let kerf = cuttings.iter().map(Cutting::kerf).max().unwrap_or(Nm::ZERO);
+    let Some(margin) = given("frame-margin", options.frame_margin)? else {
+        let cleared = cuttings.iter().filter_map(|cutting| cutting.widening).map(|widening| widening.width);
+        let cleared = cleared.max().filter(|&width| width < EVERYTHING);
+        let least = if options.limit.is_some() || options.clear == Some(true) { ROOM } else { LEAST_MARGIN };
+        return Ok(cleared.unwrap_or(kerf).max(kerf).max(least));
+    };
+    let least = kerf / 2 + options.tolerance.map_or(Nm::ZERO, Length::nm);
+    if margin < least {
+        let problem = format!(
+            "a lap {} from copper would cut it: with a kerf of {} it needs {}",
+            Length(margin),
+            Length(kerf),
+            Length(least)
+        );
+        return Err(Error::Value { key: "frame-margin", problem });
+    }
+    Ok(margin)
 }
 
 /// Wider than any gap.

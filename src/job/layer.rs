@@ -5,7 +5,7 @@ use crate::geometry::{Nm, Path};
 use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate, share};
 use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, Nets, Translucency};
-use crate::voronoi::{self, Boundaries, Boundary, Diagram, Loops, Owner, SiteKind};
+use crate::voronoi::{self, Boundaries, Boundary, Diagram, Frame, Loops, Owner, SiteKind};
 
 use super::choice::{self, Sites, Topology};
 use super::{Cutting, Error, Settings, by_net};
@@ -154,6 +154,7 @@ fn diagram_settings(settings: &Settings, pitch: Nm) -> voronoi::Settings {
         // The end of a cut is round: with half a kerf beyond the outline its whole width reaches the edge, and a fine
         // cutter leaves no scratches outside.
         overlap: voronoi::Settings::default().overlap.min(settings.finest_kerf() / 2),
+        frame: Frame::Hull(settings.frame_margin),
         ..voronoi::Settings::default()
     }
 }

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use crate::toolpath::{Angle, Feed};
 
 use super::by_net::StrategyFor;
-use super::choice::{DialectChoice, Narrow, Origin, Sites, Strategy, Topology};
+use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::pattern::Pattern;
 use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::tools::{Library, ToolChoice};
@@ -99,6 +99,11 @@ pub struct Options {
     /// Without an outline: do not cut once round the copper
     #[arg(long = "no-frame", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
     pub frame: Option<bool>,
+
+    /// How far that lap keeps from copper [default: as wide as the cut or the width to be cleared, 0.2mm at least]
+    #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub frame_margin: Option<Length>,
 
     /// With core axes: let boundaries run through copper that a neighbour's axis is nearer to, as without the paper's minimum width
     #[arg(long = "no-min-width", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
@@ -220,9 +225,25 @@ pub struct Options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drill_spindle: Option<u32>,
 
-    /// Bore slots and holes without a drill with the cutout's end mill
+    /// Bore slots and holes without a drill with an end mill
     #[arg(long, num_args = 0, default_missing_value = "true", help_heading = "Drilling and cutting out")]
     pub drill_bore: Option<bool>,
+
+    /// The end mill that bores [default: the one that cuts the board out]
+    #[arg(long, value_name = "TOOL", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub drill_bore_tool: Option<ToolChoice>,
+
+    /// The side that is up while holes are drilled: front, or back for a board that is turned over
+    #[arg(
+        long,
+        value_enum,
+        hide_possible_values = true,
+        value_name = "SIDE",
+        help_heading = "Drilling and cutting out"
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub drill_side: Option<DrillSide>,
 
     /// Two holes of this diameter beside the board, to turn it over on pins: a program of their own
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]

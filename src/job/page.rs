@@ -40,7 +40,7 @@ impl Job {
                 Part::Alignment | Part::Drill | Part::Cutout => None,
             },
             part: written.part.name(),
-            placement: self.laid(written.part),
+            placement: self.laid(written),
             seconds: written.statistics.seconds,
             rapid: settings.machine.rapid.nm_per_second() * 60e-6,
             tools: tools.collect(),

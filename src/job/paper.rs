@@ -5,7 +5,7 @@ use crate::geometry::Nm;
 use crate::report::paper::{Columns, PaperEntry, Paths};
 use crate::topology::{self, Method, Nets, Sampling};
 use crate::voronoi::paper::{Paper, Toolpaths, mean_width};
-use crate::voronoi::{self, Diagram};
+use crate::voronoi::{self, Diagram, Frame};
 
 use super::Error;
 
@@ -53,7 +53,8 @@ fn paths(toolpaths: Toolpaths) -> Paths {
 /// The same by exact boundaries: copper edges as sites, and the frame where the paper has it.
 fn exact(copper: &Copper, nets: &Nets, drawn: &Paper<'_>, strokes: &[f64]) -> Result<Columns, Error> {
     let trace = |limit: Option<Nm>, margin: Nm| -> Result<_, Error> {
-        let settings = voronoi::Settings { limit, margin, ..voronoi::Settings::default() };
+        let settings =
+            voronoi::Settings { limit, frame: Frame::Rectangle(margin), ..voronoi::Settings::default() };
         let diagram = Diagram::new(copper, nets, None, &settings);
         let diagram = diagram.map_err(|reason| Error::Voronoi { side: copper.side, reason })?;
         Ok(diagram.boundaries().0)

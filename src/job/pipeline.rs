@@ -3,6 +3,7 @@ use rayon::prelude::*;
 use crate::board::{Board, Side, Source, Warning};
 use crate::gcode::dialect::ToolChange;
 use crate::gcode::{Header, Input};
+use crate::geometry::Nm;
 use crate::import::Loaded;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
 use crate::toolpath::{Order, Placement, Program, Section};
@@ -30,6 +31,8 @@ pub struct Job {
     pub ignored: Vec<String>,
     /// How it lies on the machine, seen from the front.
     pub placement: Placement,
+    /// The line about which it is turned over, in machine coordinates.
+    pub axis: Nm,
     /// Its sides, front first.
     pub layers: Vec<Layer>,
     /// The nets of the assembled board; none where it has one side.
@@ -65,11 +68,11 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     }
     let header = header(&sources);
     let write = |part: Part, side: Side, program: Program| {
-        Written::new(part, program, &header, stock.tiling(side), settings)
+        Written::new((part, side), program, &header, stock.tiling(side), settings)
     };
     let alignment = stock.alignment(&board, settings);
     let mut programs: Vec<Written> = alignment
-        .map(|program| Written::new(Part::Alignment, program, &header, None, settings))
+        .map(|program| Written::new((Part::Alignment, Side::Front), program, &header, None, settings))
         .into_iter()
         .collect();
     programs.par_extend(layers.par_iter().flat_map_iter(|layer| {
@@ -80,11 +83,12 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     warnings.extend(by_net::idle(sides, settings));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
-        let (sections, found) = drill_holes(&board, &stock.front, settings);
-        let drilling = whole("drill", &board, sections, settings);
-        programs.extend(
-            in_files(drilling, settings).into_iter().map(|program| write(Part::Drill, Side::Front, program)),
-        );
+        let side = settings.drill_side;
+        let placement = stock.placement(side);
+        let (sections, found) = drill_holes(&board, &placement, settings);
+        let drilling = turned(whole("drill", &board, sections, settings), &placement);
+        let files = in_files(drilling, settings);
+        programs.extend(files.into_iter().map(|program| write(Part::Drill, side, program)));
         warnings.extend(found);
     }
     if let Some(outline) = &board.outline {
@@ -98,7 +102,8 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     }
     let electrical = electrical(&board, &layers);
     warnings.extend(electrical.iter().flat_map(Electrical::check));
-    Ok(Job { board, sources, ignored, placement: stock.front, layers, electrical, programs, warnings })
+    let (placement, axis) = (stock.front, stock.axis);
+    Ok(Job { board, sources, ignored, placement, axis, layers, electrical, programs, warnings })
 }
 
 /// Both sides at once.
@@ -143,8 +148,12 @@ const fn part(side: Side) -> Part {
 
 fn isolation(layer: &Layer, board: &Board, settings: &Settings) -> Program {
     let side = layer.side;
-    let mut program = whole(&format!("{side} isolation"), board, layer.sections.clone(), settings);
-    if let Some(axis) = layer.placement.mirror {
+    turned(whole(&format!("{side} isolation"), board, layer.sections.clone(), settings), &layer.placement)
+}
+
+/// The program with a note where the board is turned over for it.
+fn turned(mut program: Program, placement: &Placement) -> Program {
+    if let Some(axis) = placement.mirror {
         program.notes.push(format!("turned over left to right about the vertical line x = {axis:.3} mm"));
     }
     program
@@ -168,7 +177,7 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
     let drilling = Drilling {
         drills: &settings.drills,
         tolerance: settings.drill_tolerance,
-        mill: settings.drill_bore.then_some(&settings.cutout_tool),
+        mill: settings.drill_bore.then_some(&settings.drill_bore_tool),
         heights: settings.drilling,
         placement,
         order: Order::default(),

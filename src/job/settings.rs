@@ -1,3 +1,4 @@
+use crate::board::Side;
 use crate::gcode::Dialect;
 use crate::geometry::{Nm, Vector};
 use crate::toolpath::{self, Angle, Feed, Heights, Machine, Tool, ToolKind};
@@ -5,8 +6,8 @@ use crate::toolpath::{self, Angle, Feed, Heights, Machine, Tool, ToolKind};
 use super::Error;
 use super::Options;
 use super::by_net::StrategyFor;
-use super::choice::{Narrow, Origin, Sites, Strategy, Topology};
-use super::cutting::{Cutting, isolation};
+use super::choice::{DrillSide, Narrow, Origin, Sites, Strategy, Topology};
+use super::cutting::{Cutting, frame_margin, isolation};
 use super::holding::{Holding, holding};
 use super::pattern::Pattern;
 use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Triple, Wait};
@@ -44,6 +45,8 @@ pub struct Settings {
     pub pixel: Option<Nm>,
     /// Whether a lap is cut round copper without an outline.
     pub frame: bool,
+    /// How far that lap keeps from copper.
+    pub frame_margin: Nm,
     /// Whether with core axes every region holds at least its net's copper.
     pub min_width: bool,
     /// How touching copper is found.
@@ -72,8 +75,12 @@ pub struct Settings {
     pub drill_dwell: u32,
     /// How far a drill may differ from its hole.
     pub drill_tolerance: Nm,
-    /// Whether slots, and holes without a drill, are bored with the cutout's end mill.
+    /// Whether slots, and holes without a drill, are bored with an end mill.
     pub drill_bore: bool,
+    /// The end mill for it.
+    pub drill_bore_tool: Tool,
+    /// The side that is up while holes are drilled.
+    pub drill_side: Side,
     /// What the machine can do.
     pub machine: Machine,
     /// How high and deep drills go.
@@ -149,8 +156,10 @@ impl Settings {
             );
             return Err(Error::Value { key: "tab-height", problem });
         }
+        let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
         Ok(Self {
-            isolation: isolation(&options, &workshop, |cut| heights(cut, None))?,
+            frame_margin: frame_margin(&options, &isolation)?,
+            isolation,
             safe,
             ignore: options.ignore.clone(),
             tiles,
@@ -170,6 +179,14 @@ impl Settings {
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
             drill_tolerance: options.drill_tolerance.expect(open).nm(),
             drill_bore: options.drill_bore.expect(open),
+            drill_bore_tool: match &options.drill_bore_tool {
+                Some(choice) => end_mill("drill-bore-tool", workshop.fetch("drill-bore-tool", choice)?.tool)?,
+                None => cutout_tool.clone(),
+            },
+            drill_side: match options.drill_side {
+                None | Some(DrillSide::Front) => Side::Front,
+                Some(DrillSide::Back) => Side::Back,
+            },
             outline_gap: outline_gap(&options)?,
             cutout: heights(cutout_depth, Some(positive("cutout-pass", options.cutout_pass)?)),
             cutout_tool,
@@ -312,7 +329,7 @@ fn end_mill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
     match tool.kind {
         ToolKind::EndMill { .. } => Ok(tool),
         ToolKind::VBit { .. } | ToolKind::Drill { .. } => {
-            let problem = format!("`{}` cannot cut a board out: name an endmill", tool.name);
+            let problem = format!("`{}` cannot cut sideways through a board: name an endmill", tool.name);
             Err(Error::Value { key, problem })
         }
     }
@@ -337,6 +354,20 @@ mod tests {
     fn the_depth_follows_from_the_kerf_that_is_wanted() {
         let settings = settings("kerf = \"0.15359mm\"").expect("settings");
         assert_eq!(settings.isolation[0].heights.cut, Nm::from_um(100), "0.1 + 2 · 0.1 · tan 15°");
+    }
+
+    #[test]
+    fn the_lap_keeps_as_far_from_copper_as_is_cut_or_cleared() {
+        for (text, margin) in [
+            ("", 200),
+            ("tool = \"endmill:0.8mm\"", 800),
+            ("width = \"0.5mm\"", 500),
+            ("limit = \"0.3mm\"", 1000),
+            ("clear = true", 1000),
+            ("frame-margin = \"0.08mm\"", 80),
+        ] {
+            assert_eq!(settings(text).expect(text).frame_margin, Nm::from_um(margin), "{text}");
+        }
     }
 
     #[test]
@@ -367,6 +398,8 @@ mod tests {
             ("tool = \"endmill:0.2mm\"\nkerf = \"0.3mm\"", "kerf"),
             ("tool = [\"endmill:0.2mm\", \"isolator\"]", "tool"),
             ("drills = \"clearer\"", "drills"),
+            ("drill-bore-tool = \"drill:1mm\"", "drill-bore-tool"),
+            ("frame-margin = \"0.07mm\"", "frame-margin"),
         ] {
             let error = settings(text).expect_err(text).to_string();
             assert!(error.starts_with(key), "{text}: {error}");

@@ -19,7 +19,7 @@ pub(super) struct Stock {
     /// How the first tile lies, seen from the front.
     pub(super) front: Placement,
     /// The line about which the stock is turned over.
-    axis: Nm,
+    pub(super) axis: Nm,
     /// All tiles, seen from the front.
     bounds: Rect,
     tiling: Option<Tiling>,
@@ -87,7 +87,7 @@ impl Stock {
         let drilling = Drilling {
             drills: &settings.drills,
             tolerance: settings.drill_tolerance,
-            mill: Some(&settings.cutout_tool),
+            mill: Some(&settings.drill_bore_tool),
             heights: settings.drilling,
             placement: &placement,
             order: Order::default(),

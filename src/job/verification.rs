@@ -1,11 +1,10 @@
 //! The programs of a job, judged by their texts.
 
 use crate::board::Side;
-use crate::geometry::Nm;
 use crate::toolpath;
 use crate::verify::{self, Known, Placement, Program, Report, Role, verify};
 
-use super::{Error, Job, Part, Settings};
+use super::{Error, Job, Part, Settings, Written};
 
 impl Job {
     /// Mills its programs on a picture, from their texts, and says what is wrong with them.
@@ -28,7 +27,7 @@ impl Job {
                 text: written.tile.as_ref().unwrap_or(&written.text).clone(),
                 role: Some(role(written.part)),
                 cutter: None,
-                placement: Some(self.laid(written.part)),
+                placement: Some(self.laid(written)),
             })
             .collect();
         let known: Vec<Known<'_>> =
@@ -45,10 +44,9 @@ impl Job {
     }
 
     /// How the board lies while a program runs.
-    pub(super) fn laid(&self, part: Part) -> Placement {
+    pub(super) fn laid(&self, written: &Written) -> Placement {
         let toolpath::Placement { rotation, shift, .. } = self.placement;
-        let back = self.layers.iter().find(|layer| layer.side == Side::Back && part == Part::Back);
-        let mirror: Option<Nm> = back.and_then(|layer| layer.placement.mirror);
+        let mirror = (written.side == Side::Back).then_some(self.axis);
         let degrees = rotation.degrees();
         Placement { degrees, shift, mirror }
     }

@@ -1,4 +1,4 @@
-use crate::board::Warning;
+use crate::board::{Side, Warning};
 use crate::gcode::dialect::ToolChange;
 use crate::gcode::{self, Header};
 use crate::geometry::Point;
@@ -27,6 +27,8 @@ pub enum Part {
 pub struct Written {
     /// What it is for.
     pub part: Part,
+    /// The side that is up.
+    pub side: Side,
     /// What was planned, for one tile.
     pub program: Program,
     /// What it amounts to.
@@ -71,7 +73,7 @@ impl Written {
     /// `program`, on every tile, in the dialect of `settings`, under `header` with its settings and the time it takes.
     #[must_use]
     pub fn new(
-        part: Part,
+        (part, side): (Part, Side),
         program: Program,
         header: &Header,
         tiling: Option<Tiling>,
@@ -94,7 +96,7 @@ impl Written {
         let text = gcode::write(&whole, &settings.dialect, &header);
         let tile = tiling.map(|_| gcode::write(&wait(program.clone()), &settings.dialect, &header));
         let warning = whole.check_travel(&settings.machine);
-        Self { part, program, statistics, text, tile, warning }
+        Self { part, side, program, statistics, text, tile, warning }
     }
 
     /// The name of its file.

@@ -4,8 +4,8 @@
 //! is cut free: to the outline and a little beyond, or, where no outline is known, to a frame round the copper that is cut once.
 //! Whatever lies beyond is drawn above everything else with a label of its own; boundaries end where they meet it.
 
-use crate::board::{FLATTEN, Outline, polarity};
-use crate::geometry::{Path, Point, Polygon, Rect};
+use crate::board::{Copper, FLATTEN, Outline, polarity};
+use crate::geometry::{Nm, Path, Point, Polygon, Rect};
 
 use super::Settings;
 use super::plane::Spot;
@@ -22,34 +22,39 @@ pub(super) struct Border {
     pub(super) ring_count: u32,
     /// One lap round the frame, where no outline is known.
     pub(super) frame: Option<Path>,
+    /// How far copper is from it where it is cut: along a frame, no nearer; along an outline nobody asks, and it is finite
+    /// so that it can be interpolated.
+    pub(super) clearance: Nm,
 }
 
 impl Border {
-    /// The border of a board with an outline, or of one whose copper lies within `copper`.
-    pub(super) fn new(outline: Option<&Outline>, copper: Rect, settings: &Settings) -> Self {
-        let (inside, frame) = match outline {
-            Some(outline) => (polarity::offset(&outline.polygon(FLATTEN), settings.overlap, FLATTEN), None),
+    /// The border of a board with an outline, or of one with this `copper`, which lies within `bounds`.
+    pub(super) fn new(outline: Option<&Outline>, copper: &Copper, bounds: Rect, settings: &Settings) -> Self {
+        let (inside, frame, clearance) = match outline {
+            Some(outline) => {
+                (polarity::offset(&outline.polygon(FLATTEN), settings.overlap, FLATTEN), None, Nm::MAX)
+            }
             None => {
-                let frame = copper.inflate(settings.margin);
-                let corners = frame.corners();
-                let lap = Path::polyline(corners.into_iter().chain([corners[0]]));
-                (vec![Polygon::rectangle(frame)], lap)
+                let frame = settings.frame.enclose(copper, bounds);
+                let corners = &frame.contours()[0];
+                let lap = Path::polyline(corners.iter().copied().chain([corners[0]]));
+                (vec![frame], lap, settings.frame.margin())
             }
         };
-        let bounds = inside.iter().map(Polygon::bounds).reduce(Rect::union).unwrap_or(copper);
+        let window = inside.iter().map(Polygon::bounds).reduce(Rect::union).unwrap_or(bounds);
         // A few pixels of outside all round, so that no boundary meets the edge of the picture itself.
-        Self::round(inside, bounds.inflate(settings.pitch * 4), frame)
+        Self::round(inside, window.inflate(settings.pitch * 4), frame, clearance)
     }
 
-    /// The border of what lies within `inside`, in a picture of `window`.
-    pub(super) fn round(inside: Vec<Polygon>, window: Rect, frame: Option<Path>) -> Self {
+    /// The border of what lies within `inside`, in a picture of `window`; where it is cut, copper is farther than `clearance`.
+    pub(super) fn round(inside: Vec<Polygon>, window: Rect, frame: Option<Path>, clearance: Nm) -> Self {
         let mut rings = Rings::default();
         let mut ring_count = 0;
         for contour in inside.iter().flat_map(Polygon::contours) {
             rings.push(contour.iter().map(|&p| p.into()));
             ring_count += 1;
         }
-        Self { inside, window, rings, ring_count, frame }
+        Self { inside, window, rings, ring_count, frame, clearance }
     }
 
     /// The contours of what lies outside, by the even-odd rule.

@@ -147,7 +147,8 @@ fn fields(
     let homes: Vec<Option<usize>> = nets.nets().iter().zip(looped).map(home).collect();
     let inhabited = pieces.into_iter().enumerate().filter(|(piece, _)| homes.contains(&Some(*piece)));
     let field = |(piece, polygon): (usize, Polygon)| {
-        let border = Border::round(vec![polygon], all.border.window, all.border.frame.clone());
+        let Border { window, ref frame, clearance, .. } = all.border;
+        let border = Border::round(vec![polygon], window, frame.clone(), clearance);
         let keep = |feature: usize| homes[nets.of(feature).index()] == Some(piece);
         Diagram::within(border, copper, nets, settings, keep)
     };

@@ -18,6 +18,7 @@ mod copper;
 mod cross;
 mod edge;
 mod fit;
+mod frame;
 mod junction;
 mod measure;
 mod mixed;
@@ -48,6 +49,7 @@ use crate::raster::{self, Scene, TileContent};
 use crate::topology::{NetId, Nets};
 
 pub use fit::fit_points;
+pub use frame::Frame;
 pub use mixed::Loops;
 pub use passes::Widening;
 
@@ -163,8 +165,8 @@ pub struct Settings {
     pub arcs: bool,
     /// How far boundaries run out beyond the outline.
     pub overlap: Nm,
-    /// How far the frame keeps from the copper where no outline is known.
-    pub margin: Nm,
+    /// What boundaries run out to where no outline is known.
+    pub frame: Frame,
 }
 
 impl Default for Settings {
@@ -177,7 +179,7 @@ impl Default for Settings {
             tolerance: Nm::from_um(2),
             arcs: true,
             overlap: Nm::from_um(100),
-            margin: Nm::from_mm(1),
+            frame: Frame::Rectangle(Nm::from_mm(1)),
         }
     }
 }
@@ -229,7 +231,7 @@ impl Diagram {
         settings: &Settings,
     ) -> Result<Self, Error> {
         let bounds = copper.bounds().ok_or(Error::NoCopper)?;
-        let border = Border::new(outline, bounds, settings);
+        let border = Border::new(outline, copper, bounds, settings);
         let aside = nets_beyond(copper, nets, &border);
         let warnings = aside.iter().map(|&(net, at)| {
             let message = format!("{} lies outside the board's outline and was left aside", nets.label(net));

@@ -31,8 +31,7 @@ impl Border {
         for line in lines.iter_mut().filter(|line| line.left == OUTSIDE || line.right == OUTSIDE) {
             if let Some(way) = self.way(line, pitch) {
                 let [first, last] = line.vertices[0].chord(line.vertices[line.vertices.len() - 1]);
-                // The frame is far from copper, and finite so that it can be interpolated.
-                let corners = way.into_iter().map(|at| Vertex::new(at, Nm::MAX.to_f64()));
+                let corners = way.into_iter().map(|at| Vertex::new(at, self.clearance.to_f64()));
                 line.vertices = std::iter::once(first).chain(corners).chain([last]).collect();
             }
         }

@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use voromill::geometry::{Nm, Point, Segment};
 use voromill::topology::{self, Method, NetId, Nets};
-use voromill::voronoi::{Boundaries, Boundary, Diagram, Owner, Settings};
+use voromill::voronoi::{Boundaries, Boundary, Diagram, Frame, Owner, Settings};
 
 use crate::oracle::field::{Field, Reach, Spot};
 use crate::real_boards::{self, Layer};
@@ -248,7 +248,7 @@ fn boundaries_are_as_long_as_in_an_exact_diagram() {
     for Layer { name, copper, .. } in real_boards::layers() {
         let Some((_, exact)) = EXACT.iter().find(|(layer, _)| *layer == name) else { continue };
         let nets = topology::recover(&copper, Method::Contact);
-        let settings = Settings { margin: Nm::from_mm(2), ..Settings::default() };
+        let settings = Settings { frame: Frame::Rectangle(Nm::from_mm(2)), ..Settings::default() };
         let found = Diagram::new(&copper, &nets, None, &settings).expect("a diagram").boundaries().0;
         let ours = found.length() / 1e6;
         let row = format!("| {name} | {} | {exact:.1} | {ours:.1} |", nets.nets().len());

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use voromill::gcode::{dialect, read};
+use voromill::geometry::Nm;
 use voromill::import::{self, Selection};
 use voromill::job::{self, Job, Options, Part, Settings};
 
@@ -89,6 +90,32 @@ fn the_back_is_turned_over_and_registers_with_the_drills() {
     assert_eq!((front.x + turned.x, front.y), (axis * 2, turned.y), "the same hole, seen from behind");
     let program = job.programs.iter().find(|program| program.part == Part::Back).expect("a back");
     assert!(program.text.contains("turned over"), "the header says so");
+}
+
+#[test]
+fn holes_are_drilled_from_behind_where_that_is_asked_for() {
+    let bored = "drill-bore = true\ndrill-bore-tool = \"endmill:0.9mm\"";
+    let places = |side: &str| {
+        let (job, settings) = job("regulator", &format!("{bored}\ndrill-side = \"{side}\""));
+        let report = job.verify(&settings).expect("programs that can be followed");
+        assert!(report.findings.is_empty(), "{side}: {:?}", report.findings);
+        let written = job.programs.iter().find(|program| program.part == Part::Drill).expect("holes");
+        assert_eq!(written.text.contains("turned over"), side == "back", "the header says so");
+        assert!(written.text.contains("endmill:0.9mm"), "bored with a tool of its own");
+        let moves = written.program.sections.iter().flat_map(|section| &section.moves);
+        let plunges = moves.filter_map(|step| step.to()).filter(|to| to.z < Nm::ZERO);
+        let mut places: Vec<_> = plunges.map(|to| (to.x, to.y)).collect();
+        places.sort_unstable();
+        places.dedup();
+        (places, job.axis)
+    };
+    let ((front, axis), (back, _)) = (places("front"), places("back"));
+    let mut turned: Vec<_> = back.into_iter().map(|(x, y)| (axis * 2 - x, y)).collect();
+    turned.sort_unstable();
+    let drilled = |places: &[(Nm, Nm)]| places.len() > 50;
+    assert!(drilled(&front) && drilled(&turned), "{} and {}", front.len(), turned.len());
+    let shared = front.iter().filter(|place| turned.binary_search(place).is_ok()).count();
+    assert!(shared >= 50, "the same holes, seen from behind: {shared}");
 }
 
 #[test]
@@ -186,7 +213,7 @@ fn alignment_holes_are_a_program_of_their_own() {
     assert_eq!((first.part, first.program.sections.len()), (Part::Alignment, 1), "before everything else");
     let axis = job.layers[1].placement.mirror.expect("a back");
     let moves = first.program.sections[0].moves.iter().filter_map(voromill::toolpath::Move::to);
-    let deep: Vec<_> = moves.filter(|to| to.z < voromill::geometry::Nm::ZERO).collect();
+    let deep: Vec<_> = moves.filter(|to| to.z < Nm::ZERO).collect();
     assert!(deep.len() == 2 && deep.iter().all(|to| to.x == axis), "two, on the axis: {deep:?}");
 }
 

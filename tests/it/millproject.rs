@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use voromill::board::Side;
 use voromill::geometry::{Nm, Vector};
 use voromill::job::{Holding, MillProject, Options, Settings, Strategy};
 use voromill::toolpath::{Feed, ToolKind};
@@ -115,6 +116,16 @@ fn passes_and_bridges_mean_what_pcb2gcode_means() {
 }
 
 #[test]
+fn holes_are_drilled_from_the_side_and_bored_with_the_mill_that_the_project_names() {
+    let made = settings(project("metric=1\nmilldrill=1\nmilldrill-diameter=0.7\ndrill-side=back"));
+    assert_eq!(made.drill_bore_tool.kind, ToolKind::EndMill { diameter: um(700) }, "its own mill");
+    assert_eq!((made.drill_bore, made.drill_side), (true, Side::Back), "from behind");
+    let made = settings(project("metric=1\ncutter-diameter=1.5\nmilldrill=1\ndrill-side=auto"));
+    assert_eq!(made.drill_bore_tool.kind, ToolKind::EndMill { diameter: um(1500) }, "the cutter");
+    assert_eq!(made.drill_side, Side::Front, "whatever suits");
+}
+
+#[test]
 fn options_of_the_command_line_win_over_the_project_and_that_over_the_file() {
     let from = |text| Options::from_toml("f", text).expect("options");
     let project = project("metric=1\nzsafe=3\nmill-feed=100\nmill-diameters=0.3").options;
@@ -140,6 +151,7 @@ fn what_is_no_project_says_which_line() {
         ("metric = maybe", "true or false"),
         ("mill-diameters = 0.1;0.2", "lengths between commas"),
         ("tile-x = two", "a whole number"),
+        ("drill-side = left", "front, back or auto"),
     ] {
         let error = MillProject::read("millproject", text).expect_err(text).to_string();
         assert!(error.contains(reason), "`{text}` gives `{error}`");

@@ -2,7 +2,7 @@ use std::path::PathBuf;
 
 use crate::board::{SourceSpan, Warning};
 use crate::geometry::Nm;
-use crate::job::choice::{DialectChoice, Origin, Strategy};
+use crate::job::choice::{DialectChoice, DrillSide, Origin, Strategy};
 use crate::job::quantity::{DrillChoice, Drills, Length, Place, Tiles, ToolChangeAt};
 use crate::job::tools::{OwnTool, ToolChoice};
 use crate::toolpath::ToolKind;
@@ -52,7 +52,6 @@ const LEFT: &[&str] = &[
     "draw-gerber-lines",
     "drill-front",
     "drill-output",
-    "drill-side",
     "eulerian-paths",
     "fill-outline",
     "front-output",
@@ -63,7 +62,6 @@ const LEFT: &[&str] = &[
     "invert-gerbers",
     "mill-feed-direction",
     "mill-infeed",
-    "milldrill-diameter",
     "milldrill-output",
     "min-path-length",
     "mirror-yaxis",
@@ -166,6 +164,17 @@ impl<'a> Draft<'a> {
             "drill-feed" => options.drill_plunge = Some(entry.feed(units)?),
             "drill-speed" => options.drill_spindle = Some(entry.turns()?),
             "drills-available" => self.drills(entry)?,
+            "milldrill-diameter" => {
+                let diameter = entry.length(units)?;
+                options.drill_bore_tool = Some(ToolChoice::Kind(ToolKind::EndMill { diameter }));
+            }
+            "drill-side" => match entry.value.to_ascii_lowercase().as_str() {
+                "front" => options.drill_side = Some(DrillSide::Front),
+                "back" => options.drill_side = Some(DrillSide::Back),
+                // The front, where there is one.
+                "auto" => {}
+                _ => return Err(entry.wrong("front, back or auto")),
+            },
             "milldrill" => options.drill_bore = Some(entry.flag()?),
             "min-milldrill-hole-diameter" => options.drill_bore = Some(entry.value != "inf"),
             "zcut" => {
