@@ -33,11 +33,13 @@ pub(super) fn join(nodes: usize, candidates: &[Candidate], alone: f64) -> Vec<us
             matching.joined[b] = Some(index);
         }
     }
-    let mut better = true;
-    while better {
-        better = false;
+    let mut changed = Changed::all(nodes);
+    while changed.any {
+        changed.any = false;
         for node in 0..nodes {
-            better |= !matching.near[node].is_empty() && matching.improve(node);
+            if std::mem::take(&mut changed.about[node]) && !matching.near[node].is_empty() {
+                changed.mark(&matching.improve(node), &matching);
+            }
         }
     }
     let mut chosen: Vec<usize> = matching.joined.into_iter().flatten().collect();
@@ -61,8 +63,8 @@ impl Matching<'_> {
         if a == node { b } else { a }
     }
 
-    /// Frees `node` and its partner and looks for a chain that gains; whether one was made.
-    fn improve(&mut self, node: usize) -> bool {
+    /// Frees `node` and its partner and looks for a chain that gains; the nodes that are joined otherwise than before.
+    fn improve(&mut self, node: usize) -> Vec<usize> {
         let (loose, first, gain) = match self.joined[node] {
             // Alone: it is the loose end itself, and nothing waits for the chain to come back.
             None => (node, None, self.alone),
@@ -70,9 +72,10 @@ impl Matching<'_> {
         };
         let mut chain = Vec::new();
         let mut busy = vec![node, loose];
-        self.extend(loose, first, gain, &mut chain, &mut busy) && {
-            self.apply(first, &chain);
-            true
+        if self.extend(loose, first, gain, &mut chain, &mut busy) {
+            self.apply(first, &chain)
+        } else {
+            Vec::new()
         }
     }
 
@@ -127,8 +130,8 @@ impl Matching<'_> {
         self.near[a].iter().copied().find(|&candidate| self.other(candidate, a) == b)
     }
 
-    /// Takes apart whatever the chain's nodes were in, and joins them along it.
-    fn apply(&mut self, first: Option<usize>, chain: &[usize]) {
+    /// Takes apart whatever the chain's nodes were in, and joins them along it; all that were touched.
+    fn apply(&mut self, first: Option<usize>, chain: &[usize]) -> Vec<usize> {
         let ends = chain.iter().flat_map(|&candidate| {
             let (a, b) = self.candidates[candidate].nodes;
             [a, b]
@@ -139,13 +142,44 @@ impl Matching<'_> {
             .filter_map(|&node| self.joined[node].map(|candidate| self.other(candidate, node)))
             .collect();
         freed.extend(partners);
-        for node in freed {
+        for &node in &freed {
             self.joined[node] = None;
         }
         for &candidate in chain {
             let (a, b) = self.candidates[candidate].nodes;
             self.joined[a] = Some(candidate);
             self.joined[b] = Some(candidate);
+        }
+        freed
+    }
+}
+
+/// The nodes about which something has changed since a chain was last sought from them.
+struct Changed {
+    about: Vec<bool>,
+    any: bool,
+    /// When each node was last come by, as a number of the mark.
+    seen: Vec<usize>,
+    marks: usize,
+}
+
+impl Changed {
+    fn all(nodes: usize) -> Self {
+        Self { about: vec![true; nodes], any: nodes > 0, seen: vec![0; nodes], marks: 0 }
+    }
+
+    /// Marks all nodes from which a chain can come by one of those `touched`.
+    fn mark(&mut self, touched: &[usize], matching: &Matching<'_>) {
+        self.marks += 1;
+        self.any |= !touched.is_empty();
+        let mut ring = touched.to_vec();
+        for _ in 0..=2 * LONGEST {
+            ring.retain(|&node| std::mem::replace(&mut self.seen[node], self.marks) != self.marks);
+            ring.iter().for_each(|&node| self.about[node] = true);
+            let nearby = ring.iter().flat_map(|&node| {
+                matching.near[node].iter().map(move |&candidate| matching.other(candidate, node))
+            });
+            ring = nearby.collect();
         }
     }
 }
