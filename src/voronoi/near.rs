@@ -1,5 +1,6 @@
 //! Sites by place: the distance to any owner, wherever one asks.
 
+use rustc_hash::FxHashMap;
 use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use super::BACKGROUND;
@@ -13,6 +14,8 @@ pub(super) struct Near {
     /// The box of each, left, bottom, right, top: a look at it spares most distances.
     boxes: Vec<[f64; 4]>,
     index: StaticAABB2DIndex<f64>,
+    /// The insides of polygons by owner, each with its box.
+    insides: FxHashMap<u32, Vec<(u32, [f64; 4])>>,
 }
 
 impl Near {
@@ -28,7 +31,25 @@ impl Near {
         }
         let index = builder.build().ok()?;
         let (labels, boxes) = boxes.into_iter().unzip();
-        Some(Self { labels, boxes, index })
+        let mut insides: FxHashMap<u32, Vec<(u32, [f64; 4])>> = FxHashMap::default();
+        for (label, site) in (0..).zip(&sites.sites) {
+            if let Form::Inside { first_ring, rings: count } = site.form {
+                let mut vertices =
+                    (first_ring..first_ring + count).flat_map(|ring| sites.rings.ring(ring).iter().copied());
+                insides.entry(site.owner).or_default().push((label, around(&mut vertices, 0.0)));
+            }
+        }
+        Some(Self { labels, boxes, index, insides })
+    }
+
+    /// The signed distance to the edge of a polygon of `owner` that holds `p`; none where none does.
+    pub(super) fn inside(&self, sites: &Sites, p: Spot, owner: u32) -> Option<Reach> {
+        let holds = |[left, bottom, right, top]: [f64; 4]| {
+            (left..=right).contains(&p.x) && (bottom..=top).contains(&p.y)
+        };
+        let within = self.insides.get(&owner)?.iter().filter(|(_, bounds)| holds(*bounds));
+        let mut reaches = within.map(|&(label, _)| sites.sites[label as usize].reach(&sites.rings, p));
+        reaches.find(|reach| reach.distance < 0.0)
     }
 
     /// The site that is nearer to `p` than `bound`, in nanometres, among those that are accepted by label and owner: the nearest such. `p` lies
@@ -103,15 +124,17 @@ pub(super) fn rank(site: &Site, reach: Reach) -> f64 {
     }
 }
 
+/// The box round places, so much larger on all sides: left, bottom, right, top.
+fn around(spots: &mut dyn Iterator<Item = Spot>, radius: f64) -> [f64; 4] {
+    let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    let [left, bottom, right, top] = spots.fold(far, |[left, bottom, right, top], p| {
+        [left.min(p.x), bottom.min(p.y), right.max(p.x), top.max(p.y)]
+    });
+    [left - radius, bottom - radius, right + radius, top + radius]
+}
+
 /// The box round a site's edge: left, bottom, right, top; none for what has no edge of its own.
 fn bounds(site: &Site, rings: &Rings, label: u32) -> Option<[f64; 4]> {
-    let around = |spots: &mut dyn Iterator<Item = Spot>, radius: f64| {
-        let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        let [left, bottom, right, top] = spots.fold(far, |[left, bottom, right, top], p| {
-            [left.min(p.x), bottom.min(p.y), right.max(p.x), top.max(p.y)]
-        });
-        [left - radius, bottom - radius, right + radius, top + radius]
-    };
     match &site.form {
         Form::Point(p) if label > 1 => Some(around(&mut [*p].into_iter(), site.radius)),
         Form::Line(a, b) => Some(around(&mut [*a, *b].into_iter(), site.radius)),

@@ -188,7 +188,10 @@ impl Tips<'_> {
         if owner == BACKGROUND {
             return Reach { distance: self.level, away: Spot::default() };
         }
-        self.near.reach(self.sites, p, |other| other == owner)
+        let outside = self.near.reach(self.sites, p, |other| other == owner);
+        // A limit curve that is sought inside a polygon may seem to be found there, beside something else of the same net.
+        let inside = if self.level.is_finite() { self.near.inside(self.sites, p, owner) } else { None };
+        inside.unwrap_or(outside)
     }
 
     /// The point near `from` that is equally far from both.
