@@ -26,7 +26,8 @@ impl Tips<'_> {
                 if !gone[i]
                     && let Some(joints) = self.bridge(lines, &nodes, i)
                 {
-                    self.take_out(lines, &mut nodes, i, joints);
+                    let Some(joined) = self.past(lines, i, joints) else { continue };
+                    self.take_out(lines, &mut nodes, i, joints, joined);
                     gone[i] = true;
                     joints.iter().for_each(|(here, there)| gone[there.line] |= here.line != there.line);
                 }
@@ -70,16 +71,30 @@ impl Tips<'_> {
         inner.iter().all(|vertex| self.is_inside(pair, third, vertex.at))
     }
 
-    /// Joins the lines that end at the nodes of a bridge, in place of the first of each pair.
-    fn take_out(&self, lines: &mut [Line], nodes: &mut Nodes, bridge: usize, joints: Joints) {
-        let Line { left, right, ends, .. } = lines[bridge];
-        for corner in ends.into_iter().flat_map(|(from, to)| [from, to]) {
-            nodes.remove(&corner.key());
-        }
-        for (here, there) in joints {
+    /// The lines past a bridge; none where they would not follow their boundaries: the bridge stays then, as the picture has it.
+    fn past(&self, lines: &[Line], bridge: usize, joints: Joints) -> Option<[Line; 2]> {
+        let Line { left, right, .. } = lines[bridge];
+        let join = |(here, there): (End, End)| {
             let is_third = |owner: &u32| ![lines[here.line].left, lines[here.line].right].contains(owner);
             let third = [left, right].into_iter().find(is_third);
-            let joined = self.joined(lines, (here, there), third.unwrap_or(OUTSIDE));
+            self.joined(lines, (here, there), third.unwrap_or(OUTSIDE))
+        };
+        Some([join(joints[0])?, join(joints[1])?])
+    }
+
+    /// Puts the lines that were joined in place of the first of each pair.
+    fn take_out(
+        &self,
+        lines: &mut [Line],
+        nodes: &mut Nodes,
+        bridge: usize,
+        joints: Joints,
+        joined: [Line; 2],
+    ) {
+        for corner in lines[bridge].ends.into_iter().flat_map(|(from, to)| [from, to]) {
+            nodes.remove(&corner.key());
+        }
+        for ((here, there), joined) in joints.into_iter().zip(joined) {
             // It begins at the far end of the first, and ends at that of the second.
             for (near, tail) in [(here, false), (there, true)] {
                 let Some(corner) = far_corner(lines, near) else { continue };
@@ -93,7 +108,7 @@ impl Tips<'_> {
 
     /// The line that runs up to one end and on from the other, without what lies in the region of `third` there; a loop where both are
     /// ends of one line.
-    fn joined(&self, lines: &[Line], (here, there): (End, End), third: u32) -> Line {
+    fn joined(&self, lines: &[Line], (here, there): (End, End), third: u32) -> Option<Line> {
         let first = &lines[here.line];
         let (left, right) = if here.tail { (first.left, first.right) } else { (first.right, first.left) };
         let pair = (left, right);
@@ -105,16 +120,18 @@ impl Tips<'_> {
         let (mut vertices, onward) = (clear(here), clear(there));
         vertices.reverse();
         let (before, after) = (vertices[vertices.len() - 1], onward[0]);
-        self.halve(pair, before, after, HALVINGS, &mut vertices);
+        if !self.halve(pair, before, after, HALVINGS, &mut vertices) {
+            return None;
+        }
         if here.line == there.line {
             // One line round: what it has beyond the gap, it has already.
             let open = vertices.iter().position(|vertex| *vertex == after).unwrap_or(0);
             vertices.drain(..open);
             vertices.push(after);
-            return Line { vertices, left, right, ends: None };
+            return Some(Line { vertices, left, right, ends: None });
         }
         vertices.extend(onward);
-        Line { vertices, left, right, ends: far_corner(lines, here).zip(far_corner(lines, there)) }
+        Some(Line { vertices, left, right, ends: far_corner(lines, here).zip(far_corner(lines, there)) })
     }
 }
 

@@ -32,6 +32,8 @@ pub(super) const ACCEPTED: f64 = 5.0;
 pub(super) const STEPS: usize = 16;
 /// A node is not where it belongs if distances differ by more than this, in nanometres. Chosen: a twentieth of the default fitting tolerance.
 const MISPLACED: f64 = 100.0;
+/// A chord from which two regions differ by more than this in their distance is none of their boundary, in nanometres.
+const STRAYS: f64 = 4_000.0;
 /// How often the way to a tip is halved at most: to a nanometre, from a metre.
 const BISECTIONS: usize = 30;
 /// Samples on the way to a tip are halved at most so often.
@@ -101,10 +103,16 @@ impl Tips<'_> {
             self.tip(&outward(line, end.tail), (line.left, line.right), third)
         });
         let Some(tip) = found else { return };
-        for end in ends {
-            let line = &lines[end.line];
-            let Some(third) = third_owner(lines, ends, line) else { continue };
-            let mut vertices = self.led_to(&outward(line, end.tail), tip, (line.left, line.right), third);
+        let led: Option<Vec<Vec<Vertex>>> = ends
+            .iter()
+            .map(|end| {
+                let line = &lines[end.line];
+                let vertices = outward(line, end.tail);
+                let Some(third) = third_owner(lines, ends, line) else { return Some(vertices) };
+                self.led_to(&vertices, tip, (line.left, line.right), third)
+            })
+            .collect();
+        for (end, mut vertices) in ends.iter().zip(led.into_iter().flatten()) {
             if end.tail {
                 vertices.reverse();
             }
@@ -138,16 +146,16 @@ impl Tips<'_> {
     }
 
     /// The line from `tip` to the end of `vertices`, along the boundary of `pair`, without what lies in the region of `third`.
-    fn led_to(&self, vertices: &[Vertex], tip: Vertex, pair: (u32, u32), third: u32) -> Vec<Vertex> {
+    fn led_to(&self, vertices: &[Vertex], tip: Vertex, pair: (u32, u32), third: u32) -> Option<Vec<Vertex>> {
         let clear = self.first_clear(vertices, pair, third).unwrap_or(vertices.len() - 1);
         let tip = self.on_course(pair, tip);
         let mut led = vec![tip];
-        self.halve(pair, tip, vertices[clear], HALVINGS, &mut led);
+        let follows = self.halve(pair, tip, vertices[clear], HALVINGS, &mut led);
         led.extend(&vertices[clear..]);
-        led
+        follows.then_some(led)
     }
 
-    /// Samples between two places by halving.
+    /// Samples between two places by halving; whether they follow the boundary of `pair`.
     pub(super) fn halve(
         &self,
         pair: (u32, u32),
@@ -155,19 +163,19 @@ impl Tips<'_> {
         to: Vertex,
         left: u32,
         samples: &mut Vec<Vertex>,
-    ) {
+    ) -> bool {
         let onward = |middle: &Vertex| left > 0 && middle.is_between(from, to);
-        let Some(middle) = self.project(pair, from.at.midpoint(to.at)).filter(onward) else {
-            return samples.extend(from.chord(to));
+        let middle = from.at.midpoint(to.at);
+        let Some(middle) = self.project(pair, middle).filter(onward) else {
+            samples.extend(from.chord(to));
+            return (self.reach(pair.0, middle).distance - self.reach(pair.1, middle).distance).abs()
+                <= STRAYS;
         };
         let settled = Span::new(from, to).holds(middle);
-        if !settled {
-            self.halve(pair, from, middle, left - 1, samples);
-        }
+        let before = settled || self.halve(pair, from, middle, left - 1, samples);
         samples.push(middle);
-        if !settled {
-            self.halve(pair, middle, to, left - 1, samples);
-        }
+        let after = settled || self.halve(pair, middle, to, left - 1, samples);
+        before && after
     }
 
     /// A node with the course that the boundary of two regions has there.
