@@ -10,6 +10,8 @@
 //! nearer at the place found; if so it joins the equation, which is solved again. What comes out is as far from both nets as
 //! can be, whatever the pixels showed.
 
+use crate::geometry::Nm;
+
 use super::BACKGROUND;
 use super::near::{Near, rank};
 use super::plane::Spot;
@@ -158,8 +160,6 @@ pub(super) struct Placer<'a> {
     /// The rings of the board's border.
     pub(super) border: &'a Rings,
     pub(super) border_rings: u32,
-    /// How far the border is from copper, in nanometres.
-    pub(super) border_clearance: f64,
     /// The furthest that a point may move, in nanometres: a pixel and a half.
     pub(super) leash: f64,
 }
@@ -246,7 +246,8 @@ impl Placer<'_> {
             }
             Target::OnBorder => {
                 let border = self.border.border(0..self.border_rings, p);
-                let (clearance, away) = (self.border_clearance, Spot::default());
+                // The least of a node's clearances counts, and that is its nets'; finite so that it can be interpolated.
+                let (clearance, away) = (Nm::MAX.to_f64(), Spot::default());
                 Miss { value: border.distance, slope: border.away, clearance, away }
             }
         }

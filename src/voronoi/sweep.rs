@@ -59,7 +59,6 @@ impl Diagram {
             near: self.near.as_ref(),
             border: &self.border.rings,
             border_rings: self.border.ring_count,
-            border_clearance: self.border.clearance.to_f64(),
             leash: 1.5 * self.grid.pitch().to_f64(),
         }
     }
