@@ -59,7 +59,7 @@ def main():
         if found is None:
             print(f"{file} is in none of these folders", file=sys.stderr)
             continue
-        pairs = zip((*ours(found), seconds(*ours(found))), (*theirs, seconds(*theirs)))
+        pairs = zip(*((*figures, seconds(*figures)) for figures in (ours(found), theirs)))
         print(f"| {name} |", " | ".join(f"{a:.0f} : {b:.0f}" for a, b in pairs), "|")
 
 

@@ -45,6 +45,12 @@ impl Arc {
         self.center.distance(self.start)
     }
 
+    /// How much its two radii differ, in nanometres: what rounding three points leaves, and in sloppy files more.
+    #[must_use]
+    pub fn drift(&self) -> f64 {
+        (self.radius() - self.center.distance(self.end)).abs()
+    }
+
     /// The angle from +x to the start, in radians within −π..=π.
     #[must_use]
     pub fn start_angle(&self) -> f64 {

@@ -112,7 +112,7 @@ impl Ruling {
     }
 
     fn arc(&self, arc: &Arc, radius: Nm, lines: Range<i64>, chord: &mut impl FnMut(i64, f64, f64)) {
-        if (arc.radius() - arc.center.distance(arc.end)).abs() > ROUND {
+        if arc.drift() > ROUND {
             // No ring: a piece of a spiral.
             let points: Vec<Point> = std::iter::once(arc.start).chain(arc.flatten(CHORD)).collect();
             for pair in points.windows(2).filter(|pair| pair[0] != pair[1]) {

@@ -25,9 +25,9 @@ impl Tips<'_> {
             for i in 0..lines.len() {
                 if !gone[i]
                     && let Some(joints) = self.bridge(lines, &nodes, i)
+                    && let Some(joined) = self.past(lines, i, joints)
                 {
-                    let Some(joined) = self.past(lines, i, joints) else { continue };
-                    self.take_out(lines, &mut nodes, i, joints, joined);
+                    take_out(lines, &mut nodes, i, joints, joined);
                     gone[i] = true;
                     joints.iter().for_each(|(here, there)| gone[there.line] |= here.line != there.line);
                 }
@@ -82,30 +82,6 @@ impl Tips<'_> {
         Some([join(joints[0])?, join(joints[1])?])
     }
 
-    /// Puts the lines that were joined in place of the first of each pair.
-    fn take_out(
-        &self,
-        lines: &mut [Line],
-        nodes: &mut Nodes,
-        bridge: usize,
-        joints: Joints,
-        joined: [Line; 2],
-    ) {
-        for corner in lines[bridge].ends.into_iter().flat_map(|(from, to)| [from, to]) {
-            nodes.remove(&corner.key());
-        }
-        for ((here, there), joined) in joints.into_iter().zip(joined) {
-            // It begins at the far end of the first, and ends at that of the second.
-            for (near, tail) in [(here, false), (there, true)] {
-                let Some(corner) = far_corner(lines, near) else { continue };
-                let far = End { tail: !near.tail, ..near };
-                let named = nodes.get_mut(&corner.key()).into_iter().flatten().find(|end| **end == far);
-                named.into_iter().for_each(|end| *end = End { line: here.line, tail });
-            }
-            lines[here.line] = joined;
-        }
-    }
-
     /// The line that runs up to one end and on from the other, without what lies in the region of `third` there; a loop where both are
     /// ends of one line.
     fn joined(&self, lines: &[Line], (here, there): (End, End), third: u32) -> Option<Line> {
@@ -132,6 +108,23 @@ impl Tips<'_> {
         }
         vertices.extend(onward);
         Some(Line { vertices, left, right, ends: far_corner(lines, here).zip(far_corner(lines, there)) })
+    }
+}
+
+/// Puts the lines that were joined in place of the first of each pair.
+fn take_out(lines: &mut [Line], nodes: &mut Nodes, bridge: usize, joints: Joints, joined: [Line; 2]) {
+    for corner in lines[bridge].ends.into_iter().flat_map(|(from, to)| [from, to]) {
+        nodes.remove(&corner.key());
+    }
+    for ((here, there), joined) in joints.into_iter().zip(joined) {
+        // It begins at the far end of the first, and ends at that of the second.
+        for (near, tail) in [(here, false), (there, true)] {
+            let Some(corner) = far_corner(lines, near) else { continue };
+            let far = End { tail: !near.tail, ..near };
+            let named = nodes.get_mut(&corner.key()).into_iter().flatten().find(|end| **end == far);
+            named.into_iter().for_each(|end| *end = End { line: here.line, tail });
+        }
+        lines[here.line] = joined;
     }
 }
 

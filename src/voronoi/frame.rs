@@ -46,7 +46,8 @@ impl Frame {
 fn hull(copper: &Copper, margin: Nm) -> Option<Polygon> {
     let shapes = || copper.features.iter().map(|feature| &feature.shape);
     // What lies within the hull of some of its points need not be looked at: nearly all (Akl and Toussaint 1978).
-    let far = |way: &Vector| shapes().map(Shape::anchor).max_by_key(|&p| (along(p, *way), p));
+    let far =
+        |way: &Vector| shapes().map(Shape::anchor).max_by_key(|&p| ((p - Point::default()).dot(*way), p));
     let extreme: Vec<Point> = octagon(Nm::from_mm(1)).iter().filter_map(far).collect();
     let inner = Polygon::hull(extreme.iter().copied());
     let lies_within = |rect: Rect| {
@@ -55,11 +56,6 @@ fn hull(copper: &Copper, margin: Nm) -> Option<Polygon> {
     let sticks_out = shapes().filter(|shape| !lies_within(shape.bounds()));
     let discs = sticks_out.flat_map(corners).chain(extreme.into_iter().map(|p| (p, Nm::ZERO)));
     Polygon::hull(discs.flat_map(|(center, radius)| octagon(radius + margin).map(|way| center + way)))
-}
-
-/// How far `p` lies in the direction of `way`.
-fn along(p: Point, way: Vector) -> i64 {
-    p.x.get() * way.x.get() + p.y.get() * way.y.get()
 }
 
 /// Discs whose hull is that of a shape.

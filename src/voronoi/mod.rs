@@ -56,7 +56,7 @@ pub use passes::Widening;
 use copper::Edges;
 use edge::Border;
 use mixed::Mixed;
-use near::Near;
+use near::{Insides, Near};
 use place::Unplaced;
 use seed::Sites;
 use stitch::Line;
@@ -379,7 +379,8 @@ impl Diagram {
     fn extend_tips(&self, lines: &mut Vec<Line>) -> Unplaced {
         let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
         if let Some(near) = &self.near {
-            return Tips { sites: &self.sites, near, border: &self.border, level }.extend(lines);
+            let insides = self.settings.limit.map(|_| Insides::new(&self.sites));
+            return Tips { sites: &self.sites, near, insides, border: &self.border, level }.extend(lines);
         }
         let mut unplaced = Unplaced::default();
         tip::open_nodes(lines).values().for_each(|ends| unplaced.add(tip::end_vertex(lines, ends[0]).at));

@@ -14,8 +14,6 @@ pub(super) struct Near {
     /// The box of each, left, bottom, right, top: a look at it spares most distances.
     boxes: Vec<[f64; 4]>,
     index: StaticAABB2DIndex<f64>,
-    /// The insides of polygons by owner, each with its box.
-    insides: FxHashMap<u32, Vec<(u32, [f64; 4])>>,
 }
 
 impl Near {
@@ -31,25 +29,7 @@ impl Near {
         }
         let index = builder.build().ok()?;
         let (labels, boxes) = boxes.into_iter().unzip();
-        let mut insides: FxHashMap<u32, Vec<(u32, [f64; 4])>> = FxHashMap::default();
-        for (label, site) in (0..).zip(&sites.sites) {
-            if let Form::Inside { first_ring, rings: count } = site.form {
-                let mut vertices =
-                    (first_ring..first_ring + count).flat_map(|ring| sites.rings.ring(ring).iter().copied());
-                insides.entry(site.owner).or_default().push((label, around(&mut vertices, 0.0)));
-            }
-        }
-        Some(Self { labels, boxes, index, insides })
-    }
-
-    /// The signed distance to the edge of a polygon of `owner` that holds `p`; none where none does.
-    pub(super) fn inside(&self, sites: &Sites, p: Spot, owner: u32) -> Option<Reach> {
-        let holds = |[left, bottom, right, top]: [f64; 4]| {
-            (left..=right).contains(&p.x) && (bottom..=top).contains(&p.y)
-        };
-        let within = self.insides.get(&owner)?.iter().filter(|(_, bounds)| holds(*bounds));
-        let mut reaches = within.map(|&(label, _)| sites.sites[label as usize].reach(&sites.rings, p));
-        reaches.find(|reach| reach.distance < 0.0)
+        Some(Self { labels, boxes, index })
     }
 
     /// The site that is nearer to `p` than `bound`, in nanometres, among those that are accepted by label and owner: the nearest such. `p` lies
@@ -111,6 +91,33 @@ impl Near {
             Control::Continue
         });
         nearest
+    }
+}
+
+/// The insides of polygons by owner, each with its box.
+pub(super) struct Insides(FxHashMap<u32, Vec<(u32, [f64; 4])>>);
+
+impl Insides {
+    pub(super) fn new(sites: &Sites) -> Self {
+        let mut insides: FxHashMap<u32, Vec<(u32, [f64; 4])>> = FxHashMap::default();
+        for (label, site) in (0..).zip(&sites.sites) {
+            if let Form::Inside { first_ring, rings: count } = site.form {
+                let rings = first_ring..first_ring + count;
+                let mut vertices = rings.flat_map(|ring| sites.rings.ring(ring).iter().copied());
+                insides.entry(site.owner).or_default().push((label, around(&mut vertices, 0.0)));
+            }
+        }
+        Self(insides)
+    }
+
+    /// The signed distance to the edge of a polygon of `owner` that holds `p`; none where none does.
+    pub(super) fn reach(&self, sites: &Sites, p: Spot, owner: u32) -> Option<Reach> {
+        let holds = |[left, bottom, right, top]: [f64; 4]| {
+            (left..=right).contains(&p.x) && (bottom..=top).contains(&p.y)
+        };
+        let within = self.0.get(&owner)?.iter().filter(|(_, bounds)| holds(*bounds));
+        let mut reaches = within.map(|&(label, _)| sites.sites[label as usize].reach(&sites.rings, p));
+        reaches.find(|reach| reach.distance < 0.0)
     }
 }
 

@@ -64,9 +64,7 @@ impl Diagram {
         let reach = self.grid.pixels(widening.kerf - step);
         // Loops at the first level are passes themselves.
         let is_pass = |edge: &Boundary| self.settings.limit == Some(first) && edge.is_bare();
-        for edge in base.edges.iter().filter(|edge| !edge.is_border() && !is_pass(edge)) {
-            self.sites.add_groove(&mut scene, &self.grid, &edge.path, reach);
-        }
+        self.add_grooves(&mut scene, base.edges.iter().filter(|edge| !is_pass(edge)), reach);
         self.add_wider(&mut scene, widening.kerf, before);
         let spikes = Spikes {
             kerf: widening.kerf.to_f64(),
@@ -113,9 +111,19 @@ impl Diagram {
         let spare = (kerf / 8).max(self.grid.pitch() * 2).min(kerf / 3);
         for (wide, cuts) in before {
             let reach = self.grid.pixels((*wide - kerf) / 2 + spare);
-            for edge in cuts.edges.iter().filter(|edge| !edge.is_border()) {
-                self.sites.add_groove(scene, &self.grid, &edge.path, reach);
-            }
+            self.add_grooves(scene, cuts.edges.iter(), reach);
+        }
+    }
+
+    /// Draws what lies within `reach` pixels of cuts as cleared.
+    fn add_grooves<'a>(
+        &self,
+        scene: &mut raster::Scene,
+        cuts: impl Iterator<Item = &'a Boundary>,
+        reach: f32,
+    ) {
+        for edge in cuts.filter(|edge| !edge.is_border()) {
+            self.sites.add_groove(scene, &self.grid, &edge.path, reach);
         }
     }
 }

@@ -110,7 +110,7 @@ impl Sites {
 
     /// An arc; one whose ends lie at different distances from its centre, as in sloppy files, by its chords.
     fn add_arc(&mut self, arc: &Arc, radius: f64, owner: u32, flat: bool) {
-        if (arc.radius() - arc.center.distance(arc.end)).abs() <= ROUNDING {
+        if arc.drift() <= ROUNDING {
             return self.push(Form::arc(arc), radius, owner, flat);
         }
         let points: Vec<Spot> =

@@ -37,12 +37,13 @@ impl Diagram {
     pub(super) fn trace_levels(&self, scene: &Scene, levels: &[Nm]) -> Vec<Stitcher> {
         let placer = self.placer();
         let depths: Vec<f32> = levels.iter().map(|&level| self.grid.pixels(level)).collect();
+        let courses: Vec<Course> = levels.iter().map(|&level| self.course(Some(level))).collect();
         let mut stitchers: Vec<Stitcher> = levels.iter().map(|_| Stitcher::default()).collect();
         let work = |tile: raster::Tile<'_>| -> Vec<(usize, Traced)> {
             let Some(seen) = Seen::new(self, &tile) else { return Vec::new() };
             let line = |i: usize| {
                 let owners = seen.owners_within(depths[i]);
-                (i, trace::trace(seen.pixels(&owners), &placer, self.course(Some(levels[i]))))
+                (i, trace::trace(seen.pixels(&owners), &placer, courses[i]))
             };
             seen.crossed(&depths).map(line).collect()
         };

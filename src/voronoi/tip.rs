@@ -14,7 +14,7 @@
 use std::collections::BTreeMap;
 
 use super::edge::Border;
-use super::near::Near;
+use super::near::{Insides, Near};
 use super::place::Unplaced;
 use super::plane::Spot;
 use super::seed::Sites;
@@ -43,6 +43,8 @@ pub(super) const HALVINGS: u32 = 10;
 pub(super) struct Tips<'a> {
     pub(super) sites: &'a Sites,
     pub(super) near: &'a Near,
+    /// The insides of polygons, where there is a limit.
+    pub(super) insides: Option<Insides>,
     pub(super) border: &'a Border,
     /// The distance that bounds regions against the background, in nanometres.
     pub(super) level: f64,
@@ -71,12 +73,9 @@ impl Tips<'_> {
         let mut unplaced = Unplaced::default();
         for ends in nodes(lines, |_| true).values() {
             let node = end_vertex(lines, ends[0]).at;
-            let mut owners: Vec<u32> =
-                ends.iter().flat_map(|end| [lines[end.line].left, lines[end.line].right]).collect();
+            let mut owners = owners_at(lines, ends);
             let at_border = owners.contains(&OUTSIDE);
             owners.retain(|&owner| owner != OUTSIDE);
-            owners.sort_unstable();
-            owners.dedup();
             let [least, most] = self.spread(&owners, node);
             if most - least > MISPLACED || (at_border && self.border.distance(node).abs() > MISPLACED) {
                 unplaced.add(node);
@@ -168,8 +167,8 @@ impl Tips<'_> {
         let middle = from.at.midpoint(to.at);
         let Some(middle) = self.project(pair, middle).filter(onward) else {
             samples.extend(from.chord(to));
-            return (self.reach(pair.0, middle).distance - self.reach(pair.1, middle).distance).abs()
-                <= STRAYS;
+            let [least, most] = self.spread(&[pair.0, pair.1], middle);
+            return most - least <= STRAYS;
         };
         let settled = Span::new(from, to).holds(middle);
         let before = settled || self.halve(pair, from, middle, left - 1, samples);
@@ -198,7 +197,7 @@ impl Tips<'_> {
         }
         let outside = self.near.reach(self.sites, p, |other| other == owner);
         // A limit curve that is sought inside a polygon may seem to be found there, beside something else of the same net.
-        let inside = if self.level.is_finite() { self.near.inside(self.sites, p, owner) } else { None };
+        let inside = self.insides.as_ref().and_then(|insides| insides.reach(self.sites, p, owner));
         inside.unwrap_or(outside)
     }
 
@@ -244,14 +243,20 @@ pub(super) fn open_nodes(lines: &[Line]) -> Nodes {
 
 /// The owner that meets those of `line` at a node of three lines; none where another number of regions meets, or the border.
 pub(super) fn third_owner(lines: &[Line], ends: &[End], line: &Line) -> Option<u32> {
-    let mut owners: Vec<u32> =
-        ends.iter().flat_map(|end| [lines[end.line].left, lines[end.line].right]).collect();
-    owners.sort_unstable();
-    owners.dedup();
+    let owners = owners_at(lines, ends);
     if ends.len() != 3 || owners.len() != 3 || owners.contains(&OUTSIDE) {
         return None;
     }
     owners.into_iter().find(|&owner| owner != line.left && owner != line.right)
+}
+
+/// Whose regions meet at a node, each once.
+fn owners_at(lines: &[Line], ends: &[End]) -> Vec<u32> {
+    let mut owners: Vec<u32> =
+        ends.iter().flat_map(|end| [lines[end.line].left, lines[end.line].right]).collect();
+    owners.sort_unstable();
+    owners.dedup();
+    owners
 }
 
 /// The vertex at one end of a line.

@@ -39,7 +39,7 @@ const CHORD: Nm = Nm::new(200);
 impl Body {
     pub(in crate::topology) fn new(shape: &Shape) -> Self {
         if let Shape::Arc { arc, .. } = shape
-            && (arc.radius() - arc.center.distance(arc.end)).abs() > ROUND
+            && arc.drift() > ROUND
             && let Some(polygon) = shape.polygon(CHORD)
         {
             let core = Core::Area(Box::new(Area::new(&polygon)));
