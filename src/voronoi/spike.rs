@@ -46,8 +46,8 @@ impl Spikes<'_> {
         let copper_on_left = matches!(pass.left, Owner::Net(_));
         let mut tips = vec![None; legs.len()];
         for corner in self.corners(&legs, pass.path.is_closed()) {
-            if let Some((last, tip)) = self.tip(&legs, &corner, copper_on_left) {
-                tips[last] = Some(tip);
+            for (last, tip) in self.tips(&legs, &corner, copper_on_left) {
+                tips[last] = Some((tip, Nm::from_f64((self.clearance)(tip))));
             }
         }
         let mut path = Path { start: pass.path.start, segments: Vec::with_capacity(legs.len()) };
@@ -79,8 +79,34 @@ impl Spikes<'_> {
         corners
     }
 
-    /// The tip that a corner needs, its distance from copper, and after which leg it is cut; none where it needs none, or is none of an inner corner.
-    fn tip(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Option<(usize, (Point, Nm))> {
+    /// The tips that a corner needs, each with the leg after which it is cut: one, or one for each bend where that would pierce the wall at the
+    /// narrow end of a wedge.
+    fn tips(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Vec<(usize, Point)> {
+        let tip = |bends: &[usize]| self.tip(legs, bends, copper_on_left);
+        let is_clear = |&(last, tip): &(usize, Point)| self.is_clear(legs[last].to, tip.into());
+        let whole = tip(corner);
+        if whole.is_none() || whole.as_ref().is_some_and(is_clear) {
+            return whole.into_iter().collect();
+        }
+        corner.windows(2).filter_map(tip).filter(is_clear).collect()
+    }
+
+    /// Whether a way keeps off the copper.
+    fn is_clear(&self, from: Spot, to: Spot) -> bool {
+        let (way, length) = (to - from, (to - from).length());
+        let mut along = 0.0;
+        loop {
+            let room = (self.clearance)((from + way * (along / length)).rounded());
+            if room < self.nearest || along >= length {
+                return room >= self.nearest;
+            }
+            // Copper comes no faster than the way goes.
+            along = (along + (room - self.nearest).max(LEAST_LENGTH)).min(length);
+        }
+    }
+
+    /// The tip that a corner needs, and after which leg it is cut; none where it needs none, or is none of an inner corner.
+    fn tip(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Option<(usize, Point)> {
         let (before, after) = (&legs[*corner.first()?], &legs[*corner.last()?]);
         let turn = before.ends.cross(after.begins);
         // A pass turns away from the copper at an inner corner of it.
@@ -97,11 +123,7 @@ impl Spikes<'_> {
         let tip = (apex + way * length).rounded();
         let reach = |last: &usize| (Spot::from(tip) - legs[*last].to).length();
         let last = corner[..corner.len() - 1].iter().copied().min_by(|a, b| reach(a).total_cmp(&reach(b)))?;
-        if (Spot::from(tip) - legs[last].to).dot(way) < LEAST_LENGTH {
-            return None;
-        }
-        let room = (self.clearance)(tip);
-        (room >= self.nearest).then(|| (last, (tip, Nm::from_f64(room))))
+        ((Spot::from(tip) - legs[last].to).dot(way) >= LEAST_LENGTH).then_some((last, tip))
     }
 }
 

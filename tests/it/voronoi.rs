@@ -380,6 +380,16 @@ fn nothing_stays_between_the_corners_of_passes() {
     }
 }
 
+#[test]
+fn the_corner_of_a_pass_is_not_led_through_the_wall_of_a_notch() {
+    // Its sides meet behind the wall, which the second pass runs along for no more than 25 µm.
+    let notch = [(3000, -532), (0, -270), (0, 270), (3000, 532)];
+    let block = [(3000, 1500), (-300, 1500), (-300, -1500), (3000, -1500)];
+    let ring = Polygon::new(vec![notch.into_iter().chain(block).map(|(x, y)| at(x, y)).collect()]);
+    let copper = layer([Shape::Polygon(ring.expect("a ring"))]);
+    assert_cleared(&copper, 560, 20, lattice());
+}
+
 /// Passes of 200 µm that share so many micrometres keep off the copper and clear these places, as far as they lie within this width of it.
 fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterator<Item = (f64, f64)>) {
     let nets = topology::recover(copper, Method::Contact);
@@ -390,9 +400,14 @@ fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterat
     let paths: Vec<Vec<Point>> = inner.map(|edge| edge.path.flatten(Nm::new(100))).collect();
     let to_copper =
         |x: f64, y: f64| oracle::distances(copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
-    for &p in paths.iter().flatten() {
-        let (x, y) = p.to_f64();
-        assert!(to_copper(x, y) >= 100_000.0, "{} nm from copper at {p:?}", to_copper(x, y));
+    for pair in paths.iter().flat_map(|path| path.windows(2)) {
+        let ((x0, y0), (x1, y1)) = (pair[0].to_f64(), pair[1].to_f64());
+        // Places no more than a fifth of a kerf apart.
+        let steps = ((x1 - x0).abs().max((y1 - y0).abs()) / 40_000.0).ceil().max(1.0);
+        for i in (0_u32..).map(f64::from).take_while(|&i| i <= steps) {
+            let (x, y) = (x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps);
+            assert!(to_copper(x, y) >= 100_000.0, "{} nm from copper at {x}, {y}", to_copper(x, y));
+        }
     }
     for (x, y) in places {
         let nearest = to_copper(x, y);
