@@ -38,6 +38,10 @@ impl Output {
             let error = std::io::Error::from(std::io::ErrorKind::IsADirectory);
             return Err(Failure::io("write", path, &error));
         }
+        if self.staged.iter().any(|(_, staged)| staged == path) {
+            let hint = "choose another name with --output-name";
+            return Err(Failure::new(format!("two outputs would be {}", path.display()), hint));
+        }
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let partial = path.with_file_name(format!(".{name}.{}.partial", std::process::id()));
         self.staged.push((partial.clone(), path.to_path_buf()));

@@ -2,6 +2,7 @@ use crate::geometry::Nm;
 use crate::toolpath::{Heights, Tool, ToolKind};
 use crate::voronoi::Widening;
 
+use super::choice::{Sites, Strategy};
 use super::quantity::Length;
 use super::settings::{given, positive};
 use super::tools::{self, Fetched, Workshop};
@@ -104,12 +105,12 @@ const EVERYTHING: Nm = Nm::from_mm(1000);
 fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
     let overlap = match options.overlap {
         None => kerf / 10,
-        Some(overlap) if overlap.nm() < Nm::ZERO || overlap.nm() >= kerf => {
+        Some(overlap) if overlap.of(kerf) < Nm::ZERO || overlap.of(kerf) >= kerf => {
             let problem =
                 format!("passes that share `{overlap}` of a kerf of {} do not advance", Length(kerf));
             return Err(Error::Value { key: "overlap", problem });
         }
-        Some(overlap) => overlap.nm(),
+        Some(overlap) => overlap.of(kerf),
     };
     let width = match (options.width, options.passes) {
         _ if options.clear == Some(true) => EVERYTHING,
@@ -118,6 +119,28 @@ fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
         (None, None) => return Ok(None),
     };
     Ok(Some(Widening { kerf, width, overlap }))
+}
+
+/// What cuts are midway between.
+pub(super) fn sites(options: &Options) -> Result<Sites, Error> {
+    let sites = options.sites.expect("the defaults leave nothing open");
+    let is_outline = |strategy: Strategy| strategy == Strategy::Outline;
+    let beside_copper = [
+        ("--width", options.width.is_some()),
+        ("--passes", options.passes.is_some()),
+        ("--clear", options.clear == Some(true)),
+        ("--strategy outline", options.strategy.is_some_and(is_outline)),
+        ("--strategy-for", options.strategy_for.iter().any(|some| is_outline(some.strategy))),
+    ];
+    match (sites, beside_copper.into_iter().find(|(_, is_asked)| *is_asked)) {
+        (Sites::Core, Some((other, _))) => {
+            let problem = format!(
+                "with core, {other} would keep its distance from the axes and cut into the copper round them: leave out one of the two"
+            );
+            Err(Error::Value { key: "sites", problem })
+        }
+        _ => Ok(sites),
+    }
 }
 
 fn not_a_drill(key: &'static str, tool: Tool) -> Result<Tool, Error> {

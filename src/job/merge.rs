@@ -27,6 +27,7 @@ impl Options {
         };
         Self {
             tool: if self.tool.is_empty() { others.tool } else { self.tool },
+            output_name: if self.output_name.is_empty() { others.output_name } else { self.output_name },
             ignore: if self.ignore.is_empty() { others.ignore } else { self.ignore },
             tile: self.tile.or(others.tile),
             tile_spacing: self.tile_spacing.or(others.tile_spacing),
@@ -71,6 +72,8 @@ impl Options {
             spin_up: self.spin_up.or(others.spin_up),
             safe_z: self.safe_z.or(others.safe_z),
             dialect: self.dialect.or(others.dialect),
+            blend: self.blend.or(others.blend),
+            tool_change: self.tool_change.or(others.tool_change),
             origin: self.origin.or(others.origin),
             drill_depth: self.drill_depth.or(others.drill_depth),
             outline_gap: self.outline_gap.or(others.outline_gap),

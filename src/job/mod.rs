@@ -3,6 +3,7 @@
 //! [`Options`] are what a person wrote, on the command line or in `voromill.toml`; [`Settings`] are those and the
 //! defaults, complete and checked; [`mill`] does the work, in memory. Who calls it decides what becomes a file.
 
+mod blend;
 mod by_net;
 mod cache_key;
 mod choice;
@@ -16,6 +17,8 @@ mod layer;
 mod merge;
 mod millproject;
 mod options;
+mod output_name;
+mod overlap;
 mod page;
 mod paper;
 mod pattern;
@@ -30,9 +33,12 @@ mod tools;
 mod verification;
 mod written;
 
+pub use blend::{Blend, ParseBlendError};
 pub use by_net::{ParseStrategyForError, StrategyFor};
 pub use cache_key::cache_key;
-pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
+pub use choice::{
+    DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, ToolChange, Topology,
+};
 pub use cutting::Cutting;
 pub use error::Error;
 pub use holding::Holding;
@@ -41,6 +47,8 @@ pub use inspect::inspect;
 pub use layer::Layer;
 pub use millproject::{MillProject, ProjectFiles};
 pub use options::Options;
+pub use output_name::{OutputName, ParseOutputNameError};
+pub use overlap::{Overlap, ParseOverlapError};
 pub use paper::paper;
 pub use pattern::Pattern;
 pub use pipeline::{Job, mill};

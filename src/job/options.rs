@@ -6,8 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::toolpath::{Angle, Feed};
 
+use super::blend::Blend;
 use super::by_net::StrategyFor;
-use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
+use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, ToolChange, Topology};
+use super::output_name::OutputName;
+use super::overlap::Overlap;
 use super::pattern::Pattern;
 use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::tools::{Library, ToolChoice};
@@ -81,10 +84,10 @@ pub struct Options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clear: Option<bool>,
 
-    /// How much neighbouring passes share [default: a tenth of the kerf]
-    #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
+    /// How much neighbouring passes share: a length, or a part of the kerf [default: 10%]
+    #[arg(long, value_name = "LENGTH|PERCENT", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
-    pub overlap: Option<Length>,
+    pub overlap: Option<Overlap>,
 
     /// Size of a pixel of the picture that finds the boundaries, at most [default: as coarse as the smallest gap allows]
     #[arg(long, value_name = "LENGTH", conflicts_with = "dpi", help_heading = "Isolation")]
@@ -155,6 +158,16 @@ pub struct Options {
     #[arg(long, value_name = "DIALECT", help_heading = "Machine")]
     #[serde(with = "text")]
     pub dialect: Option<DialectChoice>,
+
+    /// How far the machine may round corners off to keep its speed (G64 P), such as 0.01mm; machine leaves it as the machine is set
+    #[arg(long, value_name = "LENGTH|machine", help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub blend: Option<Blend>,
+
+    /// How tools are changed: m6, pause (M0), pause-with-text, or files (each tool has its own) [default: as the dialect says]
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "HOW", help_heading = "Machine")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tool_change: Option<ToolChange>,
 
     /// Where x and y are zero: lower-left, center, or keep the file's coordinates
     #[arg(long, value_enum, hide_possible_values = true, value_name = "PLACE", help_heading = "Machine")]
@@ -315,6 +328,11 @@ pub struct Options {
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub tab_height: Option<Length>,
+
+    /// What a program's file is called in the folder of outputs: front, back, drill, cutout or alignment, and a name, such as front=top.ngc
+    #[arg(long, value_name = "PROGRAM=FILE", help_heading = "Output")]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub output_name: Vec<OutputName>,
 
     /// One's own tools: tables of the settings file alone.
     #[arg(skip)]

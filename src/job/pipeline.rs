@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use crate::board::{Board, Side, Source, Warning};
-use crate::gcode::dialect::ToolChange;
+use crate::gcode::dialect::{Blending, ToolChange};
 use crate::gcode::{Header, Input};
 use crate::geometry::Nm;
 use crate::import::Loaded;
@@ -99,6 +99,13 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     warnings.extend(programs.iter().filter_map(|program| program.warning.clone()));
     if board.outline.is_none() && !warnings.iter().any(|warning| warning.code.starts_with("outline-")) {
         warnings.push(Warning::new("outline-missing", "no outline was named, so the board is not cut out"));
+    }
+    if settings.options().blend.is_some() && settings.dialect.blending == Blending::Unknown {
+        let message = format!(
+            "{} has no word for how far corners may be rounded off: --blend changes nothing",
+            settings.dialect.name
+        );
+        warnings.push(Warning::new("blend-unknown", message));
     }
     let electrical = electrical(&board, &layers);
     warnings.extend(electrical.iter().flat_map(Electrical::check));

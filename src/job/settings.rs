@@ -1,14 +1,17 @@
 use crate::board::Side;
 use crate::gcode::Dialect;
+use crate::gcode::dialect::Blending;
 use crate::geometry::{Nm, Vector};
 use crate::toolpath::{self, Angle, Feed, Heights, Machine, Tool, ToolKind};
 
 use super::Error;
 use super::Options;
+use super::blend::Blend;
 use super::by_net::StrategyFor;
 use super::choice::{DrillSide, Narrow, Origin, Sites, Strategy, Topology};
-use super::cutting::{Cutting, frame_margin, isolation};
+use super::cutting::{Cutting, frame_margin, isolation, sites};
 use super::holding::{Holding, holding};
+use super::output_name;
 use super::pattern::Pattern;
 use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Triple, Wait};
 use super::tools::{self, Fetched, ToolChoice, Workshop};
@@ -144,10 +147,8 @@ impl Settings {
         let tab_height = positive("tab-height", options.tab_height)?;
         let tabs = holding(&options)?;
         let tiles = tiles(&options, &cutout_tool)?;
-        let mut dialect = options.dialect.clone().expect(open).0;
-        if let Some(Wait { milliseconds }) = options.spin_up {
-            dialect.spin_up = milliseconds;
-        }
+        let dialect = dialect(&options, options.dialect.clone().expect(open).0);
+        output_name::check(&options.output_name)?;
         if tabs != Holding::Count(0) && tab_height >= cutout_depth {
             let problem = format!(
                 "tabs of {} in a cut of {} would leave it uncut",
@@ -192,7 +193,7 @@ impl Settings {
             cutout_tool,
             strategy: options.strategy.expect(open),
             strategy_for: options.strategy_for.clone(),
-            sites: options.sites.expect(open),
+            sites: sites(&options)?,
             limit: given("limit", options.limit)?,
             pixel: pixel(&options)?,
             frame: options.frame.expect(open),
@@ -238,6 +239,21 @@ impl Settings {
     #[must_use]
     pub fn finest_kerf(&self) -> Nm {
         self.isolation.last().map_or(Nm::ZERO, Cutting::kerf)
+    }
+}
+
+/// `base`, with what the options say differs.
+fn dialect(options: &Options, base: Dialect) -> Dialect {
+    let blending = match (base.blending, options.blend) {
+        (Blending::Unknown, _) | (_, None) => base.blending,
+        (_, Some(Blend::Machine)) => Blending::AsSet,
+        (_, Some(Blend::Within(length))) => Blending::Within(length.nm()),
+    };
+    Dialect {
+        spin_up: options.spin_up.map_or(base.spin_up, |Wait { milliseconds }| milliseconds),
+        tool_change: options.tool_change.map_or(base.tool_change, Into::into),
+        blending,
+        ..base
     }
 }
 
@@ -371,6 +387,27 @@ mod tests {
     }
 
     #[test]
+    fn an_overlap_in_percent_is_of_each_tools_own_kerf() {
+        let text = "tool = [\"endmill:0.4mm\", \"endmill:0.1mm\"]\npasses = 3\noverlap = \"50%\"";
+        let settings = settings(text).expect("settings");
+        let overlap = |cutting: &Cutting| cutting.widening.map(|widening| widening.overlap);
+        let overlaps: Vec<_> = settings.isolation.iter().map(overlap).collect();
+        assert_eq!(overlaps, [Some(Nm::from_um(200)), Some(Nm::from_um(50))], "half of each");
+    }
+
+    #[test]
+    fn corners_are_rounded_as_asked_where_the_dialect_has_a_word_for_it() {
+        for (text, blending) in [
+            ("dialect = \"linuxcnc\"", Blending::Within(Nm::from_um(5))),
+            ("dialect = \"linuxcnc\"\nblend = \"0.02mm\"", Blending::Within(Nm::from_um(20))),
+            ("dialect = \"linuxcnc\"\nblend = \"machine\"", Blending::AsSet),
+            ("blend = \"0.02mm\"", Blending::Unknown),
+        ] {
+            assert_eq!(settings(text).expect(text).dialect.blending, blending, "{text}");
+        }
+    }
+
+    #[test]
     fn dpi_and_pixel_replace_each_other() {
         assert_eq!(settings("dpi = 500").expect("settings").pixel, Some(Nm::new(50_800)), "an inch by 500");
         let over = Options::from_toml("f", "pixel = \"20um\"").expect("options");
@@ -400,6 +437,13 @@ mod tests {
             ("drills = \"clearer\"", "drills"),
             ("drill-bore-tool = \"drill:1mm\"", "drill-bore-tool"),
             ("frame-margin = \"0.07mm\"", "frame-margin"),
+            ("passes = 3\noverlap = \"1mm\"", "overlap"),
+            ("sites = \"core\"\nwidth = \"1mm\"", "sites"),
+            ("sites = \"core\"\npasses = 2", "sites"),
+            ("sites = \"core\"\nclear = true", "sites"),
+            ("sites = \"core\"\nstrategy = \"outline\"", "sites"),
+            ("sites = \"core\"\nstrategy-for = \"GND=outline\"", "sites"),
+            ("output-name = [\"front=a.ngc\", \"back=a.ngc\"]", "output-name"),
         ] {
             let error = settings(text).expect_err(text).to_string();
             assert!(error.starts_with(key), "{text}: {error}");

@@ -47,13 +47,24 @@ impl Part {
         match option {
             "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
             "feed" | "plunge" | "spindle" | "spin-up" | "safe-z" | "dialect" | "origin" | "tile"
-            | "tile-spacing" | "machine-travel" | "tool-change-at" | "offset" => true,
+            | "tile-spacing" | "machine-travel" | "tool-change" | "tool-change-at" | "blend" | "offset" => {
+                true
+            }
+            "output-name" => false,
             _ if option.starts_with("alignment") => self == Self::Alignment,
             "drill-depth" => matches!(self, Self::Alignment | Self::Drill),
             _ if option.starts_with("drill") => self == Self::Drill,
             _ if option.starts_with("cutout") || option.starts_with("tab") => self == Self::Cutout,
             _ => matches!(self, Self::Front | Self::Back),
         }
+    }
+
+    /// The program of this [`name`](Self::name).
+    #[must_use]
+    pub fn by_name(name: &str) -> Option<Self> {
+        [Self::Alignment, Self::Front, Self::Back, Self::Drill, Self::Cutout]
+            .into_iter()
+            .find(|part| part.name() == name)
     }
 
     /// The last part of its file's name.
@@ -108,6 +119,10 @@ impl Written {
             }
             _ => String::new(),
         };
-        format!("{board}-{}{tool}.{}", self.part.name(), settings.dialect.extension)
+        let named = settings.options().output_name.iter().find(|name| name.part == self.part);
+        named.map_or_else(
+            || format!("{board}-{}{tool}.{}", self.part.name(), settings.dialect.extension),
+            |name| name.with(&tool),
+        )
     }
 }

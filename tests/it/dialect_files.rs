@@ -5,7 +5,7 @@ use std::path::Path;
 
 use tempfile::TempDir;
 
-use crate::cli::{stderr, voromill};
+use crate::cli::{stderr, stdout, voromill};
 
 fn board(name: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards").join(name).to_string_lossy().into_owned()
@@ -86,6 +86,43 @@ fn a_dialect_that_is_none_says_why() {
         assert_eq!(done.status.code(), Some(2), "{dialect}");
         assert!(stderr(&done).contains(reason), "{dialect}: {}", stderr(&done));
     }
+}
+
+#[test]
+fn programs_have_the_names_and_tool_changes_that_are_asked_for() {
+    let folder = TempDir::new().expect("a folder");
+    let mill = |more: &[&str]| {
+        let done = voromill(
+            folder.path(),
+            &[&["mill", &board("regulator"), "-o", "out", "--no-html", "--no-verify"], more].concat(),
+        );
+        (done.status.code(), stderr(&done), stdout(&done))
+    };
+    let names = ["--output-name", "front=top side.nc", "--output-name", "drill=holes.nc"];
+    let (code, message, summary) = mill(&[&names[..], &["--tool-change", "files"]].concat());
+    assert_eq!(code, Some(0), "{message}");
+    assert!(folder.path().join("out/top side-tool-1.nc").exists(), "{summary}");
+    assert!(summary.contains("holes-tool-2.nc"), "a file for each tool, and in the summary:\n{summary}");
+    let (code, message, _) = mill(&["--output-name", "cutout=regulator.json"]);
+    assert_eq!(code, Some(2), "the report has that name");
+    assert!(message.contains("two outputs would be out/regulator.json"), "{message}");
+    let (_, _, summary) = mill(&["--blend", "0.01mm"]);
+    assert!(summary.contains("grbl has no word for"), "{summary}");
+}
+
+#[test]
+fn axes_and_passes_beside_copper_do_not_go_together() {
+    let folder = TempDir::new().expect("a folder");
+    let done = voromill(
+        folder.path(),
+        &["mill", &board("blinker"), "-o", "out", "--sites", "core", "--passes", "2"],
+    );
+    assert_eq!(done.status.code(), Some(2), "copper would be cut");
+    assert!(
+        stderr(&done).contains("sites: with core, --passes would keep its distance from the axes"),
+        "{}",
+        stderr(&done)
+    );
 }
 
 #[test]

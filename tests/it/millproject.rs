@@ -4,6 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use voromill::board::Side;
+use voromill::gcode::Dialect;
+use voromill::gcode::dialect::{Blending, ToolChange};
 use voromill::geometry::{Nm, Vector};
 use voromill::job::{Holding, MillProject, Options, Settings, Strategy};
 use voromill::toolpath::{Feed, ToolKind};
@@ -30,7 +32,7 @@ fn fixture() -> PathBuf {
 fn every_option_with_a_counterpart_is_taken_over() {
     let project = project(&fs::read_to_string(fixture()).expect("a fixture"));
     let left: Vec<&str> = project.left.iter().map(|warning| warning.message.as_str()).collect();
-    assert_eq!(left, ["`nog64` is not taken over: it has no counterpart"], "one has none");
+    assert_eq!(left, ["`nog91-1` is not taken over: it has no counterpart"], "one has none");
     let place = project.left[0].source.as_ref().map(|source| (source.file.as_str(), source.line));
     assert_eq!(place, Some(("millproject", 35)), "and its line is told once, with the place");
     assert_eq!(project.files.front.as_deref(), Some(Path::new("blinker-F_Cu.gbr")), "the front");
@@ -88,6 +90,8 @@ fn every_option_with_a_counterpart_is_taken_over() {
         "where it lies"
     );
     assert_eq!(settings.tiles.map(|(tiles, _)| (tiles.columns, tiles.rows)), Some((2, 1)), "tiles");
+    assert_eq!(settings.dialect.tool_change, ToolChange::Pause, "no M6");
+    assert_eq!(settings.dialect.blending, Blending::Within(um(10)), "corners");
 }
 
 #[test]
@@ -126,6 +130,39 @@ fn holes_are_drilled_from_the_side_and_bored_with_the_mill_that_the_project_name
 }
 
 #[test]
+fn corners_names_and_tool_changes_are_as_the_project_says() {
+    let made = settings(project("software=linuxcnc\ng64=0.0005"));
+    assert_eq!(made.dialect.blending, Blending::Within(Nm::new(12_700)), "half a thousandth");
+    for text in
+        ["software=linuxcnc\ntolerance=0.01mm\nnog64=1", "software=linuxcnc\nnog64=1\ntolerance=0.01mm"]
+    {
+        assert_eq!(settings(project(text)).dialect.blending, Blending::AsSet, "{text}");
+    }
+    let made = settings(project("software=linuxcnc\nnom6=0\nnog64=0\nnog81=1"));
+    let linuxcnc = Dialect::by_name("linuxcnc").expect("built in");
+    assert_eq!(
+        (&made.dialect.blending, &made.dialect.tool_change),
+        (&linuxcnc.blending, &linuxcnc.tool_change),
+        "its own"
+    );
+    let named = project(
+        "back-output=under.ngc\nback-output=below.ngc\ndrill-output=sub/holes.ngc\nmilldrill-output=x\nnog81=0",
+    );
+    let names: Vec<_> = named.options.output_name.iter().map(ToString::to_string).collect();
+    assert_eq!(names, ["back=below.ngc"], "the last says it");
+    let left: Vec<_> = named.left.iter().map(|warning| warning.message.as_str()).collect();
+    assert_eq!(
+        left,
+        [
+            "`drill-output` is not taken over: all files lie in output-dir",
+            "`milldrill-output` is not taken over: it has no counterpart",
+            "`nog81` is not taken over: holes are drilled with G0 and G1",
+        ],
+        "what has no counterpart"
+    );
+}
+
+#[test]
 fn options_of_the_command_line_win_over_the_project_and_that_over_the_file() {
     let from = |text| Options::from_toml("f", text).expect("options");
     let project = project("metric=1\nzsafe=3\nmill-feed=100\nmill-diameters=0.3").options;
@@ -152,6 +189,8 @@ fn what_is_no_project_says_which_line() {
         ("mill-diameters = 0.1;0.2", "lengths between commas"),
         ("tile-x = two", "a whole number"),
         ("drill-side = left", "front, back or auto"),
+        ("milling-overlap = 120%", "less than 100%"),
+        ("tolerance = 0", "above zero"),
     ] {
         let error = MillProject::read("millproject", text).expect_err(text).to_string();
         assert!(error.contains(reason), "`{text}` gives `{error}`");
@@ -184,8 +223,12 @@ fn a_project_mills_its_board_and_lists_what_it_could_not_take_over() {
     assert!(done.status.success(), "{}", stderr(&done));
     let report =
         fs::read_to_string(folder.path().join("made/mine.json")).expect("in output-dir, by basename");
-    assert!(report.contains("millproject-option") && report.contains("nog64"), "the rest is in the report");
-    assert!(stdout(&done).contains("mine-"), "{}", stdout(&done));
+    assert!(report.contains("millproject-option") && report.contains("nog91-1"), "the rest is in the report");
+    assert!(stdout(&done).contains("mine-drill.ngc"), "{}", stdout(&done));
+    let program = |name| fs::read_to_string(folder.path().join("made").join(name)).expect(name);
+    assert!(program("below.ngc").contains("\nG64 P0.01\n"), "back-output, and corners rounded as it says");
+    assert!(program("board.ngc").contains("cutout"), "outline-output");
+    assert!(!program("mine-drill.ngc").contains("M6"), "nom6");
     let nothing = voromill(folder.path(), &["mill", "-o", "out"]);
     assert_eq!(nothing.status.code(), Some(2), "neither files nor a project");
 }

@@ -4,7 +4,9 @@ use std::borrow::Cow;
 
 use serde::Deserialize;
 
-use super::{ALL, Arcs, Comments, Dialect, Dwell, LineNumbers, Text, ToolChange, Touches};
+use crate::geometry::Nm;
+
+use super::{ALL, Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, Text, ToolChange, Touches};
 
 /// Why a text does not describe a dialect.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -16,6 +18,9 @@ pub enum DialectError {
     /// `base` names no built-in dialect.
     #[error("`{0}` is not a dialect to build on: expected one of {names}", names = names())]
     Base(String),
+    /// How far corners may be rounded off is no length above zero.
+    #[error("`blend` is `{0}`: expected a length above zero, such as 0.01mm, or `machine`")]
+    Blend(String),
     /// A number outside what makes sense.
     #[error("`{key}` is {value}: expected {expected}")]
     Range {
@@ -47,6 +52,7 @@ struct Keys {
     tool_change: Option<ToolChange>,
     line_numbers: Option<LineNumbers>,
     longest_line: Option<usize>,
+    blend: Option<String>,
     start: Option<Vec<String>>,
     end: Option<Vec<String>>,
     coolant: Option<(String, String)>,
@@ -77,6 +83,12 @@ impl Dialect {
         let lines = |given: Option<Vec<String>>, base: Cow<'static, [Text]>| {
             given.map_or(base, |lines| Cow::Owned(lines.into_iter().map(Cow::Owned).collect()))
         };
+        let blending = match (&keys.blend, &keys.start, base.blending) {
+            (Some(text), ..) => blending(text)?,
+            // Start lines of one's own say all there is to say.
+            (None, Some(_), Blending::Within(_)) => Blending::AsSet,
+            (None, _, blending) => blending,
+        };
         Ok(Self {
             name: Cow::Owned(keys.name),
             about: text(keys.about, base.about),
@@ -94,6 +106,7 @@ impl Dialect {
                 255,
                 "60 to 255 characters",
             )?,
+            blending,
             start: lines(keys.start, base.start),
             end: lines(keys.end, base.end),
             coolant: keys.coolant.map(|(on, off)| (Cow::Owned(on), Cow::Owned(off))).or(base.coolant),
@@ -101,6 +114,14 @@ impl Dialect {
             touches: keys.touches.unwrap_or(base.touches),
         })
     }
+}
+
+fn blending(text: &str) -> Result<Blending, DialectError> {
+    if text == "machine" {
+        return Ok(Blending::AsSet);
+    }
+    let most = text.parse::<Nm>().ok().filter(|&most| most > Nm::ZERO);
+    most.map(Blending::Within).ok_or_else(|| DialectError::Blend(text.to_owned()))
 }
 
 fn within(
@@ -127,7 +148,19 @@ mod tests {
             .expect("a dialect");
         let base = Dialect::by_name("linuxcnc").expect("built in");
         assert_eq!(mine.start, base.start, "the start lines are LinuxCNC's");
+        assert_eq!(mine.blending, base.blending, "and so is how it rounds corners");
         assert_eq!(mine.coolant, Some(("M8".into(), "M9".into())), "the coolant is its own");
+    }
+
+    #[test]
+    fn start_lines_of_ones_own_say_all_of_how_corners_are_rounded() {
+        let mine = |more: &str| {
+            Dialect::from_toml(&format!("name = 'mine'\nbase = 'linuxcnc'\n{more}")).expect(more)
+        };
+        assert_eq!(mine("start = ['G64 P0.02']").blending, Blending::AsSet, "no second word for it");
+        let both = mine("start = ['G21']\nblend = '0.02mm'").blending;
+        assert_eq!(both, Blending::Within(Nm::from_um(20)), "unless it says so");
+        assert_eq!(mine("blend = 'machine'").blending, Blending::AsSet, "nothing at all");
     }
 
     #[test]
@@ -137,6 +170,7 @@ mod tests {
             ("name = 'x'\nbase = 'grbl'\ndecimal = 3", "decimal"),
             ("name = 'x'\nbase = 'grbl'\ndecimals = 9", "2 to 6"),
             ("base = 'grbl'", "name"),
+            ("name = 'x'\nbase = 'linuxcnc'\nblend = '0mm'", "above zero"),
             ("name = 'x'\nbase = 'grbl'\narcs = 'round'", "round"),
         ];
         for (text, expected) in cases {

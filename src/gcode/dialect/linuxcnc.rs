@@ -1,8 +1,10 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
+use crate::geometry::Nm;
 
-/// LinuxCNC. G64 lets it blend corners by at most 5 µm, instead of stopping at each or rounding without bound.
+use super::{Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
+
+/// LinuxCNC. G64 with a tolerance lets it blend corners by at most 5 µm, instead of stopping at each or rounding without bound.
 pub(super) const LINUXCNC: Dialect = Dialect {
     name: Borrowed("linuxcnc"),
     about: Borrowed("LinuxCNC 2.8 and later"),
@@ -14,7 +16,8 @@ pub(super) const LINUXCNC: Dialect = Dialect {
     tool_change: ToolChange::M6,
     line_numbers: LineNumbers::Off,
     longest_line: 100,
-    start: Borrowed(&[Borrowed("G17 G21 G40 G49 G80 G90 G91.1 G94"), Borrowed("G64 P0.005")]),
+    blending: Blending::Within(Nm::from_um(5)),
+    start: Borrowed(&[Borrowed("G17 G21 G40 G49 G80 G90 G91.1 G94")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
     spin_up: SPIN_UP,

@@ -2,13 +2,17 @@ use std::path::PathBuf;
 
 use crate::board::{SourceSpan, Warning};
 use crate::geometry::Nm;
-use crate::job::choice::{DialectChoice, DrillSide, Origin, Strategy};
+use crate::job::blend::Blend;
+use crate::job::choice::{DialectChoice, DrillSide, Origin, Strategy, ToolChange};
+use crate::job::output_name::OutputName;
+use crate::job::overlap::Overlap;
 use crate::job::quantity::{DrillChoice, Drills, Length, Place, Tiles, ToolChangeAt};
 use crate::job::tools::{OwnTool, ToolChoice};
+use crate::job::written::Part;
 use crate::toolpath::ToolKind;
 
 use super::MillProject;
-use super::value::{Entry, Share, Units, Wrong};
+use super::value::{Entry, Units, Wrong};
 
 /// A project while its lines are read; some options mean something only together.
 pub(super) struct Draft<'a> {
@@ -18,7 +22,7 @@ pub(super) struct Draft<'a> {
     mills: Vec<Nm>,
     width: Option<Nm>,
     extra_passes: Option<u32>,
-    overlap: Option<Share>,
+    overlap: Option<Overlap>,
     cutter: OwnTool,
     zcut: Option<Nm>,
     bridges: Option<Nm>,
@@ -43,7 +47,6 @@ const LEFT: &[&str] = &[
     "al-setzzero",
     "al-x",
     "al-y",
-    "back-output",
     "backtrack",
     "config",
     "cut-front",
@@ -51,13 +54,10 @@ const LEFT: &[&str] = &[
     "dpi",
     "draw-gerber-lines",
     "drill-front",
-    "drill-output",
     "eulerian-paths",
     "fill-outline",
-    "front-output",
     "g0-horizontal-speed",
     "g0-vertical-speed",
-    "g64",
     "ignore-warnings",
     "invert-gerbers",
     "mill-feed-direction",
@@ -66,15 +66,11 @@ const LEFT: &[&str] = &[
     "min-path-length",
     "mirror-yaxis",
     "no-export",
-    "nog64",
-    "nog81",
     "nog91-1",
-    "nom6",
     "offset",
     "onedrill",
     "optimise",
     "optimize",
-    "outline-output",
     "outline-width",
     "path-finding-limit",
     "post-milling-gcode",
@@ -85,7 +81,6 @@ const LEFT: &[&str] = &[
     "preserve-thermal-reliefs",
     "spindown-time",
     "svg",
-    "tolerance",
     "tsp-2opt",
     "vectorial",
     "zchange-absolute",
@@ -123,7 +118,7 @@ impl<'a> Draft<'a> {
             "mill-diameters" => self.mills.extend(entry.lengths(units)?),
             "isolation-width" => self.width = Some(entry.length(units)?),
             "extra-passes" => self.extra_passes = Some(entry.count()?),
-            "milling-overlap" => self.overlap = Some(entry.share(units)?),
+            "milling-overlap" => self.overlap = Some(entry.overlap(units)?),
             "cutter-diameter" => self.cutter.kind = ToolKind::EndMill { diameter: entry.length(units)? },
             "cut-feed" => self.cutter.feed = Some(entry.feed(units)?),
             "cut-vertfeed" => self.cutter.plunge = Some(entry.feed(units)?),
@@ -168,6 +163,27 @@ impl<'a> Draft<'a> {
                 let diameter = entry.length(units)?;
                 options.drill_bore_tool = Some(ToolChoice::Kind(ToolKind::EndMill { diameter }));
             }
+            // Corners are rounded by no more than this where it is said, and as the machine is set where it is not to be.
+            "g64" | "tolerance" => {
+                let most = entry.length(units)?;
+                if most <= Nm::ZERO {
+                    return Err(entry.wrong("a length above zero"));
+                }
+                if options.blend != Some(Blend::Machine) {
+                    options.blend = Some(Blend::Within(Length(most)));
+                }
+            }
+            "nog64" if entry.flag()? => options.blend = Some(Blend::Machine),
+            "nog64" => {}
+            // Holes are always drilled with G0 and G1.
+            "nog81" if entry.flag()? => {}
+            "nog81" => self.leave(entry, "holes are drilled with G0 and G1"),
+            "nom6" if entry.flag()? => options.tool_change = Some(ToolChange::Pause),
+            "nom6" => {}
+            "front-output" => self.output(entry, Part::Front),
+            "back-output" => self.output(entry, Part::Back),
+            "drill-output" => self.output(entry, Part::Drill),
+            "outline-output" => self.output(entry, Part::Cutout),
             "drill-side" => match entry.value.to_ascii_lowercase().as_str() {
                 "front" => options.drill_side = Some(DrillSide::Front),
                 "back" => options.drill_side = Some(DrillSide::Back),
@@ -221,6 +237,18 @@ impl<'a> Draft<'a> {
         Ok(())
     }
 
+    /// What the file of a program is called; folders of single files are not taken over.
+    fn output(&mut self, entry: &Entry<'_>, part: Part) {
+        match OutputName::try_new(part, entry.value) {
+            Ok(name) => {
+                let names = &mut self.made.options.output_name;
+                names.retain(|other| other.part != part);
+                names.push(name);
+            }
+            Err(_) => self.leave(entry, "all files lie in output-dir"),
+        }
+    }
+
     /// Notes an option that is not taken over.
     fn leave(&mut self, entry: &Entry<'_>, why: &str) {
         let text = format!("{} = {}", entry.name, entry.value);
@@ -253,20 +281,16 @@ impl<'a> Draft<'a> {
         options.tool =
             self.mills.iter().map(|&diameter| ToolChoice::Kind(ToolKind::EndMill { diameter })).collect();
         let widest = self.mills.iter().max().copied().unwrap_or(Nm::ZERO);
-        let finest = self.mills.iter().min().copied().unwrap_or(Nm::ZERO);
         // A gap that one cut makes wide enough needs no second.
         options.width = self.width.filter(|&width| width > widest).map(Length);
         let mut overlap = self.overlap;
         if let Some(extra) = self.extra_passes.filter(|&extra| extra > 0 && options.width.is_none()) {
             options.passes = Some(extra + 1);
             // Each of its extra passes is half a cutter further out.
-            overlap = Some(Share::Percent(50));
+            overlap = Some(Overlap::OfKerf { hundredths: 5_000 });
         }
         if options.width.is_some() || options.passes.is_some() {
-            options.overlap = overlap.and_then(|share| match share {
-                Share::Percent(percent) => (finest > Nm::ZERO).then(|| Length(finest * percent / 100)),
-                Share::Length(length) => Some(Length(length)),
-            });
+            options.overlap = overlap;
         }
     }
 

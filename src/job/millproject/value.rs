@@ -1,6 +1,7 @@
 use crate::geometry::Nm;
 use crate::job::Error;
-use crate::job::quantity::Wait;
+use crate::job::overlap::Overlap;
+use crate::job::quantity::{Length, Wait};
 use crate::toolpath::Feed;
 
 /// What bare numbers count.
@@ -110,26 +111,15 @@ impl Entry<'_> {
         self.value.parse().map_err(|_| self.wrong("a whole number"))
     }
 
-    /// A share of a hundred, or a length.
-    pub(super) fn share(&self, units: Units) -> Result<Share, Wrong> {
-        match self.value.strip_suffix('%') {
-            // A percent of a millimetre, read as a length, is ten thousand nanometres.
-            Some(percent) => {
-                length(&format!("{}mm", percent.trim()), units).map(|nm| Share::Percent(nm.get() / 1_000_000))
-            }
-            None => length(self.value, units).map(Share::Length),
+    /// A part of a kerf, or a length.
+    pub(super) fn overlap(&self, units: Units) -> Result<Overlap, Wrong> {
+        if self.value.ends_with('%') {
+            return self.value.parse().map_err(|_| self.wrong("a length, or less than 100%"));
         }
-        .ok_or_else(|| self.wrong("a length or a share, such as 50%"))
+        length(self.value, units)
+            .map(|nm| Overlap::Length(Length(nm)))
+            .ok_or_else(|| self.wrong("a length or a part of the cutter, such as 50%"))
     }
-}
-
-/// How much two passes share.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum Share {
-    /// Of the cutter.
-    Percent(i64),
-    /// As it is.
-    Length(Nm),
 }
 
 /// A number with the units that pcb2gcode knows, or none.
