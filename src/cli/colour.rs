@@ -9,15 +9,17 @@ const GREEN: &str = "\x1b[32m";
 const BOLD: &str = "\x1b[1m";
 const FAINT: &str = "\x1b[2m";
 
-/// `text` with colours where stdout is a terminal that wants them: neither a dumb one nor under `NO_COLOR`.
+/// `text` with colours where stdout is a terminal that wants them.
 pub(super) fn on_terminal(text: &str) -> Cow<'_, str> {
+    let shown = std::io::stdout().is_terminal() && are_wanted();
+    if shown { Cow::Owned(coloured(text)) } else { Cow::Borrowed(text) }
+}
+
+/// Whether the terminal wants colours: it is not a dumb one, and `NO_COLOR` is not set.
+pub(super) fn are_wanted() -> bool {
     let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
     let dumb = std::env::var_os("TERM").is_some_and(|terminal| terminal == "dumb");
-    if refused || dumb || !std::io::stdout().is_terminal() {
-        Cow::Borrowed(text)
-    } else {
-        Cow::Owned(coloured(text))
-    }
+    !refused && !dumb
 }
 
 fn coloured(text: &str) -> String {

@@ -17,7 +17,7 @@ use voromill::report::{Canvas, png, terminal};
 use super::config::Config;
 use super::input::Input;
 use super::output::Output;
-use super::{Failure, Shared};
+use super::{Failure, Shared, colour};
 
 /// A picture of one stage
 ///
@@ -38,7 +38,7 @@ pub(super) struct Draw {
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
 
-    /// How it is written [default: as the name ends; in a terminal, blocks]
+    /// How it is written [default: as the name ends; in a terminal, blocks, or shades where it wants no colours]
     #[arg(long, value_enum)]
     format: Option<Format>,
 
@@ -139,6 +139,7 @@ impl Draw {
             Format::Png => drawn.png(grid)?,
             Format::Svg => drawn.svg(area)?.into_bytes(),
             Format::Blocks => terminal::half_blocks(drawn.canvas(grid)?).into_bytes(),
+            Format::Shades => terminal::shades(drawn.canvas(grid)?).into_bytes(),
             Format::Sixel => terminal::sixels(drawn.canvas(grid)?).into_bytes(),
         };
         if self.output == Path::new("-") {
@@ -189,6 +190,8 @@ enum Format {
     Svg,
     /// Half blocks in 24-bit colour, for the terminal
     Blocks,
+    /// Characters of five shades, for a terminal without colours
+    Shades,
     /// Sixels, for terminals that show them
     Sixel,
 }
@@ -199,10 +202,10 @@ const TERMINAL: (u16, u16) = (100, 40);
 const SIXELS: i64 = 900;
 
 impl Format {
-    /// What a file's name asks for; in a terminal, blocks.
+    /// What a file's name asks for; in a terminal, what it can show.
     fn of(output: &Path) -> Self {
         if output == Path::new("-") && std::io::stdout().is_terminal() {
-            Self::Blocks
+            if colour::are_wanted() { Self::Blocks } else { Self::Shades }
         } else if output.extension().is_some_and(|end| end.eq_ignore_ascii_case("svg")) {
             Self::Svg
         } else {
@@ -218,7 +221,7 @@ impl Format {
             }
             Self::Svg => Grid::covering(area, area.width().max(area.height()).max(pixel)),
             Self::Sixel => picture::fit(area, pixel, SIXELS),
-            Self::Blocks => {
+            Self::Blocks | Self::Shades => {
                 let size = terminal_size::terminal_size().map(|(columns, lines)| (columns.0, lines.0));
                 let (columns, lines) = size.unwrap_or(TERMINAL);
                 // Two pixels a line, and two lines for what comes after.

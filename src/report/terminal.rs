@@ -1,4 +1,4 @@
-//! Pictures in a terminal: half blocks in 24-bit colour, which most terminals show, or sixels, which some do and sharper.
+//! Pictures in a terminal: half blocks in 24-bit colour, which most terminals show, sixels, which some do and sharper, or shades, which all do.
 
 use std::fmt::Write as _;
 
@@ -24,6 +24,24 @@ pub fn half_blocks(canvas: Canvas) -> String {
             text.push('▀');
         }
         text.push_str("\x1b[0m\n");
+    }
+    text
+}
+
+/// The same in characters of five shades, which need no colours.
+#[must_use]
+pub fn shades(canvas: Canvas) -> String {
+    const SHADES: [char; 5] = [' ', '░', '▒', '▓', '█'];
+    let width = canvas.grid().width() as usize;
+    // As bright as the eye sees it (ITU-R BT.601), of 1000.
+    let bright = |Rgb(r, g, b): Rgb| (u32::from(r) * 299 + u32::from(g) * 587 + u32::from(b) * 114) / 255;
+    let pixels: Vec<u32> = pixels(canvas).into_iter().map(bright).collect();
+    let rows: Vec<&[u32]> = pixels.chunks_exact(width).collect();
+    let mut text = String::new();
+    for pair in rows.chunks(2) {
+        let lower = pair.get(1).unwrap_or(&pair[0]);
+        text.extend(pair[0].iter().zip(*lower).map(|(a, b)| SHADES[((a + b) / 2 * 5 / 1001) as usize]));
+        text.push('\n');
     }
     text
 }
@@ -109,6 +127,18 @@ mod tests {
         assert_eq!(text.matches('▀').count(), 4, "two columns: {text:?}");
         assert!(text.contains("\x1b[38;2;255;0;0;"), "red: {text:?}");
         assert!(text.ends_with("\x1b[0m\n"), "and then as before: {text:?}");
+    }
+
+    #[test]
+    fn shades_are_as_bright_as_the_picture() {
+        let corner = Point::new(Nm::from_um(50), Nm::from_um(20));
+        let grid =
+            Grid::covering(Rect::new(Point::default(), corner), Nm::from_um(10)).expect("a small grid");
+        let mut canvas = Canvas::new(grid, Rgb(0, 0, 0));
+        for (column, grey) in (0..).zip([60, 120, 170, 255]) {
+            (0..2).for_each(|row| canvas.set(column, row, Rgb(grey, grey, grey)));
+        }
+        assert_eq!(shades(canvas), "░▒▓█ \n", "from dark to light, and black");
     }
 
     #[test]

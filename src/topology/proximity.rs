@@ -1,11 +1,13 @@
 use std::ops::ControlFlow;
 
+use rayon::prelude::*;
+
 use crate::board::{Copper, Shape};
 use crate::geometry::{Nm, Point};
 
 use super::contact::{Bodies, Body, Scratch};
 
-/// Copper made ready to be asked what comes near a shape that is no part of it.
+/// Shapes made ready to be asked what comes near another.
 #[derive(Debug)]
 pub struct Proximity {
     bodies: Bodies,
@@ -14,7 +16,7 @@ pub struct Proximity {
 /// A feature near a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Near {
-    /// The index of the feature.
+    /// The index of the feature or shape.
     pub feature: usize,
     /// The distance between the two in nanometres, zero where they touch.
     pub width: f64,
@@ -27,6 +29,12 @@ impl Proximity {
     #[must_use]
     pub fn new(copper: &Copper) -> Self {
         Self { bodies: Bodies::new(copper) }
+    }
+
+    /// The same of shapes that are no copper.
+    #[must_use]
+    pub fn of(shapes: &[Shape]) -> Self {
+        Self { bodies: Bodies::of(shapes.par_iter()) }
     }
 
     /// Every feature within `reach` of `shape`, by its index.

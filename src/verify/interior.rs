@@ -1,10 +1,9 @@
 //! How deep inside the copper of a net a place lies: the distance to its edge, exactly, however far that is.
 
-use crate::board::{Axis, Copper, Feature, Shape, Side};
+use crate::board::Shape;
 use crate::geometry::{Nm, Point, Polygon};
 use crate::topology::{NetId, Proximity};
 
-use super::remains::Rest;
 use super::sheet::Sheet;
 
 /// The edges of a net, to be asked how far they are.
@@ -29,20 +28,14 @@ const NEAR: f64 = 1_000.0;
 const REACH: Nm = Nm::from_um(200);
 
 impl<'a> Interior<'a> {
-    pub(super) fn new(sheet: &'a Sheet<'a>, net: NetId, rest: &Rest) -> Self {
-        let feature = |(from, to): (Point, Point)| Feature {
-            shape: Shape::Stroke { from, to, radius: Nm::ZERO },
-            axis: Axis::Region,
-            attributes: 0,
-            line: 0,
-        };
-        let edges = rest.designed.iter().flat_map(Polygon::edges).filter(|(from, to)| from != to);
-        let features = edges.map(feature).collect();
-        // As if they were copper: how near shapes are is known of copper.
-        let copper = Copper { side: Side::Front, features, attributes: vec![Default::default()] };
+    /// Of a net that was designed so.
+    pub(super) fn new(sheet: &'a Sheet<'a>, net: NetId, designed: &[Polygon]) -> Self {
+        let edges = designed.iter().flat_map(Polygon::edges).filter(|(from, to)| from != to);
+        let edge = |(from, to)| Shape::Stroke { from, to, radius: Nm::ZERO };
+        let edges: Vec<Shape> = edges.map(edge).collect();
         let rect = sheet.rect();
         let most = (rect.width() + rect.height()) * 2;
-        Self { sheet, net, edges: Proximity::new(&copper), most }
+        Self { sheet, net, edges: Proximity::of(&edges), most }
     }
 
     /// The deepest place of a way, where one is deeper than `floor` nanometres: within a micrometre of the deepest there is.

@@ -13,6 +13,7 @@ pub(super) struct Machining {
     pub(super) file: String,
     pub(super) role: Role,
     pub(super) placement: Placement,
+    /// What it says, until that was looked at.
     pub(super) motions: Vec<Motion>,
     /// What is cut away, deep enough to part the copper.
     pub(super) swept: Vec<Swept>,

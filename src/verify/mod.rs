@@ -232,7 +232,7 @@ pub fn verify(
     known: &[Known<'_>],
     settings: &Settings,
 ) -> Result<Report, Error> {
-    let read: Vec<Machining> = programs
+    let mut read: Vec<Machining> = programs
         .par_iter()
         .map(|program| Machining::read(program, board, settings))
         .collect::<Result<_, _>>()?;
@@ -240,6 +240,10 @@ pub fn verify(
     let degrees = read.first().map_or(0.0, |machining| machining.placement.degrees);
     let tiled = settings.tiles.map(|tiles| tiles.lay(board, degrees));
     let (board, known) = tiled.as_ref().map_or((board, known), |tiled| (tiled, &[]));
+    let mut findings: Vec<Finding> =
+        read.par_iter().flat_map_iter(|program| check::motion(program, board, settings)).collect();
+    // Nothing else asks for them, and they are as much again as what is cut.
+    read.iter_mut().for_each(|machining| machining.motions = Vec::new());
     let mut roles: Vec<Role> = read.iter().map(|machining| machining.role).collect();
     roles.sort_unstable();
     roles.dedup();
@@ -251,10 +255,11 @@ pub fn verify(
         })
         .collect::<Result<_, _>>()?;
     let mut report = Report::default();
-    for (judged, findings) in judged {
+    for (judged, found) in judged {
         report.judged.push(judged);
-        report.findings.extend(findings);
+        findings.extend(found);
     }
+    report.findings = findings;
     report.sort();
     Ok(report)
 }
@@ -266,8 +271,7 @@ fn judge(
     known: &[Known<'_>],
     settings: &Settings,
 ) -> Result<(Judged, Vec<Finding>), Error> {
-    let mut findings: Vec<Finding> =
-        programs.iter().flat_map(|program| check::motion(program, board, settings)).collect();
+    let mut findings = Vec::new();
     let mut resolution = None;
     match role {
         Role::Isolation(side) => {

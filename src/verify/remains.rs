@@ -148,15 +148,14 @@ fn doubts_of(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Doubt> {
         }
     }
     let hits: Vec<&[Hit]> = sheet.hits.chunk_by(|a, b| a.net == b.net).collect();
-    let parted: Vec<NetId> =
-        hits.into_par_iter().filter(|hits| may_part(sheet, hits, settings)).map(|hits| hits[0].net).collect();
-    for net in parted {
+    let parted = |hits: &[Hit]| {
+        let net = hits[0].net;
+        let place = sheet.extent(net)?;
+        let rect = reach.get(&net).map_or(place, |reach| reach.union(place));
         let nets = BTreeSet::from([net]);
-        let features = sheet.nets.nets()[net.index()].features.iter();
-        let places = features.map(|&feature| sheet.copper.features[feature as usize].shape.bounds());
-        let rect = places.chain(reach.get(&net).copied()).reduce(Rect::union);
-        doubts.extend(rect.map(|rect| Doubt { rect, parted: nets.clone(), nets }));
-    }
+        may_part(sheet, hits, place, settings).then(|| Doubt { rect, parted: nets.clone(), nets })
+    };
+    doubts.par_extend(hits.into_par_iter().filter_map(parted));
     doubts
 }
 
@@ -180,12 +179,23 @@ fn kerfs(sheet: &Sheet<'_>, rect: Rect) -> Vec<Polygon> {
 }
 
 /// The copper of a net within `rect`, one polygon for each connected piece.
-fn copper(sheet: &Sheet<'_>, net: NetId, rect: Rect, tolerance: Nm) -> Vec<Polygon> {
+fn copper(sheet: &Sheet<'_>, net: NetId, rect: Rect) -> Vec<Polygon> {
     let features = sheet.nets.nets()[net.index()].features.iter();
     let shapes = features.map(|&feature| &sheet.copper.features[feature as usize].shape);
     let near = shapes.filter(|shape| shape.bounds().touches(rect));
-    let clipped: Vec<Polygon> = near.filter_map(|shape| shape.polygon(tolerance)?.clipped(rect)).collect();
+    let clipped: Vec<Polygon> = near.filter_map(|shape| shape.polygon(FINE)?.clipped(rect)).collect();
     polarity::union(&clipped)
+}
+
+/// The copper of a net within `rect` as far as it lies on the board.
+pub(super) fn designed(sheet: &Sheet<'_>, net: NetId, rect: Rect) -> Vec<Polygon> {
+    on(&sheet.ground(rect), &copper(sheet, net, rect))
+}
+
+/// What of copper lies on the ground.
+fn on(ground: &[Polygon], copper: &[Polygon]) -> Vec<Polygon> {
+    let both = |copper| ground.iter().flat_map(move |ground| polarity::intersection(copper, ground));
+    copper.iter().flat_map(both).collect()
 }
 
 /// What kerfs leave of polygons.
@@ -211,12 +221,7 @@ struct Within {
 impl Within {
     /// What became of a net.
     fn rest(&self, sheet: &Sheet<'_>, net: NetId, settings: &Settings) -> Rest {
-        let copper = copper(sheet, net, self.rect, FINE);
-        let both = |copper: &Polygon| {
-            let on_board = self.ground.iter().flat_map(|ground| polarity::intersection(copper, ground));
-            on_board.collect::<Vec<_>>()
-        };
-        let designed: Vec<Polygon> = copper.iter().flat_map(both).collect();
+        let designed = on(&self.ground, &copper(sheet, net, self.rect));
         let mut rest = Rest { parts: Vec::new(), designed };
         // A crumb, or of small nets three tenths.
         let least = (rest.area() * 0.3).min(settings.crumb);

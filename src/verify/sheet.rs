@@ -141,6 +141,12 @@ impl<'a> Sheet<'a> {
         clipped.map_or(Vec::new(), |clipped| polarity::clean(clipped.contours()))
     }
 
+    /// What bounds a net.
+    pub(super) fn extent(&self, net: NetId) -> Option<Rect> {
+        let features = self.nets.nets()[net.index()].features.iter();
+        features.map(|&feature| self.copper.features[feature as usize].shape.bounds()).reduce(Rect::union)
+    }
+
     /// The copper of a net near `rect`; of polygons what lies within it.
     pub(super) fn within(&self, net: NetId, rect: Rect) -> impl Iterator<Item = Shape> {
         let features = self.places.features.touching(rect).into_iter();

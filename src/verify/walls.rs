@@ -1,6 +1,6 @@
 //! What bounds the copper that is left, exactly: the ways of the cutter with half the kerf round them, and the board's edge.
 
-use crate::board::{Axis, Copper, Feature, Shape, Side};
+use crate::board::Shape;
 use crate::geometry::{Nm, Point, Polygon, Vector};
 use crate::topology::Proximity;
 
@@ -40,18 +40,16 @@ const STEPS: usize = 5;
 
 impl Walls {
     pub(super) fn new(cuts: &[Cut<'_>], outline: Option<&Polygon>) -> Self {
-        let mut axes: Vec<Shape> = cuts.iter().map(|cut| cut.swept.axis()).collect();
-        let mut halves: Vec<Nm> = cuts.iter().map(|cut| cut.swept.half()).collect();
-        let edges = outline.into_iter().flat_map(Polygon::edges).filter(|(from, to)| from != to);
-        axes.extend(edges.map(|(from, to)| Shape::Stroke { from, to, radius: Nm::ZERO }));
+        let edges = || outline.into_iter().flat_map(Polygon::edges).filter(|(from, to)| from != to);
+        // Nothing to spare: there are many.
+        let mut axes = Vec::with_capacity(cuts.len() + edges().count());
+        axes.extend(cuts.iter().map(|cut| cut.swept.axis()));
+        axes.extend(edges().map(|(from, to)| Shape::Stroke { from, to, radius: Nm::ZERO }));
+        let mut halves = Vec::with_capacity(axes.len());
+        halves.extend(cuts.iter().map(|cut| cut.swept.half()));
         halves.resize(axes.len(), Nm::ZERO);
         let widest = halves.iter().copied().max().unwrap_or(Nm::ZERO);
-        let feature =
-            |shape: &Shape| Feature { shape: shape.clone(), axis: Axis::Region, attributes: 0, line: 0 };
-        let features = axes.iter().map(feature).collect();
-        // As if they were copper: how near shapes are to each other is known of copper.
-        let copper = Copper { side: Side::Front, features, attributes: vec![Default::default()] };
-        Self { near: Proximity::new(&copper), axes, halves, widest }
+        Self { near: Proximity::of(&axes), axes, halves, widest }
     }
 
     /// The walls whose faces are within `reach` of `p`, the nearest first.

@@ -13,7 +13,7 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
-use crate::board::Copper;
+use crate::board::{Copper, Shape};
 
 use super::index::RectIndex;
 use super::sets::DisjointSets;
@@ -35,8 +35,11 @@ pub(super) struct Bodies {
 
 impl Bodies {
     pub(super) fn new(copper: &Copper) -> Self {
-        let bodies: Vec<Body> =
-            copper.features.par_iter().with_min_len(SHARE).map(|feature| Body::new(&feature.shape)).collect();
+        Self::of(copper.features.par_iter().map(|feature| &feature.shape))
+    }
+
+    pub(super) fn of<'a>(shapes: impl IndexedParallelIterator<Item = &'a Shape>) -> Self {
+        let bodies: Vec<Body> = shapes.with_min_len(SHARE).map(Body::new).collect();
         let index = RectIndex::new(bodies.iter().map(Body::bounds));
         Self { bodies, index }
     }

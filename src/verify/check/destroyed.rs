@@ -29,10 +29,15 @@ fn destroyed(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
     let area = rest.area();
     let first = sheet.nets.nets()[net.index()].features[0] as usize;
     let name = sheet.nets.label(net);
+    let hits = sheet.hits.iter().filter(|hit| hit.net == net);
+    let deepest = hits.reduce(|a, b| if b.depth > a.depth { b } else { a });
+    let cut = deepest.map(|hit| sheet.cuts[hit.cut]);
     // What lies beyond the outline was never on the board.
     (rest.parts.is_empty() && area > 0.0).then(|| Finding {
         at: Some(sheet.copper.features[first].shape.anchor()),
         area: Some(area),
+        program: cut.map(|cut| cut.program.file.clone()),
+        line: cut.map(|cut| cut.swept.line),
         nets: vec![name.clone()],
         ..Finding::new(NAME, Severity::Error, format!("nothing is left of {name}"))
     })

@@ -10,7 +10,7 @@
 //!
 //! Feeds that are given but absurd.
 
-use super::{Check, Run, Severity, each_stretch};
+use super::{Check, Run, Severity, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 
 pub(super) const CHECK: Check = Check {
@@ -21,7 +21,8 @@ pub(super) const CHECK: Check = Check {
 
 const NAME: &str = "feed-missing";
 
-fn wrong(motion: &Motion) -> Option<(Severity, String)> {
+fn wrong(motion: &Motion) -> Option<Wrong> {
     let missing = motion.way != Way::Rapid && motion.feed.is_none_or(|feed| feed <= 0);
-    missing.then(|| (Severity::Error, "a cut before the first feed above zero".to_owned()))
+    let message = || "a cut before the first feed above zero".to_owned();
+    missing.then(|| Wrong { severity: Severity::Error, message: message(), size: None })
 }

@@ -15,11 +15,12 @@
 use rayon::prelude::*;
 
 use super::{Check, Run, Severity};
-use crate::geometry::Nm;
+use crate::geometry::{Nm, Rect};
 use crate::verify::Settings;
 use crate::verify::hit::{Hit, clusters};
 use crate::verify::interior::{Deepest, Interior};
 use crate::verify::loss::lost;
+use crate::verify::remains::designed;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 
@@ -38,7 +39,7 @@ fn of_net(sheet: &Sheet<'_>, hits: &[Hit], settings: &Settings) -> Vec<Finding> 
     let net = hits[0].net;
     let through = hits.iter().any(|hit| hit.through);
     let rest = sheet.remains.nets.get(&net).filter(|_| through);
-    let interior = rest.map(|rest| Interior::new(sheet, net, rest));
+    let interior = rest.map(|rest| Interior::new(sheet, net, &rest.designed));
     let clusters: Vec<&[Hit]> = clusters(hits).collect();
     clusters.into_par_iter().map(|hits| finding(sheet, interior.as_ref(), hits, settings)).collect()
 }
@@ -49,6 +50,8 @@ fn finding(sheet: &Sheet<'_>, interior: Option<&Interior<'_>>, hits: &[Hit], set
     let mut deepest = deepest.expect("a finding has hits");
     if let Some(interior) = interior {
         deepest = inside(sheet, interior, hits, deepest);
+    } else if let Some(around) = around(sheet, hits) {
+        deepest = nearby(sheet, around, hits, deepest);
     }
     let cut = sheet.cuts[deepest.cut];
     let depth = Nm::from_f64(deepest.depth);
@@ -66,6 +69,31 @@ fn finding(sheet: &Sheet<'_>, interior: Option<&Interior<'_>>, hits: &[Hit], set
         program: Some(cut.program.file.clone()),
         line: Some(cut.swept.line),
         ..Finding::new(NAME, severity, message)
+    }
+}
+
+/// What bounds the cuts whose middle goes through copper, where there are any.
+fn around(sheet: &Sheet<'_>, hits: &[Hit]) -> Option<Rect> {
+    let through = hits.iter().filter(|hit| hit.through);
+    through.map(|hit| sheet.cuts[hit.cut].swept.shape.bounds()).reduce(Rect::union)
+}
+
+/// How far copper is looked at around cuts, at first. Chosen: few cuts go through copper wider than twice that.
+const NEARBY: Nm = Nm::from_mm(1);
+
+/// The same as [`inside`] by the copper near these cuts: what is cut off there is no edge, but none of it is nearer than `reach`.
+fn nearby(sheet: &Sheet<'_>, around: Rect, hits: &[Hit], deepest: Hit) -> Hit {
+    let mut reach = NEARBY;
+    loop {
+        let rect = around.inflate(reach);
+        let interior = Interior::new(sheet, deepest.net, &designed(sheet, deepest.net, rect));
+        let found = inside(sheet, &interior, hits, deepest);
+        let whole =
+            sheet.extent(deepest.net).is_none_or(|all| rect.contains(all.min()) && rect.contains(all.max()));
+        if whole || found.depth < reach.to_f64() {
+            return found;
+        }
+        reach = reach * 4;
     }
 }
 

@@ -105,25 +105,37 @@ pub(super) fn cutout(programs: &[&Machining], board: &Board, settings: &Settings
     ALL.iter().flat_map(run).collect()
 }
 
-/// The findings of a check of single motions: one for each stretch of lines that are wrong one after another.
+/// What is wrong with a motion.
+struct Wrong {
+    severity: Severity,
+    message: String,
+    /// How much, in words of the check; none where it is wrong or not.
+    size: Option<Nm>,
+}
+
+/// The findings of a check of single motions: one for each stretch of lines that are wrong one after another, as large as the largest.
 fn each_stretch(
     program: &Machining,
     name: &'static str,
-    wrong: impl Fn(&Motion) -> Option<(Severity, String)>,
+    wrong: impl Fn(&Motion) -> Option<Wrong>,
 ) -> Vec<Finding> {
     let mut findings: Vec<Finding> = Vec::new();
     let mut last: Option<(usize, Severity)> = None;
     for (index, motion) in program.motions.iter().enumerate() {
-        let Some((severity, message)) = wrong(motion) else { continue };
+        let Some(Wrong { severity, message, size }) = wrong(motion) else { continue };
         let follows = last.is_some_and(|(before, same)| before + 1 == index && same == severity);
         last = Some((index, severity));
-        if follows {
+        if let Some(begun) = findings.last_mut().filter(|_| follows) {
+            if size > begun.size {
+                (begun.size, begun.message) = (size, message);
+            }
             continue;
         }
         findings.push(Finding {
             at: motion.to.point().or_else(|| motion.from.point()).map(|p| program.placement.undo(p)),
             program: Some(program.file.clone()),
             line: Some(motion.line),
+            size,
             ..Finding::new(name, severity, message)
         });
     }

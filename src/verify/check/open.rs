@@ -13,8 +13,8 @@
 //! holds two parts together counts too; `minimum-width` tells of it.
 
 use super::{Check, Run, Severity};
-use crate::board::{Axis, Copper, Feature, Shape};
-use crate::geometry::Point;
+use crate::board::Shape;
+use crate::geometry::{Nm, Point};
 use crate::topology::{NetId, Proximity};
 use crate::verify::remains::{Remnant, Rest};
 use crate::verify::report::Finding;
@@ -35,12 +35,13 @@ fn open(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
     let next = others.first()?;
     let name = sheet.nets.label(net);
     let message = format!("{name} is cut into {} pieces", groups.len());
-    let at = between(sheet, largest, next);
+    let (at, width) = between(sheet, largest, next);
     let walls = sheet.walls.around(at, sheet.half * 4);
     let cut = walls.iter().find_map(|wall| sheet.cuts.get(wall.index));
     Some(Finding {
         nets: vec![name],
         at: Some(at),
+        size: width.map(Nm::from_f64),
         area: Some(next.iter().map(|part| part.area).sum()),
         program: cut.map(|cut| cut.program.file.clone()),
         line: cut.map(|cut| cut.swept.line),
@@ -48,21 +49,17 @@ fn open(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
     })
 }
 
-/// Where two groups of parts are nearest to each other: the middle between them.
-fn between(sheet: &Sheet<'_>, one: &[&Remnant], other: &[&Remnant]) -> Point {
+/// Where two groups of parts are nearest to each other: the middle between them, and how far in nanometres.
+fn between(sheet: &Sheet<'_>, one: &[&Remnant], other: &[&Remnant]) -> (Point, Option<f64>) {
     let shape = |part: &&Remnant| Shape::Polygon(part.polygon.clone());
-    let feature = |part| Feature { shape: shape(part), axis: Axis::Region, attributes: 0, line: 0 };
-    let features = one.iter().map(feature).collect();
-    // How near shapes are is known of copper.
-    let copper = Copper { side: sheet.side, features, attributes: vec![Default::default()] };
-    let near = Proximity::new(&copper);
+    let near = Proximity::of(&one.iter().map(shape).collect::<Vec<_>>());
     let (mut reach, most) = (sheet.half * 4, (sheet.rect().width() + sheet.rect().height()) * 2);
     while reach < most {
         let places = other.iter().flat_map(|part| near.near(&shape(part), reach));
         if let Some(place) = places.reduce(|a, b| if b.width < a.width { b } else { a }) {
-            return place.at;
+            return (place.at, Some(place.width));
         }
         reach = reach * 4;
     }
-    other[0].polygon.contours()[0][0]
+    (other[0].polygon.contours()[0][0], None)
 }

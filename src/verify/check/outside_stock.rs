@@ -10,7 +10,7 @@
 //!
 //! Stock that is smaller than it was told.
 
-use super::{Check, Run, Severity, each_stretch};
+use super::{Check, Run, Severity, Wrong, each_stretch};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
@@ -27,7 +27,13 @@ fn check(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding
     each_stretch(program, NAME, |motion| {
         let below = [motion.from.z, motion.to.z].into_iter().flatten().any(|z| z < Nm::ZERO);
         let to = program.placement.undo(motion.to.point()?);
-        let message = || format!("a cut at {:.3}, {:.3} mm, beyond the stock", to.x, to.y);
-        (below && !stock.contains(to)).then(|| (Severity::Error, message()))
+        let (min, max) = (stock.min(), stock.max());
+        let beyond = [min.x - to.x, to.x - max.x, min.y - to.y, to.y - max.y].into_iter().max()?;
+        let message = || format!("a cut {beyond:.3} mm beyond the stock");
+        (below && beyond > Nm::ZERO).then(|| Wrong {
+            severity: Severity::Error,
+            message: message(),
+            size: Some(beyond),
+        })
     })
 }

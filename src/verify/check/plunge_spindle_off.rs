@@ -10,7 +10,7 @@
 //!
 //! Whether the spindle is up to speed: see the dwell after M3 yourself. Spindles switched by hand.
 
-use super::{Check, Run, Severity, each_stretch};
+use super::{Check, Run, Severity, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 
@@ -22,9 +22,13 @@ pub(super) const CHECK: Check = Check {
 
 const NAME: &str = "plunge-spindle-off";
 
-fn wrong(motion: &Motion) -> Option<(Severity, String)> {
-    let below = [motion.from.z, motion.to.z].into_iter().flatten().any(|z| z < Nm::ZERO);
+fn wrong(motion: &Motion) -> Option<Wrong> {
+    let depth = -[motion.from.z, motion.to.z].into_iter().flatten().min()?;
     let still = motion.spindle.is_none_or(|speed| speed == 0);
-    (motion.way != Way::Rapid && below && still)
-        .then(|| (Severity::Error, "the tool is below the surface and the spindle is off".to_owned()))
+    let message = || format!("the tool is {depth:.3} mm below the surface and the spindle is off");
+    (motion.way != Way::Rapid && depth > Nm::ZERO && still).then(|| Wrong {
+        severity: Severity::Error,
+        message: message(),
+        size: Some(depth),
+    })
 }

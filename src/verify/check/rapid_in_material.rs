@@ -11,7 +11,7 @@
 //!
 //! Rapids before the program's first height; clamps and screws, which nobody has told it of.
 
-use super::{Check, Run, Severity, each_stretch};
+use super::{Check, Run, Severity, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 
@@ -25,22 +25,23 @@ pub(super) const CHECK: Check = Check {
 
 const NAME: &str = "rapid-in-material";
 
-fn wrong(motion: &Motion, clearance: Nm) -> Option<(Severity, String)> {
+/// Its size is how deep below the surface it runs, or how much too low above it.
+fn wrong(motion: &Motion, clearance: Nm) -> Option<Wrong> {
     if motion.way != Way::Rapid {
         return None;
     }
     let (from, to) = (motion.from.z.or(motion.to.z)?, motion.to.z?);
     let sideways = motion.from.point().is_some() && motion.from.point() != motion.to.point();
-    if sideways && from.min(to) < Nm::ZERO {
-        Some((Severity::Error, format!("a rapid goes sideways {:.3} mm below the surface", -from.min(to))))
+    let low = from.min(to);
+    let (severity, message, size) = if sideways && low < Nm::ZERO {
+        (Severity::Error, format!("a rapid goes sideways {:.3} mm below the surface", -low), -low)
     } else if to < Nm::ZERO && to < from {
-        Some((Severity::Error, format!("a rapid goes down to {:.3} mm below the surface", -to)))
-    } else if sideways && from.min(to) < clearance {
-        Some((
-            Severity::Warning,
-            format!("a rapid goes sideways only {:.3} mm above the surface", from.min(to)),
-        ))
+        (Severity::Error, format!("a rapid goes down to {:.3} mm below the surface", -to), -to)
+    } else if sideways && low < clearance {
+        let message = format!("a rapid goes sideways only {low:.3} mm above the surface");
+        (Severity::Warning, message, clearance - low)
     } else {
-        None
-    }
+        return None;
+    };
+    Some(Wrong { severity, message, size: Some(size) })
 }

@@ -15,24 +15,23 @@ use super::{Check, Run, Severity};
 use crate::board::{Board, FLATTEN, Shape};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::grid::Grid;
-use crate::raster::{Label, Scene};
-use crate::topology::surface;
 use crate::verify::Settings;
 use crate::verify::machining::{Machining, Swept};
-use crate::verify::pieces::{Part, pieces};
+use crate::verify::pieces::{Joiner, Part};
 use crate::verify::report::Finding;
+use crate::verify::spans::{Spans, filled, less};
 
 pub(super) const CHECK: Check =
     Check { name: NAME, about: "a board cut out with nothing to hold it", run: Run::Cutout(check) };
 
 const NAME: &str = "tab-missing";
 
-/// Cut in the deepest pass.
-const DEEPEST: u32 = 1;
-/// Cut in any pass: where it is not cut in the deepest too, a tab.
-const GROOVE: u32 = 2;
+/// The stock round the board.
+const STOCK: u32 = 0;
+/// Cut, but not in the deepest pass: a tab.
+const TAB: u32 = 1;
 /// The board.
-const BOARD: u32 = 3;
+const BOARD: u32 = 2;
 
 /// How much the depth of the deepest pass may vary. Chosen: less than any tab is thick.
 const PASS: Nm = Nm::from_um(20);
@@ -53,7 +52,7 @@ fn missing(program: &Machining, outline: &Polygon, settings: &Settings) -> Vec<F
     let pitch = (half / 4).max(Nm::from_um(10));
     let rim = half * 4;
     let Ok(grid) = Grid::covering(outline.bounds().inflate(rim), pitch) else { return Vec::new() };
-    let scene = scene(program, outline, &grid);
+    let Left { all, tabs } = left(program, outline, &grid);
     let finding = |place: Rect, message: String| Finding {
         at: Some(place.min().midpoint(place.max())),
         program: Some(program.file.clone()),
@@ -67,14 +66,12 @@ fn missing(program: &Machining, outline: &Polygon, settings: &Settings) -> Vec<F
         Rect::new(corner(extent.left, extent.top), corner(extent.right + 1, extent.bottom + 1))
     };
     let held = |parts: &[Part]| parts.iter().any(|part| part.extent.left == 0 || part.extent.top == 0);
-    let left = pieces(&scene, |label| label != DEEPEST);
-    let mut findings: Vec<Finding> = left
+    let mut findings: Vec<Finding> = all
         .chunk_by(|a, b| a.piece == b.piece)
         .filter(|parts| !held(parts))
         .filter_map(|parts| parts.iter().find(|part| part.label == BOARD && mm2(part) >= LEAST))
         .map(|board| finding(place(board), "nothing holds the board when it is cut out".to_owned()))
         .collect();
-    let tabs = pieces(&scene, |label| label == GROOVE);
     let tabs = tabs.iter().filter(|tab| mm2(tab) >= half.to_mm() * half.to_mm()).count();
     let boards = outline.contours().iter().filter(|ring| path_area(ring) > 0).count();
     if let Some(wanted) =
@@ -101,13 +98,29 @@ fn path_area(ring: &[Point]) -> i128 {
 /// In mm², what is a board and no crumb. Chosen.
 const LEAST: f64 = 1.0;
 
-fn scene(program: &Machining, outline: &Polygon, grid: &Grid) -> Scene {
-    let mut scene = Scene::new(grid.width(), grid.height());
-    let deepest = program.swept.iter().map(|swept| swept.depth).max().unwrap_or(Nm::ZERO);
+/// What the deepest pass leaves, in connected pieces.
+struct Left {
+    all: Vec<Part>,
+    tabs: Vec<Part>,
+}
+
+fn left(program: &Machining, outline: &Polygon, grid: &Grid) -> Left {
+    let [mut deepest, mut groove, mut board] = [(); 3].map(|()| Spans::new(grid, 0..grid.height()));
+    let depth = program.swept.iter().map(|swept| swept.depth).max().unwrap_or(Nm::ZERO);
     for swept in &program.swept {
-        let label = if swept.depth >= deepest - PASS { DEEPEST } else { GROOVE };
-        scene.add(Label(label), surface(&swept.shape, grid, Some(0.0)));
+        let pass = if swept.depth >= depth - PASS { &mut deepest } else { &mut groove };
+        pass.add(&swept.shape, TAB);
     }
-    scene.add(Label(BOARD), surface(&Shape::Polygon(outline.clone()), grid, Some(0.0)));
-    scene
+    board.add(&Shape::Polygon(outline.clone()), BOARD);
+    let (mut all, mut tabs) = (Joiner::default(), Joiner::default());
+    let rows = deepest.into_rows().zip(groove.into_rows()).zip(board.into_rows());
+    for (row, ((deepest, groove), board)) in (0..).zip(rows) {
+        let tab = less(&groove, &deepest);
+        let mut clad = less(&board, &tab);
+        clad.extend(&tab);
+        clad.sort_unstable_by_key(|run| run.start);
+        all.row(row, &less(&filled(&clad, STOCK, grid.width()), &deepest));
+        tabs.row(row, &tab);
+    }
+    Left { all: all.parts(), tabs: tabs.parts() }
 }

@@ -11,7 +11,7 @@
 //!
 //! A program that is too deep throughout, but less than half the board.
 
-use super::{Check, Run, Severity, each_stretch};
+use super::{Check, Run, Severity, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 use crate::verify::machining::Machining;
@@ -37,7 +37,8 @@ fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
     each_stretch(program, NAME, |motion| {
         let depth = -[motion.from.z, motion.to.z].into_iter().flatten().min()?;
         let wrong = motion.way != Way::Rapid && depth > most;
-        wrong.then(|| (Severity::Error, format!("a cut {depth:.3} mm deep, where {most:.3} mm are plenty")))
+        let message = || format!("a cut {depth:.3} mm deep, where {most:.3} mm are plenty");
+        wrong.then(|| Wrong { severity: Severity::Error, message: message(), size: Some(depth) })
     })
 }
 
