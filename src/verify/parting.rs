@@ -39,7 +39,7 @@ pub(super) fn may_part(sheet: &Sheet<'_>, hits: &[Hit], place: Rect, settings: &
     let net = hits[0].net;
     let locally = |rect: Rect| {
         LOOKS.into_iter().all(|(halves, pitch)| {
-            parts(sheet, net, rect.inflate(sheet.half * halves), pitch, settings) != Pieces::AsBefore
+            parts(sheet, net, rect.inflate(sheet.half * halves), pitch, settings) == Pieces::Others
         })
     };
     (hits.iter().any(|hit| hit.through) || windows(sheet, hits).into_iter().any(locally))
