@@ -20,6 +20,7 @@ mod edge;
 mod fit;
 mod frame;
 mod junction;
+mod keep_off;
 mod measure;
 mod mixed;
 mod near;

@@ -76,6 +76,7 @@ impl Diagram {
         for (&level, passes) in levels.iter().zip(self.trace_levels(&scene, &levels)) {
             let mut lines = passes.lines();
             lines.retain(|line| !self.has_loop_at(level, line));
+            self.keep_off(&mut lines, level);
             let mut passes = self.graph(lines);
             if level > first {
                 passes.edges.par_iter_mut().for_each(|pass| spikes.add(pass));

@@ -66,6 +66,11 @@ impl Vertex {
         Self { along: [short(along.x), short(along.y)], rise: short(rise), ..Self::new(at, clearance) }
     }
 
+    /// Whether it is known where it leads.
+    pub(super) fn has_course(self) -> bool {
+        self.along.iter().any(|along| along.abs() > 0.0)
+    }
+
     /// The two places without their courses: from the one to the other leads the chord.
     pub(super) fn chord(self, to: Self) -> [Self; 2] {
         [self, to].map(|vertex| Self::new(vertex.at, vertex.clearance()))

@@ -7,6 +7,7 @@ use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn, Vector};
 use voromill::topology::{self, Method, Nets};
 use voromill::voronoi::{Boundaries, Boundary, Diagram, Owner, Settings, SiteKind, Widening};
 
+use crate::cli::{stderr, stdout, voromill};
 use crate::oracle::distance as oracle;
 use crate::real_boards::{self, Layer};
 
@@ -388,6 +389,17 @@ fn the_corner_of_a_pass_is_not_led_through_the_wall_of_a_notch() {
     let ring = Polygon::new(vec![notch.into_iter().chain(block).map(|(x, y)| at(x, y)).collect()]);
     let copper = layer([Shape::Polygon(ring.expect("a ring"))]);
     assert_cleared(&copper, 560, 20, lattice());
+}
+
+#[test]
+fn passes_turn_off_the_copper_in_wedges_of_a_few_pixels() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/voronoi/gap_between_spokes.gbr");
+    let tool = ["--tool", "endmill:0.14mm", "--passes", "2", "--pixel", "35um"];
+    let done =
+        voromill(folder.path(), &[&["isolate", file, "--front", file, "-o", "x.nc"][..], &tool].concat());
+    assert!(done.status.success(), "{}", stderr(&done));
+    assert!(!stdout(&done).contains("narrower"), "it fits:\n{}", stdout(&done));
 }
 
 /// Passes of 200 µm that share so many micrometres keep off the copper and clear these places, as far as they lie within this width of it.
