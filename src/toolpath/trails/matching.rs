@@ -26,8 +26,8 @@ pub(super) fn join(nodes: usize, candidates: &[Candidate], alone: f64) -> Vec<us
         Matching { candidates, near: vec![Vec::new(); nodes], joined: vec![None; nodes], alone };
     for index in order {
         let Candidate { nodes: (a, b), cost } = candidates[index];
-        matching.near[a].push(index);
-        matching.near[b].push(index);
+        matching.near[a].push(Way { to: b, cost, candidate: index });
+        matching.near[b].push(Way { to: a, cost, candidate: index });
         if cost < 2.0 * alone && matching.joined[a].is_none() && matching.joined[b].is_none() {
             matching.joined[a] = Some(index);
             matching.joined[b] = Some(index);
@@ -48,10 +48,18 @@ pub(super) fn join(nodes: usize, candidates: &[Candidate], alone: f64) -> Vec<us
     chosen
 }
 
+/// A candidate as one of its nodes sees it.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    to: usize,
+    cost: f64,
+    candidate: usize,
+}
+
 struct Matching<'a> {
     candidates: &'a [Candidate],
     /// The candidates of each node, cheapest first.
-    near: Vec<Vec<usize>>,
+    near: Vec<Vec<Way>>,
     /// The candidate by which a node is joined.
     joined: Vec<Option<usize>>,
     alone: f64,
@@ -88,13 +96,12 @@ impl Matching<'_> {
         chain: &mut Vec<usize>,
         busy: &mut Vec<usize>,
     ) -> bool {
-        for &candidate in &self.near[loose] {
-            let left = gain - self.candidates[candidate].cost;
+        for &Way { to: next, cost, candidate } in &self.near[loose] {
+            let left = gain - cost;
             // A chain may yet end at a node that was alone.
             if left + self.alone <= LEAST {
                 return false;
             }
-            let next = self.other(candidate, loose);
             if busy.contains(&next) {
                 continue;
             }
@@ -104,9 +111,7 @@ impl Matching<'_> {
                 let left = left + self.candidates[broken].cost;
                 let partner = self.other(broken, next);
                 busy.extend([next, partner]);
-                if let Some(close) = first.and_then(|first| self.between(partner, first))
-                    && left - self.candidates[close].cost > LEAST
-                {
+                if let Some(close) = first.and_then(|first| self.between(partner, first, left - LEAST)) {
                     chain.push(close);
                     return true;
                 }
@@ -125,9 +130,10 @@ impl Matching<'_> {
         false
     }
 
-    /// The candidate that joins two nodes.
-    fn between(&self, a: usize, b: usize) -> Option<usize> {
-        self.near[a].iter().copied().find(|&candidate| self.other(candidate, a) == b)
+    /// The candidate that joins two nodes for less than `bound`.
+    fn between(&self, a: usize, b: usize, bound: f64) -> Option<usize> {
+        let mut cheap = self.near[a].iter().take_while(|way| way.cost < bound);
+        cheap.find(|way| way.to == b).map(|way| way.candidate)
     }
 
     /// Takes apart whatever the chain's nodes were in, and joins them along it; all that were touched.
@@ -176,10 +182,7 @@ impl Changed {
         for _ in 0..=2 * LONGEST {
             ring.retain(|&node| std::mem::replace(&mut self.seen[node], self.marks) != self.marks);
             ring.iter().for_each(|&node| self.about[node] = true);
-            let nearby = ring.iter().flat_map(|&node| {
-                matching.near[node].iter().map(move |&candidate| matching.other(candidate, node))
-            });
-            ring = nearby.collect();
+            ring = ring.iter().flat_map(|&node| matching.near[node].iter().map(|way| way.to)).collect();
         }
     }
 }
