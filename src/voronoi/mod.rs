@@ -38,6 +38,7 @@ mod sweep;
 mod tip;
 mod trace;
 mod trim;
+mod vicinity;
 
 use std::ops::Range;
 

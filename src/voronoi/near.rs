@@ -42,17 +42,57 @@ impl Near {
         accept: impl Fn(u32, u32) -> bool,
     ) -> Option<u32> {
         let mut nearest = (bound, None);
-        self.index.visit_query(p.x - bound, p.y - bound, p.x + bound, p.y + bound, &mut |i: usize| {
-            let label = self.labels[i];
-            let site = &sites.sites[label as usize];
-            if accept(label, site.owner) && self.is_box_within(i, p, nearest.0) {
-                let rank = rank(site, site.reach(&sites.rings, p));
-                if rank < nearest.0 {
-                    nearest = (rank, Some(label));
-                }
+        self.visit_box(p, bound, &mut |i| {
+            if accept(self.labels[i], sites.sites[self.labels[i] as usize].owner) {
+                self.take_nearer(sites, i, p, &mut nearest);
             }
         });
         nearest.1
+    }
+
+    /// Shows the entries of sites whose boxes come within `radius` of `p`, with their owners, in an order that is the same wherever one asks.
+    pub(super) fn visit(&self, sites: &Sites, p: Spot, radius: f64, mut show: impl FnMut(u32, u32)) {
+        self.visit_box(p, radius, &mut |i| {
+            if self.is_box_within(i, p, radius) {
+                show(
+                    u32::try_from(i).expect("as many as labels"),
+                    sites.sites[self.labels[i] as usize].owner,
+                );
+            }
+        });
+    }
+
+    /// The same as [`nearer`](Self::nearer), among some entries.
+    pub(super) fn nearest_of(
+        &self,
+        sites: &Sites,
+        entries: &[u32],
+        p: Spot,
+        bound: f64,
+        accept: impl Fn(u32) -> bool,
+    ) -> Option<u32> {
+        let mut nearest = (bound, None);
+        for i in entries.iter().map(|&entry| entry as usize) {
+            if self.is_box_within(i, p, nearest.0) && accept(self.labels[i]) {
+                self.take_nearer(sites, i, p, &mut nearest);
+            }
+        }
+        nearest.1
+    }
+
+    fn visit_box(&self, p: Spot, reach: f64, visit: &mut impl FnMut(usize)) {
+        self.index.visit_query(p.x - reach, p.y - reach, p.x + reach, p.y + reach, visit);
+    }
+
+    /// Puts the site of entry `i` in the place of the nearest so far if it is nearer.
+    fn take_nearer(&self, sites: &Sites, i: usize, p: Spot, nearest: &mut (f64, Option<u32>)) {
+        if self.is_box_within(i, p, nearest.0) {
+            let site = &sites.sites[self.labels[i] as usize];
+            let rank = rank(site, site.reach(&sites.rings, p));
+            if rank < nearest.0 {
+                *nearest = (rank, Some(self.labels[i]));
+            }
+        }
     }
 
     /// Whether the box of entry `i` comes nearer to `p` than `bound`, in nanometres.

@@ -13,11 +13,12 @@
 use crate::geometry::Nm;
 
 use super::BACKGROUND;
-use super::near::{Near, rank};
+use super::near::rank;
 use super::plane::Spot;
 use super::seed::Sites;
 use super::site::{Form, Reach, Rings};
 use super::span::{LEVEL, Vertex};
+use super::vicinity::Vicinity;
 
 /// How close to the true place Newton's steps must come, in nanometres of distance difference.
 const SETTLED: f64 = 0.05;
@@ -156,7 +157,7 @@ pub(super) struct Placer<'a> {
     /// The owner of each of them: a table of its own, because every sample asks.
     pub(super) owners: &'a [u32],
     /// All of them by place; none where regions are not those of the nearest site alone.
-    pub(super) near: Option<&'a Near>,
+    pub(super) near: Option<Vicinity<'a>>,
     /// The rings of the board's border.
     pub(super) border: &'a Rings,
     pub(super) border_rings: u32,
@@ -255,7 +256,7 @@ impl Placer<'_> {
 
     /// Who is nearest to `p`, if anybody within `level`; none where only the picture can tell.
     pub(super) fn owner(&self, p: Spot, level: f64) -> Option<u32> {
-        let (owner, reach) = self.near?.nearest(self.sites, p, |_| true);
+        let (owner, reach) = self.near.as_ref()?.near.nearest(self.sites, p, |_| true);
         Some(if reach.distance > level { BACKGROUND } else { owner })
     }
 
@@ -296,6 +297,22 @@ impl Placer<'_> {
             Curve::At(a) => is_ring(a),
             Curve::Border => true,
         }
+    }
+
+    /// Whether the same edge or corner of either side is nearest at all of these places on one curve.
+    pub(super) fn is_one_part(&self, places: [Placed; 3]) -> bool {
+        let is_one = |label: u32| {
+            let parts = places
+                .map(|placed| self.sites.sites[label as usize].part(&self.sites.rings, placed.vertex.at));
+            parts[0] == parts[1] && parts[1] == parts[2]
+        };
+        let curve = places[0].curve;
+        places.iter().all(|placed| placed.curve == curve)
+            && match curve {
+                Curve::Between(a, b) => is_one(a) && is_one(b),
+                Curve::At(a) => is_one(a),
+                Curve::Border => false,
+            }
     }
 
     /// Where one curve ends and another begins, near `from`: on the course of either; none where there is no such corner within the leash, or where on
@@ -348,8 +365,9 @@ impl Placer<'_> {
             Target::OnBorder => return false,
         };
         let bound = place.clearance() - NEARER;
-        let is_new = |label: u32, owner: u32| owners.contains(&owner) && !target.has(label);
-        let label = self.near.and_then(|near| near.nearer(self.sites, place.at, bound, is_new));
+        let is_new = |label: u32| !target.has(label);
+        let label =
+            self.near.as_ref().and_then(|near| near.nearer(self.sites, place.at, bound, owners, is_new));
         match (label, target) {
             (Some(label), Target::Between(a, _) | Target::At(a, _))
                 if self.owners[label as usize] == owners[0] =>

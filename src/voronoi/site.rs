@@ -82,9 +82,9 @@ impl Rings {
         &self.vertices[self.starts[at] as usize..self.starts[at + 1] as usize]
     }
 
-    /// The distance from `p` to `count` edges of `ring` from vertex `first`, going on along the ring as long as it
+    /// The nearest to `p` of `count` edges of `ring` from vertex `first`, going on along the ring as long as it
     /// gets nearer: the picture's edge stands for a run of short true ones, and its neighbour may be the nearest.
-    fn chain(&self, ring: u32, first: u32, count: u32, p: Spot) -> Reach {
+    fn nearest_edge(&self, ring: u32, first: u32, count: u32, p: Spot) -> usize {
         let vertices = self.ring(ring);
         let n = vertices.len();
         let edge = |i: usize| (vertices[i % n], vertices[(i + 1) % n]);
@@ -109,7 +109,7 @@ impl Rings {
                 }
             }
         }
-        self.signed(ring, best.1, p)
+        best.1
     }
 
     /// The signed distance from `p` to edge `i` of `ring`, the nearest one there.
@@ -165,11 +165,27 @@ impl Site {
             Form::Arc { center, radius, from, to, whole } => {
                 from_foot(p, nearest_on_arc(p, *center, *radius, *from, *to, *whole))
             }
-            Form::Chain { ring, first, count } => rings.chain(*ring, *first, *count, p),
+            Form::Chain { ring, first, count } => {
+                rings.signed(*ring, rings.nearest_edge(*ring, *first, *count, p), p)
+            }
             Form::Inside { first_ring, rings: count } => rings.border(*first_ring..first_ring + count, p),
             Form::Outside => Reach { distance: 0.0, away: Spot::new(0.0, 0.0) },
         };
         Reach { distance: bare.distance - self.radius, away: bare.away }
+    }
+
+    /// The part of a ring's run that is nearest to `p`: twice the number of a corner, or of the corner before an edge and one more. Other sites have one
+    /// part.
+    pub(super) fn part(&self, rings: &Rings, p: Spot) -> usize {
+        let Form::Chain { ring, first, count } = self.form else { return 0 };
+        let (edge, vertices) = (rings.nearest_edge(ring, first, count, p), rings.ring(ring));
+        let next = (edge + 1) % vertices.len();
+        let foot = nearest_on_chord(p, vertices[edge], vertices[next]);
+        match (foot == vertices[edge], foot == vertices[next]) {
+            (true, _) => 2 * edge,
+            (false, true) => 2 * next,
+            (false, false) => 2 * edge + 1,
+        }
     }
 }
 

@@ -22,6 +22,8 @@ pub(super) const CHORD: f64 = 150.0;
 const BEND: f64 = 200.0;
 /// The same for the clearance.
 const CLEARANCE_BEND: f64 = 1_000.0;
+/// A step along a curve, as a part of it, that is not worth another. Chosen: a thousandth of a nanometre on curves of a millimetre.
+const FOUND: f64 = 1e-9;
 /// How many times longer one tangent of a curve may be than the other. Derived: where it is less, a corner that a probe misses is off by less than
 /// [`BEND`].
 const UNEVEN: f64 = 3.0;
@@ -186,7 +188,11 @@ impl Span {
             if slope <= 0.0 {
                 return None;
             }
-            t = (t - (self.place(t) - p).dot(chord) / slope).clamp(0.0, 1.0);
+            let step = (self.place(t) - p).dot(chord) / slope;
+            t = (t - step).clamp(0.0, 1.0);
+            if step.abs() < FOUND {
+                break;
+            }
         }
         Some(t)
     }

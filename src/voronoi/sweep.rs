@@ -12,6 +12,7 @@ use super::place::Placer;
 use super::plane::Spot;
 use super::stitch::Stitcher;
 use super::trace::{self, APRON, Course, Pixels, Traced};
+use super::vicinity::Vicinity;
 use super::{BACKGROUND, Diagram, OUTSIDE};
 
 /// Pixels along a side of a tile. Measured: with 32, an eighth less time than with 64 or 16; smaller ones hug the boundaries
@@ -21,11 +22,11 @@ const TILE: u32 = 32;
 impl Diagram {
     /// The lines between regions.
     pub(super) fn trace(&self, scene: &Scene) -> Stitcher {
-        let (placer, course) = (self.placer(), self.course(None));
+        let course = self.course(None);
         let mut stitcher = Stitcher::default();
         let work = |tile: raster::Tile<'_>| {
             let seen = Seen::new(self, &tile)?;
-            Some(trace::trace(seen.pixels(&seen.owners), &placer, course))
+            Some(trace::trace(seen.pixels(&seen.owners), &self.placer(), course))
         };
         raster::stream(scene, &options(Vec::new()), work, |traced| {
             traced.into_iter().for_each(|traced| stitcher.add(traced));
@@ -35,12 +36,12 @@ impl Diagram {
 
     /// For each of `levels`, which ascend, the lines between what lies within it of copper and what lies beyond.
     pub(super) fn trace_levels(&self, scene: &Scene, levels: &[Nm]) -> Vec<Stitcher> {
-        let placer = self.placer();
         let depths: Vec<f32> = levels.iter().map(|&level| self.grid.pixels(level)).collect();
         let courses: Vec<Course> = levels.iter().map(|&level| self.course(Some(level))).collect();
         let mut stitchers: Vec<Stitcher> = levels.iter().map(|_| Stitcher::default()).collect();
         let work = |tile: raster::Tile<'_>| -> Vec<(usize, Traced)> {
             let Some(seen) = Seen::new(self, &tile) else { return Vec::new() };
+            let placer = self.placer();
             let line = |i: usize| {
                 let owners = seen.owners_within(depths[i]);
                 (i, trace::trace(seen.pixels(&owners), &placer, courses[i]))
@@ -53,11 +54,14 @@ impl Diagram {
         stitchers
     }
 
-    const fn placer(&self) -> Placer<'_> {
+    /// What places the points of one tile.
+    fn placer(&self) -> Placer<'_> {
+        // Half a tile around, the next points of a boundary find their neighbours known.
+        let spare = self.grid.pitch().to_f64() * f64::from(TILE / 2);
         Placer {
             sites: &self.sites,
             owners: self.owners.as_slice(),
-            near: self.near.as_ref(),
+            near: self.near.as_ref().map(|near| Vicinity::new(near, spare)),
             border: &self.border.rings,
             border_rings: self.border.ring_count,
             leash: 1.5 * self.grid.pitch().to_f64(),

@@ -93,7 +93,12 @@ impl Tracer<'_> {
             return self.traced.vertices.extend(from.vertex.chord(to.vertex));
         };
         let is_settled = self.is_plain(run, (i, from), (j, to)) && self.is_settled(from, probe, to);
-        if is_settled && (found_nothing || !self.placer.is_angular(probe.curve)) {
+        let is_sure = || {
+            found_nothing
+                || !self.placer.is_angular(probe.curve)
+                || self.placer.is_one_part([from, probe, to])
+        };
+        if is_settled && is_sure() {
             return self.traced.vertices.push(probe.vertex);
         }
         let left = if j > i + 1 { left } else { left - 1 };
