@@ -128,10 +128,16 @@ impl<'a> Seen<'a> {
         -signed(APRON)..signed(tile.height) + signed(APRON)
     }
 
+    /// How many pixels a row has with the apron.
+    const fn width(&self) -> usize {
+        (self.tile.width + 2 * APRON) as usize
+    }
+
     /// The owners of each row with the depths of their pixels.
     fn drawn(&self) -> impl Iterator<Item = (&[u32], &[f32])> {
-        let width = (self.tile.width + 2 * APRON) as usize;
-        self.owners.chunks_exact(width).zip(Self::rows(&self.tile).map(|row| self.drawn.depth_row(row)))
+        self.owners
+            .chunks_exact(self.width())
+            .zip(Self::rows(&self.tile).map(|row| self.drawn.depth_row(row)))
     }
 
     /// Which of the ascending `depths` some pixel of a net lies within and some pixel beyond.
@@ -149,10 +155,12 @@ impl<'a> Seen<'a> {
 
     /// The owners where nobody owns what lies beyond `depth`.
     fn owners_within(&self, depth: f32) -> Vec<u32> {
-        let mut within = Vec::with_capacity(self.owners.len());
-        for (owners, deep) in self.drawn() {
-            let owner = |(&owner, &deep)| if owner > OUTSIDE && deep > depth { BACKGROUND } else { owner };
-            within.extend(owners.iter().zip(deep).map(owner));
+        let mut within = self.owners.clone();
+        let width = self.width();
+        for (owners, row) in within.chunks_exact_mut(width).zip(Self::rows(&self.tile)) {
+            for (owner, &deep) in owners.iter_mut().zip(self.drawn.depth_row(row)) {
+                *owner = if *owner > OUTSIDE && deep > depth { BACKGROUND } else { *owner };
+            }
         }
         within
     }

@@ -19,6 +19,7 @@
 //! three samples, whatever its length.
 
 mod crack;
+mod cracks;
 mod equation;
 mod pixels;
 mod sample;
@@ -29,6 +30,7 @@ use super::plane::Spot;
 use super::span::Vertex;
 
 use crack::{Crack, HEADINGS, Heading};
+use cracks::Cracks;
 pub(super) use pixels::{APRON, Pixels};
 
 /// A pixel corner of the picture: its key for stitching, and whether boundaries end there.
@@ -92,15 +94,16 @@ pub(super) struct Tracer<'a> {
     pixels: Pixels<'a>,
     placer: &'a Placer<'a>,
     course: Course,
-    visited: [Vec<bool>; 2],
+    cracks: Cracks,
+    /// The cracks of the piece at hand: kept for its room.
+    run: Vec<Crack>,
     traced: Traced,
 }
 
 /// All boundary pieces of a tile.
 pub(super) fn trace(pixels: Pixels<'_>, placer: &Placer<'_>, course: Course) -> Traced {
-    let area = pixels.index(pixels.width, pixels.height);
-    let visited = [vec![false; area], vec![false; area]];
-    let mut tracer = Tracer { pixels, placer, course, visited, traced: Traced::default() };
+    let cracks = Cracks::of(&pixels);
+    let mut tracer = Tracer { pixels, placer, course, cracks, run: Vec::new(), traced: Traced::default() };
     tracer.run();
     tracer.traced
 }
@@ -116,72 +119,22 @@ enum Joined {
 
 impl Tracer<'_> {
     fn run(&mut self) {
-        let cracks = self.cracks();
-        for &crack in &cracks {
+        for crack in self.cracks.open() {
             for end in [(crack.x, crack.y), crack.end()] {
                 if self.is_end(end) {
                     self.pieces_from(end);
                 }
             }
         }
-        for crack in cracks {
-            if !self.seen(crack) {
+        for crack in self.cracks.open() {
+            if self.cracks.is_open(crack) {
                 self.piece(crack);
             }
         }
     }
 
-    /// The left and upper cracks of all pixels, row by row.
-    fn cracks(&self) -> Vec<Crack> {
-        let mut cracks = Vec::new();
-        for y in 0..self.pixels.height {
-            let row = |y: i32| {
-                &self.pixels.owners[self.pixels.index(-1, y)..self.pixels.index(self.pixels.width, y)]
-            };
-            let (above, here) = (row(y - 1), row(y));
-            if above[1..] == here[1..] && here.windows(2).all(|pair| pair[0] == pair[1]) {
-                continue;
-            }
-            for (x, (pair, &above)) in (0..).zip(here.windows(2).zip(&above[1..])) {
-                if pair[1] != pair[0] {
-                    cracks.push(Crack { x, y, heading: Heading::South });
-                }
-                if pair[1] != above {
-                    cracks.push(Crack { x, y, heading: Heading::East });
-                }
-            }
-        }
-        cracks
-    }
-
-    fn is_crack(&self, crack: Crack) -> bool {
-        let (left, right) = crack.sides();
-        self.pixels.owner(left.0, left.1) != self.pixels.owner(right.0, right.1)
-    }
-
-    fn is_ours(&self, crack: Crack) -> bool {
-        let ((x, y), _) = crack.home();
-        (0..self.pixels.width).contains(&x) && (0..self.pixels.height).contains(&y)
-    }
-
-    fn slot(&self, crack: Crack) -> (usize, usize) {
-        let ((x, y), left) = crack.home();
-        (usize::from(left), self.pixels.index(x, y))
-    }
-
-    fn seen(&self, crack: Crack) -> bool {
-        let (plane, at) = self.slot(crack);
-        self.visited[plane][at]
-    }
-
-    /// How many cracks meet at a corner.
-    fn degree(&self, (x, y): (i32, i32)) -> usize {
-        let at = self.pixels.index(x, y);
-        let above = at - self.pixels.index(0, 0) + self.pixels.index(0, -1);
-        let owners = self.pixels.owners;
-        let (upper, lower) = ((owners[above - 1], owners[above]), (owners[at - 1], owners[at]));
-        let cracks = [upper.0 != upper.1, lower.0 != lower.1, upper.0 != lower.0, upper.1 != lower.1];
-        cracks.into_iter().map(usize::from).sum()
+    fn degree(&self, at: (i32, i32)) -> usize {
+        self.cracks.degree(at)
     }
 
     /// Whether pieces end at this corner: on the tile's border, and at nodes.
@@ -227,7 +180,7 @@ impl Tracer<'_> {
     fn pieces_from(&mut self, (x, y): (i32, i32)) {
         for heading in HEADINGS {
             let crack = Crack { x, y, heading };
-            if self.is_ours(crack) && self.is_crack(crack) && !self.seen(crack) {
+            if self.cracks.is_open(crack) {
                 self.piece(crack);
             }
         }
@@ -235,27 +188,36 @@ impl Tracer<'_> {
 
     /// Follows the boundary from `first` to where it ends or closes, and places it.
     fn piece(&mut self, first: Crack) {
-        let mut cracks = vec![first];
-        self.mark(first);
+        let mut cracks = std::mem::take(&mut self.run);
+        cracks.clear();
+        cracks.push(first);
+        self.cracks.take(first);
         let start = (first.x, first.y);
         let mut at = first.end();
         while at != start && !self.is_end(at) {
             let Some(next) = self.next(cracks[cracks.len() - 1]) else { break };
-            self.mark(next);
+            self.cracks.take(next);
             cracks.push(next);
             at = next.end();
         }
+        self.add(&cracks, start, at);
+        self.run = cracks;
+    }
+
+    /// Places the piece along `cracks` from corner to corner, if anybody asks for it.
+    fn add(&mut self, cracks: &[Crack], start: (i32, i32), end: (i32, i32)) {
+        let (first, last) = (cracks[0], cracks[cracks.len() - 1]);
         let (left, right) = first.sides();
         let (left, right) = (self.pixels.owner(left.0, left.1), self.pixels.owner(right.0, right.1));
         if self.course.levels_only && !self.is_wanted(left, right) {
             return;
         }
         let first_vertex = self.traced.vertices.len();
-        let (from_open, to_open) = self.place(&cracks, start, at);
+        let (from_open, to_open) = self.place(cracks, start, end);
         let count = |n: usize| u32::try_from(n).expect("a tile has few vertices");
         let piece = Piece {
             from: self.corner(first, from_open),
-            to: self.corner(cracks[cracks.len() - 1].reversed(), to_open),
+            to: self.corner(last.reversed(), to_open),
             left,
             right,
             first: count(first_vertex),
@@ -268,7 +230,7 @@ impl Tracer<'_> {
     fn next(&self, crack: Crack) -> Option<Crack> {
         let back = crack.reversed();
         let onward = |heading: &Heading| Crack { heading: *heading, ..back };
-        let mut free = HEADINGS.iter().map(onward).filter(|&next| self.is_crack(next) && !self.seen(next));
+        let mut free = HEADINGS.iter().map(onward).filter(|&next| self.cracks.is_open(next));
         let first = free.next()?;
         match free.next() {
             None => Some(first),
@@ -276,11 +238,6 @@ impl Tracer<'_> {
                 [first, second].into_iter().chain(free).find(|&next| self.branch(next) == self.branch(back))
             }
         }
-    }
-
-    fn mark(&mut self, crack: Crack) {
-        let (plane, at) = self.slot(crack);
-        self.visited[plane][at] = true;
     }
 
     /// The corner from which a crack leaves.
