@@ -25,14 +25,9 @@ pub(super) fn lost(sheet: &Sheet<'_>, hits: &[Hit]) -> f64 {
     let pitch = ((rect.width() + rect.height()) / SHARE).max(FINEST).min(COARSEST);
     let ruling = Ruling::slanting(rect.min().midpoint(rect.max()), pitch);
     let cut = ruled(&ruling, i64::MIN..i64::MAX, kerfs.cloned());
-    let lines = cut.iter().map(|(line, ..)| *line);
-    let lines = lines.clone().min().unwrap_or(0)..lines.max().map_or(0, |last| last + 1);
+    let lines = cut.first().map_or(0, |first| first.0)..cut.last().map_or(0, |last| last.0 + 1);
     let copper = ruled(&ruling, lines, sheet.within(hits[0].net, rect));
-    // What both cover is what each covers less what they cover together.
-    let both: Stretches = cut.iter().chain(&copper).copied().collect();
-    let common = length(cut) + length(copper) - length(both);
-    // What a rounding leaves below nothing is nothing.
-    common.max(0.0) * pitch.to_f64() / 1e12
+    common(&cut, &copper) * pitch.to_f64() / 1e12
 }
 
 fn ruled(ruling: &Ruling, lines: Range<i64>, shapes: impl Iterator<Item = Shape>) -> Stretches {
@@ -40,20 +35,31 @@ fn ruled(ruling: &Ruling, lines: Range<i64>, shapes: impl Iterator<Item = Shape>
     for shape in shapes {
         ruling.rule(&shape, lines.clone(), &mut |line, from, to| stretches.push((line, from, to)));
     }
+    apart(stretches)
+}
+
+/// Line by line and from first to last, none touching another.
+fn apart(mut stretches: Stretches) -> Stretches {
+    // Those of a shape are in order: the stable sort merges what is.
+    stretches.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
+    stretches.dedup_by(|next, last| {
+        let touch = next.0 == last.0 && next.1 <= last.2;
+        if touch {
+            last.2 = last.2.max(next.2);
+        }
+        touch
+    });
     stretches
 }
 
-/// How much of all lines is covered, in nanometres.
-fn length(mut stretches: Stretches) -> f64 {
-    // Those of a shape are in order: the stable sort merges what is.
-    stretches.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)).then(a.2.total_cmp(&b.2)));
-    let mut all = 0.0;
-    for line in stretches.chunk_by(|a, b| a.0 == b.0) {
-        let mut reached = f64::NEG_INFINITY;
-        for &(_, from, to) in line {
-            all += (to - from.max(reached)).max(0.0);
-            reached = reached.max(to);
-        }
+/// How much of all lines both cover, in nanometres.
+fn common(one: &[(i64, f64, f64)], other: &[(i64, f64, f64)]) -> f64 {
+    let (mut all, mut first) = (0.0, 0);
+    for &(line, from, to) in one {
+        let ends_before = |next: &(i64, f64, f64)| next.0 < line || (next.0 == line && next.2 <= from);
+        first += other[first..].iter().take_while(|next| ends_before(next)).count();
+        let touching = other[first..].iter().take_while(|next| next.0 == line && next.1 < to);
+        all += touching.map(|next| next.2.min(to) - next.1.max(from)).sum::<f64>();
     }
     all
 }

@@ -22,7 +22,7 @@ use super::spans::{Spans, less};
 const WINDOW: Nm = Nm::from_mm(1);
 /// How many halves of a kerf it reaches beyond the cuts, and its pixel: first a small window of large pixels, and others that leave less doubt
 /// where that leaves some. Chosen: the first takes a tenth of the time of the last, and mostly is enough.
-const LOOKS: [(i64, Nm); 3] = [(2, Nm::from_um(16)), (2, Nm::from_um(8)), (6, Nm::from_um(3))];
+const LOOKS: [(i64, Nm); 3] = [(2, Nm::from_um(24)), (2, Nm::from_um(10)), (6, Nm::from_um(3))];
 /// The pixel for all of a net, which may hang together by another way than the one that is cut. Chosen: a plane's takes a tenth of the time
 /// of its polygons, and a hundredth of their memory.
 const WHOLE: Nm = Nm::from_um(8);
@@ -84,11 +84,13 @@ fn parts(sheet: &Sheet<'_>, net: NetId, rect: Rect, pitch: Nm, settings: &Settin
         let copper = drawn(&band, sheet.within(net, band.rect()));
         let near = sheet.places.cuts.touching(band.rect().inflate(pitch));
         let kerfs = drawn(&band, near.into_iter().map(wider));
-        let board = drawn(&band, sheet.ground(band.rect()).into_iter().map(Shape::Polygon));
-        let rows = copper.into_rows().zip(board.into_rows()).zip(kerfs.into_rows());
-        for (row, ((copper, board), kerfs)) in (top..).zip(rows) {
-            let outside = less(&[Run { start: 0, end: grid.width(), label: 0 }], &board);
-            before.row(row, &less(&copper, &outside));
+        let outside = outside(sheet, &band);
+        let rows = copper.into_rows().zip(kerfs.into_rows());
+        for (row, (copper, kerfs)) in (top..).zip(rows) {
+            match outside.get((row - top) as usize) {
+                Some(outside) => before.row(row, &less(&copper, outside)),
+                None => before.row(row, &copper),
+            }
             // Each run with the region that it is part of, before the cuts.
             let regions = before.last().iter().map(|&(run, region)| Run { label: region, ..run });
             after.row(row, &less(&regions.collect::<Vec<_>>(), &kerfs));
@@ -114,6 +116,18 @@ fn parts(sheet: &Sheet<'_>, net: NetId, rect: Rect, pitch: Nm, settings: &Settin
         true => Pieces::AsBefore,
         false => Pieces::Others,
     }
+}
+
+/// What of each row lies beyond the board's edge; no rows where nothing does.
+fn outside(sheet: &Sheet<'_>, grid: &Grid) -> Vec<Vec<Run>> {
+    let ground = sheet.ground(grid.rect());
+    if matches!(&ground[..], [all] if all.contours().len() == 1 && all.contours()[0].len() == 4 && all.bounds() == grid.rect())
+    {
+        return Vec::new();
+    }
+    let whole = [Run { start: 0, end: grid.width(), label: 0 }];
+    let board = drawn(grid, ground.into_iter().map(Shape::Polygon));
+    board.into_rows().map(|board| less(&whole, &board)).collect()
 }
 
 /// Shapes in pixels.
