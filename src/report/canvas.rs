@@ -12,6 +12,9 @@ use crate::grid::Grid;
 
 use super::Rgb;
 
+/// The thinnest line, in pixels. Measured: at one pixel and less the painter draws hairlines, with specks where they end and at the picture's rim.
+const THINNEST: f32 = 1.01;
+
 /// A picture being painted, in board coordinates.
 pub struct Canvas {
     grid: Grid,
@@ -152,7 +155,7 @@ impl Canvas {
             }
         }
         let stroke = Stroke {
-            width: self.pixels(width).max(1.0),
+            width: self.pixels(width).max(THINNEST),
             line_cap: LineCap::Round,
             line_join: LineJoin::Round,
             ..Stroke::default()
