@@ -6,6 +6,8 @@
 //! scenes and pictures instead that `benches/peers/raster.py` holds others against.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
+mod usage;
+
 use std::path::Path;
 use std::time::Instant;
 
@@ -106,13 +108,6 @@ impl Beside {
     }
 }
 
-/// Peak resident memory of the process so far, in MiB; none where the system does not say.
-fn peak_mib() -> Option<u64> {
-    let status = std::fs::read_to_string("/proc/self/status").ok()?;
-    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
-    line.split_whitespace().nth(1)?.parse::<u64>().ok().map(|kib| kib / 1024)
-}
-
 fn streamed(scene: &Scene, options: &Options) -> f64 {
     least(3, || {
         let mut tiles = 0_u32;
@@ -181,7 +176,7 @@ fn main() -> std::io::Result<()> {
 fn large_and_small() {
     let scene = segments(16384, 20_000, 100, u32::MAX);
     let large = streamed(&scene, &Options::default());
-    println!("16384², 20000 segments streamed: {:.1} ms, peak {:?} MiB", large * 1e3, peak_mib());
+    println!("16384², 20000 segments streamed: {:.1} ms, peak {:.0} MiB", large * 1e3, usage::peak_mib());
     drop(scene);
     let scene = segments(4096, 2000, 100, u32::MAX);
     let mut beside = Beside::new(4096);

@@ -5,6 +5,8 @@
 //! several rounds. The boards are ours and, where there are some, those of `VOROMILL_BOARDS`.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
+mod usage;
+
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -12,6 +14,8 @@ use voromill::board::Board;
 use voromill::import::{self, Selection};
 use voromill::job::{self, Options, Settings};
 use voromill::verify::{self, Program, verify};
+
+use usage::{cpu_seconds, peak_mib};
 
 /// What a process is to do: `mill` or `judge`; the board is its first argument, the folder of programs the second.
 const TASK: &str = "VOROMILL_VERIFY_TASK";
@@ -116,21 +120,4 @@ fn rounds<T>(work: impl Fn() -> T) -> T {
     }
     println!("{least:.6} {:.1}", peak_mib());
     last.expect("at least one round")
-}
-
-/// What all threads of the process have computed so far. Rayon's threads live as long as it does.
-fn cpu_seconds() -> f64 {
-    let threads = std::fs::read_dir("/proc/self/task").expect("Linux").flatten();
-    let spent = |path: PathBuf| {
-        let told = std::fs::read_to_string(path.join("schedstat")).ok()?;
-        told.split_whitespace().next()?.parse::<f64>().ok()
-    };
-    threads.filter_map(|thread| spent(thread.path())).sum::<f64>() / 1e9
-}
-
-/// Peak resident memory of the process so far.
-fn peak_mib() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").expect("Linux");
-    let line = status.lines().find(|line| line.starts_with("VmHWM:")).expect("Linux");
-    line.split_whitespace().nth(1).and_then(|kib| kib.parse::<f64>().ok()).expect("a number") / 1024.0
 }

@@ -11,6 +11,7 @@
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 mod synthetic;
+mod usage;
 
 use std::fs;
 use std::hint::black_box;
@@ -22,6 +23,8 @@ use voromill::geometry::{Nm, Point};
 use voromill::import::{self, Selection};
 use voromill::topology::{self, Method};
 use voromill::voronoi::{Diagram, Settings, fit_points};
+
+use usage::{cpu_seconds, peak_mib};
 
 /// Names board and resolution to the process that measures them.
 const ONE: &str = "VOROMILL_VORONOI_ONE";
@@ -130,18 +133,4 @@ fn mean(mut work: impl FnMut()) -> f64 {
             return spent / rounds;
         }
     }
-}
-
-/// CPU seconds of this thread so far, as Linux counts them.
-fn cpu_seconds() -> f64 {
-    let text = fs::read_to_string("/proc/thread-self/schedstat").expect("a Linux with scheduler statistics");
-    let nanoseconds = text.split_whitespace().next().and_then(|word| word.parse::<f64>().ok());
-    nanoseconds.expect("nanoseconds on the processor") / 1e9
-}
-
-/// Peak resident memory of the process so far, in MiB.
-fn peak_mib() -> f64 {
-    let status = fs::read_to_string("/proc/self/status").expect("a Linux");
-    let line = status.lines().find(|line| line.starts_with("VmHWM:")).expect("a peak");
-    line.split_whitespace().nth(1).and_then(|kib| kib.parse::<f64>().ok()).expect("KiB") / 1024.0
 }
