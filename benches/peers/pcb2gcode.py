@@ -1,29 +1,31 @@
 #!/usr/bin/env python3
-"""Lifts, travel and length of Voronoi toolpaths beside pcb2gcode's: benches/peers/pcb2gcode.py FOLDER...
+"""Voronoi toolpaths and what making them takes beside pcb2gcode's: benches/peers/pcb2gcode.py FOLDER...
 
 FOLDER holds the copper files named below, at any depth; they are public (gerbv's and pcb2gcode's own examples). Prints the table of
-docs/millproject.md. pcb2gcode 2.5.0 needs a desktop's libraries, so its figures were taken once and are kept here: each file as `--front` alone, with
+docs/millproject.md (lifts, travel, length and time of the cuts), and that of benches/README.md (CPU time and memory of making them).
+pcb2gcode 2.5.0 needs a desktop's libraries, so its figures were taken once and are kept here: each file as `--front` alone, with
 `--voronoi --mill-diameters 0.2mm`, counted from its program. voromill's are those of target/release/voromill, as of its JSON report.
 """
 import json
 import math
+import os
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 VOROMILL = Path("target/release/voromill")
-# Name, file, and what pcb2gcode makes of it: lifts, travel in mm, cut in mm.
+# Name, file, what pcb2gcode makes of it (lifts, travel in mm, cut in mm), and what it takes (CPU seconds, the least of four runs; peak MiB).
 BOARDS = [
-    ("numpres", "numpres.pcb.output_group1.grb", 13, 193, 1026),
-    ("rs232, bottom", "rs232_cm.bot", 6, 36, 240),
-    ("rs232, top", "rs232_cm.top", 7, 41, 304),
-    ("eaglecad1", "top-cop.gbx", 46, 388, 2294),
-    ("dan", "top.gbx", 44, 263, 1315),
-    ("visolate", "example.grb", 46, 343, 2291),
-    ("multivibrator", "multivibrator-B.Cu.gbr", 7, 140, 381),
-    ("d1mini, front", "D1MiniGSR-F_Cu.gbr", 5, 215, 255),
-    ("project controller", "project-controller-B_Cu.gbr", 5, 104, 485),
+    ("numpres", "numpres.pcb.output_group1.grb", 13, 193, 1026, 0.27, 24),
+    ("rs232, bottom", "rs232_cm.bot", 6, 36, 240, 0.06, 18),
+    ("rs232, top", "rs232_cm.top", 7, 41, 304, 0.1, 19),
+    ("eaglecad1", "top-cop.gbx", 46, 388, 2294, 0.57, 38),
+    ("dan", "top.gbx", 44, 263, 1315, 0.37, 27),
+    ("visolate", "example.grb", 46, 343, 2291, 0.75, 44),
+    ("multivibrator", "multivibrator-B.Cu.gbr", 7, 140, 381, 0.07, 18),
+    ("d1mini, front", "D1MiniGSR-F_Cu.gbr", 5, 215, 255, 0.08, 17),
+    ("project controller", "project-controller-B_Cu.gbr", 5, 104, 485, 0.11, 33),
 ]
 # voromill's defaults: mm, mm/s, and the machine that it takes for granted.
 FEED, PLUNGE, RAPID, RAPID_Z, ACCELERATION = 200 / 60, 100 / 60, 1500 / 60, 600 / 60, 50
@@ -51,16 +53,36 @@ def ours(path):
     return program["lifts"], program["rapid_mm"], program["cut_mm"]
 
 
+def usage(path):
+    """CPU seconds, the least of seven runs on one thread, and peak MiB."""
+    runs = []
+    with tempfile.TemporaryDirectory() as out:
+        command = [VOROMILL, "isolate", path, "--tool", "endmill:0.2mm", "-q", "-j", "1", "-o", Path(out) / "x.ngc"]
+        for _ in range(7):
+            process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
+            _, status, used = os.wait4(process.pid, 0)
+            process.returncode = os.waitstatus_to_exitcode(status)
+            runs.append((used.ru_utime + used.ru_stime, used.ru_maxrss / 1024))
+    return min(seconds for seconds, _ in runs), max(memory for _, memory in runs)
+
+
 def main():
     folders = [Path(folder) for folder in sys.argv[1:]]
-    print("| board | lifts | travel | cut | seconds |\n|---|---|---|---|---|")
+    found = []
     for name, file, *theirs in BOARDS:
-        found = next((path for folder in folders for path in sorted(folder.rglob(file))), None)
-        if found is None:
+        path = next((path for folder in folders for path in sorted(folder.rglob(file))), None)
+        if path is None:
             print(f"{file} is in none of these folders", file=sys.stderr)
-            continue
-        pairs = zip(*((*figures, seconds(*figures)) for figures in (ours(found), theirs)))
+        else:
+            found.append((name, path, theirs))
+    print("| board | lifts | travel | cut | seconds |\n|---|---|---|---|---|")
+    for name, path, (*theirs, _, _) in found:
+        pairs = zip(*((*figures, seconds(*figures)) for figures in (ours(path), theirs)))
         print(f"| {name} |", " | ".join(f"{a:.0f} : {b:.0f}" for a, b in pairs), "|")
+    print("\n| board | CPU s | × | MiB |\n|---|---|---|---|")
+    for name, path, (*_, cpu, memory) in found:
+        spent, peak = usage(path)
+        print(f"| {name} | {spent:.3f} : {cpu} | {cpu / spent:.0f} | {peak:.0f} : {memory} |")
 
 
 if __name__ == "__main__":
