@@ -159,7 +159,8 @@ impl<'a> Seen<'a> {
         let width = self.width();
         for (owners, row) in within.chunks_exact_mut(width).zip(Self::rows(&self.tile)) {
             for (owner, &deep) in owners.iter_mut().zip(self.drawn.depth_row(row)) {
-                *owner = if *owner > OUTSIDE && deep > depth { BACKGROUND } else { *owner };
+                let is_beyond = (*owner > OUTSIDE) & (deep > depth);
+                *owner = if is_beyond { BACKGROUND } else { *owner };
             }
         }
         within

@@ -100,5 +100,30 @@ fn unequal(one: &[u32], other: &[u32]) -> Row {
     if one == other {
         return 0;
     }
-    one.iter().zip(other).rev().fold(0, |bits, (one, other)| bits << 1 | Row::from(one != other))
+    let mut differs = [0_u8; 64];
+    for ((differs, one), other) in differs.iter_mut().zip(one).zip(other) {
+        *differs = u8::from(one != other);
+    }
+    differs.chunks_exact(8).rev().fold(0, |bits, eight| bits << 8 | packed(eight.try_into().expect("eight")))
+}
+
+/// Eight bytes of 0 or 1 as eight bits: the factor moves the i-th to bit 56 + i, and nothing else to where it would count.
+const fn packed(bytes: [u8; 8]) -> u64 {
+    u64::from_le_bytes(bytes).wrapping_mul(0x0102_0408_1020_4080) >> 56
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_place_where_rows_differ_has_its_bit() {
+        let plain = [7_u32; 36];
+        assert_eq!(unequal(&plain, &plain), 0, "nowhere");
+        for (i, j) in (0..36).flat_map(|i| (0..36).map(move |j| (i, j))) {
+            let mut other = plain;
+            (other[i], other[j]) = (1, 2);
+            assert_eq!(unequal(&plain, &other), 1 << i | 1 << j, "at {i} and {j}");
+        }
+    }
 }
