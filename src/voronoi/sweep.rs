@@ -56,8 +56,8 @@ impl Diagram {
 
     /// What places the points of one tile.
     fn placer(&self) -> Placer<'_> {
-        // Half a tile around, the next points of a boundary find their neighbours known.
-        let spare = self.grid.pitch().to_f64() * f64::from(TILE / 2);
+        // So far around, the next points of a boundary find their neighbours known. Measured: an eighth of a tile is less work than half of one.
+        let spare = self.grid.pitch().to_f64() * f64::from(TILE / 8);
         Placer {
             sites: &self.sites,
             owners: self.owners.as_slice(),
