@@ -176,7 +176,7 @@ fn main() -> std::io::Result<()> {
 fn large_and_small() {
     let scene = segments(16384, 20_000, 100, u32::MAX);
     let large = streamed(&scene, &Options::default());
-    println!("16384², 20000 segments streamed: {:.1} ms, peak {:.0} MiB", large * 1e3, usage::peak_mib());
+    println!("16384², 20000 segments streamed: {:.1} ms, peak {:.0?} MiB", large * 1e3, usage::peak_mib());
     drop(scene);
     let scene = segments(4096, 2000, 100, u32::MAX);
     let mut beside = Beside::new(4096);

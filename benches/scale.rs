@@ -53,16 +53,17 @@ fn one(board: &str) {
     let path = folder.join("synthetic.gbr");
     std::fs::write(&path, text).expect("writable");
     let start = cpu_seconds();
-    let figures = stages(&path, pixel);
-    let spent = cpu_seconds() - start;
+    let [read, nets, gap, rest] = stages(&path, pixel);
+    let spent = start.and_then(|start| Some(cpu_seconds()? - start));
     std::fs::remove_dir_all(&folder).expect("ours");
-    let [read, nets, gap, rest] = figures;
     let total = read + nets + gap + rest;
     #[expect(clippy::cast_precision_loss, reason = "a count of features")]
-    let each = spent * 1e6 / features as f64;
+    let each = spent.map(|spent| spent * 1e6 / features as f64);
+    let told = |figure: Option<f64>| figure.map_or("?".to_owned(), |figure| format!("{figure:.0}"));
     println!(
-        "{features:8} {read:10.4} {nets:8.4} {gap:8.4} {rest:8.3} {total:8.3} {each:15.1} {:9.0}",
-        peak_mib()
+        "{features:8} {read:10.4} {nets:8.4} {gap:8.4} {rest:8.3} {total:8.3} {:>15} {:>9}",
+        told(each),
+        told(peak_mib())
     );
 }
 

@@ -95,7 +95,7 @@ fn one(board: &str, dpi: i64) {
     let diagram = || Diagram::new(copper, &nets, board.outline.as_ref(), &settings).expect("a diagram");
     // Boundaries first: what is asked for after them must not count as their peak.
     let all = mean(|| _ = black_box(diagram().boundaries()));
-    let peak = peak_mib();
+    let peak = peak_mib().expect("a Linux");
     let regions = mean(|| _ = black_box(diagram().pixels_drawn()));
     // With a tolerance of a nanometre every placed point is a vertex.
     let bare = Settings { tolerance: Nm::new(1), arcs: false, ..settings.clone() };
@@ -123,12 +123,12 @@ fn load(board: &str) -> Board {
 
 /// CPU seconds of a round, in the mean of as many as take half a second: the system counts in ticks of some milliseconds.
 fn mean(mut work: impl FnMut()) -> f64 {
-    let start = cpu_seconds();
+    let start = cpu_seconds().expect("a Linux");
     let mut rounds = 0.0;
     loop {
         work();
         rounds += 1.0;
-        let spent = cpu_seconds() - start;
+        let spent = cpu_seconds().expect("a Linux") - start;
         if spent >= ENOUGH {
             return spent / rounds;
         }

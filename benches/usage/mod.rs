@@ -1,21 +1,21 @@
-//! What a process has used of the machine so far, as Linux counts it.
+//! What a process has used of the machine so far, as Linux counts it; none where a system does not say.
 
 use std::path::PathBuf;
 
 /// CPU seconds of all threads of the process. Rayon's threads live as long as it does.
 #[allow(dead_code, reason = "not every benchmark needs it")]
-pub(crate) fn cpu_seconds() -> f64 {
-    let threads = std::fs::read_dir("/proc/self/task").expect("a Linux").flatten();
+pub(crate) fn cpu_seconds() -> Option<f64> {
+    let threads = std::fs::read_dir("/proc/self/task").ok()?.flatten();
     let spent = |path: PathBuf| {
         let told = std::fs::read_to_string(path.join("schedstat")).ok()?;
         told.split_whitespace().next()?.parse::<f64>().ok()
     };
-    threads.filter_map(|thread| spent(thread.path())).sum::<f64>() / 1e9
+    Some(threads.filter_map(|thread| spent(thread.path())).sum::<f64>() / 1e9)
 }
 
 /// Peak resident memory of the process, in MiB.
-pub(crate) fn peak_mib() -> f64 {
-    let status = std::fs::read_to_string("/proc/self/status").expect("a Linux");
-    let line = status.lines().find(|line| line.starts_with("VmHWM:")).expect("a peak");
-    line.split_whitespace().nth(1).and_then(|kib| kib.parse::<f64>().ok()).expect("KiB") / 1024.0
+pub(crate) fn peak_mib() -> Option<f64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
+    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kib| kib / 1024.0)
 }

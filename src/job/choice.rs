@@ -50,31 +50,6 @@ pub enum DrillSide {
     Back,
 }
 
-/// How tools are changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum ToolChange {
-    /// `T2 M6`.
-    M6,
-    /// The program waits (M0) after a comment that says what to fit.
-    Pause,
-    /// It waits with that as a text for the machine to show.
-    PauseWithText,
-    /// Each tool has a file of its own.
-    Files,
-}
-
-impl From<ToolChange> for dialect::ToolChange {
-    fn from(change: ToolChange) -> Self {
-        match change {
-            ToolChange::M6 => Self::M6,
-            ToolChange::Pause => Self::Pause,
-            ToolChange::PauseWithText => Self::PauseWithText,
-            ToolChange::Files => Self::Files,
-        }
-    }
-}
-
 /// How touching copper is found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]

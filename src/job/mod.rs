@@ -36,9 +36,7 @@ mod written;
 pub use blend::{Blend, ParseBlendError};
 pub use by_net::{ParseStrategyForError, StrategyFor};
 pub use cache_key::cache_key;
-pub use choice::{
-    DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, ToolChange, Topology,
-};
+pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
 pub use cutting::Cutting;
 pub use error::Error;
 pub use holding::Holding;

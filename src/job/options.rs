@@ -4,11 +4,12 @@
 use clap::Args;
 use serde::{Deserialize, Serialize};
 
+use crate::gcode::dialect::ToolChange;
 use crate::toolpath::{Angle, Feed};
 
 use super::blend::Blend;
 use super::by_net::StrategyFor;
-use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, ToolChange, Topology};
+use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::output_name::OutputName;
 use super::overlap::Overlap;
 use super::pattern::Pattern;

@@ -251,7 +251,7 @@ fn dialect(options: &Options, base: Dialect) -> Dialect {
     };
     Dialect {
         spin_up: options.spin_up.map_or(base.spin_up, |Wait { milliseconds }| milliseconds),
-        tool_change: options.tool_change.map_or(base.tool_change, Into::into),
+        tool_change: options.tool_change.unwrap_or(base.tool_change),
         blending,
         ..base
     }

@@ -43,7 +43,9 @@ impl Near {
     ) -> Option<u32> {
         let mut nearest = (bound, None);
         self.visit_box(p, bound, &mut |i| {
-            if accept(self.labels[i], sites.sites[self.labels[i] as usize].owner) {
+            if accept(self.labels[i], sites.sites[self.labels[i] as usize].owner)
+                && self.is_box_within(i, p, nearest.0)
+            {
                 self.take_nearer(sites, i, p, &mut nearest);
             }
         });
@@ -86,12 +88,10 @@ impl Near {
 
     /// Puts the site of entry `i` in the place of the nearest so far if it is nearer.
     fn take_nearer(&self, sites: &Sites, i: usize, p: Spot, nearest: &mut (f64, Option<u32>)) {
-        if self.is_box_within(i, p, nearest.0) {
-            let site = &sites.sites[self.labels[i] as usize];
-            let rank = rank(site, site.reach(&sites.rings, p));
-            if rank < nearest.0 {
-                *nearest = (rank, Some(self.labels[i]));
-            }
+        let site = &sites.sites[self.labels[i] as usize];
+        let rank = rank(site, site.reach(&sites.rings, p));
+        if rank < nearest.0 {
+            *nearest = (rank, Some(self.labels[i]));
         }
     }
 

@@ -94,7 +94,7 @@ pub enum Dwell {
 }
 
 /// How tools are changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ToolChange {
     /// `T2 M6`: the machine, or its dialogue, does it.

@@ -1,9 +1,10 @@
 use std::path::PathBuf;
 
 use crate::board::{SourceSpan, Warning};
+use crate::gcode::dialect::ToolChange;
 use crate::geometry::Nm;
 use crate::job::blend::Blend;
-use crate::job::choice::{DialectChoice, DrillSide, Origin, Strategy, ToolChange};
+use crate::job::choice::{DialectChoice, DrillSide, Origin, Strategy};
 use crate::job::output_name::OutputName;
 use crate::job::overlap::Overlap;
 use crate::job::quantity::{DrillChoice, Drills, Length, Place, Tiles, ToolChangeAt};

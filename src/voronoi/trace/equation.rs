@@ -99,7 +99,7 @@ impl Tracer<'_> {
             let mut target = self.anchor(crack).target;
             return (self.placed(&mut target, self.beside(at, crack)), false);
         }
-        if self.degree(at) > 2 {
+        if self.cracks.degree(at) > 2 {
             let (vertex, open) = self.node(at, spot);
             (self.placer.join_node(&mut self.anchor(crack).target, vertex), open)
         } else {

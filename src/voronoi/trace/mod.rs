@@ -133,17 +133,13 @@ impl Tracer<'_> {
         }
     }
 
-    fn degree(&self, at: (i32, i32)) -> usize {
-        self.cracks.degree(at)
-    }
-
     /// Whether pieces end at this corner: on the tile's border, and at nodes.
     fn is_end(&self, (x, y): (i32, i32)) -> bool {
         x == 0 || y == 0 || x == self.pixels.width || y == self.pixels.height || self.is_node((x, y))
     }
 
     fn is_node(&self, at: (i32, i32)) -> bool {
-        self.degree(at) > 2 && self.joined(at).is_none()
+        self.cracks.degree(at) > 2 && self.joined(at).is_none()
     }
 
     /// Which pixels round a checkerboard corner are joined, because their owner has the corner, too.
