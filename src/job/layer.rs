@@ -54,11 +54,11 @@ impl Layer {
         let (boundaries, unplaced) = diagram.boundaries();
         let frame = needed_frame(&diagram, &boundaries);
         let lap = frame.as_ref().filter(|_| settings.frame);
-        let (sections, narrow) =
-            cut(side, &nets, &shares(&diagram, &boundaries, settings), lap, &placement, settings);
+        let (shares, passes) = shares(&diagram, &boundaries, settings);
+        let (sections, narrow) = cut(side, &nets, &shares, lap, &placement, settings);
         let mut warnings = topology::names_check(copper, &nets);
         warnings.extend_from_slice(diagram.warnings());
-        warnings.extend(unplaced.into_iter().chain(narrow).map(|warning| warning.on(side)));
+        warnings.extend(unplaced.into_iter().chain(passes).chain(narrow).map(|warning| warning.on(side)));
         if frame.is_some() && lap.is_none() {
             warnings.push(Warning::new("frame-not-cut", FRAME_NOT_CUT).on(side));
         }
@@ -159,18 +159,27 @@ fn diagram_settings(settings: &Settings, pitch: Nm) -> voronoi::Settings {
     }
 }
 
-/// What each tool cuts, with its kerf, the widest first: its share of the boundaries, and the passes beside them.
-fn shares(diagram: &Diagram, boundaries: &Boundaries, settings: &Settings) -> Vec<(Nm, Boundaries)> {
+/// What each tool cuts, with its kerf, the widest first: its share of the boundaries, and the passes beside them. With what is to be said of passes.
+fn shares(
+    diagram: &Diagram,
+    boundaries: &Boundaries,
+    settings: &Settings,
+) -> (Vec<(Nm, Boundaries)>, Vec<Warning>) {
     let kerfs: Vec<Nm> = settings.isolation.iter().map(Cutting::kerf).collect();
     let mut cut: Vec<(Nm, Boundaries)> = Vec::with_capacity(kerfs.len());
+    let mut warnings = Vec::new();
     for (cutting, base) in settings.isolation.iter().zip(share(boundaries, &kerfs)) {
         let all = match &cutting.widening {
-            Some(widening) => diagram.widened(base, widening, &cut),
+            Some(widening) => {
+                let (all, found) = diagram.widened(base, widening, &cut);
+                warnings.extend(found);
+                all
+            }
             None => base,
         };
         cut.push((cutting.kerf(), all));
     }
-    cut
+    (cut, warnings)
 }
 
 /// The moves of each tool along the boundaries that isolate something, and round the frame where one must be.

@@ -141,7 +141,7 @@ impl Tips<'_> {
     }
 
     /// The place near `from` that is equally far from three regions.
-    fn equally_far(&self, owners: [u32; 3], from: Spot) -> Option<Vertex> {
+    pub(super) fn equally_far(&self, owners: [u32; 3], from: Spot) -> Option<Vertex> {
         let mut p = from;
         for _ in 0..STEPS {
             let [a, b, c] = owners.map(|owner| self.reach(owner, p));

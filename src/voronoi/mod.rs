@@ -19,11 +19,13 @@ mod cross;
 mod edge;
 mod fit;
 mod frame;
+mod groove;
 mod junction;
 mod keep_off;
 mod measure;
 mod mixed;
 mod near;
+mod overlooked;
 pub mod paper;
 mod passes;
 mod place;
@@ -369,30 +371,39 @@ impl Diagram {
         let sizes = artifact::Sizes { stub: self.settings.tolerance / 2, sliver: self.grid.pitch() * 2 };
         warnings.extend(sizes.merge(&mut lines));
         self.border.follow(&mut lines, self.grid.pitch());
-        warnings.extend(self.not_placed(unplaced));
-        warnings.extend(torn.first.map(|first| {
-            let message = format!("{} ends of boundaries hang loose: a fault of the program", torn.count);
-            Warning::new("boundary-torn", message).at(first.rounded()).on(self.side)
-        }));
+        warnings.extend(self.not_placed(unplaced, "boundary points"));
+        warnings.extend(self.torn(torn, "boundaries"));
         (self.graph(lines), warnings)
+    }
+
+    /// What is to be said of lines, of what they are, that end where they should go on.
+    fn torn(&self, torn: Unplaced, what: &str) -> Option<Warning> {
+        let message = format!("{} ends of {what} hang loose: a fault of the program", torn.count);
+        Some(Warning::new("boundary-torn", message).at(torn.first?.rounded()).on(self.side))
     }
 
     /// Places the nodes that the picture left open; returns what is not where it belongs. Among core axes with copper above them, no open one is.
     fn extend_tips(&self, lines: &mut Vec<Line>) -> Unplaced {
         let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
-        if let Some(near) = &self.near {
-            let insides = self.settings.limit.map(|_| Insides::new(&self.sites));
-            return Tips { sites: &self.sites, near, insides, border: &self.border, level }.extend(lines);
+        let insides = self.settings.limit.map(|_| Insides::new(&self.sites));
+        if let Some(tips) = self.tips(insides.as_ref(), level) {
+            return tips.extend(lines);
         }
         let mut unplaced = Unplaced::default();
         tip::open_nodes(lines).values().for_each(|ends| unplaced.add(tip::end_vertex(lines, ends[0]).at));
         unplaced
     }
 
-    /// What is to be said of points that are not where they belong.
-    fn not_placed(&self, unplaced: Unplaced) -> Option<Warning> {
+    /// What completes lines where sites are known by place: regions reach so many nanometres.
+    fn tips<'a>(&'a self, insides: Option<&'a Insides>, level: f64) -> Option<Tips<'a>> {
+        let near = self.near.as_ref()?;
+        Some(Tips { sites: &self.sites, near, insides, border: &self.border, level })
+    }
+
+    /// What is to be said of points, of what they are, that are not where they belong.
+    fn not_placed(&self, unplaced: Unplaced, what: &str) -> Option<Warning> {
         let message = format!(
-            "{} boundary points kept their pixel's place, up to {:.3} mm off: use smaller pixels to place them exactly",
+            "{} {what} kept their pixel's place, up to {:.3} mm off: use smaller pixels to place them exactly",
             unplaced.count,
             self.grid.pitch()
         );

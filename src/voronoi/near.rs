@@ -95,6 +95,13 @@ impl Near {
         }
     }
 
+    /// Shows `look` the label of every site whose box comes nearer than `room`, in nanometres, to that of two places.
+    pub(super) fn visit_along(&self, a: Spot, b: Spot, room: f64, look: &mut dyn FnMut(u32)) {
+        let (left, right) = (a.x.min(b.x) - room, a.x.max(b.x) + room);
+        let (bottom, top) = (a.y.min(b.y) - room, a.y.max(b.y) + room);
+        self.index.visit_query(left, bottom, right, top, &mut |i: usize| look(self.labels[i]));
+    }
+
     /// Whether the box of entry `i` comes nearer to `p` than `bound`, in nanometres.
     fn is_box_within(&self, i: usize, p: Spot, bound: f64) -> bool {
         let [left, bottom, right, top] = self.boxes[i];

@@ -12,11 +12,16 @@
 
 use rayon::prelude::*;
 
+use crate::board::Warning;
 use crate::geometry::{Nm, Point};
 use crate::raster;
 
+use super::groove::Grooves;
+use super::near::Insides;
+use super::place::Unplaced;
 use super::spike::Spikes;
 use super::stitch::Line;
+use super::tip::MISPLACED;
 use super::{Boundaries, Boundary, Diagram, Owner};
 
 /// How much farther than the last pass is drawn, in pixels: what tracing looks at beyond a tile, and one.
@@ -51,20 +56,29 @@ impl Diagram {
     /// cut, each with its kerf: nothing of that is cut again.
     ///
     /// A pass never runs nearer to copper than half the kerf and the fitting tolerance. What `base` has at that distance already (the
-    /// outline strategy's loops) is not cut again.
+    /// outline strategy's loops) is not cut again. With it comes what could not be placed.
     #[must_use]
-    pub fn widened(&self, base: Boundaries, widening: &Widening, before: &[(Nm, Boundaries)]) -> Boundaries {
+    pub fn widened(
+        &self,
+        base: Boundaries,
+        widening: &Widening,
+        before: &[(Nm, Boundaries)],
+    ) -> (Boundaries, Vec<Warning>) {
         let first = widening.kerf / 2 + self.settings.tolerance;
         let picture = self.grid.rect();
         let levels = widening.levels(first, picture.width() + picture.height());
         let step = levels.get(1).map_or(widening.kerf - widening.overlap, |&second| second - levels[0]);
         let levels: Vec<Nm> = levels.into_iter().filter(|&level| !self.has_loops_of_all_at(level)).collect();
-        let Some(&last) = levels.last() else { return base };
+        let Some(&last) = levels.last() else { return (base, Vec::new()) };
         let mut scene = self.sites.scene(&self.grid, &self.border, Some(self.grid.pixels(last) + SPARE));
-        let reach = self.grid.pixels(widening.kerf - step);
+        let reach = widening.kerf - step;
         // Loops at the first level are passes themselves.
         let is_pass = |edge: &Boundary| self.settings.limit == Some(first) && edge.is_bare();
-        self.add_grooves(&mut scene, base.edges.iter().filter(|edge| !is_pass(edge)), reach);
+        let cleared = || base.edges.iter().filter(|edge| !is_pass(edge));
+        if reach > self.grid.pitch() {
+            self.add_grooves(&mut scene, cleared(), self.grid.pixels(reach - self.grid.pitch()));
+        }
+        let grooves = Grooves::new(cleared(), reach);
         self.add_wider(&mut scene, widening.kerf, before);
         let spikes = Spikes {
             kerf: widening.kerf.to_f64(),
@@ -72,18 +86,40 @@ impl Diagram {
             clearance: &|at| self.clearance(at),
             nearest: first.to_f64(),
         };
-        let mut all = base;
+        let insides = Insides::new(&self.sites);
+        let (mut all, mut unplaced, mut torn) = (base, Unplaced::default(), Unplaced::default());
         for (&level, passes) in levels.iter().zip(self.trace_levels(&scene, &levels)) {
+            torn = torn.join(passes.torn());
             let mut lines = passes.lines();
             lines.retain(|line| !self.has_loop_at(level, line));
+            if let Some(tips) = self.tips(Some(&insides), level.to_f64()) {
+                tips.extend_level(&mut lines);
+            }
             self.keep_off(&mut lines, level);
+            if let Some(grooves) = &grooves {
+                lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
+            }
+            unplaced = unplaced.join(self.off_level(&lines, level));
             let mut passes = self.graph(lines);
             if level > first {
                 passes.edges.par_iter_mut().for_each(|pass| spikes.add(pass));
             }
             all.append(passes);
         }
-        all
+        let what = ("points of further passes", "further passes");
+        let warnings = self.not_placed(unplaced, what.0).into_iter().chain(self.torn(torn, what.1));
+        (all, warnings.collect())
+    }
+
+    /// The vertices that are not so far from copper. Those that were placed have a course, and are.
+    fn off_level(&self, lines: &[Line], level: Nm) -> Unplaced {
+        let mut unplaced = Unplaced::default();
+        for vertex in lines.iter().flat_map(|line| &line.vertices).filter(|vertex| !vertex.has_course()) {
+            if (self.clearance(vertex.at.rounded()) - level.to_f64()).abs() > MISPLACED {
+                unplaced.add(vertex.at);
+            }
+        }
+        unplaced
     }
 
     /// How far a place is from copper, in nanometres.

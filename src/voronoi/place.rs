@@ -269,12 +269,24 @@ impl Placer<'_> {
     /// nearer join the target.
     pub(super) fn project(&self, target: &mut Target, from: Spot) -> Option<Vertex> {
         for _ in 0..ROUNDS {
-            let found = self.solve(target, from)?;
+            let found = self.solve(target, from).or_else(|| self.corner(target, from))?;
             if !self.admit(target, found) {
                 return Some(found);
             }
         }
         None
+    }
+
+    /// The point near `from` at which two sites are as far as a level line is from either: its corner in the wedge between them, where steps
+    /// away from the one lead too near to the other.
+    fn corner(&self, target: &Target, from: Spot) -> Option<Vertex> {
+        let Target::At(sites, level) = target else { return None };
+        let (first, _) = self.nearest(sites, from);
+        let mut one = self.target_of(Curve::At(first), *level);
+        let beside = self.solve(&one, from)?;
+        let (second, _) = self.nearest(sites, beside.at);
+        let mut other = self.target_of(Curve::At(second), *level);
+        if second == first { Some(beside) } else { self.meet(&mut one, &mut other, from) }
     }
 
     /// A node as a vertex of the curve that `target` has there: on its course, if it satisfies that. Sites that prove nearer join the target.

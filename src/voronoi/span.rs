@@ -128,9 +128,15 @@ impl Span {
     }
 
     /// The place at `t` from 0 to 1.
-    fn place(&self, t: f64) -> Spot {
+    pub(super) fn place(&self, t: f64) -> Spot {
         let s = 1.0 - t;
         self.from.at * (s * s) + self.control * (2.0 * s * t) + self.to.at * (t * t)
+    }
+
+    /// The vertex at `t` of a curve at one level.
+    pub(super) fn vertex(&self, t: f64) -> Vertex {
+        let speed = self.speed(t);
+        Vertex::across(self.place(t), self.clearance(t), Spot::new(speed.y, -speed.x), Spot::default())
     }
 
     /// How fast the place moves with `t`.
@@ -144,7 +150,8 @@ impl Span {
         (rise(self.from, 0.0), rise(self.to, 1.0))
     }
 
-    fn clearance(&self, t: f64) -> f64 {
+    /// The clearance at `t`.
+    pub(super) fn clearance(&self, t: f64) -> f64 {
         let (a, b) = (self.from.clearance(), self.to.clearance());
         let (rise, fall) = self.rises();
         let s = 1.0 - t;
@@ -173,6 +180,12 @@ impl Span {
         let (before, after) = ((self.control - self.from.at).length(), (self.to.at - self.control).length());
         before.max(after) <= UNEVEN * before.min(after)
             || self.control.distance_to_chord(self.from.at, self.to.at) <= BEND
+    }
+
+    /// How far along the chord the foot of `p` lies, from 0 to 1.
+    pub(super) fn foot(&self, p: Spot) -> f64 {
+        let chord = self.to.at - self.from.at;
+        ((p - self.from.at).dot(chord) / chord.dot(chord)).clamp(0.0, 1.0)
     }
 
     /// Where the curve is as far along the chord as `p`; none where `p` lies before or behind it.

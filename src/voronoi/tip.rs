@@ -31,7 +31,7 @@ pub(super) const SETTLED: f64 = 0.05;
 pub(super) const ACCEPTED: f64 = 5.0;
 pub(super) const STEPS: usize = 16;
 /// A node is not where it belongs if distances differ by more than this, in nanometres. Chosen: a twentieth of the default fitting tolerance.
-const MISPLACED: f64 = 100.0;
+pub(super) const MISPLACED: f64 = 100.0;
 /// A chord from which two regions differ by more than this in their distance is none of their boundary, in nanometres.
 const STRAYS: f64 = 4_000.0;
 /// How often the way to a tip is halved at most: to a nanometre, from a metre.
@@ -44,7 +44,7 @@ pub(super) struct Tips<'a> {
     pub(super) sites: &'a Sites,
     pub(super) near: &'a Near,
     /// The insides of polygons, where there is a limit.
-    pub(super) insides: Option<Insides>,
+    pub(super) insides: Option<&'a Insides>,
     pub(super) border: &'a Border,
     /// The distance that bounds regions against the background, in nanometres.
     pub(super) level: f64,
@@ -65,7 +65,24 @@ impl Tips<'_> {
         open_nodes(lines).values().for_each(|ends| self.node(lines, ends));
         self.cross(lines);
         self.trim(lines);
+        self.look_again(lines);
         self.misplaced(lines)
+    }
+
+    /// Extends the lines of one level to where they end between two nets.
+    pub(super) fn extend_level(&self, lines: &mut [Line]) {
+        open_nodes(lines).values().for_each(|ends| self.end_of_level(lines, ends));
+        self.look_again(lines);
+    }
+
+    /// Leads the lines round two nets to where both are as far as the level.
+    fn end_of_level(&self, lines: &mut [Line], ends: &[End]) {
+        let &[BACKGROUND, a, b] = owners_at(lines, ends).as_slice() else { return };
+        let Some(end) = self.equally_far([a, b, BACKGROUND], end_vertex(lines, ends[0]).at) else { return };
+        let is_nearest = self.near.nearer(self.sites, end.at, self.level - NEARER, |_, _| true).is_none();
+        if a != OUTSIDE && is_nearest {
+            ends.iter().for_each(|end_of| self.lead(&mut lines[end_of.line], end_of.tail, end));
+        }
     }
 
     /// The nodes from which not all regions that meet there are equally far.

@@ -407,7 +407,9 @@ fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterat
     let nets = topology::recover(copper, Method::Contact);
     let diagram = Diagram::new(copper, &nets, None, &Settings::default()).expect("a diagram");
     let (kerf, wide, overlap) = (Nm::from_um(200), Nm::from_um(width), Nm::from_um(overlap));
-    let cuts = diagram.widened(diagram.boundaries().0, &Widening { kerf, width: wide, overlap }, &[]);
+    let (cuts, warnings) =
+        diagram.widened(diagram.boundaries().0, &Widening { kerf, width: wide, overlap }, &[]);
+    assert_eq!(warnings, [], "all is placed");
     let inner = cuts.edges.iter().filter(|edge| !edge.is_border());
     let paths: Vec<Vec<Point>> = inner.map(|edge| edge.path.flatten(Nm::new(100))).collect();
     let to_copper =

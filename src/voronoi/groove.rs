@@ -1,0 +1,138 @@
+//! Passes end where a cut has cleared already.
+//!
+//! ```text
+//!    pass ───────────────╮            In the picture a cut is drawn a pixel narrower than what it clears ┄, so that no strip between that and a
+//!    ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄│┄┄┄         pass falls between pixel centres; so passes run on into what is cleared. What they have there is taken
+//!    ━━━━━━━━━━━━━━━━━━━━━┿━━ cut     out again, by its exact distance from the cut.
+//! ```
+
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use crate::geometry::Nm;
+
+use super::Boundary;
+use super::plane::Spot;
+use super::span::{Span, Vertex};
+use super::stitch::Line;
+use super::trace::Corner;
+
+/// A pass goes on until it is so much nearer to a cut than it need be, in nanometres, so that one along the very edge of what is cleared is one
+/// pass. Chosen.
+const DEEP: f64 = 5_000.0;
+/// Places this far apart are looked at, in nanometres. Chosen: less than what passes share, for any kerf that is worth widening.
+const STEP: f64 = 10_000.0;
+/// Where a pass ends is halved so often.
+const HALVINGS: usize = 12;
+
+/// What cuts have cleared for passes.
+pub(super) struct Grooves {
+    chords: Vec<(Spot, Spot)>,
+    index: StaticAABB2DIndex<f64>,
+    /// How far from a cut nothing is left to clear, in nanometres.
+    reach: f64,
+}
+
+impl Grooves {
+    /// What lies within `reach` of `cuts`; none where there are none.
+    pub(super) fn new<'a>(cuts: impl Iterator<Item = &'a Boundary>, reach: Nm) -> Option<Self> {
+        let mut chords = Vec::new();
+        for edge in cuts.filter(|edge| !edge.is_border()) {
+            let points = edge.path.flatten(Nm::new(500));
+            chords.extend(points.windows(2).map(|pair| (Spot::from(pair[0]), Spot::from(pair[1]))));
+        }
+        let mut builder = StaticAABB2DIndexBuilder::new(chords.len());
+        for (a, b) in &chords {
+            builder.add(a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y));
+        }
+        Some(Self { chords, index: builder.build().ok()?, reach: reach.to_f64() })
+    }
+
+    /// How far `p` is from the nearest cut, in nanometres; no more than the reach.
+    fn distance(&self, p: Spot) -> f64 {
+        let mut nearest = self.reach;
+        let [left, bottom, right, top] =
+            [p.x - self.reach, p.y - self.reach, p.x + self.reach, p.y + self.reach];
+        self.index.visit_query(left, bottom, right, top, &mut |i: usize| {
+            let (a, b) = self.chords[i];
+            nearest = nearest.min(p.distance_to_chord(a, b));
+        });
+        nearest
+    }
+
+    /// What is left of a pass.
+    pub(super) fn take_out(&self, line: Line) -> Vec<Line> {
+        let mut walk = Walk { grooves: self, is_cleared: false, parts: vec![vec![line.vertices[0]]] };
+        if self.distance(line.vertices[0].at) < self.reach {
+            (walk.is_cleared, walk.parts) = (true, Vec::new());
+        }
+        let begins_cleared = walk.is_cleared;
+        line.vertices.windows(2).for_each(|ends| walk.go(ends[0], ends[1]));
+        let mut parts = walk.parts;
+        if line.ends.is_none() && !begins_cleared && parts.len() == 1 && !walk.is_cleared {
+            return vec![line];
+        }
+        if line.ends.is_none()
+            && !begins_cleared
+            && !walk.is_cleared
+            && let Some(mut last) = parts.pop()
+        {
+            // One way round: it goes on where it began.
+            last.extend(parts.remove(0).into_iter().skip(1));
+            parts.push(last);
+        }
+        let end = Corner { column: 0, row: 0, branch: false, node: true, open: false };
+        let ends = line.ends.or(Some((end, end)));
+        let part = |vertices| Line { vertices, left: line.left, right: line.right, ends };
+        parts.into_iter().filter(|part| part.len() > 1).map(part).collect()
+    }
+}
+
+/// A pass walked along.
+struct Walk<'a> {
+    grooves: &'a Grooves,
+    is_cleared: bool,
+    parts: Vec<Vec<Vertex>>,
+}
+
+impl Walk<'_> {
+    /// Goes on from one vertex to the next.
+    fn go(&mut self, from: Vertex, to: Vertex) {
+        let span = Span::new(from, to);
+        let count = ((to.at - from.at).length() / STEP).ceil().max(1.0);
+        let mut i = 1.0;
+        while i <= count {
+            if self.changes(span.place(i / count)) {
+                let crossing = span.vertex(self.crossing(&span, (i - 1.0) / count, i / count));
+                if !self.is_cleared {
+                    self.part().push(crossing);
+                } else {
+                    self.parts.push(vec![crossing]);
+                }
+                self.is_cleared = !self.is_cleared;
+            }
+            i += 1.0;
+        }
+        if !self.is_cleared {
+            self.part().push(to);
+        }
+    }
+
+    fn part(&mut self) -> &mut Vec<Vertex> {
+        self.parts.last_mut().expect("what is not cleared has begun")
+    }
+
+    /// Whether what holds of the way so far does not hold at `p`.
+    fn changes(&self, p: Spot) -> bool {
+        let distance = self.grooves.distance(p);
+        if self.is_cleared { distance >= self.grooves.reach } else { distance < self.grooves.reach - DEEP }
+    }
+
+    /// Where between two places it changes.
+    fn crossing(&self, span: &Span, mut before: f64, mut after: f64) -> f64 {
+        for _ in 0..HALVINGS {
+            let middle = f64::midpoint(before, after);
+            if self.changes(span.place(middle)) { after = middle } else { before = middle }
+        }
+        f64::midpoint(before, after)
+    }
+}
