@@ -95,19 +95,16 @@ impl Near {
         }
     }
 
-    /// Shows `look` the label of every site whose box comes nearer than `room`, in nanometres, to that of two places.
-    pub(super) fn visit_along(&self, a: Spot, b: Spot, room: f64, look: &mut dyn FnMut(u32)) {
+    /// Shows `look` every site whose box comes nearer than `room`, in nanometres, to that of two places: its label, and its box.
+    pub(super) fn visit_along(&self, a: Spot, b: Spot, room: f64, look: &mut dyn FnMut(u32, [f64; 4])) {
         let (left, right) = (a.x.min(b.x) - room, a.x.max(b.x) + room);
         let (bottom, top) = (a.y.min(b.y) - room, a.y.max(b.y) + room);
-        self.index.visit_query(left, bottom, right, top, &mut |i: usize| look(self.labels[i]));
+        self.index.visit_query(left, bottom, right, top, &mut |i: usize| look(self.labels[i], self.boxes[i]));
     }
 
     /// Whether the box of entry `i` comes nearer to `p` than `bound`, in nanometres.
     fn is_box_within(&self, i: usize, p: Spot, bound: f64) -> bool {
-        let [left, bottom, right, top] = self.boxes[i];
-        let x = (left - p.x).max(p.x - right).max(0.0);
-        let y = (bottom - p.y).max(p.y - top).max(0.0);
-        x * x + y * y < bound * bound
+        comes_within(self.boxes[i], p, bound)
     }
 
     /// The distance from `p` to the nearest site, in nanometres; zero inside it.
@@ -139,6 +136,13 @@ impl Near {
         });
         nearest
     }
+}
+
+/// Whether a box, left, bottom, right, top, comes nearer to `p` than `bound`, in nanometres.
+pub(super) fn comes_within([left, bottom, right, top]: [f64; 4], p: Spot, bound: f64) -> bool {
+    let x = (left - p.x).max(p.x - right).max(0.0);
+    let y = (bottom - p.y).max(p.y - top).max(0.0);
+    x * x + y * y < bound * bound
 }
 
 /// The insides of polygons by owner, each with its box.

@@ -12,7 +12,8 @@
 
 use rayon::prelude::*;
 
-use super::near::rank;
+use super::near::{comes_within, rank};
+use super::plane::Spot;
 use super::site::Site;
 use super::span::{Span, Vertex};
 use super::stitch::Line;
@@ -75,19 +76,22 @@ impl Tips<'_> {
     fn overlooked(&self, pair: (u32, u32), from: Vertex, to: Vertex) -> Option<Vertex> {
         let span = Span::new(from, to);
         let (middle, room) = (span.place(0.5), from.clearance().max(to.clearance()));
-        let reached = room + (to.at - from.at).length();
-        let level = |owner: u32| if owner == BACKGROUND { self.level } else { f64::INFINITY };
+        let strip = Strip::new(from.at, to.at, room - NEARER + span.bulge());
+        // Beside the middle either region begins where the curve says; one that does not is seen no farther than to tell.
+        let known = span.clearance(0.5) + 2.0 * NEARER;
+        let level = |owner: u32| if owner == BACKGROUND { self.level } else { known };
         let mut far = [level(pair.0), level(pair.1)];
         let mut most = (NEARER, None);
-        self.near.visit_along(from.at, to.at, room + NEARER, &mut |label| {
+        self.near.visit_along(from.at, to.at, room + NEARER, &mut |label, bounds| {
             let site = &self.sites.sites[label as usize];
             if site.owner != pair.0 && site.owner != pair.1 {
                 return;
             }
-            let distance = rank(site, site.reach(&self.sites.rings, middle));
             let far = &mut far[usize::from(site.owner == pair.1)];
-            *far = far.min(distance);
-            if distance < reached {
+            if comes_within(bounds, middle, *far) {
+                *far = far.min(rank(site, site.reach(&self.sites.rings, middle)));
+            }
+            if strip.meets(bounds) {
                 let (t, distance) = self.closest(&span, site);
                 let excess = span.clearance(t) - distance;
                 if excess > most.0 {
@@ -95,9 +99,14 @@ impl Tips<'_> {
                 }
             }
         });
+        let [is_lost, is_other_lost] = far.map(|far| far >= known);
+        let is_level = pair.0 == BACKGROUND || pair.1 == BACKGROUND;
         // Copper that is not in reach is beyond the level; of two nets, one that is not has been lost sight of.
-        let is_told = pair.0 != BACKGROUND && pair.1 != BACKGROUND || far[0].max(far[1]).is_finite();
-        let strays = is_told && (far[0] - far[1]).abs() > NEARER;
+        let strays = if is_level {
+            (far[0] - far[1]).abs() > NEARER && !is_lost && !is_other_lost
+        } else {
+            (far[0] - far[1]).abs() > NEARER || (is_lost && is_other_lost)
+        };
         let place = most.1.or_else(|| strays.then_some(middle))?;
         let found = self.project(pair, place)?;
         (found.is_between(from, to) && (found.at - place).length() > OFF).then_some(found)
@@ -112,5 +121,32 @@ impl Tips<'_> {
             t = span.foot(p - reach.away * (reach.distance + site.radius));
         }
         (t, rank(site, site.reach(&self.sites.rings, span.place(t))))
+    }
+}
+
+/// The places nearer than so much to the chord of a curve: what has no part in it is as far from the curve as that knows.
+struct Strip {
+    from: Spot,
+    /// The unit vector along.
+    along: Spot,
+    length: f64,
+    reach: f64,
+}
+
+impl Strip {
+    fn new(from: Spot, to: Spot, reach: f64) -> Self {
+        let length = (to - from).length();
+        Self { from, along: (to - from) * (1.0 / length), length, reach: reach.max(0.0) }
+    }
+
+    /// Whether a box, left, bottom, right, top, may have a part in it.
+    fn meets(&self, [left, bottom, right, top]: [f64; 4]) -> bool {
+        let center = Spot::new(f64::midpoint(left, right), f64::midpoint(bottom, top)) - self.from;
+        let (x, y) = (self.along.x.abs(), self.along.y.abs());
+        let (width, height) = ((right - left) / 2.0, (top - bottom) / 2.0);
+        let beside = (center.cross(self.along).abs() - (y * width + x * height)).max(0.0);
+        let beyond = (center.dot(self.along) - self.length / 2.0).abs() - self.length / 2.0;
+        let beyond = (beyond - (x * width + y * height)).max(0.0);
+        beside * beside + beyond * beyond < self.reach * self.reach
     }
 }

@@ -182,6 +182,11 @@ impl Span {
             || self.control.distance_to_chord(self.from.at, self.to.at) <= BEND
     }
 
+    /// How far the curve leaves its chord at most, in nanometres.
+    pub(super) fn bulge(&self) -> f64 {
+        self.control.distance_to_chord(self.from.at, self.to.at) / 2.0
+    }
+
     /// How far along the chord the foot of `p` lies, from 0 to 1.
     pub(super) fn foot(&self, p: Spot) -> f64 {
         let chord = self.to.at - self.from.at;
