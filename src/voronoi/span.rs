@@ -84,6 +84,15 @@ impl Vertex {
         (self.at - from.at).dot(way) > 0.0 && (to.at - self.at).dot(way) > 0.0
     }
 
+    /// How far `p` is from the farther of the two places that the vertex is nearest to, on either side of its course.
+    fn reaches(self, p: Spot) -> f64 {
+        let (way, along, clearance, rise) =
+            (p - self.at, self.along(), self.clearance(), f64::from(self.rise));
+        let across = (1.0 - rise * rise).max(0.0).sqrt();
+        let outward = rise * way.dot(along) + across * way.cross(along).abs();
+        (clearance * clearance + way.dot(way) + 2.0 * clearance * outward).sqrt()
+    }
+
     /// The distance to the nearest copper, in nanometres.
     pub(super) fn clearance(self) -> f64 {
         f64::from(self.clearance)
@@ -185,6 +194,27 @@ impl Span {
     /// How far the curve leaves its chord at most, in nanometres.
     pub(super) fn bulge(&self) -> f64 {
         self.control.distance_to_chord(self.from.at, self.to.at) / 2.0
+    }
+
+    /// How far apart its ends are, in nanometres.
+    pub(super) fn length(&self) -> f64 {
+        (self.to.at - self.from.at).length()
+    }
+
+    /// Whether its ends tell how far the middle is from both its regions, within twice `most` nanometres: no farther than their nearest places of the
+    /// ends, and no nearer than what lies outside the discs round the ends, which are empty. Nothing can then come nearer to the curve than it
+    /// knows by more than `most`.
+    pub(super) fn is_known_within(&self, most: f64) -> bool {
+        if !self.from.has_course() || !self.to.has_course() {
+            return false;
+        }
+        let (middle, length) = (self.place(0.5), self.length());
+        let (a, b) = (self.from.clearance(), self.to.clearance());
+        // The square of a median: what is as far from both ends is nearest to the middle on the chord's perpendicular.
+        let nearest = f64::midpoint(a * a, b * b) - length * length / 4.0;
+        let farthest =
+            [self.from, self.to].map(|end| end.reaches(middle)).into_iter().fold(f64::INFINITY, f64::min);
+        nearest > 0.0 && farthest - nearest.sqrt() <= 2.0 * most
     }
 
     /// How far along the chord the foot of `p` lies, from 0 to 1.
