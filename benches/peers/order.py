@@ -53,7 +53,7 @@ def solve(count, trials):
     )
     parameters.write_text(
         f"PROBLEM_FILE = {problem}\nOUTPUT_TOUR_FILE = {found}\nRUNS = 1\nMAX_TRIALS = {trials}\n"
-        f"INITIAL_PERIOD = 100\nMAX_CANDIDATES = 6\nTIME_LIMIT = {LIMIT}\n"
+        f"CANDIDATE_SET_TYPE = QUADRANT\nEXTRA_CANDIDATES = 4\nINITIAL_PERIOD = 300\nMAX_CANDIDATES = 6\nTIME_LIMIT = {LIMIT}\n"
     )
     begin = time.process_time()
     LKHpy.par_file(str(parameters))

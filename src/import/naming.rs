@@ -1,6 +1,6 @@
 //! What a board is called.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::archive::{Gathered, name_of};
 use super::assign::Assigned;
@@ -41,7 +41,7 @@ pub(super) fn board_name(
         };
         fits(name.trim_end_matches(|c: char| !c.is_alphanumeric()))
     };
-    let folder = || paths.first().and_then(|path| fits(archive_stem(&name_of(path))));
+    let folder = || paths.first().and_then(|path| fits(&folder_name(path)));
     let name = selection.name.clone().or_else(|| job.name.clone().filter(|name| !name.is_empty()));
     safe(&name.or_else(shared).or_else(folder).unwrap_or_else(|| "board".to_owned()))
 }
@@ -64,8 +64,14 @@ fn without_role(stem: &str) -> &str {
     told.map_or(stem, |i| &stem[..i])
 }
 
-fn archive_stem(name: &str) -> &str {
-    if name.to_ascii_lowercase().ends_with(".zip") { stem(name) } else { name }
+/// What a folder or an archive is called, or the folder that a file lies in.
+fn folder_name(path: &Path) -> String {
+    let name = name_of(path);
+    if name.to_ascii_lowercase().ends_with(".zip") {
+        return stem(&name).to_owned();
+    }
+    let whole = std::path::absolute(path).ok().filter(|_| !path.is_dir());
+    whole.as_deref().and_then(Path::parent).map_or(name, name_of)
 }
 
 /// A name that every file system takes.

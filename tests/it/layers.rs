@@ -249,6 +249,16 @@ fn an_archive_is_as_good_as_a_folder() {
 }
 
 #[test]
+fn files_that_share_no_name_are_the_board_of_their_folder() {
+    let folder = Folder::with(&[]);
+    fs::create_dir(folder.path("amp")).expect("made");
+    let paths = ["upper-top.gbr", "lower-bottom.gbr"].map(|name| folder.path("amp").join(name));
+    paths.iter().for_each(|path| fs::write(path, SQUARE).expect("written"));
+    let loaded = load(&paths, &Selection::default()).expect("a board");
+    assert_eq!(loaded.board.name, "amp", "none of the files has a name for both");
+}
+
+#[test]
 fn a_single_file_is_the_side_that_it_says_or_the_front() {
     let back = function("Copper,L2,Bot");
     let folder = Folder::with(&[("some.gbr", SQUARE), ("other.gbr", &back), ("top.gbr", SQUARE)]);
