@@ -52,7 +52,7 @@ impl Tips<'_> {
         let line = &lines[i];
         let (from, to) = line.ends?;
         let (here, there) = (from.key(), to.key());
-        if here == there || line.left == OUTSIDE || line.right == OUTSIDE {
+        if here == there || line.is_border() {
             return None;
         }
         let (first, last) = (line.vertices[0], line.vertices[line.vertices.len() - 1]);

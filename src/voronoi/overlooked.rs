@@ -12,13 +12,13 @@
 
 use rayon::prelude::*;
 
+use super::BACKGROUND;
 use super::near::{comes_within, rank};
 use super::plane::Spot;
 use super::site::Site;
 use super::span::{Span, Vertex};
 use super::stitch::Line;
 use super::tip::{HALVINGS, Tips};
-use super::{BACKGROUND, OUTSIDE};
 
 /// A site must be nearer than a curve knows by more than this, in nanometres. Chosen: half of it is what the curve may be off.
 const NEARER: f64 = 400.0;
@@ -37,8 +37,7 @@ impl Tips<'_> {
     pub(super) fn look_again(&self, lines: &mut [Line]) {
         // Lines are outside of copper already, and asking of insides costs all their edges.
         let outside = Tips { insides: None, ..*self };
-        let is_border = |line: &Line| line.left == OUTSIDE || line.right == OUTSIDE;
-        lines.par_iter_mut().filter(|line| !is_border(line)).for_each(|line| {
+        lines.par_iter_mut().filter(|line| !line.is_border()).for_each(|line| {
             let pair = (line.left, line.right);
             let ways: Vec<(usize, Vec<Vertex>)> = (1..)
                 .zip(line.vertices.windows(2))

@@ -28,7 +28,7 @@ struct Place {
 impl Border {
     /// Makes all lines beside the outside, which were seen in pixels of `pitch`, run along the border between their ends.
     pub(super) fn follow(&self, lines: &mut [Line], pitch: Nm) {
-        for line in lines.iter_mut().filter(|line| line.left == OUTSIDE || line.right == OUTSIDE) {
+        for line in lines.iter_mut().filter(|line| line.is_border()) {
             if let Some(way) = self.way(line, pitch) {
                 let [first, last] = line.vertices[0].chord(line.vertices[line.vertices.len() - 1]);
                 let corners = way.into_iter().map(|at| Vertex::new(at, self.clearance.to_f64()));

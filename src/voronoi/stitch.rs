@@ -7,6 +7,7 @@ use std::collections::VecDeque;
 
 use rustc_hash::FxHashMap;
 
+use super::OUTSIDE;
 use super::place::Unplaced;
 use super::span::{self, Vertex};
 use super::trace::{Corner, Piece, Traced};
@@ -19,6 +20,13 @@ pub(super) struct Line {
     pub(super) right: u32,
     /// The corners of the nodes at its ends; none for a loop.
     pub(super) ends: Option<(Corner, Corner)>,
+}
+
+impl Line {
+    /// Whether it runs along the border.
+    pub(super) const fn is_border(&self) -> bool {
+        self.left == OUTSIDE || self.right == OUTSIDE
+    }
 }
 
 /// The order of lines: those between nodes before loops, each by the first of its pieces (at its nodes, or of all).

@@ -75,14 +75,24 @@ impl Tips<'_> {
         self.look_again(lines);
     }
 
-    /// Leads the lines round two nets to where both are as far as the level.
+    /// Leads the lines round two nets to where both are as far as the level. There may be several such places; that one belongs to the lines
+    /// to which they come without meeting anything.
     fn end_of_level(&self, lines: &mut [Line], ends: &[End]) {
         let &[BACKGROUND, a, b] = owners_at(lines, ends).as_slice() else { return };
-        let Some(end) = self.equally_far([a, b, BACKGROUND], end_vertex(lines, ends[0]).at) else { return };
-        let is_nearest = self.near.nearer(self.sites, end.at, self.level - NEARER, |_, _| true).is_none();
-        if a != OUTSIDE && is_nearest {
-            ends.iter().for_each(|end_of| self.lead(&mut lines[end_of.line], end_of.tail, end));
+        let Some(place) = self.equally_far([a, b, BACKGROUND], end_vertex(lines, ends[0]).at) else { return };
+        if a == OUTSIDE {
+            return;
         }
+        let ways = ends.iter().map(|&end| Some((end, self.way_to(&lines[end.line], end.tail, place)?)));
+        let Some(ways) = ways.collect::<Option<Vec<_>>>() else { return };
+        if ways.iter().flat_map(|(_, way)| &way.vertices).all(|vertex| self.is_off_copper(vertex.at)) {
+            ways.into_iter().for_each(|(end, way)| way.put(&mut lines[end.line], end.tail));
+        }
+    }
+
+    /// Whether nothing is nearer to a place than the level.
+    fn is_off_copper(&self, p: Spot) -> bool {
+        self.near.nearer(self.sites, p, self.level - NEARER, |_, _| true).is_none()
     }
 
     /// The nodes from which not all regions that meet there are equally far.

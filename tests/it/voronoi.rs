@@ -402,6 +402,15 @@ fn passes_turn_off_the_copper_in_wedges_of_a_few_pixels() {
     assert!(!stdout(&done).contains("narrower"), "it fits:\n{}", stdout(&done));
 }
 
+#[test]
+fn a_pass_ends_at_the_near_tip_of_a_lens_not_at_the_far_one() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/voronoi/passes_end_in_a_lens.gbr");
+    let options = ["--tool", "endmill:0.15mm", "--passes", "3", "-o", "out"];
+    let done = voromill(folder.path(), &[&["mill", file][..], &options].concat());
+    assert!(done.status.success(), "copper is cut away:\n{}", stdout(&done));
+}
+
 /// Passes of 200 µm that share so many micrometres keep off the copper and clear these places, as far as they lie within this width of it.
 fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterator<Item = (f64, f64)>) {
     let nets = topology::recover(copper, Method::Contact);
