@@ -29,30 +29,33 @@ impl FromStr for Nm {
     type Err = ParseLengthError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let trimmed = text.trim();
-        let digits = trimmed
-            .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+')))
-            .unwrap_or(trimmed.len());
-        let (number, unit) = (&trimmed[..digits], trimmed[digits..].trim());
-        let unit_nm: i128 = match unit {
-            _ if number.is_empty() => return Err(ParseLengthError::NoNumber(text.to_owned())),
-            "nm" => 1,
-            "um" | "µm" | "μm" => 1_000,
-            "mm" => 1_000_000,
-            "cm" => 10_000_000,
-            "mil" | "mils" | "thou" => 25_400,
-            "in" | "inch" | "\"" => 25_400_000,
-            "" => return Err(ParseLengthError::NoUnit(trimmed.to_owned())),
-            other => return Err(ParseLengthError::UnknownUnit { unit: other.to_owned() }),
-        };
-        let (mantissa, scale) = decimal(number).ok_or_else(|| ParseLengthError::NoNumber(text.to_owned()))?;
-        let scaled = mantissa * unit_nm;
-        let half = if scaled < 0 { -scale / 2 } else { scale / 2 };
-        i64::try_from((scaled + half) / scale)
-            .ok()
-            .and_then(|nm| Self::try_new(nm).ok())
-            .ok_or_else(|| ParseLengthError::OutOfRange(text.to_owned()))
+        let nm = nanometres(text)?;
+        Self::try_new(nm).map_err(|_| ParseLengthError::OutOfRange(text.to_owned()))
     }
+}
+
+/// The nanometres of a length, also of one beyond what [`Nm`] holds: what a machine goes in a minute may be longer than any board.
+pub(crate) fn nanometres(text: &str) -> Result<i64, ParseLengthError> {
+    let trimmed = text.trim();
+    let digits = trimmed
+        .find(|c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+')))
+        .unwrap_or(trimmed.len());
+    let (number, unit) = (&trimmed[..digits], trimmed[digits..].trim());
+    let unit_nm: i128 = match unit {
+        _ if number.is_empty() => return Err(ParseLengthError::NoNumber(text.to_owned())),
+        "nm" => 1,
+        "um" | "µm" | "μm" => 1_000,
+        "mm" => 1_000_000,
+        "cm" => 10_000_000,
+        "mil" | "mils" | "thou" => 25_400,
+        "in" | "inch" | "\"" => 25_400_000,
+        "" => return Err(ParseLengthError::NoUnit(trimmed.to_owned())),
+        other => return Err(ParseLengthError::UnknownUnit { unit: other.to_owned() }),
+    };
+    let (mantissa, scale) = decimal(number).ok_or_else(|| ParseLengthError::NoNumber(text.to_owned()))?;
+    let scaled = mantissa * unit_nm;
+    let half = if scaled < 0 { -scale / 2 } else { scale / 2 };
+    i64::try_from((scaled + half) / scale).map_err(|_| ParseLengthError::OutOfRange(text.to_owned()))
 }
 
 /// A decimal as mantissa and power of ten, `1.25` → (125, 100); at most 18 digits.

@@ -22,6 +22,7 @@ mod polygon;
 
 pub use arc::{Arc, Turn};
 pub use length::ParseLengthError;
+pub(crate) use length::nanometres;
 pub use nm::{Nm, RangeError};
 pub use path::{Path, Segment};
 pub use point::{Orientation, Point, Rect, Vector, orientation};

@@ -1,7 +1,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::geometry::{Nm, ParseLengthError};
+use crate::geometry::{ParseLengthError, nanometres};
 
 /// A speed along a path, in whole micrometres per minute; always positive.
 ///
@@ -16,7 +16,7 @@ pub struct Feed(i64);
 #[non_exhaustive]
 pub enum ParseFeedError {
     /// No `/min` or `/s` after the length.
-    #[error("`{0}` is not a feed: write the time too, such as `{0}/min`")]
+    #[error("`{0}` is not a feed: expected a length and a time, such as `200mm/min`")]
     NoTime(String),
     /// A time that is not known.
     #[error("`{0}` is not a unit of time: expected min or s")]
@@ -72,9 +72,9 @@ impl FromStr for Feed {
             "s" | "sec" | "second" => 60,
             other => return Err(ParseFeedError::UnknownTime(other.to_owned())),
         };
-        let length: Nm = length.trim().parse()?;
-        Self::try_new((length * per_minute).get() / 1_000)
-            .ok_or_else(|| ParseFeedError::OutOfRange(text.to_owned()))
+        let speed =
+            nanometres(length)?.checked_mul(per_minute).and_then(|speed| Self::try_new(speed / 1_000));
+        speed.ok_or_else(|| ParseFeedError::OutOfRange(text.to_owned()))
     }
 }
 
@@ -104,6 +104,9 @@ mod tests {
             ("200mm/min", 200_000, "200mm/min"),
             ("8in/min", 203_200, "203.2mm/min"),
             ("5mm/s", 300_000, "300mm/min"),
+            // Farther in a minute than any board is long.
+            ("1500mm/min", 1_500_000, "1500mm/min"),
+            ("60in/min", 1_524_000, "1524mm/min"),
         ] {
             let feed: Feed = text.parse().unwrap();
             assert_eq!((feed.get(), feed.to_string().as_str()), (um, shown), "{text}");
@@ -112,7 +115,17 @@ mod tests {
 
     #[test]
     fn nonsense_is_refused() {
-        for text in ["200", "200mm", "200/min", "0mm/min", "-5mm/min", "5mm/h", "mm/min", "2000m/min"] {
+        for text in [
+            "200",
+            "200mm",
+            "200/min",
+            "0mm/min",
+            "-5mm/min",
+            "5mm/h",
+            "mm/min",
+            "2000000mm/min",
+            "1e9mm/min",
+        ] {
             assert!(text.parse::<Feed>().is_err(), "{text} was taken for a feed");
         }
     }

@@ -78,12 +78,15 @@ impl Entry<'_> {
 
     pub(super) fn feed(&self, units: Units) -> Result<Feed, Wrong> {
         let (way, time) = self.value.split_once('/').unwrap_or((self.value, "min"));
-        let seconds = match time.trim() {
-            "min" | "minute" | "minutes" => 60,
-            "s" | "sec" | "second" | "seconds" => 1,
+        let time = match time.trim() {
+            "min" | "minute" | "minutes" => "min",
+            "s" | "sec" | "second" | "seconds" => "s",
             _ => return Err(self.wrong("a speed, such as 200mm/min")),
         };
-        let feed = length(way, units).and_then(|way| Feed::try_new((way * (60 / seconds)).get() / 1_000));
+        let feed = with_unit(way, units).and_then(|(way, times)| {
+            let feed: Feed = format!("{way}/{time}").parse().ok()?;
+            Feed::try_new(feed.get().checked_mul(times)?)
+        });
         feed.ok_or_else(|| self.wrong("a speed above zero, such as 200mm/min or a bare number"))
     }
 
@@ -122,8 +125,8 @@ impl Entry<'_> {
     }
 }
 
-/// A number with the units that pcb2gcode knows, or none.
-fn length(text: &str, units: Units) -> Option<Nm> {
+/// A number with the units that pcb2gcode knows, or none, as a length with a unit of ours, and how many of it.
+fn with_unit(text: &str, units: Units) -> Option<(String, i64)> {
     let text = text.trim();
     let end = text.find(|c: char| c.is_ascii_alphabetic() || c == '"').unwrap_or(text.len());
     let (number, unit) = (text[..end].trim(), text[end..].trim());
@@ -134,8 +137,13 @@ fn length(text: &str, units: Units) -> Option<Nm> {
         ("thou" | "mil" | "mils", _) => ("mil", 1),
         _ => return None,
     };
-    let length: Nm = format!("{number}{unit}").parse().ok()?;
-    Some(length * times)
+    Some((format!("{number}{unit}"), times))
+}
+
+fn length(text: &str, units: Units) -> Option<Nm> {
+    let (text, times) = with_unit(text, units)?;
+    let length: Nm = text.parse().ok()?;
+    Nm::try_new(length.get() * times).ok()
 }
 
 #[cfg(test)]
@@ -153,7 +161,7 @@ mod tests {
         ] {
             assert_eq!(length(text, units), Some(Nm::new(nm)), "{text}");
         }
-        for text in ["", "mm", "1 furlong", "1e3", "--1"] {
+        for text in ["", "mm", "1 furlong", "1e3", "--1", "500 m"] {
             assert_eq!(length(text, Units::Metric), None, "{text}");
         }
     }
@@ -161,7 +169,13 @@ mod tests {
     #[test]
     fn speeds_and_turns_carry_units_or_none() {
         let entry = |value| Entry { name: "x", value, line: 1 };
-        for (text, feed) in [("10", "254mm/min"), ("5mm/s", "300mm/min"), ("200mm/min", "200mm/min")] {
+        for (text, feed) in [
+            ("10", "254mm/min"),
+            ("5mm/s", "300mm/min"),
+            ("200mm/min", "200mm/min"),
+            ("60", "1524mm/min"),
+            ("1.5 m/min", "1500mm/min"),
+        ] {
             assert_eq!(entry(text).feed(Units::Inches).expect(text).to_string(), feed, "{text}");
         }
         for (text, milliseconds) in [("2 s", 2000), ("1.5sec", 1500), ("40", 40), ("250 ms", 250)] {
