@@ -120,8 +120,11 @@ fn command() -> clap::Command {
         sub.mut_args(move |argument| {
             let key = argument.get_id().as_str().replace('_', "-");
             let default = defaults.iter().find(|(name, _)| *name == key).map(|(_, value)| value);
-            match (default, argument.get_help().cloned()) {
-                (Some(default), Some(help)) if key != "frame" && key != "min-width" => {
+            let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
+            // Another subcommand's option of the same name may have a default of its own.
+            let says_it = help.contains("[default: ") || !argument.get_default_values().is_empty();
+            match default {
+                Some(default) if !says_it && key != "frame" && key != "min-width" => {
                     argument.help(format!("{help} [default: {default}]"))
                 }
                 _ => argument,

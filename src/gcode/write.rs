@@ -9,7 +9,7 @@ use std::fmt::Write as _;
 use crate::geometry::{Arc, Nm, Point, Turn};
 use crate::toolpath::{Feed, Move, Position, Program, Section, Tool};
 
-use super::dialect::{Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, ToolChange};
+use super::dialect::{Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, ToolChange};
 use super::header::Header;
 
 /// The whole program as text, every line ended.
@@ -66,7 +66,7 @@ impl<'a> Writer<'a> {
         for line in self.dialect.start.iter() {
             self.line(line);
         }
-        if let Blending::Within(most) = self.dialect.blending {
+        if let Some(Blend::Within(most)) = self.dialect.blend {
             self.line(&format!("G64 P{}", most.to_string().trim_end_matches('0').trim_end_matches('.')));
         }
         self.lift(program.safe);

@@ -35,7 +35,7 @@ pub(super) fn isolation(
 ) -> Result<Vec<Cutting>, Error> {
     let mut fetched: Vec<Fetched> =
         options.tool.iter().map(|choice| workshop.fetch("tool", choice)).collect::<Result<_, _>>()?;
-    tools::number(&mut fetched);
+    workshop.number(&mut fetched);
     let mut cuttings = Vec::with_capacity(fetched.len());
     for Fetched { tool, depth, .. } in fetched {
         let tool = not_a_drill("tool", tool)?;

@@ -3,7 +3,6 @@
 //! [`Options`] are what a person wrote, on the command line or in `voromill.toml`; [`Settings`] are those and the
 //! defaults, complete and checked; [`mill`] does the work, in memory. Who calls it decides what becomes a file.
 
-mod blend;
 mod by_net;
 mod cache_key;
 mod choice;
@@ -25,6 +24,7 @@ mod pattern;
 mod pipeline;
 mod probing;
 mod quantity;
+mod sense;
 mod settings;
 mod settings_file;
 mod show;
@@ -33,7 +33,6 @@ mod tools;
 mod verification;
 mod written;
 
-pub use blend::{Blend, ParseBlendError};
 pub use by_net::{ParseStrategyForError, StrategyFor};
 pub use cache_key::cache_key;
 pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};

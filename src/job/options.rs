@@ -7,7 +7,6 @@ use serde::{Deserialize, Serialize};
 use crate::gcode::dialect::ToolChange;
 use crate::toolpath::{Angle, Feed};
 
-use super::blend::Blend;
 use super::by_net::StrategyFor;
 use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::output_name::OutputName;
@@ -15,6 +14,7 @@ use super::overlap::Overlap;
 use super::pattern::Pattern;
 use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::tools::{Library, ToolChoice};
+use crate::gcode::dialect::Blend;
 
 /// What a person asked for; what they left open is none.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Args, Serialize, Deserialize)]

@@ -1,7 +1,7 @@
 use rayon::prelude::*;
 
 use crate::board::{Board, Side, Source, Warning};
-use crate::gcode::dialect::{Blending, ToolChange};
+use crate::gcode::dialect::ToolChange;
 use crate::gcode::{Header, Input};
 use crate::geometry::Nm;
 use crate::import::Loaded;
@@ -60,7 +60,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     if !settings.ignore.is_empty() {
         warnings.extend(ignore(&mut board, &settings.ignore, settings.topology));
     }
-    let bounds = board.bounds().ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
+    let bounds = board.bounds().ok_or_else(|| no_copper(settings))?;
     let stock = Stock::new(bounds, settings);
     let layers = isolate(&board, &stock, settings)?;
     if settings.narrow == Narrow::Error {
@@ -70,11 +70,11 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let write = |part: Part, side: Side, program: Program| {
         Written::new((part, side), program, &header, stock.tiling(side), settings)
     };
-    let alignment = stock.alignment(&board, settings);
-    let mut programs: Vec<Written> = alignment
-        .map(|program| Written::new((Part::Alignment, Side::Front), program, &header, None, settings))
-        .into_iter()
-        .collect();
+    let mut programs = Vec::new();
+    if let Some((program, found)) = stock.alignment(&board, settings) {
+        programs.push(Written::new((Part::Alignment, Side::Front), program, &header, None, settings));
+        warnings.extend(found);
+    }
     programs.par_extend(layers.par_iter().flat_map_iter(|layer| {
         let files = in_files(isolation(layer, &board, settings), settings);
         files.into_iter().map(|program| write(part(layer.side), layer.side, program))
@@ -100,7 +100,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     if board.outline.is_none() && !warnings.iter().any(|warning| warning.code.starts_with("outline-")) {
         warnings.push(Warning::new("outline-missing", "no outline was named, so the board is not cut out"));
     }
-    if settings.options().blend.is_some() && settings.dialect.blending == Blending::Unknown {
+    if settings.options().blend.is_some() && settings.dialect.blend.is_none() {
         let message = format!(
             "{} has no word for how far corners may be rounded off: --blend changes nothing",
             settings.dialect.name
@@ -118,13 +118,18 @@ fn isolate(board: &Board, stock: &Stock, settings: &Settings) -> Result<Vec<Laye
     let sides: Vec<_> = [Side::Front, Side::Back].into_iter().filter_map(|side| board.copper(side)).collect();
     let copper = sides.iter().filter(|copper| !copper.features.is_empty());
     if copper.count() == 0 {
-        return Err(Error::NoCopper("in these files".to_owned()));
+        return Err(no_copper(settings));
     }
     let isolate = |copper: &&_| {
         let copper: &crate::board::Copper = copper;
         Layer::isolate(copper, board, stock.placement(copper.side), settings)
     };
     sides.par_iter().filter(|copper| !copper.features.is_empty()).map(isolate).collect()
+}
+
+fn no_copper(settings: &Settings) -> Error {
+    let place = if settings.ignore.is_empty() { "in these files" } else { "beside what is ignored" };
+    Error::NoCopper(place.to_owned())
 }
 
 /// Fails for the first gap that the cut does not fit.
@@ -190,6 +195,7 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
         order: Order::default(),
         dwell: settings.drill_dwell,
         speeds: settings.drill_speeds,
+        taken: &settings.numbers_taken,
     };
     drill(&board.holes, &drilling)
 }

@@ -1,20 +1,19 @@
 use crate::board::Side;
 use crate::gcode::Dialect;
-use crate::gcode::dialect::Blending;
 use crate::geometry::{Nm, Vector};
 use crate::toolpath::{self, Angle, Feed, Heights, Machine, Tool, ToolKind};
 
 use super::Error;
 use super::Options;
-use super::blend::Blend;
 use super::by_net::StrategyFor;
 use super::choice::{DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::cutting::{Cutting, frame_margin, isolation, sites};
 use super::holding::{Holding, holding};
 use super::output_name;
 use super::pattern::Pattern;
-use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Triple, Wait};
-use super::tools::{self, Fetched, ToolChoice, Workshop};
+use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Wait};
+use super::sense;
+use super::tools::{Fetched, ToolChoice, Workshop};
 
 /// Everything a job needs to know, complete and checked.
 ///
@@ -78,6 +77,8 @@ pub struct Settings {
     pub drill_dwell: u32,
     /// How far a drill may differ from its hole.
     pub drill_tolerance: Nm,
+    /// The numbers that tools of one's own have: no other tool is given one of them.
+    pub numbers_taken: Vec<u32>,
     /// Whether slots, and holes without a drill, are bored with an end mill.
     pub drill_bore: bool,
     /// The end mill for it.
@@ -141,7 +142,7 @@ impl Settings {
             workshop.fetch("cutout-tool", options.cutout_tool.as_ref().expect(open))?.tool,
         )?;
         let drills = drills(options.drills.as_ref(), &workshop)?;
-        let safe = positive("safe-z", options.safe_z)?;
+        let safe = sense::travel_height(&options)?;
         let heights = |cut: Nm, step: Option<Nm>| Heights { safe, approach: APPROACH.min(safe), cut, step };
         let cutout_depth = positive("cutout-depth", options.cutout_depth)?;
         let tab_height = positive("tab-height", options.tab_height)?;
@@ -158,27 +159,27 @@ impl Settings {
             return Err(Error::Value { key: "tab-height", problem });
         }
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
+        sense::kerfs(&isolation)?;
+        let drill_depth = positive("drill-depth", options.drill_depth)?;
         Ok(Self {
             frame_margin: frame_margin(&options, &isolation)?,
+            adaptive_depth: sense::adaptive_depth(&options, &isolation)?,
             isolation,
             safe,
             ignore: options.ignore.clone(),
             tiles,
             tool_change: options.tool_change_at,
-            alignment: alignment(&options)?,
-            drilling: heights(
-                positive("drill-depth", options.drill_depth)?,
-                given("drill-peck", options.drill_peck)?,
-            ),
+            alignment: sense::alignment(&options)?,
+            drilling: heights(drill_depth, sense::step("drill-peck", options.drill_peck, drill_depth)?),
             narrow: options.narrow.expect(open),
-            adaptive_depth: given("adaptive-depth", options.adaptive_depth)?,
             rotate: options.rotate.expect(open),
             offset: options.offset.map_or_else(Vector::default, |to| Vector::new(to.x.nm(), to.y.nm())),
             mirror_axis: options.mirror_axis.map(Length::nm),
             drills,
             drill_speeds: workshop.drilling,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
-            drill_tolerance: options.drill_tolerance.expect(open).nm(),
+            drill_tolerance: sense::drill_tolerance(&options)?,
+            numbers_taken: options.tools.numbers(),
             drill_bore: options.drill_bore.expect(open),
             drill_bore_tool: match &options.drill_bore_tool {
                 Some(choice) => end_mill("drill-bore-tool", workshop.fetch("drill-bore-tool", choice)?.tool)?,
@@ -189,7 +190,7 @@ impl Settings {
                 Some(DrillSide::Back) => Side::Back,
             },
             outline_gap: outline_gap(&options)?,
-            cutout: heights(cutout_depth, Some(positive("cutout-pass", options.cutout_pass)?)),
+            cutout: heights(cutout_depth, sense::step("cutout-pass", options.cutout_pass, cutout_depth)?),
             cutout_tool,
             strategy: options.strategy.expect(open),
             strategy_for: options.strategy_for.clone(),
@@ -201,7 +202,7 @@ impl Settings {
             topology: options.topology.expect(open),
             tolerance: positive("tolerance", options.tolerance)?,
             machine: Machine {
-                travel: options.machine_travel.map(|Triple(travel)| travel.map(Length::nm)),
+                travel: sense::machine_travel(&options)?,
                 spin_up: dialect.spin_up,
                 ..Machine::default()
             },
@@ -244,23 +245,12 @@ impl Settings {
 
 /// `base`, with what the options say differs.
 fn dialect(options: &Options, base: Dialect) -> Dialect {
-    let blending = match (base.blending, options.blend) {
-        (Blending::Unknown, _) | (_, None) => base.blending,
-        (_, Some(Blend::Machine)) => Blending::AsSet,
-        (_, Some(Blend::Within(length))) => Blending::Within(length.nm()),
-    };
     Dialect {
         spin_up: options.spin_up.map_or(base.spin_up, |Wait { milliseconds }| milliseconds),
         tool_change: options.tool_change.unwrap_or(base.tool_change),
-        blending,
+        blend: base.blend.map(|own| options.blend.unwrap_or(own)),
         ..base
     }
-}
-
-/// Diameter and distance of the holes for turning the board over.
-fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
-    let margin = positive("alignment-margin", options.alignment_margin)?;
-    Ok(given("alignment-holes", options.alignment_holes)?.map(|diameter| (diameter, margin)))
 }
 
 /// Room between tiles, beside the cutter. Chosen: the stock between two boards stays in one piece.
@@ -302,7 +292,7 @@ fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Result<Vec<Tool>
     };
     let mut fetched: Vec<Fetched> = choices
         .map_or_else(|| Ok(Vec::new()), |Drills(all)| all.iter().map(drill).collect::<Result<_, _>>())?;
-    tools::number(&mut fetched);
+    workshop.number(&mut fetched);
     Ok(fetched.into_iter().map(|fetched| fetched.tool).collect())
 }
 
@@ -354,6 +344,7 @@ fn end_mill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gcode::dialect::Blend;
 
     fn settings(text: &str) -> Result<Settings, Error> {
         Options::from_toml("voromill.toml", text).and_then(Settings::resolve)
@@ -397,13 +388,13 @@ mod tests {
 
     #[test]
     fn corners_are_rounded_as_asked_where_the_dialect_has_a_word_for_it() {
-        for (text, blending) in [
-            ("dialect = \"linuxcnc\"", Blending::Within(Nm::from_um(5))),
-            ("dialect = \"linuxcnc\"\nblend = \"0.02mm\"", Blending::Within(Nm::from_um(20))),
-            ("dialect = \"linuxcnc\"\nblend = \"machine\"", Blending::AsSet),
-            ("blend = \"0.02mm\"", Blending::Unknown),
+        for (text, blend) in [
+            ("dialect = \"linuxcnc\"", Some(Blend::Within(Nm::from_um(5)))),
+            ("dialect = \"linuxcnc\"\nblend = \"0.02mm\"", Some(Blend::Within(Nm::from_um(20)))),
+            ("dialect = \"linuxcnc\"\nblend = \"machine\"", Some(Blend::Machine)),
+            ("blend = \"0.02mm\"", None),
         ] {
-            assert_eq!(settings(text).expect(text).dialect.blending, blending, "{text}");
+            assert_eq!(settings(text).expect(text).dialect.blend, blend, "{text}");
         }
     }
 
@@ -444,6 +435,16 @@ mod tests {
             ("sites = \"core\"\nstrategy = \"outline\"", "sites"),
             ("sites = \"core\"\nstrategy-for = \"GND=outline\"", "sites"),
             ("output-name = [\"front=a.ngc\", \"back=a.ngc\"]", "output-name"),
+            ("safe-z = \"50um\"", "safe-z"),
+            ("cutout-pass = \"1nm\"", "cutout-pass"),
+            ("drill-peck = \"1nm\"", "drill-peck"),
+            ("drill-tolerance = \"-1um\"", "drill-tolerance"),
+            ("alignment-holes = \"3mm\"\nalignment-margin = \"1mm\"", "alignment-margin"),
+            ("machine-travel = \"280mm,0mm,40mm\"", "machine-travel"),
+            ("adaptive-depth = \"0.1mm\"", "adaptive-depth"),
+            ("adaptive-depth = \"0.05mm\"\ntool = \"endmill:0.2mm\"", "adaptive-depth"),
+            ("tool = \"endmill:500mm\"", "tool"),
+            ("depth = \"1000mm\"", "tool"),
         ] {
             let error = settings(text).expect_err(text).to_string();
             assert!(error.starts_with(key), "{text}: {error}");

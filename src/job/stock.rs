@@ -7,7 +7,7 @@
 //!   └────┼────┘         └─────────┘
 //! ```
 
-use crate::board::{Board, Hole, Plating, Side};
+use crate::board::{Board, Hole, Plating, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect, Vector};
 use crate::toolpath::strategy::{Drilling, drill};
 use crate::toolpath::{Order, Placement, Program, Tiling, alignment_holes};
@@ -74,7 +74,7 @@ impl Stock {
     }
 
     /// The program for the holes on whose pins the stock is turned over; none where none are asked for, or nothing is turned.
-    pub(super) fn alignment(&self, board: &Board, settings: &Settings) -> Option<Program> {
+    pub(super) fn alignment(&self, board: &Board, settings: &Settings) -> Option<(Program, Vec<Warning>)> {
         let (diameter, margin) = settings.alignment.filter(|_| board.back.is_some())?;
         let holes = alignment_holes(self.bounds, self.axis, margin).map(|start| Hole {
             path: Path { start, segments: Vec::new() },
@@ -93,17 +93,19 @@ impl Stock {
             order: Order::default(),
             dwell: 0,
             speeds: settings.drill_speeds,
+            taken: &settings.numbers_taken,
         };
-        let (sections, _) = drill(&holes, &drilling);
+        let (sections, warnings) = drill(&holes, &drilling);
         let note = format!(
             "pins in these holes hold the stock when it is turned over about x = {:.3} mm",
             self.axis
         );
-        Some(Program {
+        let program = Program {
             title: format!("{} alignment", board.name),
             notes: vec!["z 0 is the top of the copper".to_owned(), note],
             safe: settings.safe,
             sections,
-        })
+        };
+        Some((program, warnings))
     }
 }

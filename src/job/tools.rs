@@ -181,6 +181,11 @@ impl Library {
         self
     }
 
+    /// The numbers that its tools have.
+    pub(super) fn numbers(&self) -> Vec<u32> {
+        self.0.values().filter_map(|tool| tool.number).collect()
+    }
+
     /// A tool more.
     pub(super) fn add(&mut self, name: &str, tool: OwnTool) {
         self.0.insert(name.to_owned(), tool);
@@ -294,7 +299,7 @@ impl Workshop<'_> {
         };
         let tool = Tool {
             name: choice.to_string(),
-            number: own.number.unwrap_or(1),
+            number: own.number.or_else(|| self.free().next()).expect("numbers do not end"),
             feed: own.feed.unwrap_or(usual.feed),
             plunge: own.plunge.unwrap_or(usual.plunge),
             spindle: own.spindle.unwrap_or(usual.spindle),
@@ -303,21 +308,26 @@ impl Workshop<'_> {
         Ok(Fetched { tool, number: own.number, depth: own.depth })
     }
 
+    /// Gives those without a number of their own the lowest that no tool of one's own has.
+    pub(super) fn number(&self, tools: &mut [Fetched]) {
+        let mut free = self.free();
+        for fetched in tools {
+            fetched.tool.number = fetched.number.or_else(|| free.next()).expect("numbers do not end");
+        }
+    }
+
+    /// The numbers that no tool of one's own has.
+    fn free(&self) -> impl Iterator<Item = u32> + use<> {
+        let taken = self.library.numbers();
+        (1..).filter(move |number| !taken.contains(number))
+    }
+
     fn unknown(&self, key: &'static str, name: &str) -> Error {
         let problem = format!(
             "no tool is called `{name}`: expected vbit:TIP:ANGLE, endmill:DIAMETER, drill:DIAMETER, or one of {}",
             self.library.names().join(", ")
         );
         Error::Value { key, problem }
-    }
-}
-
-/// Gives those without a number of their own the lowest that are free.
-pub(super) fn number(tools: &mut [Fetched]) {
-    let taken: Vec<u32> = tools.iter().filter_map(|fetched| fetched.number).collect();
-    let mut free = (1..).filter(|number| !taken.contains(number));
-    for fetched in tools {
-        fetched.tool.number = fetched.number.or_else(|| free.next()).expect("numbers do not end");
     }
 }
 

@@ -306,6 +306,10 @@ fn the_walkthrough_does_what_it_says() {
     };
     assert_eq!(tools(Part::Front), [(1, "slim-mill".to_owned()), (2, "engraver-20".to_owned())], "two tools");
     let bored = tools(Part::Drill).pop().expect("a tool");
-    assert_eq!(bored, (4, "endmill:1mm".to_owned()), "three drills, then the mill that bores");
+    assert_eq!(
+        bored,
+        (6, "endmill:1mm".to_owned()),
+        "one's own tools keep 1 and 2, three drills follow, then the mill"
+    );
     assert!(is_clean(&job, &settings), "{:?}", job.verify(&settings).expect("a verdict").findings);
 }

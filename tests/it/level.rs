@@ -425,6 +425,26 @@ fn the_command_bends_a_program_and_says_what_it_did() {
 }
 
 #[test]
+fn the_walkthrough_bends_its_front() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let named = |path: &str| crate_root.join(path).to_string_lossy().into_owned();
+    let (board, config) = (named("fixtures/boards/regulator"), named("docs/walkthrough/voromill.toml"));
+    let run = |arguments: &[&str]| {
+        let done = voromill(folder.path(), arguments);
+        assert!(done.status.success(), "{arguments:?}: {}", stderr(&done));
+        stdout(&done)
+    };
+    run(&["mill", &board, "--config", &config, "-o", "out", "--no-html", "--no-verify"]);
+    let said = run(&["probe", &board, "--config", &config, "-o", "out/regulator-probe.ngc"]);
+    assert!(said.contains("35 touches"), "{said}");
+    let map = named("docs/walkthrough/regulator.probe");
+    let said = run(&["level", "out/regulator-front.ngc", "--map", &map]);
+    assert!(said.contains("bCNC's probe file, 7 by 5 touches"), "{said}");
+    run(&["verify", "out/regulator-front-levelled.ngc", "--board", &board]);
+}
+
+#[test]
 fn the_command_that_probes_lays_the_board_as_milling_does() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let board = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/regulator");

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use voromill::board::Side;
 use voromill::gcode::Dialect;
-use voromill::gcode::dialect::{Blending, ToolChange};
+use voromill::gcode::dialect::{Blend, ToolChange};
 use voromill::geometry::{Nm, Vector};
 use voromill::job::{Holding, MillProject, Options, Settings, Strategy};
 use voromill::toolpath::{Feed, ToolKind};
@@ -91,7 +91,7 @@ fn every_option_with_a_counterpart_is_taken_over() {
     );
     assert_eq!(settings.tiles.map(|(tiles, _)| (tiles.columns, tiles.rows)), Some((2, 1)), "tiles");
     assert_eq!(settings.dialect.tool_change, ToolChange::Pause, "no M6");
-    assert_eq!(settings.dialect.blending, Blending::Within(um(10)), "corners");
+    assert_eq!(settings.dialect.blend, Some(Blend::Within(um(10))), "corners");
 }
 
 #[test]
@@ -132,17 +132,17 @@ fn holes_are_drilled_from_the_side_and_bored_with_the_mill_that_the_project_name
 #[test]
 fn corners_names_and_tool_changes_are_as_the_project_says() {
     let made = settings(project("software=linuxcnc\ng64=0.0005"));
-    assert_eq!(made.dialect.blending, Blending::Within(Nm::new(12_700)), "half a thousandth");
+    assert_eq!(made.dialect.blend, Some(Blend::Within(Nm::new(12_700))), "half a thousandth");
     for text in
         ["software=linuxcnc\ntolerance=0.01mm\nnog64=1", "software=linuxcnc\nnog64=1\ntolerance=0.01mm"]
     {
-        assert_eq!(settings(project(text)).dialect.blending, Blending::AsSet, "{text}");
+        assert_eq!(settings(project(text)).dialect.blend, Some(Blend::Machine), "{text}");
     }
     let made = settings(project("software=linuxcnc\nnom6=0\nnog64=0\nnog81=1"));
     let linuxcnc = Dialect::by_name("linuxcnc").expect("built in");
     assert_eq!(
-        (&made.dialect.blending, &made.dialect.tool_change),
-        (&linuxcnc.blending, &linuxcnc.tool_change),
+        (&made.dialect.blend, &made.dialect.tool_change),
+        (&linuxcnc.blend, &linuxcnc.tool_change),
         "its own"
     );
     let named = project(

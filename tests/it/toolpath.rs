@@ -267,6 +267,7 @@ fn drilling<'a>(drills: &'a [Tool], mill: Option<&'a Tool>, placement: &'a Place
         order: Order::Improved,
         dwell: 0,
         speeds: (None, None),
+        taken: &[],
     }
 }
 

@@ -1,61 +1,45 @@
 //! A dialect of one's own: a built-in one, with whatever differs said in TOML.
 
 use std::borrow::Cow;
+use std::fmt::Display;
+use std::ops::RangeInclusive;
 
-use serde::Deserialize;
+use serde::de::{Deserialize, Deserializer, Error};
 
-use crate::geometry::Nm;
+use super::{ALL, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Text, ToolChange, Touches};
 
-use super::{ALL, Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, Text, ToolChange, Touches};
-
-/// Why a text does not describe a dialect.
+/// Why a text does not describe a dialect: what is wrong with it, and in which line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum DialectError {
-    /// Not TOML, a key that is not known, or a value that does not fit.
-    #[error("the dialect cannot be read: {0}")]
-    Form(String),
-    /// `base` names no built-in dialect.
-    #[error("`{0}` is not a dialect to build on: expected one of {names}", names = names())]
-    Base(String),
-    /// How far corners may be rounded off is no length above zero.
-    #[error("`blend` is `{0}`: expected a length above zero, such as 0.01mm, or `machine`")]
-    Blend(String),
-    /// A number outside what makes sense.
-    #[error("`{key}` is {value}: expected {expected}")]
-    Range {
-        /// The key.
-        key: &'static str,
-        /// Its value.
-        value: usize,
-        /// What was expected.
-        expected: &'static str,
-    },
-}
-
-fn names() -> String {
-    ALL.iter().map(|dialect| dialect.name.as_ref()).collect::<Vec<_>>().join(", ")
-}
+#[error("the dialect cannot be read: {0}")]
+pub struct DialectError(String);
 
 /// The keys of the TOML text; all but the first two take the base's value where they are not given.
-#[derive(Deserialize)]
+#[derive(serde::Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 struct Keys {
     name: String,
-    base: String,
+    #[serde(deserialize_with = "base")]
+    base: &'static Dialect,
     about: Option<String>,
+    #[serde(default, deserialize_with = "extension")]
     extension: Option<String>,
+    #[serde(default, deserialize_with = "decimals")]
     decimals: Option<usize>,
     arcs: Option<Arcs>,
     comments: Option<Comments>,
     dwell: Option<Dwell>,
     tool_change: Option<ToolChange>,
     line_numbers: Option<LineNumbers>,
+    #[serde(default, deserialize_with = "longest_line")]
     longest_line: Option<usize>,
-    blend: Option<String>,
+    blend: Option<Blend>,
+    #[serde(default, deserialize_with = "lines")]
     start: Option<Vec<String>>,
+    #[serde(default, deserialize_with = "lines")]
     end: Option<Vec<String>>,
-    coolant: Option<(String, String)>,
+    #[serde(default, deserialize_with = "pair")]
+    coolant: Option<[String; 2]>,
+    #[serde(default, deserialize_with = "spin_up")]
     spin_up: Option<u32>,
     touches: Option<Touches>,
 }
@@ -65,7 +49,7 @@ impl Dialect {
     ///
     /// # Errors
     ///
-    /// [`DialectError`] for what is not TOML, an unknown key or base, and numbers outside their range.
+    /// [`DialectError`] for what is not TOML, an unknown key or base, and values that make no sense.
     ///
     /// # Examples
     ///
@@ -77,70 +61,104 @@ impl Dialect {
     /// # Ok::<(), voromill::gcode::dialect::DialectError>(())
     /// ```
     pub fn from_toml(text: &str) -> Result<Self, DialectError> {
-        let keys: Keys = toml::from_str(text).map_err(|error| DialectError::Form(error.to_string()))?;
-        let base = Self::by_name(&keys.base).ok_or_else(|| DialectError::Base(keys.base.clone()))?.clone();
+        let keys: Keys = toml::from_str(text).map_err(|error| DialectError(error.to_string()))?;
+        let base = keys.base.clone();
         let text = |given: Option<String>, base: Text| given.map_or(base, Cow::Owned);
         let lines = |given: Option<Vec<String>>, base: Cow<'static, [Text]>| {
             given.map_or(base, |lines| Cow::Owned(lines.into_iter().map(Cow::Owned).collect()))
         };
-        let blending = match (&keys.blend, &keys.start, base.blending) {
-            (Some(text), ..) => blending(text)?,
+        let blend = match (keys.blend, &keys.start, base.blend) {
             // Start lines of one's own say all there is to say.
-            (None, Some(_), Blending::Within(_)) => Blending::AsSet,
-            (None, _, blending) => blending,
+            (None, Some(_), Some(Blend::Within(_))) => Some(Blend::Machine),
+            (given, _, blend) => given.or(blend),
         };
         Ok(Self {
             name: Cow::Owned(keys.name),
             about: text(keys.about, base.about),
             extension: text(keys.extension, base.extension),
-            decimals: within("decimals", keys.decimals.unwrap_or(base.decimals), 2, 6, "2 to 6")?,
+            decimals: keys.decimals.unwrap_or(base.decimals),
             arcs: keys.arcs.unwrap_or(base.arcs),
             comments: keys.comments.unwrap_or(base.comments),
             dwell: keys.dwell.unwrap_or(base.dwell),
             tool_change: keys.tool_change.unwrap_or(base.tool_change),
             line_numbers: keys.line_numbers.unwrap_or(base.line_numbers),
-            longest_line: within(
-                "longest-line",
-                keys.longest_line.unwrap_or(base.longest_line),
-                60,
-                255,
-                "60 to 255 characters",
-            )?,
-            blending,
+            longest_line: keys.longest_line.unwrap_or(base.longest_line),
+            blend,
             start: lines(keys.start, base.start),
             end: lines(keys.end, base.end),
-            coolant: keys.coolant.map(|(on, off)| (Cow::Owned(on), Cow::Owned(off))).or(base.coolant),
+            coolant: keys.coolant.map(|[on, off]| (Cow::Owned(on), Cow::Owned(off))).or(base.coolant),
             spin_up: keys.spin_up.unwrap_or(base.spin_up),
             touches: keys.touches.unwrap_or(base.touches),
         })
     }
 }
 
-fn blending(text: &str) -> Result<Blending, DialectError> {
-    if text == "machine" {
-        return Ok(Blending::AsSet);
-    }
-    let most = text.parse::<Nm>().ok().filter(|&most| most > Nm::ZERO);
-    most.map(Blending::Within).ok_or_else(|| DialectError::Blend(text.to_owned()))
+fn base<'de, D: Deserializer<'de>>(written: D) -> Result<&'static Dialect, D::Error> {
+    let name = String::deserialize(written)?;
+    Dialect::by_name(&name).ok_or_else(|| {
+        let names: Vec<&str> = ALL.iter().map(|dialect| dialect.name.as_ref()).collect();
+        D::Error::custom(format!("`{name}` is no dialect to build on: expected one of {}", names.join(", ")))
+    })
 }
 
-fn within(
-    key: &'static str,
-    value: usize,
-    least: usize,
-    most: usize,
-    expected: &'static str,
-) -> Result<usize, DialectError> {
-    if (least..=most).contains(&value) {
-        Ok(value)
-    } else {
-        Err(DialectError::Range { key, value, expected })
+/// The ending of a file's name, and nothing that leads elsewhere.
+fn extension<'de, D: Deserializer<'de>>(written: D) -> Result<Option<String>, D::Error> {
+    let ending = String::deserialize(written)?;
+    let is_plain = (1..=10).contains(&ending.len()) && ending.bytes().all(|b| b.is_ascii_alphanumeric());
+    if is_plain {
+        return Ok(Some(ending));
     }
+    Err(D::Error::custom(format!("`{ending}` ends no file's name: expected up to ten letters and digits")))
+}
+
+fn decimals<'de, D: Deserializer<'de>>(written: D) -> Result<Option<usize>, D::Error> {
+    within(written, 2..=6, "decimals")
+}
+
+fn longest_line<'de, D: Deserializer<'de>>(written: D) -> Result<Option<usize>, D::Error> {
+    within(written, 60..=255, "characters")
+}
+
+/// As long as `--spin-up` may be.
+fn spin_up<'de, D: Deserializer<'de>>(written: D) -> Result<Option<u32>, D::Error> {
+    within(written, 0..=600_000, "milliseconds")
+}
+
+fn within<'de, D, T>(written: D, sensible: RangeInclusive<T>, what: &str) -> Result<Option<T>, D::Error>
+where
+    D: Deserializer<'de>,
+    T: Deserialize<'de> + PartialOrd + Display,
+{
+    let value = T::deserialize(written)?;
+    if sensible.contains(&value) {
+        return Ok(Some(value));
+    }
+    let (least, most) = (sensible.start(), sensible.end());
+    Err(D::Error::custom(format!("`{value}` makes no sense: expected {least} to {most} {what}")))
+}
+
+/// Lines as they will stand in a program: one each.
+fn lines<'de, D: Deserializer<'de>>(written: D) -> Result<Option<Vec<String>>, D::Error> {
+    one_each::<D, _>(Vec::<String>::deserialize(written)?)
+}
+
+fn pair<'de, D: Deserializer<'de>>(written: D) -> Result<Option<[String; 2]>, D::Error> {
+    one_each::<D, _>(<[String; 2]>::deserialize(written)?)
+}
+
+fn one_each<'de, D: Deserializer<'de>, L: AsRef<[String]>>(lines: L) -> Result<Option<L>, D::Error> {
+    if lines.as_ref().iter().any(|line| line.contains(char::is_control)) {
+        return Err(D::Error::custom(
+            "a line holds a control character: expected each line in quotes of its own",
+        ));
+    }
+    Ok(Some(lines))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Nm;
 
     #[test]
     fn what_is_not_said_is_as_in_the_base() {
@@ -148,7 +166,7 @@ mod tests {
             .expect("a dialect");
         let base = Dialect::by_name("linuxcnc").expect("built in");
         assert_eq!(mine.start, base.start, "the start lines are LinuxCNC's");
-        assert_eq!(mine.blending, base.blending, "and so is how it rounds corners");
+        assert_eq!(mine.blend, base.blend, "and so is how it rounds corners");
         assert_eq!(mine.coolant, Some(("M8".into(), "M9".into())), "the coolant is its own");
     }
 
@@ -157,10 +175,10 @@ mod tests {
         let mine = |more: &str| {
             Dialect::from_toml(&format!("name = 'mine'\nbase = 'linuxcnc'\n{more}")).expect(more)
         };
-        assert_eq!(mine("start = ['G64 P0.02']").blending, Blending::AsSet, "no second word for it");
-        let both = mine("start = ['G21']\nblend = '0.02mm'").blending;
-        assert_eq!(both, Blending::Within(Nm::from_um(20)), "unless it says so");
-        assert_eq!(mine("blend = 'machine'").blending, Blending::AsSet, "nothing at all");
+        assert_eq!(mine("start = ['G64 P0.02']").blend, Some(Blend::Machine), "no second word for it");
+        let both = mine("start = ['G21']\nblend = '0.02mm'").blend;
+        assert_eq!(both, Some(Blend::Within(Nm::from_um(20))), "unless it says so");
+        assert_eq!(mine("blend = 'machine'").blend, Some(Blend::Machine), "nothing at all");
     }
 
     #[test]
@@ -172,10 +190,17 @@ mod tests {
             ("base = 'grbl'", "name"),
             ("name = 'x'\nbase = 'linuxcnc'\nblend = '0mm'", "above zero"),
             ("name = 'x'\nbase = 'grbl'\narcs = 'round'", "round"),
+            ("name = 'x'\nbase = 'grbl'\nlongest-line = 5", "60 to 255"),
+            ("name = 'x'\nbase = 'grbl'\nspin-up = 99999999", "0 to 600000 milliseconds"),
+            ("name = 'x'\nbase = 'grbl'\nextension = '../x'", "letters and digits"),
+            ("name = 'x'\nbase = 'grbl'\nextension = ''", "letters and digits"),
+            ("name = 'x'\nbase = 'grbl'\nstart = [\"G21\\nG90\"]", "control character"),
+            ("name = 'x'\nbase = 'grbl'\ncoolant = ['M8']", "length 1"),
         ];
         for (text, expected) in cases {
             let error = Dialect::from_toml(text).expect_err(text).to_string();
             assert!(error.contains(expected), "{text} gives {error}");
+            assert!(error.contains("at line "), "{text} gives {error}");
         }
     }
 }

@@ -2,7 +2,7 @@ use std::borrow::Cow::Borrowed;
 
 use crate::geometry::Nm;
 
-use super::{Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
+use super::{Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// LinuxCNC. G64 with a tolerance lets it blend corners by at most 5 µm, instead of stopping at each or rounding without bound.
 pub(super) const LINUXCNC: Dialect = Dialect {
@@ -16,7 +16,7 @@ pub(super) const LINUXCNC: Dialect = Dialect {
     tool_change: ToolChange::M6,
     line_numbers: LineNumbers::Off,
     longest_line: 100,
-    blending: Blending::Within(Nm::from_um(5)),
+    blend: Some(Blend::Within(Nm::from_um(5))),
     start: Borrowed(&[Borrowed("G17 G21 G40 G49 G80 G90 G91.1 G94")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,

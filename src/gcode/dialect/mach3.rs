@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// Mach3. G91.1 because its own default for centres is a setting; G64 without a tolerance, which it does not know, would
 /// round corners by the feed, so it runs in exact stop.
@@ -15,7 +15,7 @@ pub(super) const MACH3: Dialect = Dialect {
     tool_change: ToolChange::M6,
     line_numbers: LineNumbers::Off,
     longest_line: 100,
-    blending: Blending::Unknown,
+    blend: None,
     start: Borrowed(&[Borrowed("G17 G21 G40 G49 G80 G90 G91.1 G94"), Borrowed("G61")]),
     end: Borrowed(&[Borrowed("M30")]),
     coolant: None,

@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// Marlin, as printers with a spindle run it: G4 counts milliseconds in P, M0 shows its text, a comment begins with a semicolon, and
 /// there is no M2. M400 waits until everything queued has been done.
@@ -15,7 +15,7 @@ pub(super) const MARLIN: Dialect = Dialect {
     tool_change: ToolChange::PauseWithText,
     line_numbers: LineNumbers::Off,
     longest_line: 90,
-    blending: Blending::Unknown,
+    blend: None,
     start: Borrowed(&[Borrowed("G17"), Borrowed("G21"), Borrowed("G90")]),
     end: Borrowed(&[Borrowed("M400")]),
     coolant: None,

@@ -1,5 +1,6 @@
 //! What controllers differ in, as data: one file and one constant each, listed in [`ALL`].
 
+mod blend;
 mod custom;
 mod grbl;
 mod linuxcnc;
@@ -8,11 +9,10 @@ mod marlin;
 mod smoothieware;
 mod tinyg;
 
+pub use blend::{Blend, ParseBlendError};
 pub use custom::DialectError;
 
 use std::borrow::Cow;
-
-use crate::geometry::Nm;
 
 /// A text that may be built in or come from the settings.
 pub type Text = Cow<'static, str>;
@@ -40,8 +40,8 @@ pub struct Dialect {
     pub line_numbers: LineNumbers,
     /// The most characters in a line.
     pub longest_line: usize,
-    /// What programs say of how far corners may be rounded off.
-    pub blending: Blending,
+    /// How far corners may be rounded off, as programs say it (G64 P); none where the controller knows no word for it.
+    pub blend: Option<Blend>,
     /// The lines before everything else.
     pub start: Cow<'static, [Text]>,
     /// The lines after everything else, the tool lifted and the spindle off.
@@ -105,17 +105,6 @@ pub enum ToolChange {
     PauseWithText,
     /// Never within a program: each tool has a file of its own.
     Files,
-}
-
-/// What programs say of how far corners may be rounded off to keep the speed up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Blending {
-    /// The controller knows no word for it.
-    Unknown,
-    /// Nothing: it is as the controller is set.
-    AsSet,
-    /// `G64 P0.005`: by at most this.
-    Within(Nm),
 }
 
 /// What becomes of the touches of a probe (G38.2).

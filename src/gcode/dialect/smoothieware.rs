@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// Smoothieware. Its G4 takes P in seconds or milliseconds by a setting, S always in seconds; its arcs cut corners by
 /// another setting, so arcs are written as lines.
@@ -15,7 +15,7 @@ pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     tool_change: ToolChange::Pause,
     line_numbers: LineNumbers::Off,
     longest_line: 90,
-    blending: Blending::Unknown,
+    blend: None,
     start: Borrowed(&[Borrowed("G17 G21 G90")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,

@@ -1,6 +1,6 @@
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Blending, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
+use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
 
 /// TinyG and g2core. G64 is their continuous mode, which keeps within the junction tolerance that is set there.
 pub(super) const TINYG: Dialect = Dialect {
@@ -14,7 +14,7 @@ pub(super) const TINYG: Dialect = Dialect {
     tool_change: ToolChange::Pause,
     line_numbers: LineNumbers::Off,
     longest_line: 100,
-    blending: Blending::Unknown,
+    blend: None,
     start: Borrowed(&[Borrowed("G17 G21 G40 G80 G90 G94"), Borrowed("G64")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,

@@ -1,9 +1,9 @@
 use std::path::PathBuf;
 
 use crate::board::{SourceSpan, Warning};
+use crate::gcode::dialect::Blend;
 use crate::gcode::dialect::ToolChange;
 use crate::geometry::Nm;
-use crate::job::blend::Blend;
 use crate::job::choice::{DialectChoice, DrillSide, Origin, Strategy};
 use crate::job::output_name::OutputName;
 use crate::job::overlap::Overlap;
@@ -171,7 +171,7 @@ impl<'a> Draft<'a> {
                     return Err(entry.wrong("a length above zero"));
                 }
                 if options.blend != Some(Blend::Machine) {
-                    options.blend = Some(Blend::Within(Length(most)));
+                    options.blend = Some(Blend::Within(most));
                 }
             }
             "nog64" if entry.flag()? => options.blend = Some(Blend::Machine),

@@ -28,6 +28,8 @@ pub struct Drilling<'a> {
     pub dwell: u32,
     /// The plunge feed and turns per minute of drills that are only taken to be at hand; none for those that suit their diameters.
     pub speeds: (Option<Feed>, Option<u32>),
+    /// Numbers that other tools have: drills that are only taken to be at hand get none of them.
+    pub taken: &'a [u32],
 }
 
 /// Drills all holes: a section for each drill, thin ones first, then one for what is bored.
@@ -49,23 +51,27 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
         }
     }
     let mut sections: Vec<Section> = Vec::with_capacity(jobs.len() + 1);
-    for (number, (mut tool, holes)) in (1..).zip(jobs.into_values()) {
+    let free = |number: &u32| !settings.taken.contains(number);
+    for (number, (mut tool, holes)) in (1..).filter(free).zip(jobs.into_values()) {
         if settings.drills.is_empty() {
             tool.number = number;
         }
         sections.push(section(tool, &holes, settings));
     }
     if let Some(mill) = settings.mill.filter(|_| !bored.is_empty()) {
-        let mill = Tool { number: free(mill.number, &sections), ..mill.clone() };
+        let mill = Tool { number: unlike(mill.number, &sections, settings.taken), ..mill.clone() };
         sections.push(bore::bore(&bored, &mill, settings.heights, settings.placement, settings.order));
     }
     (sections, warnings)
 }
 
-/// `number`, or if a section has it already, the next after all of them.
-fn free(number: u32, sections: &[Section]) -> u32 {
-    let numbers = || sections.iter().map(|section| section.tool.number);
-    if numbers().any(|taken| taken == number) { numbers().max().unwrap_or(0) + 1 } else { number }
+/// `number`, or if a section has it already, the next after all of them that is not `taken`.
+fn unlike(number: u32, sections: &[Section], taken: &[u32]) -> u32 {
+    let most = sections.iter().map(|section| section.tool.number).max().unwrap_or(0);
+    if sections.iter().all(|section| section.tool.number != number) {
+        return number;
+    }
+    (most + 1..).find(|number| !taken.contains(number)).expect("numbers do not end")
 }
 
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.

@@ -11,6 +11,8 @@ use crate::toolpath::trails::{Link, Step, walk};
 use crate::toolpath::{Heights, Machine, Move, Placement, Section, Tool};
 use crate::voronoi::{Boundaries, Boundary, Owner};
 
+use super::share::SLACK;
+
 /// What is done with a boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
@@ -130,10 +132,10 @@ fn contention(
 ) -> Option<Warning> {
     let (index, &clearance) =
         boundary.clearance.iter().enumerate().min_by_key(|(index, nm)| (**nm, *index))?;
-    let lost = kerf / 2 - clearance;
-    if lost <= Nm::ZERO {
+    if kerf <= clearance * 2 + SLACK {
         return None;
     }
+    let lost = kerf / 2 - clearance;
     let at = vertex(&boundary.path, index);
     let [left, right] = [boundary.left, boundary.right].map(&name);
     let done = match narrow {

@@ -37,7 +37,7 @@ pub fn share(boundaries: &Boundaries, kerfs: &[Nm]) -> Vec<Boundaries> {
 }
 
 /// How much a kerf may be wider than the gap and still fit, so that what was laid out for a kerf is not lost to rounding.
-const SLACK: Nm = Nm::from_um(1);
+pub(super) const SLACK: Nm = Nm::from_um(1);
 
 /// The first tool that fits a gap of twice `clearance`; the last if none does.
 fn fitting(clearance: Nm, kerfs: &[Nm]) -> usize {

@@ -1,19 +1,18 @@
-//! How far a machine may round corners off.
-
 use std::fmt;
 use std::str::FromStr;
 
+use serde::Deserialize;
+
 use crate::geometry::{Nm, ParseLengthError};
 
-use super::Length;
-
 /// How far a machine may round corners off to keep its speed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(try_from = "String")]
 pub enum Blend {
     /// As far as it is set to: programs say nothing of it.
     Machine,
-    /// No farther than this, which is above zero.
-    Within(Length),
+    /// `G64 P0.005`: no farther than this, which is above zero.
+    Within(Nm),
 }
 
 /// A text that does not say how far.
@@ -34,20 +33,30 @@ impl FromStr for Blend {
         if text.trim() == "machine" {
             return Ok(Self::Machine);
         }
-        let length: Length = text.parse()?;
-        if length.nm() <= Nm::ZERO {
+        let most: Nm = text.parse()?;
+        if most <= Nm::ZERO {
             return Err(ParseBlendError::Nothing(text.to_owned()));
         }
-        Ok(Self::Within(length))
+        Ok(Self::Within(most))
     }
 }
 
-/// As it is written.
+impl TryFrom<String> for Blend {
+    type Error = ParseBlendError;
+
+    fn try_from(text: String) -> Result<Self, Self::Error> {
+        text.parse()
+    }
+}
+
+/// As it is written: `machine`, or millimetres without needless zeros.
 impl fmt::Display for Blend {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Machine => f.write_str("machine"),
-            Self::Within(length) => length.fmt(f),
+            Self::Within(most) => {
+                write!(f, "{}mm", most.to_string().trim_end_matches('0').trim_end_matches('.'))
+            }
         }
     }
 }
