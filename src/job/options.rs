@@ -299,7 +299,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub cutout_ramp: Option<Angle>,
 
-    /// Holding tabs on each outside contour
+    /// Holding tabs on each contour; small cut-outs have none
     #[arg(long, value_name = "NUMBER", help_heading = "Drilling and cutting out")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tabs: Option<u32>,
