@@ -75,7 +75,7 @@ impl Level {
         let hash = sha256(read(&self.map)?.as_bytes());
         let levelling = Levelling {
             tolerance: positive("--tolerance", self.tolerance)?,
-            margin: self.margin.nm().max(Nm::ZERO),
+            margin: self.margin()?,
             safe: self.safe_z.map(Length::nm),
             note: format!(
                 "levelled by voromill {} to {name} sha256 {} within {}",
@@ -117,7 +117,22 @@ impl Level {
         let zero = self.map_zero.map(|Triple(zero)| zero.map(Length::nm));
         let (map, format) = HeightMap::read(&text, &Frame { unit, zero })
             .map_err(|error| Failure::new(format!("{}: {error}", name(&self.map)), map_hint(&error)))?;
-        Ok((self.zero_at.map_or(map.clone(), |place| map.zeroed_at(place.into())), format.name))
+        let Some(place) = self.zero_at else { return Ok((map, format.name)) };
+        if !map.area().inflate(self.margin()?).contains(place.into()) {
+            let problem = format!("--zero-at: nothing was probed near {place}");
+            return Err(Failure::new(problem, "say a place of the map, in the program's coordinates"));
+        }
+        Ok((map.zeroed_at(place.into()), format.name))
+    }
+
+    /// How far outside what was probed the surface is taken to go on.
+    fn margin(&self) -> Result<Nm, Failure> {
+        let margin = self.margin.nm();
+        if margin < Nm::ZERO {
+            let problem = format!("--margin: `{}` makes no sense: expected zero or more", self.margin);
+            return Err(Failure::new(problem, ""));
+        }
+        Ok(margin)
     }
 }
 

@@ -421,6 +421,13 @@ fn the_command_bends_a_program_and_says_what_it_did() {
         &["level", "front.nc", "--map", &map.to_string_lossy(), "--map-zero", "0mm,0mm,0mm"],
     );
     assert_eq!(far.status.code(), Some(2), "elsewhere");
+    for (option, value) in [("--zero-at", "500mm,0mm"), ("--margin", "-1mm"), ("--tolerance", "0mm")] {
+        let asked = format!("{option}={value}");
+        let refused =
+            voromill(folder.path(), &["level", "front.nc", "--map", &map.to_string_lossy(), &asked]);
+        assert_eq!(refused.status.code(), Some(2), "{asked}");
+        assert!(stderr(&refused).contains(option), "{}", stderr(&refused));
+    }
     assert!(stderr(&far).contains("front.nc: ") && stderr(&far).contains("hint: "), "{}", stderr(&far));
 }
 
