@@ -278,7 +278,7 @@ pub(super) fn third_owner(lines: &[Line], ends: &[End], line: &Line) -> Option<u
 }
 
 /// Whose regions meet at a node, each once.
-fn owners_at(lines: &[Line], ends: &[End]) -> Vec<u32> {
+pub(super) fn owners_at(lines: &[Line], ends: &[End]) -> Vec<u32> {
     let mut owners: Vec<u32> =
         ends.iter().flat_map(|end| [lines[end.line].left, lines[end.line].right]).collect();
     owners.sort_unstable();

@@ -411,6 +411,16 @@ fn a_pass_ends_at_the_near_tip_of_a_lens_not_at_the_far_one() {
     assert!(done.status.success(), "copper is cut away:\n{}", stdout(&done));
 }
 
+#[test]
+fn loops_that_touch_in_pixels_alone_are_parted() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/voronoi/loops_that_all_but_touch.gbr");
+    let options = ["--strategy", "outline", "--tool", "endmill:0.15mm", "-o", "x.nc"];
+    let done = voromill(folder.path(), &[&["isolate", file, "--front", file][..], &options].concat());
+    assert!(done.status.success(), "{}", stderr(&done));
+    assert!(!stdout(&done).contains("boundary-not-placed"), "all is placed:\n{}", stdout(&done));
+}
+
 /// Passes of 200 µm that share so many micrometres keep off the copper and clear these places, as far as they lie within this width of it.
 fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterator<Item = (f64, f64)>) {
     let nets = topology::recover(copper, Method::Contact);
