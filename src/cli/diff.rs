@@ -88,10 +88,10 @@ impl Diff {
         match self.format {
             Format::Text => {
                 let text: String = compared.iter().map(|compared| compared.to_text(shared.verbose)).collect();
-                shared.report(&text);
+                shared.report(&text)
             }
             Format::Json => super::print(&to_json(&compared)),
-        }
+        }?;
         let same = compared.iter().all(|compared| compared.same);
         Ok(if same { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }

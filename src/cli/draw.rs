@@ -12,7 +12,7 @@ use voromill::report::document::WarningEntry;
 use voromill::report::picture::{self, Depth, Shown};
 use voromill::report::svg::{self, Over};
 use voromill::report::translucent::Translucent;
-use voromill::report::{Canvas, png, terminal};
+use voromill::report::{self, Canvas, png, terminal};
 
 use super::config::Config;
 use super::input::Input;
@@ -114,13 +114,18 @@ impl FromStr for Window {
 }
 
 impl Draw {
-    pub(super) fn run(self, _: Shared) -> Result<(), Failure> {
+    pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input)?;
         let loaded = self.input.load(&settings)?;
         let side = self.side(loaded.board.front.is_some(), loaded.board.back.is_some())?;
         let area = self.window.map(|Window(rect)| rect);
         let format = self.format.unwrap_or_else(|| Format::of(&self.output));
-        let margin = if format == Format::Svg { MARGIN } else { settings.picture_pixel() * 4 };
+        let rim = if self.stage.shows_frame() && settings.frame && loaded.board.outline.is_none() {
+            settings.frame_margin
+        } else {
+            Nm::ZERO
+        };
+        let margin = if format == Format::Svg { MARGIN.max(rim) } else { rim + settings.picture_pixel() * 4 };
         let area = area.or_else(|| picture::whole(&loaded.board, margin));
         let area = area.ok_or_else(|| job::Error::NoCopper("to draw".to_owned()))?;
         let sampled =
@@ -142,9 +147,9 @@ impl Draw {
             Format::Shades => terminal::shades(drawn.canvas(grid)?).into_bytes(),
             Format::Sixel => terminal::sixels(drawn.canvas(grid)?).into_bytes(),
         };
+        shared.say(&report::warnings(&warnings, shared.verbose));
         if self.output == Path::new("-") {
-            super::print_bytes(&bytes);
-            return Ok(());
+            return super::print_bytes(&bytes);
         }
         let mut output = Output::new();
         output.stage(&self.output, &bytes)?;
@@ -318,6 +323,14 @@ impl Drawn {
 }
 
 impl Stage {
+    /// Whether the lap round copper without an outline can be seen.
+    const fn shows_frame(self) -> bool {
+        match self {
+            Self::Copper | Self::Nets | Self::Translucent => false,
+            Self::Voronoi | Self::Boundaries | Self::Heat | Self::Depth | Self::Toolpath => true,
+        }
+    }
+
     fn coloured(self, shown: &Shown<'_>, grid: Grid) -> Canvas {
         match self {
             Self::Nets => picture::nets(shown.board, shown.copper, shown.nets, grid),

@@ -38,7 +38,9 @@ impl Failure {
         let cause = self.cause.strip_prefix("error: ").unwrap_or(&self.cause);
         let hint = if self.hint.is_empty() { String::new() } else { format!("\nhint: {}", self.hint) };
         let cause = shown(cause);
-        super::print_to(&mut std::io::stderr().lock(), &format!("{label}: {cause}{hint}\n"));
+        let text = format!("{label}: {cause}{hint}\n");
+        // Nowhere is left to say that stderr cannot be written to; the exit code says the rest.
+        let _ = super::print_to(&mut std::io::stderr().lock(), text.as_bytes());
     }
 }
 

@@ -61,13 +61,12 @@ impl Isolate {
             ));
         }
         if self.output == Path::new("-") {
-            super::print(text);
-            return Ok(());
+            shared.say(&document.summary(shared.verbose));
+            return super::print(text);
         }
         let mut output = Output::new();
         output.stage(&self.output, text.as_bytes())?;
         output.commit()?;
-        shared.report(&document.summary(shared.verbose));
-        Ok(())
+        shared.report(&document.summary(shared.verbose))
     }
 }

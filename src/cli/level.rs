@@ -89,8 +89,7 @@ impl Level {
             .map_err(|error| Failure::new(format!("{program}: {error}"), hint(&error)))?;
         let output = self.output.unwrap_or_else(|| beside(&self.program));
         if output == Path::new("-") {
-            super::print(&done.text);
-            return Ok(());
+            return super::print(&done.text);
         }
         let mut files = Output::new();
         files.stage(&output, done.text.as_bytes())?;
@@ -104,8 +103,7 @@ impl Level {
             done.safe,
             done.added,
             format,
-        ));
-        Ok(())
+        ))
     }
 
     fn map(&self) -> Result<(HeightMap, &'static str), Failure> {

@@ -82,7 +82,7 @@ impl Mill {
             drop(progress);
             let choices = [("no-verify", self.no_verify), ("svg", self.svg), ("no-html", self.no_html)]
                 .map(|(name, chosen)| (name, chosen.to_string()));
-            super::print(&format!("{}\n", job::cache_key(&loaded, &settings, &choices)));
+            super::print(&format!("{}\n", job::cache_key(&loaded, &settings, &choices)))?;
             return Ok(ExitCode::SUCCESS);
         };
         progress.say("finding the way between nets");
@@ -117,9 +117,9 @@ impl Mill {
         output.commit()?;
         drop(progress);
         if self.json {
-            super::print(&document.to_json());
+            super::print(&document.to_json())?;
         } else {
-            shared.report(&document.summary(shared.verbose));
+            shared.report(&document.summary(shared.verbose))?;
         }
         Ok(if passes { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }

@@ -17,7 +17,8 @@ mod progress;
 mod tools;
 mod verify;
 
-use std::io::{IsTerminal, Write};
+use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
@@ -144,35 +145,39 @@ impl Shared {
     /// Prints a line for a person, on stderr so that stdout carries results alone.
     fn say(self, text: &str) {
         if !self.quiet {
-            print_to(&mut std::io::stderr().lock(), text);
+            let _ = print_to(&mut io::stderr().lock(), text.as_bytes());
         }
     }
 
     /// Prints what came of it, unless nobody wants to know.
-    fn report(self, text: &str) {
+    fn report(self, text: &str) -> Result<(), Failure> {
         if !self.quiet {
-            print(&colour::on_terminal(text));
+            return print(&colour::on_terminal(text));
         }
+        Ok(())
     }
 
     /// Whether progress may be shown.
     fn shows_progress(self) -> bool {
-        !self.quiet && std::io::stderr().is_terminal()
+        !self.quiet && io::stderr().is_terminal()
     }
 }
 
 /// Prints a result.
-fn print(text: &str) {
-    print_to(&mut std::io::stdout().lock(), text);
+fn print(text: &str) -> Result<(), Failure> {
+    print_bytes(text.as_bytes())
 }
 
 /// Prints a result that is no text.
-fn print_bytes(bytes: &[u8]) {
-    let mut stream = std::io::stdout().lock();
-    let _ = stream.write_all(bytes).and_then(|()| stream.flush());
+fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
+    print_to(&mut io::stdout().lock(), bytes)
+        .map_err(|error| Failure::io("write", Path::new("to stdout"), &error))
 }
 
-/// A reader that went away, such as `head`, is no error.
-fn print_to(stream: &mut impl Write, text: &str) {
-    let _ = stream.write_all(text.as_bytes()).and_then(|()| stream.flush());
+/// A reader that went away, such as `head`, is no error; a full disk is.
+fn print_to(stream: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
+    match stream.write_all(bytes).and_then(|()| stream.flush()) {
+        Err(error) if error.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        done => done,
+    }
 }

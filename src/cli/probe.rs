@@ -81,14 +81,12 @@ impl Probe {
         };
         let text = job::probe(&loaded, &settings, &probing)?;
         if self.output == Path::new("-") {
-            super::print(&text);
-            return Ok(());
+            return super::print(&text);
         }
         let mut output = Output::new();
         output.stage(&self.output, text.as_bytes())?;
         output.commit()?;
         let touches = text.lines().filter(|line| line.contains("G38.2")).count();
-        shared.report(&format!("{}: {touches} touches\n", self.output.display()));
-        Ok(())
+        shared.report(&format!("{}: {touches} touches\n", self.output.display()))
     }
 }

@@ -63,8 +63,7 @@ impl Tools {
         for choice in choices {
             rows.push(row(&bench.fetch(&choice)?, bench.number(&choice), &depths, &self.kerf));
         }
-        super::print(&table(&rows));
-        Ok(())
+        super::print(&table(&rows))
     }
 }
 

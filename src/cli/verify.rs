@@ -185,7 +185,7 @@ impl Verify {
             Format::Json => super::print(&verdict.to_json()),
             Format::Sarif => super::print(&verdict.to_sarif()),
             Format::Junit => super::print(&verdict.to_junit(self.deny)),
-        }
+        }?;
         Ok(if report.passes(self.deny) { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 

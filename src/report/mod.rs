@@ -25,4 +25,5 @@ pub use document::Document;
 pub use inspection::Inspection;
 pub use lettering::Lettering;
 pub use palette::{Rgb, tints, vivid};
+pub use summary::warnings;
 pub use verdict::Verdict;

@@ -76,8 +76,9 @@ impl LayerEntry {
     }
 }
 
-/// The warnings by kind, of each the first few unless `verbose`.
-pub(super) fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
+/// The warnings by kind, of each the first few unless `verbose`, below an empty line; nothing where there are none.
+#[must_use]
+pub fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
     let mut text = if warnings.is_empty() { String::new() } else { "\n".to_owned() };
     let mut kinds: Vec<&str> = Vec::new();
     for warning in warnings {

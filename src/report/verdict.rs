@@ -189,7 +189,7 @@ impl Verdict {
         let count = check::ALL.len();
         let mut text = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
-             <testsuites><testsuite name=\"voromill verify\" tests=\"{count}\" failures=\"{failures}\">\n"
+             <testsuites><testsuite name=\"voromill verify\" tests=\"{count}\" failures=\"{failures}\" errors=\"0\">\n"
         );
         for check in check::ALL {
             let found = of(check.name);

@@ -176,6 +176,73 @@ fn one_layer_goes_to_stdout_alone() {
     );
     assert!(program.contains("M2"), "a whole program");
     assert!(listing(out.path()).is_empty(), "and no file");
+    let tight =
+        voromill(out.path(), &["isolate", &layer.to_string_lossy(), "-o", "-", "--tool", "endmill:1mm"]);
+    assert!(stderr(&tight).contains("[gap-narrower-than-tool]"), "what is wrong with it: {}", stderr(&tight));
+    assert!(!stdout(&tight).contains("warning"), "beside it");
+}
+
+#[test]
+#[cfg(unix)]
+fn a_result_that_nobody_can_take_is_an_error() {
+    let out = folder();
+    let layer = fixture("boards/blinker/blinker-B_Cu.gbr");
+    let layer = layer.to_string_lossy();
+    for arguments in [&["isolate", &layer, "-o", "-"][..], &["inspect", &layer], &["draw", &layer, "-o", "-"]]
+    {
+        // A limit of no bytes stands for a disk that is full.
+        let done = Command::new("sh")
+            .args(["-c", "trap '' XFSZ; ulimit -f 0; \"$@\" > taken", "sh", env!("CARGO_BIN_EXE_voromill")])
+            .args(arguments)
+            .current_dir(out.path())
+            .output()
+            .expect("a shell");
+        assert_eq!(done.status.code(), Some(2), "{arguments:?}: {}", stderr(&done));
+        assert!(stderr(&done).contains("cannot write to stdout"), "it says why: {}", stderr(&done));
+    }
+}
+
+#[test]
+fn the_lap_round_copper_is_in_the_picture() {
+    let out = folder();
+    let layer = fixture("boards/blinker/blinker-B_Cu.gbr");
+    let size = |options: &[&str]| {
+        let layer = layer.to_string_lossy();
+        let arguments = [&["draw", &layer, "-o", "p.png"], options].concat();
+        let done = voromill(out.path(), &arguments);
+        assert!(done.status.success(), "{}", stderr(&done));
+        assert!(stderr(&done).contains("[outline-missing]"), "what to know of it: {}", stderr(&done));
+        let bytes = fs::read(out.path().join("p.png")).expect("a picture");
+        u32::from_be_bytes(bytes[16..20].try_into().expect("the width of a PNG"))
+    };
+    let without = size(&["--stage", "voronoi", "--no-frame"]);
+    let wider = size(&["--stage", "voronoi", "--frame-margin", "2mm"]) - without;
+    assert!((157..=159).contains(&wider), "two millimetres on each side at 1000 DPI: {wider}");
+    assert_eq!(size(&["--stage", "nets", "--frame-margin", "2mm"]), without, "nets have no frame");
+}
+
+#[test]
+fn what_is_no_program_is_shown_by_its_beginning() {
+    let out = folder();
+    fs::write(out.path().join("no.nc"), format!("PK{}", "x".repeat(100_000))).expect("written");
+    let board = fixture("boards/blinker");
+    let arguments = ["verify", "no.nc", "--board", &board.to_string_lossy()];
+    let message = refused(&out, &arguments, &["no.nc: line 1, column 1", "…`: expected"], &["no.nc"]);
+    assert!(message.len() < 200, "short: {message}");
+}
+
+#[test]
+fn a_default_is_told_once() {
+    let out = folder();
+    for command in ["mill", "isolate", "draw", "inspect", "verify", "diff", "probe", "level", "tools", "init"]
+    {
+        let help = stdout(&voromill(out.path(), &[command, "--help"]));
+        let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
+        for option in words.split(" --") {
+            let defaults = option.matches("[default: ").count();
+            assert!(defaults <= 1, "{command} --{option}");
+        }
+    }
 }
 
 #[test]

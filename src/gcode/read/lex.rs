@@ -28,6 +28,9 @@ pub(in crate::gcode) struct Word<'a> {
     pub(in crate::gcode) text: &'a str,
 }
 
+/// How many characters of an offending text an error shows. Chosen: more than any word, less than a line of a terminal.
+const SHOWN: usize = 40;
+
 /// Makes errors that point into a line.
 #[derive(Clone, Copy)]
 pub(in crate::gcode) struct Pointer<'a> {
@@ -37,7 +40,11 @@ pub(in crate::gcode) struct Pointer<'a> {
 
 impl Pointer<'_> {
     pub(in crate::gcode) fn error(self, column: u32, text: &str, expected: impl Into<String>) -> ReadError {
-        ReadError { line: self.line, column, text: text.to_owned(), expected: expected.into() }
+        let mut shown: String = text.chars().take(SHOWN).collect();
+        if shown.len() < text.len() {
+            shown.push('…');
+        }
+        ReadError { line: self.line, column, text: shown, expected: expected.into() }
     }
 }
 
