@@ -1,7 +1,7 @@
-//! Passes kept off the copper where the picture misleads them.
+//! Lines of one level kept off the copper where the picture misleads them.
 //!
 //! ```text
-//!     ╲ copper        In a wedge of copper narrower than a few pixels a pass turns within one pixel. Too little is seen there to
+//!     ╲ copper        In a wedge of copper narrower than a few pixels a line turns within one pixel. Too little is seen there to
 //!      ╲    ╱         solve the two equations of its corner, and its vertex keeps the pixel's place, up to half a kerf too near.
 //!       ●──╱──        So it goes straight away from what is nearest, until nothing is too near: that ends at the corner.
 //! ```
@@ -10,10 +10,10 @@ use rustc_hash::FxHashMap;
 
 use crate::geometry::Nm;
 
-use super::Diagram;
 use super::near::Near;
 use super::span::Vertex;
 use super::stitch::Line;
+use super::{BACKGROUND, Diagram};
 
 /// What lies nearer than this below its level is there by rounding, in nanometres.
 const ROUNDING: f64 = 50.0;
@@ -28,7 +28,8 @@ impl Diagram {
         let level = level.to_f64();
         let leash = 3.0 * self.grid.pitch().to_f64();
         let mut moved: FxHashMap<[u64; 2], Vertex> = FxHashMap::default();
-        for vertex in lines.iter_mut().flat_map(|line| &mut line.vertices) {
+        let of_level = lines.iter_mut().filter(|line| line.left == BACKGROUND || line.right == BACKGROUND);
+        for vertex in of_level.filter(|line| !line.is_border()).flat_map(|line| &mut line.vertices) {
             if vertex.has_course() && vertex.clearance() > level - ROUNDING {
                 continue;
             }

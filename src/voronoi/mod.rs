@@ -368,6 +368,9 @@ impl Diagram {
         let (traced, torn) = (stitcher.unplaced, stitcher.torn());
         let mut lines = stitcher.lines();
         let unplaced = traced.join(self.extend_tips(&mut lines));
+        if let Some(level) = self.settings.limit {
+            self.keep_off(&mut lines, level);
+        }
         let sizes = artifact::Sizes { stub: self.settings.tolerance / 2, sliver: self.grid.pitch() * 2 };
         warnings.extend(sizes.merge(&mut lines));
         self.border.follow(&mut lines, self.grid.pitch());

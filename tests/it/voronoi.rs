@@ -412,6 +412,17 @@ fn a_pass_ends_at_the_near_tip_of_a_lens_not_at_the_far_one() {
 }
 
 #[test]
+fn loops_keep_off_the_copper_in_bays_and_holes_of_a_few_pixels() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    for name in ["bay_beside_a_tip", "hole_of_a_kerf"] {
+        let file = format!("{}/fixtures/voronoi/{name}.gbr", env!("CARGO_MANIFEST_DIR"));
+        let options = ["--strategy", "outline", "--tool", "endmill:0.15mm", "-o", "out"];
+        let done = voromill(folder.path(), &[&["mill", &file][..], &options].concat());
+        assert!(done.status.success(), "{name}: copper is cut away:\n{}", stdout(&done));
+    }
+}
+
+#[test]
 fn loops_that_touch_in_pixels_alone_are_parted() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/voronoi/loops_that_all_but_touch.gbr");

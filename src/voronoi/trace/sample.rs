@@ -154,6 +154,9 @@ impl Tracer<'_> {
             let onward = |placed: &Placed| {
                 placed.vertex.is_between(from.vertex, to.vertex)
                     || (middle - i > LOOK_AHEAD && j - middle > LOOK_AHEAD)
+                    || [from, to]
+                        .iter()
+                        .all(|end| (end.vertex.at - anchor.at).length() > 2.0 * self.placer.leash)
             };
             if let Some(placed) = placed.filter(onward) {
                 return Some((middle, placed));
