@@ -114,6 +114,7 @@ const PIXELS_A_KERF: i64 = 4;
 fn pitch(settings: &Settings, gap: Option<&Gap>, has_loops: bool) -> Nm {
     let follows = has_loops
         || settings.limit.is_some()
+        || (settings.sites == Sites::Core && settings.min_width)
         || settings.isolation.iter().any(|cutting| cutting.widening.is_some());
     let unasked = if follows { COARSEST.min(settings.finest_kerf() / PIXELS_A_KERF) } else { COARSEST };
     let asked = settings.pixel.unwrap_or(unasked);
@@ -149,7 +150,8 @@ fn diagram_settings(settings: &Settings, pitch: Nm) -> voronoi::Settings {
             Sites::Core => SiteKind::Core,
         },
         limit: settings.limit,
-        min_width: settings.min_width,
+        // A cut along the edge of a region then leaves the copper alone, where there is room.
+        min_width: settings.min_width.then(|| settings.finest_kerf() / 2 + settings.tolerance),
         tolerance: settings.tolerance,
         // The end of a cut is round: with half a kerf beyond the outline its whole width reaches the edge, and a fine
         // cutter leaves no scratches outside.

@@ -161,8 +161,9 @@ pub struct Settings {
     /// How far regions reach (§III-D.1); none for as far as there is room. The outline strategy is `copper` sites with
     /// the cutter's radius here (§III-C).
     pub limit: Option<Nm>,
-    /// Whether with [`SiteKind::Core`] every region holds at least its net's copper (§III-D.2).
-    pub min_width: bool,
+    /// With [`SiteKind::Core`], what every region holds at least: its net's copper (§III-D.2), fattened by so much (§III-C), but no more than half of
+    /// the gap; none for no such minimum.
+    pub min_width: Option<Nm>,
     /// How far a fitted path may leave the true boundary.
     pub tolerance: Nm,
     /// Whether paths may have arcs.
@@ -179,7 +180,7 @@ impl Default for Settings {
             pitch: Nm::new(25_400),
             sites: SiteKind::Copper,
             limit: None,
-            min_width: true,
+            min_width: Some(Nm::ZERO),
             tolerance: Nm::from_um(2),
             arcs: true,
             overlap: Nm::from_um(100),
@@ -420,7 +421,7 @@ impl Diagram {
         let fit = |line: Line| {
             let mut samples = span::samples(&line.vertices);
             if let Some(edges) = &self.edges {
-                samples.iter_mut().for_each(|sample| sample.clearance = edges.distance(sample.at));
+                samples = edges.keep_off(&samples, self.sites.band.to_f64());
             }
             let fitted = fit::fit(&samples, self.settings.tolerance, self.settings.arcs)?;
             Some((fitted, (line.left, line.right), line.ends.is_none()))

@@ -166,6 +166,11 @@ pub(super) struct Placer<'a> {
 }
 
 impl Placer<'_> {
+    /// How far from a trace's own copper its region reaches at least, in nanometres.
+    pub(super) fn band(&self) -> f64 {
+        self.sites.band.to_f64()
+    }
+
     /// The nearest of several sites. An edge of a ring that shows its back, across a thin piece of copper, is no nearer for that.
     fn reach(&self, candidates: &Candidates, p: Spot) -> Reach {
         self.nearest(candidates, p).1
@@ -354,7 +359,7 @@ impl Placer<'_> {
         };
         match curve {
             Curve::Between(a, b) => Target::Between(only(a), only(b)),
-            Curve::At(a) if self.sites.sites[a as usize].flat => Target::At(only(a), 0.0),
+            Curve::At(a) if self.sites.sites[a as usize].flat => Target::At(only(a), self.band()),
             Curve::At(a) => Target::At(only(a), level),
             Curve::Border => Target::OnBorder,
         }

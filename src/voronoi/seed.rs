@@ -21,6 +21,8 @@ use super::{BACKGROUND, OUTSIDE, Settings, SiteKind};
 pub(super) struct Sites {
     pub(super) sites: Vec<Site>,
     pub(super) rings: Rings,
+    /// How far flat copper is fattened.
+    pub(super) band: Nm,
 }
 
 /// The label of what lies beyond the border.
@@ -55,13 +57,14 @@ impl Sites {
         let mut sites = Self {
             sites: vec![nobody(Form::Point(start), BACKGROUND), nobody(Form::Outside, OUTSIDE)],
             rings: Rings::default(),
+            band: settings.min_width.filter(|_| settings.sites == SiteKind::Core).unwrap_or(Nm::ZERO),
         };
         let tolerance = settings.pitch.to_f64() / 8.0;
         for (i, feature) in copper.features.iter().enumerate().filter(|(i, _)| keep(*i)) {
             let owner = owner_of(nets.of(i));
             match settings.sites {
                 SiteKind::Copper => sites.add_copper(&feature.shape, owner, false, tolerance),
-                SiteKind::Core => sites.add_core(feature, owner, settings.min_width, tolerance),
+                SiteKind::Core => sites.add_core(feature, owner, settings.min_width.is_some(), tolerance),
             }
         }
         sites.sites.push(nobody(Form::Outside, OUTSIDE));
@@ -126,7 +129,7 @@ impl Sites {
             Some(Axis::Flash(p)) => self.push(Form::Point(p.into()), 0.0, owner, false),
             Some(Axis::Line(a, b)) => self.push(Form::Line(a.into(), b.into()), 0.0, owner, false),
             Some(Axis::Arc(arc)) => self.add_arc(&arc, 0.0, owner, false),
-            Some(Axis::Region) | None => return self.add_copper(&feature.shape, owner, false, tolerance),
+            Some(Axis::Region) | None => self.add_copper(&feature.shape, owner, false, tolerance),
         }
         if min_width {
             self.add_copper(&feature.shape, owner, true, tolerance);
@@ -174,9 +177,14 @@ impl Sites {
         scene
             .add(OUTSIDE_LABEL, Surface::Polygon { contours, rule: FillRule::EvenOdd, depth: OUTSIDE_DEPTH });
         for (label, site) in (0_u32..).zip(&self.sites).skip(2) {
-            let offset = grid.pixels(Nm::from_f64(site.radius));
-            // A trace's own copper lies above the cones and reaches no further than itself.
-            let limit = if site.flat { Some(0.0) } else { limit };
+            // A trace's own copper lies above the cones: they begin where its band ends.
+            let band = grid.pixels(self.band);
+            let radius = grid.pixels(Nm::from_f64(site.radius));
+            let (offset, limit) = if site.flat {
+                (radius, Some(band))
+            } else {
+                (radius - band, limit.map(|limit| limit + band))
+            };
             let surface = match &site.form {
                 Form::Point(apex) => Surface::Cone { apex: at(*apex), offset, limit },
                 Form::Line(a, b) => Surface::Curtain {
@@ -196,7 +204,7 @@ impl Sites {
                     offset,
                     limit,
                 },
-                Form::Chain { ring, first, count } if !site.flat => {
+                Form::Chain { ring, first, count } if !site.flat || band > 0.0 => {
                     let vertices = self.rings.ring(*ring);
                     let (first, count) = (*first as usize, *count as usize);
                     let (from, to) = (at(vertices[first]), at(vertices[(first + count) % vertices.len()]));

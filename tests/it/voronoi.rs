@@ -476,25 +476,41 @@ fn core_sites_keep_every_net_whole_and_know_the_clearance() {
     let mut copper = layer([wide, thin]);
     copper.features[0].axis = Axis::Line(at(0, 0), at(4000, 0));
     copper.features[1].axis = Axis::Line(at(0, 900), at(4000, 900));
-    let settings = Settings { sites: SiteKind::Core, ..Settings::default() };
     let nets = topology::recover(&copper, Method::Contact);
-    let found = Diagram::new(&copper, &nets, None, &settings).expect("a diagram").boundaries().0;
-    for edge in found.edges.iter().filter(|edge| !edge.is_border()) {
-        let points =
-            std::iter::once(edge.path.start).chain(edge.path.segments.iter().map(|segment| segment.to()));
-        for (p, clearance) in points.zip(&edge.clearance) {
-            let (x, y) = p.to_f64();
-            let nearest = oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
-            assert!((nearest - clearance.to_f64()).abs() < 2.0, "{nearest} nm from copper, not {clearance}");
-            assert!(!edge.left.eq(&edge.right), "two regions");
+    for fattened in [0, 100] {
+        let min_width = Some(Nm::from_um(fattened));
+        let settings = Settings { sites: SiteKind::Core, min_width, ..Settings::default() };
+        let found = Diagram::new(&copper, &nets, None, &settings).expect("a diagram").boundaries().0;
+        for edge in found.edges.iter().filter(|edge| !edge.is_border()) {
+            let points =
+                std::iter::once(edge.path.start).chain(edge.path.segments.iter().map(|segment| segment.to()));
+            for (p, clearance) in points.zip(&edge.clearance) {
+                let (x, y) = p.to_f64();
+                let nearest =
+                    oracle::distances(&copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+                assert!(
+                    (nearest - clearance.to_f64()).abs() < 2.0,
+                    "{nearest} nm from copper, not {clearance}"
+                );
+                assert!(!edge.left.eq(&edge.right), "two regions");
+            }
         }
+        // Midway between the axes would be 450 µm up, inside the wide trace: the boundary runs along its edge, or so far from it.
+        let inner = found.edges.iter().filter(|edge| !edge.is_border());
+        let middle = inner.flat_map(|edge| edge.path.flatten(Nm::new(100)));
+        let lowest =
+            middle.filter(|p| p.x > Nm::ZERO && p.x < Nm::from_mm(4)).map(|p| p.y).min().expect("points");
+        let edge = Nm::from_um(600 + fattened);
+        assert!((lowest - edge).abs() <= Nm::from_um(3), "the boundary runs at {lowest}, not {edge}");
     }
-    // Midway between the axes would be 450 µm up, inside the wide trace: the boundary runs along its edge.
-    let middle =
-        found.edges.iter().filter(|edge| !edge.is_border()).flat_map(|edge| edge.path.flatten(Nm::new(100)));
-    let lowest =
-        middle.filter(|p| p.x > Nm::ZERO && p.x < Nm::from_mm(4)).map(|p| p.y).min().expect("points");
-    assert!((lowest - Nm::from_um(600)).abs() <= Nm::from_um(3), "the boundary runs at {lowest}");
+}
+
+#[test]
+fn cuts_between_axes_leave_the_copper_alone() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let board = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/boards/blinker");
+    let done = voromill(folder.path(), &["mill", board, "--sites", "core", "-o", "out"]);
+    assert!(done.status.success(), "copper is cut away:\n{}", stdout(&done));
 }
 
 fn shape() -> impl Strategy<Value = Shape> {

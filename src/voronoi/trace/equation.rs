@@ -42,15 +42,14 @@ impl Tracer<'_> {
     /// The equation of a boundary between two owners, with the sites seen in a window of pixels.
     fn target(&self, owners: (u32, u32), pair: (u32, u32), window: (i32, i32, i32, i32)) -> Target {
         let (a, b) = (self.candidates(owners.0, pair.0, window), self.candidates(owners.1, pair.1, window));
-        match owners {
-            (OUTSIDE, _) | (_, OUTSIDE) => Target::OnBorder,
-            (BACKGROUND, _) => Target::At(b, self.course.level),
-            (_, BACKGROUND) => Target::At(a, self.course.level),
-            _ => match (self.flat(a), self.flat(b)) {
-                (Some(a), None) => Target::At(a, 0.0),
-                (None, Some(b)) => Target::At(b, 0.0),
-                _ => Target::Between(a, b),
-            },
+        let (band, level) = (self.placer.band(), self.course.level);
+        match (owners, self.alike(a), self.alike(b)) {
+            ((OUTSIDE, _) | (_, OUTSIDE), ..) => Target::OnBorder,
+            ((BACKGROUND, _), _, (is_flat, b)) => Target::At(b, if is_flat { band } else { level }),
+            ((_, BACKGROUND), (is_flat, a), _) => Target::At(a, if is_flat { band } else { level }),
+            (_, (true, a), (false, _)) => Target::At(a, band),
+            (_, (false, _), (true, b)) => Target::At(b, band),
+            (_, (_, a), (_, b)) => Target::Between(a, b),
         }
     }
 
@@ -76,20 +75,21 @@ impl Tracer<'_> {
         candidates
     }
 
-    /// Those candidates that are a trace's own copper above the cones, if the first one is.
-    fn flat(&self, candidates: Candidates) -> Option<Candidates> {
+    /// Whether the first candidate is a trace's own copper above the cones, with those that are as it is.
+    fn alike(&self, candidates: Candidates) -> (bool, Candidates) {
         let is_flat = |label: u32| self.placer.sites.sites[label as usize].flat;
-        let first = *candidates.as_slice().first()?;
-        is_flat(first).then(|| {
-            let mut flats = Candidates::default();
-            candidates
-                .as_slice()
-                .iter()
-                .copied()
-                .filter(|&label| is_flat(label))
-                .for_each(|label| flats.add(label));
-            flats
-        })
+        let first = candidates.as_slice().first().is_some_and(|&label| is_flat(label));
+        if self.placer.near.is_some() {
+            return (first, candidates);
+        }
+        let mut alike = Candidates::default();
+        candidates
+            .as_slice()
+            .iter()
+            .copied()
+            .filter(|&label| is_flat(label) == first)
+            .for_each(|l| alike.add(l));
+        (first, alike)
     }
 
     /// The place of a piece's end, and whether it is open: the same whichever piece, of whichever tile, asks. `crack` leaves from there.
