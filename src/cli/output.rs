@@ -1,6 +1,8 @@
 //! Files appear whole or not at all: all are written beside their place under another name, and renamed once
-//! every one of them is complete.
+//! every one of them is complete. A link is followed, and what is no file (a device, a pipe) is written to as it
+//! stands: renamed onto, `/dev/null` would be a file from then on, for every program of the machine.
 
+use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -10,6 +12,8 @@ use super::failure::Failure;
 pub(super) struct Output {
     /// Where it is now, where it will be.
     staged: Vec<(PathBuf, PathBuf)>,
+    /// Devices and pipes, and what goes into them.
+    streams: Vec<(PathBuf, Vec<u8>)>,
     /// Folders that were made for it, outermost first.
     made: Vec<PathBuf>,
 }
@@ -17,7 +21,7 @@ pub(super) struct Output {
 impl Output {
     /// No file yet.
     pub(super) const fn new() -> Self {
-        Self { staged: Vec::new(), made: Vec::new() }
+        Self { staged: Vec::new(), streams: Vec::new(), made: Vec::new() }
     }
 
     /// Makes `folder` and what is missing above it.
@@ -38,6 +42,11 @@ impl Output {
             let error = std::io::Error::from(std::io::ErrorKind::IsADirectory);
             return Err(Failure::io("write", path, &error));
         }
+        let path = &*followed(path);
+        if path.exists() && !path.is_file() {
+            self.streams.push((path.to_path_buf(), bytes.to_vec()));
+            return Ok(());
+        }
         if self.staged.iter().any(|(_, staged)| staged == path) {
             let hint = "choose another name with --output-name";
             return Err(Failure::new(format!("two outputs would be {}", path.display()), hint));
@@ -55,8 +64,17 @@ impl Output {
         }
         self.staged.clear();
         self.made.clear();
+        for (path, bytes) in &self.streams {
+            fs::write(path, bytes).map_err(|error| Failure::io("write", path, &error))?;
+        }
         Ok(())
     }
+}
+
+/// Where a link leads, or `path` itself.
+fn followed(path: &Path) -> Cow<'_, Path> {
+    let target = path.is_symlink().then(|| fs::canonicalize(path).ok()).flatten();
+    target.map_or(Cow::Borrowed(path), Cow::Owned)
 }
 
 /// What was not committed leaves no trace.

@@ -184,6 +184,34 @@ fn one_layer_goes_to_stdout_alone() {
 
 #[test]
 #[cfg(unix)]
+fn a_pipe_and_a_link_stay_what_they_are() {
+    use std::os::unix::fs::FileTypeExt as _;
+    let out = folder();
+    let layer = fixture("boards/blinker/blinker-B_Cu.gbr");
+    let isolate = |name: &str| voromill(out.path(), &["isolate", &layer.to_string_lossy(), "-q", "-o", name]);
+    let path = |name: &str| out.path().join(name);
+    assert!(isolate("file.ngc").status.success(), "a file");
+    let program = fs::read(path("file.ngc")).expect("written");
+
+    std::os::unix::fs::symlink("file.ngc", path("link.ngc")).expect("a link");
+    fs::write(path("file.ngc"), "old").expect("written");
+    assert!(isolate("link.ngc").status.success(), "through a link");
+    assert!(path("link.ngc").is_symlink(), "it is still a link");
+    assert!(fs::read(path("file.ngc")).expect("there") == program, "where it leads lies the program");
+
+    let made = Command::new("mkfifo").arg(path("pipe.ngc")).status().expect("mkfifo runs");
+    assert!(made.success(), "a pipe with a name");
+    let pipe = path("pipe.ngc");
+    let reader = std::thread::spawn(move || fs::read(pipe));
+    assert!(isolate("pipe.ngc").status.success(), "into a pipe");
+    let kind = fs::metadata(path("pipe.ngc")).expect("there").file_type();
+    assert!(kind.is_fifo(), "as /dev/null must stay what it is");
+    assert!(reader.join().expect("read").expect("read") == program, "who reads gets the program");
+    assert_eq!(listing(out.path()), ["file.ngc", "link.ngc", "pipe.ngc"], "and nothing else");
+}
+
+#[test]
+#[cfg(unix)]
 fn a_result_that_nobody_can_take_is_an_error() {
     let out = folder();
     let layer = fixture("boards/blinker/blinker-B_Cu.gbr");
