@@ -14,7 +14,9 @@ use super::OUTSIDE;
 use super::plane::Spot;
 use super::span::Vertex;
 use super::stitch::Line;
-use super::tip::{End, HALVINGS, MISPLACED, Nodes, Tips, end_vertex, open_nodes, outward, owners_at};
+use super::tip::{
+    End, HALVINGS, MISPLACED, Nodes, Tips, end_vertex, open_nodes, outward, owners_at, third_at,
+};
 use super::trace::Corner;
 
 /// The two pairs of ends that are to be joined past a place where two regions seem to touch, and these two.
@@ -164,13 +166,6 @@ impl Tips<'_> {
         vertices.extend(onward);
         Some(Line { vertices, left, right, ends: far_corner(lines, here).zip(far_corner(lines, there)) })
     }
-}
-
-/// The region at a node of three lines that is not beside one of them.
-fn third_at(lines: &[Line], ends: &[End], line: &Line) -> Option<u32> {
-    let owners = owners_at(lines, ends);
-    let third = owners.iter().copied().find(|&owner| owner != line.left && owner != line.right);
-    third.filter(|&third| ends.len() == 3 && owners.len() == 3 && third != OUTSIDE)
 }
 
 /// The line along the border that runs up to one end and on from the other: its way in between is the border's own.

@@ -15,7 +15,7 @@ use super::OUTSIDE;
 use super::plane::Spot;
 use super::span::Vertex;
 use super::stitch::Line;
-use super::tip::{ACCEPTED, End, NEARER, Nodes, SETTLED, STEPS, Tips, end_vertex, nodes, third_owner};
+use super::tip::{ACCEPTED, End, NEARER, Nodes, SETTLED, STEPS, Tips, end_vertex, nodes, third_at};
 use super::trace::Corner;
 
 /// Crossing over one boundary may let the next one: rounds at most. Chosen: more than one is rare.
@@ -56,8 +56,8 @@ impl Tips<'_> {
             return None;
         }
         let (first, last) = (line.vertices[0], line.vertices[line.vertices.len() - 1]);
-        let behind = third_owner(lines, &nodes[&here], line)?;
-        let ahead = third_owner(lines, &nodes[&there], line)?;
+        let behind = third_at(lines, &nodes[&here], line)?;
+        let ahead = third_at(lines, &nodes[&there], line)?;
         if behind == ahead || !self.is_nearer(first, ahead) || !self.is_nearer(last, behind) {
             return None;
         }

@@ -121,11 +121,14 @@ impl Tips<'_> {
             })
     }
 
-    /// Moves the node at which three lines end to its place, if that can be found.
+    /// Moves the node at which three lines end to its place, if that can be found; those at the border are left.
     fn node(&self, lines: &mut [Line], ends: &[End]) {
+        if owners_at(lines, ends).contains(&OUTSIDE) {
+            return;
+        }
         let found = ends.iter().find_map(|end| {
             let line = &lines[end.line];
-            let third = third_owner(lines, ends, line)?;
+            let third = third_at(lines, ends, line)?;
             self.tip(&outward(line, end.tail), (line.left, line.right), third)
         });
         let Some(tip) = found else { return };
@@ -134,7 +137,7 @@ impl Tips<'_> {
             .map(|end| {
                 let line = &lines[end.line];
                 let vertices = outward(line, end.tail);
-                let Some(third) = third_owner(lines, ends, line) else { return Some(vertices) };
+                let Some(third) = third_at(lines, ends, line) else { return Some(vertices) };
                 self.led_to(&vertices, tip, (line.left, line.right), third)
             })
             .collect();
@@ -268,13 +271,11 @@ pub(super) fn open_nodes(lines: &[Line]) -> Nodes {
     nodes(lines, |corner| corner.open)
 }
 
-/// The owner that meets those of `line` at a node of three lines; none where another number of regions meets, or the border.
-pub(super) fn third_owner(lines: &[Line], ends: &[End], line: &Line) -> Option<u32> {
+/// The region at a node of three lines and three owners that is not beside `line`; none where that is the outside.
+pub(super) fn third_at(lines: &[Line], ends: &[End], line: &Line) -> Option<u32> {
     let owners = owners_at(lines, ends);
-    if ends.len() != 3 || owners.len() != 3 || owners.contains(&OUTSIDE) {
-        return None;
-    }
-    owners.into_iter().find(|&owner| owner != line.left && owner != line.right)
+    let third = owners.iter().copied().find(|&owner| owner != line.left && owner != line.right);
+    third.filter(|&third| ends.len() == 3 && owners.len() == 3 && third != OUTSIDE)
 }
 
 /// Whose regions meet at a node, each once.
