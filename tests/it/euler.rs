@@ -123,10 +123,7 @@ fn wrong(found: &Boundaries) -> Option<String> {
 #[test]
 fn eulers_formula_holds_on_every_board() {
     let mut faults = Vec::new();
-    for Layer { name, copper, outline } in real_boards::layers() {
-        if cfg!(debug_assertions) && copper.features.len() > FEATURES_UNOPTIMISED {
-            continue;
-        }
+    for Layer { name, copper, outline } in real_boards::layers(FEATURES_UNOPTIMISED) {
         let nets = topology::recover(&copper, Method::Contact);
         let gap = topology::smallest_gap(&copper, &nets);
         let pitch = gap.map_or(PITCH, |gap| (gap.width / 3).max(Nm::from_um(5)).min(PITCH));

@@ -12,9 +12,15 @@ pub(crate) struct Layer {
     pub(crate) outline: Option<Outline>,
 }
 
-/// All layers, board by board; nothing, with a message, where there are no boards.
+/// All layers, board by board; an unoptimised test gets those with at most so many features.
+pub(crate) fn layers(unoptimised: usize) -> impl Iterator<Item = Layer> {
+    let is_quick = move |layer: &Layer| !cfg!(debug_assertions) || layer.copper.features.len() <= unoptimised;
+    all().into_iter().filter(is_quick)
+}
+
+/// Nothing, with a message, where there are no boards.
 #[expect(clippy::print_stderr, reason = "a test that skips says so")]
-pub(crate) fn layers() -> Vec<Layer> {
+fn all() -> Vec<Layer> {
     let folder =
         std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
     let Ok(entries) = std::fs::read_dir(&folder) else {

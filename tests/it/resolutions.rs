@@ -79,10 +79,7 @@ fn compare(coarse: &Boundaries, fine: &Boundaries, pitch: i64) -> (f64, Spot, f6
 #[test]
 fn a_board_has_the_same_paths_at_any_resolution() {
     let mut wrong = Vec::new();
-    for Layer { name, copper, outline } in real_boards::layers() {
-        if cfg!(debug_assertions) && copper.features.len() > FEATURES_UNOPTIMISED {
-            continue;
-        }
+    for Layer { name, copper, outline } in real_boards::layers(FEATURES_UNOPTIMISED) {
         let nets = topology::recover(&copper, Method::Contact);
         if nets.nets().len() < 2 {
             continue;
