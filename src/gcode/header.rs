@@ -1,3 +1,5 @@
+use crate::toolpath::duration;
+
 /// What a program says of itself before it begins: what made it, from what, how. No clock, no path, no host.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Header {
@@ -31,39 +33,5 @@ impl Header {
         lines.extend(self.settings.iter().map(|(name, value)| format!("{name} {value}")));
         lines.extend(self.seconds.map(|seconds| format!("takes about {}", duration(seconds))));
         lines
-    }
-}
-
-/// As people say it: `1 h 5 min`, `12 min`, `40 s`.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "`as` saturates; a display figure"
-)]
-fn duration(seconds: f64) -> String {
-    let whole = seconds.round() as u64;
-    let minutes = whole.div_ceil(60);
-    match (minutes / 60, minutes % 60) {
-        _ if whole < 60 => format!("{whole} s"),
-        (0, minutes) => format!("{minutes} min"),
-        (hours, minutes) => format!("{hours} h {minutes} min"),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn durations_are_said_as_people_say_them() {
-        for (seconds, said) in [
-            (12.4, "12 s"),
-            (61.0, "2 min"),
-            (3599.0, "1 h 0 min"),
-            (7199.0, "2 h 0 min"),
-            (4000.0, "1 h 7 min"),
-        ] {
-            assert_eq!(duration(seconds), said, "{seconds} s");
-        }
     }
 }

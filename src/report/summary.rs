@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use super::document::{Document, Figures, LayerEntry, WarningEntry};
 use crate::board::{self, Severity};
+use crate::toolpath::duration;
 
 /// Warnings of one kind that are shown; the rest are counted.
 const SHOWN: usize = 3;
@@ -126,21 +127,6 @@ pub(super) fn count(number: usize, what: &str) -> String {
     if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
 }
 
-/// As people say it: `1:05 h`, `12:30 min`, `40 s`.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "`as` saturates; a display figure"
-)]
-fn duration(seconds: f64) -> String {
-    let whole = seconds.round() as u64;
-    match (whole / 3600, whole / 60 % 60, whole % 60) {
-        (0, 0, seconds) => format!("{seconds} s"),
-        (0, minutes, seconds) => format!("{minutes}:{seconds:02} min"),
-        (hours, minutes, _) => format!("{hours}:{minutes:02} h"),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -180,12 +166,5 @@ mod tests {
         assert_eq!(layer(None).lengths(), "boundaries 208 mm", "an outline is no lap");
         let framed = layer(Some(Millimetres(Nm::from_mm(81)))).lengths();
         assert_eq!(framed, "boundaries 208 mm, 289 mm with the lap round the frame", "both lengths");
-    }
-
-    #[test]
-    fn durations_read_well() {
-        for (seconds, text) in [(40.2, "40 s"), (750.0, "12:30 min"), (3900.0, "1:05 h")] {
-            assert_eq!(duration(seconds), text, "{seconds} s");
-        }
     }
 }

@@ -208,6 +208,22 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// A time in seconds as people say it: `1:05 h`, `12:30 min`, `40 s`.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "`as` saturates; a display figure"
+)]
+#[must_use]
+pub fn duration(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match (whole / 3600, whole / 60 % 60, whole % 60) {
+        (0, 0, seconds) => format!("{seconds} s"),
+        (0, minutes, seconds) => format!("{minutes}:{seconds:02} min"),
+        (hours, minutes, _) => format!("{hours}:{minutes:02} h"),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -232,5 +248,12 @@ mod tests {
         let planner = Planner::new(&machine);
         assert!(planner.corner([1.0, 0.0, 0.0], [1.0, 0.0, 0.0]).is_infinite(), "straight on");
         assert!(planner.corner([1.0, 0.0, 0.0], [-1.0, 0.0, 0.0]) < 1.0, "back");
+    }
+
+    #[test]
+    fn durations_read_well() {
+        for (seconds, text) in [(40.2, "40 s"), (750.0, "12:30 min"), (3900.0, "1:05 h")] {
+            assert_eq!(duration(seconds), text, "{seconds} s");
+        }
     }
 }

@@ -23,7 +23,7 @@ pub use angle::{Angle, ParseAngleError};
 pub use feed::{Feed, ParseFeedError};
 pub use heights::Heights;
 pub use machine::Machine;
-pub use measure::{Statistics, ToolStatistics, measure};
+pub use measure::{Statistics, ToolStatistics, duration, measure};
 pub use order::Order;
 pub use placement::{Origin, Placement};
 pub use program::{Move, Position, Program, Section};
