@@ -145,8 +145,8 @@ fn refuse_narrow(layers: &[Layer]) -> Result<(), Error> {
         .map_or(String::new(), |at| format!(" at x = {:.3} mm, y = {:.3} mm of the files", at.x, at.y));
     let more = match narrow.len() - 1 {
         0 => String::new(),
-        1 => ", and one more is".to_owned(),
-        more => format!(", and {more} more are"),
+        1 => ", and at one more place".to_owned(),
+        more => format!(", and at {more} more places"),
     };
     Err(Error::Narrow(format!("{side}{gap}{place}{more}")))
 }

@@ -138,7 +138,7 @@ fn a_gap_too_narrow_is_an_error_where_that_is_asked_for() {
     let (code, message) = mill(&["--tool", "endmill:0.8mm", "--narrow", "error"]);
     assert_eq!(code, Some(2), "it does not fit");
     assert!(
-        message.contains("narrower than the kerf of 800.0 µm at x = ") && message.contains("hint: "),
+        message.contains("less than its kerf of 800.0 µm at x = ") && message.contains("hint: "),
         "{message}"
     );
     assert!(!folder.path().join("out").exists(), "nothing is made");

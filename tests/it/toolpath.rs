@@ -146,7 +146,7 @@ fn a_gap_narrower_than_the_kerf_is_listed_with_its_place_and_its_nets() {
     let (all, warnings) = isolate("", &forks(), &[], |_| Role::Cut, name, &settings);
     let [warning] = warnings.as_slice() else { panic!("one boundary is narrow: {warnings:?}") };
     assert_eq!((warning.code, warning.at), ("gap-narrower-than-tool", Some(at(9000, 0))), "where it is");
-    for part in ["GND and VCC", "120.0 µm", "153.6 µm", "16.8 µm"] {
+    for part in ["GND and VCC", "120.0 µm of room", "153.6 µm", "16.8 µm"] {
         assert!(warning.message.contains(part), "`{}` does not say `{part}`", warning.message);
     }
     settings.narrow = Narrow::Skip;

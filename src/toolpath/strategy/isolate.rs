@@ -123,7 +123,7 @@ impl<'a> Way<'a> {
     }
 }
 
-/// The warning for a boundary whose gap the kerf does not fit.
+/// The warning for a boundary that comes nearer to copper than half the kerf.
 fn contention(
     boundary: &Boundary,
     kerf: Nm,
@@ -139,13 +139,12 @@ fn contention(
     let at = vertex(&boundary.path, index);
     let [left, right] = [boundary.left, boundary.right].map(&name);
     let done = match narrow {
-        Narrow::Centre => {
-            format!("the cut stays centred and takes {:.1} µm of copper on each side", micrometres(lost))
-        }
-        Narrow::Skip => "it is not cut and the two stay joined".to_owned(),
+        Narrow::Centre => format!("it takes up to {:.1} µm of copper on each side", micrometres(lost)),
+        Narrow::Skip => "it is left out, and the two stay joined".to_owned(),
     };
+    // The room is the gap where the cut is midway between copper. Along core axes it is not.
     let message = format!(
-        "the gap between {left} and {right} is {:.1} µm, narrower than the kerf of {:.1} µm: {done}",
+        "the cut between {left} and {right} has {:.1} µm of room, less than its kerf of {:.1} µm: {done}",
         micrometres(clearance * 2),
         micrometres(kerf),
     );
