@@ -77,7 +77,7 @@ enum Stage {
     Boundaries,
     /// The boundaries by the room that they leave on either side: red where there is least, blue from a millimetre on
     Heat,
-    /// How far from copper, dark to light
+    /// How far from copper, dark to light: half as bright is a quarter as far
     Depth,
     /// What is cut, at its true width, and the way through the air
     Toolpath,
