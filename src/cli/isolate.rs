@@ -46,14 +46,14 @@ impl Isolate {
             return Err(Failure::new("there is copper for both sides, and a program is for one", hint));
         }
         loaded.board.holes.clear();
-        let job = job::mill(loaded, &settings)?;
+        let mut job = job::mill(loaded, &settings)?;
+        // No other is written, so no other is told of.
+        job.programs.retain(|program| matches!(program.part, Part::Front | Part::Back));
         let document = job.describe(&settings);
         self.input.judge(&document.warnings)?;
         drop(progress);
-        let mut programs =
-            job.programs.iter().filter(|program| matches!(program.part, Part::Front | Part::Back));
-        let text = programs.next().map_or("", |program| &program.text);
-        if programs.next().is_some() {
+        let text = job.programs.first().map_or("", |program| &program.text);
+        if job.programs.len() > 1 {
             let hint = "`voromill mill` writes them all";
             return Err(Failure::new(
                 "the dialect wants a file for each tool, and this is for one file",

@@ -14,6 +14,7 @@ mod mill;
 mod output;
 mod probe;
 mod progress;
+mod scope;
 mod tools;
 mod verify;
 
@@ -88,11 +89,13 @@ struct Shared {
 
 /// Reads the arguments, does what they say, prints errors.
 pub(crate) fn run() -> ExitCode {
-    let cli = match command().try_get_matches().and_then(|matches| Cli::from_arg_matches(&matches)) {
-        Ok(cli) => cli,
+    let read = command().try_get_matches();
+    let (cli, matches) = match read.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches))) {
+        Ok(read) => read,
         Err(error) => error.format(&mut command()).exit(),
     };
-    let done = cli.shared.start_threads().and_then(|()| match cli.command {
+    let ready = scope::check(&matches).and_then(|()| cli.shared.start_threads());
+    let done = ready.and_then(|()| match cli.command {
         Command::Mill(mill) => mill.run(cli.shared),
         Command::Isolate(isolate) => isolate.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Draw(draw) => draw.run(cli.shared).map(|()| ExitCode::SUCCESS),
@@ -113,10 +116,10 @@ pub(crate) fn run() -> ExitCode {
     }
 }
 
-/// The command with the default of each option, as the built-in settings have it, in its help.
+/// The command with the default of each option that it takes, as the built-in settings have it, in its help.
 fn command() -> clap::Command {
     let defaults = Options::defaults().listed();
-    Cli::command().mut_subcommands(move |sub| {
+    scope::hidden(Cli::command()).mut_subcommands(move |sub| {
         let defaults = defaults.clone();
         sub.mut_args(move |argument| {
             let key = argument.get_id().as_str().replace('_', "-");

@@ -42,8 +42,9 @@ pub struct Written {
 }
 
 impl Part {
-    /// Whether an option changes this program.
-    fn is_changed_by(self, option: &str) -> bool {
+    /// Whether an option, by its key in the settings file, changes this program.
+    #[must_use]
+    pub fn is_changed_by(self, option: &str) -> bool {
         match option {
             "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
             "feed" | "plunge" | "spindle" | "spin-up" | "safe-z" | "dialect" | "origin" | "tile"

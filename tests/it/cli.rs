@@ -260,6 +260,38 @@ fn what_is_no_program_is_shown_by_its_beginning() {
 }
 
 #[test]
+fn an_option_that_changes_nothing_is_neither_shown_nor_taken() {
+    let out = folder();
+    let board = fixture("boards/regulator");
+    let board = board.to_string_lossy();
+    for (command, option, value) in [
+        ("isolate", "--drill-depth", "2mm"),
+        ("isolate", "--output-name", "front=top.ngc"),
+        ("draw", "--dialect", "linuxcnc"),
+        ("draw", "--drill-bore", ""),
+        ("probe", "--width", "0.5mm"),
+        ("probe", "--no-frame", ""),
+        ("inspect", "--tool", "endmill:1mm"),
+    ] {
+        let mut given = vec![command, &board, option];
+        given.extend([value, "-o", "x"].iter().filter(|word| !word.is_empty() && command != "inspect"));
+        if command == "inspect" {
+            given.push(value);
+        }
+        fails(&out, &given, &[&format!("{option} changes nothing of what `voromill {command}` makes")], &[]);
+        let help = stdout(&voromill(out.path(), &[command, "--help"]));
+        assert!(!help.contains(option), "{command} --help is silent on {option}");
+        assert!(stdout(&voromill(out.path(), &["mill", "--help"])).contains(option), "mill takes {option}");
+    }
+    // A settings file is for all of them.
+    fs::write(out.path().join("all.toml"), "drill-depth = \"2mm\"\n").expect("written");
+    let done = voromill(out.path(), &["probe", &board, "--config", "all.toml", "-o", "probe.ngc"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let done = voromill(out.path(), &["isolate", &board, "--side", "front", "-o", "front.ngc"]);
+    assert!(!stdout(&done).contains("cutout"), "only what was written is told of: {}", stdout(&done));
+}
+
+#[test]
 fn a_default_is_told_once() {
     let out = folder();
     for command in ["mill", "isolate", "draw", "inspect", "verify", "diff", "probe", "level", "tools", "init"]

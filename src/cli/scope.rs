@@ -1,0 +1,84 @@
+//! Which options of a job mean something to which subcommand: the others are neither shown nor taken there.
+//!
+//! All that read a board share the options of a job, and its settings file, so that a board is seen as it will be milled. What changes
+//! nothing of what comes out would be believed to have done something.
+
+use clap::parser::ValueSource;
+use clap::{ArgMatches, Args, Command};
+use voromill::job::{Options, Part};
+
+use super::Failure;
+
+/// The command, with the options of a job left out of the help of the subcommands to which they mean nothing.
+pub(super) fn hidden(command: Command) -> Command {
+    let options = options();
+    command.mut_subcommands(move |sub| {
+        let (name, options) = (sub.get_name().to_owned(), options.clone());
+        sub.mut_args(move |argument| {
+            let is_idle =
+                options.contains(&argument.get_id().to_string()) && !takes(&name, argument.get_id().as_str());
+            if is_idle { argument.hide(true) } else { argument }
+        })
+    })
+}
+
+/// Fails for the first option of a job that was given to a subcommand to which it means nothing.
+pub(super) fn check(matches: &ArgMatches) -> Result<(), Failure> {
+    let Some((name, given)) = matches.subcommand() else { return Ok(()) };
+    let idle = options().into_iter().filter(|option| !takes(name, option));
+    match idle.into_iter().find(|option| given.value_source(option) == Some(ValueSource::CommandLine)) {
+        None => Ok(()),
+        Some(option) => {
+            let no = if matches!(option.as_str(), "frame" | "min_width") { "no-" } else { "" };
+            let cause =
+                format!("--{no}{} changes nothing of what `voromill {name}` makes", option.replace('_', "-"));
+            Err(Failure::new(cause, "leave it out; a settings file may have it"))
+        }
+    }
+}
+
+/// The names of a job's options.
+fn options() -> Vec<String> {
+    let options = Options::augment_args(Command::new("options"));
+    options.get_arguments().map(|argument| argument.get_id().to_string()).collect()
+}
+
+/// Whether an option of a job changes what a subcommand makes.
+fn takes(subcommand: &str, option: &str) -> bool {
+    let option = option.replace('_', "-");
+    let option = option.as_str();
+    match subcommand {
+        // How far tiles are apart unless that is said goes by the cutter between them.
+        "isolate" => Part::Front.is_changed_by(option) || option == "cutout-tool",
+        "draw" => {
+            !is_of_the_machine(option) && !option.starts_with("drill") && !option.starts_with("alignment")
+        }
+        "probe" => {
+            places(option) || matches!(option, "safe-z" | "dialect" | "blend" | "cutout-tool" | "outline-gap")
+        }
+        "inspect" => matches!(option, "topology" | "outline-gap"),
+        _ => true,
+    }
+}
+
+/// What says how boards lie on the machine.
+fn places(option: &str) -> bool {
+    matches!(option, "origin" | "rotate" | "offset" | "mirror-axis" | "tile" | "tile-spacing")
+}
+
+/// What is of the text of programs, or of the machine that reads it, and not of what is cut on a board.
+fn is_of_the_machine(option: &str) -> bool {
+    matches!(
+        option,
+        "spindle"
+            | "spin-up"
+            | "dialect"
+            | "blend"
+            | "tool-change"
+            | "tool-change-at"
+            | "tile"
+            | "tile-spacing"
+            | "machine-travel"
+            | "output-name"
+    )
+}
