@@ -118,7 +118,6 @@ fn drilled(holes: &[Trail], order: Order) -> Section {
         order,
         dwell: 0,
         speeds: (None, None),
-        taken: &[],
     };
     drill(&holes, &settings).0.remove(0)
 }

@@ -33,11 +33,9 @@ pub(super) fn isolation(
     workshop: &Workshop<'_>,
     heights: impl Fn(Nm) -> Heights,
 ) -> Result<Vec<Cutting>, Error> {
-    let mut fetched: Vec<Fetched> =
-        options.tool.iter().map(|choice| workshop.fetch("tool", choice)).collect::<Result<_, _>>()?;
-    workshop.number(&mut fetched);
-    let mut cuttings = Vec::with_capacity(fetched.len());
-    for Fetched { tool, depth, .. } in fetched {
+    let mut cuttings = Vec::with_capacity(options.tool.len());
+    for choice in &options.tool {
+        let Fetched { tool, depth } = workshop.fetch("tool", choice)?;
         let tool = not_a_drill("tool", tool)?;
         let heights = heights(depth_of(&tool, depth, options)?);
         let widening = widening(options, tool.width_at(heights.cut))?;

@@ -15,6 +15,7 @@ mod inspect;
 mod layer;
 mod merge;
 mod millproject;
+mod numbering;
 mod options;
 mod output_name;
 mod overlap;

@@ -11,7 +11,7 @@ use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
 use super::stock::Stock;
-use super::{Error, Layer, Narrow, Part, Settings, Written, by_net};
+use super::{Error, Layer, Narrow, Part, Settings, Written, by_net, numbering};
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
@@ -67,18 +67,15 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         refuse_narrow(&layers)?;
     }
     let header = header(&sources);
-    let write = |part: Part, side: Side, program: Program| {
-        Written::new((part, side), program, &header, stock.tiling(side), settings)
-    };
-    let mut programs = Vec::new();
+    let mut planned: Vec<(Part, Side, Program)> = Vec::new();
     if let Some((program, found)) = stock.alignment(&board, settings) {
-        programs.push(Written::new((Part::Alignment, Side::Front), program, &header, None, settings));
+        planned.push((Part::Alignment, Side::Front, program));
         warnings.extend(found);
     }
-    programs.par_extend(layers.par_iter().flat_map_iter(|layer| {
+    for layer in &layers {
         let files = in_files(isolation(layer, &board, settings), settings);
-        files.into_iter().map(|program| write(part(layer.side), layer.side, program))
-    }));
+        planned.extend(files.into_iter().map(|program| (part(layer.side), layer.side, program)));
+    }
     let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
     warnings.extend(by_net::idle(sides, settings));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
@@ -88,14 +85,20 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let (sections, found) = drill_holes(&board, &placement, settings);
         let drilling = turned(whole("drill", &board, sections, settings), &placement);
         let files = in_files(drilling, settings);
-        programs.extend(files.into_iter().map(|program| write(Part::Drill, side, program)));
+        planned.extend(files.into_iter().map(|program| (Part::Drill, side, program)));
         warnings.extend(found);
     }
     if let Some(outline) = &board.outline {
         let (section, found) = cutout(outline, &cutout_settings(&stock.front, settings));
-        programs.push(write(Part::Cutout, Side::Front, whole("cutout", &board, vec![section], settings)));
+        planned.push((Part::Cutout, Side::Front, whole("cutout", &board, vec![section], settings)));
         warnings.extend(found);
     }
+    numbering::number(planned.iter_mut().map(|(.., program)| program), &settings.options().tools);
+    let write = |(part, side, program): (Part, Side, Program)| {
+        let tiling = stock.tiling(side).filter(|_| part != Part::Alignment);
+        Written::new((part, side), program, &header, tiling, settings)
+    };
+    let programs: Vec<Written> = planned.into_par_iter().map(write).collect();
     warnings.extend(programs.iter().filter_map(|program| program.warning.clone()));
     if board.outline.is_none() && !warnings.iter().any(|warning| warning.code.starts_with("outline-")) {
         warnings.push(Warning::new("outline-missing", "no outline was named, so the board is not cut out"));
@@ -195,7 +198,6 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
         order: Order::default(),
         dwell: settings.drill_dwell,
         speeds: settings.drill_speeds,
-        taken: &settings.numbers_taken,
     };
     drill(&board.holes, &drilling)
 }

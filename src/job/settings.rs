@@ -13,7 +13,7 @@ use super::output_name;
 use super::pattern::Pattern;
 use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Wait};
 use super::sense;
-use super::tools::{Fetched, ToolChoice, Workshop};
+use super::tools::{ToolChoice, Workshop};
 
 /// Everything a job needs to know, complete and checked.
 ///
@@ -77,8 +77,6 @@ pub struct Settings {
     pub drill_dwell: u32,
     /// How far a drill may differ from its hole.
     pub drill_tolerance: Nm,
-    /// The numbers that tools of one's own have: no other tool is given one of them.
-    pub numbers_taken: Vec<u32>,
     /// Whether slots, and holes without a drill, are bored with an end mill.
     pub drill_bore: bool,
     /// The end mill for it.
@@ -179,7 +177,6 @@ impl Settings {
             drill_speeds: workshop.drilling,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
             drill_tolerance: sense::drill_tolerance(&options)?,
-            numbers_taken: options.tools.numbers(),
             drill_bore: options.drill_bore.expect(open),
             drill_bore_tool: match &options.drill_bore_tool {
                 Some(choice) => end_mill("drill-bore-tool", workshop.fetch("drill-bore-tool", choice)?.tool)?,
@@ -275,25 +272,22 @@ pub(super) fn given(key: &'static str, length: Option<Length>) -> Result<Option<
     length.map(|length| positive(key, Some(length))).transpose()
 }
 
-/// The drills at hand; those without a number of their own take the free ones in the order given.
+/// The drills at hand.
 fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Result<Vec<Tool>, Error> {
     let drill = |choice: &DrillChoice| match choice {
         DrillChoice::Diameter(length) => {
             let diameter = positive("drills", Some(*length))?;
-            workshop.fetch("drills", &ToolChoice::Kind(ToolKind::Drill { diameter }))
+            Ok(workshop.fetch("drills", &ToolChoice::Kind(ToolKind::Drill { diameter }))?.tool)
         }
         DrillChoice::Named(name) => {
-            let fetched = workshop.fetch("drills", &ToolChoice::Named(name.clone()))?;
-            if matches!(fetched.tool.kind, ToolKind::Drill { .. }) {
-                return Ok(fetched);
+            let tool = workshop.fetch("drills", &ToolChoice::Named(name.clone()))?.tool;
+            if matches!(tool.kind, ToolKind::Drill { .. }) {
+                return Ok(tool);
             }
             Err(Error::Value { key: "drills", problem: format!("`{name}` is no drill") })
         }
     };
-    let mut fetched: Vec<Fetched> = choices
-        .map_or_else(|| Ok(Vec::new()), |Drills(all)| all.iter().map(drill).collect::<Result<_, _>>())?;
-    workshop.number(&mut fetched);
-    Ok(fetched.into_iter().map(|fetched| fetched.tool).collect())
+    choices.map_or_else(|| Ok(Vec::new()), |Drills(all)| all.iter().map(drill).collect())
 }
 
 pub(super) fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {

@@ -93,7 +93,6 @@ impl Stock {
             order: Order::default(),
             dwell: 0,
             speeds: settings.drill_speeds,
-            taken: &settings.numbers_taken,
         };
         let (sections, warnings) = drill(&holes, &drilling);
         let note = format!(

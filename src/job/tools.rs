@@ -186,6 +186,16 @@ impl Library {
         self.0.values().filter_map(|tool| tool.number).collect()
     }
 
+    /// Whether a tool has this name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.0.contains_key(name)
+    }
+
+    /// The number that a tool's table says.
+    pub(super) fn number(&self, name: &str) -> Option<u32> {
+        self.0.get(name)?.number
+    }
+
     /// A tool more.
     pub(super) fn add(&mut self, name: &str, tool: OwnTool) {
         self.0.insert(name.to_owned(), tool);
@@ -235,7 +245,7 @@ impl Workbench {
     #[must_use]
     pub fn number(&self, choice: &ToolChoice) -> Option<u32> {
         match choice {
-            ToolChoice::Named(name) => self.options.tools.0.get(name)?.number,
+            ToolChoice::Named(name) => self.options.tools.number(name),
             ToolChoice::Kind(_) => None,
         }
     }
@@ -271,9 +281,8 @@ pub(super) struct Workshop<'a> {
 /// A tool out of the workshop.
 #[derive(Clone, Debug)]
 pub(super) struct Fetched {
-    /// Numbered 1 where its table gives no number.
+    /// Numbered 1 where its table gives no number, until all tools of a job are known.
     pub(super) tool: Tool,
-    pub(super) number: Option<u32>,
     pub(super) depth: Option<Nm>,
 }
 
@@ -299,27 +308,13 @@ impl Workshop<'_> {
         };
         let tool = Tool {
             name: choice.to_string(),
-            number: own.number.or_else(|| self.free().next()).expect("numbers do not end"),
+            number: own.number.unwrap_or(usual.number),
             feed: own.feed.unwrap_or(usual.feed),
             plunge: own.plunge.unwrap_or(usual.plunge),
             spindle: own.spindle.unwrap_or(usual.spindle),
             ..usual
         };
-        Ok(Fetched { tool, number: own.number, depth: own.depth })
-    }
-
-    /// Gives those without a number of their own the lowest that no tool of one's own has.
-    pub(super) fn number(&self, tools: &mut [Fetched]) {
-        let mut free = self.free();
-        for fetched in tools {
-            fetched.tool.number = fetched.number.or_else(|| free.next()).expect("numbers do not end");
-        }
-    }
-
-    /// The numbers that no tool of one's own has.
-    fn free(&self) -> impl Iterator<Item = u32> + use<> {
-        let taken = self.library.numbers();
-        (1..).filter(move |number| !taken.contains(number))
+        Ok(Fetched { tool, depth: own.depth })
     }
 
     fn unknown(&self, key: &'static str, name: &str) -> Error {
@@ -385,14 +380,5 @@ mod tests {
         let error = super::super::Settings::resolve(options(&format!("tool = \"fein\"\n{ENGRAVER}")));
         let error = error.expect_err("unknown").to_string();
         assert!(error.contains("`fein`") && error.contains("engraver") && error.contains("fine"), "{error}");
-    }
-
-    #[test]
-    fn free_numbers_are_given_in_order() {
-        let file =
-            options(&format!("tool = [\"clearer\", \"fine\", \"isolator\"]\n{}", ENGRAVER.replace('7', "1")));
-        let settings = super::super::Settings::resolve(file).expect("settings");
-        let numbers: Vec<_> = settings.isolation.iter().map(|cutting| cutting.tool.number).collect();
-        assert_eq!(numbers, [2, 3, 1], "the widest first, and 1 is taken");
     }
 }

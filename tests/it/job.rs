@@ -1,5 +1,6 @@
 //! The whole pipeline through the library: what settings change, and what is said of it.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use voromill::gcode::{dialect, read};
@@ -149,6 +150,26 @@ fn is_sound(job: &Job, settings: &Settings) -> bool {
 /// Whether verification finds nothing.
 fn is_clean(job: &Job, settings: &Settings) -> bool {
     job.verify(settings).expect("a verdict").findings.is_empty()
+}
+
+#[test]
+fn a_tool_has_one_number_in_all_programs_and_no_other_has_it() {
+    let own = "[tools.mine]\nkind = \"vbit\"\ntip = \"0.1mm\"\nangle = \"30deg\"\nnumber = 2\n";
+    let bored = "drill-bore = true\ndrills = \"1mm\"\nalignment-holes = \"1mm\"\n";
+    let files = "tool-change = \"files\"\n";
+    for settings in ["", bored, files, &format!("tool = \"mine\"\n{bored}{own}")] {
+        let (job, _) = job("regulator", settings);
+        let sections = job.programs.iter().flat_map(|program| &program.program.sections);
+        let mut tools: Vec<_> =
+            sections.map(|section| (section.tool.number, section.tool.kind.to_string())).collect();
+        tools.sort();
+        tools.dedup();
+        let numbers: BTreeSet<u32> = tools.iter().map(|(number, _)| *number).collect();
+        let kinds: BTreeSet<&String> = tools.iter().map(|(_, kind)| kind).collect();
+        assert_eq!((numbers.len(), kinds.len()), (tools.len(), tools.len()), "{settings}: {tools:?}");
+        let mine = settings.contains("mine").then_some(2);
+        assert!(mine.is_none_or(|two| tools.contains(&(two, "vbit:0.1mm:30deg".to_owned()))), "{tools:?}");
+    }
 }
 
 #[test]
@@ -305,11 +326,10 @@ fn the_walkthrough_does_what_it_says() {
         sections.map(|section| (section.tool.number, section.tool.name.clone())).collect::<Vec<_>>()
     };
     assert_eq!(tools(Part::Front), [(1, "slim-mill".to_owned()), (2, "engraver-20".to_owned())], "two tools");
-    let bored = tools(Part::Drill).pop().expect("a tool");
-    assert_eq!(
-        bored,
-        (6, "endmill:1mm".to_owned()),
-        "one's own tools keep 1 and 2, three drills follow, then the mill"
-    );
+    let drilling: Vec<u32> = tools(Part::Drill).into_iter().map(|(number, _)| number).collect();
+    assert_eq!(drilling, [4, 5, 6, 3], "one's own tools keep 1 and 2, and three drills follow the mill");
+    for part in [Part::Alignment, Part::Cutout] {
+        assert_eq!(tools(part), [(3, "endmill:1mm".to_owned())], "which is the same in {part:?}");
+    }
     assert!(is_clean(&job, &settings), "{:?}", job.verify(&settings).expect("a verdict").findings);
 }

@@ -267,7 +267,6 @@ fn drilling<'a>(drills: &'a [Tool], mill: Option<&'a Tool>, placement: &'a Place
         order: Order::Improved,
         dwell: 0,
         speeds: (None, None),
-        taken: &[],
     }
 }
 

@@ -28,11 +28,11 @@ pub struct Drilling<'a> {
     pub dwell: u32,
     /// The plunge feed and turns per minute of drills that are only taken to be at hand; none for those that suit their diameters.
     pub speeds: (Option<Feed>, Option<u32>),
-    /// Numbers that other tools have: drills that are only taken to be at hand get none of them.
-    pub taken: &'a [u32],
 }
 
 /// Drills all holes: a section for each drill, thin ones first, then one for what is bored.
+///
+/// Tools keep their numbers; drills that are only taken to be at hand all have 1, and who knows all tools of a job numbers them.
 ///
 /// Warned about: `no-drill-for-hole` where neither a drill nor the mill fits.
 pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warning>) {
@@ -51,27 +51,11 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
         }
     }
     let mut sections: Vec<Section> = Vec::with_capacity(jobs.len() + 1);
-    let free = |number: &u32| !settings.taken.contains(number);
-    for (number, (mut tool, holes)) in (1..).filter(free).zip(jobs.into_values()) {
-        if settings.drills.is_empty() {
-            tool.number = number;
-        }
-        sections.push(section(tool, &holes, settings));
-    }
+    sections.extend(jobs.into_values().map(|(tool, holes)| section(tool, &holes, settings)));
     if let Some(mill) = settings.mill.filter(|_| !bored.is_empty()) {
-        let mill = Tool { number: unlike(mill.number, &sections, settings.taken), ..mill.clone() };
-        sections.push(bore::bore(&bored, &mill, settings.heights, settings.placement, settings.order));
+        sections.push(bore::bore(&bored, mill, settings.heights, settings.placement, settings.order));
     }
     (sections, warnings)
-}
-
-/// `number`, or if a section has it already, the next after all of them that is not `taken`.
-fn unlike(number: u32, sections: &[Section], taken: &[u32]) -> u32 {
-    let most = sections.iter().map(|section| section.tool.number).max().unwrap_or(0);
-    if sections.iter().all(|section| section.tool.number != number) {
-        return number;
-    }
-    (most + 1..).find(|number| !taken.contains(number)).expect("numbers do not end")
 }
 
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.
