@@ -24,6 +24,9 @@ const STEP: f64 = 10_000.0;
 /// Where a pass ends is halved so often.
 const HALVINGS: usize = 12;
 
+/// Where a part of a pass ends.
+pub(super) const END: Corner = Corner { column: 0, row: 0, branch: false, node: true, open: false };
+
 /// What cuts have cleared for passes.
 pub(super) struct Grooves {
     chords: Vec<(Spot, Spot)>,
@@ -59,10 +62,15 @@ impl Grooves {
         nearest
     }
 
+    /// Whether nothing is left to clear at `p`.
+    pub(super) fn holds(&self, p: Spot) -> bool {
+        self.distance(p) < self.reach
+    }
+
     /// What is left of a pass.
     pub(super) fn take_out(&self, line: Line) -> Vec<Line> {
         let mut walk = Walk { grooves: self, is_cleared: false, parts: vec![vec![line.vertices[0]]] };
-        if self.distance(line.vertices[0].at) < self.reach {
+        if self.holds(line.vertices[0].at) {
             (walk.is_cleared, walk.parts) = (true, Vec::new());
         }
         let begins_cleared = walk.is_cleared;
@@ -80,8 +88,7 @@ impl Grooves {
             last.extend(parts.remove(0).into_iter().skip(1));
             parts.push(last);
         }
-        let end = Corner { column: 0, row: 0, branch: false, node: true, open: false };
-        let ends = line.ends.or(Some((end, end)));
+        let ends = line.ends.or(Some((END, END)));
         let part = |vertices| Line { vertices, left: line.left, right: line.right, ends };
         parts.into_iter().filter(|part| part.len() > 1).map(part).collect()
     }
@@ -99,9 +106,12 @@ impl Walk<'_> {
     fn go(&mut self, from: Vertex, to: Vertex) {
         let span = Span::new(from, to);
         let count = ((to.at - from.at).length() / STEP).ceil().max(1.0);
+        // Nothing of a chord is left for as long as the cut is nearer than it need be.
+        let step = if from.has_course() || to.has_course() { f64::INFINITY } else { span.length() / count };
         let mut i = 1.0;
         while i <= count {
-            if self.changes(span.place(i / count)) {
+            let distance = self.grooves.distance(span.place(i / count));
+            if self.changes(distance) {
                 let crossing = span.vertex(self.crossing(&span, (i - 1.0) / count, i / count));
                 if !self.is_cleared {
                     self.part().push(crossing);
@@ -110,7 +120,8 @@ impl Walk<'_> {
                 }
                 self.is_cleared = !self.is_cleared;
             }
-            i += 1.0;
+            let sure = if self.is_cleared { (self.grooves.reach - distance) / step } else { 0.0 };
+            i = (i + sure.floor().max(1.0)).min(if i < count { count } else { f64::INFINITY });
         }
         if !self.is_cleared {
             self.part().push(to);
@@ -121,9 +132,8 @@ impl Walk<'_> {
         self.parts.last_mut().expect("what is not cleared has begun")
     }
 
-    /// Whether what holds of the way so far does not hold at `p`.
-    fn changes(&self, p: Spot) -> bool {
-        let distance = self.grooves.distance(p);
+    /// Whether what holds of the way so far does not hold so far from a cut.
+    fn changes(&self, distance: f64) -> bool {
         if self.is_cleared { distance >= self.grooves.reach } else { distance < self.grooves.reach - DEEP }
     }
 
@@ -131,7 +141,11 @@ impl Walk<'_> {
     fn crossing(&self, span: &Span, mut before: f64, mut after: f64) -> f64 {
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(before, after);
-            if self.changes(span.place(middle)) { after = middle } else { before = middle }
+            if self.changes(self.grooves.distance(span.place(middle))) {
+                after = middle
+            } else {
+                before = middle
+            }
         }
         f64::midpoint(before, after)
     }

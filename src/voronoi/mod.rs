@@ -34,6 +34,7 @@ mod rim;
 mod seed;
 mod site;
 mod span;
+mod speck;
 mod spike;
 mod stitch;
 mod sweep;
@@ -88,6 +89,14 @@ impl Owner {
             BACKGROUND => Self::Background,
             OUTSIDE => Self::Outside,
             net => Self::Net(NetId(net - 2)),
+        }
+    }
+
+    const fn number(self) -> u32 {
+        match self {
+            Self::Background => BACKGROUND,
+            Self::Outside => OUTSIDE,
+            Self::Net(NetId(net)) => net + 2,
         }
     }
 }

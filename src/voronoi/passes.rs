@@ -8,7 +8,7 @@
 //!
 //! What the first cut has cleared is drawn above everything, as wide as passes overlap: where a pass would run nearer than that to
 //! it, it clears nothing that its neighbours do not, and is left out; and what lies between two passes that do run is never wider
-//! than a kerf, so no sliver stays. Passes need not mind each other: a step apart in their distance from copper, they are no nearer anywhere.
+//! than a kerf, so one more cut clears it ([`super::speck`]). Passes need not mind each other: a step apart in their distance from copper, they are no nearer anywhere.
 
 use rayon::prelude::*;
 
@@ -19,6 +19,7 @@ use crate::raster;
 use super::groove::Grooves;
 use super::near::Insides;
 use super::place::Unplaced;
+use super::speck::Specks;
 use super::spike::Spikes;
 use super::stitch::Line;
 use super::tip::MISPLACED;
@@ -87,7 +88,9 @@ impl Diagram {
             nearest: first.to_f64(),
         };
         let insides = Insides::new(&self.sites);
+        let first_pass = base.edges.len();
         let (mut all, mut unplaced, mut torn) = (base, Unplaced::default(), Unplaced::default());
+        let mut last_pass = first_pass;
         for (&level, passes) in levels.iter().zip(self.trace_levels(&scene, &levels)) {
             torn = torn.join(passes.torn());
             let mut lines = passes.lines();
@@ -104,7 +107,17 @@ impl Diagram {
             if level > first {
                 passes.edges.par_iter_mut().for_each(|pass| spikes.add(pass));
             }
+            last_pass = all.edges.len();
             all.append(passes);
+        }
+        if let Some(near) = &self.near {
+            let [kerf, step, nearest] = [widening.kerf, step, first].map(Nm::to_f64);
+            let specks = Specks { sites: &self.sites, near, border: &self.border, kerf, step, nearest };
+            let (inner, last) = all.edges.split_at(last_pass);
+            let (base, further) = inner.split_at(first_pass);
+            let inner = base.iter().filter(|edge| is_pass(edge)).chain(further).collect();
+            let lines = specks.lines(inner, last, &all, before);
+            all.append(self.graph(lines));
         }
         let what = ("points of further passes", "further passes");
         let warnings = self.not_placed(unplaced, what.0).into_iter().chain(self.torn(torn, what.1));

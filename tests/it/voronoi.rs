@@ -382,6 +382,47 @@ fn nothing_stays_between_the_corners_of_passes() {
 }
 
 #[test]
+fn the_middle_of_a_gap_too_narrow_for_the_next_pass_is_cleared_by_one_cut() {
+    // In a block of one net: a slot, a wedge with every width from 0.36 to 0.72 mm, and a round hole.
+    let block = [(-500, -500), (5000, -500), (5000, 4500), (-500, 4500)];
+    let slot = [(0, 0), (4000, 0), (4000, 480), (0, 480)];
+    let wedge = [(0, 1000), (4000, 1000), (4000, 1720), (0, 1360)];
+    let ring = |corners: [(i64, i64); 4]| corners.map(|(x, y)| at(x, y)).to_vec();
+    let round = Polygon::disc(at(1000, 3000), Nm::from_um(235), Nm::from_um(1)).expect("a disc");
+    let mut holes = [ring(slot), ring(wedge), round.contours()[0].clone()];
+    holes.iter_mut().for_each(|hole| hole.reverse());
+    let contours = std::iter::once(ring(block)).chain(holes).collect();
+    let copper = layer([Shape::Polygon(Polygon::new(contours).expect("a block with holes"))]);
+    assert_cleared(&copper, 700, 20, lattice());
+    let wedge = (0..200_i32).map(|i| 2e4 * f64::from(i)).map(|x| (x, 1_180_000.0 + x * 0.045));
+    let round = (-9..10_i32).map(|i| (1e6 + 1e4 * f64::from(i), 3e6));
+    assert_cleared(&copper, 700, 20, wedge.chain(round));
+
+    let nets = topology::recover(&copper, Method::Contact);
+    let diagram = Diagram::new(&copper, &nets, None, &Settings::default()).expect("a diagram");
+    let [kerf, width, overlap] = [200, 700, 20].map(Nm::from_um);
+    let (cuts, _) = diagram.widened(diagram.boundaries().0, &Widening { kerf, width, overlap }, &[]);
+    let in_slot = |p: &Point| (0..4_000_000).contains(&p.x.get()) && (230_000..250_000).contains(&p.y.get());
+    let points = cuts.edges.iter().map(|edge| edge.path.flatten(Nm::from_um(1)));
+    let along_middle: f64 = points
+        .flat_map(|points| points.windows(2).map(|ends| (ends[0], ends[1])).collect::<Vec<_>>())
+        .filter(|(from, to)| in_slot(from) && in_slot(to))
+        .map(|(from, to)| from.distance(to))
+        .sum();
+    assert!((3.4e6..3.9e6).contains(&along_middle), "once along the middle: {along_middle} nm");
+}
+
+#[test]
+fn a_thin_strip_between_the_last_pass_and_the_boundary_is_cut_off() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/voronoi/strip_beside_the_last_pass.gbr");
+    let options = ["--tool", "endmill:0.2mm", "--width", "0.7mm", "-o", "out"];
+    let done = voromill(folder.path(), &[&["mill", file][..], &options].concat());
+    assert!(done.status.success(), "{}", stdout(&done));
+    assert!(!stdout(&done).contains("strip of copper"), "nothing thin is left:\n{}", stdout(&done));
+}
+
+#[test]
 fn the_corner_of_a_pass_is_not_led_through_the_wall_of_a_notch() {
     // Its sides meet behind the wall, which the second pass runs along for no more than 25 µm.
     let notch = [(3000, -532), (0, -270), (0, 270), (3000, 532)];
