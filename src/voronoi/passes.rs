@@ -115,8 +115,12 @@ impl Diagram {
             let specks = Specks { sites: &self.sites, near, border: &self.border, kerf, step, nearest };
             let (inner, last) = all.edges.split_at(last_pass);
             let (base, further) = inner.split_at(first_pass);
-            let inner = base.iter().filter(|edge| is_pass(edge)).chain(further).collect();
-            let lines = specks.lines(inner, last, &all, before);
+            let lines = if specks.are_possible() {
+                let inner = base.iter().filter(|edge| is_pass(edge)).chain(further).collect();
+                specks.lines(inner, last, all.edges.iter(), before)
+            } else {
+                specks.lines(Vec::new(), last, base.iter().chain(last), before)
+            };
             all.append(self.graph(lines));
         }
         let what = ("points of further passes", "further passes");

@@ -63,29 +63,29 @@ pub(super) struct Specks<'a> {
 }
 
 impl Specks<'_> {
-    /// What clears the specks beside `inner` passes and the strips beside the `last` ones, where `cuts` are all there are, and wider tools have cut
-    /// `before`.
-    pub(super) fn lines(
+    /// Whether there can be specks between passes: there is nothing between them where the next begins to clear before one ends.
+    pub(super) fn are_possible(&self) -> bool {
+        self.step > self.way()
+    }
+
+    /// What clears the specks beside `inner` passes and the strips beside the `last` ones, where `cuts` are what may have cleared there, and wider
+    /// tools have cut `before`.
+    pub(super) fn lines<'b>(
         &self,
-        mut inner: Vec<&Boundary>,
+        inner: Vec<&Boundary>,
         last: &[Boundary],
-        cuts: &Boundaries,
+        cuts: impl Iterator<Item = &'b Boundary>,
         before: &[(Nm, Boundaries)],
     ) -> Vec<Line> {
-        let cleared = |kerf: f64, cuts: &Boundaries| {
-            Grooves::new(cuts.edges.iter(), Nm::from_f64((kerf - self.shared()) / 2.0))
-        };
-        let wider = before.iter().filter_map(|(kerf, cuts)| cleared(kerf.to_f64(), cuts));
-        let cleared: Vec<Grooves> = cleared(self.kerf, cuts).into_iter().chain(wider).collect();
+        let reach = |kerf: f64| Nm::from_f64((kerf - self.shared()) / 2.0);
+        let wider =
+            before.iter().filter_map(|(kerf, cuts)| Grooves::new(cuts.edges.iter(), reach(kerf.to_f64())));
+        let cleared: Vec<Grooves> = Grooves::new(cuts, reach(self.kerf)).into_iter().chain(wider).collect();
         let middles = |pass: &Boundary| {
             self.edges(pass, &cleared).iter().flat_map(|edge| self.middles(edge)).collect::<Vec<_>>()
         };
-        let strips = |pass: &Boundary| {
-            let thin = |edge: &Line| self.thin(edge, &cleared);
-            self.edges(pass, &cleared).iter().flat_map(thin).collect::<Vec<_>>()
-        };
-        // Where the next pass begins to clear before this one ends, there is nothing between them.
-        inner.retain(|_| self.step > self.way());
+        let strips =
+            |pass: &Boundary| self.moved_out(pass).map_or(Vec::new(), |edge| self.strips(&edge, &cleared));
         let mut lines: Vec<Line> = inner.into_par_iter().flat_map_iter(middles).collect();
         lines.par_extend(last.par_iter().flat_map_iter(strips));
         let mut lines = once(lines);
@@ -135,16 +135,17 @@ impl Specks<'_> {
         runs(&places).map(|run| part(edge, vertices(run))).collect()
     }
 
-    /// The parts of an edge where a thin strip lies beside it.
-    fn thin(&self, edge: &Line, cleared: &[Grooves]) -> Vec<Line> {
+    /// The parts of what a pass was moved out to where a thin strip lies beside it.
+    fn strips(&self, edge: &Line, cleared: &[Grooves]) -> Vec<Line> {
         let wide = THIN.min(self.kerf / 2.0 - 2.0 * SURE);
         let right = if is_on_left(edge.left) { wide } else { -wide };
-        let is_thin = |(at, along): (Spot, Spot)| {
+        let is_cleared = |at: Spot| cleared.iter().any(|grooves| grooves.holds(at));
+        let beside_strip = |(at, along): (Spot, Spot)| {
             let beyond = at + Spot::new(along.y, -along.x) * right;
-            let is_thin = cleared.iter().any(|grooves| grooves.holds(beyond));
+            let is_thin = is_cleared(beyond) && !is_cleared(at);
             is_thin.then(|| self.room(at)).flatten().map(|reach| Vertex::new(at, reach.distance))
         };
-        let places: Vec<Option<Vertex>> = steps(edge, THIN / 2.0).map(is_thin).collect();
+        let places: Vec<Option<Vertex>> = steps(edge, THIN / 2.0).map(beside_strip).collect();
         let vertices = runs(&places).map(|run| run.iter().copied().flatten().collect::<Vec<_>>());
         vertices.filter(|vertices| length(vertices) >= LONG).map(|vertices| part(edge, vertices)).collect()
     }
