@@ -9,10 +9,12 @@
 //!                              ╱ ╲
 //! ```
 //!
-//! And where four regions meet at one corner of the pixels, one node stands for both.
+//! And where four regions meet at one corner of the pixels, one node stands for both. The outside may be one of the four: then a region ends in a tip
+//! just before the border, or just reaches it.
 
 use super::OUTSIDE;
 use super::plane::Spot;
+use super::site::Reach;
 use super::span::Vertex;
 use super::stitch::Line;
 use super::tip::{ACCEPTED, End, NEARER, Nodes, SETTLED, STEPS, Tips, end_vertex, nodes, third_at};
@@ -108,18 +110,22 @@ impl Tips<'_> {
     }
 
     /// Four regions round a node, counter-clockwise, of which the first and the third touch, and the two places where they meet the second and
-    /// the fourth; none where all four meet in one point.
+    /// the fourth; none where all four meet in one point. The outside may be one of them.
     fn parted(&self, lines: &[Line], ends: &[End]) -> Option<([u32; 4], [Vertex; 2])> {
         let [a, b, c, d] = regions_round(lines, ends)?;
         // Where the picture has one node, it stands where three of the regions are equally far: the fourth may be nearer, or farther.
         let node = end_vertex(lines, ends[0]);
-        let [least, most] = self.spread(&[a, b, c, d], node.at);
+        let nets: Vec<u32> = [a, b, c, d].into_iter().filter(|&owner| owner != OUTSIDE).collect();
+        let [least, most] = self.spread(&nets, node.at);
         if most - least <= ACCEPTED {
             return None;
         }
+        // What is farther off than the copper is another node.
+        let is_here = |place: &Vertex| nets.len() == 4 || (place.at - node.at).length() < least;
+        let place = |owners: [u32; 3]| self.equally_far(owners, node.at).filter(is_here);
         [[a, b, c, d], [b, c, d, a]].into_iter().find_map(|[a, b, c, d]| {
-            let first = self.equally_far([a, b, c], node.at)?;
-            let second = self.equally_far([a, c, d], node.at)?;
+            let first = place([a, b, c])?;
+            let second = place([a, c, d])?;
             let true_places = !self.is_nearer(first, d) && !self.is_nearer(second, b);
             true_places.then_some(([a, b, c, d], [first, second]))
         })
@@ -131,25 +137,36 @@ impl Tips<'_> {
         if let Some(ends) = &mut line.ends {
             *(if end.tail { &mut ends.1 } else { &mut ends.0 }) = corner;
         }
-        self.lead(line, end.tail, place);
+        if line.is_border() {
+            // Its way is the border's own.
+            let last = line.vertices.len() - 1;
+            line.vertices[if end.tail { last } else { 0 }] = place;
+        } else {
+            self.lead(line, end.tail, place);
+        }
     }
 
-    /// Whether a region is nearer to a place than those whose boundaries meet there.
+    /// Whether a region is nearer to a place than those whose boundaries meet there; whether it lies beyond the border, if that is the outside.
     fn is_nearer(&self, place: Vertex, owner: u32) -> bool {
+        if owner == OUTSIDE {
+            return self.border.distance(place.at) > NEARER;
+        }
         let bound = place.clearance() - NEARER;
         self.near.nearer(self.sites, place.at, bound, |_, other| other == owner).is_some()
     }
 
-    /// The place near `from` that is equally far from three regions.
-    pub(super) fn equally_far(&self, owners: [u32; 3], from: Spot) -> Option<Vertex> {
+    /// The place near `from` that is equally far from three regions; on the border, if the outside is one of them.
+    pub(super) fn equally_far(&self, mut owners: [u32; 3], from: Spot) -> Option<Vertex> {
+        owners.sort_unstable_by_key(|&owner| owner == OUTSIDE);
         let mut p = from;
         for _ in 0..STEPS {
-            let [a, b, c] = owners.map(|owner| self.reach(owner, p));
-            let (first, second) = (a.distance - b.distance, a.distance - c.distance);
+            let [a, b] = [owners[0], owners[1]].map(|owner| self.reach(owner, p));
+            let (first, across) = (a.distance - b.distance, a.away - b.away);
+            let third = self.third(owners[2], p, a);
+            let (second, along) = (third.distance, third.away);
             if first.abs() <= SETTLED && second.abs() <= SETTLED {
-                return Some(Vertex::new(p, a.distance.min(b.distance).min(c.distance)));
+                return Some(Vertex::new(p, a.distance.min(b.distance)));
             }
-            let (across, along) = (a.away - b.away, a.away - c.away);
             let determinant = across.cross(along);
             if determinant.abs() < 1e-6 || !determinant.is_finite() {
                 return None;
@@ -159,9 +176,18 @@ impl Tips<'_> {
         }
         None
     }
+
+    /// How much nearer than `other` a region is to a place, or how far that lies beyond the border, and which way it grows.
+    fn third(&self, owner: u32, p: Spot, other: Reach) -> Reach {
+        if owner == OUTSIDE {
+            return self.border.reach(p);
+        }
+        let reach = self.reach(owner, p);
+        Reach { distance: other.distance - reach.distance, away: other.away - reach.away }
+    }
 }
 
-/// Four different regions round a node, counter-clockwise; none where there are others than four, or the outside.
+/// Four different regions round a node, counter-clockwise; none where there are others than four.
 fn regions_round(lines: &[Line], ends: &[End]) -> Option<[u32; 4]> {
     // Seen from the node, a line parts the region on its right from the next one counter-clockwise on its left.
     let sides = |end: &End| {
@@ -174,5 +200,5 @@ fn regions_round(lines: &[Line], ends: &[End]) -> Option<[u32; 4]> {
     let d = after(c)?;
     let ring = [a, b, c, d];
     let different = (0..4).all(|i| !ring[i + 1..].contains(&ring[i]));
-    (after(d)? == a && different && !ring.contains(&OUTSIDE)).then_some(ring)
+    (after(d)? == a && different).then_some(ring)
 }

@@ -9,7 +9,7 @@ use crate::geometry::{Nm, Path, Point, Polygon, Rect};
 
 use super::Settings;
 use super::plane::Spot;
-use super::site::Rings;
+use super::site::{Reach, Rings};
 
 /// The border of the picture.
 pub(super) struct Border {
@@ -67,7 +67,12 @@ impl Border {
 
     /// How far `p` lies beyond the border, in nanometres; negative on the board.
     pub(super) fn distance(&self, p: Spot) -> f64 {
-        self.rings.border(0..self.ring_count, p).distance
+        self.reach(p).distance
+    }
+
+    /// The same, and which way it grows.
+    pub(super) fn reach(&self, p: Spot) -> Reach {
+        self.rings.border(0..self.ring_count, p)
     }
 
     /// Whether `p` lies on the board.

@@ -407,7 +407,8 @@ impl Placer<'_> {
             }
             let steepness = miss.slope.dot(miss.slope);
             if steepness < LEVEL * LEVEL {
-                return None;
+                // Beside a slit of a few nanometres one place is as good as another.
+                return (miss.value.abs() <= ACCEPTED).then(|| miss.vertex(p));
             }
             p = p - miss.slope * (miss.value / steepness);
             if (p - from).length() > self.leash {
@@ -456,6 +457,16 @@ impl Placer<'_> {
         None
     }
 
+    /// The same where one of the targets leads nowhere, as beside a slit of a few nanometres: a point that satisfies the other satisfies it too.
+    fn solve_level(&self, first: &Target, second: &Target, from: Spot) -> Option<Vertex> {
+        [(first, second), (second, first)].into_iter().find_map(|(level, other)| {
+            let found = self.solve(other, from)?;
+            let miss = self.miss(level, found.at);
+            let is_level = miss.slope.length() < LEVEL && miss.value.abs() <= ACCEPTED;
+            is_level.then(|| Vertex::new(found.at, miss.clearance.min(found.clearance())))
+        })
+    }
+
     fn solve_both(&self, first: &Target, second: &Target, from: Spot) -> Option<Vertex> {
         let mut p = from;
         for _ in 0..STEPS * 2 {
@@ -465,7 +476,7 @@ impl Placer<'_> {
             }
             let determinant = a.slope.cross(b.slope);
             if determinant.abs() < 1e-4 {
-                return None;
+                return self.solve_level(first, second, from);
             }
             let step = Spot::new(
                 a.value * b.slope.y - b.value * a.slope.y,

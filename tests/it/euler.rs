@@ -61,7 +61,7 @@ fn onward(found: &Boundaries, leaving: &BTreeMap<u32, Vec<Walk>>, walk: Walk) ->
 }
 
 /// What is wrong with the graph of a layer.
-fn wrong(found: &Boundaries) -> Option<String> {
+pub(crate) fn wrong(found: &Boundaries) -> Option<String> {
     let mut leaving: BTreeMap<u32, Vec<Walk>> = BTreeMap::new();
     let mut parent: Vec<usize> = (0..found.nodes.len()).collect();
     fn root(parent: &[usize], mut i: usize) -> usize {

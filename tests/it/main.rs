@@ -24,6 +24,7 @@ mod outline;
 mod page;
 mod paper;
 mod programs;
+mod random_boards;
 mod raster;
 mod real_boards;
 mod resolutions;

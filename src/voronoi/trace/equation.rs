@@ -153,12 +153,16 @@ impl Tracer<'_> {
             [a, b] => self.placer.project(&mut target(*a, *b), spot),
             [a, b, c, ..] => {
                 // Sorted by owner: background and outside come first, so both equations hold with what follows.
-                let (mut first, mut second) = match a.0 {
-                    BACKGROUND | OUTSIDE => {
-                        (target(*a, *b), if b.0 == OUTSIDE { target(*a, *c) } else { target(*b, *c) })
-                    }
-                    _ => (target(*a, *b), target(*a, *c)),
+                let mut first = target(*a, *b);
+                let mut second = match a.0 {
+                    BACKGROUND | OUTSIDE if b.0 == OUTSIDE => target(*a, *c),
+                    BACKGROUND | OUTSIDE => target(*b, *c),
+                    _ => target(*a, *c),
                 };
+                if matches!((first, second), (Target::At(..), Target::At(..))) && a.0 > OUTSIDE {
+                    // Where the first region ends with its own copper's band, both say no more than that.
+                    second = target(*b, *c);
+                }
                 let met = self.placer.meet(&mut first, &mut second, spot);
                 wedge = met.is_none();
                 met.or_else(|| self.placer.project(&mut first, spot))

@@ -1,0 +1,362 @@
+//! A small board drawn at random, as Gerber text: what copper can look like, in odd places and at odd angles.
+
+use std::fmt::{self, Debug, Formatter, Write};
+
+use proptest::prelude::*;
+use voromill::geometry::{Nm, Rect};
+
+/// A place or a way in nanometres.
+type Spot = (i64, i64);
+
+/// Places are parts of the board's width and height, in so many.
+const PARTS: i64 = 10_000;
+
+/// The shape of a pad, in nanometres and degrees.
+#[derive(Clone, Copy, Debug)]
+enum Pad {
+    Disc { diameter: i64 },
+    Rectangle { width: i64, height: i64 },
+    Oblong { width: i64, height: i64 },
+    Polygon { diameter: i64, corners: i64, degrees: i64 },
+    Turned { width: i64, height: i64, degrees: i64 },
+}
+
+/// A part of a trace: straight on, or round a centre on its left (or right, if the radius is negative).
+#[derive(Clone, Copy, Debug)]
+enum Leg {
+    Line { length: i64, degrees: i64 },
+    Arc { radius: i64, from: i64, sweep: i64 },
+}
+
+/// Something drawn in one go.
+#[derive(Clone, Debug)]
+enum Item {
+    Flash(Pad),
+    /// Two discs with so much between them.
+    Pair {
+        diameters: [i64; 2],
+        gap: i64,
+        degrees: i64,
+    },
+    /// Pads in a row, as along the edge of a chip, turned with it.
+    Row {
+        size: Spot,
+        gap: i64,
+        count: i64,
+        degrees: i64,
+    },
+    Trace {
+        width: i64,
+        legs: Vec<Leg>,
+    },
+    /// A region with corners that far from its middle, at equal angles.
+    Star {
+        corners: Vec<i64>,
+    },
+}
+
+/// What lies below everything.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    /// How far it keeps from what is drawn on it.
+    clearance: i64,
+    /// Every so manieth item it does not keep from: it is on the plane's net.
+    joins: usize,
+}
+
+/// The edge of the board.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    /// How far it lies beyond the copper.
+    margin: i64,
+    /// By how much its corners are rounded.
+    round: i64,
+}
+
+/// A board drawn at random.
+#[derive(Clone)]
+pub(super) struct Drawing {
+    /// Width and height.
+    size: Spot,
+    /// What places are multiples of.
+    grid: i64,
+    items: Vec<(Spot, Item)>,
+    plane: Option<Plane>,
+    edge: Option<Edge>,
+}
+
+const FULL: std::ops::Range<i64> = 0..360;
+
+/// Any angle, the usual ones more often.
+fn degrees() -> impl Strategy<Value = i64> {
+    prop_oneof![2 => (0..8_i64).prop_map(|eighth| eighth * 45), 1 => FULL]
+}
+
+/// A gap as boards have them, and as they should not.
+fn gap() -> impl Strategy<Value = i64> {
+    prop_oneof![
+        6 => 100_000..400_000_i64,
+        2 => prop::sample::select(vec![127_000, 150_000, 200_000, 250_000]),
+        1 => 5_000..100_000_i64,
+        1 => prop::sample::select(vec![0, 1, 1_000]),
+    ]
+}
+
+fn side() -> impl Strategy<Value = i64> {
+    prop_oneof![3 => (3..25_i64).prop_map(|tenths| tenths * 100_000), 1 => 250_000..2_500_000_i64]
+}
+
+fn pad() -> impl Strategy<Value = Pad> {
+    prop_oneof![
+        side().prop_map(|diameter| Pad::Disc { diameter }),
+        (side(), side()).prop_map(|(width, height)| Pad::Rectangle { width, height }),
+        (side(), side()).prop_map(|(width, height)| Pad::Oblong { width, height }),
+        (side(), 3..=12_i64, FULL).prop_map(|(diameter, corners, degrees)| Pad::Polygon {
+            diameter,
+            corners,
+            degrees
+        }),
+        (side(), side(), FULL).prop_map(|(width, height, degrees)| Pad::Turned { width, height, degrees }),
+    ]
+}
+
+fn leg() -> impl Strategy<Value = Leg> {
+    let radius = prop_oneof![300_000..3_000_000_i64, -3_000_000..-300_000_i64];
+    prop_oneof![
+        3 => (100_000..4_000_000_i64, degrees()).prop_map(|(length, degrees)| Leg::Line { length, degrees }),
+        1 => (radius, FULL, 5..330_i64).prop_map(|(radius, from, sweep)| Leg::Arc { radius, from, sweep }),
+    ]
+}
+
+fn item() -> impl Strategy<Value = Item> {
+    let width = prop::sample::select(vec![100_000, 150_000, 200_000, 254_000, 300_000, 500_000, 1_000_000]);
+    prop_oneof![
+        4 => pad().prop_map(Item::Flash),
+        1 => ([side(), side()], gap(), degrees())
+            .prop_map(|(diameters, gap, degrees)| Item::Pair { diameters, gap, degrees }),
+        1 => ((150_000..800_000_i64, 300_000..1_500_000_i64), gap(), 2..8_i64, degrees())
+            .prop_map(|(size, gap, count, degrees)| Item::Row { size, gap, count, degrees }),
+        4 => (width, prop::collection::vec(leg(), 1..5))
+            .prop_map(|(width, legs)| Item::Trace { width, legs }),
+        1 => prop::collection::vec(200_000..1_500_000_i64, 3..9).prop_map(|corners| Item::Star { corners }),
+    ]
+}
+
+/// Any small board.
+pub(super) fn drawing() -> impl Strategy<Value = Drawing> {
+    let size = (3_000_000..25_000_000_i64, 3_000_000..25_000_000_i64);
+    let grid = prop::sample::select(vec![1, 1_000, 25_400, 50_000, 635_000]);
+    let items = prop::collection::vec(((0..=PARTS, 0..=PARTS), item()), 2..28);
+    let plane = (gap(), 2..9_usize).prop_map(|(clearance, joins)| Plane { clearance, joins });
+    let edge = (0..1_500_000_i64, prop_oneof![Just(0), 0..2_000_000_i64])
+        .prop_map(|(margin, round)| Edge { margin, round });
+    let optional = (prop::option::weighted(0.3, plane), prop::option::weighted(0.6, edge));
+    (size, grid, items, optional).prop_map(|(size, grid, items, (plane, edge))| Drawing {
+        size,
+        grid,
+        items,
+        plane,
+        edge,
+    })
+}
+
+impl Drawing {
+    /// The copper.
+    pub(super) fn copper(&self) -> String {
+        let mut pen = Pen::default();
+        if let Some(Plane { clearance, joins }) = self.plane {
+            let (width, height) = self.size;
+            pen.region(&[(0, 0), (width, 0), (width, height), (0, height)]);
+            pen.text.push_str("%LPC*%\n");
+            for (i, item) in self.items.iter().enumerate() {
+                if i % joins != 0 {
+                    self.draw(item, clearance, &mut pen);
+                }
+            }
+            pen.text.push_str("%LPD*%\n");
+        }
+        self.items.iter().for_each(|item| self.draw(item, 0, &mut pen));
+        pen.finish()
+    }
+
+    /// The board's edge, if it has one, round copper within `bounds`.
+    pub(super) fn edge(&self, bounds: Rect) -> Option<String> {
+        let Edge { margin, round } = self.edge?;
+        let [low, high] = [bounds.min(), bounds.max()];
+        let (left, bottom) = (low.x.get() - margin, low.y.get() - margin);
+        let (right, top) = (high.x.get() + margin, high.y.get() + margin);
+        let round = round.min((right - left).min(top - bottom) / 2);
+        let mut pen = Pen::default();
+        pen.take("C,0.1");
+        // Straight to one place, then round a corner to the next, as far as the edge has such parts.
+        let legs = [
+            ((right - round, bottom), (right, bottom + round), (0, round)),
+            ((right, top - round), (right - round, top), (-round, 0)),
+            ((left + round, top), (left, top - round), (0, -round)),
+            ((left, bottom + round), (left + round, bottom), (round, 0)),
+        ];
+        let mut from = (left + round, bottom);
+        pen.to(from, "D02");
+        for (to, then, center) in legs {
+            if to != from {
+                pen.to(to, "D01");
+            }
+            if then != to {
+                pen.arc(then, center, true);
+            }
+            from = then;
+        }
+        Some(pen.finish())
+    }
+
+    /// The multiple of the grid near a place that is told in parts.
+    fn place(&self, (x, y): Spot) -> Spot {
+        let snap = |part: i64, length: i64| length * part / PARTS / self.grid * self.grid;
+        (snap(x, self.size.0), snap(y, self.size.1))
+    }
+
+    /// Draws an item, larger by `grown` all round.
+    fn draw(&self, (at, item): &(Spot, Item), grown: i64, pen: &mut Pen) {
+        let at = self.place(*at);
+        match item {
+            Item::Flash(pad) => pen.flash(&pad.aperture(grown), at),
+            Item::Pair { diameters: [first, second], gap, degrees } => {
+                let apart = first / 2 + second / 2 + gap;
+                pen.flash(&Pad::Disc { diameter: *first }.aperture(grown), at);
+                pen.flash(&Pad::Disc { diameter: *second }.aperture(grown), polar(at, apart, *degrees));
+            }
+            Item::Row { size: (width, height), gap, count, degrees } => {
+                let pad = Pad::Turned { width: *width, height: *height, degrees: *degrees };
+                for i in 0..*count {
+                    pen.flash(&pad.aperture(grown), polar(at, i * (width + gap), *degrees));
+                }
+            }
+            Item::Trace { width, legs } => {
+                pen.take(&Pad::Disc { diameter: *width }.aperture(grown));
+                pen.to(at, "D02");
+                let mut from = at;
+                for leg in legs {
+                    from = pen.leg(*leg, from);
+                }
+            }
+            Item::Star { corners } => {
+                let step = 360 / i64::try_from(corners.len()).expect("a few");
+                let angles = (0..).map(|i| i * step);
+                let ring: Vec<Spot> =
+                    corners.iter().zip(angles).map(|(&far, degrees)| polar(at, far, degrees)).collect();
+                pen.region(&ring);
+                if grown > 0 {
+                    pen.take(&Pad::Disc { diameter: 0 }.aperture(grown));
+                    pen.to(ring[0], "D02");
+                    ring.iter().cycle().skip(1).take(ring.len()).for_each(|&corner| pen.to(corner, "D01"));
+                }
+            }
+        }
+    }
+}
+
+/// The files, for who must look into a failure.
+impl Debug for Drawing {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "{:?} {:?} on a grid of {} nm\n{}", self.items, self.plane, self.grid, self.copper())
+    }
+}
+
+impl Pad {
+    /// Its aperture, larger by `grown` all round.
+    fn aperture(self, grown: i64) -> String {
+        let mm = |length: i64| millimetres(length + 2 * grown);
+        match self {
+            Self::Disc { diameter } => format!("C,{}", mm(diameter)),
+            Self::Rectangle { width, height } => format!("R,{}X{}", mm(width), mm(height)),
+            Self::Oblong { width, height } => format!("O,{}X{}", mm(width), mm(height)),
+            Self::Polygon { diameter, corners, degrees } => {
+                format!("P,{}X{corners}X{degrees}", mm(diameter + grown))
+            }
+            Self::Turned { width, height, degrees } => {
+                format!("TURNED,{}X{}X{degrees}", mm(width), mm(height))
+            }
+        }
+    }
+}
+
+/// A length as apertures say it.
+fn millimetres(length: i64) -> String {
+    format!("{}.{:06}", length / 1_000_000, length % 1_000_000)
+}
+
+/// The place so far away in a direction.
+fn polar((x, y): Spot, length: i64, degrees: i64) -> Spot {
+    let (sine, cosine) = libm::sincos(Nm::new(degrees).to_f64().to_radians());
+    let along = |part: f64| Nm::from_f64(Nm::new(length).to_f64() * part).get();
+    (x + along(cosine), y + along(sine))
+}
+
+/// Writes Gerber.
+#[derive(Default)]
+struct Pen {
+    apertures: Vec<String>,
+    text: String,
+}
+
+impl Pen {
+    /// Takes up an aperture.
+    fn take(&mut self, aperture: &str) {
+        let known = self.apertures.iter().position(|other| other == aperture).unwrap_or_else(|| {
+            self.apertures.push(aperture.to_owned());
+            self.apertures.len() - 1
+        });
+        self.write(format_args!("D{}*\n", known + 10));
+    }
+
+    fn flash(&mut self, aperture: &str, at: Spot) {
+        self.take(aperture);
+        self.to(at, "D03");
+    }
+
+    fn to(&mut self, (x, y): Spot, operation: &str) {
+        self.write(format_args!("X{x}Y{y}{operation}*\n"));
+    }
+
+    fn arc(&mut self, (x, y): Spot, (i, j): Spot, left: bool) {
+        let way = if left { "G03" } else { "G02" };
+        self.write(format_args!("{way}*\nX{x}Y{y}I{i}J{j}D01*\nG01*\n"));
+    }
+
+    /// A part of a trace; returns where it ends.
+    fn leg(&mut self, leg: Leg, from: Spot) -> Spot {
+        match leg {
+            Leg::Line { length, degrees } => {
+                let end = polar(from, length, degrees);
+                self.to(end, "D01");
+                end
+            }
+            Leg::Arc { radius, from: degrees, sweep } => {
+                let center = polar(from, radius.abs(), degrees + 180);
+                let end = polar(center, radius.abs(), degrees + sweep * radius.signum());
+                self.arc(end, (center.0 - from.0, center.1 - from.1), radius > 0);
+                end
+            }
+        }
+    }
+
+    fn region(&mut self, ring: &[Spot]) {
+        self.write(format_args!("G36*\n"));
+        self.to(ring[0], "D02");
+        ring.iter().cycle().skip(1).take(ring.len()).for_each(|&corner| self.to(corner, "D01"));
+        self.write(format_args!("G37*\n"));
+    }
+
+    fn write(&mut self, text: fmt::Arguments<'_>) {
+        self.text.write_fmt(text).expect("written to memory");
+    }
+
+    /// The file.
+    fn finish(self) -> String {
+        let mut file = "%FSLAX46Y46*%\n%MOMM*%\n%AMTURNED*21,1,$1,$2,0,0,$3*%\n".to_owned();
+        for (code, aperture) in (10..).zip(&self.apertures) {
+            writeln!(file, "%ADD{code}{aperture}*%").expect("written to memory");
+        }
+        file + "G75*\nG01*\n" + &self.text + "M02*\n"
+    }
+}

@@ -1,0 +1,154 @@
+//! Random boards through the whole of `mill`: the laws that hold whatever the copper looks like.
+//!
+//! The same boards every time. `PROPTEST_CASES=5000` makes it others, so many; `PROPTEST_RNG_SEED=7` beside it the same others again. What was found so and
+//! mended stays in `fixtures/random-boards`.
+
+mod drawing;
+
+use std::fs;
+use std::path::Path;
+
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+use rayon::ThreadPoolBuilder;
+use voromill::board::{Board, Copper, Side};
+use voromill::gcode::read;
+use voromill::import::Loaded;
+use voromill::import::gerber::{self, Image};
+use voromill::import::outline;
+use voromill::job::{self, Job, Options, Settings};
+use voromill::verify::{Finding, Severity};
+
+use crate::euler;
+use drawing::{Drawing, drawing};
+
+/// What cuts them: settings as a settings file gives them.
+const SETTINGS: [&str; 10] = [
+    "",
+    "strategy = \"outline\"\ntool = \"endmill:0.15mm\"",
+    "passes = 3\ntool = \"endmill:0.15mm\"",
+    "width = \"0.8mm\"\ntool = \"vbit:0.1mm:30deg\"",
+    "tool = [\"endmill:0.4mm\", \"endmill:0.12mm\"]",
+    "adaptive-depth = \"0.05mm\"",
+    "sites = \"core\"",
+    "limit = \"0.3mm\"",
+    "clear = true\ntool = [\"endmill:1mm\", \"endmill:0.2mm\"]",
+    "rotate = \"17deg\"\norigin = \"center\"\ndialect = \"linuxcnc\"",
+];
+
+/// The same cases every time; others, as many as it says, where `PROPTEST_CASES` is set.
+fn config() -> ProptestConfig {
+    let config =
+        ProptestConfig { failure_persistence: None, max_shrink_time: 60_000, ..ProptestConfig::default() };
+    if std::env::var_os("PROPTEST_CASES").is_some() {
+        return config;
+    }
+    let cases = if cfg!(debug_assertions) { 30 } else { 75 };
+    ProptestConfig { cases, rng_seed: RngSeed::Fixed(73), ..config }
+}
+
+fn image(text: &str) -> Result<Image, String> {
+    gerber::read("random.gbr", text.as_bytes(), &gerber::Options::default())
+        .map_err(|error| error.to_string())
+}
+
+/// The copper of a board's one side; none where all was cleared away again.
+fn copper(text: &str, side: Side) -> Result<Option<Copper>, String> {
+    let Image { features, attributes, .. } = image(text)?;
+    Ok(Some(Copper { side, features, attributes }).filter(|copper| !copper.features.is_empty()))
+}
+
+/// The board with that copper, and that edge if there is one.
+fn board(copper: Copper, edge: Option<&str>) -> Result<Board, String> {
+    let outline = match edge {
+        None => None,
+        Some(text) => {
+            outline::join("edge.gbr", text.as_bytes(), &image(text)?.features, outline::GAP).outline
+        }
+    };
+    let side = copper.side;
+    let [front, back] = [Side::Front, Side::Back].map(|other| Some(copper.clone()).filter(|_| other == side));
+    Ok(Board { name: "random".to_owned(), front, back, outline, holes: Vec::new() })
+}
+
+fn mill(board: &Board, settings: &Settings, threads: usize) -> Result<Job, String> {
+    let loaded = Loaded { board: board.clone(), sources: vec![], warnings: vec![], ignored: vec![] };
+    let pool = ThreadPoolBuilder::new().num_threads(threads).build().expect("a pool");
+    pool.install(|| job::mill(loaded, settings)).map_err(|error| error.to_string())
+}
+
+/// Whether the job said that a cut does not fit beside one of the nets that something was found of.
+fn is_told(finding: &Finding, job: &Job) -> bool {
+    let narrow = job.warnings.iter().filter(|warning| warning.code == "gap-narrower-than-tool");
+    let mut gaps = narrow.filter_map(|warning| warning.message.split_once(" has ").map(|(gap, _)| gap));
+    let beside = |gap: &str, net: &String| {
+        gap.ends_with(&format!(" and {net}")) || gap.starts_with(&format!("the cut between {net} and "))
+    };
+    ["gouge", "open", "destroyed"].contains(&finding.name)
+        && gaps.any(|gap| finding.nets.iter().any(|net| beside(gap, net)))
+}
+
+/// Which law is broken, if one is.
+fn judge(board: &Board, settings: &str) -> Result<(), String> {
+    let options = Options::from_toml("voromill.toml", settings).expect("settings");
+    let settings = Settings::resolve(options).expect("settings that make sense");
+    let (job, alone) = (mill(board, &settings, 2)?, mill(board, &settings, 1)?);
+    for (program, other) in job.programs.iter().zip(&alone.programs) {
+        if program.text != other.text {
+            return Err("one thread cuts otherwise than two".to_owned());
+        }
+        read(&program.text).map_err(|error| format!("it does not read back: {error}"))?;
+    }
+    let faulty = |code: &str| ["boundary-torn", "boundary-not-placed"].contains(&code);
+    if let Some(fault) = job.warnings.iter().find(|warning| faulty(warning.code)) {
+        return Err(format!("{} at {:?}: {}", fault.code, fault.at, fault.message));
+    }
+    for layer in &job.layers {
+        euler::wrong(&layer.boundaries).map_or(Ok(()), Err)?;
+    }
+    let report = job.verify(&settings).map_err(|error| error.to_string())?;
+    let bad = |finding: &&Finding| finding.severity == Severity::Error && !is_told(finding, &job);
+    match report.findings.iter().find(bad) {
+        Some(finding) => Err(format!("{} at {:?}: {}", finding.name, finding.at, finding.message)),
+        None => Ok(()),
+    }
+}
+
+/// The same of a drawing; what is wrong is told with its edge.
+fn judge_drawing(drawing: &Drawing, side: Side, settings: &str) -> Result<(), String> {
+    let Some(copper) = copper(&drawing.copper(), side)? else { return Ok(()) };
+    let edge = copper.bounds().and_then(|bounds| drawing.edge(bounds));
+    let board = board(copper, edge.as_deref())?;
+    judge(&board, settings)
+        .map_err(|wrong| edge.map_or(wrong.clone(), |edge| format!("{wrong}\nwith the edge\n{edge}")))
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn a_random_board_is_isolated_as_it_was_drawn(
+        drawing in drawing(),
+        side in prop::sample::select(vec![Side::Front, Side::Back]),
+        settings in prop::sample::select(SETTINGS.to_vec()),
+    ) {
+        judge_drawing(&drawing, side, settings).map_err(TestCaseError::fail)?;
+    }
+}
+
+#[test]
+fn what_random_boards_once_brought_to_light_stays_mended() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/random-boards");
+    for (name, settings) in [
+        ("tip-at-the-border", SETTINGS[0]),
+        ("end-at-the-border", SETTINGS[0]),
+        ("slit", SETTINGS[0]),
+        ("slit-and-trace", SETTINGS[2]),
+        ("band", SETTINGS[6]),
+    ] {
+        let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
+        let copper = copper(&text, Side::Front).expect("readable").expect("copper");
+        let board = board(copper, None).expect("a board");
+        assert_eq!(judge(&board, settings), Ok(()), "{name}");
+    }
+}
