@@ -72,10 +72,10 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         planned.push((Part::Alignment, Side::Front, program));
         warnings.extend(found);
     }
-    for layer in &layers {
+    planned.par_extend(layers.par_iter().flat_map_iter(|layer| {
         let files = in_files(isolation(layer, &board, settings), settings);
-        planned.extend(files.into_iter().map(|program| (part(layer.side), layer.side, program)));
-    }
+        files.into_iter().map(|program| (part(layer.side), layer.side, program))
+    }));
     let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
     warnings.extend(by_net::idle(sides, settings));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
