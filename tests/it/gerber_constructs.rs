@@ -60,6 +60,8 @@ const CASES: &[Case] = &[
     ("arc_single_quadrant", 5.0 * PI + DISC, 1, &[]),
     ("arc_single_quadrant_point", DISC, 1, &[]),
     ("arc_without_mode", 2.5 * PI + DISC, 1, &["quadrant-mode"]),
+    ("arc_without_mode_single", 7.5 * PI + DISC, 1, &["quadrant-mode"]),
+    ("arc_against_mode", 5.0 * PI + DISC, 1, &["quadrant-mode"]),
     ("region", 100.0, 1, &[]),
     ("region_arcs", 12.5 * PI, 1, &[]),
     ("region_contours", 104.0, 2, &[]),

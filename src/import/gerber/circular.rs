@@ -6,11 +6,33 @@ use crate::geometry::{Arc, Nm, Point, Turn, Vector};
 use crate::import::flaw;
 
 use super::super::error::Error;
+use super::radii::{COARSE, Verdict, single_quadrant};
 use super::reader::{Quadrants, Reader, Words};
 
-/// How far the two radii of an arc may differ before it is mentioned. Chosen: twice the step of the coarsest usual
-/// format, 2.3 inches.
-const RADII: f64 = 50_800.0;
+/// How arcs are read that are given in each of three ways.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Reading {
+    /// After G74.
+    pub(super) single: Quadrants,
+    /// After G75.
+    pub(super) multi: Quadrants,
+    /// Before either.
+    pub(super) undeclared: Quadrants,
+}
+
+impl Reading {
+    /// As the specification has it, and where the file says nothing, as programs have written for thirty years.
+    pub(super) const USUAL: Self =
+        Self { single: Quadrants::Single, multi: Quadrants::Multi, undeclared: Quadrants::Multi };
+
+    const fn of(self, declared: Option<Quadrants>) -> Quadrants {
+        match declared {
+            Some(Quadrants::Single) => self.single,
+            Some(Quadrants::Multi) => self.multi,
+            None => self.undeclared,
+        }
+    }
+}
 
 impl<'a> Reader<'a> {
     /// The arc from `from` to `to`; none where it is no longer than a point or has no radius, and so is a line.
@@ -30,21 +52,6 @@ impl<'a> Reader<'a> {
         if let Some(j) = words.j {
             offset.y = self.coordinate(j, format.y, place)?;
         }
-        let signed = offset.x < Nm::ZERO || offset.y < Nm::ZERO;
-        let quadrants = match self.quadrants {
-            Some(Quadrants::Single) if !signed => Quadrants::Single,
-            Some(Quadrants::Multi) => Quadrants::Multi,
-            other => {
-                let message = match other {
-                    Some(_) => "this arc has a negative offset, so it is read as G75, several quadrants",
-                    None => {
-                        "neither G74 nor G75 says how arcs are meant; they are read as G75, several quadrants"
-                    }
-                };
-                self.warnings.add(&flaw::QUADRANT_MODE, place.clone(), message);
-                Quadrants::Multi
-            }
-        };
         if offset == Vector::default() {
             if from != to {
                 let message = "an arc without a centre (I and J) is read as a line";
@@ -52,13 +59,23 @@ impl<'a> Reader<'a> {
             }
             return Ok(None);
         }
+        self.radii[Self::index(self.quadrants)].add((from, to), offset, turn, place);
+        let signed = offset.x < Nm::ZERO || offset.y < Nm::ZERO;
+        let quadrants = match self.reading.of(self.quadrants) {
+            Quadrants::Single if signed => {
+                let message = "this arc has a negative offset, so it is read as G75, several quadrants";
+                self.warnings.add(&flaw::QUADRANT_MODE, place.clone(), message);
+                Quadrants::Multi
+            }
+            quadrants => quadrants,
+        };
         let center = match quadrants {
             Quadrants::Multi => from + offset,
             Quadrants::Single if from == to => return Ok(None),
-            Quadrants::Single => single_quadrant(from, to, offset, turn),
+            Quadrants::Single => single_quadrant(from, to, offset, turn).unwrap_or(from + offset),
         };
         let mismatch = center.distance(from) - center.distance(to);
-        if mismatch.abs() > RADII {
+        if mismatch.abs() > COARSE {
             let message = "the start and the end of an arc lie at different distances from its centre; the radius is \
                            changed evenly from one to the other";
             self.warnings.add(&flaw::ARC_RADIUS_MISMATCH, place.clone(), message);
@@ -68,25 +85,83 @@ impl<'a> Reader<'a> {
         let center = start + self.placement.vector(center - from);
         Ok(Some(Arc { start, end, center, turn }))
     }
+
+    /// Where the radii of arcs so declared are kept.
+    const fn index(declared: Option<Quadrants>) -> usize {
+        match declared {
+            Some(Quadrants::Single) => 0,
+            Some(Quadrants::Multi) => 1,
+            None => 2,
+        }
+    }
+
+    /// How the radii of all arcs read so far ask for the file to be read.
+    pub(super) fn reading_by_radii(&self) -> Reading {
+        let [single, multi, undeclared] = &self.radii;
+        let declared = |mode| match mode {
+            Quadrants::Single => single.refutes(mode).map_or(mode, |(other, _)| other),
+            Quadrants::Multi => multi.refutes(mode).map_or(mode, |(other, _)| other),
+        };
+        let undeclared = match undeclared.verdict() {
+            Verdict::Single(_) => Quadrants::Single,
+            Verdict::Multi(_) | Verdict::Either | Verdict::Contradiction { .. } => Quadrants::Multi,
+        };
+        Reading { single: declared(Quadrants::Single), multi: declared(Quadrants::Multi), undeclared }
+    }
+
+    /// Says how arcs are read that the file leaves open or declares against their radii.
+    ///
+    /// # Errors
+    ///
+    /// Arcs that the file leaves open, and that contradict each other or fit neither way.
+    pub(super) fn explain_arcs(&mut self) -> Result<(), Error> {
+        let [single, multi, undeclared] = self.radii.clone();
+        for (radii, declared, name) in [(single, Quadrants::Single, "G74"), (multi, Quadrants::Multi, "G75")]
+        {
+            if let Some((other, misfits)) = radii.refutes(declared) {
+                let message = format!(
+                    "the file declares {name}, but its arcs are read as {}: {misfits} of {} would not end as far from their \
+                     centre as they begin, and now all do",
+                    other.describe(),
+                    radii.count
+                );
+                self.warnings.add(&flaw::QUADRANT_MODE, radii.first, message);
+            }
+        }
+        if undeclared.count == 0 {
+            return Ok(());
+        }
+        let count = undeclared.count;
+        let reason = match undeclared.verdict() {
+            Verdict::Contradiction { single, multi } => {
+                let what = format!(
+                    "neither G74 nor G75 says how arcs are meant, and they contradict each other: of {count} arcs {} fit G74 \
+                     alone, and {} fit G75 alone, as this one",
+                    single.count, multi.count
+                );
+                let place = multi.first.clone();
+                return Err(self.error(place, what, "G74 or G75 before the first arc", WRITE_AGAIN));
+            }
+            Verdict::Single(misfits) => {
+                format!("as G75, {misfits} of {count} would not end as far from their centre as they begin")
+            }
+            Verdict::Multi(misfits) => format!(
+                "as G74, {misfits} of {count} would not end as far from their centre as they begin, or be longer than a quarter"
+            ),
+            Verdict::Either => "their radii leave it open".to_owned(),
+        };
+        if let Some(place) = undeclared.unfit {
+            let what = "neither G74 nor G75 says how arcs are meant, and this arc fits neither: its ends lie at different \
+                        distances from its centre";
+            return Err(self.error(place, what, "G74 or G75 before the first arc", WRITE_AGAIN));
+        }
+        let message = format!(
+            "neither G74 nor G75 says how arcs are meant; they are read as {}: {reason}",
+            self.reading.undeclared.describe()
+        );
+        self.warnings.add(&flaw::QUADRANT_MODE, undeclared.first, message);
+        Ok(())
+    }
 }
 
-/// The centre of an arc of at most a quarter whose offsets carry no sign: of the four places it may be at, the one that
-/// both ends are equally far from (specification §8.1.10, G74).
-fn single_quadrant(from: Point, to: Point, offset: Vector, turn: Turn) -> Point {
-    /// A quarter, and a little for rounded coordinates.
-    const QUARTER: f64 = std::f64::consts::FRAC_PI_2 * 1.02;
-    let signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
-    let candidates = signs.map(|(x, y)| from + Vector::new(offset.x * x, offset.y * y));
-    let score = |&center: &Point| {
-        let arc = Arc { start: from, end: to, center, turn };
-        let mismatch = (center.distance(from) - center.distance(to)).abs();
-        (arc.sweep().abs() > QUARTER, mismatch)
-    };
-    candidates
-        .into_iter()
-        .min_by(|a, b| {
-            let (a, b) = (score(a), score(b));
-            a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
-        })
-        .unwrap_or(from)
-}
+const WRITE_AGAIN: &str = "have the layer written with G75";

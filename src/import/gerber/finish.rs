@@ -14,6 +14,7 @@ use super::state::{Format, Unit};
 
 impl<'a> Reader<'a> {
     pub(super) fn finish(mut self) -> Result<Image, Error> {
+        self.explain_arcs()?;
         let end = last_line(self.bytes);
         if self.region.is_some() {
             let message = "the file ends within a region, which is ended there";

@@ -6,7 +6,7 @@
 //!                            └─ aperture, aperture_macro ┘ draw, region
 //! ```
 //!
-//! The reader is one state machine over several files: `codes`, `operation`, `circular`, `contour` and `selected` carry
+//! The reader is one state machine over several files: `codes`, `operation`, `circular` (with `radii`), `contour` and `selected` carry
 //! out the blocks of words, `extended` tells the commands between `%` apart, which `numbers`, `definition`, `copies`
 //! and `transformation` carry out, and `finish` ends it.
 //!
@@ -36,6 +36,7 @@ mod finish;
 mod lex;
 mod numbers;
 mod operation;
+mod radii;
 mod reader;
 mod region;
 mod selected;

@@ -15,7 +15,9 @@ use super::aperture_list::ApertureList;
 use super::aperture_macro::Macro;
 use super::attributes::Attributes;
 use super::canvas::{Canvas, Refusal};
+use super::circular::Reading;
 use super::lex::{Block, End, Lexer, Number, is_blank};
+use super::radii::Radii;
 use super::region::Region;
 use super::state::{Format, Placement, Unit};
 use super::{Image, Options, looks_like};
@@ -34,6 +36,16 @@ pub(super) enum Quadrants {
     Single,
     /// Offsets with sign, any arc.
     Multi,
+}
+
+impl Quadrants {
+    /// As people say it.
+    pub(super) const fn describe(self) -> &'static str {
+        match self {
+            Self::Single => "G74, a quarter at most",
+            Self::Multi => "G75, several quadrants",
+        }
+    }
 }
 
 /// D01, D02, D03.
@@ -112,6 +124,10 @@ pub(super) struct Reader<'a> {
     pub(super) set: Option<u32>,
     pub(super) interpolation: Interpolation,
     pub(super) quadrants: Option<Quadrants>,
+    /// How arcs are read, given after G74, after G75, or before either.
+    pub(super) reading: Reading,
+    /// What the radii of the arcs tell that are given in each of these ways.
+    pub(super) radii: [Radii; 3],
     pub(super) operation: Option<Operation>,
     pub(super) region: Option<Region>,
     pub(super) counts: Counts,
@@ -137,16 +153,22 @@ pub(super) fn read<'a>(
             "expected commands that end with `*`, such as `%FSLAX46Y46*%`",
         ));
     }
-    let mut reader = Reader::new(name, bytes, options);
-    if let Some(list) = list {
-        reader.take_wheel(list);
-    }
-    while let Some(block) = reader.lexer.next() {
-        reader.block(block)?;
-        if reader.ended {
-            break;
+    let begin = |reading: Reading| {
+        let mut reader = Reader::new(name, bytes, options);
+        reader.reading = reading;
+        if let Some(list) = list {
+            reader.take_wheel(list);
         }
+        reader
+    };
+    let mut reader = begin(Reading::USUAL);
+    let mut drawn = reader.all();
+    let reading = reader.reading_by_radii();
+    if reading != Reading::USUAL {
+        reader = begin(reading);
+        drawn = reader.all();
     }
+    drawn?;
     reader.finish()
 }
 
@@ -178,6 +200,8 @@ impl<'a> Reader<'a> {
             set: None,
             interpolation: Interpolation::Linear,
             quadrants: None,
+            reading: Reading::USUAL,
+            radii: Default::default(),
             operation: None,
             region: None,
             counts: Counts::default(),
@@ -185,6 +209,17 @@ impl<'a> Reader<'a> {
             bracketed: false,
             ended: false,
         }
+    }
+
+    /// Carries out all blocks.
+    fn all(&mut self) -> Result<(), Error> {
+        while let Some(block) = self.lexer.next() {
+            self.block(block)?;
+            if self.ended {
+                break;
+            }
+        }
+        Ok(())
     }
 
     /// An error at `place`.
