@@ -51,7 +51,10 @@ fn takes(subcommand: &str, option: &str) -> bool {
         // How far tiles are apart unless that is said goes by the cutter between them.
         "isolate" => Part::Front.is_changed_by(option) || option == "cutout-tool",
         "draw" => {
-            !is_of_the_machine(option) && !option.starts_with("drill") && !option.starts_with("alignment")
+            !is_of_the_machine(option)
+                && option != "thickness"
+                && !option.starts_with("drill")
+                && !option.starts_with("alignment")
         }
         "probe" => {
             places(option) || matches!(option, "safe-z" | "dialect" | "blend" | "cutout-tool" | "outline-gap")

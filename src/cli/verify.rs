@@ -58,6 +58,10 @@ pub(super) struct Verify {
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     deny: Severity,
 
+    /// How thick the board is [default: as the programs' comments say, else 1.6mm]
+    #[arg(long, value_name = "LENGTH", value_parser = above_zero)]
+    thickness: Option<Nm>,
+
     /// How thick the copper is: cuts less deep leave it connected
     #[arg(long, value_name = "LENGTH", default_value = "0.035mm")]
     copper: Nm,
@@ -151,6 +155,15 @@ impl FromStr for Travel {
     }
 }
 
+/// A length of something that is there.
+fn above_zero(text: &str) -> Result<Nm, String> {
+    match text.parse::<Nm>() {
+        Ok(length) if length > Nm::ZERO => Ok(length),
+        Ok(_) => Err("expected a length above zero".to_owned()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
 /// Lengths between commas, where they are so many.
 fn lengths<const COUNT: usize>(text: &str) -> Option<[Nm; COUNT]> {
     let lengths: Option<Vec<Nm>> = text.split(',').map(|length| length.trim().parse().ok()).collect();
@@ -171,6 +184,7 @@ impl Verify {
             tabs: self.tabs,
             tiles: self.tiles(&programs)?,
             pixel: self.resolution,
+            board: self.thickness(&programs)?,
             ..verify::Settings::default()
         };
         if self.register {
@@ -201,6 +215,29 @@ impl Verify {
         let topology = said.and_then(|name| Topology::from_str(name, true).ok());
         // That a pattern means no net was said when the program was made.
         let _ = job::ignore(board, &patterns, topology.unwrap_or(Topology::Contact));
+    }
+
+    /// How thick the board is.
+    fn thickness(&self, programs: &[Program]) -> Result<Nm, Failure> {
+        if let Some(thickness) = self.thickness {
+            return Ok(thickness);
+        }
+        let said = programs.iter().filter_map(|program| {
+            let text = verify::said(&program.text, "thickness")?;
+            Some((program, text.parse::<Nm>().ok().filter(|&thickness| thickness > Nm::ZERO)?))
+        });
+        let said: Vec<(&Program, Nm)> = said.collect();
+        let Some(&(first, thickness)) = said.first() else { return Ok(verify::Settings::default().board) };
+        match said.iter().find(|(_, other)| *other != thickness) {
+            None => Ok(thickness),
+            Some((other, otherwise)) => {
+                let cause = format!(
+                    "{} is for a board of {thickness:.3} mm, {} for one of {otherwise:.3} mm",
+                    first.file, other.file
+                );
+                Err(Failure::new(cause, "say how thick the board is: --thickness 1.6mm"))
+            }
+        }
     }
 
     /// How many boards there are.

@@ -57,6 +57,7 @@ impl Options {
             offset: self.offset.or(others.offset),
             rotate: self.rotate.or(others.rotate),
             mirror_axis: self.mirror_axis.or(others.mirror_axis),
+            thickness: self.thickness.or(others.thickness),
             drills: self.drills.or(others.drills),
             drill_tolerance: self.drill_tolerance.or(others.drill_tolerance),
             drill_peck: self.drill_peck.or(others.drill_peck),

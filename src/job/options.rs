@@ -209,6 +209,11 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tool_change_at: Option<ToolChangeAt>,
 
+    /// How thick the board is, copper and all: what through-cuts and holes are judged against
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub thickness: Option<Length>,
+
     /// Drills at hand, such as 0.8mm,1mm,3.2mm; else one for each diameter in the files
     #[arg(long, value_name = "LENGTHS", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]

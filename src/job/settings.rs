@@ -69,6 +69,8 @@ pub struct Settings {
     pub offset: Vector,
     /// The line about which it is turned over; none for its middle.
     pub mirror_axis: Option<Nm>,
+    /// How thick the board is.
+    pub thickness: Nm,
     /// The drills at hand; none for one of each diameter.
     pub drills: Vec<Tool>,
     /// The speeds of drills that have none of their own; none for those that suit their diameters.
@@ -173,6 +175,7 @@ impl Settings {
             rotate: options.rotate.expect(open),
             offset: options.offset.map_or_else(Vector::default, |to| Vector::new(to.x.nm(), to.y.nm())),
             mirror_axis: options.mirror_axis.map(Length::nm),
+            thickness: positive("thickness", options.thickness)?,
             drills,
             drill_speeds: workshop.drilling,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
@@ -409,6 +412,7 @@ mod tests {
         for (text, key) in [
             ("depth = \"0mm\"", "depth"),
             ("tool = \"drill:1mm\"", "tool"),
+            ("thickness = \"0mm\"", "thickness"),
             ("cutout-tool = \"vbit:0.1mm:30deg\"", "cutout-tool"),
             ("tab-height = \"2mm\"", "tab-height"),
             ("pixel = \"10nm\"", "pixel"),

@@ -36,6 +36,7 @@ impl Job {
         // What the settings allow is no finding.
         let judging = verify::Settings {
             diameter: usual.diameter.max(settings.drill_tolerance),
+            board: settings.thickness,
             travel: settings.machine.travel,
             tabs: settings.tabs.count(),
             ..usual

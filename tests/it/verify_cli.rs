@@ -42,6 +42,31 @@ fn the_exit_code_of_verify_says_what_was_found() {
 }
 
 #[test]
+fn a_program_says_how_thick_its_board_is_and_a_person_knows_better() {
+    let folder = TempDir::new().expect("a folder");
+    let text = fs::read_to_string(fixture("loops.nc")).expect("a program");
+    let write = |name: &str, thickness: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, format!("(thickness {thickness})\n{text}")).expect("written");
+        path.to_string_lossy().into_owned()
+    };
+    let (thin, thick) = (write("thin.nc", "0.1mm"), write("thick.nc", "1.6mm"));
+    let judge = |programs: &[&str], more: &[&str]| {
+        let board = fixture("pads-F_Cu.gbr");
+        let fixed = ["--board", &board, "--tool", "endmill:0.2mm", "--side", "front"];
+        voromill(Path::new("."), &[&["verify"], programs, &fixed, more].concat())
+    };
+    let through = judge(&[&thin], &[]);
+    assert!(stdout(&through).contains("[too-deep]"), "more than half the board: {}", stdout(&through));
+    assert_eq!(judge(&[&thick], &[]).status.code(), Some(0), "less than that");
+    assert_eq!(judge(&[&thin], &["--thickness", "1.6mm"]).status.code(), Some(0), "the person's word counts");
+    let both = judge(&[&thin, &thick], &[]);
+    assert_eq!(both.status.code(), Some(2), "{}", stdout(&both));
+    assert!(stderr(&both).contains("0.100 mm") && stderr(&both).contains("--thickness"), "{}", stderr(&both));
+    assert_eq!(judge(&[&thin], &["--thickness", "0mm"]).status.code(), Some(2), "no board is so thin");
+}
+
+#[test]
 fn every_form_is_printed() {
     let json = stdout(&verify("arcs.nc", &["--format", "json"]));
     let verdict: serde_json::Value = serde_json::from_str(&json).expect("JSON");
