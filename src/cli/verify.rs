@@ -208,11 +208,13 @@ impl Verify {
         let mut patterns = self.ignore.clone();
         if patterns.is_empty() {
             let said = programs.iter().filter_map(|program| verify::said(&program.text, "ignore"));
-            let all: BTreeSet<&str> = said.flat_map(str::split_whitespace).collect();
-            patterns = all.into_iter().filter_map(|name| name.parse().ok()).collect();
+            let all: BTreeSet<String> = said
+                .flat_map(|names| names.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
+                .collect();
+            patterns = all.iter().filter_map(|name| name.parse().ok()).collect();
         }
         let said = programs.iter().find_map(|program| verify::said(&program.text, "topology"));
-        let topology = said.and_then(|name| Topology::from_str(name, true).ok());
+        let topology = said.and_then(|name| Topology::from_str(&name, true).ok());
         // That a pattern means no net was said when the program was made.
         let _ = job::ignore(board, &patterns, topology.unwrap_or(Topology::Contact));
     }

@@ -1,3 +1,5 @@
+use std::fmt::Write as _;
+
 use crate::toolpath::duration;
 
 /// What a program says of itself before it begins: what made it, from what, how. No clock, no path, no host.
@@ -30,8 +32,38 @@ impl Header {
             let short: String = sha256.chars().take(12).collect();
             lines.push(format!("from {file} sha256 {short}"));
         }
-        lines.extend(self.settings.iter().map(|(name, value)| format!("{name} {value}")));
+        lines.extend(self.settings.iter().flat_map(|(name, value)| setting(name, value)));
         lines.extend(self.seconds.map(|seconds| format!("takes about {}", duration(seconds))));
         lines
     }
+}
+
+/// A setting in lines short enough to stand each in one comment, the name before each part.
+fn setting(name: &str, value: &str) -> Vec<String> {
+    /// Chosen: shorter than any controller's line.
+    const ROOM: usize = 70;
+    let mut lines: Vec<String> = Vec::new();
+    for word in escaped(value).split(' ') {
+        match lines.last_mut().filter(|line| line.len() + word.len() < ROOM) {
+            Some(line) => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            None => lines.push(format!("{name} {word}")),
+        }
+    }
+    lines
+}
+
+/// A value whose every character survives in a comment: what does not is written as `^` and two hexadecimal digits for each byte.
+fn escaped(value: &str) -> String {
+    let mut out = String::with_capacity(value.len());
+    for byte in value.bytes() {
+        if (b' '..0x7f).contains(&byte) && !b"?!~%();*#{}^".contains(&byte) {
+            out.push(char::from(byte));
+        } else {
+            _ = write!(out, "^{byte:02X}");
+        }
+    }
+    out
 }

@@ -2,14 +2,15 @@
 //!
 //! Coordinates are rounded here, once, to the dialect's last digit, and everything is decided on the rounded
 //! figures: what has not moved is not written, and an arc that rounding would turn into another (a
-//! short one whose end slips behind its start would become a full circle) is written as lines.
+//! short one whose end slips behind its start would become a full circle) is written as lines. A full circle is written in two halves,
+//! as controllers differ in what an arc is that ends where it begins: all round, nothing, or an error.
 
 use std::fmt::Write as _;
 
 use crate::geometry::{Arc, Nm, Point, Turn};
 use crate::toolpath::{Feed, Move, Position, Program, Section, Tool};
 
-use super::dialect::{Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, ToolChange};
+use super::dialect::{ArcCheck, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Rapids, ToolChange};
 use super::header::Header;
 
 /// The whole program as text, every line ended.
@@ -45,13 +46,16 @@ pub(super) struct Writer<'a> {
     at: Option<Rounded>,
     /// Where the plan is: what the rounded position stands for.
     planned: Option<Position>,
+    /// The feed in force; none where the controller may have another, or lost it.
     feed: Option<Feed>,
+    /// Whether a rapid has said its speed.
+    fed: bool,
 }
 
 impl<'a> Writer<'a> {
     pub(super) fn new(dialect: &'a Dialect) -> Self {
         let unit = 10_i64.pow(u32::try_from(6_usize.saturating_sub(dialect.decimals)).unwrap_or(0));
-        Self { dialect, text: String::new(), unit, line: 0, at: None, planned: None, feed: None }
+        Self { dialect, text: String::new(), unit, line: 0, at: None, planned: None, feed: None, fed: false }
     }
 
     /// Header, start lines, and the first lift.
@@ -60,7 +64,7 @@ impl<'a> Writer<'a> {
         for line in header.lines() {
             self.comment(&line);
         }
-        for note in &program.notes {
+        for note in program.notes.iter().map(String::as_str).chain(self.dialect.condition.as_deref()) {
             self.comment(note);
         }
         for line in self.dialect.start.iter() {
@@ -95,7 +99,7 @@ impl<'a> Writer<'a> {
     }
 
     fn start(&mut self, tool: &Tool) {
-        self.line(&format!("M3 S{}", tool.spindle));
+        self.line(&format!("{} S{}", self.dialect.spindle, tool.spindle));
         if let Some((on, _)) = &self.dialect.coolant {
             self.line(on);
         }
@@ -124,7 +128,9 @@ impl<'a> Writer<'a> {
     /// Up to the safe height, whatever the height is: after a tool change nobody knows.
     pub(super) fn lift(&mut self, safe: Nm) {
         let z = self.round(safe);
-        self.line(&format!("G0 Z{}", self.number(z)));
+        let mut line = format!("G0 Z{}", self.number(z));
+        self.rapid_feed(&mut line);
+        self.line(&line);
         self.at = self.at.map(|at| Rounded { z, ..at });
         self.planned = self.planned.map(|at| Position { z: safe, ..at });
     }
@@ -147,7 +153,7 @@ impl<'a> Writer<'a> {
             // A program for files has one tool; with more it waits, as the safest.
             ToolChange::Pause | ToolChange::Files => {
                 self.comment(&format!("fit {text}"));
-                self.line("M0");
+                self.line(&self.dialect.pause);
             }
             ToolChange::PauseWithText => self.line(&format!("M0 fit {}", plain(&text))),
         }
@@ -188,11 +194,31 @@ impl<'a> Writer<'a> {
         if at.is_some() || feed.is_some() {
             self.coordinate(&mut line, 'Z', rounded.z, at.map(|at| at.z));
         }
-        if let Some(feed) = feed {
-            self.feed_word(&mut line, feed);
+        match feed {
+            Some(feed) => self.feed_word(&mut line, feed),
+            None => self.rapid_feed(&mut line),
         }
         self.at = Some(rounded);
         self.line(&line);
+    }
+
+    /// The speed of a rapid, where it must be said; the cut that follows it then says its own again.
+    fn rapid_feed(&mut self, line: &mut String) {
+        let says = match self.dialect.rapids {
+            Rapids::Unfed => false,
+            Rapids::FirstFed => !self.fed,
+            Rapids::Fed => {
+                self.feed = None;
+                true
+            }
+        };
+        if says {
+            self.fed = true;
+            let [level, vertical] = self.dialect.rapid;
+            // A feed that is for all rapids is the fast one: each axis goes no faster than it can.
+            let straight = self.dialect.rapids == Rapids::Fed && !line.contains(['X', 'Y']);
+            _ = write!(line, " F{}", if straight { vertical } else { level }.number());
+        }
     }
 
     fn arc(&mut self, to: Position, center: Point, turn: Turn, feed: Feed) {
@@ -203,13 +229,18 @@ impl<'a> Writer<'a> {
             self.chords(&arc, from.z, to, feed);
         } else if self.dialect.arcs == Arcs::Radius {
             self.by_radius(&arc, from.z, to, feed);
+        } else if arc.start == arc.end {
+            let opposite = Point::new(center.x * 2 - arc.start.x, center.y * 2 - arc.start.y);
+            let z = from.z + Nm::new((to.z - from.z).get() / 2);
+            self.by_center(Position::over(opposite, z), center, turn, feed);
+            self.by_center(to, center, turn, feed);
         } else {
             self.by_center(to, center, turn, feed);
         }
     }
 
     /// Whether the arc between the rounded points round the rounded centre is still that arc: every point of it
-    /// within two units of the last digit, and the two radii as near as the controllers ask.
+    /// within two units of the last digit, and the two radii as near as the controller asks.
     fn survives_rounding(&self, arc: &Arc) -> bool {
         let snap =
             |p: Point| Point::new(Nm::new(self.round(p.x) * self.unit), Nm::new(self.round(p.y) * self.unit));
@@ -221,7 +252,11 @@ impl<'a> Writer<'a> {
         let unit = Nm::new(self.unit).to_f64();
         let off = (rounded.sweep() - arc.sweep()).abs() * arc.radius();
         let radii = (rounded.radius() - rounded.center.distance(rounded.end)).abs();
-        arc.length() > 8.0 * unit && off <= 4.0 * unit && radii <= RADIUS_ERROR.to_f64().min(4.0 * unit)
+        let most = match self.dialect.arc_check {
+            ArcCheck::Absolute => RADIUS_ERROR.to_f64(),
+            ArcCheck::Relative => RADIUS_ERROR.to_f64().min(rounded.radius() / RELATIVE),
+        };
+        arc.length() > 8.0 * unit && off <= 4.0 * unit && radii <= most.min(4.0 * unit)
     }
 
     /// As lines within [`CHORD`] of the arc, evenly up or down.
@@ -337,6 +372,9 @@ const CHORD: Nm = Nm::from_um(1);
 /// How far the radii at an arc's two ends may differ: LinuxCNC refuses more than 1.27 µm, Grbl more than 5 µm.
 const RADIUS_ERROR: Nm = Nm::new(1200);
 
+/// The part of the radius by which they may differ where that is asked too: half of the thousandth that is refused.
+const RELATIVE: f64 = 2_000.0;
+
 fn word(turn: Turn) -> &'static str {
     match turn {
         Turn::Clockwise => "G2",
@@ -355,7 +393,9 @@ pub(super) fn plain(text: &str) -> String {
             '–' | '—' => out.push('-'),
             '(' => out.push('['),
             ')' => out.push(']'),
-            '?' | '!' | '~' | ';' | '%' => out.push('.'),
+            '{' => out.push('['),
+            '}' => out.push(']'),
+            '?' | '!' | '~' | ';' | '%' | '#' | '*' => out.push('.'),
             ' '..='\x7d' => out.push(c),
             _ => out.push('_'),
         }

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
-use crate::gcode::dialect::{self, Dialect, DialectError};
+use crate::gcode::dialect::{Dialect, DialectError};
 
 /// How copper is isolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
@@ -64,7 +64,7 @@ pub enum Topology {
     All,
 }
 
-/// What the machine speaks: one of [`dialect::ALL`], or one of one's own.
+/// What the machine speaks: one of [`dialect::ALL`](crate::gcode::dialect::ALL), or one of one's own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DialectChoice(pub Dialect);
 
@@ -72,7 +72,7 @@ pub struct DialectChoice(pub Dialect);
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParseDialectError {
     /// Neither a name nor a file.
-    #[error("`{0}` is not a dialect: expected {known} or a file such as mine.toml", known = known_dialects())]
+    #[error("`{0}` is not a dialect: expected {known} or a file such as mine.toml", known = Dialect::names())]
     Unknown(String),
     /// A file that cannot be read.
     #[error("cannot read the dialect {file}: {reason}")]
@@ -90,10 +90,6 @@ pub enum ParseDialectError {
         /// Why.
         reason: DialectError,
     },
-}
-
-fn known_dialects() -> String {
-    dialect::ALL.iter().map(|dialect| dialect.name.as_ref()).collect::<Vec<_>>().join(", ")
 }
 
 /// A name, or the path of a file that ends in `.toml`, as seen from the working directory.

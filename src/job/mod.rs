@@ -30,6 +30,7 @@ mod settings;
 mod settings_file;
 mod show;
 mod stock;
+mod tag;
 mod tools;
 mod verification;
 mod written;

@@ -155,7 +155,7 @@ pub struct Options {
     #[serde(with = "text")]
     pub safe_z: Option<Length>,
 
-    /// What the machine speaks: grbl, linuxcnc, mach3, marlin, smoothieware, tinyg, or a file such as mine.toml that describes a dialect
+    /// What the machine speaks: grbl, grblhal, fluidnc, linuxcnc, mach3, mach4, marlin, reprapfirmware, klipper, smoothieware, tinyg, g2core, or a file such as mine.toml that describes a dialect
     #[arg(long, value_name = "DIALECT", help_heading = "Machine")]
     #[serde(with = "text")]
     pub dialect: Option<DialectChoice>,
@@ -165,7 +165,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub blend: Option<Blend>,
 
-    /// How tools are changed: m6, pause (M0), pause-with-text, or files (each tool has its own) [default: as the dialect says]
+    /// How tools are changed: files (each tool has its own), m6, pause (M0), or pause-with-text, where the machine waits at it [default: as the dialect says]
     #[arg(long, value_enum, hide_possible_values = true, value_name = "HOW", help_heading = "Machine")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_change: Option<ToolChange>,

@@ -11,7 +11,7 @@ use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
 use super::stock::Stock;
-use super::{Error, Layer, Narrow, Part, Settings, Written, by_net, numbering};
+use super::{Error, Layer, Narrow, Part, Settings, Written, by_net, numbering, tag};
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
@@ -94,11 +94,12 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         warnings.extend(found);
     }
     numbering::number(planned.iter_mut().map(|(.., program)| program), &settings.options().tools);
-    let write = |(part, side, program): (Part, Side, Program)| {
+    let tags = tag::tags(&planned, settings);
+    let write = |((part, side, program), tag): ((Part, Side, Program), String)| {
         let tiling = stock.tiling(side).filter(|_| part != Part::Alignment);
-        Written::new((part, side), program, &header, tiling, settings)
+        Written::new((part, side, tag), program, &header, tiling, settings)
     };
-    let programs: Vec<Written> = planned.into_par_iter().map(write).collect();
+    let programs: Vec<Written> = planned.into_par_iter().zip(tags).map(write).collect();
     warnings.extend(programs.iter().filter_map(|program| program.warning.clone()));
     if board.outline.is_none() && !warnings.iter().any(|warning| warning.code.starts_with("outline-")) {
         warnings.push(Warning::new("outline-missing", "no outline was named, so the board is not cut out"));

@@ -1,5 +1,8 @@
+use clap::ValueEnum;
+
 use crate::board::Side;
 use crate::gcode::Dialect;
+use crate::gcode::dialect::ToolChange;
 use crate::geometry::{Nm, Vector};
 use crate::toolpath::{self, Angle, Feed, Heights, Machine, Tool, ToolKind};
 
@@ -148,7 +151,7 @@ impl Settings {
         let tab_height = positive("tab-height", options.tab_height)?;
         let tabs = holding(&options)?;
         let tiles = tiles(&options, &cutout_tool)?;
-        let dialect = dialect(&options, options.dialect.clone().expect(open).0);
+        let dialect = dialect(&options, options.dialect.clone().expect(open).0)?;
         output_name::check(&options.output_name)?;
         if tabs != Holding::Count(0) && tab_height >= cutout_depth {
             let problem = format!(
@@ -244,13 +247,38 @@ impl Settings {
 }
 
 /// `base`, with what the options say differs.
-fn dialect(options: &Options, base: Dialect) -> Dialect {
-    Dialect {
+fn dialect(options: &Options, base: Dialect) -> Result<Dialect, Error> {
+    let tool_change = options.tool_change.unwrap_or(base.tool_change);
+    if !base.changes.contains(&tool_change) {
+        return Err(Error::Value { key: "tool-change", problem: unheld(tool_change, &base) });
+    }
+    Ok(Dialect {
         spin_up: options.spin_up.map_or(base.spin_up, |Wait { milliseconds }| milliseconds),
-        tool_change: options.tool_change.unwrap_or(base.tool_change),
+        tool_change,
         blend: base.blend.map(|own| options.blend.unwrap_or(own)),
         ..base
-    }
+    })
+}
+
+/// Why a way of changing tools cannot be asked for: a machine that does not stand still cuts on with the tool that is in.
+fn unheld(change: ToolChange, base: &Dialect) -> String {
+    let word = match change {
+        ToolChange::M6 => "M6",
+        ToolChange::Pause => "M0",
+        ToolChange::PauseWithText => "M0 with a text",
+        ToolChange::Files => "the end of a program",
+    };
+    let held: Vec<String> = base
+        .changes
+        .iter()
+        .filter_map(ValueEnum::to_possible_value)
+        .map(|value| value.get_name().to_owned())
+        .collect();
+    format!(
+        "{} does not wait at {word} until the tool is changed: expected {}; for a controller or a sender that does, say so in a dialect of your own",
+        base.name,
+        held.join(" or ")
+    )
 }
 
 /// Room between tiles, beside the cutter. Chosen: the stock between two boards stays in one piece.
@@ -443,6 +471,9 @@ mod tests {
             ("adaptive-depth = \"0.05mm\"\ntool = \"endmill:0.2mm\"", "adaptive-depth"),
             ("tool = \"endmill:500mm\"", "tool"),
             ("depth = \"1000mm\"", "tool"),
+            ("tool-change = \"m6\"", "tool-change"),
+            ("dialect = \"tinyg\"\ntool-change = \"pause\"", "tool-change"),
+            ("dialect = \"smoothieware\"\ntool-change = \"m6\"", "tool-change"),
         ] {
             let error = settings(text).expect_err(text).to_string();
             assert!(error.starts_with(key), "{text}: {error}");

@@ -1,5 +1,4 @@
 use crate::board::{Side, Warning};
-use crate::gcode::dialect::ToolChange;
 use crate::gcode::{self, Header};
 use crate::geometry::Point;
 use crate::toolpath::{Program, Statistics, Tiling, measure};
@@ -29,6 +28,8 @@ pub struct Written {
     pub part: Part,
     /// The side that is up.
     pub side: Side,
+    /// What its file's name ends in: the part, and the tool where each has a file of its own.
+    pub tag: String,
     /// What was planned, for one tile.
     pub program: Program,
     /// What it amounts to.
@@ -84,7 +85,7 @@ impl Written {
     /// `program`, on every tile, in the dialect of `settings`, under `header` with its settings and the time it takes.
     #[must_use]
     pub fn new(
-        (part, side): (Part, Side),
+        (part, side, tag): (Part, Side, String),
         program: Program,
         header: &Header,
         tiling: Option<Tiling>,
@@ -107,22 +108,18 @@ impl Written {
         let text = gcode::write(&whole, &settings.dialect, &header);
         let tile = tiling.map(|_| gcode::write(&wait(program.clone()), &settings.dialect, &header));
         let warning = whole.check_travel(&settings.machine);
-        Self { part, side, program, statistics, text, tile, warning }
+        Self { part, side, tag, program, statistics, text, tile, warning }
     }
 
     /// The name of its file.
     #[must_use]
     pub fn file_name(&self, board: &str, settings: &Settings) -> String {
-        let tool = match self.program.sections.first() {
-            Some(section) if settings.dialect.tool_change == ToolChange::Files => {
-                format!("-tool-{}", section.tool.number)
-            }
-            _ => String::new(),
-        };
         let named = settings.options().output_name.iter().find(|name| name.part == self.part);
+        // The tool, where there is a file for each.
+        let tool = self.tag.strip_prefix(self.part.name()).unwrap_or_default();
         named.map_or_else(
-            || format!("{board}-{}{tool}.{}", self.part.name(), settings.dialect.extension),
-            |name| name.with(&tool),
+            || format!("{board}-{}.{}", self.tag, settings.dialect.extension),
+            |name| name.with(tool),
         )
     }
 }

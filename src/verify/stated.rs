@@ -66,10 +66,27 @@ impl Stated {
 }
 
 /// What a program that voromill wrote says of a setting in its comments, `tile` or `ignore`; none where it says nothing.
+///
+/// A long value stands in several comments; what no comment can hold is `^` and two hexadecimal digits for each byte.
 #[must_use]
-pub fn said<'a>(text: &'a str, setting: &str) -> Option<&'a str> {
-    let value = |comment: &'a str| comment.trim().strip_prefix(setting)?.strip_prefix(' ');
-    text.lines().take(HEADER).flat_map(comments).find_map(value).map(str::trim)
+pub fn said(text: &str, setting: &str) -> Option<String> {
+    let value =
+        |comment: &str| Some(comment.trim().strip_prefix(setting)?.strip_prefix(' ')?.trim().to_owned());
+    let parts: Vec<String> = text.lines().take(HEADER).flat_map(comments).filter_map(value).collect();
+    (!parts.is_empty()).then(|| unescaped(&parts.join(" ")))
+}
+
+/// A value as it was before its characters were made fit for a comment.
+fn unescaped(value: &str) -> String {
+    let mut bytes = Vec::with_capacity(value.len());
+    let mut rest = value.as_bytes();
+    while let [first, after @ ..] = rest {
+        let code = after.get(..2).and_then(|digits| std::str::from_utf8(digits).ok());
+        let byte = code.filter(|_| *first == b'^').and_then(|digits| u8::from_str_radix(digits, 16).ok());
+        bytes.push(byte.unwrap_or(*first));
+        rest = if byte.is_some() { &after[2..] } else { after };
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
 }
 
 /// In so many lines at most a program says what it was made with. Chosen: several times as many as there are settings.
@@ -121,7 +138,13 @@ mod tests {
         assert_eq!(stated.origin.as_deref(), Some("lower-left"), "the origin");
         let lines: Vec<u32> = stated.cutters.iter().map(|(line, _)| *line).collect();
         assert_eq!(lines, [2, 6], "each from its line on");
-        assert_eq!(said(text, "origin"), Some("lower-left"), "a setting");
+        assert_eq!(said(text, "origin").as_deref(), Some("lower-left"), "a setting");
+        let long = "(ignore NET-^28D1-K^29 A^2A)\n(ignore gr^C3^B6n)\n(made by x)\n";
+        assert_eq!(
+            said(long, "ignore").as_deref(),
+            Some("NET-(D1-K) A* gr\u{f6}n"),
+            "in parts, as it was meant"
+        );
         assert_eq!(said(text, "ignore"), None, "none");
     }
 }

@@ -71,7 +71,11 @@ fn milling_a_double_sided_board_writes_every_program_picture_and_the_report() {
         "regulator-back.ngc",
         "regulator-back.png",
         "regulator-cutout.ngc",
-        "regulator-drill.ngc",
+        "regulator-drill-0.6mm.ngc",
+        "regulator-drill-0.8mm.ngc",
+        "regulator-drill-1.0mm.ngc",
+        "regulator-drill-1.3mm.ngc",
+        "regulator-drill-3.2mm.ngc",
         "regulator-front.ngc",
         "regulator-front.png",
         "regulator.html",
@@ -333,11 +337,16 @@ fn nonsense_for_input_ends_in_a_message_and_no_file() {
 fn a_file_that_cannot_be_replaced_leaves_the_others_as_they_were() {
     let out = folder();
     let target = out.path().join("out");
-    fs::create_dir_all(target.join("blinker-drill.ngc")).expect("a folder in the way");
+    fs::create_dir_all(target.join("blinker-cutout.ngc")).expect("a folder in the way");
     fs::write(target.join("blinker-back.ngc"), "old").expect("written");
     let board = fixture("boards/blinker");
-    fails(&out, &["mill", &board.to_string_lossy(), "-o", "out"], &["blinker-drill.ngc", "folder"], &["out"]);
-    assert_eq!(listing(&target), ["blinker-back.ngc", "blinker-drill.ngc"], "nothing new");
+    fails(
+        &out,
+        &["mill", &board.to_string_lossy(), "-o", "out"],
+        &["blinker-cutout.ngc", "folder"],
+        &["out"],
+    );
+    assert_eq!(listing(&target), ["blinker-back.ngc", "blinker-cutout.ngc"], "nothing new");
     assert_eq!(
         fs::read_to_string(target.join("blinker-back.ngc")).expect("there"),
         "old",

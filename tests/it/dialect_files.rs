@@ -41,11 +41,12 @@ fn a_dialect_in_a_file_writes_as_it_says_with_a_file_for_each_tool() {
     );
     assert!(done.status.success(), "{}", stderr(&done));
     let names = listing(&folder.path().join("out"));
-    let drills = names.iter().filter(|name| name.starts_with("regulator-drill-tool-")).count();
-    assert!(drills > 2, "a file for each drill: {names:?}");
+    let drills =
+        ["0.6mm", "0.8mm", "1.0mm", "1.3mm", "3.2mm"].map(|drill| format!("regulator-drill-{drill}.nc"));
+    assert!(drills.iter().all(|drill| names.contains(drill)), "a file for each drill: {names:?}");
     assert!(
-        names.contains(&"regulator-front-tool-1.nc".to_owned())
-            && names.contains(&"regulator-front-tool-2.nc".to_owned()),
+        names.contains(&"regulator-front-endmill-0.5mm.nc".to_owned())
+            && names.contains(&"regulator-front-endmill-0.1mm.nc".to_owned()),
         "{names:?}"
     );
     for name in names.iter().filter(|name| name.ends_with(".nc")) {
@@ -99,10 +100,16 @@ fn programs_have_the_names_and_tool_changes_that_are_asked_for() {
         (done.status.code(), stderr(&done), stdout(&done))
     };
     let names = ["--output-name", "front=top side.nc", "--output-name", "drill=holes.nc"];
-    let (code, message, summary) = mill(&[&names[..], &["--tool-change", "files"]].concat());
+    let (code, message, summary) = mill(&names);
     assert_eq!(code, Some(0), "{message}");
-    assert!(folder.path().join("out/top side-tool-1.nc").exists(), "{summary}");
-    assert!(summary.contains("holes-tool-2.nc"), "a file for each tool, and in the summary:\n{summary}");
+    assert!(folder.path().join("out/top side.nc").exists(), "{summary}");
+    assert!(summary.contains("holes-0.8mm.nc"), "a file for each drill, and in the summary:\n{summary}");
+    let (code, message, summary) = mill(&[&names[..], &["--tool-change", "pause"]].concat());
+    assert_eq!(code, Some(0), "{message}");
+    assert!(summary.contains("holes.nc"), "one for all where they are held at one length:\n{summary}");
+    let (code, message, _) = mill(&["--tool-change", "m6"]);
+    assert_eq!(code, Some(2), "error 20 on the machine");
+    assert!(message.contains("tool-change: grbl does not wait at M6"), "{message}");
     let (code, message, _) = mill(&["--output-name", "cutout=regulator.json"]);
     assert_eq!(code, Some(2), "the report has that name");
     assert!(message.contains("two outputs would be out/regulator.json"), "{message}");
@@ -155,7 +162,7 @@ fn a_board_can_be_moved_and_the_machine_waits_as_high_as_said() {
         fs::read_to_string(folder.path().join(out).join("regulator-drill.ngc")).expect("written")
     };
     let (here, there) = (
-        mill("a", &[]),
+        mill("a", &["--tool-change", "pause"]),
         mill(
             "b",
             &[
@@ -163,6 +170,8 @@ fn a_board_can_be_moved_and_the_machine_waits_as_high_as_said() {
                 "10mm,-5mm",
                 "--tool-change-at",
                 "25mm",
+                "--tool-change",
+                "pause",
                 "--drill-plunge",
                 "33mm/min",
                 "--drill-spindle",

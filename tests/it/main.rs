@@ -28,6 +28,7 @@ mod random_boards;
 mod raster;
 mod real_boards;
 mod resolutions;
+mod rules;
 mod snapshot;
 mod toolpath;
 mod topology;

@@ -28,7 +28,7 @@ fn matches_snapshot(stage: &str, name: &str, text: &str) {
 fn matches_snapshots(board: &str, case: &str, options: Options) {
     let (job, settings) = mill(board, options);
     for program in &job.programs {
-        matches_snapshot("gcode", &format!("{case}-{}", program.part.name()), &program.text);
+        matches_snapshot("gcode", &format!("{case}-{}", program.tag), &program.text);
     }
     matches_snapshot("report", case, &job.describe(&settings).to_json());
 }

@@ -6,7 +6,7 @@ use std::ops::RangeInclusive;
 
 use serde::de::{Deserialize, Deserializer, Error};
 
-use super::{ALL, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Text, ToolChange, Touches};
+use super::{Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Rapids, Text, ToolChange, Touches};
 
 /// Why a text does not describe a dialect: what is wrong with it, and in which line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -29,6 +29,11 @@ struct Keys {
     comments: Option<Comments>,
     dwell: Option<Dwell>,
     tool_change: Option<ToolChange>,
+    #[serde(default, deserialize_with = "line")]
+    pause: Option<String>,
+    #[serde(default, deserialize_with = "line")]
+    spindle: Option<String>,
+    rapids: Option<Rapids>,
     line_numbers: Option<LineNumbers>,
     #[serde(default, deserialize_with = "longest_line")]
     longest_line: Option<usize>,
@@ -72,6 +77,11 @@ impl Dialect {
             (None, Some(_), Some(Blend::Within(_))) => Some(Blend::Machine),
             (given, _, blend) => given.or(blend),
         };
+        let mut changes = base.changes.clone();
+        if let Some(own) = keys.tool_change.filter(|own| !changes.contains(own)) {
+            // Who describes a controller knows what it waits at, or a sender that does.
+            changes.to_mut().push(own);
+        }
         Ok(Self {
             name: Cow::Owned(keys.name),
             about: text(keys.about, base.about),
@@ -80,7 +90,13 @@ impl Dialect {
             arcs: keys.arcs.unwrap_or(base.arcs),
             comments: keys.comments.unwrap_or(base.comments),
             dwell: keys.dwell.unwrap_or(base.dwell),
+            arc_check: base.arc_check,
+            rapids: keys.rapids.unwrap_or(base.rapids),
+            rapid: base.rapid,
             tool_change: keys.tool_change.unwrap_or(base.tool_change),
+            changes,
+            pause: text(keys.pause, base.pause),
+            spindle: text(keys.spindle, base.spindle),
             line_numbers: keys.line_numbers.unwrap_or(base.line_numbers),
             longest_line: keys.longest_line.unwrap_or(base.longest_line),
             blend,
@@ -89,6 +105,7 @@ impl Dialect {
             coolant: keys.coolant.map(|[on, off]| (Cow::Owned(on), Cow::Owned(off))).or(base.coolant),
             spin_up: keys.spin_up.unwrap_or(base.spin_up),
             touches: keys.touches.unwrap_or(base.touches),
+            condition: base.condition,
         })
     }
 }
@@ -96,8 +113,8 @@ impl Dialect {
 fn base<'de, D: Deserializer<'de>>(written: D) -> Result<&'static Dialect, D::Error> {
     let name = String::deserialize(written)?;
     Dialect::by_name(&name).ok_or_else(|| {
-        let names: Vec<&str> = ALL.iter().map(|dialect| dialect.name.as_ref()).collect();
-        D::Error::custom(format!("`{name}` is no dialect to build on: expected one of {}", names.join(", ")))
+        let names = Dialect::names();
+        D::Error::custom(format!("`{name}` is no dialect to build on: expected one of {names}"))
     })
 }
 
@@ -142,6 +159,11 @@ fn lines<'de, D: Deserializer<'de>>(written: D) -> Result<Option<Vec<String>>, D
     one_each::<D, _>(Vec::<String>::deserialize(written)?)
 }
 
+/// One line as it will stand in a program.
+fn line<'de, D: Deserializer<'de>>(written: D) -> Result<Option<String>, D::Error> {
+    Ok(one_each::<D, _>([String::deserialize(written)?])?.map(|[line]| line))
+}
+
 fn pair<'de, D: Deserializer<'de>>(written: D) -> Result<Option<[String; 2]>, D::Error> {
     one_each::<D, _>(<[String; 2]>::deserialize(written)?)
 }
@@ -151,6 +173,12 @@ fn one_each<'de, D: Deserializer<'de>, L: AsRef<[String]>>(lines: L) -> Result<O
         return Err(D::Error::custom(
             "a line holds a control character: expected each line in quotes of its own",
         ));
+    }
+    if let Some(line) = lines.as_ref().iter().find(|line| !line.is_ascii()) {
+        // Grbl takes bytes from 0x80 for commands, wherever they stand.
+        return Err(D::Error::custom(format!(
+            "`{line}` is not ASCII: controllers take other bytes for commands"
+        )));
     }
     Ok(Some(lines))
 }
@@ -168,6 +196,17 @@ mod tests {
         assert_eq!(mine.start, base.start, "the start lines are LinuxCNC's");
         assert_eq!(mine.blend, base.blend, "and so is how it rounds corners");
         assert_eq!(mine.coolant, Some(("M8".into(), "M9".into())), "the coolant is its own");
+    }
+
+    #[test]
+    fn a_way_of_changing_tools_that_is_described_is_one_that_holds() {
+        let mine = Dialect::from_toml("name = 'mine'\nbase = 'GRBL'\ntool-change = 'm6'").expect("a dialect");
+        assert!(
+            mine.changes.contains(&ToolChange::M6) && mine.changes.contains(&ToolChange::Files),
+            "{mine:?}"
+        );
+        let plain = Dialect::from_toml("name = 'mine'\nbase = 'grbl'").expect("a dialect");
+        assert!(!plain.changes.contains(&ToolChange::M6), "Grbl alone knows no M6");
     }
 
     #[test]
@@ -196,6 +235,8 @@ mod tests {
             ("name = 'x'\nbase = 'grbl'\nextension = ''", "letters and digits"),
             ("name = 'x'\nbase = 'grbl'\nstart = [\"G21\\nG90\"]", "control character"),
             ("name = 'x'\nbase = 'grbl'\ncoolant = ['M8']", "length 1"),
+            ("name = 'x'\nbase = 'grbl'\nstart = ['(für F)']", "not ASCII"),
+            ("name = 'x'\nbase = 'grbl'\npause = \"M0\\nM3\"", "control character"),
         ];
         for (text, expected) in cases {
             let error = Dialect::from_toml(text).expect_err(text).to_string();

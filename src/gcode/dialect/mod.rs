@@ -1,11 +1,11 @@
-//! What controllers differ in, as data: one file and one constant each, listed in [`ALL`].
+//! What controllers differ in, as data: a constant each, relatives in one file, listed in [`ALL`].
 
 mod blend;
 mod custom;
 mod grbl;
 mod linuxcnc;
-mod mach3;
-mod marlin;
+mod mach;
+mod printer;
 mod smoothieware;
 mod tinyg;
 
@@ -13,6 +13,8 @@ pub use blend::{Blend, ParseBlendError};
 pub use custom::DialectError;
 
 use std::borrow::Cow;
+
+use crate::toolpath::Feed;
 
 /// A text that may be built in or come from the settings.
 pub type Text = Cow<'static, str>;
@@ -30,12 +32,24 @@ pub struct Dialect {
     pub decimals: usize,
     /// How arcs are written.
     pub arcs: Arcs,
+    /// How the controller checks that an arc's two ends are as far from its centre.
+    pub arc_check: ArcCheck,
+    /// Which rapids say their speed.
+    pub rapids: Rapids,
+    /// That speed, level and then straight up or down.
+    pub rapid: [Feed; 2],
     /// How comments are written.
     pub comments: Comments,
     /// How a dwell is written.
     pub dwell: Dwell,
-    /// How tools are changed.
+    /// How tools are changed unless a person says otherwise.
     pub tool_change: ToolChange,
+    /// The ways of changing tools that hold: the machine stands still until the tool is changed.
+    pub changes: Cow<'static, [ToolChange]>,
+    /// What makes it wait for a person, for [`ToolChange::Pause`].
+    pub pause: Text,
+    /// What turns the spindle on, before the S.
+    pub spindle: Text,
     /// Numbers before the lines.
     pub line_numbers: LineNumbers,
     /// The most characters in a line.
@@ -52,10 +66,18 @@ pub struct Dialect {
     pub spin_up: u32,
     /// What becomes of the touches of a probe.
     pub touches: Touches,
+    /// What a person must have set for the programs to run as they are meant, for their headers.
+    pub condition: Option<Text>,
 }
 
 /// What small spindles need. Chosen.
 const SPIN_UP: u32 = 3000;
+
+/// The speeds of rapids, level and straight up or down, where programs must say them. Chosen: what the small engravers are sold with.
+const RAPID: [Feed; 2] = [Feed::from_mm_per_min(1500), Feed::from_mm_per_min(600)];
+
+/// Files alone: nothing makes the machine wait for a person within a program, or what does lets nobody set zero.
+const FILES: Cow<'static, [ToolChange]> = Cow::Borrowed(&[ToolChange::Files]);
 
 /// How arcs are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
@@ -67,6 +89,27 @@ pub enum Arcs {
     Radius,
     /// As lines that stay within a micrometre.
     Lines,
+}
+
+/// How the radii at an arc's two ends are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ArcCheck {
+    /// They may differ by some micrometres, however small the arc is.
+    Absolute,
+    /// By a thousandth of the radius too.
+    Relative,
+}
+
+/// Which rapids carry an F.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Rapids {
+    /// None: the controller knows how fast its axes go.
+    Unfed,
+    /// The first: rapids have a feed of their own, which stays.
+    FirstFed,
+    /// Each: rapids and cuts share one feed.
+    Fed,
 }
 
 /// How comments are written.
@@ -99,7 +142,7 @@ pub enum Dwell {
 pub enum ToolChange {
     /// `T2 M6`: the machine, or its dialogue, does it.
     M6,
-    /// `M0` after a comment that says what to fit: the program waits.
+    /// `M0`, or what the dialect has for it, after a comment that says what to fit: the program waits.
     Pause,
     /// `M0` with the text behind it, which the machine shows.
     PauseWithText,
@@ -130,13 +173,31 @@ pub enum LineNumbers {
 }
 
 /// Every dialect that is built in.
-pub const ALL: &[Dialect] =
-    &[grbl::GRBL, linuxcnc::LINUXCNC, mach3::MACH3, marlin::MARLIN, smoothieware::SMOOTHIEWARE, tinyg::TINYG];
+pub const ALL: &[Dialect] = &[
+    grbl::GRBL,
+    grbl::GRBLHAL,
+    grbl::FLUIDNC,
+    linuxcnc::LINUXCNC,
+    mach::MACH3,
+    mach::MACH4,
+    printer::MARLIN,
+    printer::REPRAPFIRMWARE,
+    printer::KLIPPER,
+    smoothieware::SMOOTHIEWARE,
+    tinyg::TINYG,
+    tinyg::G2CORE,
+];
 
 impl Dialect {
-    /// The built-in dialect of this name.
+    /// The built-in dialect of this name, in capitals or not.
     #[must_use]
     pub fn by_name(name: &str) -> Option<&'static Self> {
-        ALL.iter().find(|dialect| dialect.name == name)
+        ALL.iter().find(|dialect| dialect.name.eq_ignore_ascii_case(name))
+    }
+
+    /// The names of all that are built in, with commas between.
+    #[must_use]
+    pub fn names() -> String {
+        ALL.iter().map(|dialect| dialect.name.as_ref()).collect::<Vec<_>>().join(", ")
     }
 }

@@ -1,23 +1,63 @@
+//! TinyG and its successor g2core.
+//!
+//! Neither holds at M0 or M6: a tool has a file of its own. G64 is their continuous mode, which keeps within the junction tolerance that is set there.
+
 use std::borrow::Cow::Borrowed;
 
-use super::{Arcs, Comments, Dialect, Dwell, LineNumbers, SPIN_UP, ToolChange, Touches};
+use super::{
+    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, RAPID, Rapids, SPIN_UP, ToolChange, Touches,
+};
 
-/// TinyG and g2core. G64 is their continuous mode, which keeps within the junction tolerance that is set there.
+/// TinyG. It refuses an arc whose radii differ by a thousandth, and only then asks by how much (plan_arc.c), so it gets a decimal more.
 pub(super) const TINYG: Dialect = Dialect {
     name: Borrowed("tinyg"),
-    about: Borrowed("TinyG and g2core"),
+    about: Borrowed("TinyG"),
     extension: Borrowed("nc"),
-    decimals: 4,
+    decimals: 5,
     arcs: Arcs::Center,
+    arc_check: ArcCheck::Relative,
+    rapids: Rapids::Unfed,
+    rapid: RAPID,
     comments: Comments::Parentheses,
     dwell: Dwell::SecondsP,
-    tool_change: ToolChange::Pause,
+    tool_change: ToolChange::Files,
+    changes: FILES,
+    pause: Borrowed("M0"),
+    spindle: Borrowed("M3"),
     line_numbers: LineNumbers::Off,
-    longest_line: 100,
+    longest_line: 90,
     blend: None,
-    start: Borrowed(&[Borrowed("G17 G21 G40 G80 G90 G94"), Borrowed("G64")]),
+    start: Borrowed(&[Borrowed("G17 G21 G40 G80 G90 G91.1 G94"), Borrowed("G64")]),
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    condition: None,
+};
+
+/// g2core. Its check of radii is as Grbl's.
+pub(super) const G2CORE: Dialect = Dialect {
+    name: Borrowed("g2core"),
+    about: Borrowed("g2core"),
+    extension: Borrowed("nc"),
+    decimals: 5,
+    arcs: Arcs::Center,
+    arc_check: ArcCheck::Absolute,
+    rapids: Rapids::Unfed,
+    rapid: RAPID,
+    comments: Comments::Parentheses,
+    dwell: Dwell::SecondsP,
+    tool_change: ToolChange::Files,
+    changes: FILES,
+    pause: Borrowed("M0"),
+    spindle: Borrowed("M3"),
+    line_numbers: LineNumbers::Off,
+    longest_line: 90,
+    blend: None,
+    start: Borrowed(&[Borrowed("G17 G21 G40 G80 G90 G91.1 G94"), Borrowed("G64")]),
+    end: Borrowed(&[Borrowed("M2")]),
+    coolant: None,
+    spin_up: SPIN_UP,
+    touches: Touches::None,
+    condition: None,
 };

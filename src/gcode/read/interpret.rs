@@ -170,7 +170,7 @@ impl State {
                 ('G', 980) => self.cycle.to_initial = true,
                 ('G', 990) => self.cycle.to_initial = false,
                 ('G', 170 | 400 | 430 | 490 | 540 | 610 | 611 | 640 | 940 | 970) => {}
-                ('M', 0 | 10 | 60 | 600) => stop = true,
+                ('M', 0 | 10 | 60 | 600 | 6000) => stop = true,
                 ('M', 20 | 300) => end = true,
                 ('M', 30 | 40) => self.spinning = true,
                 ('M', 50) => self.spinning = false,

@@ -211,7 +211,7 @@ impl<'a> Draft<'a> {
             "mirror-axis" => options.mirror_axis = Some(Length(entry.length(units)?)),
             "software" => match entry.value.to_ascii_lowercase().as_str() {
                 "linuxcnc" => options.dialect = "linuxcnc".parse::<DialectChoice>().ok(),
-                "mach3" | "mach4" => options.dialect = "mach3".parse::<DialectChoice>().ok(),
+                name @ ("mach3" | "mach4") => options.dialect = name.parse::<DialectChoice>().ok(),
                 _ => self.leave(entry, "--dialect names the controller"),
             },
             _ => return Err(entry.wrong("an option of pcb2gcode")),
