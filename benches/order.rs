@@ -113,6 +113,7 @@ fn drilled(holes: &[Trail], order: Order) -> Section {
         drills: &[],
         tolerance: Nm::ZERO,
         mill: None,
+        bored_from: None,
         heights: heights(),
         placement: &placement,
         order,

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use voromill::job::{FILE_NAME, Options, Settings};
+use voromill::job::{Error, FILE_NAME, MillProject, Options, Settings};
 
 use super::Failure;
 use super::input::Input;
@@ -23,8 +23,27 @@ impl Config {
     /// The settings for a job: the command line's, then a millproject's, then the file's.
     pub(super) fn settings(&self, input: &Input) -> Result<Settings, Failure> {
         let from_file = Self::found(self.config.as_deref(), &input.paths())?;
-        let from_project = input.project()?.options;
-        Ok(Settings::resolve(self.options.clone().or(from_project).or(from_file))?)
+        let project = input.project()?;
+        let settings = Settings::resolve(self.options.clone().or(project.options.clone()).or(from_file));
+        let settings = settings.map_err(|error| self.explain(error, &project))?;
+        self.judge(&settings)?;
+        Ok(settings)
+    }
+
+    /// An error of settings, with the line of the project that said them unless they were given here.
+    fn explain(&self, error: Error, project: &MillProject) -> Error {
+        let is_given = |key: &str| self.options.listed().iter().any(|(option, _)| option == key);
+        match &error {
+            Error::Value { key, .. } if is_given(key) => error,
+            _ => project.explain(error),
+        }
+    }
+
+    /// Fails for an option that was given here and changes nothing beside the others.
+    fn judge(&self, settings: &Settings) -> Result<(), Failure> {
+        settings.idle(&self.options).map_or(Ok(()), |(option, hint)| {
+            Err(Failure::new(format!("--{option} changes nothing of what is made so"), hint))
+        })
     }
 
     /// What the settings file says: the one that was `named`, or one beside `inputs`; nothing where there is none.

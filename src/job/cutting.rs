@@ -6,7 +6,7 @@ use super::choice::{Sites, Strategy};
 use super::quantity::Length;
 use super::settings::{given, positive};
 use super::tools::{self, Fetched, Workshop};
-use super::{Error, Options};
+use super::{Error, Options, sense};
 
 /// A tool that isolates.
 #[derive(Clone, Debug)]
@@ -110,6 +110,7 @@ fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
         }
         Some(overlap) => overlap.of(kerf),
     };
+    sense::count("passes", options.passes, 1..=1000)?;
     let width = match (options.width, options.passes) {
         _ if options.clear == Some(true) => EVERYTHING,
         (Some(width), _) => positive("width", Some(width))?,

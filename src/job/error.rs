@@ -64,6 +64,9 @@ impl Error {
     #[must_use]
     pub fn hint(&self) -> &'static str {
         match self {
+            Self::Settings { file, .. } if !file.ends_with(".toml") => {
+                "docs/millproject.md says what is taken over, and how"
+            }
             Self::Settings { .. } => "`voromill init` writes a file with every key and its default",
             Self::Value { .. } | Self::Import(_) => "",
             Self::Page(_) => "without the page (--no-html) the programs are written as they are",

@@ -10,6 +10,7 @@ mod cutting;
 mod describe;
 mod error;
 mod holding;
+mod idle;
 mod ignore;
 mod inspect;
 mod layer;
@@ -32,6 +33,7 @@ mod show;
 mod stock;
 mod tag;
 mod tools;
+mod turns;
 mod verification;
 mod written;
 

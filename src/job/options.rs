@@ -14,6 +14,7 @@ use super::overlap::Overlap;
 use super::pattern::Pattern;
 use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::tools::{Library, ToolChoice};
+use super::turns;
 use crate::gcode::dialect::Blend;
 
 /// What a person asked for; what they left open is none.
@@ -31,7 +32,7 @@ pub struct Options {
     pub ignore: Vec<Pattern>,
 
     /// How deep it cuts; a V-bit cuts wider the deeper it goes
-    #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub depth: Option<Length>,
 
@@ -142,7 +143,8 @@ pub struct Options {
     pub plunge: Option<Feed>,
 
     /// Spindle speed in turns per minute
-    #[arg(long, value_name = "RPM", help_heading = "Machine")]
+    #[arg(long, value_name = "RPM", value_parser = turns::parse, help_heading = "Machine")]
+    #[serde(deserialize_with = "turns::deserialize")]
     pub spindle: Option<u32>,
 
     /// How long the spindle is given to come up to speed [default: 3s, or as the dialect says]
@@ -240,13 +242,18 @@ pub struct Options {
     pub drill_plunge: Option<Feed>,
 
     /// Spindle speed of a drill in turns per minute [default: by its diameter]
-    #[arg(long, value_name = "RPM", help_heading = "Drilling and cutting out")]
-    #[serde(skip_serializing_if = "Option::is_none")]
+    #[arg(long, value_name = "RPM", value_parser = turns::parse, help_heading = "Drilling and cutting out")]
+    #[serde(deserialize_with = "turns::deserialize", skip_serializing_if = "Option::is_none")]
     pub drill_spindle: Option<u32>,
 
     /// Bore slots and holes without a drill with an end mill
     #[arg(long, num_args = 0, default_missing_value = "true", help_heading = "Drilling and cutting out")]
     pub drill_bore: Option<bool>,
+
+    /// Bore holes of this diameter and wider, and slots, whatever drills are at hand
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub drill_bore_from: Option<Length>,
 
     /// The end mill that bores [default: the one that cuts the board out]
     #[arg(long, value_name = "TOOL", help_heading = "Drilling and cutting out")]
@@ -275,7 +282,12 @@ pub struct Options {
     pub alignment_margin: Option<Length>,
 
     /// How deep holes go: the board and the drill's tip
-    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        allow_hyphen_values = true,
+        help_heading = "Drilling and cutting out"
+    )]
     #[serde(with = "text")]
     pub drill_depth: Option<Length>,
 
@@ -289,8 +301,24 @@ pub struct Options {
     #[serde(with = "text")]
     pub cutout_tool: Option<ToolChoice>,
 
+    /// The side that is up while the board is cut out: front, or back for a board that is turned over
+    #[arg(
+        long,
+        value_enum,
+        hide_possible_values = true,
+        value_name = "SIDE",
+        help_heading = "Drilling and cutting out"
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub cutout_side: Option<DrillSide>,
+
     /// How deep the board is cut out in the end
-    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        allow_hyphen_values = true,
+        help_heading = "Drilling and cutting out"
+    )]
     #[serde(with = "text")]
     pub cutout_depth: Option<Length>,
 

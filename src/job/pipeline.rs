@@ -11,7 +11,7 @@ use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
 use super::stock::Stock;
-use super::{Error, Layer, Narrow, Part, Settings, Written, by_net, numbering, tag};
+use super::{Error, Layer, Narrow, Part, Settings, Written, by_net, idle, numbering, tag};
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
@@ -78,6 +78,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     }));
     let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
     warnings.extend(by_net::idle(sides, settings));
+    warnings.extend(idle::tools(&layers, settings));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
         let side = settings.drill_side;
@@ -89,8 +90,11 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         warnings.extend(found);
     }
     if let Some(outline) = &board.outline {
-        let (section, found) = cutout(outline, &cutout_settings(&stock.front, settings));
-        planned.push((Part::Cutout, Side::Front, whole("cutout", &board, vec![section], settings)));
+        let side = settings.cutout_side;
+        let placement = stock.placement(side);
+        let (section, found) = cutout(outline, &cutout_settings(&placement, settings));
+        let program = turned(whole("cutout", &board, vec![section], settings), &placement);
+        planned.push((Part::Cutout, side, program));
         warnings.extend(found);
     }
     numbering::number(planned.iter_mut().map(|(.., program)| program), &settings.options().tools);
@@ -194,6 +198,7 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
         drills: &settings.drills,
         tolerance: settings.drill_tolerance,
         mill: settings.drill_bore.then_some(&settings.drill_bore_tool),
+        bored_from: settings.drill_bore_from,
         heights: settings.drilling,
         placement,
         order: Order::default(),

@@ -8,6 +8,21 @@ use super::quantity::{Length, Triple};
 use super::settings::{given, positive};
 use super::{Cutting, Error, Options};
 
+/// A number as large as it can be meant: the command line says the same, a settings file has nothing else that does.
+pub(super) fn count(
+    key: &'static str,
+    count: Option<u32>,
+    range: std::ops::RangeInclusive<u32>,
+) -> Result<(), Error> {
+    match count.filter(|count| !range.contains(count)) {
+        None => Ok(()),
+        Some(count) => {
+            let problem = format!("`{count}` makes no sense: expected {} to {}", range.start(), range.end());
+            Err(Error::Value { key, problem })
+        }
+    }
+}
+
 /// The height for travel: one that clears the surface as a rapid must.
 pub(super) fn travel_height(options: &Options) -> Result<Nm, Error> {
     let safe = positive("safe-z", options.safe_z)?;

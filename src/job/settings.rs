@@ -84,6 +84,8 @@ pub struct Settings {
     pub drill_tolerance: Nm,
     /// Whether slots, and holes without a drill, are bored with an end mill.
     pub drill_bore: bool,
+    /// The diameter from which on holes are bored whatever drills are at hand.
+    pub drill_bore_from: Option<Nm>,
     /// The end mill for it.
     pub drill_bore_tool: Tool,
     /// The side that is up while holes are drilled.
@@ -96,6 +98,8 @@ pub struct Settings {
     pub outline_gap: Nm,
     /// The end mill that cuts the board out.
     pub cutout_tool: Tool,
+    /// The side that is up while it does.
+    pub cutout_side: Side,
     /// How high and deep it goes.
     pub cutout: Heights,
     /// How steeply it goes down along the contour; none for straight down.
@@ -183,15 +187,14 @@ impl Settings {
             drill_speeds: workshop.drilling,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
             drill_tolerance: sense::drill_tolerance(&options)?,
-            drill_bore: options.drill_bore.expect(open),
+            drill_bore: options.drill_bore.expect(open) || options.drill_bore_from.is_some(),
+            drill_bore_from: given("drill-bore-from", options.drill_bore_from)?,
             drill_bore_tool: match &options.drill_bore_tool {
                 Some(choice) => end_mill("drill-bore-tool", workshop.fetch("drill-bore-tool", choice)?.tool)?,
                 None => cutout_tool.clone(),
             },
-            drill_side: match options.drill_side {
-                None | Some(DrillSide::Front) => Side::Front,
-                Some(DrillSide::Back) => Side::Back,
-            },
+            drill_side: up(options.drill_side),
+            cutout_side: up(options.cutout_side),
             outline_gap: outline_gap(&options)?,
             cutout: heights(cutout_depth, sense::step("cutout-pass", options.cutout_pass, cutout_depth)?),
             cutout_tool,
@@ -290,6 +293,14 @@ fn tiles(options: &Options, cutout_tool: &Tool) -> Result<Option<(Tiles, Nm)>, E
     Ok(options.tile.filter(|tiles| tiles.columns * tiles.rows > 1).map(|tiles| (tiles, spacing)))
 }
 
+/// The side that is up: the front unless another is said.
+fn up(side: Option<DrillSide>) -> Side {
+    match side {
+        None | Some(DrillSide::Front) => Side::Front,
+        Some(DrillSide::Back) => Side::Back,
+    }
+}
+
 fn ramp(angle: Option<Angle>) -> Result<Option<Angle>, Error> {
     if let Some(angle) = angle.filter(|&angle| angle <= Angle::ZERO || angle >= Angle::from_degrees(90)) {
         let problem = format!("`{angle}` is no ramp: expected an angle between 0deg and 90deg");
@@ -326,6 +337,10 @@ pub(super) fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, 
     if length.nm() > Nm::ZERO {
         return Ok(length.nm());
     }
+    if length.nm() < Nm::ZERO && key.ends_with("depth") {
+        let problem = format!("depths are positive here: write `{}`, not `{length}`", Length(-length.nm()));
+        return Err(Error::Value { key, problem });
+    }
     Err(Error::Value { key, problem: format!("`{length}` makes no sense: it must be more than zero") })
 }
 
@@ -343,6 +358,7 @@ fn outline_gap(options: &Options) -> Result<Nm, Error> {
 
 fn pixel(options: &Options) -> Result<Option<Nm>, Error> {
     let inch = Nm::from_um(25_400);
+    sense::count("dpi", options.dpi, 1..=25_400)?;
     let (key, pixel) = match options.dpi {
         Some(dpi) => ("dpi", Some(Nm::new((inch.get() + i64::from(dpi) / 2) / i64::from(dpi)))),
         None => ("pixel", given("pixel", options.pixel)?),
@@ -474,6 +490,13 @@ mod tests {
             ("tool-change = \"m6\"", "tool-change"),
             ("dialect = \"tinyg\"\ntool-change = \"pause\"", "tool-change"),
             ("dialect = \"smoothieware\"\ntool-change = \"m6\"", "tool-change"),
+            ("depth = \"-0.1mm\"", "depth: depths are positive here: write `0.1mm`"),
+            ("cutout-depth = \"-1.7mm\"", "cutout-depth: depths are positive here: write `1.7mm`"),
+            ("passes = 1000000000", "passes"),
+            ("passes = 0", "passes"),
+            ("dpi = 0", "dpi"),
+            ("tabs = 4000000000", "tabs"),
+            ("drill-bore-from = \"0mm\"", "drill-bore-from"),
         ] {
             let error = settings(text).expect_err(text).to_string();
             assert!(error.starts_with(key), "{text}: {error}");

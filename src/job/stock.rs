@@ -88,6 +88,7 @@ impl Stock {
             drills: &settings.drills,
             tolerance: settings.drill_tolerance,
             mill: Some(&settings.drill_bore_tool),
+            bored_from: None,
             heights: settings.drilling,
             placement: &placement,
             order: Order::default(),

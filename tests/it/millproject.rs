@@ -7,7 +7,8 @@ use voromill::board::Side;
 use voromill::gcode::Dialect;
 use voromill::gcode::dialect::{Blend, ToolChange};
 use voromill::geometry::{Nm, Vector};
-use voromill::job::{Holding, MillProject, Options, Settings, Strategy};
+use voromill::import::{self, Selection};
+use voromill::job::{self, Error, Holding, MillProject, Options, Part, Settings, Strategy};
 use voromill::toolpath::{Feed, ToolKind};
 
 use crate::cli::{stderr, stdout, voromill};
@@ -32,8 +33,13 @@ fn fixture() -> PathBuf {
 fn every_option_with_a_counterpart_is_taken_over() {
     let project = project(&fs::read_to_string(fixture()).expect("a fixture"));
     let left: Vec<&str> = project.left.iter().map(|warning| warning.message.as_str()).collect();
-    assert_eq!(left, ["`nog91-1` is not taken over: it has no counterpart"], "one has none");
-    let place = project.left[0].source.as_ref().map(|source| (source.file.as_str(), source.line));
+    assert!(left[0].starts_with("`drills-available`: a drill without tolerances"), "{left:?}");
+    assert_eq!(
+        &left[1..],
+        ["`nog91-1` is not taken over: the dialect says whether programs have G91.1"],
+        "one has no counterpart"
+    );
+    let place = project.left[1].source.as_ref().map(|source| (source.file.as_str(), source.line));
     assert_eq!(place, Some(("millproject", 35)), "and its line is told once, with the place");
     assert_eq!(project.files.front.as_deref(), Some(Path::new("blinker-F_Cu.gbr")), "the front");
     assert_eq!(
@@ -60,7 +66,7 @@ fn every_option_with_a_counterpart_is_taken_over() {
     assert_eq!((settings.dialect.spin_up, settings.machine.spin_up), (2000, 2000), "spinup-time");
     assert_eq!(
         (settings.drilling.cut, settings.drill_tolerance, settings.drill_bore),
-        (um(1900), um(100), true),
+        (um(1900), um(100_000), true),
         "drilling"
     );
     assert_eq!(settings.drills.len(), 3, "drills at hand");
@@ -155,7 +161,7 @@ fn corners_names_and_tool_changes_are_as_the_project_says() {
         left,
         [
             "`drill-output` is not taken over: all files lie in output-dir",
-            "`milldrill-output` is not taken over: it has no counterpart",
+            "`milldrill-output` is not taken over: what is bored is in the program of the drills",
             "`nog81` is not taken over: holes are drilled with G0 and G1",
         ],
         "what has no counterpart"
@@ -195,6 +201,243 @@ fn what_is_no_project_says_which_line() {
         let error = MillProject::read("millproject", text).expect_err(text).to_string();
         assert!(error.contains(reason), "`{text}` gives `{error}`");
     }
+}
+
+/// A fixture that shows one construct.
+fn construct(name: &str) -> Result<MillProject, Error> {
+    let path = fixture().with_file_name(name);
+    MillProject::read("millproject", &fs::read_to_string(&path).expect(name))
+}
+
+/// What is told of a project.
+fn told(project: &MillProject) -> String {
+    project.left.iter().map(|warning| format!("{}\n", warning.message)).collect()
+}
+
+#[test]
+fn every_unit_of_pcb2gcode_is_read() {
+    let made = settings(construct("units").expect("a project"));
+    let fine = &made.isolation[0];
+    assert_eq!((fine.heights.cut, fine.kerf()), (Nm::new(101_600), um(200)), "thousandths and millimeters");
+    assert_eq!(
+        (fine.tool.feed, fine.tool.plunge, fine.tool.spindle),
+        (Feed::from_mm_per_min(254), Feed::from_mm_per_min(100), 12_000),
+        "per minute and per second"
+    );
+    assert_eq!(fine.widening.map(|w| (w.width, w.overlap)), Some((um(600), um(100))), "metres and percent");
+    assert_eq!((made.safe, made.dialect.spin_up), (Nm::new(2_540_000), 1500), "inches and seconds");
+    assert_eq!(made.cutout_tool.kind, ToolKind::EndMill { diameter: Nm::new(1_016_000) }, "mils");
+    assert_eq!(
+        (made.cutout_tool.feed, made.cutout_tool.plunge, made.cutout_tool.spindle),
+        (Feed::from_mm_per_min(300), Feed::from_mm_per_min(150), 9000),
+        "half the feed where the plunge is not said"
+    );
+}
+
+#[test]
+fn a_width_of_metres_clears_everything_and_zero_is_no_mill() {
+    let made = settings(construct("clear").expect("a project"));
+    assert_eq!(made.options().clear, Some(true), "2000 mm");
+    assert_eq!((made.isolation.len(), made.kerf()), (1, um(800)), "one mill");
+}
+
+#[test]
+fn without_voronoi_nets_are_outlined_as_far_off_as_the_offset_says() {
+    let plain = settings(project("metric=1\nzwork=-0.1"));
+    assert_eq!((plain.strategy, plain.limit), (Strategy::Outline, None), "pcb2gcode's own default");
+    let old = construct("offset").expect("a project");
+    assert!(told(&old).contains("the mill is taken to be twice as wide"), "{}", told(&old));
+    let old = settings(old);
+    assert_eq!(
+        (old.strategy, old.limit, old.kerf()),
+        (Strategy::Voronoi, Some(um(60)), um(120)),
+        "or midway"
+    );
+    let mill = settings(construct("offset-of-a-mill").expect("a project"));
+    assert_eq!((mill.limit, mill.kerf()), (Some(um(250)), um(300)), "half a mill further");
+    let wide = construct("passes-without-a-mill").expect("a project");
+    assert!(told(&wide).contains("passes of a mill without a diameter lie on each other"), "{}", told(&wide));
+    let wide = settings(wide);
+    assert_eq!((wide.limit, wide.kerf()), (Some(um(5000)), Nm::new(153_590)), "the usual tool fits");
+    let voronoi = settings(project("voronoi=1\noffset=0.01"));
+    assert_eq!((voronoi.strategy, voronoi.limit), (Strategy::Voronoi, None), "midway, however far");
+    // What is said on the command line wins.
+    let given = Options { strategy: Some(Strategy::Voronoi), ..Options::default() };
+    let won = Settings::resolve(given.or(project("zwork=-0.1mm").options)).expect("settings");
+    assert_eq!(won.strategy, Strategy::Voronoi, "as asked");
+}
+
+#[test]
+fn with_copper_on_the_back_alone_the_back_is_up() {
+    let made = settings(construct("back-alone").expect("a project"));
+    assert_eq!((made.drill_side, made.cutout_side), (Side::Back, Side::Back), "auto");
+    let made = settings(project("front=f\nback=b\ncut-side=back"));
+    assert_eq!((made.drill_side, made.cutout_side), (Side::Front, Side::Back), "as it says, or the front");
+}
+
+#[test]
+fn holes_are_milled_from_the_diameter_that_the_project_says() {
+    let made = settings(construct("milled-holes").expect("a project"));
+    assert_eq!((made.drill_bore, made.drill_bore_from), (true, Some(um(1200))), "wide ones");
+    let mill = &made.drill_bore_tool;
+    assert_eq!(
+        (mill.kind, mill.feed, mill.spindle),
+        (ToolKind::EndMill { diameter: um(1000) }, Feed::from_mm_per_min(200), 9000),
+        "a mill of its own"
+    );
+    assert_eq!(made.drill_tolerance, um(100), "the larger of both");
+    let all = settings(project("metric=1\nmilldrill=1\nmilldrill-diameter=0.7\nzmilldrill=-2"));
+    assert_eq!((all.drill_bore_from, all.drilling.cut), (Some(um(700)), um(2000)), "all that it fits");
+    let any = construct("any-drill").expect("a project");
+    assert!(told(&any).contains("takes any hole that it is nearest to"), "{}", told(&any));
+    assert_eq!(settings(any).drill_tolerance, Nm::from_mm(100), "any hole");
+}
+
+#[test]
+fn bridges_are_as_thick_as_they_can_be() {
+    let nothing = construct("bridges-of-nothing").expect("a project");
+    assert!(told(&nothing).contains("bridges below the cut hold nothing"), "{}", told(&nothing));
+    assert_eq!(settings(nothing).tabs, Holding::Count(0), "none");
+    let shallow = construct("shallow").expect("a project");
+    assert!(told(&shallow).contains("`zbridges` is not taken over"), "{}", told(&shallow));
+    assert_eq!(settings(shallow).tabs, Holding::Count(0), "nothing is cut through");
+    let made = settings(construct("bridges-to-the-surface").expect("a project"));
+    assert_eq!((made.tabs, made.tab_height), (Holding::Count(2), um(1490)), "the cutter is lifted out");
+}
+
+#[test]
+fn an_autoleveller_becomes_two_commands() {
+    let project = construct("autoleveller").expect("a project");
+    let told = told(&project);
+    assert!(
+        told.contains("`voromill probe --side front --probe-grid 8mm --probe-feed 60mm/min`")
+            && told.contains("`voromill level`"),
+        "{told}"
+    );
+}
+
+#[test]
+fn what_would_make_another_board_is_refused_with_its_line_where_it_matters() {
+    for (name, reason) in [
+        ("above-the-surface", "millproject:4:1: `zwork = 0.1`: expected a z below zero"),
+        ("inverted", "millproject:2:1: `invert-gerbers = true`: expected false"),
+        ("turned-bottom-up", "millproject:2:1: `mirror-yaxis = true`: expected false"),
+        ("apart", "millproject:2:1: `milling-overlap = -0.2mm`: expected zero or more"),
+    ] {
+        let error = construct(name).expect_err(name).to_string();
+        assert!(error.contains(reason), "{name}: {error}");
+    }
+    for text in
+        ["outline=o\nzwork=0.1", "drill=d\ninvert-gerbers=1", "front=f\nmirror-yaxis=1", "front=f\nzdrill=1"]
+    {
+        assert!(MillProject::read("millproject", text).is_ok(), "nothing of the board is made by it: {text}");
+    }
+    let low = construct("low-travel").expect("a project");
+    let error = Settings::resolve(low.options.clone()).expect_err("no height for travel");
+    assert!(low.explain(error).to_string().starts_with("millproject:3:1: `zsafe = 0.0`: "), "its line");
+}
+
+/// How a project of the corpus fared.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Fate {
+    /// Its settings make sense, its board is read.
+    Taken,
+    /// The same, and nothing of its board is copper.
+    WithoutCopper,
+    /// It says why not, with the line.
+    Refused,
+    /// The corpus has its settings alone.
+    WithoutFiles,
+}
+
+/// The projects of pcb2gcode and of users, which are not part of the repository: `VOROMILL_ARTWORK` names their folder.
+#[test]
+fn every_project_of_the_corpus_is_taken_over_or_refused_with_the_line() {
+    let artwork = std::env::var_os("VOROMILL_ARTWORK")
+        .map_or_else(|| PathBuf::from("../shared/artwork"), PathBuf::from);
+    let corpus = artwork.join("millprojects");
+    let Ok(expected) = fs::read_to_string(corpus.join("EXPECT.json")) else {
+        eprintln!("skipped: no millprojects in {} (set VOROMILL_ARTWORK)", artwork.display());
+        return;
+    };
+    let expected: serde_json::Value = serde_json::from_str(&expected).expect("JSON");
+    let mut fates = Vec::new();
+    let (users, own): (Vec<_>, Vec<_>) =
+        expected.as_object().expect("cases").keys().cloned().partition(|case| case.starts_with("users/"));
+    for case in own.iter().map(|case| corpus.join(case).join("millproject")).chain(
+        users.iter().map(|case| case.split(' ').next().unwrap_or_default()).flat_map(|folder| {
+            let entries = fs::read_dir(corpus.join(folder)).expect("a folder");
+            entries
+                .map(|entry| entry.expect("an entry").path())
+                .filter(|path| path.to_string_lossy().contains("millproject"))
+        }),
+    ) {
+        fates.push((case.clone(), fate(&case)));
+    }
+    fates.sort();
+    fates.dedup();
+    let count = |fate: &Fate| fates.iter().filter(|(_, other)| other == fate).count();
+    let taken = count(&Fate::Taken) + count(&Fate::WithoutCopper);
+    assert_eq!(
+        (fates.len(), taken, count(&Fate::Refused), count(&Fate::WithoutFiles)),
+        (72, 60, 7, 5),
+        "{fates:#?}"
+    );
+}
+
+/// Reads a project, its settings and its board, and mills the board where that is quick.
+fn fate(path: &Path) -> Fate {
+    let text = fs::read_to_string(path).expect("a project");
+    let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let refused = |error: &Error| {
+        let said = error.to_string();
+        let place = said.strip_prefix(&name).and_then(|rest| rest.strip_prefix(':')?.split(':').next());
+        let line: usize =
+            place.and_then(|line| line.parse().ok()).unwrap_or_else(|| panic!("{path:?}: {said}"));
+        assert!(line >= 1 && line <= text.lines().count(), "{path:?}: {said}");
+        Fate::Refused
+    };
+    let project = match MillProject::read(&name, &text) {
+        Ok(project) => project,
+        Err(error) => return refused(&error),
+    };
+    assert!(project.left.iter().all(|warning| warning.source.is_some()), "{path:?}: with its line");
+    let settings = match Settings::resolve(project.options.clone()) {
+        Ok(settings) => settings,
+        Err(error) => return refused(&project.explain(error)),
+    };
+    let within = |file: &Option<PathBuf>| file.as_ref().map(|file| path.with_file_name("").join(file));
+    let files = &project.files;
+    let selection = Selection {
+        front: within(&files.front),
+        back: within(&files.back),
+        outline: within(&files.outline),
+        drill: within(&files.drill).into_iter().collect(),
+        outline_gap: Some(settings.outline_gap),
+        ..Selection::default()
+    };
+    let paths: Vec<PathBuf> =
+        [&files.front, &files.back, &files.outline, &files.drill].into_iter().filter_map(within).collect();
+    if paths.is_empty() || paths.iter().any(|path| !path.is_file()) {
+        return Fate::WithoutFiles;
+    }
+    let loaded = import::survey(&paths, &selection).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+    if loaded.board.front.is_none() && loaded.board.back.is_none() {
+        return Fate::WithoutCopper;
+    }
+    let bytes: u64 = paths.iter().map(|path| fs::metadata(path).map_or(0, |file| file.len())).sum();
+    if bytes <= if cfg!(debug_assertions) { 2_500 } else { 30_000 } {
+        let parts = [
+            (Part::Front, files.front.is_some()),
+            (Part::Back, files.back.is_some()),
+            (Part::Cutout, files.outline.is_some()),
+        ];
+        let job = job::mill(loaded, &settings).unwrap_or_else(|error| panic!("{path:?}: {error}"));
+        for (part, _) in parts.into_iter().filter(|(_, is_asked)| *is_asked) {
+            assert!(job.programs.iter().any(|program| program.part == part), "{path:?}: {part:?}");
+        }
+    }
+    Fate::Taken
 }
 
 #[test]

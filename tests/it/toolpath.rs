@@ -262,12 +262,31 @@ fn drilling<'a>(drills: &'a [Tool], mill: Option<&'a Tool>, placement: &'a Place
         drills,
         tolerance: Nm::from_um(50),
         mill,
+        bored_from: None,
         heights: heights(1800, Some(1000)),
         placement,
         order: Order::Improved,
         dwell: 0,
         speeds: (None, None),
     }
+}
+
+#[test]
+fn from_a_diameter_on_holes_are_bored_though_a_drill_fits() {
+    let (placement, mill) = (Placement::default(), tool("endmill:1mm"));
+    let holes = [hole(0, 0, 800, None), hole(5000, 0, 1200, None), hole(9000, 0, 3200, None)];
+    let labels = |from: Option<i64>| -> Vec<String> {
+        let settings =
+            Drilling { bored_from: from.map(Nm::from_um), ..drilling(&[], Some(&mill), &placement) };
+        drill(&holes, &settings).0.into_iter().map(|section| section.label).collect()
+    };
+    assert_eq!(labels(None).len(), 3, "a drill each");
+    assert_eq!(labels(Some(1200)), ["drill 0.800 mm, 1 hole", "bore 2 holes and slots"], "the two wide ones");
+    assert_eq!(
+        labels(Some(100)),
+        ["drill 0.800 mm, 1 hole", "bore 2 holes and slots"],
+        "the mill does not fit the narrow one"
+    );
 }
 
 #[test]

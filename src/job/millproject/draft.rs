@@ -2,91 +2,105 @@ use std::path::PathBuf;
 
 use crate::board::{SourceSpan, Warning};
 use crate::gcode::dialect::Blend;
-use crate::gcode::dialect::ToolChange;
 use crate::geometry::Nm;
-use crate::job::choice::{DialectChoice, DrillSide, Origin, Strategy};
+use crate::job::choice::{DialectChoice, DrillSide, Origin};
 use crate::job::output_name::OutputName;
 use crate::job::overlap::Overlap;
-use crate::job::quantity::{DrillChoice, Drills, Length, Place, Tiles, ToolChangeAt};
-use crate::job::tools::{OwnTool, ToolChoice};
+use crate::job::quantity::{DrillChoice, Drills, Length, Place, Tiles, Wait};
+use crate::job::tools::OwnTool;
 use crate::job::written::Part;
 use crate::toolpath::ToolKind;
 
 use super::MillProject;
+use super::left;
 use super::value::{Entry, Units, Wrong};
 
-/// A project while its lines are read; some options mean something only together.
+/// A project while its lines are read; many options mean something only together.
 pub(super) struct Draft<'a> {
-    units: Units,
+    pub(super) units: Units,
     file: &'a str,
-    made: MillProject,
-    mills: Vec<Nm>,
-    width: Option<Nm>,
-    extra_passes: Option<u32>,
-    overlap: Option<Overlap>,
-    cutter: OwnTool,
-    zcut: Option<Nm>,
-    bridges: Option<Nm>,
-    bridges_count: Option<u32>,
-    zbridges: Option<Nm>,
+    pub(super) made: MillProject,
+    /// Values that make no sense, each for what it matters to.
+    pub(super) refused: Vec<(Needs, Wrong)>,
+    pub(super) isolating: Isolating<'a>,
+    pub(super) cutting: Cutting<'a>,
+    pub(super) drilling: Drilling<'a>,
+    pub(super) probing: Probing<'a>,
+    pub(super) nom6: Option<Entry<'a>>,
+    pub(super) zchange: Option<Entry<'a>>,
+    pub(super) is_change_absolute: Option<Entry<'a>>,
     offset: (Option<Nm>, Option<Nm>),
     tiles: (u32, u32),
 }
 
-/// How the cutter's table is called.
-const CUTTER: &str = "millproject-cutter";
+/// What a board must have for a value to matter.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Needs {
+    /// Copper on any side.
+    Copper,
+    /// A side that lies down for the front.
+    Back,
+    /// Holes.
+    Holes,
+    /// An outline.
+    Outline,
+}
 
-/// What pcb2gcode knows and voromill does another way, or not at all.
-const LEFT: &[&str] = &[
-    "al-back",
-    "al-front",
-    "al-probe-off",
-    "al-probe-on",
-    "al-probecode",
-    "al-probefeed",
-    "al-probevar",
-    "al-setzzero",
-    "al-x",
-    "al-y",
-    "backtrack",
-    "config",
-    "cut-front",
-    "cut-side",
-    "dpi",
-    "draw-gerber-lines",
-    "drill-front",
-    "eulerian-paths",
-    "fill-outline",
-    "g0-horizontal-speed",
-    "g0-vertical-speed",
-    "ignore-warnings",
-    "invert-gerbers",
-    "mill-feed-direction",
-    "mill-infeed",
-    "milldrill-output",
-    "min-path-length",
-    "mirror-yaxis",
-    "no-export",
-    "nog91-1",
-    "offset",
-    "onedrill",
-    "optimise",
-    "optimize",
-    "outline-width",
-    "path-finding-limit",
-    "post-milling-gcode",
-    "postamble",
-    "pre-milling-gcode",
-    "preamble",
-    "preamble-text",
-    "preserve-thermal-reliefs",
-    "spindown-time",
-    "svg",
-    "tsp-2opt",
-    "vectorial",
-    "zchange-absolute",
-    "zmilldrill",
-];
+/// How copper is isolated.
+#[derive(Default)]
+pub(super) struct Isolating<'a> {
+    pub(super) mills: Vec<Nm>,
+    /// None for wider than any board.
+    pub(super) width: Option<Option<Nm>>,
+    pub(super) extra_passes: Option<(u32, Entry<'a>)>,
+    pub(super) overlap: Option<(Overlap, Entry<'a>)>,
+    pub(super) offset: Option<(Nm, Entry<'a>)>,
+    pub(super) infeed: Option<(Nm, Entry<'a>)>,
+    pub(super) voronoi: Option<bool>,
+}
+
+/// How the board is cut out.
+pub(super) struct Cutting<'a> {
+    pub(super) cutter: OwnTool,
+    pub(super) depth: Option<Nm>,
+    pub(super) bridges: Option<Nm>,
+    pub(super) bridges_count: Option<u32>,
+    pub(super) zbridges: Option<(Nm, Entry<'a>)>,
+    pub(super) side: CutSide,
+}
+
+/// How holes are made.
+#[derive(Default)]
+pub(super) struct Drilling<'a> {
+    pub(super) depth: Option<Nm>,
+    pub(super) mill_depth: Option<(Nm, Entry<'a>)>,
+    pub(super) mill: Option<Nm>,
+    /// From which diameter on holes are milled.
+    pub(super) milled_from: Option<Nm>,
+    pub(super) side: CutSide,
+}
+
+/// How the surface is touched.
+#[derive(Default)]
+pub(super) struct Probing<'a> {
+    pub(super) front: Option<Entry<'a>>,
+    pub(super) back: Option<Entry<'a>>,
+    pub(super) x: Option<Nm>,
+    pub(super) y: Option<Nm>,
+    pub(super) feed: Option<crate::toolpath::Feed>,
+}
+
+/// The side that is up.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum CutSide {
+    /// The front, unless there is copper on the back alone.
+    #[default]
+    Auto,
+    /// Said.
+    Front,
+    /// Said.
+    Back,
+}
 
 impl<'a> Draft<'a> {
     pub(super) fn new(units: Units, file: &'a str) -> Self {
@@ -95,110 +109,185 @@ impl<'a> Draft<'a> {
             units,
             file,
             made: MillProject::default(),
-            mills: Vec::new(),
-            width: None,
-            extra_passes: None,
-            overlap: None,
-            cutter: OwnTool { kind, number: None, feed: None, plunge: None, spindle: None, depth: None },
-            zcut: None,
-            bridges: None,
-            bridges_count: None,
-            zbridges: None,
+            refused: Vec::new(),
+            isolating: Isolating::default(),
+            cutting: Cutting {
+                cutter: OwnTool { kind, number: None, feed: None, plunge: None, spindle: None, depth: None },
+                depth: None,
+                bridges: None,
+                bridges_count: None,
+                zbridges: None,
+                side: CutSide::Auto,
+            },
+            drilling: Drilling::default(),
+            probing: Probing::default(),
+            nom6: None,
+            zchange: None,
+            is_change_absolute: None,
             offset: (None, None),
             tiles: (1, 1),
         }
     }
 
     /// Takes a line into account.
-    pub(super) fn take(&mut self, entry: &Entry<'_>) -> Result<(), Wrong> {
+    pub(super) fn take(&mut self, entry: &Entry<'a>) -> Result<(), Wrong> {
+        if let Some(reason) = left::reason(entry) {
+            if !reason.is_empty() {
+                self.leave(entry, reason);
+            }
+            return Ok(());
+        }
         let units = self.units;
         match entry.name {
             "metric" => {}
-            "metricoutput" if !entry.flag()? => self.leave(entry, "programs count millimetres"),
-            "metricoutput" => {}
-            "mill-diameters" => self.mills.extend(entry.lengths(units)?),
-            "isolation-width" => self.width = Some(entry.length(units)?),
-            "extra-passes" => self.extra_passes = Some(entry.count()?),
-            "milling-overlap" => self.overlap = Some(entry.overlap(units)?),
-            "cutter-diameter" => self.cutter.kind = ToolKind::EndMill { diameter: entry.length(units)? },
-            "cut-feed" => self.cutter.feed = Some(entry.feed(units)?),
-            "cut-vertfeed" => self.cutter.plunge = Some(entry.feed(units)?),
-            "cut-speed" => self.cutter.spindle = Some(entry.turns()?),
-            "bridges" => self.bridges = Some(entry.length(units)?),
-            "bridgesnum" => self.bridges_count = Some(entry.count()?),
-            "zbridges" => self.zbridges = Some(entry.length(units)?),
             "x-offset" => self.offset.0 = Some(entry.length(units)?),
             "y-offset" => self.offset.1 = Some(entry.length(units)?),
-            "tile-x" => self.tiles.0 = entry.count()?,
-            "tile-y" => self.tiles.1 = entry.count()?,
+            "tile-x" => self.tiles.0 = tiles(entry)?,
+            "tile-y" => self.tiles.1 = tiles(entry)?,
             "front" => self.made.files.front = Some(PathBuf::from(entry.value)),
             "back" => self.made.files.back = Some(PathBuf::from(entry.value)),
             "outline" => self.made.files.outline = Some(PathBuf::from(entry.value)),
             "drill" => self.made.files.drill = Some(PathBuf::from(entry.value)),
             "output-dir" => self.made.output = Some(PathBuf::from(entry.value)),
             "basename" => self.made.name = Some(entry.value.to_owned()),
-            name if LEFT.contains(&name) => self.leave(entry, "it has no counterpart"),
-            _ => self.option(entry)?,
+            "front-output" => self.output(entry, Part::Front),
+            "back-output" => self.output(entry, Part::Back),
+            "drill-output" => self.output(entry, Part::Drill),
+            "outline-output" => self.output(entry, Part::Cutout),
+            name if name.starts_with("al-") => self.touch(entry)?,
+            _ => {
+                let is_taken =
+                    self.isolate(entry)? || self.cut(entry)? || self.drill(entry)? || self.run(entry)?;
+                if !is_taken {
+                    return Err(entry.wrong("an option of pcb2gcode"));
+                }
+            }
         }
         Ok(())
     }
 
-    /// The options that are one of ours each.
-    fn option(&mut self, entry: &Entry<'_>) -> Result<(), Wrong> {
+    /// What isolates.
+    fn isolate(&mut self, entry: &Entry<'a>) -> Result<bool, Wrong> {
         let (units, options) = (self.units, &mut self.made.options);
+        let isolating = &mut self.isolating;
         match entry.name {
-            "voronoi" if entry.flag()? => options.strategy = Some(Strategy::Voronoi),
-            "voronoi" => options.strategy = Some(Strategy::Outline),
-            "zwork" => options.depth = Some(Length(entry.depth(units)?)),
-            "zsafe" => options.safe_z = Some(Length(entry.length(units)?)),
-            "zchange" => options.tool_change_at = Some(ToolChangeAt::Height(Length(entry.length(units)?))),
+            "voronoi" => isolating.voronoi = Some(entry.flag()?),
+            "zwork" => self.made.options.depth = self.depth(entry, Needs::Copper)?.map(Length),
             "mill-feed" => options.feed = Some(entry.feed(units)?),
             "mill-vertfeed" => options.plunge = Some(entry.feed(units)?),
-            "spinup-time" => options.spin_up = Some(entry.wait()?),
             "mill-speed" => options.spindle = Some(entry.turns()?),
-            "zdrill" => options.drill_depth = Some(Length(entry.depth(units)?)),
+            "mill-diameters" => isolating.mills.extend(entry.lengths(units)?),
+            "mill-infeed" => isolating.infeed = Some((entry.positive(units)?, *entry)),
+            "isolation-width" => isolating.width = Some(entry.width(units)?),
+            "extra-passes" => isolating.extra_passes = Some((entry.count()?, *entry)),
+            "milling-overlap" => isolating.overlap = Some((entry.overlap(units)?, *entry)),
+            "offset" => isolating.offset = Some((entry.length(units)?, *entry)),
+            // Climb or conventional is said of the passes beside copper alone, so it matters with copper only.
+            "mill-feed-direction" => match entry.value {
+                "any" => {}
+                "climb" | "conventional" | "clockwise" | "counterclockwise" | "anticlockwise" => {
+                    self.leave(entry, "cuts run whichever way is shorter");
+                }
+                _ => return Err(entry.wrong("any, climb or conventional")),
+            },
+            "invert-gerbers" | "draw-gerber-lines" => {
+                if entry.flag()? {
+                    let expected = "false: what is drawn is copper here, and the gaps between are cut";
+                    self.refused.push((Needs::Copper, entry.wrong(expected)));
+                }
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// What cuts the board out.
+    fn cut(&mut self, entry: &Entry<'a>) -> Result<bool, Wrong> {
+        let (units, cutting) = (self.units, &mut self.cutting);
+        match entry.name {
+            "cutter-diameter" => {
+                let diameter = entry.length(units)?;
+                if diameter < Nm::ZERO {
+                    return Err(entry.wrong("a length of zero or more"));
+                }
+                if diameter == Nm::ZERO {
+                    self.leave(entry, "a cutter has a width: that of --cutout-tool is taken");
+                } else {
+                    cutting.cutter.kind = ToolKind::EndMill { diameter };
+                }
+            }
+            "cut-feed" => cutting.cutter.feed = Some(entry.feed(units)?),
+            "cut-vertfeed" => cutting.cutter.plunge = Some(entry.feed(units)?),
+            "cut-speed" => cutting.cutter.spindle = Some(entry.turns()?),
+            "cut-infeed" => self.made.options.cutout_pass = Some(Length(entry.positive(units)?)),
+            "cut-side" => cutting.side = side(entry)?,
+            "cut-front" if entry.flag()? => cutting.side = CutSide::Front,
+            "cut-front" => {}
+            "bridges" => cutting.bridges = Some(entry.length(units)?),
+            "bridgesnum" => cutting.bridges_count = Some(entry.count()?),
+            "zbridges" => cutting.zbridges = Some((entry.length(units)?, *entry)),
+            "zcut" => {
+                let depth = self.depth(entry, Needs::Outline)?;
+                self.cutting.depth = depth;
+                self.made.options.cutout_depth = depth.map(Length);
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// What makes holes.
+    fn drill(&mut self, entry: &Entry<'a>) -> Result<bool, Wrong> {
+        let (units, options, drilling) = (self.units, &mut self.made.options, &mut self.drilling);
+        match entry.name {
             "drill-feed" => options.drill_plunge = Some(entry.feed(units)?),
             "drill-speed" => options.drill_spindle = Some(entry.turns()?),
             "drills-available" => self.drills(entry)?,
-            "milldrill-diameter" => {
-                let diameter = entry.length(units)?;
-                options.drill_bore_tool = Some(ToolChoice::Kind(ToolKind::EndMill { diameter }));
+            "drill-side" => drilling.side = side(entry)?,
+            "drill-front" if entry.flag()? => drilling.side = CutSide::Front,
+            "drill-front" => {}
+            "milldrill-diameter" => drilling.mill = Some(entry.positive(units)?),
+            "milldrill" if entry.flag()? => drilling.milled_from = drilling.milled_from.or(Some(Nm::ZERO)),
+            "milldrill" => {}
+            "min-milldrill-hole-diameter" => {
+                let is_never = entry.value.trim_start_matches('+').starts_with("inf");
+                drilling.milled_from = if is_never { None } else { Some(entry.length(units)?) };
+            }
+            "zdrill" => {
+                let depth = self.depth(entry, Needs::Holes)?;
+                self.drilling.depth = depth;
+                self.made.options.drill_depth = depth.map(Length);
+            }
+            "zmilldrill" => {
+                let depth = self.depth(entry, Needs::Holes)?;
+                self.drilling.mill_depth = depth.map(|depth| (depth, *entry));
+            }
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// What the machine does, and where the board lies on it.
+    fn run(&mut self, entry: &Entry<'a>) -> Result<bool, Wrong> {
+        let (units, options) = (self.units, &mut self.made.options);
+        match entry.name {
+            "zsafe" => options.safe_z = Some(Length(entry.length(units)?)),
+            "zchange" => self.zchange = Some(*entry),
+            "zchange-absolute" => self.is_change_absolute = entry.flag()?.then_some(*entry),
+            // A millisecond, which is its own default, is none.
+            "spinup-time" => {
+                options.spin_up = Some(entry.wait()?).filter(|&Wait { milliseconds }| milliseconds > 1)
             }
             // Corners are rounded by no more than this where it is said, and as the machine is set where it is not to be.
             "g64" | "tolerance" => {
-                let most = entry.length(units)?;
-                if most <= Nm::ZERO {
-                    return Err(entry.wrong("a length above zero"));
-                }
+                let most = entry.positive(units)?;
                 if options.blend != Some(Blend::Machine) {
                     options.blend = Some(Blend::Within(most));
                 }
             }
             "nog64" if entry.flag()? => options.blend = Some(Blend::Machine),
             "nog64" => {}
-            // Holes are always drilled with G0 and G1.
-            "nog81" if entry.flag()? => {}
-            "nog81" => self.leave(entry, "holes are drilled with G0 and G1"),
-            "nom6" if entry.flag()? => options.tool_change = Some(ToolChange::Pause),
-            "nom6" => {}
-            "front-output" => self.output(entry, Part::Front),
-            "back-output" => self.output(entry, Part::Back),
-            "drill-output" => self.output(entry, Part::Drill),
-            "outline-output" => self.output(entry, Part::Cutout),
-            "drill-side" => match entry.value.to_ascii_lowercase().as_str() {
-                "front" => options.drill_side = Some(DrillSide::Front),
-                "back" => options.drill_side = Some(DrillSide::Back),
-                // The front, where there is one.
-                "auto" => {}
-                _ => return Err(entry.wrong("front, back or auto")),
-            },
-            "milldrill" => options.drill_bore = Some(entry.flag()?),
-            "min-milldrill-hole-diameter" => options.drill_bore = Some(entry.value != "inf"),
-            "zcut" => {
-                self.zcut = Some(entry.depth(units)?);
-                options.cutout_depth = self.zcut.map(Length);
-            }
-            "cut-infeed" => options.cutout_pass = Some(Length(entry.length(units)?)),
+            "nom6" => self.nom6 = entry.flag()?.then_some(*entry),
             "zero-start" if entry.flag()? => options.origin = Some(Origin::LowerLeft),
             "zero-start" => options.origin = Some(Origin::Keep),
             // Its back is mirrored about an absolute line, zero unless `mirror-axis` says otherwise.
@@ -206,35 +295,94 @@ impl<'a> Draft<'a> {
                 options.mirror_axis = options.mirror_axis.or(Some(Length(Nm::ZERO)));
             }
             "mirror-absolute" => {
-                self.leave(entry, "the back is turned about the board's middle unless mirror-axis says where")
+                self.leave(
+                    entry,
+                    "the back is turned about the board's middle unless mirror-axis says where",
+                );
             }
             "mirror-axis" => options.mirror_axis = Some(Length(entry.length(units)?)),
+            "mirror-yaxis" => {
+                if entry.flag()? {
+                    let expected = "false: boards are turned over left to right here";
+                    self.refused.push((Needs::Back, entry.wrong(expected)));
+                }
+            }
             "software" => match entry.value.to_ascii_lowercase().as_str() {
                 "linuxcnc" => options.dialect = "linuxcnc".parse::<DialectChoice>().ok(),
                 name @ ("mach3" | "mach4") => options.dialect = name.parse::<DialectChoice>().ok(),
                 _ => self.leave(entry, "--dialect names the controller"),
             },
+            _ => return Ok(false),
+        }
+        Ok(true)
+    }
+
+    /// What touches the surface.
+    fn touch(&mut self, entry: &Entry<'a>) -> Result<(), Wrong> {
+        let (units, probing) = (self.units, &mut self.probing);
+        match entry.name {
+            "al-front" => probing.front = entry.flag()?.then_some(*entry),
+            "al-back" => probing.back = entry.flag()?.then_some(*entry),
+            "al-x" => probing.x = Some(entry.positive(units)?),
+            "al-y" => probing.y = Some(entry.positive(units)?),
+            "al-probefeed" => probing.feed = Some(entry.feed(units)?),
+            // The dialect says how a machine touches.
+            "al-probecode" | "al-probevar" | "al-setzzero" | "al-probe-on" | "al-probe-off" => {}
             _ => return Err(entry.wrong("an option of pcb2gcode")),
         }
         Ok(())
     }
 
-    /// `0.8mm:-0.1mm:+0.05mm, 1mm`: diameters, each with how far a hole may be from it.
-    fn drills(&mut self, entry: &Entry<'_>) -> Result<(), Wrong> {
+    /// The depth of a z below zero; none where it lies above, which matters to boards that need it.
+    fn depth(&mut self, entry: &Entry<'_>, needs: Needs) -> Result<Option<Nm>, Wrong> {
+        let depth = -entry.length(self.units)?;
+        if depth > Nm::ZERO {
+            return Ok(Some(depth));
+        }
+        let expected = if depth == Nm::ZERO {
+            "a z below zero: at zero the tool only touches the surface".to_owned()
+        } else {
+            format!("a z below zero: this one is above the surface, -{} is as far below it", entry.value)
+        };
+        self.refused.push((needs, entry.wrong(&expected)));
+        Ok(None)
+    }
+
+    /// `0.8mm:-0.1mm:+0.05mm, 1mm`: diameters, each with how far a hole may be from it, which is as far as can be where that is not said.
+    fn drills(&mut self, entry: &Entry<'a>) -> Result<(), Wrong> {
         let options = &mut self.made.options;
         let mut drills = options.drills.take().map_or_else(Vec::new, |Drills(drills)| drills);
         let mut tolerance = options.drill_tolerance.map(Length::nm);
-        for drill in entry.value.split([',', ' ']).filter(|part| !part.is_empty()) {
-            let mut lengths = drill.split(':').map(|value| Entry { value, ..*entry }.length(self.units));
-            drills
-                .extend(lengths.next().transpose()?.map(|diameter| DrillChoice::Diameter(Length(diameter))));
-            for off in lengths {
-                let off = off?.abs();
+        let mut is_any = false;
+        for drill in entry.parts() {
+            let mut parts = drill.split(':').map(|value| Entry { value, ..*entry });
+            drills.extend(
+                parts
+                    .next()
+                    .map(|part| part.positive(self.units))
+                    .transpose()?
+                    .map(|diameter| DrillChoice::Diameter(Length(diameter))),
+            );
+            let offs: Vec<Entry<'_>> = parts.collect();
+            is_any |= offs.is_empty();
+            for off in offs {
+                if off.value.trim_start_matches(['+', '-']).starts_with("inf") {
+                    is_any = true;
+                    continue;
+                }
+                let off = off.length(self.units)?.abs();
                 tolerance = Some(tolerance.map_or(off, |before| before.max(off)));
             }
         }
+        if is_any {
+            tolerance = Some(ANY_HOLE);
+        }
         options.drills = Some(Drills(drills));
         options.drill_tolerance = tolerance.map(Length);
+        if is_any {
+            let reason = "a drill without tolerances takes any hole that it is nearest to: 0.8mm:-0.1mm:0.1mm takes those of 0.7 to 0.9 mm";
+            self.advise(entry, reason);
+        }
         Ok(())
     }
 
@@ -251,18 +399,26 @@ impl<'a> Draft<'a> {
     }
 
     /// Notes an option that is not taken over.
-    fn leave(&mut self, entry: &Entry<'_>, why: &str) {
-        let text = format!("{} = {}", entry.name, entry.value);
+    pub(super) fn leave(&mut self, entry: &Entry<'_>, why: &str) {
         let message = format!("`{}` is not taken over: {why}", entry.name);
+        self.note(entry, message);
+    }
+
+    /// Notes what a person must know of an option that is.
+    pub(super) fn advise(&mut self, entry: &Entry<'_>, what: &str) {
+        let message = format!("`{}`: {what}", entry.name);
+        self.note(entry, message);
+    }
+
+    fn note(&mut self, entry: &Entry<'_>, message: String) {
+        let text = format!("{} = {}", entry.name, entry.value);
         let line = u32::try_from(entry.line).unwrap_or(u32::MAX);
         let source = SourceSpan::of_line(self.file, line, &text);
         self.made.left.push(Warning { source: Some(source), ..Warning::new("millproject-option", message) });
     }
 
-    /// Puts together what belongs together.
-    pub(super) fn finish(mut self) -> MillProject {
-        self.isolation();
-        self.cutout();
+    /// Where the board lies on the machine, and how often.
+    pub(super) fn place(&mut self) {
         let options = &mut self.made.options;
         if let (x @ Some(_), y) | (x, y @ Some(_)) = self.offset {
             let length = |length: Option<Nm>| Length(length.unwrap_or(Nm::ZERO));
@@ -272,47 +428,34 @@ impl<'a> Draft<'a> {
         if columns * rows > 1 {
             options.tile = Some(Tiles { columns, rows });
         }
-        self.made
     }
+}
 
-    /// The mills, and how wide the gap is to be.
-    fn isolation(&mut self) {
-        let options = &mut self.made.options;
-        self.mills.retain(|&mill| mill > Nm::ZERO);
-        options.tool =
-            self.mills.iter().map(|&diameter| ToolChoice::Kind(ToolKind::EndMill { diameter })).collect();
-        let widest = self.mills.iter().max().copied().unwrap_or(Nm::ZERO);
-        // A gap that one cut makes wide enough needs no second.
-        options.width = self.width.filter(|&width| width > widest).map(Length);
-        let mut overlap = self.overlap;
-        if let Some(extra) = self.extra_passes.filter(|&extra| extra > 0 && options.width.is_none()) {
-            options.passes = Some(extra + 1);
-            // Each of its extra passes is half a cutter further out.
-            overlap = Some(Overlap::OfKerf { hundredths: 5_000 });
-        }
-        if options.width.is_some() || options.passes.is_some() {
-            options.overlap = overlap;
-        }
+/// As far as a hole may be from a drill that takes any. Chosen: wider than any hole.
+const ANY_HOLE: Nm = Nm::from_mm(100);
+
+fn tiles(entry: &Entry<'_>) -> Result<u32, Wrong> {
+    let count = entry.count()?;
+    if (1..=100).contains(&count) { Ok(count) } else { Err(entry.wrong("1 to 100")) }
+}
+
+fn side(entry: &Entry<'_>) -> Result<CutSide, Wrong> {
+    match entry.value.to_ascii_lowercase().as_str() {
+        "front" => Ok(CutSide::Front),
+        "back" => Ok(CutSide::Back),
+        "auto" => Ok(CutSide::Auto),
+        _ => Err(entry.wrong("front, back or auto")),
     }
+}
 
-    /// The cutter with its own speeds, and its bridges.
-    fn cutout(&mut self) {
-        let options = &mut self.made.options;
-        if self.cutter.kind.width_at(Nm::ZERO) > Nm::ZERO {
-            options.tools.add(CUTTER, self.cutter);
-            options.cutout_tool = Some(ToolChoice::Named(CUTTER.to_owned()));
-        }
-        match self.bridges {
-            Some(width) if width > Nm::ZERO => {
-                // Two unless it says how many.
-                options.tabs = Some(self.bridges_count.unwrap_or(2));
-                options.tab_width = Some(Length(width));
-            }
-            Some(_) => options.tabs = Some(0),
-            None => {}
-        }
-        if let (Some(top), Some(depth)) = (self.zbridges, self.zcut) {
-            options.tab_height = Some(Length(top + depth));
+impl CutSide {
+    /// The side that this is of a board with copper on the back alone, or not.
+    pub(super) fn of(self, is_back_alone: bool) -> Option<DrillSide> {
+        match self {
+            Self::Back => Some(DrillSide::Back),
+            Self::Auto if is_back_alone => Some(DrillSide::Back),
+            Self::Auto => None,
+            Self::Front => Some(DrillSide::Front),
         }
     }
 }

@@ -1,10 +1,16 @@
 //! pcb2gcode's `millproject` files: what has a counterpart becomes [`Options`], the rest is listed by name.
 //!
 //! A file holds `option = value` lines, `#` begins a comment. Bare numbers are inches and inches a minute, or millimetres with
-//! `metric = true`; a number may carry its unit (pcb2gcode 2.5, its `--help`). What the file does not say is as if there were no file: pcb2gcode's own
-//! defaults (outlines instead of Voronoi regions, no bridges) are not taken over.
+//! `metric = true`; a number may carry its unit (pcb2gcode 2.5, its `--help`). What the file does not say means what pcb2gcode means by it where a
+//! board would come out otherwise (outlines instead of Voronoi regions, the back up for a board with copper there alone, speeds halved for the
+//! plunge, half a cutter of overlap); else it is as if there were no file.
+//!
+//! A value that has no counterpart and without which the board would be another one (`invert-gerbers`, a depth above the surface) is an
+//! error with its line, unless the board has nothing that it matters to. The rest is told of and left.
 
 mod draft;
+mod left;
+mod together;
 mod value;
 
 use std::path::PathBuf;
@@ -28,6 +34,17 @@ pub struct MillProject {
     pub output: Option<PathBuf>,
     /// The options without a counterpart, each with its line.
     pub left: Vec<Warning>,
+    /// The lines behind settings.
+    said: Vec<Said>,
+}
+
+/// A line of a project that says a setting of ours.
+#[derive(Clone, Debug)]
+struct Said {
+    key: &'static str,
+    file: String,
+    line: usize,
+    text: String,
 }
 
 /// The files a `millproject` names.
@@ -58,6 +75,32 @@ impl MillProject {
         for entry in &entries {
             draft.take(entry).map_err(|wrong| wrong.into_error(file))?;
         }
-        Ok(draft.finish())
+        let mut made = draft.finish().map_err(|wrong| wrong.into_error(file))?;
+        made.said = together::BEHIND
+            .iter()
+            .filter_map(|(key, names)| Some((*key, together::behind(names, &entries)?)))
+            .map(|(key, entry)| Said {
+                key,
+                file: file.to_owned(),
+                line: entry.line,
+                text: format!("{} = {}", entry.name, entry.value),
+            })
+            .collect();
+        Ok(made)
+    }
+
+    /// An error of settings that this project said, with its line; as it is where the project did not say the setting.
+    #[must_use]
+    pub fn explain(&self, error: Error) -> Error {
+        let Error::Value { key, problem } = &error else { return error };
+        self.said.iter().find(|said| said.key == *key).map_or_else(
+            || Error::Value { key, problem: problem.clone() },
+            |Said { file, line, text, .. }| Error::Settings {
+                file: file.clone(),
+                line: *line,
+                column: 1,
+                problem: format!("`{text}`: {problem} (--{key})"),
+            },
+        )
     }
 }

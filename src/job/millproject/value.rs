@@ -1,4 +1,4 @@
-use crate::geometry::Nm;
+use crate::geometry::{Nm, nanometres};
 use crate::job::Error;
 use crate::job::overlap::Overlap;
 use crate::job::quantity::{Length, Wait};
@@ -29,6 +29,10 @@ pub(super) struct Wrong {
 }
 
 impl Wrong {
+    pub(super) const fn line(&self) -> usize {
+        self.line
+    }
+
     pub(super) fn into_error(self, file: &str) -> Error {
         Error::Settings { file: file.to_owned(), line: self.line, column: 1, problem: self.problem }
     }
@@ -64,38 +68,56 @@ impl Entry<'_> {
         length(self.value, units).ok_or_else(|| self.wrong("a length, such as 0.2mm or a bare number"))
     }
 
-    /// The depth of a z below zero.
-    pub(super) fn depth(&self, units: Units) -> Result<Nm, Wrong> {
-        let depth = -self.length(units)?;
-        if depth > Nm::ZERO { Ok(depth) } else { Err(self.wrong("a z below zero")) }
+    /// What stands between commas, or between blanks where those do not part a number from its unit.
+    pub(super) fn parts(&self) -> Vec<&str> {
+        let is_unit = |part: &str| part.starts_with(|c: char| c.is_ascii_alphabetic());
+        let between = |part: &str| part.split_whitespace().any(is_unit);
+        let commas = self.value.split(',').map(str::trim).filter(|part| !part.is_empty());
+        commas
+            .flat_map(|part| if between(part) { vec![part] } else { part.split_whitespace().collect() })
+            .collect()
     }
 
     /// Lengths between commas or blanks.
     pub(super) fn lengths(&self, units: Units) -> Result<Vec<Nm>, Wrong> {
-        let parts = self.value.split([',', ' ']).filter(|part| !part.is_empty());
+        let parts = self.parts().into_iter();
         parts.map(|part| length(part, units).ok_or_else(|| self.wrong("lengths between commas"))).collect()
     }
 
+    /// A length above zero.
+    pub(super) fn positive(&self, units: Units) -> Result<Nm, Wrong> {
+        let length = self.length(units)?;
+        if length > Nm::ZERO { Ok(length) } else { Err(self.wrong("a length above zero")) }
+    }
+
+    /// A width; none for one that is wider than any board.
+    pub(super) fn width(&self, units: Units) -> Result<Option<Nm>, Wrong> {
+        let width = with_unit(self.value, units).filter(|&nm| nm >= 0);
+        let width = width.ok_or_else(|| self.wrong("a width, such as 0.5mm or a bare number"))?;
+        Ok(Nm::try_new(width).ok().filter(|&width| width < ANY_BOARD))
+    }
+
     pub(super) fn feed(&self, units: Units) -> Result<Feed, Wrong> {
-        let (way, time) = self.value.split_once('/').unwrap_or((self.value, "min"));
-        let time = match time.trim() {
-            "min" | "minute" | "minutes" => "min",
-            "s" | "sec" | "second" | "seconds" => "s",
-            _ => return Err(self.wrong("a speed, such as 200mm/min")),
-        };
-        let feed = with_unit(way, units).and_then(|(way, times)| {
-            let feed: Feed = format!("{way}/{time}").parse().ok()?;
-            Feed::try_new(feed.get().checked_mul(times)?)
-        });
+        let (way, time) = per(self.value);
+        let feed =
+            with_unit(way, units).and_then(|way| Feed::try_new(way.checked_mul(a_minute(time)?)? / 1000));
         feed.ok_or_else(|| self.wrong("a speed above zero, such as 200mm/min or a bare number"))
     }
 
-    /// Turns per minute.
+    /// Turns per minute, to the nearest.
     pub(super) fn turns(&self) -> Result<u32, Wrong> {
-        let number = self.value.trim_end_matches("rpm").trim();
-        let (whole, rest) = number.split_once('.').unwrap_or((number, ""));
-        let turns = whole.parse().ok().filter(|_| rest.chars().all(|c| c == '0'));
-        turns.ok_or_else(|| self.wrong("turns per minute"))
+        let (turns, time) = per(self.value);
+        let end = turns.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(turns.len());
+        let (number, unit) = (turns[..end].trim(), turns[end..].trim());
+        let is_turns = matches!(
+            unit,
+            "" | "rpm" | "rotation" | "rotations" | "revolution" | "revolutions" | "turn" | "turns"
+        );
+        // A decimal is read exactly, as any other: a turn counts a million here.
+        let millionths = is_turns.then(|| nanometres(&format!("{number}mm")).ok()).flatten();
+        let a_minute = millionths.zip(a_minute(time)).and_then(|(turns, times)| turns.checked_mul(times));
+        let turns = a_minute.filter(|&turns| turns >= 0).map(|turns| (turns + 500_000) / 1_000_000);
+        turns.and_then(|turns| u32::try_from(turns).ok()).ok_or_else(|| self.wrong("turns per minute"))
     }
 
     /// A time; a bare number counts milliseconds.
@@ -125,25 +147,46 @@ impl Entry<'_> {
     }
 }
 
-/// A number with the units that pcb2gcode knows, or none, as a length with a unit of ours, and how many of it.
-fn with_unit(text: &str, units: Units) -> Option<(String, i64)> {
+/// Wider than any board. Chosen: pcb2gcode's users write metres where they mean that all is to be cleared.
+const ANY_BOARD: Nm = Nm::from_mm(1000);
+
+/// A quantity and the time that it is counted in, a minute where none is said: `200mm/s`, `30 rotations per second`.
+fn per(text: &str) -> (&str, &str) {
+    let parts = text.split_once('/').or_else(|| text.split_once(" per "));
+    let (quantity, time) = parts.unwrap_or((text, "min"));
+    (quantity.trim(), time.trim())
+}
+
+/// How often a minute has this time.
+fn a_minute(time: &str) -> Option<i64> {
+    match time {
+        "min" | "minute" | "minutes" => Some(1),
+        "s" | "sec" | "second" | "seconds" => Some(60),
+        _ => None,
+    }
+}
+
+/// The nanometres of a number with the units that pcb2gcode knows, or none.
+fn with_unit(text: &str, units: Units) -> Option<i64> {
     let text = text.trim();
     let end = text.find(|c: char| c.is_ascii_alphabetic() || c == '"').unwrap_or(text.len());
     let (number, unit) = (text[..end].trim(), text[end..].trim());
     let (unit, times) = match (unit, units) {
         ("", Units::Inches) | ("in" | "inch" | "inches" | "\"", _) => ("in", 1),
-        ("", Units::Metric) | ("mm" | "millimeter" | "millimeters", _) => ("mm", 1),
-        ("m" | "meter" | "meters", _) => ("mm", 1000),
+        ("", Units::Metric) | ("mm" | "millimeter" | "millimeters" | "millimetre" | "millimetres", _) => {
+            ("mm", 1)
+        }
+        ("cm" | "centimeter" | "centimeters", _) => ("cm", 1),
+        ("m" | "meter" | "meters" | "metre" | "metres", _) => ("mm", 1000),
+        ("um" | "micrometer" | "micrometers", _) => ("um", 1),
         ("thou" | "mil" | "mils", _) => ("mil", 1),
         _ => return None,
     };
-    Some((format!("{number}{unit}"), times))
+    nanometres(&format!("{number}{unit}")).ok()?.checked_mul(times)
 }
 
 fn length(text: &str, units: Units) -> Option<Nm> {
-    let (text, times) = with_unit(text, units)?;
-    let length: Nm = text.parse().ok()?;
-    Nm::try_new(length.get() * times).ok()
+    Nm::try_new(with_unit(text, units)?).ok()
 }
 
 #[cfg(test)]
@@ -175,6 +218,8 @@ mod tests {
             ("200mm/min", "200mm/min"),
             ("60", "1524mm/min"),
             ("1.5 m/min", "1500mm/min"),
+            ("10 thou/second", "15.24mm/min"),
+            ("3 inches per minute", "76.2mm/min"),
         ] {
             assert_eq!(entry(text).feed(Units::Inches).expect(text).to_string(), feed, "{text}");
         }
@@ -182,7 +227,22 @@ mod tests {
             assert_eq!(entry(text).wait().expect(text), Wait { milliseconds }, "{text}");
         }
         assert!(entry("3 fortnights").wait().is_err() && entry("-1s").wait().is_err(), "no time");
-        assert_eq!(entry("12000 rpm").turns().expect("turns"), 12_000, "with its unit");
+        for (text, turns) in [
+            ("12000 rpm", 12_000),
+            ("200rotations/second", 12_000),
+            ("0.5 rotations per second", 30),
+            ("1000.4", 1000),
+        ] {
+            assert_eq!(entry(text).turns().expect(text), turns, "{text}");
+        }
+        assert!(entry("12 hertz").turns().is_err() && entry("3 rpm/hour").turns().is_err(), "no turns");
+        assert_eq!(entry("2000mm").width(Units::Inches).expect("a width"), None, "everything");
+        assert_eq!(entry("15").width(Units::Metric).expect("a width"), Some(Nm::from_mm(15)), "a width");
+        assert!(entry("-1").width(Units::Metric).is_err(), "no width");
+        for text in ["1mm,2mm", "1 mm, 2 mm", "1mm 2mm", "0.1 cm,2"] {
+            let both = vec![Nm::from_mm(1), Nm::from_mm(2)];
+            assert_eq!(entry(text).lengths(Units::Metric).expect(text), both, "{text}");
+        }
         assert!(entry("-1").turns().is_err() && entry("0").feed(Units::Metric).is_err(), "no sense");
     }
 }

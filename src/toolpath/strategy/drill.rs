@@ -18,6 +18,8 @@ pub struct Drilling<'a> {
     pub tolerance: Nm,
     /// The end mill that bores holes for which no drill is at hand and mills slots; none chain-drills slots.
     pub mill: Option<&'a Tool>,
+    /// The diameter from which on holes are bored whatever drills are at hand; none where drills go before.
+    pub bored_from: Option<Nm>,
     /// How high and how deep; the step is the peck.
     pub heights: Heights,
     /// From board to machine.
@@ -38,10 +40,11 @@ pub struct Drilling<'a> {
 pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warning>) {
     let mut jobs: BTreeMap<(Nm, u32), (Tool, Vec<&Hole>)> = BTreeMap::new();
     let (mut bored, mut warnings) = (Vec::new(), Vec::new());
+    let is_wide = |hole: &Hole| settings.bored_from.is_some_and(|from| hole.diameter >= from);
     for hole in holes {
         let milled = settings.mill.filter(|mill| bore::fits(hole, mill, settings.tolerance));
         match bit(hole, settings) {
-            _ if hole.is_slot() && milled.is_some() => bored.push(hole),
+            _ if milled.is_some() && (hole.is_slot() || is_wide(hole)) => bored.push(hole),
             Some(tool) => {
                 let key = (tool.width_at(Nm::ZERO), tool.number);
                 jobs.entry(key).or_insert_with(|| (tool, Vec::new())).1.push(hole);

@@ -1,0 +1,80 @@
+//! What was asked for and changes nothing: told, so that nobody believes it did.
+
+use crate::board::Warning;
+
+use super::{Layer, Options, Settings, Sites};
+
+impl Settings {
+    /// The first of the `given` options that changes nothing beside the other settings, and what to say with it or instead.
+    ///
+    /// A settings file may have it: it is for many boards.
+    #[must_use]
+    pub fn idle(&self, given: &Options) -> Option<(&'static str, &'static str)> {
+        let all = self.options();
+        let is_wide = all.width.is_some() || all.passes.is_some() || all.clear == Some(true);
+        let is_held = all.tabs != Some(0) || all.tab_spacing.is_some() || !all.tab_at.is_empty();
+        let bores = self.drill_bore || self.alignment.is_some();
+        let idle = [
+            ("overlap", given.overlap.is_some() && !is_wide, "say --width, --passes or --clear too"),
+            ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "say --drill-bore too"),
+            ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "say --tile too"),
+            (
+                "alignment-margin",
+                given.alignment_margin.is_some() && self.alignment.is_none(),
+                "say --alignment-holes too",
+            ),
+            ("tab-width", given.tab_width.is_some() && !is_held, "say --tabs too, which are none here"),
+            ("tab-height", given.tab_height.is_some() && !is_held, "say --tabs too, which are none here"),
+            ("frame-margin", given.frame_margin.is_some() && !self.frame, "leave --no-frame out"),
+            (
+                "no-min-width",
+                given.min_width.is_some() && self.sites == Sites::Copper,
+                "say --sites core too",
+            ),
+        ];
+        idle.into_iter().find(|(_, is_idle, _)| *is_idle).map(|(option, _, hint)| (option, hint))
+    }
+}
+
+/// Warns of each isolating tool that cuts nothing on any side: a wider or a finer one cuts all it could.
+pub(super) fn tools(layers: &[Layer], settings: &Settings) -> Vec<Warning> {
+    let tools = settings.isolation.iter().map(|cutting| &cutting.tool);
+    let cuts =
+        |name: &str| layers.iter().flat_map(|layer| &layer.sections).any(|section| section.tool.name == name);
+    let idle = tools.filter(|tool| !layers.is_empty() && !cuts(&tool.name));
+    idle.map(|tool| {
+        let message =
+            format!("`{}` cuts nothing: it fits nowhere, or the other tools leave it nothing", tool.name);
+        Warning::new("tool-cuts-nothing", message)
+    })
+    .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn idle(text: &str) -> Option<&'static str> {
+        let given = Options::from_toml("f", text).expect(text);
+        let settings = Settings::resolve(given.clone()).expect(text);
+        settings.idle(&given).map(|(option, _)| option)
+    }
+
+    #[test]
+    fn an_option_that_needs_another_is_idle_without_it() {
+        for (alone, other) in [
+            ("overlap = \"50%\"", "passes = 2"),
+            ("drill-bore-tool = \"endmill:0.8mm\"", "drill-bore = true"),
+            ("drill-bore-tool = \"endmill:0.8mm\"", "drill-bore-from = \"1mm\""),
+            ("tile-spacing = \"3mm\"", "tile = \"2x1\""),
+            ("alignment-margin = \"9mm\"", "alignment-holes = \"3mm\""),
+        ] {
+            let name = alone.split(' ').next();
+            assert_eq!(idle(alone), name, "{alone}");
+            assert_eq!(idle(&format!("{alone}\n{other}")), None, "{alone} with {other}");
+        }
+        assert_eq!(idle("tabs = 0\ntab-width = \"3mm\""), Some("tab-width"), "no tab");
+        assert_eq!(idle("frame = false\nframe-margin = \"1mm\""), Some("frame-margin"), "no lap");
+        assert_eq!(idle(""), None, "nothing was given");
+    }
+}
