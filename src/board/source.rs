@@ -26,7 +26,7 @@ pub struct Source {
     pub units: String,
     /// The number format, as people write it: `4.6 leading zeros omitted, absolute`.
     pub number_format: String,
-    /// SHA-256 of the file's bytes, in hexadecimal.
+    /// SHA-256 of the file's bytes, in hexadecimal; of a text of two bytes a character, of its UTF-8.
     pub sha256: String,
     /// The length in bytes.
     pub bytes: u64,

@@ -34,6 +34,10 @@ pub(super) struct Input {
     #[arg(long = "drill", value_name = "FILE", help_heading = "Files")]
     drill_files: Vec<PathBuf>,
 
+    /// File or folder among these to leave aside, by name; may be given several times
+    #[arg(long, value_name = "FILE", help_heading = "Files")]
+    skip: Vec<PathBuf>,
+
     /// What the board is called, and its output files after it
     #[arg(long, value_name = "NAME", help_heading = "Files")]
     name: Option<String>,
@@ -105,6 +109,7 @@ impl Input {
             back: self.back.clone().or(files.back),
             outline: self.outline.clone().or(files.outline),
             drill,
+            skip: self.skip.clone(),
             name: self.name.clone().or(project.name),
             outline_gap: Some(settings.outline_gap),
         };

@@ -30,6 +30,10 @@ pub(super) struct Verify {
     #[arg(long, required = true, value_name = "PATH", num_args = 1..)]
     board: Vec<PathBuf>,
 
+    /// File or folder of the board to leave aside, by name; may be given several times
+    #[arg(long, value_name = "FILE")]
+    skip: Vec<PathBuf>,
+
     /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: as the program's comments say]
     #[arg(long, value_name = "TOOL")]
     tool: Option<Cutter>,
@@ -172,7 +176,8 @@ fn lengths<const COUNT: usize>(text: &str) -> Option<[Nm; COUNT]> {
 
 impl Verify {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
-        let mut board = import::load(&self.board, &Selection::default())?.board;
+        let selection = Selection { skip: self.skip.clone(), ..Selection::default() };
+        let mut board = import::load(&self.board, &selection)?.board;
         let mut programs =
             self.programs.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
         self.leave_out(&mut board, &programs);

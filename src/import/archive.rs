@@ -1,8 +1,9 @@
 //! From paths to files in memory: folders, zip archives and single files, mixed.
 
+use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Component, Path, PathBuf};
 
 use zip::result::ZipError;
 
@@ -10,6 +11,7 @@ use super::error::{self, Error, locate};
 use super::gerber::ApertureList;
 use super::jobfile::Job;
 use super::layers::Kind;
+use super::unusable::Unusable;
 use crate::board::SourceSpan;
 
 /// The largest file that is read, and the most that an archive may unpack to.
@@ -61,22 +63,49 @@ pub(super) struct Gathered {
     pub(super) lists: Vec<ApertureList>,
     /// Names of what is neither.
     pub(super) ignored: Vec<String>,
+    /// What of it can be no layer by its content, and may be meant as one.
+    pub(super) unusable: Vec<Unusable>,
     /// Folders inside the given folders, which are not looked into.
     pub(super) folders: Vec<String>,
+    /// What a person wants left aside, and whether it was met.
+    skipped: Vec<(PathBuf, bool)>,
 }
 
 impl Gathered {
-    /// Everything under `paths`.
-    pub(super) fn under(paths: &[impl AsRef<Path>]) -> Result<Self, Error> {
-        let mut gathered = Self::default();
+    /// Everything under `paths` but what `skip` names.
+    pub(super) fn under(paths: &[impl AsRef<Path>], skip: &[PathBuf]) -> Result<Self, Error> {
+        let plain = |path: &PathBuf| path.components().filter(|part| *part != Component::CurDir).collect();
+        let skipped = skip.iter().map(|path| (plain(path), false)).collect();
+        let mut gathered = Self { skipped, ..Self::default() };
         for path in paths {
             gathered.path(path.as_ref())?;
         }
-        Ok(gathered)
+        match gathered.skipped.iter().find(|(_, met)| !met) {
+            None => Ok(gathered),
+            Some((path, _)) => {
+                let what = "no such file or folder among those given, so it cannot be left aside";
+                Err(Error::content(&path.display().to_string(), what, "check the name after --skip"))
+            }
+        }
+    }
+
+    /// Whether a person wants `shown` left aside: by its name, or by the end of its path.
+    fn skips(&mut self, shown: &str) -> bool {
+        let mut skips = false;
+        for (path, met) in self.skipped.iter_mut().filter(|(path, _)| Path::new(shown).ends_with(path)) {
+            (*met, skips) = (!path.as_os_str().is_empty(), true);
+        }
+        if skips {
+            self.ignored.push(name_of(Path::new(shown)));
+        }
+        skips
     }
 
     fn path(&mut self, path: &Path) -> Result<(), Error> {
         let shown = path.display().to_string();
+        if self.skips(&shown) {
+            return Ok(());
+        }
         let meta = fs::metadata(path).map_err(|error| unreadable(&shown, &error))?;
         if meta.is_dir() {
             return self.folder(path, &shown);
@@ -96,14 +125,21 @@ impl Gathered {
             entries.map_err(|error| unreadable(shown, &error))?.iter().map(fs::DirEntry::path).collect();
         paths.sort();
         for path in paths {
+            let (name, shown) = (name_of(&path), path.display().to_string());
+            if self.skips(&shown) {
+                continue;
+            }
             if path.is_dir() {
-                self.folders.push(name_of(&path));
-            } else if worth_reading(&name_of(&path)) && path.is_file() {
-                let shown = path.display().to_string();
-                let bytes = read_file(&path, &shown)?;
-                self.take(name_of(&path), shown, bytes, false);
+                self.folders.push(name.clone());
+                self.unusable.push(Unusable::folder(name, shown));
+            } else if !worth_reading(&name) {
+                self.ignored.push(name);
+            } else if let Some(what) = special(&path) {
+                self.ignored.push(name.clone());
+                self.unusable.push(Unusable::special(name, shown, what));
             } else {
-                self.ignored.push(name_of(&path));
+                let bytes = read_file(&path, &shown)?;
+                self.take(name, shown, bytes, false);
             }
         }
         Ok(())
@@ -112,23 +148,40 @@ impl Gathered {
     fn zip(&mut self, shown: &str, bytes: Vec<u8>) -> Result<(), Error> {
         let limit = (UNPACKED.1 * bytes.len() as u64).clamp(UNPACKED.0, MOST_BYTES);
         let broken = |error: ZipError| broken_zip(shown, &error);
-        let mut archive = zip::ZipArchive::new(io::Cursor::new(bytes)).map_err(broken)?;
+        let mut archive = zip::ZipArchive::new(io::Cursor::new(&bytes)).map_err(broken)?;
+        let doubled = archive.has_duplicate_names().then(|| doubled(&bytes, archive.central_directory_start()));
+        let doubled = doubled.flatten();
         if archive.len() > MOST_ENTRIES {
             let what = format!("the zip archive has {} entries, more than {MOST_ENTRIES}", archive.len());
             return Err(Error::content(shown, what, "give the folder of one board"));
+        }
+        if let Some(name) = doubled {
+            let what = format!("two entries of the zip archive are called {name}, with different contents");
+            return Err(Error::content(shown, what, "unpack it, keep the right one, and give the folder"));
         }
         let mut entries: Vec<(String, usize)> = Vec::new();
         for index in 0..archive.len() {
             let entry = archive.by_index_raw(index).map_err(broken)?;
             let name = String::from_utf8_lossy(entry.name_raw()).replace('\\', "/");
-            if !entry.is_dir() && !name.starts_with("__MACOSX/") {
-                entries.push((name, index));
+            if name.starts_with("__MACOSX/") {
+                continue;
             }
+            if entry.is_dir() {
+                let (full, name) = (format!("{shown}/{name}"), last_of(name.trim_end_matches('/')));
+                if !self.skips(&full) {
+                    self.unusable.push(Unusable::folder(name, full));
+                }
+                continue;
+            }
+            entries.push((name, index));
         }
         entries.sort();
         let mut left = limit;
         for (full, index) in entries {
-            let name = full.rsplit('/').next().unwrap_or(&full).to_owned();
+            let name = last_of(&full);
+            if self.skips(&format!("{shown}/{full}")) {
+                continue;
+            }
             if !worth_reading(&name) {
                 self.ignored.push(name);
                 continue;
@@ -140,7 +193,7 @@ impl Gathered {
                 let what = format!("the zip archive unpacks to more than {} MiB", limit >> 20);
                 Error::content(shown, what, "unpack it yourself if you trust it, and give the folder")
             })?;
-            self.take(name, format!("{shown}/{full}"), content, false);
+            self.take(name, format!("{shown}/{full}"), decoded(content), false);
         }
         Ok(())
     }
@@ -155,7 +208,8 @@ impl Gathered {
         if let Some(list) = list {
             self.lists.push(list);
         } else if kind == Kind::Unknown && !named {
-            self.ignored.push(name);
+            self.ignored.push(name.clone());
+            self.unusable.push(Unusable::file(name, shown, &bytes));
         } else {
             self.files.push(Found { name, shown, bytes, kind, named });
         }
@@ -169,8 +223,70 @@ pub(super) fn name_of(path: &Path) -> String {
     name.or_else(real).unwrap_or_default()
 }
 
+/// The last part of the name of an archive's entry.
+fn last_of(full: &str) -> String {
+    full.rsplit('/').next().unwrap_or(full).to_owned()
+}
+
+/// What a path is that is neither a folder nor a file that can be read to its end.
+fn special(path: &Path) -> Option<&'static str> {
+    match fs::metadata(path) {
+        Ok(meta) if meta.is_file() => None,
+        Ok(_) => Some("a pipe or a device and no file"),
+        // Whatever else is wrong with it, reading it will tell.
+        Err(error) if error.kind() != io::ErrorKind::NotFound && !path.is_symlink() => None,
+        Err(_) => Some("a link to nothing"),
+    }
+}
+
+/// The name of two entries with different contents, from the directory at the end of an archive.
+///
+/// Of entries of one name the library shows the last only. The directory's records begin with PK\x01\x02 and have the
+/// checksum at byte 16, both lengths behind it, and the name at byte 46 (APPNOTE 6.3.10 §4.3.12).
+fn doubled(archive: &[u8], start: u64) -> Option<String> {
+    let mut rest = archive.get(usize::try_from(start).ok()?..)?;
+    let mut seen = BTreeMap::new();
+    while rest.starts_with(b"PK\x01\x02") {
+        let length = |at: usize| Some(usize::from(u16::from_le_bytes(rest.get(at..at + 2)?.try_into().ok()?)));
+        let (name, extra, comment) = (length(28)?, length(30)?, length(32)?);
+        let (content, name) = (rest.get(16..28)?, rest.get(46..46 + name)?);
+        if seen.insert(name, content).is_some_and(|before| before != content) {
+            return Some(String::from_utf8_lossy(name).into_owned());
+        }
+        rest = rest.get(46 + name.len() + extra + comment..)?;
+    }
+    None
+}
+
+/// Texts of two bytes a character as texts of one or more (UTF-8), and all without a byte order mark.
+///
+/// Editors of Windows save them so. Without a mark they are known by every other byte of the beginning, which is zero.
+fn decoded(bytes: Vec<u8>) -> Vec<u8> {
+    /// How many characters must be of plain ASCII where there is no mark.
+    const ENOUGH: usize = 8;
+    let of_ascii = |high: usize| {
+        let pairs = bytes.chunks_exact(2).take(ENOUGH);
+        pairs.len() == ENOUGH && pairs.clone().all(|pair| pair[high] == 0 && pair[1 - high] != 0)
+    };
+    let read: fn([u8; 2]) -> u16 = match bytes.as_slice() {
+        [0xef, 0xbb, 0xbf, rest @ ..] => return rest.to_vec(),
+        [0xff, 0xfe, ..] => u16::from_le_bytes,
+        [0xfe, 0xff, ..] => u16::from_be_bytes,
+        _ if of_ascii(1) => u16::from_le_bytes,
+        _ if of_ascii(0) => u16::from_be_bytes,
+        _ => return bytes,
+    };
+    let units = bytes.chunks_exact(2).map(|pair| read([pair[0], pair[1]])).filter(|&unit| unit != 0xfeff);
+    let text: String = char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect();
+    text.into_bytes()
+}
+
 /// Reads a file of at most [`MOST_BYTES`].
 pub(super) fn read_file(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
+    // Opening a pipe waits for somebody to write into it.
+    if !path.is_dir() && let Some(what) = special(path).filter(|_| path.exists()) {
+        return Err(Error::content(shown, what, "write what comes from it into a file, and name that"));
+    }
     let file = File::open(path).map_err(|error| unreadable(shown, &error))?;
     let mut bytes = Vec::new();
     file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(shown, &error))?;
@@ -178,7 +294,7 @@ pub(super) fn read_file(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
         let what = format!("the file has more than {} MiB", MOST_BYTES >> 20);
         return Err(Error::content(shown, what, "no layer of a board is as large"));
     }
-    Ok(bytes)
+    Ok(decoded(bytes))
 }
 
 /// Why an archive cannot be read, in the words of someone who downloaded it.

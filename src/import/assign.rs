@@ -7,6 +7,7 @@ use super::error::{self, Error, find, locate};
 use super::jobfile::Job;
 use super::layers::{self, Kind, Role};
 use super::load::{Selection, describe};
+use super::unusable::quoted;
 use super::{naming, settle};
 use crate::board::{Side, Warning};
 use crate::import::flaw;
@@ -64,9 +65,10 @@ pub(super) fn assign(
     let mut assigned = Assigned { place, ..Assigned::default() };
     refuse_unknown(gathered, selection)?;
     let job = read_job(gathered, &mut assigned.warnings);
+    assigned.warnings.extend(gathered.refuse_unusable(&job, selection)?);
     let mut roles = witness(gathered, &job);
     choose_by_hand(gathered, selection, &mut roles, &mut assigned);
-    refuse_contradictions(gathered, &roles)?;
+    refuse_contradictions(gathered, &roles, selection)?;
     settle::groups(&mut roles);
     assigned.front = assigned.front.or(settle::only(
         &roles,
@@ -140,16 +142,35 @@ fn refuse_unknown(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
     ))
 }
 
-/// A file named like a drill file that calls itself copper: one of the two is wrong, and guessing cuts the wrong thing.
-fn refuse_contradictions(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
-    let contradicts = |vote: &&Vote| {
-        let copper = matches!(vote.role, Some(Role::Copper(_))) && vote.witness == Witness::Function;
-        copper && layers::role_by_extension(&gathered.files[vote.file].name) == Some(Role::Drill)
-    };
-    let Some(vote) = votes.iter().find(contradicts) else { return Ok(()) };
-    let what = "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)";
-    let hint = "export the drill file again, or say with --front or --back that this is copper";
-    Err(Error::content(&gathered.files[vote.file].shown, what, hint))
+/// A file whose name says drill and whose content says layer, or the other way round: one of the two is wrong, and
+/// guessing cuts the wrong thing.
+fn refuse_contradictions(gathered: &Gathered, votes: &[Vote], selection: &Selection) -> Result<(), Error> {
+    for vote in votes {
+        let file = &gathered.files[vote.file];
+        let named = layers::role_by_sure_name(&file.name);
+        let skip = format!("or leave it aside: --skip {}", quoted(&file.name));
+        let (what, hint) = match (named, file.kind, vote.role) {
+            (Some(Role::Drill), Kind::Gerber, Some(Role::Copper(_))) if vote.witness == Witness::Function => (
+                "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)",
+                "export the drill file again, or say with --front or --back that this is copper".to_owned(),
+            ),
+            (Some(Role::Drill), Kind::Gerber, Some(Role::Other("drill drawing")))
+                if selection.drill.is_empty() =>
+            {
+                let what = "named like a drill file, but it is a Gerber file that does not say what it draws";
+                (what, format!("export the drill file again as Excellon, {skip}"))
+            }
+            (Some(Role::Copper(_) | Role::Outline), Kind::Excellon, Some(Role::Drill))
+                if selection.drill.is_empty() =>
+            {
+                let what = "named like a layer, but it is an Excellon drill file";
+                (what, format!("export the layer again, say with --drill that it has holes, {skip}"))
+            }
+            _ => continue,
+        };
+        return Err(Error::content(&file.shown, what, hint));
+    }
+    Ok(())
 }
 
 fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {

@@ -407,6 +407,27 @@ pub(in crate::import) const ROLE_UNKNOWN: Flaw = Flaw::new(
     "where it is needed, name it with --front, --back, --outline or --drill",
 );
 
+/// A text that is no prose, no layer and no drill file.
+pub(in crate::import) const FILE_NOT_UNDERSTOOD: Flaw = Flaw::new(
+    "file-not-understood",
+    "layers, drill files and documents",
+    "export it again where it is a drill file; else leave it aside with --skip",
+);
+
+/// A folder inside the given one.
+pub(in crate::import) const FOLDER_NOT_READ: Flaw = Flaw::new(
+    "folder-not-read",
+    "all files of the board in one folder",
+    "give this folder too where it holds layers or drill files; else leave it aside with --skip",
+);
+
+/// The tape of a drilling machine.
+pub(in crate::import) const BINARY_DRILL_FILE: Flaw = Flaw::new(
+    "binary-drill-file",
+    "a drill file as text (Excellon)",
+    "nothing, where the text file has the same holes; --skip leaves the binary one aside",
+);
+
 /// No copper.
 pub(in crate::import) const COPPER_MISSING: Flaw =
     Flaw::new("copper-missing", "a layer of copper", "add a copper layer, or name it with --front or --back");

@@ -250,6 +250,24 @@ pub(super) fn role_by_extension(name: &str) -> Option<Role> {
     looked_up(EXTENSIONS, |known| known == extension)
 }
 
+/// The role that a name tells for sure: KiCad's endings, and extensions that say it all or speak.
+pub(super) fn role_by_sure_name(name: &str) -> Option<Role> {
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let normal = stem.to_ascii_lowercase().replace(['.', '-', ' '], "_");
+    let by_ending = looked_up(KICAD, |end| normal == end || normal.ends_with(&format!("_{end}")));
+    by_ending
+        .filter(|_| is_gerber_by_extension(name))
+        .or_else(|| role_by_extension(name))
+        .or_else(|| role_by_words(&extension_words(name, stem.len())).filter(|_| stem.len() < name.len()))
+}
+
+/// Whether a name has an extension that Gerber files have, and says nothing more by it.
+pub(super) fn is_gerber_by_extension(name: &str) -> bool {
+    const GERBER: [&str; 9] = ["gbr", "ger", "gerber", "grb", "gbx", "gdo", "pho", "art", "gb"];
+    let extension = name.rsplit_once('.').map_or("", |(_, extension)| extension);
+    GERBER.iter().any(|known| extension.eq_ignore_ascii_case(known))
+}
+
 /// The words of an extension that speaks: `.StopTop`, `.Outline`; none of one of three letters.
 fn extension_words(name: &str, stem: usize) -> Vec<String> {
     let extension = name.get(stem..).unwrap_or_default();

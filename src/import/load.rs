@@ -9,6 +9,7 @@ use super::error::Error;
 use super::excellon::{self, Context};
 use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
+use super::unusable::quoted;
 use super::{gerber_drill, outline};
 use crate::board::{Axis, Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point, Rect};
@@ -25,6 +26,8 @@ pub struct Selection {
     pub outline: Option<PathBuf>,
     /// The drill files; where any is given, no other is taken.
     pub drill: Vec<PathBuf>,
+    /// Files and folders that are left aside, by name or by the end of their path.
+    pub skip: Vec<PathBuf>,
     /// What the board is called.
     pub name: Option<String>,
     /// How far apart two lines of the outline may end and still meet; [`outline::GAP`] where it is left open.
@@ -71,7 +74,7 @@ enum Need {
 }
 
 fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Loaded, Error> {
-    let mut gathered = Gathered::under(paths)?;
+    let mut gathered = Gathered::under(paths, &selection.skip)?;
     gathered.add_selected(selection)?;
     let assigned = assign(&gathered, paths, selection)?;
     let mut build = Build::new(assigned.name.clone());
@@ -129,7 +132,11 @@ impl Build {
     fn coppers(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
         let file = |index: usize| &gathered.files[index];
         let read = |index: Option<usize>| {
-            let read = |index| Ok((file(index), read_gerber(gathered, file(index), "a copper layer")?));
+            let read = |index| {
+                let image = read_gerber(gathered, file(index), "a copper layer")?;
+                refuse_cut_off(file(index), image.features.is_empty(), &image.warnings)?;
+                Ok((file(index), image))
+            };
             index.map(read).transpose()
         };
         let (front, back) = rayon::join(|| read(assigned.front), || read(assigned.back));
@@ -196,6 +203,7 @@ impl Build {
             return Ok(());
         };
         let image = read_gerber(gathered, file, "an outline layer")?;
+        refuse_cut_off(file, image.features.is_empty(), &image.warnings)?;
         self.warnings.extend(image.warnings);
         self.sources.push(Source { role: "outline".to_owned(), ..image.source });
         let joined = outline::join(&file.name, &file.bytes, &image.features, gap);
@@ -215,6 +223,7 @@ impl Build {
                 }
                 Kind::Excellon | Kind::Unknown => {
                     let drilling = excellon::read(&file.name, &file.bytes, &context)?;
+                    refuse_cut_off(file, drilling.holes.is_empty(), &drilling.warnings)?;
                     warnings.extend(drilling.warnings);
                     (drilling.holes, drilling.source)
                 }
@@ -369,6 +378,17 @@ fn has_area(feature: &Feature) -> bool {
         }
         Shape::Polygon(_) => true,
     }
+}
+
+/// Fails for a file that draws nothing and has no end: what it had was cut off. One that was written empty has its end.
+fn refuse_cut_off(file: &Found, is_empty: bool, warnings: &[Warning]) -> Result<(), Error> {
+    const CUT_OFF: [&str; 3] = ["missing-end-of-file", "missing-end-of-drill-file", "truncated-file"];
+    if is_empty && warnings.iter().any(|warning| CUT_OFF.contains(&warning.code)) {
+        let what = "nothing is drawn, and the file has no end: its content was cut off";
+        let hint = format!("export it again, or leave it aside: --skip {}", quoted(&file.name));
+        return Err(Error::content(&file.shown, what, hint));
+    }
+    Ok(())
 }
 
 /// Reads a Gerber file, or says what it is instead.

@@ -23,6 +23,7 @@ mod load;
 mod naming;
 pub mod outline;
 mod settle;
+mod unusable;
 mod wheel;
 
 pub use digest::sha256;

@@ -31,7 +31,7 @@ fn board(path: &Path) -> Loaded {
         .unwrap_or_else(|e| panic!("{}:\n{}", path.display(), e.render()))
 }
 
-fn files_of(loaded: &Loaded, role: &str) -> Vec<String> {
+pub(crate) fn files_of(loaded: &Loaded, role: &str) -> Vec<String> {
     loaded.sources.iter().filter(|source| source.role == role).map(|source| source.file.clone()).collect()
 }
 
@@ -156,13 +156,13 @@ fn every_hole_of_every_board_is_read_with_its_size_and_place() {
 }
 
 /// A folder of small layers, each a square; what is drawn does not matter to who is what.
-struct Folder(tempfile::TempDir);
+pub(crate) struct Folder(tempfile::TempDir);
 
-const SQUARE: &str = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.2*%\nD10*\nX0Y0D02*\nX20000000Y0D01*\nX20000000Y20000000D01*\nX0Y20000000D01*\nX0Y0D01*\nM02*\n";
-const DRILL: &str = "M48\nMETRIC\nT1C0.8\n%\nT1\nX5.0Y5.0\nM30\n";
+pub(crate) const SQUARE: &str = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.2*%\nD10*\nX0Y0D02*\nX20000000Y0D01*\nX20000000Y20000000D01*\nX0Y20000000D01*\nX0Y0D01*\nM02*\n";
+pub(crate) const DRILL: &str = "M48\nMETRIC\nT1C0.8\n%\nT1\nX5.0Y5.0\nM30\n";
 
 impl Folder {
-    fn with(files: &[(&str, &str)]) -> Self {
+    pub(crate) fn with(files: &[(&str, &str)]) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         for (name, text) in files {
             fs::write(folder.path().join(name), text).expect("written");
@@ -170,16 +170,16 @@ impl Folder {
         Self(folder)
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }
 
-    fn load(&self, selection: &Selection) -> Result<Loaded, String> {
+    pub(crate) fn load(&self, selection: &Selection) -> Result<Loaded, String> {
         load(&[self.0.path().to_owned()], selection).map_err(|error| error.to_string())
     }
 }
 
-fn function(value: &str) -> String {
+pub(crate) fn function(value: &str) -> String {
     format!("%TF.FileFunction,{value}*%\n{SQUARE}")
 }
 
@@ -335,7 +335,7 @@ fn a_gerber_drill_file_has_holes_and_slots() {
 }
 
 /// An archive of `files`.
-fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
+pub(crate) fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
     let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
     let options = zip::write::SimpleFileOptions::default();
     for (name, bytes) in files {

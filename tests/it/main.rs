@@ -32,6 +32,7 @@ mod rules;
 mod snapshot;
 mod toolpath;
 mod topology;
+mod unusable;
 mod verdict;
 mod verify;
 mod verify_cli;
