@@ -28,6 +28,10 @@ pub struct Source {
     pub number_format: String,
     /// SHA-256 of the file's bytes, in hexadecimal; of a text of two bytes a character, of its UTF-8.
     pub sha256: String,
+    /// SHA-256 of what was read from it, in hexadecimal: the same for the same design, whatever its comments and dates say. Empty for
+    /// a file that was left aside.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub design: String,
     /// The length in bytes.
     pub bytes: u64,
     /// Counts by name: flashes, strokes, arcs, regions, holes, slots, …

@@ -4,12 +4,15 @@ use std::process::ExitCode;
 use clap::Args;
 use rayon::prelude::*;
 use voromill::board::Side;
+use voromill::import::sha256;
 use voromill::job::{self, Job, Settings};
-use voromill::report::{Document, Verdict};
+use voromill::report::Verdict;
+use voromill::report::document::OutputEntry;
 use voromill::verify::Severity;
 
 use super::config::Config;
 use super::input::Input;
+use super::leftovers::Leftovers;
 use super::output::Output;
 use super::progress::Progress;
 use super::{Failure, Shared};
@@ -19,7 +22,8 @@ use super::{Failure, Shared};
 /// Reads a folder, a zip archive or single files, finds the copper of both sides, the outline and the holes, and
 /// writes into OUT, named after the board: NAME-front.ngc and NAME-back.ngc that isolate the nets (the back turned
 /// over left to right), NAME-drill.ngc, NAME-cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut,
-/// NAME.html to look at it all in a browser, and NAME.json. With one copper file alone, that side. The programs are
+/// NAME.html to look at it all in a browser, and NAME.json, which lists them. What an earlier run of the board wrote there
+/// and this one does not is removed. With one copper file alone, that side. The programs are
 /// read back and milled on a picture before anybody mills them: exit code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
@@ -97,7 +101,7 @@ impl Mill {
             document.verification = Some(Verdict::from(&report));
         }
         progress.say("drawing");
-        let mut files = files(&job, &document, &settings)?;
+        let mut files = files(&job, &settings)?;
         if self.svg {
             let drawn = [Side::Front, Side::Back].into_iter().filter_map(|side| Some((side, job.svg(side)?)));
             files.extend(
@@ -109,13 +113,21 @@ impl Mill {
             files.push((format!("{}.html", job.board.name), page.into_bytes()));
         }
         progress.say("writing");
+        let entry =
+            |(file, bytes): &(String, Vec<u8>)| OutputEntry { file: file.clone(), sha256: sha256(bytes) };
+        document.outputs = files.iter().map(entry).collect();
+        files.push((format!("{}.json", job.board.name), document.to_json().into_bytes()));
+        let leftovers = Leftovers::find(folder, &files, &job.sources);
+        self.input.judge(&leftovers.warnings(folder))?;
         let mut output = Output::new();
         output.make_folder(folder)?;
         for (name, bytes) in &files {
             output.stage(&folder.join(name), bytes)?;
         }
+        leftovers.obsolete.iter().for_each(|path| output.remove(path.clone()));
         output.commit()?;
         drop(progress);
+        shared.say(&leftovers.to_text(folder));
         if self.json {
             super::print(&document.to_json())?;
         } else {
@@ -125,8 +137,8 @@ impl Mill {
     }
 }
 
-/// Names and contents of all outputs.
-fn files(job: &Job, document: &Document, settings: &Settings) -> Result<Vec<(String, Vec<u8>)>, Failure> {
+/// Names and contents of the programs and their pictures.
+fn files(job: &Job, settings: &Settings) -> Result<Vec<(String, Vec<u8>)>, Failure> {
     let board = &job.board.name;
     let pictures: Vec<_> = [Side::Front, Side::Back]
         .into_par_iter()
@@ -139,6 +151,5 @@ fn files(job: &Job, document: &Document, settings: &Settings) -> Result<Vec<(Str
         .programs
         .iter()
         .map(|program| (program.file_name(board, settings), program.text.clone().into_bytes()));
-    let report = (format!("{board}.json"), document.to_json().into_bytes());
-    Ok(programs.chain(pictures).chain([report]).collect())
+    Ok(programs.chain(pictures).collect())
 }

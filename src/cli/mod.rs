@@ -9,6 +9,7 @@ mod init;
 mod input;
 mod inspect;
 mod isolate;
+mod leftovers;
 mod level;
 mod mill;
 mod output;

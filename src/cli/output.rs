@@ -1,27 +1,45 @@
 //! Files appear whole or not at all: all are written beside their place under another name, and renamed once
 //! every one of them is complete. A link is followed, and what is no file (a device, a pipe) is written to as it
 //! stands: renamed onto, `/dev/null` would be a file from then on, for every program of the machine.
+//!
+//! A program that is interrupted (SIGINT, SIGTERM) leaves nothing either: a thread waits for these signals, removes what
+//! was not renamed yet, and lets the signal end the program as it would have.
 
 use std::borrow::Cow;
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use super::failure::Failure;
 
 /// Files about to be written.
 pub(super) struct Output {
-    /// Where it is now, where it will be.
-    staged: Vec<(PathBuf, PathBuf)>,
+    pending: Arc<Mutex<Pending>>,
     /// Devices and pipes, and what goes into them.
     streams: Vec<(PathBuf, Vec<u8>)>,
+    /// What goes once everything is in its place.
+    obsolete: Vec<PathBuf>,
+}
+
+/// What there is before all is in its place.
+#[derive(Debug, Default)]
+struct Pending {
+    /// Where it is now, where it will be.
+    staged: Vec<(PathBuf, PathBuf)>,
     /// Folders that were made for it, outermost first.
     made: Vec<PathBuf>,
 }
 
 impl Output {
     /// No file yet.
-    pub(super) const fn new() -> Self {
-        Self { staged: Vec::new(), streams: Vec::new(), made: Vec::new() }
+    pub(super) fn new() -> Self {
+        let pending = Arc::default();
+        leave_nothing_when_interrupted(&pending);
+        Self { pending, streams: Vec::new(), obsolete: Vec::new() }
+    }
+
+    fn pending(&self) -> MutexGuard<'_, Pending> {
+        lock(&self.pending)
     }
 
     /// Makes `folder` and what is missing above it.
@@ -31,8 +49,9 @@ impl Output {
             .take_while(|path| !path.as_os_str().is_empty() && !path.exists())
             .map(Path::to_path_buf)
             .collect();
+        let mut pending = self.pending();
         fs::create_dir_all(folder).map_err(|error| Failure::io("make the folder", folder, &error))?;
-        self.made.extend(missing.into_iter().rev());
+        pending.made.extend(missing.into_iter().rev());
         Ok(())
     }
 
@@ -47,29 +66,77 @@ impl Output {
             self.streams.push((path.to_path_buf(), bytes.to_vec()));
             return Ok(());
         }
-        if self.staged.iter().any(|(_, staged)| staged == path) {
+        // Held while it is written, so that no signal ends the program between the file and its entry.
+        let mut pending = self.pending();
+        if pending.staged.iter().any(|(_, staged)| staged == path) {
             let hint = "choose another name with --output-name";
             return Err(Failure::new(format!("two outputs would be {}", path.display()), hint));
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let partial = path.with_file_name(format!(".{name}.{}.partial", std::process::id()));
-        self.staged.push((partial.clone(), path.to_path_buf()));
+        pending.staged.push((partial.clone(), path.to_path_buf()));
         fs::write(&partial, bytes).map_err(|error| Failure::io("write", path, &error))
     }
 
-    /// Gives all files their names.
-    pub(super) fn commit(mut self) -> Result<(), Failure> {
-        for (partial, path) in &self.staged {
-            fs::rename(partial, path).map_err(|error| Failure::io("write", path, &error))?;
-        }
-        self.staged.clear();
-        self.made.clear();
+    /// Removes `path` once everything is in its place.
+    pub(super) fn remove(&mut self, path: PathBuf) {
+        self.obsolete.push(path);
+    }
+
+    /// Fills devices and pipes, then gives all files their names.
+    pub(super) fn commit(self) -> Result<(), Failure> {
+        // A pipe may wait for its reader for ever, and must not keep a signal waiting: nothing is locked yet.
         for (path, bytes) in &self.streams {
             fs::write(path, bytes).map_err(|error| Failure::io("write", path, &error))?;
+        }
+        let mut pending = self.pending();
+        for (partial, path) in &pending.staged {
+            fs::rename(partial, path).map_err(|error| Failure::io("write", path, &error))?;
+        }
+        *pending = Pending::default();
+        for path in &self.obsolete {
+            fs::remove_file(path).map_err(|error| Failure::io("remove", path, &error))?;
         }
         Ok(())
     }
 }
+
+impl Pending {
+    fn clear(&mut self) {
+        for (partial, _) in self.staged.drain(..) {
+            let _ = fs::remove_file(partial);
+        }
+        for folder in self.made.drain(..).rev() {
+            let _ = fs::remove_dir(folder);
+        }
+    }
+}
+
+/// A thread that died while it held the lock left only whole entries.
+fn lock(pending: &Mutex<Pending>) -> MutexGuard<'_, Pending> {
+    pending.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Clears `pending` where a signal ends the program. Where no signal can be waited for, it ends as it always did.
+#[cfg(unix)]
+fn leave_nothing_when_interrupted(pending: &Arc<Mutex<Pending>>) {
+    use signal_hook::consts::{SIGINT, SIGTERM};
+    use signal_hook::iterator::Signals;
+
+    let pending = Arc::clone(pending);
+    let Ok(mut signals) = Signals::new([SIGINT, SIGTERM]) else { return };
+    std::thread::spawn(move || {
+        if let Some(signal) = signals.forever().next() {
+            // Held to the end: nothing more is staged.
+            let mut pending = lock(&pending);
+            pending.clear();
+            let _ = signal_hook::low_level::emulate_default_handler(signal);
+        }
+    });
+}
+
+#[cfg(not(unix))]
+fn leave_nothing_when_interrupted(_: &Arc<Mutex<Pending>>) {}
 
 /// Where a link leads, or `path` itself.
 fn followed(path: &Path) -> Cow<'_, Path> {
@@ -80,11 +147,6 @@ fn followed(path: &Path) -> Cow<'_, Path> {
 /// What was not committed leaves no trace.
 impl Drop for Output {
     fn drop(&mut self) {
-        for (partial, _) in &self.staged {
-            let _ = fs::remove_file(partial);
-        }
-        for folder in self.made.iter().rev() {
-            let _ = fs::remove_dir(folder);
-        }
+        self.pending().clear();
     }
 }

@@ -4,9 +4,9 @@ use std::process::ExitCode;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
-use voromill::board::{Board, Side};
+use voromill::board::{Board, Side, Source};
 use voromill::geometry::{Nm, Vector};
-use voromill::import::{self, Selection};
+use voromill::import::{self, Loaded, Selection};
 use voromill::job::{self, Pattern, Tiles, Topology};
 use voromill::report::Verdict;
 use voromill::toolpath::Angle;
@@ -177,7 +177,7 @@ fn lengths<const COUNT: usize>(text: &str) -> Option<[Nm; COUNT]> {
 impl Verify {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
         let selection = Selection { skip: self.skip.clone(), ..Selection::default() };
-        let mut board = import::load(&self.board, &selection)?.board;
+        let Loaded { mut board, sources, .. } = import::load(&self.board, &selection)?;
         let mut programs =
             self.programs.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
         self.leave_out(&mut board, &programs);
@@ -197,7 +197,10 @@ impl Verify {
                 self.lay(program, &board, &settings, shared)?;
             }
         }
+        let input = |source: Source| verify::Input { file: source.file, design: source.design };
+        let inputs: Vec<verify::Input> = sources.into_iter().map(input).collect();
         let report = verify::verify(&programs, &board, &[], &settings)?;
+        let report = report.with(verify::revisions(&programs, &inputs));
         let verdict = Verdict::from(&report);
         match self.format {
             Format::Text => shared.report(&verdict.to_text(shared.verbose)),

@@ -20,17 +20,17 @@ pub struct Header {
 pub struct Input {
     /// Its name without its folder.
     pub file: String,
-    /// SHA-256 of its bytes, in hexadecimal.
-    pub sha256: String,
+    /// SHA-256 of what was read from it, in hexadecimal: comments and dates do not count.
+    pub design: String,
 }
 
 impl Header {
     /// Its lines, as plain text.
     pub(super) fn lines(&self) -> Vec<String> {
         let mut lines = vec![format!("made by {}", self.generator)];
-        for Input { file, sha256 } in &self.inputs {
-            let short: String = sha256.chars().take(12).collect();
-            lines.push(format!("from {file} sha256 {short}"));
+        for Input { file, design } in &self.inputs {
+            let short: String = design.chars().take(12).collect();
+            lines.push(format!("from {file} design {short}"));
         }
         lines.extend(self.settings.iter().flat_map(|(name, value)| setting(name, value)));
         lines.extend(self.seconds.map(|seconds| format!("takes about {}", duration(seconds))));

@@ -149,7 +149,8 @@ impl Gathered {
         let limit = (UNPACKED.1 * bytes.len() as u64).clamp(UNPACKED.0, MOST_BYTES);
         let broken = |error: ZipError| broken_zip(shown, &error);
         let mut archive = zip::ZipArchive::new(io::Cursor::new(&bytes)).map_err(broken)?;
-        let doubled = archive.has_duplicate_names().then(|| doubled(&bytes, archive.central_directory_start()));
+        let doubled =
+            archive.has_duplicate_names().then(|| doubled(&bytes, archive.central_directory_start()));
         let doubled = doubled.flatten();
         if archive.len() > MOST_ENTRIES {
             let what = format!("the zip archive has {} entries, more than {MOST_ENTRIES}", archive.len());
@@ -247,7 +248,8 @@ fn doubled(archive: &[u8], start: u64) -> Option<String> {
     let mut rest = archive.get(usize::try_from(start).ok()?..)?;
     let mut seen = BTreeMap::new();
     while rest.starts_with(b"PK\x01\x02") {
-        let length = |at: usize| Some(usize::from(u16::from_le_bytes(rest.get(at..at + 2)?.try_into().ok()?)));
+        let length =
+            |at: usize| Some(usize::from(u16::from_le_bytes(rest.get(at..at + 2)?.try_into().ok()?)));
         let (name, extra, comment) = (length(28)?, length(30)?, length(32)?);
         let (content, name) = (rest.get(16..28)?, rest.get(46..46 + name)?);
         if seen.insert(name, content).is_some_and(|before| before != content) {
@@ -284,7 +286,9 @@ fn decoded(bytes: Vec<u8>) -> Vec<u8> {
 /// Reads a file of at most [`MOST_BYTES`].
 pub(super) fn read_file(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
     // Opening a pipe waits for somebody to write into it.
-    if !path.is_dir() && let Some(what) = special(path).filter(|_| path.exists()) {
+    if !path.is_dir()
+        && let Some(what) = special(path).filter(|_| path.exists())
+    {
         return Err(Error::content(shown, what, "write what comes from it into a file, and name that"));
     }
     let file = File::open(path).map_err(|error| unreadable(shown, &error))?;

@@ -150,10 +150,13 @@ fn refuse_contradictions(gathered: &Gathered, votes: &[Vote], selection: &Select
         let named = layers::role_by_sure_name(&file.name);
         let skip = format!("or leave it aside: --skip {}", quoted(&file.name));
         let (what, hint) = match (named, file.kind, vote.role) {
-            (Some(Role::Drill), Kind::Gerber, Some(Role::Copper(_))) if vote.witness == Witness::Function => (
-                "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)",
-                "export the drill file again, or say with --front or --back that this is copper".to_owned(),
-            ),
+            (Some(Role::Drill), Kind::Gerber, Some(Role::Copper(_))) if vote.witness == Witness::Function => {
+                (
+                    "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)",
+                    "export the drill file again, or say with --front or --back that this is copper"
+                        .to_owned(),
+                )
+            }
             (Some(Role::Drill), Kind::Gerber, Some(Role::Other("drill drawing")))
                 if selection.drill.is_empty() =>
             {

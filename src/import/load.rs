@@ -327,6 +327,7 @@ impl Build {
                 units: String::new(),
                 number_format: String::new(),
                 sha256: super::digest::sha256(&file.bytes),
+                design: String::new(),
                 bytes: file.bytes.len() as u64,
                 counts: BTreeMap::new(),
                 generator: None,

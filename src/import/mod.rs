@@ -11,6 +11,7 @@
 
 mod archive;
 mod assign;
+mod design;
 mod digest;
 mod error;
 pub mod excellon;

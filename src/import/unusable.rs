@@ -15,7 +15,7 @@
 use super::archive::Gathered;
 use super::error::Error;
 use super::jobfile::Job;
-use super::layers::{self, Role, function_of, role_by_function};
+use super::layers::{self, Kind, Role, function_of, role_by_function};
 use super::load::{Selection, describe};
 use super::naming;
 use crate::board::{Side, Warning};
@@ -111,11 +111,8 @@ impl Unusable {
                     && !is_program(head)
                     && !is_binary_drill(head) =>
             {
-                let message = format!(
-                    "nothing tells what {} is ({}), so it is left aside",
-                    self.name,
-                    describe(head)
-                );
+                let message =
+                    format!("nothing tells what {} is ({}), so it is left aside", self.name, describe(head));
                 Some(flaw::FILE_NOT_UNDERSTOOD.warning(message))
             }
             Form::Folder => role().map(|meant| {
@@ -206,7 +203,7 @@ impl Gathered {
         let Form::File(head) = &odd.form else { return false };
         let stem = naming::stem(&odd.name);
         let same = |name: &str| naming::stem(name).eq_ignore_ascii_case(stem);
-        is_binary_drill(head) && self.files.iter().any(|file| same(&file.name))
+        is_binary_drill(head) && self.files.iter().any(|file| file.kind == Kind::Excellon && same(&file.name))
     }
 }
 
@@ -234,7 +231,9 @@ fn is_prose(bytes: &[u8]) -> bool {
     let letters = bytes.iter().filter(|b| b.is_ascii_alphabetic() || b.is_ascii_whitespace() || **b >= 0xa0);
     let seen = bytes.iter().filter(|&&b| b.is_ascii_graphic() || b.is_ascii_whitespace() || b >= 0xa0);
     let seen = seen.count();
-    seen == bytes.len() && 2 * letters.count() > seen && text.split_whitespace().filter(is_word).count() >= WORDS
+    seen == bytes.len()
+        && 2 * letters.count() > seen
+        && text.split_whitespace().filter(is_word).count() >= WORDS
 }
 
 /// Whether it is a known file that shares its extension with a layer: KiCad's old list of components is a `.cmp`.
@@ -286,7 +285,8 @@ mod tests {
     #[test]
     fn prose_is_told_from_what_only_looks_like_text() {
         assert!(is_prose(b"Dear reader, this is a board.\nMill it with care.\n"), "a letter");
-        for bytes in [&b""[..], b"\0\0\0\0", b"%\n", b"M4\x38;FORMAT={-:-/ absolute}\nX1Y1\n", b"12 34 56\n"] {
+        for bytes in [&b""[..], b"\0\0\0\0", b"%\n", b"M4\x38;FORMAT={-:-/ absolute}\nX1Y1\n", b"12 34 56\n"]
+        {
             assert!(!is_prose(bytes), "{bytes:?}");
         }
     }

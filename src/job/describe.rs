@@ -31,6 +31,7 @@ impl Job {
             drills: drills(&self.board.holes),
             programs: self.programs.iter().map(|program| program.describe(&self.board, settings)).collect(),
             total: Figures::sum(self.programs.iter().map(|program| &program.statistics)),
+            outputs: Vec::new(),
             verification: None,
             warnings: self.warnings.iter().map(WarningEntry::from).collect(),
             settings: settings.options().listed().into_iter().collect(),

@@ -221,7 +221,7 @@ fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cuto
 /// What every program says of itself.
 pub(super) fn header(sources: &[Source]) -> Header {
     let used = sources.iter().filter(|source| !source.role.starts_with("ignored"));
-    let input = |source: &Source| Input { file: source.file.clone(), sha256: source.sha256.clone() };
+    let input = |source: &Source| Input { file: source.file.clone(), design: source.design.clone() };
     Header {
         generator: GENERATOR.to_owned(),
         inputs: used.map(input).collect(),

@@ -42,6 +42,9 @@ pub struct Document {
     pub programs: Vec<ProgramEntry>,
     /// All programs together.
     pub total: Figures,
+    /// The files that were written beside this one, where they were.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub outputs: Vec<OutputEntry>,
     /// What came of milling them on a picture, where that was done.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub verification: Option<super::Verdict>,
@@ -49,6 +52,15 @@ pub struct Document {
     pub warnings: Vec<WarningEntry>,
     /// The settings, by the names of their options.
     pub settings: BTreeMap<String, String>,
+}
+
+/// A file that was written.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, serde::Deserialize)]
+pub struct OutputEntry {
+    /// Its name.
+    pub file: String,
+    /// SHA-256 of its bytes, in hexadecimal.
+    pub sha256: String,
 }
 
 /// A length in millimetres.

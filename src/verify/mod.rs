@@ -92,6 +92,21 @@ pub struct Program {
     pub placement: Option<Placement>,
 }
 
+/// A file of the board that programs are judged by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Input {
+    /// Its name without its folder.
+    pub file: String,
+    /// The hash of what was read from it, as headers of programs have its beginning.
+    pub design: String,
+}
+
+/// What says of `programs` that they were made from other files than `inputs`; nothing for programs that do not tell.
+#[must_use]
+pub fn revisions(programs: &[Program], inputs: &[Input]) -> Vec<Finding> {
+    programs.iter().flat_map(|program| check::inputs(program, inputs)).collect()
+}
+
 /// What is tolerated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Settings {

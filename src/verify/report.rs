@@ -120,6 +120,14 @@ impl Report {
         self.count(deny) == 0
     }
 
+    /// The same with more findings.
+    #[must_use]
+    pub fn with(mut self, findings: impl IntoIterator<Item = Finding>) -> Self {
+        self.findings.extend(findings);
+        self.sort();
+        self
+    }
+
     /// The worst first, then by name, place and line.
     pub(super) fn sort(&mut self) {
         self.findings.sort_by(|a, b| {

@@ -89,6 +89,21 @@ fn unescaped(value: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
+/// What a program that voromill wrote was made from: each file with the beginning of its design's hash, and the line that says so.
+pub(super) fn origins(text: &str) -> Vec<(String, String, u32)> {
+    let origin = |comment: &str| {
+        let (file, design) = comment.trim().strip_prefix("from ")?.rsplit_once(" design ")?;
+        let is_hash = !design.is_empty() && design.bytes().all(|b| b.is_ascii_hexdigit());
+        is_hash.then(|| (file.to_owned(), design.to_owned()))
+    };
+    let lines = text.lines().zip(1_u32..).filter(|(line, _)| line.contains(" design "));
+    let found =
+        lines.flat_map(|(line, number)| comments(line).into_iter().map(move |comment| (comment, number)));
+    found
+        .filter_map(|(comment, number)| origin(comment).map(|(file, design)| (file, design, number)))
+        .collect()
+}
+
 /// In so many lines at most a program says what it was made with. Chosen: several times as many as there are settings.
 const HEADER: usize = 200;
 

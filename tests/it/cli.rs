@@ -28,7 +28,7 @@ pub(crate) fn stdout(output: &Output) -> String {
 }
 
 /// The names of what lies in a folder, sorted.
-fn listing(folder: &Path) -> Vec<String> {
+pub(crate) fn listing(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).expect("a folder");
     let mut names: Vec<String> =
         entries.map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned()).collect();

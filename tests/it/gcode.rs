@@ -17,7 +17,7 @@ fn header() -> Header {
         generator: "voromill 0.0.0".to_owned(),
         inputs: vec![Input {
             file: "what?! (front) ~ 100% µ.gbr".to_owned(),
-            sha256: "0123456789abcdef".to_owned(),
+            design: "0123456789abcdef".to_owned(),
         }],
         settings: vec![("a-setting".to_owned(), "with a value that is long ".repeat(9))],
         seconds: Some(754.0),

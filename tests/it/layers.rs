@@ -179,7 +179,7 @@ impl Folder {
     }
 }
 
-pub(crate) fn function(value: &str) -> String {
+fn function(value: &str) -> String {
     format!("%TF.FileFunction,{value}*%\n{SQUARE}")
 }
 

@@ -15,6 +15,7 @@ mod gl_parity;
 mod job;
 mod layering;
 mod layers;
+mod leftovers;
 mod level;
 mod millproject;
 mod mixed;

@@ -6,7 +6,7 @@ use std::path::PathBuf;
 
 use voromill::import::{Loaded, Selection, load};
 
-use crate::layers::{DRILL, Folder, SQUARE, files_of, function, zipped};
+use crate::layers::{DRILL, Folder, SQUARE, files_of, zipped};
 
 /// A board of two sides with holes, as KiCad names its files.
 fn board() -> Folder {
@@ -105,7 +105,10 @@ fn a_file_whose_name_and_content_contradict_each_other_is_an_error() {
     assert!(is_refused(&folder, "amp.drl").contains("a Gerber file"), "a layer named like a drill file");
     let folder = board();
     fs::write(folder.path("amp-B_Cu.gbr"), DRILL.replace("5.0", "7.0")).expect("written");
-    assert!(is_refused(&folder, "amp-B_Cu.gbr").contains("an Excellon drill file"), "and the other way round");
+    assert!(
+        is_refused(&folder, "amp-B_Cu.gbr").contains("an Excellon drill file"),
+        "and the other way round"
+    );
 }
 
 #[test]
@@ -124,7 +127,8 @@ fn odd_extras_are_notes() {
         fs::write(folder.path(name), "").expect("written");
     }
     // What this program has written before lies in the same folder.
-    fs::write(folder.path("amp-drill.tap"), "(amp drill)\nG21\nG0 Z5\nG0 X1 Y1\nG1 Z-2\nM2\n").expect("written");
+    fs::write(folder.path("amp-drill.tap"), "(amp drill)\nG21\nG0 Z5\nG0 X1 Y1\nG1 Z-2\nM2\n")
+        .expect("written");
     fs::write(folder.path("front.txt"), "These are the files of the front, made by me.\n").expect("written");
     let loaded = folder.load(&Selection::default()).expect("a board");
     assert_eq!(loaded.ignored.len(), 8, "each is listed: {:?}", loaded.ignored);
@@ -145,7 +149,11 @@ fn a_binary_drill_file_beside_its_text_is_warned_of_and_alone_an_error() {
     let tape = [0x01, 0x02, 0x80, 0x37, 0x38, 0x80];
     let folder = Folder::with(&[("amp.gtl", SQUARE), ("amp.TXT", DRILL)]);
     fs::write(folder.path("amp.DRL"), tape).expect("written");
-    assert_eq!(codes(&folder.load(&Selection::default()).expect("a board"))[..1], ["binary-drill-file"], "a word");
+    assert_eq!(
+        codes(&folder.load(&Selection::default()).expect("a board"))[..1],
+        ["binary-drill-file"],
+        "a word"
+    );
     fs::remove_file(folder.path("amp.TXT")).expect("removed");
     is_refused(&folder, "amp.DRL");
 }
@@ -160,7 +168,8 @@ fn what_is_to_be_skipped_must_be_there() {
 
 #[test]
 fn texts_with_a_byte_order_mark_or_of_two_bytes_a_character_are_read() {
-    let wide = |text: &str, bytes: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(bytes).collect::<Vec<u8>>();
+    let wide =
+        |text: &str, bytes: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(bytes).collect::<Vec<u8>>();
     for bytes in [
         format!("\u{feff}{SQUARE}").into_bytes(),
         wide(&format!("\u{feff}{SQUARE}"), u16::to_le_bytes),
@@ -170,7 +179,8 @@ fn texts_with_a_byte_order_mark_or_of_two_bytes_a_character_are_read() {
     ] {
         let folder = board();
         fs::write(folder.path("amp-B_Cu.gbr"), &bytes).expect("written");
-        let loaded = folder.load(&Selection::default()).unwrap_or_else(|error| panic!("{:?}: {error}", &bytes[..4]));
+        let loaded =
+            folder.load(&Selection::default()).unwrap_or_else(|error| panic!("{:?}: {error}", &bytes[..4]));
         let plain = board().load(&Selection::default()).expect("a board");
         assert_eq!(format!("{:?}", loaded.board), format!("{:?}", plain.board), "the same board");
         assert!(loaded.warnings.is_empty(), "and nothing to say: {:?}", loaded.warnings);
@@ -199,7 +209,8 @@ fn entries_of_an_archive_are_accounted_for_too() {
             (0..archive.len() - 7).filter(|&at| archive[at..].starts_with(b"tip.gbr")).collect();
         places.iter().for_each(|&at| archive[at + 1] = b'o');
         let found = loaded(archive, &Selection::default());
-        let told = found.as_ref().is_err_and(|error| error.contains("two entries") && error.contains("top.gbr"));
+        let told =
+            found.as_ref().is_err_and(|error| error.contains("two entries") && error.contains("top.gbr"));
         assert_eq!(told, is_error, "{found:?}");
     }
 }

@@ -286,6 +286,7 @@ fn source(file: File<'_>, reading: &Reading, run: &Run) -> Source {
         units: reading.format.units.name().to_owned(),
         number_format: if bare { reading.format.to_string() } else { "decimal point".to_owned() },
         sha256: crate::import::digest::sha256(file.bytes),
+        design: crate::import::design::of_holes(&run.holes),
         bytes: file.bytes.len() as u64,
         counts: counts.into_iter().map(|(name, count)| (name.to_owned(), count as u64)).collect(),
         generator: file.declared.generator.clone(),

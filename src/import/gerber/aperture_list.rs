@@ -20,6 +20,7 @@ mod row;
 use std::collections::BTreeMap;
 
 use crate::board::Source;
+use crate::import::design;
 use crate::import::digest::sha256;
 use crate::import::error::printable;
 
@@ -79,7 +80,7 @@ impl ApertureList {
         }
         let unit = prose.unit.or(said).unwrap_or(size_unit);
         let unit = if unit == "mm" { Unit::Millimetre } else { Unit::Inch };
-        let source = source(file, bytes, size_unit, entries.len());
+        let source = Source { design: hashed(&entries), ..source(file, bytes, size_unit, entries.len()) };
         Some(Self { file: file.to_owned(), entries, format: prose.format, unit, guessed, source })
     }
 
@@ -107,11 +108,22 @@ fn source(file: &str, bytes: &[u8], unit: &str, apertures: usize) -> Source {
         units: unit.to_owned(),
         number_format: String::new(),
         sha256: sha256(bytes),
+        design: String::new(),
         bytes: bytes.len() as u64,
         counts: BTreeMap::from([("apertures".to_owned(), apertures as u64)]),
         generator: None,
         apertures: Vec::new(),
     }
+}
+
+/// The hash of what the list has; of what it leaves unclear, the reason.
+fn hashed(entries: &BTreeMap<u32, Entry>) -> String {
+    let text = |entry: &Entry| match entry {
+        Entry::Known(template) => template.describe(),
+        Entry::Unclear { reason, .. } => reason.clone(),
+    };
+    let texts: Vec<(u32, String)> = entries.iter().map(|(&code, entry)| (code, text(entry))).collect();
+    design::of_texts(texts.iter().map(|(code, text)| (*code, text.as_str())))
 }
 
 /// The lines, blanks and control characters as spaces.

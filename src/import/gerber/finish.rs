@@ -5,6 +5,7 @@ use crate::board::{ApertureUse, Axis, Feature, Shape, Source};
 use crate::geometry::{Polygon, Rect};
 use crate::import::flaw;
 
+use super::super::design;
 use super::super::digest::sha256;
 use super::super::error::{Error, find, last_line};
 use super::Image;
@@ -51,7 +52,7 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn into_image(mut self) -> Result<Image, Error> {
-        let source = self.source();
+        let mut source = self.source();
         let mut objects = self.canvas.finish();
         if let Some(place) = self.negative.clone()
             && let Some(frame) = objects.iter().map(|(feature, _)| feature.shape.bounds()).reduce(Rect::union)
@@ -77,13 +78,10 @@ impl<'a> Reader<'a> {
         if features.is_empty() {
             self.warnings.add(&flaw::NOTHING_DRAWN, last_line(self.bytes), "the file draws nothing");
         }
-        Ok(Image {
-            features,
-            function: self.attributes.function.clone(),
-            attributes: self.attributes.into_sets(),
-            source,
-            warnings: self.warnings.finish(),
-        })
+        let function = self.attributes.function.clone();
+        let attributes = self.attributes.into_sets();
+        source.design = design::of_features(&features, &attributes);
+        Ok(Image { features, function, attributes, source, warnings: self.warnings.finish() })
     }
 
     pub(super) fn source(&self) -> Source {
@@ -109,6 +107,7 @@ impl<'a> Reader<'a> {
             units: self.unit.map_or("unknown", Unit::name).to_owned(),
             number_format: self.format.map_or_else(|| "unknown".to_owned(), Format::name),
             sha256: sha256(self.bytes),
+            design: String::new(),
             bytes: self.bytes.len() as u64,
             counts: counts.into_iter().map(|(name, count)| (name.to_owned(), count)).collect(),
             generator: self.attributes.generator.clone().or_else(|| self.generator.clone()),

@@ -13,6 +13,7 @@ mod overtravel;
 mod plunge_spindle_off;
 mod rapid_in_material;
 mod recut;
+mod revision;
 mod short;
 mod sliver;
 mod tab_missing;
@@ -25,7 +26,7 @@ use crate::geometry::{Nm, Point};
 use super::machining::{Machining, Plunge};
 use super::report::Finding;
 use super::sheet::Sheet;
-use super::{Settings, Severity};
+use super::{Input, Program, Settings, Severity};
 
 /// A thing that is looked for.
 pub struct Check {
@@ -46,6 +47,8 @@ enum Run {
     Drilling(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
     /// All programs that cut out together.
     Cutout(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
+    /// A program's text, and the board's files.
+    Inputs(fn(&Program, &[Input]) -> Vec<Finding>),
 }
 
 /// Every check.
@@ -67,13 +70,14 @@ pub const ALL: &[Check] = &[
     hole_extra::CHECK,
     hole_size::CHECK,
     tab_missing::CHECK,
+    revision::CHECK,
 ];
 
 /// The checks of any program.
 pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
     let run = |check: &Check| match check.run {
         Run::Motion(run) => run(program, board, settings),
-        Run::Isolation(_) | Run::Drilling(_) | Run::Cutout(_) => Vec::new(),
+        Run::Isolation(_) | Run::Drilling(_) | Run::Cutout(_) | Run::Inputs(_) => Vec::new(),
     };
     ALL.iter().flat_map(run).collect()
 }
@@ -82,7 +86,7 @@ pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) ->
 pub(super) fn isolation(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
     let run = |check: &Check| match check.run {
         Run::Isolation(run) => run(sheet, settings),
-        Run::Motion(_) | Run::Drilling(_) | Run::Cutout(_) => Vec::new(),
+        Run::Motion(_) | Run::Drilling(_) | Run::Cutout(_) | Run::Inputs(_) => Vec::new(),
     };
     ALL.iter().flat_map(run).map(|finding| Finding { side: Some(sheet.side), ..finding }).collect()
 }
@@ -91,7 +95,7 @@ pub(super) fn isolation(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> 
 pub(super) fn drilling(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
     let run = |check: &Check| match check.run {
         Run::Drilling(run) => run(programs, board, settings),
-        Run::Motion(_) | Run::Isolation(_) | Run::Cutout(_) => Vec::new(),
+        Run::Motion(_) | Run::Isolation(_) | Run::Cutout(_) | Run::Inputs(_) => Vec::new(),
     };
     ALL.iter().flat_map(run).collect()
 }
@@ -100,7 +104,16 @@ pub(super) fn drilling(programs: &[&Machining], board: &Board, settings: &Settin
 pub(super) fn cutout(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
     let run = |check: &Check| match check.run {
         Run::Cutout(run) => run(programs, board, settings),
-        Run::Motion(_) | Run::Isolation(_) | Run::Drilling(_) => Vec::new(),
+        Run::Motion(_) | Run::Isolation(_) | Run::Drilling(_) | Run::Inputs(_) => Vec::new(),
+    };
+    ALL.iter().flat_map(run).collect()
+}
+
+/// The checks of what a program was made from.
+pub(super) fn inputs(program: &Program, inputs: &[Input]) -> Vec<Finding> {
+    let run = |check: &Check| match check.run {
+        Run::Inputs(run) => run(program, inputs),
+        Run::Motion(_) | Run::Isolation(_) | Run::Drilling(_) | Run::Cutout(_) => Vec::new(),
     };
     ALL.iter().flat_map(run).collect()
 }
