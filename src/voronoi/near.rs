@@ -14,7 +14,14 @@ pub(super) struct Near {
     /// The box of each, left, bottom, right, top: a look at it spares most distances.
     boxes: Vec<[f64; 4]>,
     index: StaticAABB2DIndex<f64>,
+    /// The entries of each owner that has few.
+    owned: FxHashMap<u32, Vec<usize>>,
 }
+
+/// How many sites an owner has at most for them to be asked one by one. Chosen: traces and pads have
+/// fewer, pours more. Where hundreds of traces point at one place, the nearest of a given one is the
+/// last of them all in the order of their boxes.
+const FEW: usize = 64;
 
 impl Near {
     /// The index of `sites`; none where there are none.
@@ -28,8 +35,13 @@ impl Near {
             builder.add(*left, *bottom, *right, *top);
         }
         let index = builder.build().ok()?;
-        let (labels, boxes) = boxes.into_iter().unzip();
-        Some(Self { labels, boxes, index })
+        let (labels, boxes): (Vec<u32>, Vec<_>) = boxes.into_iter().unzip();
+        let mut owned: FxHashMap<u32, Vec<usize>> = FxHashMap::default();
+        for (entry, &label) in labels.iter().enumerate() {
+            owned.entry(sites.sites[label as usize].owner).or_default().push(entry);
+        }
+        owned.retain(|_, entries| entries.len() <= FEW);
+        Some(Self { labels, boxes, index, owned })
     }
 
     /// The site that is nearer to `p` than `bound`, in nanometres, among those that are accepted by label and owner: the nearest such. `p` lies
@@ -115,6 +127,26 @@ impl Near {
     /// The signed distance from `p` to the nearest site whose owner is accepted.
     pub(super) fn reach(&self, sites: &Sites, p: Spot, accept: impl Fn(u32) -> bool) -> Reach {
         self.nearest(sites, p, accept).1
+    }
+
+    /// The signed distance from `p` to the nearest site of `owner`.
+    pub(super) fn reach_of(&self, sites: &Sites, p: Spot, owner: u32) -> Reach {
+        let Some(entries) = self.owned.get(&owner) else {
+            return self.reach(sites, p, |other| other == owner);
+        };
+        let mut nearest = Reach { distance: f64::INFINITY, away: Spot::default() };
+        let mut least = f64::INFINITY;
+        for &i in entries {
+            if least.is_finite() && !self.is_box_within(i, p, least) {
+                continue;
+            }
+            let site = &sites.sites[self.labels[i] as usize];
+            let reach = site.reach(&sites.rings, p);
+            if rank(site, reach) < least {
+                (least, nearest) = (rank(site, reach), reach);
+            }
+        }
+        nearest
     }
 
     /// The owner of the nearest site among those accepted, and the signed distance to it.

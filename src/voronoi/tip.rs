@@ -225,7 +225,7 @@ impl Tips<'_> {
         if owner == BACKGROUND {
             return Reach { distance: self.level, away: Spot::default() };
         }
-        let outside = self.near.reach(self.sites, p, |other| other == owner);
+        let outside = self.near.reach_of(self.sites, p, owner);
         // A limit curve that is sought inside a polygon may seem to be found there, beside something else of the same net.
         let inside = self.insides.as_ref().and_then(|insides| insides.reach(self.sites, p, owner));
         inside.unwrap_or(outside)

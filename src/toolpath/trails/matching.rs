@@ -13,6 +13,9 @@ pub(super) struct Candidate {
 
 /// How many pairs a chain takes apart at most. Chosen: more found nothing on the boards at hand.
 const LONGEST: usize = 4;
+/// How many ways one search looks at. Chosen: on the boards at hand the longest search that found
+/// something took 231; around a hub of hundreds of nodes a search would look at millions.
+const BUDGET: usize = 1000;
 /// Gains below this are rounding.
 const LEAST: f64 = 1e-9;
 
@@ -78,54 +81,47 @@ impl Matching<'_> {
             None => (node, None, self.alone),
             Some(candidate) => (self.other(candidate, node), Some(node), self.candidates[candidate].cost),
         };
-        let mut chain = Vec::new();
-        let mut busy = vec![node, loose];
-        if self.extend(loose, first, gain, &mut chain, &mut busy) {
-            self.apply(first, &chain)
+        let mut search = Search { chain: Vec::new(), busy: vec![node, loose], budget: BUDGET };
+        if self.extend(loose, first, gain, &mut search) {
+            self.apply(first, &search.chain)
         } else {
             Vec::new()
         }
     }
 
     /// Joins `loose` to a near node and either closes there or goes on from that node's partner.
-    fn extend(
-        &self,
-        loose: usize,
-        first: Option<usize>,
-        gain: f64,
-        chain: &mut Vec<usize>,
-        busy: &mut Vec<usize>,
-    ) -> bool {
+    fn extend(&self, loose: usize, first: Option<usize>, gain: f64, search: &mut Search) -> bool {
         for &Way { to: next, cost, candidate } in &self.near[loose] {
             let left = gain - cost;
             // A chain may yet end at a node that was alone.
-            if left + self.alone <= LEAST {
+            if left + self.alone <= LEAST || search.budget == 0 {
                 return false;
             }
-            if busy.contains(&next) {
+            search.budget -= 1;
+            if search.busy.contains(&next) {
                 continue;
             }
-            chain.push(candidate);
+            search.chain.push(candidate);
             let rest = first.map_or(0.0, |_| self.alone);
             if let Some(broken) = self.joined[next] {
                 let left = left + self.candidates[broken].cost;
                 let partner = self.other(broken, next);
-                busy.extend([next, partner]);
+                search.busy.extend([next, partner]);
                 if let Some(close) = first.and_then(|first| self.between(partner, first, left - LEAST)) {
-                    chain.push(close);
+                    search.chain.push(close);
                     return true;
                 }
                 if left - rest - self.alone > LEAST {
                     return true;
                 }
-                if chain.len() < LONGEST && self.extend(partner, first, left, chain, busy) {
+                if search.chain.len() < LONGEST && self.extend(partner, first, left, search) {
                     return true;
                 }
-                busy.truncate(busy.len() - 2);
+                search.busy.truncate(search.busy.len() - 2);
             } else if left + self.alone - rest > LEAST {
                 return true;
             }
-            chain.pop();
+            search.chain.pop();
         }
         false
     }
@@ -158,6 +154,14 @@ impl Matching<'_> {
         }
         freed
     }
+}
+
+/// What one search for a chain has joined so far, and how many ways it may yet look at.
+struct Search {
+    chain: Vec<usize>,
+    /// The nodes that the chain uses.
+    busy: Vec<usize>,
+    budget: usize,
 }
 
 /// The nodes about which something has changed since a chain was last sought from them.
