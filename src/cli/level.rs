@@ -1,7 +1,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use voromill::gcode::level::{Frame, HeightMap, LevelError, Levelling, MapError, level};
+use voromill::gcode::level::{Frame, HeightMap, LevelError, Levelling, MapError, Outlier, level};
 use voromill::geometry::Nm;
 use voromill::import::sha256;
 use voromill::job::{Length, Place, Triple};
@@ -13,7 +13,9 @@ use super::{Failure, Shared};
 ///
 /// Reads anybody's program and a map of heights, and adds the height of the surface to every z below the height for travel. Cuts
 /// and arcs are split where the surface asks for it; comments, tools, feeds and rapids above the board stay as they are. The map is
-/// bCNC's .probe, OpenCNCPilot's .hmap, a probe log of LinuxCNC, or a log with Grbl's [PRB:...] lines, known by what is in it.
+/// bCNC's .probe, OpenCNCPilot's .hmap, Candle's .map, an .xyz table of Universal Gcode Sender, a probe log of LinuxCNC or Mach, or a log
+/// with Grbl's [PRB:...] or TinyG's {"prb":...} lines, known by what is in it. A touch that lies off its neighbours by more than the
+/// rest scatters is refused.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Level {
@@ -48,6 +50,10 @@ pub(super) struct Level {
     /// Where the work's zero is in the map's coordinates, as for Grbl's logs without a WCO: report
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     map_zero: Option<Triple>,
+
+    /// Bend the program to touches that lie off their neighbours too, and say which they are
+    #[arg(long)]
+    accept_outliers: bool,
 
     /// Take the height at this place as zero: where z was set to zero after probing, with another tool
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
@@ -95,9 +101,12 @@ impl Level {
         files.stage(&output, done.text.as_bytes())?;
         files.commit()?;
         let (columns, rows) = map.size();
+        let outliers = map.outliers();
+        let accepted =
+            if outliers.is_empty() { String::new() } else { format!("{name}: {}\n", off(&outliers)) };
         let [low, high] = done.heights.unwrap_or_default();
         shared.report(&format!(
-            "{}: {} motions below {:.3} mm follow a surface from {low:.3} mm to {high:.3} mm, {} lines more\n{name}: {}, {columns} by {rows} touches\n",
+            "{}: {} motions below {:.3} mm follow a surface from {low:.3} mm to {high:.3} mm, {} lines more\n{name}: {}, {columns} by {rows} touches\n{accepted}",
             output.display(),
             done.bent,
             done.safe,
@@ -115,6 +124,11 @@ impl Level {
         let zero = self.map_zero.map(|Triple(zero)| zero.map(Length::nm));
         let (map, format) = HeightMap::read(&text, &Frame { unit, zero })
             .map_err(|error| Failure::new(format!("{}: {error}", name(&self.map)), map_hint(&error)))?;
+        let outliers = map.outliers();
+        if !outliers.is_empty() && !self.accept_outliers {
+            let hint = "probe there again, or take them as they are with --accept-outliers";
+            return Err(Failure::new(format!("{}: {}", name(&self.map), off(&outliers)), hint));
+        }
         let Some(place) = self.zero_at else { return Ok((map, format.name)) };
         if !map.area().inflate(self.margin()?).contains(place.into()) {
             let problem = format!("--zero-at: nothing was probed near {place}");
@@ -132,6 +146,27 @@ impl Level {
         }
         Ok(margin)
     }
+}
+
+/// What lies off, the first five of it.
+fn off(outliers: &[Outlier]) -> String {
+    let place = |outlier: &Outlier| {
+        let (side, Outlier { at, height, scatter, .. }) =
+            (if outlier.off > Nm::ZERO { "above" } else { "below" }, outlier);
+        format!(
+            "x = {:.3} mm, y = {:.3} mm at {height:.3} mm is {:.3} mm {side} its neighbours, where the others scatter by {scatter:.3} mm",
+            at.x,
+            at.y,
+            outlier.off.abs()
+        )
+    };
+    let shown: Vec<String> = outliers.iter().take(5).map(place).collect();
+    let more = match outliers.len().saturating_sub(shown.len()) {
+        0 => String::new(),
+        more => format!("; and {more} more"),
+    };
+    let touches = if outliers.len() == 1 { "touch lies" } else { "touches lie" };
+    format!("{} {touches} off the plane of the neighbours: {}{more}", outliers.len(), shown.join("; "))
 }
 
 fn positive(option: &str, length: Length) -> Result<Nm, Failure> {
@@ -178,6 +213,7 @@ fn map_hint(error: &MapError) -> &'static str {
             "say it with --map-zero X,Y,Z (what $# shows for G54), or keep a status report with WCO: in the log"
         }
         MapError::Steep { .. } => "--map-unit says what the map counts; or probe that place again",
+        MapError::Contradicting { .. } => "leave the wrong one out of the file, or probe that place again",
         MapError::Missing { .. } | MapError::Count { .. } => {
             "probe what is missing, or the whole board again"
         }

@@ -220,7 +220,13 @@ fn every_format_gives_the_same_map() {
     let text = |name: &str| fs::read_to_string(folder.join(name)).expect("a fixture");
     let (first, _) = HeightMap::read(&text("board.probe"), &Frame::default()).expect("bCNC's");
     assert_eq!(first.size(), (3, 2), "three columns, two rows");
-    for (name, kind) in [("board.hmap", "OpenCNCPilot"), ("linuxcnc.txt", "LinuxCNC"), ("grbl.log", "Grbl")] {
+    for (name, kind) in [
+        ("board.hmap", "OpenCNCPilot"),
+        ("candle.map", "Candle"),
+        ("linuxcnc.txt", "LinuxCNC"),
+        ("ugs.xyz", "x, y and z"),
+        ("grbl.log", "Grbl"),
+    ] {
         let (map, format) = HeightMap::read(&text(name), &Frame::default()).expect(name);
         assert!(format.name.contains(kind), "{name} is {}", format.name);
         for (x, y) in [(0, 0), (20, 10), (7, 3), (13, 9), (-4, 20)] {
@@ -228,6 +234,10 @@ fn every_format_gives_the_same_map() {
             assert!((map.over(p) - first.over(p)).abs() <= Nm::new(1), "{name} at {x}, {y}");
         }
     }
+    let zero = Some([-100_000, -80_000, -31_500].map(Nm::from_um));
+    let (map, format) =
+        HeightMap::read(&text("tinyg.log"), &Frame { zero, ..Frame::default() }).expect("a log");
+    assert_eq!((map, format.name.contains("TinyG")), (first, true), "from the machine's zero");
     let zero = [-100, -80, -31].map(Nm::from_mm);
     let frame = Frame { zero: Some(zero), ..Frame::default() };
     let (moved, _) = HeightMap::read(&text("grbl.log"), &frame).expect("a log");
@@ -243,7 +253,34 @@ fn maps_that_are_none_say_why() {
         ("0 0 0\n1 0 0\n0 1 zero\n", "line 3"),
         ("0 10 2\n0 10 2\n-1 1 50\n0 0 0\n10 0 0\n", "says 4 points, and has 2"),
         ("[PRB:1.000,2.000,3.000:1]\n", "zero"),
-        ("WCO:0,0,0\n[PRB:1.000,2.000,3.000:0]\n", "touched nothing"),
+        // A probe that touched nothing is no touch.
+        ("WCO:0,0,0\n[PRB:1.000,2.000,3.000:0]\n", "0 columns and 0 rows"),
+        (
+            "WCO:0,0,0\n[PRB:1.000,2.000,3.000:2]\n",
+            "line 2: `[PRB:1.000,2.000,3.000:2]`: expected [PRB:x,y,z:1]",
+        ),
+        (
+            "{\"prb\":{\"e\":1,\"x\":1,\"y\":2}}\n",
+            "line 1: `{\"prb\":{\"e\":1,\"x\":1,\"y\":2}}`: expected {\"prb\"",
+        ),
+        (
+            "{\"prb\":{\"e\":1,\"x\":1,\"y\":2,\"z\":3}}\n",
+            "line 1: the controller reports touches from the machine's zero",
+        ),
+        // Numbers with commas, more columns than there are axes, two heights of one place.
+        ("0 0 0\n0,5 1,25 -0,03\n", "line 2: `0,5 1,25 -0,03`: expected points in numbers"),
+        ("0,5;1,25;-0,03\n", "line 1: `0,5;1,25;-0,03`: expected points in numbers"),
+        ("0 10 2\n0 10 2\n-1 1 50\n0,0 0,0 0,1\n", "line 4: `0,0 0,0 0,1`: expected points in numbers"),
+        ("0 0 0\n1 0 0 7\n", "line 2: `1 0 0 7`: expected x, y and z, or the nine columns"),
+        ("0,5,1,25,0,03\n", "line 1: `0,5,1,25,0,03`: expected x, y and z, or the nine columns"),
+        ("0 10 2\n0 10 2\n-1 1 50\n0 0 0 0\n", "line 4: `0 0 0 0`: expected x, y and z"),
+        ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;0\n0;0;0\n", "line 5: `0;0;0`: expected as many heights as columns"),
+        ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;0\n", "says 4 points, and has 2"),
+        ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;nan\n0;0\n", "line 4: `0;nan`"),
+        (
+            "0 0 0\n1 0 0\n0 1 0\n1 1 0\n1 0 0.2\n",
+            "line 5: the surface is at 0.200 mm at x = 1.000 mm, y = 0.000 mm, and line 2 has it at 0.000 mm",
+        ),
         ("<heightmap MinX=\"0\">", "never closed"),
         (
             "<heightmap MinX=\"0\" MinY=\"0\" MaxX=\"1\" MaxY=\"1\" SizeX=\"2\" SizeY=\"2\"><point X=\"0\" Y=\"0\">0</point></heightmap>",
@@ -430,6 +467,39 @@ fn the_command_bends_a_program_and_says_what_it_did() {
         assert!(stderr(&refused).contains(option), "{}", stderr(&refused));
     }
     assert!(stderr(&far).contains("front.nc: ") && stderr(&far).contains("hint: "), "{}", stderr(&far));
+}
+
+#[test]
+fn touches_of_one_place_that_agree_are_one_touch() {
+    let text = "0 0 0\n1 0 0\n0 1 0\n1 1 0.03\n1 1 0.01\n";
+    let (map, _) = HeightMap::read(text, &Frame::default()).expect("a map");
+    let corner = Point::new(Nm::from_mm(1), Nm::from_mm(1));
+    assert_eq!(map.over(corner), Nm::from_um(10), "the slow touch after the quick one holds");
+}
+
+#[test]
+fn a_touch_two_millimetres_low_is_refused_by_its_place_unless_it_is_accepted() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let map = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/level/one-low.xyz");
+    fs::write(folder.path().join("front.nc"), "G90\nG0 Z2\nX5 Y5\nG1 Z-0.1 F100\nX20 Y10\nG0 Z2\nM2\n")
+        .expect("writable");
+    let level = |more: &[&str]| {
+        voromill(folder.path(), &[&["level", "front.nc", "--map", &map.to_string_lossy()], more].concat())
+    };
+    let refused = level(&[]);
+    assert_eq!(refused.status.code(), Some(2), "no cutter goes there");
+    let said = stderr(&refused);
+    assert!(
+        said.contains(
+            "one-low.xyz: 1 touch lies off the plane of the neighbours: x = 10.000 mm, y = 10.000 mm"
+        ) && said.contains("at -1.985 mm is 2.0")
+            && said.contains("--accept-outliers"),
+        "{said}"
+    );
+    assert!(!folder.path().join("front-levelled.nc").exists(), "nothing is written");
+    let accepted = level(&["--accept-outliers"]);
+    assert!(accepted.status.success(), "{}", stderr(&accepted));
+    assert!(stdout(&accepted).contains("1 touch lies off"), "it is said still: {}", stdout(&accepted));
 }
 
 #[test]

@@ -19,7 +19,7 @@ pub enum MapError {
     },
     /// Not the form of any program that probes.
     #[error(
-        "this is no height map: expected bCNC's .probe, OpenCNCPilot's .hmap, a probe log of LinuxCNC (lines of x y z), or Grbl's [PRB:x,y,z:1] lines"
+        "this is no height map: expected bCNC's .probe, OpenCNCPilot's .hmap, Candle's .map, lines of x y z as LinuxCNC logs them, Grbl's [PRB:x,y,z:1] or TinyG's {{\"prb\":...}} lines"
     )]
     Unknown,
     /// XML that is broken.
@@ -57,6 +57,24 @@ pub enum MapError {
         /// Where the first is.
         y: Nm,
     },
+    /// Two heights of one place.
+    #[error(
+        "line {line}: the surface is at {second:.3} mm at x = {x:.3} mm, y = {y:.3} mm, and line {other} has it at {first:.3} mm: expected touches of one place to agree"
+    )]
+    Contradicting {
+        /// From 1.
+        line: usize,
+        /// The line of the other touch.
+        other: usize,
+        /// Where.
+        x: Nm,
+        /// Where.
+        y: Nm,
+        /// What the other says.
+        first: Nm,
+        /// What this one says.
+        second: Nm,
+    },
     /// Steeper than any sheet: the unit is wrong, or a touch was.
     #[error(
         "the surface rises by {rise:.3} mm within {run:.3} mm near x = {x:.3} mm, y = {y:.3} mm: expected the heights of a sheet, in the unit of its places"
@@ -73,7 +91,7 @@ pub enum MapError {
     },
     /// Places that count from the machine's zero.
     #[error(
-        "line {line}: Grbl reports touches from the machine's zero, and nothing here says where the work's zero is"
+        "line {line}: the controller reports touches from the machine's zero, and nothing here says where the work's zero is"
     )]
     Zero {
         /// From 1.

@@ -1,6 +1,7 @@
 use crate::geometry::{Nm, Point, Rect};
 
 use super::error::MapError;
+use super::format::Touch;
 
 /// How high the surface is, touched at the crossings of a grid of lines, bilinear in between.
 ///
@@ -26,24 +27,37 @@ pub struct HeightMap {
 
 /// Coordinates this near are those of one line of the grid: what a machine rounds to its steps. Chosen.
 const SAME: f64 = 50_000.0;
+/// Touches of one place this near agree, in nanometres. Chosen: a quick touch and the slow one after it differ by less.
+const AGREE: f64 = 50_000.0;
 /// The steepest surface. Chosen: a sheet on a bed rises by a hundredth; a quarter is inches for millimetres, or a probe that slipped.
 const STEEPEST: f64 = 0.25;
 
 impl HeightMap {
-    /// The surface through touched points in nanometres, in any order; of two touches of one place the later holds.
+    /// The surface through touched points in nanometres, in any order; of several touches of one place that agree the last holds.
     ///
     /// # Errors
     ///
     /// [`MapError`] where the points are no grid, or no sheet is like that.
     pub fn through(points: &[[f64; 3]]) -> Result<Self, MapError> {
-        let columns = lines(points.iter().map(|point| point[0]).collect());
-        let rows = lines(points.iter().map(|point| point[1]).collect());
+        let touches: Vec<Touch> = (1..).zip(points).map(|(line, &place)| Touch { line, place }).collect();
+        Self::touched(&touches)
+    }
+
+    /// The same, of touches that know their lines.
+    pub(super) fn touched(touches: &[Touch]) -> Result<Self, MapError> {
+        let columns = lines(touches.iter().map(|touch| touch.place[0]).collect());
+        let rows = lines(touches.iter().map(|touch| touch.place[1]).collect());
         if columns.len() < 2 || rows.len() < 2 {
             return Err(MapError::Few { columns: columns.len(), rows: rows.len() });
         }
-        let mut heights = vec![None; columns.len() * rows.len()];
-        for &[x, y, z] in points {
-            heights[nearest(&rows, y) * columns.len() + nearest(&columns, x)] = Some(z);
+        let mut heights: Vec<Option<(f64, usize)>> = vec![None; columns.len() * rows.len()];
+        for &Touch { line, place: [x, y, z] } in touches {
+            let height = &mut heights[nearest(&rows, y) * columns.len() + nearest(&columns, x)];
+            if let Some((before, other)) = height.filter(|(before, _)| (z - before).abs() > AGREE) {
+                let ([x, y], [first, second]) = ([x, y].map(Nm::from_f64), [before, z].map(Nm::from_f64));
+                return Err(MapError::Contradicting { line, other, x, y, first, second });
+            }
+            *height = Some((z, line));
         }
         let missing = heights.iter().filter(|height| height.is_none()).count();
         if let Some(first) = heights.iter().position(Option::is_none) {
@@ -51,7 +65,11 @@ impl HeightMap {
             let (x, y) = (Nm::from_f64(x), Nm::from_f64(y));
             return Err(MapError::Missing { count: missing, columns: columns.len(), rows: rows.len(), x, y });
         }
-        let map = Self { columns, rows, heights: heights.into_iter().flatten().collect() };
+        let map = Self {
+            columns,
+            rows,
+            heights: heights.into_iter().flatten().map(|(height, _)| height).collect(),
+        };
         map.steepest().map_or(Ok(()), Err)?;
         Ok(map)
     }
@@ -143,7 +161,14 @@ impl HeightMap {
         Some(MapError::Steep { rise: (high - low).abs(), run: Nm::from_f64(run), x: p.x, y: p.y })
     }
 
-    fn crossing(&self, index: usize) -> (Point, Nm) {
+    /// Where a crossing is and how high, in nanometres.
+    pub(super) fn touch(&self, index: usize) -> [f64; 3] {
+        let (i, j) = (index % self.columns.len(), index / self.columns.len());
+        [self.columns[i], self.rows[j], self.heights[index]]
+    }
+
+    /// The same, rounded.
+    pub(super) fn crossing(&self, index: usize) -> (Point, Nm) {
         let (i, j) = (index % self.columns.len(), index / self.columns.len());
         (Point::from_f64(self.columns[i], self.rows[j]), Nm::from_f64(self.heights[index]))
     }

@@ -24,8 +24,10 @@ mod error;
 mod format;
 mod height_map;
 mod modal;
+mod outlier;
 
 pub use bend::{Levelled, Levelling, level};
 pub use error::{LevelError, MapError};
 pub use format::{FORMATS, Format, Frame};
 pub use height_map::HeightMap;
+pub use outlier::Outlier;

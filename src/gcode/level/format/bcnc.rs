@@ -1,4 +1,4 @@
-use super::{Format, Touches, numbers, point, said};
+use super::{Format, Touches, numbers, said, touch};
 use crate::gcode::level::error::MapError;
 
 /// bCNC's `.probe`: `xmin xmax xn`, `ymin ymax yn`, `zmin zmax feed`, then x, y and z of every touch.
@@ -25,7 +25,8 @@ fn read(text: &str, _: &super::Frame) -> Result<Touches, MapError> {
         lines.by_ref().take(2).filter_map(|(_, line)| numbers(line)?.last().copied()).product::<f64>();
     // How deep and how fast it was probed.
     lines.next();
-    let points: Vec<_> = lines.map(|(line, text)| point(line, text)).collect::<Result<_, _>>()?;
+    let points: Vec<_> =
+        lines.map(|(line, text)| touch(line, text, &[3], "expected x, y and z")).collect::<Result<_, _>>()?;
     if points.len() == count as usize {
         Ok(points)
     } else {

@@ -1,8 +1,8 @@
-use super::{Format, Frame, Touches, numbers};
+use super::{Format, Frame, Touch, Touches, numbers};
 use crate::gcode::level::error::MapError;
 
 /// The log of a sender to Grbl: `[PRB:x,y,z:1]` for each touch, from the machine's zero; a status report with `WCO:x,y,z` says
-/// where the work's zero is.
+/// where the work's zero is. So report grblHAL, FluidNC and Smoothieware, and so does Universal Gcode Sender keep them.
 pub(super) const GRBL: Format = Format { name: "a log with Grbl's [PRB:…] lines", recognises, read };
 
 const REPORT: &str = "[PRB:";
@@ -12,7 +12,7 @@ fn recognises(text: &str) -> bool {
     text.contains(REPORT)
 }
 
-/// The zero of a touch is the one reported last before it, or else the first after it.
+/// A probe that went down and touched nothing is dropped: a place that stays untouched is a hole of the grid. The zero of a touch is the one reported last before it, or else the first after it.
 fn read(text: &str, frame: &Frame) -> Result<Touches, MapError> {
     let mut zero = text.lines().find_map(zero_in);
     let mut points = Vec::new();
@@ -25,15 +25,17 @@ fn read(text: &str, frame: &Frame) -> Result<Touches, MapError> {
             .and_then(|(report, _)| report.split_once(':'))
             .and_then(|(place, touched)| Some((triple(place)?, touched)))
             .ok_or_else(|| wrong("expected [PRB:x,y,z:1]"))?;
-        if touched != "1" {
-            return Err(wrong("the probe went down and touched nothing"));
+        match touched {
+            "1" => {}
+            "0" => continue,
+            _ => return Err(wrong("expected [PRB:x,y,z:1], or 0 for a probe that touched nothing")),
         }
         let zero = match (frame.zero, zero) {
             (Some(_), _) => [0.0; 3],
             (None, Some(zero)) => zero,
             (None, None) => return Err(MapError::Zero { line: number }),
         };
-        points.push([0, 1, 2].map(|axis| place[axis] - zero[axis]));
+        points.push(Touch { line: number, place: [0, 1, 2].map(|axis| place[axis] - zero[axis]) });
     }
     Ok(points)
 }

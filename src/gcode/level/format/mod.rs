@@ -1,8 +1,10 @@
 //! The files in which touches come: one file and one constant each, listed in [`FORMATS`], told apart by what is in them.
 
 mod bcnc;
+mod candle;
 mod columns;
 mod grbl;
+mod json;
 mod opencncpilot;
 
 use crate::geometry::Nm;
@@ -26,8 +28,17 @@ impl Default for Frame {
     }
 }
 
-/// Touched points, each x, y and z.
-type Touches = Vec<[f64; 3]>;
+/// A touched point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Touch {
+    /// Where the file says it, from 1.
+    pub(super) line: usize,
+    /// Its x, y and z.
+    pub(super) place: [f64; 3],
+}
+
+/// Touched points.
+type Touches = Vec<Touch>;
 
 /// A kind of file with touches in it.
 #[derive(Debug)]
@@ -40,7 +51,8 @@ pub struct Format {
 }
 
 /// All that are read; of several that recognise a file the first reads it.
-pub const FORMATS: &[Format] = &[opencncpilot::OPENCNCPILOT, grbl::GRBL, bcnc::BCNC, columns::COLUMNS];
+pub const FORMATS: &[Format] =
+    &[opencncpilot::OPENCNCPILOT, grbl::GRBL, json::JSON, candle::CANDLE, bcnc::BCNC, columns::COLUMNS];
 
 impl HeightMap {
     /// The map in a file, and what kind of file that is.
@@ -52,9 +64,12 @@ impl HeightMap {
         let format = FORMATS.iter().find(|format| (format.recognises)(text)).ok_or(MapError::Unknown)?;
         let unit = frame.unit.to_f64();
         let zero = frame.zero.map_or([0.0; 3], |zero| zero.map(Nm::to_f64));
-        let placed = |point: [f64; 3]| [0, 1, 2].map(|axis| point[axis] * unit - zero[axis]);
-        let points: Vec<_> = (format.read)(text, frame)?.into_iter().map(placed).collect();
-        Ok((Self::through(&points)?, format))
+        let placed = |touch: Touch| Touch {
+            place: [0, 1, 2].map(|axis| touch.place[axis] * unit - zero[axis]),
+            ..touch
+        };
+        let touches: Vec<_> = (format.read)(text, frame)?.into_iter().map(placed).collect();
+        Ok((Self::touched(&touches)?, format))
     }
 }
 
@@ -75,10 +90,32 @@ fn said(text: &str) -> impl Iterator<Item = (usize, &str)> {
     lines.filter(|(_, line)| !line.is_empty() && !line.starts_with(['#', ';', '(', '%']))
 }
 
-/// Three of a line's numbers.
-fn point(line: usize, text: &str) -> Result<[f64; 3], MapError> {
-    match numbers(text).as_deref() {
-        Some([x, y, z, ..]) => Ok([*x, *y, *z]),
-        _ => Err(MapError::Line { line, text: text.to_owned(), expected: "expected x, y and z" }),
+/// The numbers of a line that has one of these counts of them.
+fn exact(line: usize, text: &str, counts: &[usize], expected: &'static str) -> Result<Vec<f64>, MapError> {
+    let wrong = |expected| Err(MapError::Line { line, text: text.to_owned(), expected });
+    if has_decimal_commas(text) {
+        return wrong("expected points in numbers, such as 0.5: a comma parts them");
     }
+    match numbers(text) {
+        Some(numbers) if counts.contains(&numbers.len()) => Ok(numbers),
+        _ => wrong(expected),
+    }
+}
+
+/// The touch of a line that has one of these counts of numbers, which begin with x, y and z.
+fn touch(line: usize, text: &str, counts: &[usize], expected: &'static str) -> Result<Touch, MapError> {
+    match exact(line, text, counts, expected)?[..] {
+        [x, y, z, ..] => Ok(Touch { line, place: [x, y, z] }),
+        _ => Err(MapError::Line { line, text: text.to_owned(), expected }),
+    }
+}
+
+/// Whether commas stand within the numbers of a line: something else parts them.
+fn has_decimal_commas(text: &str) -> bool {
+    let is_within = |at: usize| {
+        let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+        digit(text[..at].chars().next_back()) && digit(text[at + 1..].chars().next())
+    };
+    let parts = text.split([' ', '\t', ';']).filter(|part| !part.trim_matches(',').is_empty());
+    parts.count() > 1 && text.match_indices(',').any(|(at, _)| is_within(at))
 }

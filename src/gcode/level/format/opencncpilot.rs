@@ -1,6 +1,6 @@
 use roxmltree::{Document, Node};
 
-use super::{Format, Frame, Touches, numbers};
+use super::{Format, Frame, Touch, Touches, numbers};
 use crate::gcode::level::error::MapError;
 
 /// OpenCNCPilot's `.hmap`: `<heightmap MinX MinY MaxX MaxY SizeX SizeY>` with a `<point X Y>` for each touch, whose X and Y
@@ -25,7 +25,7 @@ fn read(text: &str, _: &Frame) -> Result<Touches, MapError> {
         .map(|node| {
             let height = node.text().and_then(one).ok_or_else(|| wrong(node, "expected a height"))?;
             let place = |name, (least, step, _): (f64, f64, f64)| Ok(least + step * number(node, name)?);
-            Ok::<_, MapError>([place("X", x)?, place("Y", y)?, height])
+            Ok::<_, MapError>(Touch { line: line(node), place: [place("X", x)?, place("Y", y)?, height] })
         })
         .collect::<Result<_, _>>()?;
     complete(points, x.2 * y.2)
@@ -47,8 +47,12 @@ fn one(text: &str) -> Option<f64> {
     numbers(text).and_then(|numbers| <[f64; 1]>::try_from(numbers).ok()).map(|[value]| value)
 }
 
+fn line(node: Node<'_, '_>) -> usize {
+    node.document().text_pos_at(node.range().start).row as usize
+}
+
 fn wrong(node: Node<'_, '_>, expected: &'static str) -> MapError {
-    let line = node.document().text_pos_at(node.range().start).row as usize;
+    let line = line(node);
     let text = node.document().input_text()[node.range()].lines().next().unwrap_or_default().to_owned();
     MapError::Line { line, text, expected }
 }
