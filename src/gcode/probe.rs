@@ -38,7 +38,9 @@ pub struct Touching {
 
 /// Why there is no program that probes.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("nothing is known of probing in the dialect {dialect}: expected {known}")]
+#[error(
+    "{dialect} neither reports nor keeps where a probe touched, as far as its documents say: expected {known}"
+)]
 pub struct ProbeError {
     dialect: String,
     known: String,
@@ -54,6 +56,9 @@ pub fn write_probe(touching: &Touching, dialect: &Dialect, header: &Header) -> R
         Touches::None => return Err(ProbeError::new(dialect)),
         Touches::Reported => {
             "keep what the controller reports, a status with WCO: and each [PRB:, in a file for voromill level".to_owned()
+        }
+        Touches::ReportedJson => {
+            "keep each line with prb that is reported in a file for voromill level --map-zero".to_owned()
         }
         Touches::Logged => format!("the touches go into {} for voromill level", touching.log),
     };

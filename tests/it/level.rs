@@ -391,9 +391,15 @@ fn dialects_that_probe_write_a_program_that_touches_every_point_once() {
         let options = Options::from_toml("f", &format!("dialect = \"{}\"", dialect.name)).expect("options");
         let settings = Settings::resolve(options).expect("settings");
         let written = job::probe(&loaded, &settings, &probing);
-        if !matches!(dialect.name.as_ref(), "grbl" | "grblhal" | "fluidnc" | "linuxcnc") {
+        if !matches!(
+            dialect.name.as_ref(),
+            "grbl" | "grblhal" | "fluidnc" | "linuxcnc" | "smoothieware" | "tinyg" | "g2core"
+        ) {
             let error = written.expect_err("it does not probe").to_string();
-            assert!(error.contains("grbl or grblhal or fluidnc or linuxcnc"), "{error}");
+            assert!(
+                error.contains("grbl or grblhal or fluidnc or linuxcnc or smoothieware or tinyg or g2core"),
+                "{error}"
+            );
             continue;
         }
         let text = written.expect("a program");
@@ -402,6 +408,11 @@ fn dialects_that_probe_write_a_program_that_touches_every_point_once() {
             text.contains("(PROBEOPEN regulator-front-probe.txt)"),
             dialect.name == "linuxcnc",
             "{text}"
+        );
+        assert_eq!(
+            text.contains("each line with prb"),
+            matches!(dialect.name.as_ref(), "tinyg" | "g2core"),
+            "what to keep: {text}"
         );
         assert!(!text.contains("M3"), "the spindle stays off");
         accepted_by_linuxcnc(&text, dialect);

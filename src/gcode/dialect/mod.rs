@@ -158,6 +158,8 @@ pub enum Touches {
     None,
     /// The controller reports each, and who is connected keeps them.
     Reported,
+    /// The same as JSON, `{"prb":…}`.
+    ReportedJson,
     /// They go into a file that the program names: `(PROBEOPEN …)`.
     Logged,
 }

@@ -29,6 +29,6 @@ pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
     spin_up: SPIN_UP,
-    touches: Touches::None,
+    touches: Touches::Reported,
     condition: None,
 };

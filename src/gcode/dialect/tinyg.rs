@@ -31,7 +31,7 @@ pub(super) const TINYG: Dialect = Dialect {
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
     spin_up: SPIN_UP,
-    touches: Touches::None,
+    touches: Touches::ReportedJson,
     condition: None,
 };
 
@@ -58,6 +58,6 @@ pub(super) const G2CORE: Dialect = Dialect {
     end: Borrowed(&[Borrowed("M2")]),
     coolant: None,
     spin_up: SPIN_UP,
-    touches: Touches::None,
+    touches: Touches::ReportedJson,
     condition: None,
 };
