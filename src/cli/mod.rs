@@ -90,7 +90,8 @@ struct Shared {
 
 /// Reads the arguments, does what they say, prints errors.
 pub(crate) fn run() -> ExitCode {
-    let read = command().try_get_matches();
+    // What help says of defaults is worked out where it is shown: most runs show none.
+    let read = Cli::command().try_get_matches().or_else(|_| command().try_get_matches());
     let (cli, matches) = match read.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches))) {
         Ok(read) => read,
         Err(error) => error.format(&mut command()).exit(),

@@ -52,7 +52,7 @@ fn takes(subcommand: &str, option: &str) -> bool {
         "isolate" => Part::Front.is_changed_by(option) || option == "cutout-tool",
         "draw" => {
             !is_of_the_machine(option)
-                && option != "thickness"
+                && !matches!(option, "thickness" | "cutout-side")
                 && !option.starts_with("drill")
                 && !option.starts_with("alignment")
         }

@@ -1,5 +1,7 @@
 //! `voromill.toml`: where it is looked for and how it is read.
 
+use std::sync::LazyLock;
+
 use clap::Args;
 
 use super::tools::TABLE_KEYS;
@@ -30,7 +32,9 @@ impl Options {
     /// The defaults.
     #[must_use]
     pub fn defaults() -> Self {
-        toml::from_str(DEFAULTS).expect("the built-in settings are right")
+        static READ: LazyLock<Options> =
+            LazyLock::new(|| toml::from_str(DEFAULTS).expect("the built-in settings are right"));
+        READ.clone()
     }
 
     /// Every key that a settings file may have.

@@ -13,6 +13,7 @@ use crate::geometry::Nm;
 use crate::toolpath::{BUILT_IN, Feed, ParseToolError, Tool, ToolKind};
 
 use super::quantity::{Length, text};
+use super::turns;
 use super::{Error, Options};
 
 /// A tool as a person names it: by its shape, or by what a table or voromill calls it.
@@ -82,6 +83,7 @@ struct Table {
     feed: Option<Feed>,
     #[serde(default, with = "text")]
     plunge: Option<Feed>,
+    #[serde(default, deserialize_with = "turns::deserialize")]
     spindle: Option<u32>,
     #[serde(default, with = "text")]
     depth: Option<Length>,

@@ -273,6 +273,7 @@ fn an_option_that_changes_nothing_is_neither_shown_nor_taken() {
         ("isolate", "--output-name", "front=top.ngc"),
         ("draw", "--dialect", "linuxcnc"),
         ("draw", "--drill-bore", ""),
+        ("draw", "--cutout-side", "back"),
         ("probe", "--width", "0.5mm"),
         ("probe", "--no-frame", ""),
         ("inspect", "--tool", "endmill:1mm"),
@@ -293,6 +294,36 @@ fn an_option_that_changes_nothing_is_neither_shown_nor_taken() {
     assert!(done.status.success(), "{}", stderr(&done));
     let done = voromill(out.path(), &["isolate", &board, "--side", "front", "-o", "front.ngc"]);
     assert!(!stdout(&done).contains("cutout"), "only what was written is told of: {}", stdout(&done));
+}
+
+#[test]
+fn an_option_that_changes_nothing_beside_the_others_is_refused() {
+    let out = folder();
+    let board = fixture("boards/regulator");
+    let board = board.to_string_lossy();
+    for (option, value, hint) in [
+        ("--overlap", "50%", "--width"),
+        ("--drill-bore-tool", "endmill:0.8mm", "--drill-bore"),
+        ("--tile-spacing", "3mm", "--tile"),
+    ] {
+        let said = format!("{option} changes nothing of what is made so");
+        fails(&out, &["mill", &board, "-o", "x", option, value], &[&said, hint], &[]);
+    }
+    fails(
+        &out,
+        &["mill", &board, "-o", "x", "--depth", "-0.1mm"],
+        &["depths are positive here: write `0.1mm`"],
+        &[],
+    );
+    fails(&out, &["mill", &board, "-o", "x", "--passes", "1000000000"], &["1000000000"], &[]);
+    fs::write(out.path().join("many.toml"), "passes = 1000000000\n").expect("written");
+    let many = ["mill", &board, "--config", "many.toml", "-o", "x"];
+    fails(&out, &many, &["passes: `1000000000` makes no sense: expected 1 to 1000"], &["many.toml"]);
+    fs::write(out.path().join("many.toml"), "overlap = \"50%\"\nspindle = \"9000rpm\"\n").expect("written");
+    let done =
+        voromill(out.path(), &["isolate", &board, "--side", "front", "--config", "many.toml", "-o", "x.ngc"]);
+    assert!(done.status.success(), "a settings file is for many boards: {}", stderr(&done));
+    assert!(fs::read_to_string(out.path().join("x.ngc")).expect("a program").contains("S9000"), "turns");
 }
 
 #[test]

@@ -29,6 +29,40 @@ fn cut_mm(job: &Job, part: Part) -> f64 {
 }
 
 #[test]
+fn a_tool_that_cuts_nothing_is_warned_of() {
+    let (wide, _) = job("blinker", "tool = [\"endmill:9mm\", \"endmill:0.2mm\"]");
+    assert!(warned(&wide, "tool-cuts-nothing"), "nine millimetres fit nowhere");
+    let (both, _) = job("blinker", "tool = [\"endmill:0.4mm\", \"endmill:0.2mm\"]");
+    assert!(!warned(&both, "tool-cuts-nothing"), "each cuts where it fits");
+}
+
+#[test]
+fn a_board_cut_out_from_the_back_is_cut_turned_over() {
+    let (front, settings) = job("regulator", "");
+    let (back, turned) = job("regulator", "cutout-side = \"back\"");
+    let ends = |job: &Job| {
+        let program = job.programs.iter().find(|program| program.part == Part::Cutout).expect("a cutout");
+        let motions = read(&program.text).expect("a program").motions;
+        motions.iter().filter_map(|motion| motion.to.point()).collect::<BTreeSet<_>>()
+    };
+    let over = |job: &Job| {
+        let turn = |p: voromill::geometry::Point| voromill::geometry::Point::new(job.axis * 2 - p.x, p.y);
+        ends(job).into_iter().map(turn).collect::<Vec<_>>()
+    };
+    let near = |p: &voromill::geometry::Point, all: &BTreeSet<voromill::geometry::Point>| {
+        all.iter().any(|q| p.distance(*q) <= 2000.0)
+    };
+    let (there, here) = (over(&front), ends(&back));
+    let placed = there.iter().filter(|p| near(p, &here)).count();
+    assert!(placed * 10 >= there.len() * 9, "{placed} of {} ends are mirrored", there.len());
+    assert!(back.verify(&turned).expect("a verdict").passes(voromill::verify::Severity::Error), "it fits");
+    assert!(
+        front.verify(&settings).expect("a verdict").passes(voromill::verify::Severity::Error),
+        "so does it"
+    );
+}
+
+#[test]
 fn every_dialect_writes_a_program_that_reads_back() {
     for dialect in dialect::ALL {
         let (job, _) = job("blinker", &format!("dialect = \"{}\"", dialect.name));
