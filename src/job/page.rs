@@ -42,7 +42,7 @@ impl Job {
             part: written.part.name(),
             placement: self.laid(written),
             seconds: written.statistics.seconds,
-            rapid: settings.machine.rapid.nm_per_second() * 60e-6,
+            rapid: settings.machine.level_rapid().nm_per_second() * 60e-6,
             tools: tools.collect(),
         }
     }

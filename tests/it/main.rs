@@ -24,6 +24,7 @@ mod oracle;
 mod outline;
 mod page;
 mod paper;
+mod planner;
 mod programs;
 mod random_boards;
 mod raster;

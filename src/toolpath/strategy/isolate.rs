@@ -5,8 +5,8 @@ use std::borrow::Cow;
 use crate::board::Warning;
 use crate::geometry::{Nm, Path, Point, Segment};
 use crate::toolpath::head::Head;
-use crate::toolpath::measure::hop;
 use crate::toolpath::order::{Order, Stretch, arrange};
+use crate::toolpath::planner::hop;
 use crate::toolpath::trails::{Link, Step, walk};
 use crate::toolpath::{Heights, Machine, Move, Placement, Section, Tool};
 use crate::voronoi::{Boundaries, Boundary, Owner};
@@ -289,10 +289,12 @@ const EXPECTED_HOP: Nm = Nm::from_mm(5);
 fn lift_seconds(settings: &Isolation<'_>) -> f64 {
     let Heights { safe, approach, cut, .. } = settings.heights;
     let Isolation { machine, tool, .. } = settings;
-    let stop = tool.feed.nm_per_second() / (f64::from(machine.acceleration.max(1)) * 1e6);
-    hop(safe + cut, machine.rapid_z, machine)
-        + hop(EXPECTED_HOP, machine.rapid, machine)
-        + hop(safe - approach, machine.rapid_z, machine)
-        + hop(approach + cut, tool.plunge, machine)
+    let (level, vertical) = (machine.level_acceleration(), machine.acceleration[2]);
+    let stop = tool.feed.nm_per_second() / level.nm_per_s2();
+    let rapid_z = machine.rapid[2].nm_per_second();
+    hop(safe + cut, rapid_z, vertical)
+        + hop(EXPECTED_HOP, machine.level_rapid().nm_per_second(), level)
+        + hop(safe - approach, rapid_z, vertical)
+        + hop(approach + cut, tool.plunge.nm_per_second(), vertical)
         + stop
 }
