@@ -11,6 +11,7 @@ mod inspect;
 mod isolate;
 mod leftovers;
 mod level;
+mod machine;
 mod mill;
 mod output;
 mod probe;
@@ -53,6 +54,7 @@ Examples:
   voromill probe board/ -o probe.ngc           touch the surface of the board on the machine
   voromill level front.ngc --map probe.txt     bend a program to what was touched
   voromill tools                               the tools, and how wide they cut at which depth
+  voromill machine list                        the machines whose figures are known
   voromill init                                write voromill.toml with every setting and its default
 
 Lengths carry units: nm, um, mm, cm, mil, in. `voromill mill --help` explains each option.
@@ -69,6 +71,7 @@ enum Command {
     Probe(probe::Probe),
     Level(level::Level),
     Tools(tools::Tools),
+    Machine(machine::Machine),
     Init(init::Init),
 }
 
@@ -107,6 +110,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Probe(probe) => probe.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Level(level) => level.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Tools(tools) => tools.run(cli.shared).map(|()| ExitCode::SUCCESS),
+        Command::Machine(machine) => machine.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Init(init) => init.run(cli.shared).map(|()| ExitCode::SUCCESS),
     });
     match done {

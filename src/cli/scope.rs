@@ -57,7 +57,11 @@ fn takes(subcommand: &str, option: &str) -> bool {
                 && !option.starts_with("alignment")
         }
         "probe" => {
-            places(option) || matches!(option, "safe-z" | "dialect" | "blend" | "cutout-tool" | "outline-gap")
+            places(option)
+                || matches!(
+                    option,
+                    "safe-z" | "machine" | "dialect" | "blend" | "cutout-tool" | "outline-gap"
+                )
         }
         "inspect" => matches!(option, "topology" | "outline-gap"),
         _ => true,
@@ -75,6 +79,7 @@ fn is_of_the_machine(option: &str) -> bool {
         option,
         "spindle"
             | "spin-up"
+            | "machine"
             | "dialect"
             | "blend"
             | "tool-change"

@@ -28,6 +28,6 @@ pub fn cache_key(loaded: &Loaded, settings: &Settings, choices: &[(&str, String)
     // One's own tools are tables, which no option lists.
     let _ = writeln!(text, "{:?} {:?} {:?}", settings.isolation, settings.drills, settings.cutout_tool);
     let _ = writeln!(text, "{:?}", settings.drill_bore_tool);
-    let _ = writeln!(text, "{:?}", settings.dialect);
+    let _ = writeln!(text, "{:?} {:?}", settings.dialect, settings.machine);
     sha256(text.as_bytes())
 }

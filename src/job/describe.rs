@@ -7,7 +7,7 @@ use crate::geometry::Nm;
 use crate::report::colours::ColoursEntry;
 use crate::report::document::{
     Document, DrillEntry, Figures, GapEntry, LayerEntry, Millimetres, NetEntry, ProgramEntry, SCHEMA_VERSION,
-    WarningEntry,
+    ToolChanges, WarningEntry,
 };
 use crate::topology::{Gap, NetId, Nets};
 
@@ -19,6 +19,7 @@ impl Job {
     /// The report on it.
     #[must_use]
     pub fn describe(&self, settings: &Settings) -> Document {
+        let changes = self.tool_changes(settings);
         Document {
             schema_version: SCHEMA_VERSION,
             generator: GENERATOR.to_owned(),
@@ -30,12 +31,24 @@ impl Job {
             electrical_nets: self.electrical.as_ref().map(|electrical| electrical.nets.len()),
             drills: drills(&self.board.holes),
             programs: self.programs.iter().map(|program| program.describe(&self.board, settings)).collect(),
-            total: Figures::sum(self.programs.iter().map(|program| &program.statistics)),
+            tool_changes: changes,
+            total: Figures::sum(self.programs.iter().map(|program| &program.statistics), changes),
             outputs: Vec::new(),
             verification: None,
             warnings: self.warnings.iter().map(WarningEntry::from).collect(),
             settings: settings.options().listed().into_iter().collect(),
         }
+    }
+}
+
+impl Job {
+    /// How often another tool is fitted than the one before, through all programs.
+    fn tool_changes(&self, settings: &Settings) -> ToolChanges {
+        let sections = self.programs.iter().flat_map(|program| &program.program.sections);
+        let tools: Vec<u32> = sections.map(|section| section.tool.number).collect();
+        let count = tools.windows(2).map(|pair| u32::from(pair[0] != pair[1])).sum();
+        let seconds = f64::from(count) * f64::from(settings.machine.tool_change) / 1000.0;
+        ToolChanges { count, seconds }
     }
 }
 

@@ -31,6 +31,7 @@ impl Options {
             ignore: if self.ignore.is_empty() { others.ignore } else { self.ignore },
             tile: self.tile.or(others.tile),
             tile_spacing: self.tile_spacing.or(others.tile_spacing),
+            machine: self.machine.or(others.machine),
             machine_travel: self.machine_travel.or(others.machine_travel),
             tool_change_at: self.tool_change_at.or(others.tool_change_at),
             alignment_holes: self.alignment_holes.or(others.alignment_holes),

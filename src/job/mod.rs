@@ -14,6 +14,7 @@ mod idle;
 mod ignore;
 mod inspect;
 mod layer;
+mod machine;
 mod merge;
 mod millproject;
 mod numbering;
@@ -46,6 +47,9 @@ pub use holding::Holding;
 pub use ignore::ignore;
 pub use inspect::inspect;
 pub use layer::Layer;
+pub use machine::{
+    ImportError, MachineChoice, ParseMachineError, ParsePerAxisError, PerAxis, Profile, READY, import_machine,
+};
 pub use millproject::{MillProject, ProjectFiles};
 pub use options::Options;
 pub use output_name::{OutputName, ParseOutputNameError};

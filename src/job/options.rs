@@ -9,6 +9,7 @@ use crate::toolpath::{Angle, Feed};
 
 use super::by_net::StrategyFor;
 use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
+use super::machine::{MachineChoice, in_settings};
 use super::output_name::OutputName;
 use super::overlap::Overlap;
 use super::pattern::Pattern;
@@ -131,6 +132,11 @@ pub struct Options {
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub adaptive_depth: Option<Length>,
+
+    /// The machine, for its speeds, its travel, its dialect and the time: 3018, shapeoko, linuxcnc-router, pcb-mill, or a file such as mine.toml
+    #[arg(long, value_name = "MACHINE", help_heading = "Machine")]
+    #[serde(with = "in_settings", skip_serializing_if = "Option::is_none")]
+    pub machine: Option<MachineChoice>,
 
     /// Speed along a cut
     #[arg(long, value_name = "SPEED", help_heading = "Machine")]

@@ -97,6 +97,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         planned.push((Part::Cutout, side, program));
         warnings.extend(found);
     }
+    warnings.extend(restrained(planned.iter_mut().map(|(.., program)| program), settings));
     numbering::number(planned.iter_mut().map(|(.., program)| program), &settings.options().tools);
     let tags = tag::tags(&planned, settings);
     let write = |((part, side, program), tag): ((Part, Side, Program), String)| {
@@ -119,6 +120,17 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     warnings.extend(electrical.iter().flat_map(Electrical::check));
     let (placement, axis) = (stock.front, stock.axis);
     Ok(Job { board, sources, ignored, placement, axis, layers, electrical, programs, warnings })
+}
+
+/// Lowers what programs ask of the machine to what it can do; what is said of several programs is said once.
+fn restrained<'a>(programs: impl Iterator<Item = &'a mut Program>, settings: &Settings) -> Vec<Warning> {
+    let mut said: Vec<Warning> = Vec::new();
+    for warning in programs.flat_map(|program| settings.machine.restrain(program)) {
+        if said.iter().all(|other| other.message != warning.message) {
+            said.push(warning);
+        }
+    }
+    said
 }
 
 /// Both sides at once.

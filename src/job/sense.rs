@@ -1,12 +1,30 @@
 //! Settings that are lengths like any others, and make no sense on a machine.
 
 use crate::geometry::Nm;
-use crate::toolpath::ToolKind;
+use crate::toolpath::{Feed, ToolKind};
 use crate::verify;
 
 use super::quantity::{Length, Triple};
 use super::settings::{given, positive};
-use super::{Cutting, Error, Options};
+use super::{Cutting, Error, Options, Profile};
+
+/// The options with what a machine says where a person left it open: its dialect, and the default speeds no faster than it goes.
+pub(super) fn defaults_for(profile: Option<&Profile>, mut options: Options) -> Options {
+    let Some(profile) = profile else { return options };
+    let usual = Options::defaults();
+    options.dialect = options.dialect.or_else(|| profile.dialect.clone());
+    let machine = profile.machine();
+    let limited = |speed: Option<Feed>, most: Feed| speed.filter(|&speed| speed > most).map(|_| most);
+    if let Some([x, y, z]) = machine.feed {
+        options.feed = options.feed.or_else(|| limited(usual.feed, x.min(y)));
+        options.plunge = options.plunge.or_else(|| limited(usual.plunge, z));
+    }
+    if let Some((least, most)) = machine.spindle {
+        let turns = usual.spindle.map(|turns| turns.clamp(least, most));
+        options.spindle = options.spindle.or(turns.filter(|_| turns != usual.spindle));
+    }
+    options
+}
 
 /// A number as large as it can be meant: the command line says the same, a settings file has nothing else that does.
 pub(super) fn count(

@@ -135,7 +135,8 @@ impl Settings {
     ///
     /// [`Error::Value`] for the first setting whose value makes no sense.
     pub fn resolve(options: Options) -> Result<Self, Error> {
-        let options = options.or(Options::defaults());
+        let profile = options.machine.as_ref().map(|machine| machine.0.clone());
+        let options = sense::defaults_for(profile.as_ref(), options).or(Options::defaults());
         let open = "the defaults leave nothing open";
         let workshop = Workshop {
             library: &options.tools,
@@ -165,6 +166,7 @@ impl Settings {
             );
             return Err(Error::Value { key: "tab-height", problem });
         }
+        let machine = profile.map_or_else(Machine::default, |profile| profile.machine());
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
         sense::kerfs(&isolation)?;
         let drill_depth = positive("drill-depth", options.drill_depth)?;
@@ -208,9 +210,9 @@ impl Settings {
             topology: options.topology.expect(open),
             tolerance: positive("tolerance", options.tolerance)?,
             machine: Machine {
-                travel: sense::machine_travel(&options)?,
+                travel: sense::machine_travel(&options)?.or(machine.travel),
                 spin_up: dialect.spin_up,
-                ..Machine::default()
+                ..machine
             },
             dialect,
             origin: match options.origin.expect(open) {

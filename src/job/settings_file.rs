@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use clap::Args;
 
+use super::machine;
 use super::tools::TABLE_KEYS;
 use super::{Error, Options};
 
@@ -50,7 +51,8 @@ fn problem(message: &str) -> String {
         return message.lines().collect::<Vec<_>>().join(" ");
     };
     let keys = Options::keys();
-    let keys = keys.iter().map(String::as_str).chain(TABLE_KEYS.iter().copied());
+    let of_tables = TABLE_KEYS.iter().chain(machine::KEYS).copied();
+    let keys = keys.iter().map(String::as_str).chain(of_tables);
     let nearest = keys.min_by_key(|known| distance(key, known));
     nearest.map_or_else(
         || format!("unknown key `{key}`"),

@@ -49,8 +49,8 @@ impl Part {
         match option {
             "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
             "feed" | "plunge" | "spindle" | "spin-up" | "safe-z" | "dialect" | "origin" | "tile"
-            | "tile-spacing" | "thickness" | "machine-travel" | "tool-change" | "tool-change-at"
-            | "blend" | "offset" => true,
+            | "tile-spacing" | "thickness" | "machine" | "machine-travel" | "tool-change"
+            | "tool-change-at" | "blend" | "offset" => true,
             "output-name" => false,
             _ if option.starts_with("alignment") => self == Self::Alignment,
             "drill-depth" => matches!(self, Self::Alignment | Self::Drill),

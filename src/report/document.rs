@@ -15,7 +15,7 @@ use crate::toolpath::Statistics;
 use super::colours::ColoursEntry;
 
 /// The version of the shape of [`Document`]: it grows when a key changes its meaning or goes, not when one is added.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// Everything that is known after a job.
 #[derive(Clone, Debug, Serialize)]
@@ -40,7 +40,9 @@ pub struct Document {
     pub drills: Vec<DrillEntry>,
     /// The programs that were written.
     pub programs: Vec<ProgramEntry>,
-    /// All programs together.
+    /// What a person does between them and within them.
+    pub tool_changes: ToolChanges,
+    /// All programs together, tool changes included.
     pub total: Figures,
     /// The files that were written beside this one, where they were.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -163,7 +165,16 @@ pub struct Figures {
     pub rapid_mm: Millimetres,
     /// How often the tool rises.
     pub lifts: u64,
-    /// How long it takes, to a tenth.
+    /// How long the machine runs, to a tenth; a program's without tool changes.
+    pub seconds: f64,
+}
+
+/// How often a tool is changed from the first program to the last, and how long that takes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct ToolChanges {
+    /// How often; the first tool is in the machine.
+    pub count: u32,
+    /// How long all of them take, in seconds, as the machine's profile says.
     pub seconds: f64,
 }
 
@@ -219,9 +230,9 @@ impl From<&Statistics> for Figures {
 }
 
 impl Figures {
-    /// All together.
-    pub fn sum<'a>(all: impl IntoIterator<Item = &'a Statistics>) -> Self {
-        let mut sum = Statistics::default();
+    /// All together, with the time for tool changes.
+    pub fn sum<'a>(all: impl IntoIterator<Item = &'a Statistics>, changes: ToolChanges) -> Self {
+        let mut sum = Statistics { seconds: changes.seconds, ..Statistics::default() };
         for one in all {
             sum.cut_length += one.cut_length;
             sum.rapid_length += one.rapid_length;

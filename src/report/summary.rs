@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::document::{Document, Figures, LayerEntry, WarningEntry};
+use super::document::{Document, Figures, LayerEntry, ToolChanges, WarningEntry};
 use crate::board::{self, Severity};
 use crate::toolpath::duration;
 
@@ -48,7 +48,7 @@ impl Document {
     /// A line for each program, and one for all.
     fn table(&self) -> String {
         let widest =
-            self.programs.iter().map(|program| program.file.chars().count()).max().unwrap_or(0).max(5);
+            self.programs.iter().map(|program| program.file.chars().count()).max().unwrap_or(0).max(15);
         let row = |name: &str, figures: &Figures| {
             let [cut, rapid] = [figures.cut_mm, figures.rapid_mm].map(|length| format!("{:.0} mm", length.0));
             let time = duration(figures.seconds);
@@ -59,7 +59,12 @@ impl Document {
         for program in &self.programs {
             text.push_str(&row(&program.file, &program.figures));
         }
-        if self.programs.len() > 1 {
+        let ToolChanges { count: changes, seconds } = self.tool_changes;
+        if changes > 0 {
+            let (name, time) = (count(changes as usize, "tool change"), duration(seconds));
+            let _ = writeln!(text, "  {name:widest$}  {:>9}  {:>9}  {:>5}  {time:>9}", "", "", "");
+        }
+        if self.programs.len() > 1 || changes > 0 {
             text.push_str(&row("total", &self.total));
         }
         text

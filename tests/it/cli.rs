@@ -113,7 +113,7 @@ fn the_report_on_stdout_is_the_report_in_the_file() {
     assert_eq!(stdout(&done), file, "the same text");
     assert!(!file.contains(&*out.path().to_string_lossy()), "no path of this machine");
     let report: serde_json::Value = serde_json::from_str(&file).expect("JSON");
-    assert_eq!(report["schema_version"], 1, "the version of its shape");
+    assert_eq!(report["schema_version"], 2, "the version of its shape");
     assert!(report["total"]["cut_mm"].as_f64() > Some(0.0), "something is cut");
 }
 

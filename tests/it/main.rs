@@ -17,6 +17,7 @@ mod layering;
 mod layers;
 mod leftovers;
 mod level;
+mod machine;
 mod millproject;
 mod mixed;
 mod nonsense;

@@ -133,12 +133,13 @@ class Panel {
   }
 
   programs() {
-    const { programs, total } = this.report;
+    const { programs, total, tool_changes: changes } = this.report;
+    const waits = changes.count ? [[`${changes.count} tool ${changes.count > 1 ? 'changes' : 'change'}`, '', '', '', duration(changes.seconds)]] : [];
     const row = (name, f) => [name, f.cut_mm.toFixed(0), f.rapid_mm.toFixed(0), String(f.lifts), duration(f.seconds)];
     const play = (program, index) => make('button', { class: 'link', title: 'Play from its start', on: { click: () => this.actions.run(index) } }, program.file);
     const tools = this.stage.programs.flatMap(program => program.tools.map(tool => [`${tool.name}`, program.part, tool.cut_mm.toFixed(0), duration(tool.seconds)]));
     return this.section('Programs',
-      this.table(['Program', 'Cut mm', 'Rapid mm', 'Lifts', 'Time'], programs.map((program, i) => row(play(program, i), program)), row('Total', total)),
+      this.table(['Program', 'Cut mm', 'Rapid mm', 'Lifts', 'Time'], [...programs.map((program, i) => row(play(program, i), program)), ...waits], row('Total', total)),
       make('h3', {}, 'Tools'), this.table(['Tool', 'For', 'Cut mm', 'Time'], tools));
   }
 
