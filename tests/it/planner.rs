@@ -89,7 +89,7 @@ impl Driver {
             let last = (index + self.knows - 1).min(legs.len() - 1);
             let mut at_end = f64::MAX;
             for ahead in index..=last {
-                let there = if ahead == last { 0.0 } else { corner[ahead] };
+                let there = corner.get(ahead).filter(|_| ahead < last).copied().unwrap_or(0.0);
                 let braking: f64 =
                     (index + 1..=ahead).map(|leg| 2.0 * acceleration[leg] * legs[leg].length()).sum();
                 at_end = at_end.min((there * there + braking).sqrt());
