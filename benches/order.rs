@@ -10,7 +10,9 @@ use std::time::Instant;
 use voromill::board::{Hole, Plating};
 use voromill::geometry::{Nm, Path, Point};
 use voromill::toolpath::strategy::{Drilling, Isolation, Narrow, Role, drill, isolate};
-use voromill::toolpath::{Heights, Machine, Order, Placement, Program, Section, Tool, measure};
+use voromill::toolpath::{
+    DrillSpeeds, Heights, Machine, Order, POINT, Placement, Program, Section, Tool, measure,
+};
 use voromill::topology::NetId;
 use voromill::voronoi::{Boundaries, Boundary, NodeId, Owner};
 
@@ -118,7 +120,9 @@ fn drilled(holes: &[Trail], order: Order) -> Section {
         placement: &placement,
         order,
         dwell: 0,
-        speeds: (None, None),
+        tips: false,
+        speeds: DrillSpeeds::default(),
+        point: POINT,
     };
     drill(&holes, &settings).0.remove(0)
 }

@@ -51,10 +51,8 @@ fn takes(subcommand: &str, option: &str) -> bool {
         // How far tiles are apart unless that is said goes by the cutter between them.
         "isolate" => Part::Front.is_changed_by(option) || option == "cutout-tool",
         "draw" => {
-            !is_of_the_machine(option)
-                && !matches!(option, "thickness" | "cutout-side")
-                && !option.starts_with("drill")
-                && !option.starts_with("alignment")
+            let drills = ["drill", "alignment", "break-through", "material", "thickness", "cutout-side"];
+            !is_of_the_machine(option) && !drills.iter().any(|start| option.starts_with(start))
         }
         "probe" => {
             places(option)

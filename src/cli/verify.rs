@@ -211,7 +211,7 @@ impl Verify {
         Ok(if report.passes(self.deny) { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 
-    /// Takes the nets out of the copper that were not to be isolated.
+    /// Takes the nets out of the copper that were not to be isolated, and widens holes that are for rivets.
     fn leave_out(&self, board: &mut Board, programs: &[Program]) {
         let mut patterns = self.ignore.clone();
         if patterns.is_empty() {
@@ -223,6 +223,10 @@ impl Verify {
         }
         let said = programs.iter().find_map(|program| verify::said(&program.text, "topology"));
         let topology = said.and_then(|name| Topology::from_str(&name, true).ok());
+        let said = programs.iter().find_map(|program| verify::said(&program.text, "rivet"));
+        if let Some(wider) = said.and_then(|length| length.parse().ok()) {
+            job::rivet(board, wider);
+        }
         // That a pattern means no net was said when the program was made.
         let _ = job::ignore(board, &patterns, topology.unwrap_or(Topology::Contact));
     }

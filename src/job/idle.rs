@@ -16,12 +16,22 @@ impl Settings {
         let bores = self.drill_bore || self.alignment.is_some();
         let idle = [
             ("overlap", given.overlap.is_some() && !is_wide, "say --width, --passes or --clear too"),
-            ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "say --drill-bore too"),
+            ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "leave --drill-bore=false out"),
             ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "say --tile too"),
             (
                 "alignment-margin",
                 given.alignment_margin.is_some() && self.alignment.is_none(),
                 "say --alignment-holes too",
+            ),
+            (
+                "alignment-depth",
+                given.alignment_depth.is_some() && self.alignment.is_none(),
+                "say --alignment-holes too",
+            ),
+            (
+                "break-through",
+                given.break_through.is_some() && all.drill_depth.is_some(),
+                "leave --drill-depth out",
             ),
             ("tab-width", given.tab_width.is_some() && !is_held, "say --tabs too, which are none here"),
             ("tab-height", given.tab_height.is_some() && !is_held, "say --tabs too, which are none here"),
@@ -64,8 +74,9 @@ mod tests {
     fn an_option_that_needs_another_is_idle_without_it() {
         for (alone, other) in [
             ("overlap = \"50%\"", "passes = 2"),
-            ("drill-bore-tool = \"endmill:0.8mm\"", "drill-bore = true"),
-            ("drill-bore-tool = \"endmill:0.8mm\"", "drill-bore-from = \"1mm\""),
+            ("drill-bore-tool = \"endmill:0.8mm\"\ndrill-bore = false", "alignment-holes = \"3mm\""),
+            ("drill-bore-tool = \"endmill:0.8mm\"\ndrill-bore = false", "drill-bore-from = \"1mm\""),
+            ("alignment-depth = \"9mm\"", "alignment-holes = \"3mm\""),
             ("tile-spacing = \"3mm\"", "tile = \"2x1\""),
             ("alignment-margin = \"9mm\"", "alignment-holes = \"3mm\""),
         ] {
@@ -75,6 +86,11 @@ mod tests {
         }
         assert_eq!(idle("tabs = 0\ntab-width = \"3mm\""), Some("tab-width"), "no tab");
         assert_eq!(idle("frame = false\nframe-margin = \"1mm\""), Some("frame-margin"), "no lap");
+        assert_eq!(
+            idle("drill-depth = \"2mm\"\nbreak-through = \"1mm\""),
+            Some("break-through"),
+            "one depth"
+        );
         assert_eq!(idle(""), None, "nothing was given");
     }
 }

@@ -27,6 +27,7 @@ mod pattern;
 mod pipeline;
 mod probing;
 mod quantity;
+mod rivet;
 mod sense;
 mod settings;
 mod settings_file;
@@ -62,6 +63,7 @@ pub use quantity::{
     DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, ParseWaitError, Place, Tiles,
     ToolChangeAt, Triple, Wait,
 };
+pub use rivet::rivet;
 pub use settings::Settings;
 pub use settings_file::{DEFAULTS, FILE_NAME};
 pub use tools::{Library, OwnTool, ToolChoice, Workbench};

@@ -5,7 +5,7 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use crate::gcode::dialect::ToolChange;
-use crate::toolpath::{Angle, Feed};
+use crate::toolpath::{Angle, Feed, Material};
 
 use super::by_net::StrategyFor;
 use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
@@ -252,8 +252,15 @@ pub struct Options {
     #[serde(deserialize_with = "turns::deserialize", skip_serializing_if = "Option::is_none")]
     pub drill_spindle: Option<u32>,
 
-    /// Bore slots and holes without a drill with an end mill
-    #[arg(long, num_args = 0, default_missing_value = "true", help_heading = "Drilling and cutting out")]
+    /// Bore slots, and holes thicker than the thickest drill or without one, with an end mill; =false drills slots hole by hole
+    #[arg(
+        long,
+        value_name = "true|false",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "true",
+        help_heading = "Drilling and cutting out"
+    )]
     pub drill_bore: Option<bool>,
 
     /// Bore holes of this diameter and wider, and slots, whatever drills are at hand
@@ -287,15 +294,50 @@ pub struct Options {
     #[serde(with = "text")]
     pub alignment_margin: Option<Length>,
 
-    /// How deep holes go: the board and the drill's tip
+    /// How deep alignment holes go at their full width, for pins to stand in what lies below [default: the board's thickness and 3mm]
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub alignment_depth: Option<Length>,
+
+    /// How deep all holes go, whatever their drill [default: the board's thickness, --break-through and the tip of each drill]
     #[arg(
         long,
         value_name = "LENGTH",
         allow_hyphen_values = true,
         help_heading = "Drilling and cutting out"
     )]
-    #[serde(with = "text")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_depth: Option<Length>,
+
+    /// How far a drill's full width goes beyond the board's back
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub break_through: Option<Length>,
+
+    /// The angle of the tip of drills that have no table of their own; carbide drills have 130deg
+    #[arg(long, value_name = "ANGLE", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text")]
+    pub drill_tip_angle: Option<Angle>,
+
+    /// What the board is made of, for the speeds of drills: fr4 (glass epoxy) or fr1 (paper phenolic)
+    #[arg(
+        long,
+        value_enum,
+        hide_possible_values = true,
+        value_name = "MATERIAL",
+        help_heading = "Drilling and cutting out"
+    )]
+    pub material: Option<Material>,
+
+    /// Height for travel while drilling [default: --safe-z]
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub drill_safe_z: Option<Length>,
+
+    /// Drill plated holes this much wider, for rivets or tubes
+    #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub rivet: Option<Length>,
 
     /// How far apart two lines of the outline may end and still meet
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]

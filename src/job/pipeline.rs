@@ -10,6 +10,7 @@ use crate::toolpath::{Order, Placement, Program, Section};
 use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
+use super::rivet::rivet;
 use super::stock::Stock;
 use super::{Error, Layer, Narrow, Part, Settings, Written, by_net, idle, numbering, tag};
 
@@ -60,6 +61,12 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     if !settings.ignore.is_empty() {
         warnings.extend(ignore(&mut board, &settings.ignore, settings.topology));
     }
+    if let Some(wider) = settings.rivet
+        && rivet(&mut board, wider) == 0
+    {
+        let message = "no hole of the board is plated: --rivet changes nothing".to_owned();
+        warnings.push(Warning::new("rivet-without-hole", message));
+    }
     let bounds = board.bounds().ok_or_else(|| no_copper(settings))?;
     let stock = Stock::new(bounds, settings);
     let layers = isolate(&board, &stock, settings)?;
@@ -85,6 +92,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let placement = stock.placement(side);
         let (sections, found) = drill_holes(&board, &placement, settings);
         let drilling = turned(whole("drill", &board, sections, settings), &placement);
+        let drilling = Program { safe: settings.drilling.safe, ..drilling };
         let files = in_files(drilling, settings);
         planned.extend(files.into_iter().map(|program| (Part::Drill, side, program)));
         warnings.extend(found);
@@ -212,10 +220,12 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
         mill: settings.drill_bore.then_some(&settings.drill_bore_tool),
         bored_from: settings.drill_bore_from,
         heights: settings.drilling,
+        tips: settings.drill_tips,
         placement,
         order: Order::default(),
         dwell: settings.drill_dwell,
         speeds: settings.drill_speeds,
+        point: settings.drill_tip_angle,
     };
     drill(&board.holes, &drilling)
 }

@@ -42,15 +42,11 @@ pub(super) fn count(
 }
 
 /// The height for travel: one that clears the surface as a rapid must.
-pub(super) fn travel_height(options: &Options) -> Result<Nm, Error> {
-    let safe = positive("safe-z", options.safe_z)?;
+pub(super) fn travel_height(key: &'static str, height: Option<Length>) -> Result<Nm, Error> {
+    let safe = positive(key, height)?;
     let least = verify::Settings::default().clearance;
     if safe < least {
-        return wrong(
-            "safe-z",
-            safe,
-            &format!("the tool travels {} above the surface at least", Length(least)),
-        );
+        return wrong(key, safe, &format!("the tool travels {} above the surface at least", Length(least)));
     }
     Ok(safe)
 }
@@ -85,6 +81,18 @@ pub(super) fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
         return wrong("alignment-margin", margin, &expected);
     }
     Ok(Some((diameter, margin)))
+}
+
+/// How deep the holes for pins go, which must be through the board.
+pub(super) fn alignment_depth(options: &Options, thickness: Nm) -> Result<Option<Nm>, Error> {
+    let depth = given("alignment-depth", options.alignment_depth)?;
+    match depth.filter(|&depth| depth <= thickness) {
+        Some(depth) => {
+            let expected = format!("a board of {} is not drilled through", Length(thickness));
+            wrong("alignment-depth", depth, &expected)
+        }
+        None => Ok(depth),
+    }
 }
 
 /// How far the machine goes.

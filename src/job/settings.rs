@@ -4,7 +4,7 @@ use crate::board::Side;
 use crate::gcode::Dialect;
 use crate::gcode::dialect::ToolChange;
 use crate::geometry::{Nm, Vector};
-use crate::toolpath::{self, Angle, Feed, Heights, Machine, Tool, ToolKind};
+use crate::toolpath::{self, Angle, DrillSpeeds, Heights, Machine, Tool, ToolKind};
 
 use super::Error;
 use super::Options;
@@ -16,7 +16,7 @@ use super::output_name;
 use super::pattern::Pattern;
 use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Wait};
 use super::sense;
-use super::tools::{ToolChoice, Workshop};
+use super::tools::{ToolChoice, Workshop, point_angle};
 
 /// Everything a job needs to know, complete and checked.
 ///
@@ -76,8 +76,10 @@ pub struct Settings {
     pub thickness: Nm,
     /// The drills at hand; none for one of each diameter.
     pub drills: Vec<Tool>,
-    /// The speeds of drills that have none of their own; none for those that suit their diameters.
-    pub drill_speeds: (Option<Feed>, Option<u32>),
+    /// How drills are run that have no speeds of their own.
+    pub drill_speeds: DrillSpeeds,
+    /// The tip of drills that do not say theirs.
+    pub drill_tip_angle: Angle,
     /// How long a drill stays at the bottom of a hole, in milliseconds.
     pub drill_dwell: u32,
     /// How far a drill may differ from its hole.
@@ -94,6 +96,12 @@ pub struct Settings {
     pub machine: Machine,
     /// How high and deep drills go.
     pub drilling: Heights,
+    /// Whether each drill goes deeper than that by its tip.
+    pub drill_tips: bool,
+    /// How deep alignment holes go at their full width.
+    pub alignment_depth: Nm,
+    /// How much wider plated holes are drilled.
+    pub rivet: Option<Nm>,
     /// How far apart two lines of the outline may end and still meet.
     pub outline_gap: Nm,
     /// The end mill that cuts the board out.
@@ -115,6 +123,9 @@ pub struct Settings {
 /// The height above the copper from which the tool goes down at the plunge feed. Chosen: clear of any burr, and not
 /// long enough to cost time.
 const APPROACH: Nm = Nm::from_um(200);
+
+/// How deep alignment pins stand in what lies below the board, unasked. Chosen: as deep as a pin of 3 mm is thick, so that it stands straight.
+const PINS: Nm = Nm::from_mm(3);
 
 /// The finest pixel.
 const FINEST: Nm = Nm::from_um(1);
@@ -143,14 +154,15 @@ impl Settings {
             feed: options.feed.expect(open),
             plunge: options.plunge.expect(open),
             spindle: options.spindle.expect(open),
-            drilling: (options.drill_plunge, options.drill_spindle),
+            drilling: drill_speeds(&options),
+            point: tip_angle(&options)?,
         };
         let cutout_tool = end_mill(
             "cutout-tool",
             workshop.fetch("cutout-tool", options.cutout_tool.as_ref().expect(open))?.tool,
         )?;
         let drills = drills(options.drills.as_ref(), &workshop)?;
-        let safe = sense::travel_height(&options)?;
+        let safe = sense::travel_height("safe-z", options.safe_z)?;
         let heights = |cut: Nm, step: Option<Nm>| Heights { safe, approach: APPROACH.min(safe), cut, step };
         let cutout_depth = positive("cutout-depth", options.cutout_depth)?;
         let tab_height = positive("tab-height", options.tab_height)?;
@@ -169,7 +181,19 @@ impl Settings {
         let machine = profile.map_or_else(Machine::default, |profile| profile.machine());
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
         sense::kerfs(&isolation)?;
-        let drill_depth = positive("drill-depth", options.drill_depth)?;
+        let thickness = positive("thickness", options.thickness)?;
+        let through = thickness + positive("break-through", options.break_through)?;
+        let drill_depth = given("drill-depth", options.drill_depth)?;
+        let drill_safe = match options.drill_safe_z {
+            Some(_) => sense::travel_height("drill-safe-z", options.drill_safe_z)?,
+            None => safe,
+        };
+        let deep = drill_depth.unwrap_or(through);
+        let drilling = Heights {
+            safe: drill_safe,
+            approach: APPROACH.min(drill_safe),
+            ..heights(deep, sense::step("drill-peck", options.drill_peck, deep)?)
+        };
         Ok(Self {
             frame_margin: frame_margin(&options, &isolation)?,
             adaptive_depth: sense::adaptive_depth(&options, &isolation)?,
@@ -179,14 +203,18 @@ impl Settings {
             tiles,
             tool_change: options.tool_change_at,
             alignment: sense::alignment(&options)?,
-            drilling: heights(drill_depth, sense::step("drill-peck", options.drill_peck, drill_depth)?),
+            drilling,
+            drill_tips: drill_depth.is_none(),
+            alignment_depth: sense::alignment_depth(&options, thickness)?.unwrap_or(thickness + PINS),
+            rivet: given("rivet", options.rivet)?,
             narrow: options.narrow.expect(open),
             rotate: options.rotate.expect(open),
             offset: options.offset.map_or_else(Vector::default, |to| Vector::new(to.x.nm(), to.y.nm())),
             mirror_axis: options.mirror_axis.map(Length::nm),
-            thickness: positive("thickness", options.thickness)?,
+            thickness,
             drills,
             drill_speeds: workshop.drilling,
+            drill_tip_angle: workshop.point,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
             drill_tolerance: sense::drill_tolerance(&options)?,
             drill_bore: options.drill_bore.expect(open) || options.drill_bore_from.is_some(),
@@ -301,6 +329,29 @@ fn up(side: Option<DrillSide>) -> Side {
         None | Some(DrillSide::Front) => Side::Front,
         Some(DrillSide::Back) => Side::Back,
     }
+}
+
+/// How drills are run: as fast as the machine turns, or, where nothing is known of it, as fast as its cutters are to turn.
+pub(super) fn drill_speeds(options: &Options) -> DrillSpeeds {
+    let machine = options.machine.as_ref().map(|machine| machine.0.machine());
+    let usual = options.spindle.expect("the defaults leave nothing open");
+    let turns = match machine.and_then(|machine| machine.spindle) {
+        Some((least, most)) if most < u32::MAX => (least, most),
+        Some((least, _)) => (least, usual.max(least)),
+        None => (0, usual),
+    };
+    DrillSpeeds {
+        plunge: options.drill_plunge,
+        spindle: options.drill_spindle,
+        material: options.material.unwrap_or_default(),
+        turns,
+        most: machine.and_then(|machine| machine.feed).map(|[.., z]| z),
+    }
+}
+
+fn tip_angle(options: &Options) -> Result<Angle, Error> {
+    let angle = options.drill_tip_angle.expect("the defaults leave nothing open");
+    point_angle(angle).map_err(|problem| Error::Value { key: "drill-tip-angle", problem })
 }
 
 fn ramp(angle: Option<Angle>) -> Result<Option<Angle>, Error> {
@@ -482,6 +533,11 @@ mod tests {
             ("safe-z = \"50um\"", "safe-z"),
             ("cutout-pass = \"1nm\"", "cutout-pass"),
             ("drill-peck = \"1nm\"", "drill-peck"),
+            ("drill-tip-angle = \"180deg\"", "drill-tip-angle"),
+            ("drill-safe-z = \"50um\"", "drill-safe-z"),
+            ("break-through = \"0mm\"", "break-through"),
+            ("rivet = \"0mm\"", "rivet"),
+            ("alignment-depth = \"1mm\"", "alignment-depth"),
             ("drill-tolerance = \"-1um\"", "drill-tolerance"),
             ("alignment-holes = \"3mm\"\nalignment-margin = \"1mm\"", "alignment-margin"),
             ("machine-travel = \"280mm,0mm,40mm\"", "machine-travel"),

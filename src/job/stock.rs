@@ -10,7 +10,7 @@
 use crate::board::{Board, Hole, Plating, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect, Vector};
 use crate::toolpath::strategy::{Drilling, drill};
-use crate::toolpath::{Order, Placement, Program, Tiling, alignment_holes};
+use crate::toolpath::{Heights, Order, Placement, Program, Tiling, alignment_holes};
 
 use super::{Settings, Tiles};
 
@@ -89,21 +89,25 @@ impl Stock {
             tolerance: settings.drill_tolerance,
             mill: Some(&settings.drill_bore_tool),
             bored_from: None,
-            heights: settings.drilling,
+            heights: Heights { cut: settings.alignment_depth, ..settings.drilling },
+            tips: true,
             placement: &placement,
             order: Order::default(),
             dwell: 0,
             speeds: settings.drill_speeds,
+            point: settings.drill_tip_angle,
         };
         let (sections, warnings) = drill(&holes, &drilling);
         let note = format!(
             "pins in these holes hold the stock when it is turned over about x = {:.3} mm",
             self.axis
         );
+        let below = settings.alignment_depth - settings.thickness;
+        let depth = format!("the holes go {below:.1} mm into what lies below the board");
         let program = Program {
             title: format!("{} alignment", board.name),
-            notes: vec!["z 0 is the top of the copper".to_owned(), note],
-            safe: settings.safe,
+            notes: vec!["z 0 is the top of the copper".to_owned(), note, depth],
+            safe: settings.drilling.safe,
             sections,
         };
         Some((program, warnings))

@@ -10,7 +10,7 @@ use std::str::FromStr;
 use serde::Deserialize;
 
 use crate::geometry::Nm;
-use crate::toolpath::{BUILT_IN, Feed, ParseToolError, Tool, ToolKind};
+use crate::toolpath::{Angle, BUILT_IN, CARBIDE_POINT, DrillSpeeds, Feed, ParseToolError, Tool, ToolKind};
 
 use super::quantity::{Length, text};
 use super::turns;
@@ -65,6 +65,8 @@ pub struct OwnTool {
     pub spindle: Option<u32>,
     /// How deep it isolates.
     pub depth: Option<Nm>,
+    /// The angle of a drill's tip.
+    pub point: Option<Angle>,
 }
 
 /// The keys of a table, as they are written.
@@ -75,7 +77,8 @@ struct Table {
     #[serde(default, with = "text")]
     tip: Option<Length>,
     #[serde(default, with = "text")]
-    angle: Option<crate::toolpath::Angle>,
+    angle: Option<Angle>,
+    carbide: Option<bool>,
     #[serde(default, with = "text")]
     diameter: Option<Length>,
     number: Option<u32>,
@@ -92,7 +95,7 @@ struct Table {
 }
 
 /// The keys that only a table has.
-pub(super) const TABLE_KEYS: &[&str] = &["kind", "tip", "angle", "diameter", "number"];
+pub(super) const TABLE_KEYS: &[&str] = &["kind", "tip", "angle", "diameter", "number", "carbide"];
 
 #[derive(Clone, Copy, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -120,23 +123,48 @@ impl TryFrom<Table> for OwnTool {
         if table.number == Some(0) {
             return Err("expected a number from 1".to_owned());
         }
+        let point = table.point(kind)?;
         let Table { number, feed, plunge, spindle, .. } = table;
-        Ok(Self { kind, number, feed, plunge, spindle, depth })
+        Ok(Self { kind, number, feed, plunge, spindle, depth, point })
     }
 }
 
 impl Table {
+    /// The tip of a drill, where the table says something of it.
+    fn point(&self, kind: ToolKind) -> Result<Option<Angle>, String> {
+        match (kind, self.angle, self.carbide) {
+            (ToolKind::Drill { .. }, Some(angle), _) => point_angle(angle).map(Some),
+            (ToolKind::Drill { .. }, None, Some(true)) => Ok(Some(CARBIDE_POINT)),
+            (ToolKind::VBit { .. } | ToolKind::EndMill { .. }, _, Some(_)) => {
+                Err("expected carbide for a drill alone".to_owned())
+            }
+            (..) => Ok(None),
+        }
+    }
+
     fn kind(&self) -> Result<ToolKind, String> {
         let kind = match (self.kind, self.tip, self.angle, self.diameter) {
             (Shape::VBit, Some(tip), Some(angle), None) => ToolKind::VBit { tip: tip.nm(), angle },
             (Shape::VBit, ..) => return Err("expected tip and angle for a vbit".to_owned()),
             (Shape::EndMill, None, None, Some(diameter)) => ToolKind::EndMill { diameter: diameter.nm() },
             (Shape::EndMill, ..) => return Err("expected diameter alone for an endmill".to_owned()),
-            (Shape::Drill, None, None, Some(diameter)) => ToolKind::Drill { diameter: diameter.nm() },
-            (Shape::Drill, ..) => return Err("expected diameter alone for a drill".to_owned()),
+            (Shape::Drill, None, _, Some(diameter)) => ToolKind::Drill { diameter: diameter.nm() },
+            (Shape::Drill, ..) => {
+                return Err(
+                    "expected diameter for a drill, and the angle of its tip if you know it".to_owned()
+                );
+            }
         };
         Ok(kind)
     }
+}
+
+/// An angle that a drill's tip can have.
+pub(super) fn point_angle(angle: Angle) -> Result<Angle, String> {
+    if angle > Angle::from_degrees(30) && angle < Angle::from_degrees(180) {
+        return Ok(angle);
+    }
+    Err(format!("`{angle}` is no drill's tip: expected an angle between 30deg and 180deg"))
 }
 
 /// How deep a tool of this shape cuts a kerf, or why no depth does.
@@ -215,7 +243,15 @@ impl Library {
         self.0.get(name).copied().or_else(|| {
             let (_, text) = BUILT_IN.iter().find(|(built_in, _)| *built_in == name)?;
             let kind = text.parse().expect("the built-in tools are right");
-            Some(OwnTool { kind, number: None, feed: None, plunge: None, spindle: None, depth: None })
+            Some(OwnTool {
+                kind,
+                number: None,
+                feed: None,
+                plunge: None,
+                spindle: None,
+                depth: None,
+                point: None,
+            })
         })
     }
 }
@@ -264,7 +300,8 @@ impl Workbench {
             feed: self.options.feed.expect(open),
             plunge: self.options.plunge.expect(open),
             spindle: self.options.spindle.expect(open),
-            drilling: (self.options.drill_plunge, self.options.drill_spindle),
+            drilling: super::settings::drill_speeds(&self.options),
+            point: self.options.drill_tip_angle.expect(open),
         };
         workshop.fetch("tools", choice).map(|fetched| fetched.tool)
     }
@@ -276,8 +313,10 @@ pub(super) struct Workshop<'a> {
     pub(super) feed: Feed,
     pub(super) plunge: Feed,
     pub(super) spindle: u32,
-    /// The speeds of drills that do not say theirs; none for those that suit their diameters.
-    pub(super) drilling: (Option<Feed>, Option<u32>),
+    /// How drills are run that do not say their speeds.
+    pub(super) drilling: DrillSpeeds,
+    /// The tip of drills that do not say theirs.
+    pub(super) point: Angle,
 }
 
 /// A tool out of the workshop.
@@ -292,17 +331,24 @@ impl Workshop<'_> {
     /// The tool that `choice` means. `key` is the option that names it.
     pub(super) fn fetch(&self, key: &'static str, choice: &ToolChoice) -> Result<Fetched, Error> {
         let own = match choice {
-            ToolChoice::Kind(kind) => {
-                OwnTool { kind: *kind, number: None, feed: None, plunge: None, spindle: None, depth: None }
-            }
+            ToolChoice::Kind(kind) => OwnTool {
+                kind: *kind,
+                number: None,
+                feed: None,
+                plunge: None,
+                spindle: None,
+                depth: None,
+                point: None,
+            },
             ToolChoice::Named(name) => self.library.find(name).ok_or_else(|| self.unknown(key, name))?,
         };
         // The settings' speeds are a cutter's; drills have usual ones of their own.
         let usual = match own.kind {
             ToolKind::Drill { .. } => {
-                let (usual, (plunge, spindle)) = (Tool::new(own.kind), self.drilling);
-                let (plunge, spindle) = (plunge.unwrap_or(usual.plunge), spindle.unwrap_or(usual.spindle));
-                Tool { plunge, spindle, ..usual }
+                let diameter = own.kind.width_at(Nm::ZERO);
+                let speeds = DrillSpeeds { spindle: own.spindle.or(self.drilling.spindle), ..self.drilling };
+                let (plunge, spindle) = speeds.of(diameter);
+                Tool { plunge, spindle, ..Tool::new(own.kind) }
             }
             ToolKind::VBit { .. } | ToolKind::EndMill { .. } => {
                 Tool { feed: self.feed, plunge: self.plunge, spindle: self.spindle, ..Tool::new(own.kind) }
@@ -314,6 +360,7 @@ impl Workshop<'_> {
             feed: own.feed.unwrap_or(usual.feed),
             plunge: own.plunge.unwrap_or(usual.plunge),
             spindle: own.spindle.unwrap_or(usual.spindle),
+            point: own.point.unwrap_or(self.point),
             ..usual
         };
         Ok(Fetched { tool, depth: own.depth })
@@ -348,7 +395,8 @@ mod tests {
                 feed,
                 plunge: feed,
                 spindle: 9000,
-                drilling: (None, None),
+                drilling: DrillSpeeds::default(),
+                point: crate::toolpath::POINT,
             };
             workshop.fetch("tool", &"fine".parse().expect("a name")).expect("a tool").tool
         };
@@ -368,6 +416,8 @@ mod tests {
             ("kind = \"endmill\"\ndiameter = \"1mm\"\nkerf = \"2mm\"", "at any depth"),
             ("kind = \"vbit\"\ntip = \"0.1mm\"\nangle = \"30deg\"\nkerf = \"0.05mm\"", "wider"),
             ("kind = \"drill\"\ndiametre = \"1mm\"", "did you mean `diameter`"),
+            ("kind = \"drill\"\ndiameter = \"1mm\"\nangle = \"190deg\"", "180deg"),
+            ("kind = \"endmill\"\ndiameter = \"1mm\"\ncarbide = true", "a drill alone"),
             ("kind = \"drill\"\ndiameter = \"1mm\"\nnumber = 0", "from 1"),
         ] {
             let error =

@@ -53,7 +53,10 @@ impl Part {
             | "tool-change-at" | "blend" | "offset" => true,
             "output-name" => false,
             _ if option.starts_with("alignment") => self == Self::Alignment,
-            "drill-depth" => matches!(self, Self::Alignment | Self::Drill),
+            "drill-tip-angle" | "drill-safe-z" | "drill-plunge" | "drill-spindle" | "material" => {
+                matches!(self, Self::Alignment | Self::Drill)
+            }
+            "break-through" | "rivet" => self == Self::Drill,
             _ if option.starts_with("drill") => self == Self::Drill,
             _ if option.starts_with("cutout") || option.starts_with("tab") => self == Self::Cutout,
             _ => matches!(self, Self::Front | Self::Back),

@@ -6,6 +6,7 @@
 //! the [`Machine`], so re-cutting a short way, lifting, and rapid travel are compared in one currency.
 
 mod angle;
+mod drill_speed;
 mod feed;
 mod head;
 mod heights;
@@ -21,6 +22,7 @@ mod tool;
 mod trails;
 
 pub use angle::{Angle, ParseAngleError};
+pub use drill_speed::{DrillSpeeds, Material};
 pub use feed::{Feed, ParseFeedError};
 pub use heights::Heights;
 pub use machine::{Acceleration, Machine, ParseAccelerationError};
@@ -29,4 +31,4 @@ pub use order::Order;
 pub use placement::{Origin, Placement};
 pub use program::{Move, Position, Program, Section};
 pub use tiling::{Tiling, alignment_holes};
-pub use tool::{BUILT_IN, ParseToolError, Tool, ToolKind};
+pub use tool::{BUILT_IN, CARBIDE_POINT, POINT, ParseToolError, Tool, ToolKind};

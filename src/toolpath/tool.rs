@@ -4,6 +4,7 @@ use std::str::FromStr;
 use crate::geometry::{Nm, ParseLengthError};
 
 use super::angle::{Angle, ParseAngleError};
+use super::drill_speed::DrillSpeeds;
 use super::feed::Feed;
 
 /// What a tool's cutting end looks like.
@@ -50,7 +51,15 @@ pub struct Tool {
     pub plunge: Feed,
     /// Revolutions per minute.
     pub spindle: u32,
+    /// The full angle of a drill's tip; more than 0°, less than 180°. Other tools have none.
+    pub point: Angle,
 }
+
+/// The tip of a common twist drill. DIN 1412's type N.
+pub const POINT: Angle = Angle::from_degrees(118);
+
+/// The tip of a solid carbide drill for boards, as their makers state it.
+pub const CARBIDE_POINT: Angle = Angle::from_degrees(130);
 
 /// Why a text is not a tool.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -133,18 +142,31 @@ impl Tool {
     /// Chosen: what makers of small engravers state for their bits, at the lower end.
     #[must_use]
     pub fn new(kind: ToolKind) -> Self {
+        let speeds = |feed, plunge| (Feed::from_mm_per_min(feed), Feed::from_mm_per_min(plunge), 12_000);
         let (feed, plunge, spindle) = match kind {
-            ToolKind::VBit { .. } => (200, 100, 12_000),
-            ToolKind::EndMill { .. } => (150, 60, 12_000),
-            ToolKind::Drill { .. } => (60, 60, 10_000),
+            ToolKind::VBit { .. } => speeds(200, 100),
+            ToolKind::EndMill { .. } => speeds(150, 60),
+            ToolKind::Drill { diameter } => {
+                let (plunge, spindle) = DrillSpeeds::default().of(diameter);
+                (plunge, plunge, spindle)
+            }
         };
-        Self {
-            name: kind.to_string(),
-            kind,
-            number: 1,
-            feed: Feed::from_mm_per_min(feed),
-            plunge: Feed::from_mm_per_min(plunge),
-            spindle,
+        Self { name: kind.to_string(), kind, number: 1, feed, plunge, spindle, point: POINT }
+    }
+
+    /// How far its tip reaches below the place from which on it cuts its full width: a drill's cone.
+    ///
+    /// ```text
+    ///   │  d  │
+    ///   ├╌╌╌╌╌┤  ┐
+    ///    ╲   ╱   │ d / 2 / tan(point / 2)
+    ///      V     ┘
+    /// ```
+    #[must_use]
+    pub fn tip_length(&self) -> Nm {
+        match self.kind {
+            ToolKind::Drill { diameter } => Nm::from_f64(diameter.to_f64() / 2.0 / slope(self.point)),
+            ToolKind::VBit { .. } | ToolKind::EndMill { .. } => Nm::ZERO,
         }
     }
 
@@ -237,6 +259,16 @@ mod tests {
         assert_eq!(width, Nm::new(153_590), "0.1 + 2 · 0.1 · tan 15°");
         assert_eq!(tool.depth_for(width), Some(Nm::from_um(100)), "and back");
         assert_eq!(tool.depth_for(Nm::from_um(99)), None, "narrower than its tip");
+    }
+
+    #[test]
+    fn a_drills_tip_is_longer_the_thicker_and_the_sharper_it_is() {
+        let tip = |text: &str, point| Tool { point, ..text.parse().unwrap() }.tip_length();
+        // 0.5 mm / tan 59° and tan 65°, 1.6 mm / tan 59°.
+        assert_eq!(tip("drill:1mm", POINT), Nm::new(300_430), "118 degrees");
+        assert_eq!(tip("drill:1mm", CARBIDE_POINT), Nm::new(233_154), "130 degrees");
+        assert_eq!(tip("drill:3.2mm", POINT), Nm::new(961_377), "of a thick one");
+        assert_eq!(tip("endmill:1mm", POINT), Nm::ZERO, "an end mill is flat");
     }
 
     #[test]

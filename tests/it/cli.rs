@@ -76,6 +76,7 @@ fn milling_a_double_sided_board_writes_every_program_picture_and_the_report() {
         "regulator-drill-1.0mm.ngc",
         "regulator-drill-1.3mm.ngc",
         "regulator-drill-3.2mm.ngc",
+        "regulator-drill-endmill-1.0mm.ngc",
         "regulator-front.ngc",
         "regulator-front.png",
         "regulator.html",

@@ -4,6 +4,7 @@ mod accuracy;
 mod aperture_lists;
 mod cli;
 mod dialect_files;
+mod drills;
 mod euler;
 mod exact_voronoi;
 mod excellon;

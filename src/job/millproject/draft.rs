@@ -112,7 +112,15 @@ impl<'a> Draft<'a> {
             refused: Vec::new(),
             isolating: Isolating::default(),
             cutting: Cutting {
-                cutter: OwnTool { kind, number: None, feed: None, plunge: None, spindle: None, depth: None },
+                cutter: OwnTool {
+                    kind,
+                    number: None,
+                    feed: None,
+                    plunge: None,
+                    spindle: None,
+                    depth: None,
+                    point: None,
+                },
                 depth: None,
                 bridges: None,
                 bridges_count: None,

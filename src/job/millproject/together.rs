@@ -204,6 +204,8 @@ impl Draft<'_> {
             options.tools.add(BORER, OwnTool { kind: ToolKind::EndMill { diameter }, ..cutter });
         }
         let Some(from) = self.drilling.milled_from else {
+            // Drilled whatever the diameter, and slots hole by hole.
+            options.drill_bore = Some(false);
             if let Some((_, entry)) = self.drilling.mill_depth {
                 self.leave(&entry, "nothing is bored");
             }

@@ -7,7 +7,7 @@ use crate::board::{Hole, Warning};
 use crate::geometry::{Nm, Path, Point, Segment, Vector};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
-use crate::toolpath::{Feed, Heights, Placement, Section, Tool, ToolKind};
+use crate::toolpath::{Angle, DrillSpeeds, Heights, Placement, Section, Tool, ToolKind};
 
 /// How holes are drilled.
 #[derive(Clone, Copy, Debug)]
@@ -22,15 +22,23 @@ pub struct Drilling<'a> {
     pub bored_from: Option<Nm>,
     /// How high and how deep; the step is the peck.
     pub heights: Heights,
+    /// Whether that depth is the full diameter's: each drill goes deeper by its tip.
+    pub tips: bool,
     /// From board to machine.
     pub placement: &'a Placement,
     /// How the holes are ordered.
     pub order: Order,
     /// How long the drill stays at the bottom, in milliseconds.
     pub dwell: u32,
-    /// The plunge feed and turns per minute of drills that are only taken to be at hand; none for those that suit their diameters.
-    pub speeds: (Option<Feed>, Option<u32>),
+    /// How drills are run that are only taken to be at hand.
+    pub speeds: DrillSpeeds,
+    /// The tip of those drills.
+    pub point: Angle,
 }
+
+/// The thickest drill that is taken to be at hand unasked, where a mill can bore instead. Chosen: the shank of drills for boards has 3.175 mm,
+/// and M3 wants 3.2 mm.
+const THICKEST: Nm = Nm::from_um(3200);
 
 /// Drills all holes: a section for each drill, thin ones first, then one for what is bored.
 ///
@@ -64,10 +72,14 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.
 fn bit(hole: &Hole, settings: &Drilling<'_>) -> Option<Tool> {
     if settings.drills.is_empty() {
+        if hole.diameter > THICKEST
+            && settings.mill.is_some_and(|mill| bore::fits(hole, mill, settings.tolerance))
+        {
+            return None;
+        }
+        let (plunge, spindle) = settings.speeds.of(hole.diameter);
         let usual = Tool::new(ToolKind::Drill { diameter: hole.diameter });
-        let (plunge, spindle) = settings.speeds;
-        let (plunge, spindle) = (plunge.unwrap_or(usual.plunge), spindle.unwrap_or(usual.spindle));
-        return Some(Tool { plunge, spindle, ..usual });
+        return Some(Tool { plunge, spindle, point: settings.point, ..usual });
     }
     let off = |tool: &&Tool| (tool.width_at(Nm::ZERO) - hole.diameter).abs();
     let nearest =
@@ -83,7 +95,9 @@ fn missing(hole: &Hole) -> Warning {
 
 /// All holes of one drill.
 fn section(tool: Tool, holes: &[&Hole], settings: &Drilling<'_>) -> Section {
-    let mut head = Head::new(settings.heights, tool.plunge);
+    let tip = if settings.tips { tool.tip_length() } else { Nm::ZERO };
+    let heights = Heights { cut: settings.heights.cut + tip, ..settings.heights };
+    let mut head = Head::new(heights, tool.plunge);
     let chains: Vec<Vec<Point>> =
         holes.iter().map(|hole| chain(&settings.placement.path(&hole.path), hole.diameter)).collect();
     let ends = |chain: &Vec<Point>| Stretch::open(chain[0], chain[chain.len() - 1]);
@@ -93,8 +107,8 @@ fn section(tool: Tool, holes: &[&Hole], settings: &Drilling<'_>) -> Section {
         if leg.reversed {
             points.reverse();
         }
-        for point in points {
-            plunge(&mut head, point, settings);
+        for point in halved(points.len()).into_iter().map(|index| points[index]) {
+            plunge(&mut head, point, heights, settings.dwell);
         }
     }
     let count = holes.len();
@@ -107,27 +121,43 @@ fn section(tool: Tool, holes: &[&Hole], settings: &Drilling<'_>) -> Section {
 }
 
 /// One hole: down in pecks, up to the approach height after each to clear the chips.
-fn plunge(head: &mut Head, point: Point, settings: &Drilling<'_>) {
+fn plunge(head: &mut Head, point: Point, heights: Heights, dwell: u32) {
     head.over(point);
-    for (peck, depth) in settings.heights.passes().enumerate() {
+    for (peck, depth) in heights.passes().enumerate() {
         if peck > 0 {
-            head.rapid_to(settings.heights.approach);
+            head.rapid_to(heights.approach);
         }
         head.plunge(depth);
     }
-    if settings.dwell > 0 {
-        head.dwell(settings.dwell);
+    if dwell > 0 {
+        head.dwell(dwell);
     }
 }
 
-/// The holes that make a slot: so close that the scallops between them stay below [`SCALLOP`]; the ends first, then
-/// the middles between, so that the bit always has material, or none, on both sides.
+/// The order of so many holes in a row in which the drill always has material, or none, on both sides: the ends first, then the middles
+/// between, again and again.
+fn halved(count: usize) -> Vec<usize> {
+    let last = count.saturating_sub(1);
+    let mut order = if last == 0 { vec![0] } else { vec![0, last] };
+    let mut gaps = std::collections::VecDeque::from([(0, last)]);
+    while let Some((from, to)) = gaps.pop_front() {
+        if to > from + 1 {
+            let middle = usize::midpoint(from, to);
+            order.push(middle);
+            gaps.extend([(from, middle), (middle, to)]);
+        }
+    }
+    order
+}
+
+/// The holes that make a slot: so close that the scallops between them stay below [`SCALLOP`], but no closer than a quarter of the drill,
+/// as a drill that has nothing to bite on slips into the hole beside it.
 fn chain(path: &Path, diameter: Nm) -> Vec<Point> {
     let mut points = vec![path.start];
     let pitch = {
         let radius = diameter.to_f64() / 2.0;
         let scallop = SCALLOP.to_f64().min(radius);
-        2.0 * (scallop * (2.0 * radius - scallop)).sqrt()
+        (2.0 * (scallop * (2.0 * radius - scallop)).sqrt()).max(radius / 2.0)
     };
     for (from, segment) in path.steps() {
         points.extend(spaced(from, segment, pitch));
@@ -165,4 +195,21 @@ fn spaced(from: Point, segment: &Segment, pitch: f64) -> Vec<Point> {
         }
     };
     (1..=count).map(at).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn holes_in_a_row_are_halved_and_each_comes_once() {
+        assert_eq!(halved(1), [0], "one alone");
+        assert_eq!(halved(2), [0, 1], "two ends");
+        assert_eq!(halved(9), [0, 8, 4, 2, 6, 1, 3, 5, 7], "the middles between");
+        for count in 1..40 {
+            let mut order = halved(count);
+            order.sort_unstable();
+            assert!(order.into_iter().eq(0..count), "all of {count}");
+        }
+    }
 }
