@@ -45,6 +45,9 @@ impl Isolate {
             let hint = "name the file of one layer, say --side, or use `voromill mill`";
             return Err(Failure::new("there is copper for both sides, and a program is for one", hint));
         }
+        if loaded.board.front.is_none() && loaded.board.back.is_none() {
+            return Err(job::Error::NoCopper("in these files".to_owned()).into());
+        }
         loaded.board.holes.clear();
         let mut job = job::mill(loaded, &settings)?;
         // No other is written, so no other is told of.

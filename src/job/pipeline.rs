@@ -48,7 +48,7 @@ pub struct Job {
 ///
 /// # Errors
 ///
-/// [`Error`] if there is no copper, a file was cut off, or a side cannot be isolated.
+/// [`Error`] if there is neither copper nor an outline nor a hole, a file was cut off, or a side cannot be isolated.
 pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let Loaded { mut board, sources, mut warnings, ignored } = loaded;
     if let Some(cut_off) = warnings.iter().find(|warning| warning.code == TRUNCATED) {
@@ -145,7 +145,9 @@ fn restrained<'a>(programs: impl Iterator<Item = &'a mut Program>, settings: &Se
 fn isolate(board: &Board, stock: &Stock, settings: &Settings) -> Result<Vec<Layer>, Error> {
     let sides: Vec<_> = [Side::Front, Side::Back].into_iter().filter_map(|side| board.copper(side)).collect();
     let copper = sides.iter().filter(|copper| !copper.features.is_empty());
-    if copper.count() == 0 {
+    // A board without copper is drilled and cut out; one whose copper is all left out is a mistake.
+    let is_bare = sides.is_empty() && (board.outline.is_some() || !board.holes.is_empty());
+    if copper.count() == 0 && !is_bare {
         return Err(no_copper(settings));
     }
     let isolate = |copper: &&_| {

@@ -4,7 +4,7 @@
 //! is cut free: to the outline and a little beyond, or, where no outline is known, to a frame round the copper that is cut once.
 //! Whatever lies beyond is drawn above everything else with a label of its own; boundaries end where they meet it.
 
-use crate::board::{Copper, FLATTEN, Outline, polarity};
+use crate::board::{Copper, FLATTEN, Outline, Shape, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon, Rect};
 
 use super::Settings;
@@ -75,8 +75,56 @@ impl Border {
         self.rings.border(0..self.ring_count, p)
     }
 
-    /// Whether `p` lies on the board.
-    pub(super) fn holds(&self, p: Point) -> bool {
-        self.inside.iter().any(|polygon| polygon.contains(p))
+    /// Whether any of a shape's area lies on the board: a pad round a drawn hole does, though its middle does not.
+    pub(super) fn has_some_of(&self, shape: &Shape) -> bool {
+        self.inside.iter().any(|inside| lies_in(shape, inside))
+    }
+}
+
+/// Whether any of a shape's area lies in `area`.
+pub(super) fn lies_in(shape: &Shape, area: &Polygon) -> bool {
+    // A point of copper within the area has some of its copper around it, in the area too.
+    if area.winding(shape.anchor()).is_some_and(|times| times != 0) {
+        return true;
+    }
+    let Some(near) = area.clipped(shape.bounds()) else { return false };
+    shape.polygon(FLATTEN).is_some_and(|shape| !polarity::intersection(&shape, &near).is_empty())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(x: i64, y: i64) -> Point {
+        Point::new(Nm::from_um(x), Nm::from_um(y))
+    }
+
+    /// A board of 10 mm with a square hole of 1 mm in its middle.
+    fn border() -> Border {
+        let ring = |low: i64, high: i64| vec![at(low, low), at(high, low), at(high, high), at(low, high)];
+        let mut hole = ring(4500, 5500);
+        hole.reverse();
+        let board = Polygon::new(vec![ring(0, 10_000), hole]).expect("a board");
+        let window = board.bounds();
+        Border::round(vec![board], window, None, Nm::MAX)
+    }
+
+    #[test]
+    fn copper_is_on_the_board_by_its_area_alone() {
+        let disc = |x, y, radius| Shape::Disc { center: at(x, y), radius: Nm::from_um(radius) };
+        let across = Shape::Stroke { from: at(-1000, 2000), to: at(11_000, 2100), radius: Nm::from_um(50) };
+        let corner =
+            Shape::Polygon(Polygon::hull([at(-4000, 5), at(5, -4000), at(400, 400)]).expect("a triangle"));
+        for (shape, expected, what) in [
+            (disc(5000, 5000, 1000), true, "a pad round the hole"),
+            (disc(5000, 5000, 400), false, "one that the hole takes altogether"),
+            (disc(5000, 5000, 499), false, "just so"),
+            (disc(-500, 5000, 600), true, "a disc that reaches over the edge"),
+            (disc(-500, 5000, 499), false, "and one that does not"),
+            (across, true, "a trace with both ends and its middle off the board"),
+            (corner, true, "a polygon's corner"),
+        ] {
+            assert_eq!(border().has_some_of(&shape), expected, "{what}");
+        }
     }
 }

@@ -22,10 +22,10 @@ use crate::geometry::{Nm, Path, Point, Polygon, Rect};
 use crate::grid::Grid;
 use crate::topology::{NetId, Nets};
 
-use super::edge::Border;
+use super::edge::{Border, lies_in};
 use super::junction::{self, Junctions};
 use super::plane::Spot;
-use super::{Boundaries, Boundary, Diagram, Error, Owner, Settings, SiteKind, touches};
+use super::{Boundaries, Boundary, Diagram, Error, Owner, Settings, SiteKind};
 
 /// Which nets have a loop of their own.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -139,8 +139,9 @@ fn fields(
     let bounds: Vec<Rect> = pieces.iter().map(Polygon::bounds).collect();
     let home = |(net, looped): (&crate::topology::Net, &bool)| {
         let lies_in = |piece: usize| {
-            let holds = |p: Point| bounds[piece].contains(p) && pieces[piece].contains(p);
-            net.features.iter().any(|&feature| touches(&copper.features[feature as usize].shape, holds))
+            let shapes = net.features.iter().map(|&feature| &copper.features[feature as usize].shape);
+            let mut near = shapes.filter(|shape| shape.bounds().touches(bounds[piece]));
+            near.any(|shape| lies_in(shape, &pieces[piece]))
         };
         (0..pieces.len()).find(|&piece| !looped && lies_in(piece))
     };

@@ -47,7 +47,7 @@ use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::board::{Copper, Outline, Shape, Side, Warning};
+use crate::board::{Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect};
 use crate::grid::{Grid, GridError};
 use crate::raster::{self, Scene, TileContent};
@@ -460,22 +460,12 @@ fn nets_beyond(copper: &Copper, nets: &Nets, border: &Border) -> Vec<(NetId, Poi
     let outlined = border.frame.is_none();
     for (i, feature) in copper.features.iter().enumerate() {
         let net = nets.of(i).index();
-        on_board[net] = on_board[net] || !outlined || touches(&feature.shape, |p| border.holds(p));
+        on_board[net] = on_board[net] || !outlined || border.has_some_of(&feature.shape);
     }
     let beyond = (0_u32..).zip(nets.nets()).filter(|(id, _)| !on_board[NetId(*id).index()]);
     beyond
         .map(|(id, net)| (NetId(id), middle(copper.features[net.features[0] as usize].shape.bounds())))
         .collect()
-}
-
-/// Whether some of the shape's own points lie where `holds` says.
-fn touches(shape: &Shape, holds: impl Fn(Point) -> bool) -> bool {
-    match shape {
-        Shape::Disc { center, .. } => holds(*center),
-        Shape::Stroke { from, to, .. } => holds(*from) || holds(*to) || holds(from.midpoint(*to)),
-        Shape::Arc { arc, .. } => holds(arc.start) || holds(arc.end),
-        Shape::Polygon(polygon) => polygon.contours().iter().flatten().any(|&p| holds(p)),
-    }
 }
 
 fn middle(rect: Rect) -> Point {

@@ -3,10 +3,12 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
+use voromill::board::Side;
 use voromill::gcode::{dialect, read};
 use voromill::geometry::Nm;
 use voromill::import::{self, Selection};
 use voromill::job::{self, Job, Options, Part, Settings};
+use voromill::verify::Severity;
 
 /// The job on a board of `fixtures/boards`, with settings as a settings file gives them.
 fn job(files: &str, settings: &str) -> (Job, Settings) {
@@ -379,4 +381,35 @@ fn the_walkthrough_does_what_it_says() {
         assert_eq!(tools(part), [(3, "endmill:1mm".to_owned())], "which is the same in {part:?}");
     }
     assert!(is_clean(&job, &settings), "{:?}", job.verify(&settings).expect("a verdict").findings);
+}
+
+#[test]
+fn pads_over_drawn_holes_are_isolated() {
+    for settings in
+        ["", "strategy = \"outline\"\ntool = \"endmill:0.15mm\"", "strategy-for = \"LOWER=outline\""]
+    {
+        let (job, settings) = job("../drawn-holes", settings);
+        assert!(!warned(&job, "copper-outside-board"), "the pads round the holes are on the board");
+        let report = job.verify(&settings).expect("it can be judged");
+        let bad = report.findings.iter().find(|finding| finding.severity == Severity::Error);
+        assert_eq!(bad.map(|finding| &finding.message), None, "no shorts");
+    }
+}
+
+#[test]
+fn a_board_without_copper_is_drilled_and_cut_out() {
+    let (job, settings) = job("../bare", "");
+    assert!(warned(&job, "copper-missing"), "says that there is none");
+    let mut parts: Vec<Part> = job.programs.iter().map(|program| program.part).collect();
+    parts.dedup();
+    assert_eq!(parts, [Part::Drill, Part::Cutout], "what there is to do");
+    let report = job.verify(&settings).expect("it can be judged");
+    assert!(
+        report.findings.iter().all(|finding| finding.severity < Severity::Error),
+        "{:?}",
+        report.findings
+    );
+    let document = job.describe(&settings);
+    assert!(job.page(&settings, &document).is_ok(), "it has a page");
+    assert!(job.picture(Side::Front, &settings).is_none(), "no copper, no picture of it");
 }

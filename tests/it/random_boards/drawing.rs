@@ -73,6 +73,15 @@ struct Edge {
     round: i64,
 }
 
+/// A hole or a slot drawn on the outline layer.
+#[derive(Clone, Debug)]
+enum Drawn {
+    /// In the middle of an item, of so many, so wide.
+    Hole { item: usize, diameter: i64 },
+    /// Anywhere, so long between the middles of its round ends, and so wide.
+    Slot { at: Spot, length: i64, width: i64, degrees: i64 },
+}
+
 /// A board drawn at random.
 #[derive(Clone)]
 pub(super) struct Drawing {
@@ -83,6 +92,8 @@ pub(super) struct Drawing {
     items: Vec<(Spot, Item)>,
     plane: Option<Plane>,
     edge: Option<Edge>,
+    /// Cut out, where there is an edge.
+    drawn: Vec<Drawn>,
 }
 
 const FULL: std::ops::Range<i64> = 0..360;
@@ -151,13 +162,23 @@ pub(super) fn drawing() -> impl Strategy<Value = Drawing> {
     let edge = (0..1_500_000_i64, prop_oneof![Just(0), 0..2_000_000_i64])
         .prop_map(|(margin, round)| Edge { margin, round });
     let optional = (prop::option::weighted(0.3, plane), prop::option::weighted(0.6, edge));
-    (size, grid, items, optional).prop_map(|(size, grid, items, (plane, edge))| Drawing {
+    let drawn = prop_oneof![2 => Just(Vec::new()), 1 => prop::collection::vec(drawn(), 1..4)];
+    (size, grid, items, optional, drawn).prop_map(|(size, grid, items, (plane, edge), drawn)| Drawing {
         size,
         grid,
         items,
         plane,
         edge,
+        drawn,
     })
+}
+
+fn drawn() -> impl Strategy<Value = Drawn> {
+    let hole =
+        (0..28_usize, 400_000..2_000_000_i64).prop_map(|(item, diameter)| Drawn::Hole { item, diameter });
+    let slot = ((0..=PARTS, 0..=PARTS), 500_000..4_000_000_i64, 500_000..1_500_000_i64, degrees());
+    let slot = slot.prop_map(|(at, length, width, degrees)| Drawn::Slot { at, length, width, degrees });
+    prop_oneof![3 => hole, 1 => slot]
 }
 
 impl Drawing {
@@ -206,7 +227,30 @@ impl Drawing {
             }
             from = then;
         }
+        self.drawn.iter().for_each(|drawn| self.cut_out(drawn, &mut pen));
         Some(pen.finish())
+    }
+
+    /// Draws the edge of a hole or slot.
+    fn cut_out(&self, drawn: &Drawn, pen: &mut Pen) {
+        match *drawn {
+            Drawn::Hole { item, diameter } => {
+                let (x, y) = self.place(self.items[item % self.items.len()].0);
+                pen.to((x + diameter / 2, y), "D02");
+                pen.arc((x + diameter / 2, y), (-diameter / 2, 0), true);
+            }
+            Drawn::Slot { at, length, width, degrees } => {
+                let one = self.place(at);
+                let other = polar(one, length, degrees);
+                let (right, left) = (degrees - 90, degrees + 90);
+                pen.to(polar(one, width / 2, right), "D02");
+                for (end, from, to) in [(other, right, left), (one, left, right)] {
+                    let start = polar(end, width / 2, from);
+                    pen.to(start, "D01");
+                    pen.arc(polar(end, width / 2, to), (end.0 - start.0, end.1 - start.1), true);
+                }
+            }
+        }
     }
 
     /// The multiple of the grid near a place that is told in parts.
