@@ -74,6 +74,25 @@ fn small_gaps_are_closed_and_wide_ones_are_not() {
 }
 
 #[test]
+fn gaps_are_closed_where_the_strokes_touch() {
+    let fixture = |name: &str| {
+        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("fixtures/outline").join(name);
+        let bytes = fs::read(path).expect("a fixture");
+        let image = gerber::read(name, &bytes, &gerber::Options::default()).expect("it reads");
+        join(name, &bytes, &image.features, GAP)
+    };
+    let joined = fixture("strokes_touch.gbr");
+    assert_eq!(
+        (areas(&joined), codes(&joined)),
+        (vec![10_000], vec!["outline-gap"]),
+        "0.45 mm, drawn 0.5 mm wide"
+    );
+    assert!(joined.warnings[0].message.contains("1 gaps"), "{}", joined.warnings[0].message);
+    let joined = fixture("strokes_apart.gbr");
+    assert_eq!(codes(&joined), ["outline-loose-lines", "outline-open"], "0.55 mm, drawn as wide");
+}
+
+#[test]
 fn lines_drawn_twice_or_on_each_other_count_once() {
     let doubled = format!(
         "{}{}{}",

@@ -1,6 +1,6 @@
 use std::collections::BTreeSet;
 
-use crate::geometry::{Arc, Point, Rect, Segment, Turn, Vector};
+use crate::geometry::{Arc, Nm, Point, Rect, Segment, Turn, Vector};
 
 /// A line or an arc that is no full circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -11,15 +11,22 @@ pub(super) struct Edge {
     pub(super) round: Option<(Point, Turn)>,
     /// The line of the file that drew it.
     pub(super) line: u32,
+    /// Half the width that it is drawn with.
+    pub(super) half: Nm,
 }
 
 impl Edge {
     pub(super) const fn line(from: Point, to: Point, line: u32) -> Self {
-        Self { from, to, round: None, line }
+        Self { from, to, round: None, line, half: Nm::ZERO }
     }
 
     pub(super) const fn arc(arc: Arc, line: u32) -> Self {
-        Self { from: arc.start, to: arc.end, round: Some((arc.center, arc.turn)), line }
+        Self { from: arc.start, to: arc.end, round: Some((arc.center, arc.turn)), line, half: Nm::ZERO }
+    }
+
+    /// The same, drawn with a round aperture.
+    pub(super) const fn drawn(self, half: Nm) -> Self {
+        Self { half, ..self }
     }
 
     pub(super) fn segment(&self) -> Segment {
@@ -32,7 +39,7 @@ impl Edge {
     /// The same edge walked the other way.
     pub(super) fn reversed(&self) -> Self {
         let round = self.round.map(|(center, turn)| (center, turn.reversed()));
-        Self { from: self.to, to: self.from, round, line: self.line }
+        Self { from: self.to, to: self.from, round, ..*self }
     }
 
     fn as_arc(&self) -> Option<Arc> {
@@ -156,9 +163,8 @@ const fn to_float(value: i64) -> f64 {
 }
 
 /// The two halves of a full circle.
-pub(super) fn halves(arc: &Arc, line: u32) -> [Edge; 2] {
-    let opposite = arc.center + (arc.center - arc.start);
-    Edge::arc(*arc, line).parted(opposite)
+pub(super) fn halves(circle: &Edge, arc: &Arc) -> [Edge; 2] {
+    circle.parted(arc.center + (arc.center - arc.start))
 }
 
 /// Leaves out edges of no length and edges drawn twice, either way round.
@@ -179,8 +185,7 @@ pub(super) fn part_where_they_meet(edges: Vec<Edge>) -> Vec<Edge> {
     if edges.len() > MOST {
         return edges;
     }
-    let bounds: Vec<Rect> =
-        edges.iter().map(|edge| edge.bounds().inflate(crate::geometry::Nm::new(2_000))).collect();
+    let bounds: Vec<Rect> = edges.iter().map(|edge| edge.bounds().inflate(Nm::new(2_000))).collect();
     let mut order: Vec<usize> = (0..edges.len()).collect();
     order.sort_by_key(|&i| (bounds[i].min().x, i));
     let mut cuts: Vec<BTreeSet<Point>> = vec![BTreeSet::new(); edges.len()];

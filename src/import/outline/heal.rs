@@ -31,11 +31,59 @@ fn ends(edges: &[Edge]) -> BTreeMap<Point, End> {
     ends
 }
 
-/// Moves each loose end onto the nearest other end within `gap`: loose ends first, so that pairs find each other.
+/// How far apart ends may be that meet.
+enum Limit {
+    /// As far as the strokes that end there touch: by half the width of each.
+    Touch(BTreeMap<Point, Nm>),
+    /// So far.
+    Gap(Nm),
+}
+
+impl Limit {
+    /// What strokes of `edges` reach; nothing where there are so many ends that looking at all that are near would take long.
+    fn touch(edges: &[Edge]) -> Self {
+        /// Chosen: with all ends in one place, a second.
+        const MOST: usize = 10_000;
+        let mut halves = BTreeMap::<Point, Nm>::new();
+        for (edge, end) in edges.iter().take(MOST + 1).flat_map(|edge| [(edge, edge.from), (edge, edge.to)]) {
+            let half = halves.entry(end).or_default();
+            *half = edge.half.max(*half);
+        }
+        Self::Touch(if edges.len() > MOST { BTreeMap::new() } else { halves })
+    }
+
+    /// What no two ends that meet are farther apart than.
+    fn widest(&self) -> Nm {
+        match self {
+            Self::Touch(halves) => halves.values().copied().max().unwrap_or_default() * 2,
+            Self::Gap(gap) => *gap,
+        }
+    }
+
+    fn between(&self, p: Point, q: Point) -> Nm {
+        match self {
+            Self::Touch(halves) => {
+                let half = |end| halves.get(&end).copied().unwrap_or_default();
+                half(p) + half(q)
+            }
+            Self::Gap(gap) => *gap,
+        }
+    }
+}
+
+/// Moves each loose end onto the nearest other end that its stroke touches, and then such as are left onto the nearest within
+/// `gap`: loose ends first, so that pairs find each other.
 pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) {
     let (mut closed, mut widest) = (0_u32, None::<(f64, Point)>);
-    for loose_only in [true, false] {
-        let moves = nearest_pairs(edges, gap, loose_only);
+    let rounds = [(false, true), (false, false), (true, true), (true, false)];
+    for (anywhere, loose_only) in rounds {
+        let limit = if anywhere { Limit::Gap(gap) } else { Limit::touch(edges) };
+        let mut moves = nearest_pairs(edges, &limit, loose_only);
+        for &(width, from, to) in &moves {
+            if width > gap.to_f64() {
+                edges.push(Edge::line(from, to, line_at(edges, from)));
+            }
+        }
         for &(width, _, to) in &moves {
             if width > ROUNDING.to_f64() {
                 closed += 1;
@@ -44,6 +92,8 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
                 }
             }
         }
+        // What is wider is bridged by the line between the ends, which the strokes cover; ends do not go so far.
+        moves.retain(|&(width, ..)| width <= gap.to_f64());
         let moved: BTreeMap<Point, Point> = moves.into_iter().map(|(_, from, to)| (from, to)).collect();
         for edge in edges.iter_mut() {
             edge.from = *moved.get(&edge.from).unwrap_or(&edge.from);
@@ -58,18 +108,19 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
     }
 }
 
-/// Pairs of points within `gap`, the nearest first, none in two pairs: (distance, loose end, what it goes to).
+/// Pairs of points within `limit`, the nearest first, none in two pairs: (distance, loose end, what it goes to).
 ///
 /// The reach grows fourfold from one round to the next, and who has found a partner is out. So however many ends lie
 /// in one place, few of them are left to be looked at together, and the work grows with their number alone. That the
 /// nearest come first makes it the same as sorting all pairs at once.
-fn nearest_pairs(edges: &[Edge], gap: Nm, loose_only: bool) -> Vec<(f64, Point, Point)> {
+fn nearest_pairs(edges: &[Edge], limit: &Limit, loose_only: bool) -> Vec<(f64, Point, Point)> {
     let mut free = ends(edges);
     free.retain(|_, end| end.count == 1 || !loose_only);
     let mut pairs = Vec::new();
-    let first = (gap > Nm::ZERO).then_some(Nm::new(1));
-    for reach in successors(first, |&reach| (reach < gap).then(|| (reach * 4).min(gap))) {
-        let mut round = pairs_within(edges, &free, reach);
+    let widest = limit.widest();
+    let first = (widest > Nm::ZERO).then_some(Nm::new(1));
+    for reach in successors(first, |&reach| (reach < widest).then(|| (reach * 4).min(widest))) {
+        let mut round = pairs_within(edges, &free, limit, reach);
         round.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         for pair in round {
             if free.contains_key(&pair.1) && free.remove(&pair.2).is_some() {
@@ -81,15 +132,21 @@ fn nearest_pairs(edges: &[Edge], gap: Nm, loose_only: bool) -> Vec<(f64, Point, 
     pairs
 }
 
-/// All pairs of a loose end and another one of `free` within `reach`.
-fn pairs_within(edges: &[Edge], free: &BTreeMap<Point, End>, reach: Nm) -> Vec<(f64, Point, Point)> {
+/// All pairs of a loose end and another one of `free` within `limit` and `reach`.
+fn pairs_within(
+    edges: &[Edge],
+    free: &BTreeMap<Point, End>,
+    limit: &Limit,
+    reach: Nm,
+) -> Vec<(f64, Point, Point)> {
     let cells = Cells::new(free.keys().copied(), reach);
     let mut pairs = Vec::new();
     for (&p, end) in free.iter().filter(|(_, end)| end.count == 1) {
         for q in cells.around(p).filter(|&q| q != p) {
             let distance = p.distance(q);
             // A loose end is joined to a loose one from one side only: to the smaller point.
-            let fits = distance <= reach.to_f64() && (free[&q].count != 1 || q < p);
+            let one_way = free[&q].count != 1 || q < p;
+            let fits = distance <= reach.to_f64() && one_way && distance <= limit.between(p, q).to_f64();
             if fits && may_meet(&edges[end.edge], p, q, distance) {
                 pairs.push((distance, p, q));
             }
@@ -256,7 +313,7 @@ mod tests {
         fn ends_meet_as_if_all_pairs_were_sorted(edges in drawings(), gap in 1..2_500_i64, loose_only: bool) {
             let gap = Nm::new(gap);
             prop_assert_eq!(
-                nearest_pairs(&edges, gap, loose_only),
+                nearest_pairs(&edges, &Limit::Gap(gap), loose_only),
                 obvious_pairs(&edges, gap, loose_only),
                 "the same pairs in the same order"
             );

@@ -38,8 +38,8 @@ pub struct Joined {
     pub warnings: Vec<Warning>,
 }
 
-/// Joins the axes of `features`, read from the file `file` with content `bytes`, into contours; ends up to `gap` apart
-/// meet.
+/// Joins the axes of `features`, read from the file `file` with content `bytes`, into contours; ends meet whose strokes touch, and
+/// then such as are up to `gap` apart.
 #[must_use]
 pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
     let mut notes = Notes { file, bytes, lines: BTreeMap::new(), warnings: Vec::new() };
@@ -109,10 +109,13 @@ fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>
     let (mut edges, mut contours, mut flashes) = (Vec::new(), Vec::new(), Vec::new());
     for feature in features {
         let line = feature.line;
+        let half = half_width(&feature.shape);
         match (&feature.axis, &feature.shape) {
-            (Axis::Line(from, to), _) if from != to => edges.push(Edge::line(*from, *to, line)),
-            (Axis::Arc(arc), _) if arc.start == arc.end => edges.extend(edge::halves(arc, line)),
-            (Axis::Arc(arc), _) => edges.push(Edge::arc(*arc, line)),
+            (Axis::Line(from, to), _) if from != to => edges.push(Edge::line(*from, *to, line).drawn(half)),
+            (Axis::Arc(arc), _) if arc.start == arc.end => {
+                edges.extend(edge::halves(&Edge::arc(*arc, line).drawn(half), arc));
+            }
+            (Axis::Arc(arc), _) => edges.push(Edge::arc(*arc, line).drawn(half)),
             (Axis::Region, Shape::Polygon(polygon)) => {
                 for ring in polygon.contours() {
                     ring.iter().for_each(|&corner| notes.drawn(corner, line));
@@ -133,6 +136,14 @@ fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>
         notes.add(&flaw::OUTLINE_FLASHES, message, Some(first));
     }
     (edges, contours)
+}
+
+/// Half the width of what is drawn; nothing of what is not drawn with a round aperture.
+const fn half_width(shape: &Shape) -> Nm {
+    match shape {
+        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => *radius,
+        Shape::Polygon(_) => Nm::ZERO,
+    }
 }
 
 /// The signed area inside, counter-clockwise positive.
