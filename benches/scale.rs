@@ -1,5 +1,6 @@
 //! Time by stage and peak memory over boards of 10 to 10⁶ features: `cargo bench --bench scale [-- FEATURES…]`; and of a panel of
-//! 300 × 300 mm at 5 µm, 3.6 gigapixels: `cargo bench --bench scale -- panel`.
+//! 300 × 300 mm at 5 µm, 3.6 gigapixels: `cargo bench --bench scale -- panel`; and of so many features in one place:
+//! `cargo bench --bench scale -- 10000x 1000000x`.
 //!
 //! A plain program: each size runs in a process of its own, so that its peak memory can be told. Without sizes it takes
 //! 10 to 100 000; a million takes some minutes. Times are seconds on all cores; the CPU time of a feature, in which nets and gap are
@@ -26,10 +27,12 @@ const ONE: &str = "VOROMILL_SCALE_ONE";
 
 fn main() {
     if let Some(board) = std::env::var_os(ONE) {
-        return one(board.to_str().expect("a number or `panel`"));
+        return one(board.to_str().expect("a number, with or without `x`, or `panel`"));
     }
-    let asked =
-        std::env::args().skip(1).filter(|argument| argument == "panel" || argument.parse::<u32>().is_ok());
+    let is_count = |text: &str| text.parse::<u32>().is_ok();
+    let is_board =
+        |text: &String| text == "panel" || is_count(text) || text.strip_suffix('x').is_some_and(is_count);
+    let asked = std::env::args().skip(1).filter(is_board);
     let mut boards: Vec<String> = asked.collect();
     if boards.is_empty() {
         boards = ["10", "100", "1000", "10000", "100000"].map(str::to_owned).to_vec();
@@ -45,8 +48,12 @@ fn main() {
 /// Mills one board, stage by stage first and then as a whole.
 fn one(board: &str) {
     let is_panel = board == "panel";
-    let (text, features) =
-        if is_panel { synthetic::panel(30) } else { synthetic::gerber(board.parse().expect("a number")) };
+    let number = |text: &str| text.parse().expect("a number");
+    let (text, features) = match board.strip_suffix('x') {
+        Some(count) => (synthetic::coincident(number(count)), number(count)),
+        None if is_panel => synthetic::panel(30),
+        None => synthetic::gerber(number(board)),
+    };
     let pixel = is_panel.then(|| Length(Nm::from_um(5)));
     let folder = std::env::temp_dir().join(format!("voromill-scale-{board}-{}", std::process::id()));
     std::fs::create_dir_all(&folder).expect("a folder to write to");

@@ -34,6 +34,17 @@ pub(crate) fn panel(side: i64) -> (String, usize) {
     tiles(1000, (0..side).flat_map(|row| (0..side).map(move |column| (column, row))), |_| false)
 }
 
+/// A copper layer of `features` flashes in one place, half of them by a step-and-repeat of no step, and one pad beside them; it has two
+/// places with copper.
+#[allow(dead_code, reason = "not every benchmark needs it")]
+pub(crate) fn coincident(features: usize) -> String {
+    let mut text = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,1*%\nD10*\nX0Y2000000D03*\n".to_owned();
+    for _ in 0..features / 2 {
+        text.push_str("X0Y0D03*\n");
+    }
+    text + &format!("%SRX{}Y1I0J0*%\nX0Y0D03*\n%SR*%\nM02*\n", (features / 2).max(1))
+}
+
 /// Tiles at these columns and rows, until there are enough features; `unit` nanometres stand for a micrometre.
 fn tiles(
     unit: i64,

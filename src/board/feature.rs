@@ -3,7 +3,7 @@ use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Turn, Vector};
 use super::polarity;
 
 /// The copper of one feature, its edge included.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Shape {
     /// All points within `radius` of `center`.
     Disc {
@@ -123,7 +123,7 @@ fn swept_arc(arc: &Arc, radius: Nm, tolerance: Nm) -> Option<Polygon> {
 }
 
 /// How a feature was drawn: the paper's vertices and approximate core medial axis (§III-A.1, III-D).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
     /// An aperture flashed at a point.
     Flash(Point),

@@ -38,6 +38,10 @@ pub(super) struct Input {
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     skip: Vec<PathBuf>,
 
+    /// Take no drill file: everything but the holes
+    #[arg(long, conflicts_with = "drill_files", help_heading = "Files")]
+    no_drill: bool,
+
     /// What the board is called, and its output files after it
     #[arg(long, value_name = "NAME", help_heading = "Files")]
     name: Option<String>,
@@ -99,7 +103,9 @@ impl Input {
         let project = self.project()?;
         // With files named here, those of the project are of another board.
         let files = if self.paths.is_empty() { project.files } else { ProjectFiles::default() };
-        let drill = if self.drill_files.is_empty() {
+        let drill = if self.no_drill {
+            Vec::new()
+        } else if self.drill_files.is_empty() {
             files.drill.into_iter().collect()
         } else {
             self.drill_files.clone()
@@ -110,6 +116,7 @@ impl Input {
             outline: self.outline.clone().or(files.outline),
             drill,
             skip: self.skip.clone(),
+            no_drill: self.no_drill,
             name: self.name.clone().or(project.name),
             outline_gap: Some(settings.outline_gap),
         };

@@ -177,7 +177,8 @@ fn lengths<const COUNT: usize>(text: &str) -> Option<[Nm; COUNT]> {
 impl Verify {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
         let selection = Selection { skip: self.skip.clone(), ..Selection::default() };
-        let Loaded { mut board, sources, .. } = import::load(&self.board, &selection)?;
+        // What is cut says which side it is for; a file of copper that does not may be looked at as either.
+        let Loaded { mut board, sources, .. } = import::survey(&self.board, &selection)?;
         let mut programs =
             self.programs.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
         self.leave_out(&mut board, &programs);

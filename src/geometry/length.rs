@@ -58,7 +58,8 @@ pub(crate) fn nanometres(text: &str) -> Result<i64, ParseLengthError> {
     i64::try_from((scaled + half) / scale).map_err(|_| ParseLengthError::OutOfRange(text.to_owned()))
 }
 
-/// A decimal as mantissa and power of ten, `1.25` → (125, 100); at most 18 digits.
+/// A decimal as mantissa and power of ten, `1.25` → (125, 100); at most 18 digits before the point. What stands behind the 18th after it is below
+/// any rounding.
 fn decimal(text: &str) -> Option<(i128, i128)> {
     let (negative, unsigned) = match text.as_bytes() {
         [b'-', ..] => (true, &text[1..]),
@@ -66,12 +67,14 @@ fn decimal(text: &str) -> Option<(i128, i128)> {
         _ => (false, text),
     };
     let (whole, fraction) = unsigned.split_once('.').unwrap_or((unsigned, ""));
-    let digits = whole.len() + fraction.len();
-    if digits == 0 || digits > 18 {
+    if ![whole, fraction].concat().bytes().all(|b| b.is_ascii_digit()) || whole.len() + fraction.len() == 0 {
         return None;
     }
-    let all: String = [whole, fraction].concat();
-    let value: i128 = all.bytes().all(|b| b.is_ascii_digit()).then(|| all.parse().ok())??;
+    let (whole, fraction) = (whole.trim_start_matches('0'), &fraction[..fraction.len().min(18)]);
+    if whole.len() > 18 {
+        return None;
+    }
+    let value: i128 = ["0", whole, fraction].concat().parse().ok()?;
     let scale = 10_i128.pow(u32::try_from(fraction.len()).ok()?);
     Some((if negative { -value } else { value }, scale))
 }
@@ -88,6 +91,7 @@ mod tests {
             ("0.1in", 2_540_000),
             ("-1.5 um", -1_500),
             ("25µm", 25_000),
+            ("0.024000000000000004in", 609_600),
         ];
         for (text, nm) in cases {
             assert_eq!(text.parse::<Nm>(), Ok(Nm::new(nm)), "{text}");

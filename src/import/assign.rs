@@ -28,6 +28,8 @@ pub(super) struct Assigned {
     /// Where it was looked for, for messages.
     pub(super) place: String,
     pub(super) warnings: Vec<Warning>,
+    /// A copper layer whose side nothing tells, and which is taken for the front.
+    pub(super) guessed: Option<usize>,
 }
 
 impl Gathered {
@@ -69,7 +71,7 @@ pub(super) fn assign(
     let mut roles = witness(gathered, &job);
     choose_by_hand(gathered, selection, &mut roles, &mut assigned);
     refuse_contradictions(gathered, &roles, selection)?;
-    settle::groups(&mut roles);
+    assigned.guessed = settle::groups(&mut roles);
     assigned.front = assigned.front.or(settle::only(
         &roles,
         gathered,
@@ -97,7 +99,7 @@ pub(super) fn assign(
         "--outline",
         &assigned.place,
     )?);
-    if selection.drill.is_empty() {
+    if selection.drill.is_empty() && !selection.no_drill {
         assigned.drill =
             roles.iter().filter(|vote| vote.role == Some(Role::Drill)).map(|vote| vote.file).collect();
     }
@@ -142,9 +144,10 @@ fn refuse_unknown(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
     ))
 }
 
-/// A file whose name says drill and whose content says layer, or the other way round: one of the two is wrong, and
-/// guessing cuts the wrong thing.
+/// A file whose name says drill and whose content says layer, or the other way round, or one named for one side that calls itself
+/// the other: one of the two is wrong, and guessing cuts the wrong thing.
 fn refuse_contradictions(gathered: &Gathered, votes: &[Vote], selection: &Selection) -> Result<(), Error> {
+    refuse_other_side(gathered, votes)?;
     for vote in votes {
         let file = &gathered.files[vote.file];
         let named = layers::role_by_sure_name(&file.name);
@@ -172,6 +175,25 @@ fn refuse_contradictions(gathered: &Gathered, votes: &[Vote], selection: &Select
             _ => continue,
         };
         return Err(Error::content(&file.shown, what, hint));
+    }
+    Ok(())
+}
+
+/// A file named for one side that calls itself the other.
+fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
+    let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
+    let shared = layers::shared_start(&names);
+    for vote in votes.iter().filter(|vote| vote.witness > Witness::Name) {
+        let file = &gathered.files[vote.file];
+        let Some(Role::Copper(side)) = vote.role else { continue };
+        if let Some(Role::Copper(named)) = layers::role_by_name(&file.name, shared)
+            && named != side
+        {
+            let witness = if vote.witness == Witness::Job { "the job file" } else { "its .FileFunction" };
+            let what = format!("named like the {named} copper, but {witness} calls it the {side}");
+            let hint = format!("say which it is: --front {0} or --back {0}", file.name);
+            return Err(Error::content(&file.shown, what, hint));
+        }
     }
     Ok(())
 }
@@ -266,6 +288,7 @@ fn take_the_only_one(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigne
     let mut unknown = votes.iter().filter(free);
     if let (Some(vote), None) = (unknown.next(), unknown.next()) {
         assigned.front = Some(vote.file);
+        assigned.guessed = Some(vote.file);
         let file = &gathered.files[vote.file];
         let message = format!("nothing tells the side of {}, so it is taken for the front", file.name);
         assigned.warnings.push(flaw::SIDE_ASSUMED.warning(message).caused_by(file.first_line()));

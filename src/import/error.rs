@@ -69,6 +69,17 @@ impl Error {
         Self::Content { file: file.to_owned(), what: what.into(), hint: hint.into() }
     }
 
+    /// The same, with another thing to do about it.
+    pub(in crate::import) fn or(mut self, way_out: &str) -> Self {
+        let hint = match &mut self {
+            Self::Syntax(diagnosis) => &mut diagnosis.hint,
+            Self::Content { hint, .. } => hint,
+        };
+        let separator = if hint.is_empty() { "" } else { "; " };
+        *hint += &format!("{separator}{way_out}");
+        self
+    }
+
     /// The error as a terminal shows it: the line with a marker under the offending text, what was expected, the hint.
     #[must_use]
     pub fn render(&self) -> String {

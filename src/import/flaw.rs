@@ -110,6 +110,20 @@ pub(in crate::import) const MISSING_PERCENT: Flaw = Flaw::new(
     "have the layer written again, or add the `%`",
 );
 
+/// An aperture that cannot be read and is not needed.
+pub(in crate::import) const MALFORMED_APERTURE: Flaw = Flaw::new(
+    "malformed-aperture",
+    "an aperture definition, such as `%ADD10C,0.25*%`",
+    "have the layer written again if something of it is missing",
+);
+
+/// A drill that cannot be read and is not needed.
+pub(in crate::import) const MALFORMED_TOOL: Flaw = Flaw::new(
+    "malformed-tool",
+    "a tool with its diameter, such as `T1C0.8`",
+    "count the holes that `inspect` lists",
+);
+
 /// A command that no Gerber specification has.
 pub(in crate::import) const UNKNOWN_COMMAND: Flaw = Flaw::new(
     "unknown-command",

@@ -241,7 +241,8 @@ pub(super) fn role_by_name(name: &str, shared: usize) -> Option<Role> {
         .or_else(|| numbered(&extension, &["g", "gp", "l", "ly", "in"]).map(|_| Role::Other("inner copper")))
         .or_else(|| numbered(&extension, &["gm"]).map(|_| Role::Other("mechanical layer")))
         .or_else(|| role_by_words(&extension_words(name, stem.len())))
-        .or_else(|| role_by_words(&words(stem.get(shared..).unwrap_or(stem))))
+        .or_else(|| role_by_words(&words(stem.get(shared..).unwrap_or(stem), false)))
+        .or_else(|| role_by_words(&words(stem.get(shared..).unwrap_or(stem), true)))
 }
 
 /// The role that a file's extension alone tells.
@@ -271,7 +272,7 @@ pub(super) fn is_gerber_by_extension(name: &str) -> bool {
 /// The words of an extension that speaks: `.StopTop`, `.Outline`; none of one of three letters.
 fn extension_words(name: &str, stem: usize) -> Vec<String> {
     let extension = name.get(stem..).unwrap_or_default();
-    if extension.len() > 4 { words(extension) } else { Vec::new() }
+    if extension.len() > 4 { words(extension, false) } else { Vec::new() }
 }
 
 fn role_by_words(words: &[String]) -> Option<Role> {
@@ -279,8 +280,15 @@ fn role_by_words(words: &[String]) -> Option<Role> {
     looked_up(PARTS, |part| words.iter().any(|word| word.contains(part)))
         .or_else(|| looked_up(ASIDE, |known| words.iter().any(|word| word == known)))
         .or_else(|| words.iter().rev().find_map(|word| looked_up(WORDS, |known| known == word)))
+        .or_else(|| words.iter().rev().find_map(|word| side_with_number(word)))
         .or_else(|| inner().then_some(Role::Other("inner copper")))
         .or_else(|| counted(words).map(Role::Group))
+}
+
+/// The side that a word names with a number behind it: `top1`.
+fn side_with_number(word: &str) -> Option<Role> {
+    let bare = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    looked_up(WORDS, |known| known == bare).filter(|role| matches!(role, Role::Copper(_)))
 }
 
 /// The number of a counted layer, in one word with what is counted or behind it.
@@ -295,13 +303,21 @@ fn numbered(word: &str, heads: &[&str]) -> Option<u32> {
     heads.iter().find_map(|head| word.strip_prefix(head)?.parse().ok())
 }
 
-/// The words of a name in lower case: parted by anything but letters and digits, and where a capital follows a small
-/// letter.
-fn words(text: &str) -> Vec<String> {
+/// The words of a name in lower case: parted by anything but letters and digits, where a capital follows a small letter, and where a
+/// letter follows a digit; with `in_capitals` also before the last of several capitals, `PCBBottom`.
+fn words(text: &str, in_capitals: bool) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut before = ' ';
-    for c in text.chars() {
-        if !c.is_ascii_alphanumeric() || (c.is_ascii_uppercase() && before.is_ascii_lowercase()) {
+    let mut rest = text.chars();
+    while let Some(c) = rest.next() {
+        let is_last = || rest.clone().next().is_some_and(|next| next.is_ascii_lowercase());
+        let begins = match before {
+            'a'..='z' => c.is_ascii_uppercase(),
+            '0'..='9' => c.is_ascii_alphabetic(),
+            'A'..='Z' => in_capitals && c.is_ascii_uppercase() && is_last(),
+            _ => false,
+        };
+        if !c.is_ascii_alphanumeric() || begins {
             words.push(String::new());
         }
         if c.is_ascii_alphanumeric() {
@@ -378,6 +394,11 @@ mod tests {
             ("IRNASIoTbank1.2.Drill", Role::Drill),
             ("EtchLayerTop.gdo", FRONT),
             ("EtchLayerBottom.gdo", BACK),
+            ("EtchLayer1Top.gdo", FRONT),
+            ("EtchLayer2Bottom.gdo", BACK),
+            ("etchlayer2bottom.gdo", BACK),
+            ("PCBBottom.gbr", BACK),
+            ("copper-top1.gbr", FRONT),
             ("BoardOutlline.gdo", Role::Outline),
             ("BOTTOM.art", BACK),
             ("PASTEMASK_TOP.art", Role::Other("solder mask")),

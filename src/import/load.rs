@@ -11,7 +11,7 @@ use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
 use super::unusable::quoted;
 use super::{gerber_drill, outline};
-use crate::board::{Axis, Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
+use crate::board::{Axis, Board, Copper, Feature, Hole, Outline, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
 
@@ -28,6 +28,8 @@ pub struct Selection {
     pub drill: Vec<PathBuf>,
     /// Files and folders that are left aside, by name or by the end of their path.
     pub skip: Vec<PathBuf>,
+    /// Whether no drill file is taken, whatever there is.
+    pub no_drill: bool,
     /// What the board is called.
     pub name: Option<String>,
     /// How far apart two lines of the outline may end and still meet; [`outline::GAP`] where it is left open.
@@ -52,12 +54,13 @@ pub struct Loaded {
 ///
 /// # Errors
 ///
-/// A path that cannot be read, two files for one role, no copper at all, or what the readers say of a file.
+/// A path that cannot be read, two files for one role, a copper layer whose side nothing tells, neither copper nor outline nor holes, or
+/// what the readers say of a file.
 pub fn load(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error> {
-    put_together(paths, selection, Need::Copper)
+    put_together(paths, selection, Need::Job)
 }
 
-/// As [`load()`], to be looked at: a drill file or an outline alone, or copper that draws nothing, is a warning.
+/// As [`load()`], to be looked at: copper that draws nothing, or of which only a guess tells the side, is a warning.
 ///
 /// # Errors
 ///
@@ -69,7 +72,8 @@ pub fn survey(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error>
 /// What a board must have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Need {
-    Copper,
+    /// Something to be done, and no doubt about what.
+    Job,
     AnyLayer,
 }
 
@@ -77,12 +81,18 @@ fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<
     let mut gathered = Gathered::under(paths, &selection.skip)?;
     gathered.add_selected(selection)?;
     let assigned = assign(&gathered, paths, selection)?;
+    if let (Need::Job, Some(index)) = (need, assigned.guessed) {
+        return Err(side_unknown(&gathered.files[index]));
+    }
     let mut build = Build::new(assigned.name.clone());
     build.warnings.extend(assigned.warnings.iter().cloned());
     build.coppers(&gathered, &assigned, need)?;
     build.outline(&gathered, &assigned, selection.outline_gap.unwrap_or(outline::GAP))?;
-    build.drills(&gathered, &assigned)?;
+    build.drills(&gathered, &assigned, need)?;
     build.warn_of_size();
+    if need == Need::Job {
+        build.refuse_size(&assigned.place)?;
+    }
     build.set_aside(&gathered, &assigned);
     let read = [assigned.front, assigned.back, assigned.outline]
         .into_iter()
@@ -146,18 +156,21 @@ impl Build {
             }
         }
         let read: Vec<&Found> = [assigned.front, assigned.back].into_iter().flatten().map(file).collect();
-        if need == Need::AnyLayer
-            && (!read.is_empty() || assigned.outline.is_some() || !assigned.drill.is_empty())
-        {
-            if read.is_empty() {
+        let has_more = assigned.outline.is_some() || !assigned.drill.is_empty();
+        // What nobody knows may be the copper.
+        let may_be_copper = |(index, what): &(usize, String)| {
+            what == "unknown role" && gathered.files[*index].kind == Kind::Gerber
+        };
+        let doubtful = need == Need::Job && assigned.aside.iter().any(may_be_copper);
+        match need {
+            _ if read.is_empty() && (!has_more || doubtful) => Err(no_copper(gathered, assigned)),
+            _ if read.is_empty() => {
                 self.warnings.push(flaw::COPPER_MISSING.warning("no copper layer is among the files"));
+                Ok(())
             }
-            return Ok(());
+            Need::Job => self.require_copper(&read),
+            Need::AnyLayer => Ok(()),
         }
-        if read.is_empty() {
-            return Err(no_copper(gathered, assigned));
-        }
-        self.require_copper(&read)
     }
 
     /// Takes over a copper layer; one that draws nothing is a warning.
@@ -212,18 +225,29 @@ impl Build {
         Ok(())
     }
 
-    fn drills(&mut self, gathered: &Gathered, assigned: &Assigned) -> Result<(), Error> {
+    fn drills(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
         let context = self.context();
         let mut warnings = Vec::new();
         for &index in &assigned.drill {
             let file = &gathered.files[index];
             let (holes, source) = match file.kind {
                 Kind::Gerber => {
-                    gerber_holes(gathered, file, assigned.by_hand.contains(&index), &mut warnings)?
+                    gerber_holes(gathered, file, assigned.by_hand.contains(&index), &mut warnings)
+                        .map_err(|error| error.or(NO_DRILL))?
                 }
                 Kind::Excellon | Kind::Unknown => {
-                    let drilling = excellon::read(&file.name, &file.bytes, &context)?;
-                    refuse_cut_off(file, drilling.holes.is_empty(), &drilling.warnings)?;
+                    let drilling = excellon::read(&file.name, &file.bytes, &context)
+                        .map_err(|error| error.or(NO_DRILL))?;
+                    refuse_cut_off(file, drilling.holes.is_empty(), &drilling.warnings)
+                        .map_err(|error| error.or(NO_DRILL))?;
+                    let by_hand = assigned.by_hand.contains(&index);
+                    let is_off = |warning: &&Warning| warning.code == flaw::DRILL_OFF_BOARD.code;
+                    if let Some(off) = drilling.warnings.iter().find(is_off)
+                        && need == Need::Job
+                        && !by_hand
+                    {
+                        return Err(off_board(file, off));
+                    }
                     warnings.extend(drilling.warnings);
                     (drilling.holes, drilling.source)
                 }
@@ -288,6 +312,22 @@ impl Build {
         }
     }
 
+    /// A board of a metre is none: a file is in another unit than it says.
+    fn refuse_size(&self, place: &str) -> Result<(), Error> {
+        /// Chosen: beyond what any mill for boards reaches, and below a board of 50 mm whose millimetres are taken for inches.
+        const METRE: Nm = Nm::from_mm(1000);
+        let bounds = self.board.bounds().filter(|bounds| bounds.width().max(bounds.height()) > METRE);
+        let Some(bounds) = bounds else { return Ok(()) };
+        let (width, height) = (bounds.width(), bounds.height());
+        let what =
+            format!("the board is {width:.1} × {height:.1} mm: a file is not in the unit that it says");
+        Err(Error::content(
+            place,
+            what,
+            "`inspect` lists the unit of each file; have the wrong one written again",
+        ))
+    }
+
     /// Lists the aperture lists that `files` draw with.
     fn wheels<'a>(
         &mut self,
@@ -308,7 +348,8 @@ impl Build {
             Axis::Flash(at) => Some(at),
             Axis::Line(..) | Axis::Arc(_) | Axis::Region => None,
         });
-        Context::new(pads, coppers().filter_map(Copper::bounds).reduce(Rect::union))
+        let edge = self.board.outline.iter().map(Outline::bounds);
+        Context::new(pads, coppers().filter_map(Copper::bounds).chain(edge).reduce(Rect::union))
     }
 
     /// Lists the layers that are recognised but not milled.
@@ -426,6 +467,21 @@ pub(super) fn describe(bytes: &[u8]) -> &'static str {
         None if bytes.iter().take(4096).all(text) => "a text of another kind",
         None => "a file of another kind",
     }
+}
+
+/// What to do about a drill file that cannot be read, if nothing else.
+const NO_DRILL: &str = "--no-drill does all but the holes";
+
+/// Holes most of which lie beside the board, however they are read.
+fn off_board(file: &Found, off: &Warning) -> Error {
+    let hint = format!("say --drill {} if they are right; {NO_DRILL}", file.name);
+    Error::content(&file.shown, &off.message, hint)
+}
+
+/// A copper layer that may be either side: a back that is not mirrored is a ruined board.
+fn side_unknown(file: &Found) -> Error {
+    let hint = format!("say it: --front {0} or --back {0}", file.shown);
+    Error::content(&file.shown, "nothing tells which side of the board this copper is", hint)
 }
 
 /// Why nothing could be milled, with what was found instead.

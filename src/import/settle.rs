@@ -9,11 +9,14 @@ use crate::board::{Side, Warning};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
 
-/// gEDA's numbered groups: the first is the component side, the last the solder side, where nothing better tells.
-pub(super) fn groups(votes: &mut [Vote]) {
+/// gEDA's numbered groups: the first is the component side, the last the solder side, where nothing better tells. The file whose side
+/// that is a guess of: of one layer alone that is not the first.
+pub(super) fn groups(votes: &mut [Vote]) -> Option<usize> {
     let numbers: Vec<u32> = votes.iter().filter_map(|vote| group(vote.role)).collect();
     let sided = votes.iter().any(|vote| matches!(vote.role, Some(Role::Copper(_))));
-    let (Some(&first), Some(&last)) = (numbers.iter().min(), numbers.iter().max()) else { return };
+    let (&first, &last) = numbers.iter().min().zip(numbers.iter().max())?;
+    let of_the_first = votes.iter().find(|vote| group(vote.role) == Some(first)).map(|vote| vote.file);
+    let guessed = of_the_first.filter(|_| !sided && first == last && first > 1);
     for vote in votes {
         let Some(number) = group(vote.role) else { continue };
         vote.role = Some(match number {
@@ -23,6 +26,7 @@ pub(super) fn groups(votes: &mut [Vote]) {
             _ => Role::Other("inner copper"),
         });
     }
+    guessed
 }
 
 const fn group(role: Option<Role>) -> Option<u32> {

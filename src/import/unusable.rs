@@ -152,7 +152,7 @@ impl Meant {
             Self::Copper(Side::Front) => selection.front.is_some(),
             Self::Copper(Side::Back) => selection.back.is_some(),
             Self::Outline => selection.outline.is_some(),
-            Self::Drill => !selection.drill.is_empty(),
+            Self::Drill => selection.no_drill || !selection.drill.is_empty(),
             Self::Layer => false,
         }
     }

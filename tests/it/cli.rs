@@ -348,17 +348,22 @@ fn nonsense_for_input_ends_in_a_message_and_no_file() {
     write("empty.gbr", b"");
     write("picture.gbr", b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\0\x01\0\0\0\x01\x08\x02\0\0\0");
     write("truncated.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%AMROUND*\n1,1,0.5,");
-    write("bare.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nM02*\n");
+    write("bare-F_Cu.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nM02*\n");
     write("file", b"");
     // Copper was read, and then the file ends in the middle of a command: nobody knows what was to follow.
-    write("cut-off.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nX1000000Y1000000D03*\nX30000");
-    let left = ["bare.gbr", "cut-off.gbr", "empty.gbr", "file", "picture.gbr", "truncated.gbr"];
+    write("cut-off-F_Cu.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nX1000000Y1000000D03*\nX30000");
+    let left = ["bare-F_Cu.gbr", "cut-off-F_Cu.gbr", "empty.gbr", "file", "picture.gbr", "truncated.gbr"];
     fails(&out, &["mill", "missing.gbr", "-o", "out"], &["missing.gbr"], &left);
     fails(&out, &["mill", "empty.gbr", "-o", "out"], &["empty.gbr", "empty"], &left);
     fails(&out, &["mill", "picture.gbr", "-o", "out"], &["picture.gbr", "PNG"], &left);
     fails(&out, &["mill", "truncated.gbr", "-o", "out"], &["truncated.gbr"], &left);
-    fails(&out, &["mill", "cut-off.gbr", "-o", "out"], &["cut-off.gbr:6:", "cut off", "hint: "], &left);
-    fails(&out, &["mill", "bare.gbr", "-o", "out"], &["no copper", "hint: "], &left);
+    fails(
+        &out,
+        &["mill", "cut-off-F_Cu.gbr", "-o", "out"],
+        &["cut-off-F_Cu.gbr:6:", "cut off", "hint: "],
+        &left,
+    );
+    fails(&out, &["mill", "bare-F_Cu.gbr", "-o", "out"], &["no copper", "hint: "], &left);
     let board = fixture("boards/blinker");
     fails(&out, &["mill", &board.to_string_lossy(), "-o", "file/out"], &["file/out", "hint: "], &left);
     fails(&out, &["mill", &board.to_string_lossy(), "-o", "file"], &["file", "hint: "], &left);
@@ -493,7 +498,7 @@ fn inspect_lists_files_nets_and_holes() {
 }
 
 #[test]
-fn a_drill_file_alone_can_be_inspected_and_not_milled() {
+fn a_drill_file_alone_can_be_inspected_and_drilled() {
     let out = folder();
     let drill = fixture("excellon/kicad.drl");
     let drill = drill.to_string_lossy();
@@ -503,7 +508,16 @@ fn a_drill_file_alone_can_be_inspected_and_not_milled() {
     for words in ["kicad.drl: drill", "3.200 mm  1 hole", "[copper-missing]"] {
         assert!(text.contains(words), "says `{words}`:\n{text}");
     }
-    fails(&out, &["mill", &drill, "-o", "out"], &["no copper layer found among kicad.drl (drill)"], &[]);
+    let done = voromill(out.path(), &["mill", &drill, "-o", "out", "--no-verify"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let names = listing(&out.path().join("out"));
+    assert!(names.iter().any(|name| name.starts_with("kicad-drill")), "{names:?}");
+    assert!(
+        !names.iter().any(|name| name.contains("front") || name.contains("cutout")),
+        "no more: {names:?}"
+    );
+    let words = ["there is no copper"];
+    fails(&out, &["isolate", &drill, "-o", "a.ngc"], &words, &["out"]);
 }
 
 #[test]

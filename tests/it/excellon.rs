@@ -74,6 +74,24 @@ fn the_copper_decides_between_number_formats() {
 }
 
 #[test]
+fn what_a_file_declares_gives_way_to_the_copper_alone() {
+    let pads = [at(10_000, 5_500), at(12_540, 5_500), at(15_080, 5_500), at(17_620, 5_500)];
+    let drilling = fixture_among("wrong_unit.drl", &Context::new(pads, Rect::around(pads)));
+    assert_eq!(starts(&drilling), pads, "millimetres, though it says inches");
+    assert_eq!(drilling.holes[0].diameter, Nm::from_um(800), "its tools too");
+    assert_eq!(codes(&drilling), ["drill-format-guessed"], "and says so");
+    assert!(
+        drilling.warnings[0].message.contains("0 of 4 holes lie on the board"),
+        "{:?}",
+        drilling.warnings
+    );
+    let elsewhere = Rect::around([at(-90_000, -90_000), at(-80_000, -80_000)]);
+    let drilling = fixture_among("wrong_unit.drl", &Context::new([], elsewhere));
+    assert_eq!(drilling.source.units, "inch", "as it says, where no reading fits");
+    assert_eq!(codes(&drilling), ["drill-off-board", "drill-implausible"], "and says so");
+}
+
+#[test]
 fn leading_zeros_are_counted_where_trailing_ones_are_left_out() {
     let drilling = fixture("altium.txt");
     let expected = [at(38_608, 11_557), at(38_608, 42_672), at(31_750, 42_672)];
@@ -126,6 +144,21 @@ fn tool_sizes_may_stand_in_comments() {
     let drilling = fixture("allegro.drl");
     let sizes: Vec<_> = drilling.holes.iter().map(|hole| hole.diameter).collect();
     assert_eq!(sizes, [Nm::new(609_600), Nm::new(609_600), Nm::new(3_175_000)], "24 and 125 mils");
+    let drilling = fixture("allegro_tools.drl");
+    let sizes: Vec<_> = drilling.holes.iter().map(|hole| hole.diameter).collect();
+    let expected = [Nm::new(304_800), Nm::new(304_800), Nm::new(609_600), Nm::new(3_175_000)];
+    assert_eq!(sizes, expected, "12 mils, 0.024 inches and 125 mils, of tools named before the sizes");
+}
+
+#[test]
+fn a_tool_that_cannot_be_read_matters_where_it_drills() {
+    let drilling = fixture("malformed_tool.drl");
+    assert_eq!(starts(&drilling), [at(1_000, 2_000)], "the hole of another tool");
+    assert_eq!(codes(&drilling), ["malformed-tool", "malformed-tool"], "and says so");
+    for tool in ["T2C-0.8", "T2C", "T2C0.8.1"] {
+        let text = format!("M48\nMETRIC\nT1C0.8\n{tool}\n%\nT2\nX1.0Y2.0\nM30\n");
+        assert!(read(&text).is_err_and(|error| error.starts_with("f.drl:4:")), "{tool} drills");
+    }
 }
 
 #[test]

@@ -57,11 +57,8 @@ fn a_board_cut_out_from_the_back_is_cut_turned_over() {
     let (there, here) = (over(&front), ends(&back));
     let placed = there.iter().filter(|p| near(p, &here)).count();
     assert!(placed * 10 >= there.len() * 9, "{placed} of {} ends are mirrored", there.len());
-    assert!(back.verify(&turned).expect("a verdict").passes(voromill::verify::Severity::Error), "it fits");
-    assert!(
-        front.verify(&settings).expect("a verdict").passes(voromill::verify::Severity::Error),
-        "so does it"
-    );
+    assert!(back.verify(&turned).expect("a verdict").passes(Severity::Error), "it fits");
+    assert!(front.verify(&settings).expect("a verdict").passes(Severity::Error), "so does it");
 }
 
 #[test]

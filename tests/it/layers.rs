@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use serde_json::Value;
 use voromill::board::{Hole, Side};
 use voromill::geometry::{Nm, Point};
-use voromill::import::{Loaded, Selection, load, load_copper};
+use voromill::import::{Loaded, Selection, load, load_copper, survey};
 
 #[expect(clippy::print_stderr, reason = "a test that skips says so")]
 fn boards() -> Option<Vec<PathBuf>> {
@@ -26,9 +26,16 @@ fn json(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).expect("readable")).expect("JSON")
 }
 
+/// The board in a folder; where nothing but `meta.json` tells which side a layer is, as that has it.
 fn board(path: &Path) -> Loaded {
-    load(&[path.to_owned()], &Selection::default())
-        .unwrap_or_else(|e| panic!("{}:\n{}", path.display(), e.render()))
+    let loaded = load(&[path.to_owned()], &Selection::default()).or_else(|error| {
+        if !error.to_string().contains("which side") {
+            return Err(error);
+        }
+        let front = json(&path.join("meta.json"))["layers"]["front"].as_str().map(|name| path.join(name));
+        load(&[path.to_owned()], &Selection { front, ..Selection::default() })
+    });
+    loaded.unwrap_or_else(|e| panic!("{}:\n{}", path.display(), e.render()))
 }
 
 pub(crate) fn files_of(loaded: &Loaded, role: &str) -> Vec<String> {
@@ -202,10 +209,10 @@ fn a_job_file_is_believed_before_functions_and_these_before_names() {
     let job = r#"{"GeneralSpecs": {"ProjectId": {"Name": "synth"}},
         "FilesAttributes": [{"Path": "a.gbr", "FileFunction": "Copper,L2,Bot"}]}"#;
     let (a, b, c) = (function("Copper,L1,Top"), function("Copper,L1,Top"), function("Profile,NP"));
-    let folder = Folder::with(&[("x.gbrjob", job), ("a.gbr", &a), ("b_bottom.gbr", &b), ("c-F_Cu.gbr", &c)]);
+    let folder = Folder::with(&[("x.gbrjob", job), ("a.gbr", &a), ("b-F_Mask.gbr", &b), ("c-F_Cu.gbr", &c)]);
     let loaded = folder.load(&Selection::default()).expect("a board");
     assert_eq!(files_of(&loaded, "back-copper"), ["a.gbr"], "by the job file");
-    assert_eq!(files_of(&loaded, "front-copper"), ["b_bottom.gbr"], "by its function");
+    assert_eq!(files_of(&loaded, "front-copper"), ["b-F_Mask.gbr"], "by its function");
     assert_eq!(files_of(&loaded, "outline"), ["c-F_Cu.gbr"], "by its function");
     assert_eq!(loaded.board.name, "synth", "by the job file");
 }
@@ -259,17 +266,65 @@ fn files_that_share_no_name_are_the_board_of_their_folder() {
 }
 
 #[test]
-fn a_single_file_is_the_side_that_it_says_or_the_front() {
+fn a_single_file_is_the_side_that_it_or_a_person_says() {
     let back = function("Copper,L2,Bot");
-    let folder = Folder::with(&[("some.gbr", SQUARE), ("other.gbr", &back), ("top.gbr", SQUARE)]);
-    for (name, role) in
-        [("some.gbr", "front-copper"), ("other.gbr", "back-copper"), ("top.gbr", "front-copper")]
-    {
+    let files = [("some.gbr", SQUARE), ("other.gbr", &back), ("top.gbr", SQUARE), ("art002.pho", SQUARE)];
+    let folder = Folder::with(&files);
+    for (name, role) in [("other.gbr", "back-copper"), ("top.gbr", "front-copper")] {
         let loaded = load(&[folder.path(name)], &Selection::default()).expect("a board");
         assert_eq!(files_of(&loaded, role), [name], "{role}");
     }
+    for name in ["some.gbr", "art002.pho"] {
+        let path = folder.path(name);
+        let error = load(&[path.clone()], &Selection::default()).expect_err("a guess").to_string();
+        assert!(error.contains("which side") && error.contains("--back"), "{name}: {error}");
+        let looked_at = survey(&[path.clone()], &Selection::default()).expect("it may be looked at");
+        assert_eq!(files_of(&looked_at, "front-copper"), [name], "as the front");
+        let said = Selection { back: Some(path.clone()), ..Selection::default() };
+        assert_eq!(files_of(&load(&[path], &said).expect("said"), "back-copper"), [name], "as it is said");
+    }
     let loaded = load_copper(&folder.path("some.gbr"), Side::Back).expect("a layer");
     assert!(loaded.board.back.is_some() && loaded.board.front.is_none(), "as asked for");
+}
+
+#[test]
+fn a_name_for_one_side_and_a_function_for_the_other_are_an_error() {
+    let front = function("Copper,L1,Top");
+    let folder = Folder::with(&[("amp-B_Cu.gbr", &front), ("amp-Edge_Cuts.gbr", SQUARE)]);
+    let error = folder.load(&Selection::default()).expect_err("a contradiction");
+    assert!(error.contains("amp-B_Cu.gbr") && error.contains("calls it the front"), "{error}");
+    let said = Selection { front: Some(folder.path("amp-B_Cu.gbr")), ..Selection::default() };
+    assert_eq!(
+        files_of(&folder.load(&said).expect("said"), "front-copper"),
+        ["amp-B_Cu.gbr"],
+        "a person decides"
+    );
+}
+
+#[test]
+fn without_drill_files_all_but_the_holes_is_done() {
+    let folder =
+        Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp.drl", "M48\nMETRIC\nT1C0.8\n%\nT1\nG99X1Y1\nM30\n")]);
+    let error = folder.load(&Selection::default()).expect_err("a drill file that cannot be read");
+    assert!(error.contains("amp.drl:6:1") && error.contains("--no-drill"), "{error}");
+    let bare = Selection { no_drill: true, ..Selection::default() };
+    let loaded = folder.load(&bare).expect("a board");
+    assert_eq!((loaded.board.holes.len(), files_of(&loaded, "drill").len()), (0, 0), "no hole");
+    assert_eq!(files_of(&loaded, "ignored (drill file not chosen)"), ["amp.drl"], "and it is listed");
+}
+
+#[test]
+fn holes_beside_the_board_are_an_error_unless_a_person_wants_them() {
+    let beside = DRILL.replace("X5.0Y5.0", "X-50.0Y-50.0");
+    let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp.drl", &beside)]);
+    let error = folder.load(&Selection::default()).expect_err("a drill file of another board");
+    assert!(error.contains("0 of 1 holes") && error.contains("--drill amp.drl"), "{error}");
+    let said = Selection { drill: vec![folder.path("amp.drl")], ..Selection::default() };
+    assert_eq!(folder.load(&said).expect("said").board.holes.len(), 1, "as it is said");
+    let outlined =
+        Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp.drl", DRILL), ("amp-Edge_Cuts.gbr", SQUARE)]);
+    let loaded = outlined.load(&Selection::default()).expect("a board");
+    assert_eq!(loaded.board.holes.len(), 1, "within the edge");
 }
 
 #[test]
@@ -281,7 +336,7 @@ fn what_a_person_must_know_is_an_error_in_a_sentence() {
         ("prose.gbr", "this is no layer\n"),
         ("holes.drl", DRILL),
         ("mask.gbr", &mask),
-        ("nothing.gbr", "%FSLAX46Y46*%\n%MOMM*%\nM02*\n"),
+        ("nothing_top.gbr", "%FSLAX46Y46*%\n%MOMM*%\nM02*\n"),
         ("copper.gbr", SQUARE),
     ];
     let folder = Folder::with(&files);
@@ -291,9 +346,8 @@ fn what_a_person_must_know_is_an_error_in_a_sentence() {
         ("empty.gbr", "an empty file"),
         ("picture.gbr", "a PNG picture"),
         ("prose.gbr", "neither Gerber nor Excellon"),
-        ("holes.drl", "no copper layer found among holes.drl (drill)"),
         ("mask.gbr", "no copper layer found among mask.gbr (solder mask)"),
-        ("nothing.gbr", "no copper"),
+        ("nothing_top.gbr", "no copper"),
     ];
     for (name, expected) in cases {
         let error = load(&[folder.path(name)], &Selection::default()).expect_err(name).to_string();

@@ -31,7 +31,7 @@ fn all() -> Vec<Layer> {
     folders.sort();
     let mut layers = Vec::new();
     for folder in folders.into_iter().filter(|folder| folder.join("meta.json").is_file()) {
-        let Ok(loaded) = import::load(std::slice::from_ref(&folder), &import::Selection::default()) else {
+        let Ok(loaded) = import::survey(std::slice::from_ref(&folder), &import::Selection::default()) else {
             continue;
         };
         let board = loaded.board;

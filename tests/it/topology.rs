@@ -745,7 +745,7 @@ fn real_boards_have_as_many_electrical_nets_as_their_truth() {
         let Some(truth) = json(&folder.join("truth_nets.json")) else { continue };
         let Some(groups) = truth["board"]["connected_groups"].as_u64() else { continue };
         let Ok(import::Loaded { board, .. }) =
-            import::load(std::slice::from_ref(&folder), &import::Selection::default())
+            import::survey(std::slice::from_ref(&folder), &import::Selection::default())
         else {
             continue;
         };

@@ -2,8 +2,8 @@
 //!
 //! Half of it stands in comments, each program its own way: `;FILE_FORMAT=2:4` (Altium, EasyEDA, Eagle),
 //! `;FORMAT={3:3/ absolute / metric / suppress leading zeros}` and `; #@! TF.FileFunction,…` (KiCad),
-//! `;TYPE=NON_PLATED` (Altium, EasyEDA), `;Holesize 1. = 24.0 … PLATED MILS` (OrCAD and Allegro, whose tools have
-//! no `C`).
+//! `;TYPE=NON_PLATED` (Altium, EasyEDA), `;Holesize 1. = 24.0 … PLATED MILS` and `;T01 Holesize 1. = 24.0 …`
+//! (OrCAD and Allegro, whose tools have no `C`).
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -41,7 +41,7 @@ impl Declared {
                 Kind::Comment(text) => declared.comment(text),
                 Kind::Keyword(fields) => declared.keyword(fields, &line.place),
                 Kind::Words(words) => declared.words(words, &line.place),
-                Kind::Percent => {}
+                Kind::Percent | Kind::BrokenTool(..) => {}
             }
         }
         declared
@@ -79,8 +79,8 @@ impl Declared {
             self.kicad_format(format);
         } else if let Some(rest) = text.strip_prefix("#@! TF.") {
             self.attribute(rest);
-        } else if upper.starts_with("HOLESIZE") {
-            self.hole_size(&upper);
+        } else if let Some((tool, table)) = hole_table(&upper) {
+            self.hole_size(tool, table);
         } else if let Some(start) = text.find("DRILL file {") {
             let named = text[start + 12..].split('}').next().unwrap_or_default();
             self.generator.get_or_insert_with(|| named.replace("KiCad ", "KiCad,"));
@@ -112,10 +112,12 @@ impl Declared {
         }
     }
 
-    /// `HOLESIZE 1. = 24.000000 TOLERANCE = … PLATED MILS QUANTITY = 12`, `HOLESIZE 1 = 0.0120 INCH`.
-    fn hole_size(&mut self, text: &str) {
+    /// `HOLESIZE 1. = 24.000000 TOLERANCE = … PLATED MILS QUANTITY = 12`, `HOLESIZE 1 = 0.0120 INCH`; of the tool that stands before
+    /// it, or else of the one that it counts.
+    fn hole_size(&mut self, tool: Option<u32>, text: &str) {
         let mut words = text.split_whitespace().skip(1);
-        let tool = words.next().and_then(|word| word.trim_end_matches('.').parse::<u32>().ok());
+        let counted = words.next().and_then(|word| word.trim_end_matches('.').parse::<u32>().ok());
+        let tool = tool.or(counted);
         let size = words.find(|&word| word != "=");
         let unit = words.find_map(|word| match word {
             "MILS" | "MIL" => Some("mil"),
@@ -128,6 +130,16 @@ impl Declared {
             self.commented.entry(tool).or_insert(diameter);
         }
     }
+}
+
+/// A line of a table of tools: the tool that it names first, if it does, and what begins with `HOLESIZE`.
+fn hole_table(text: &str) -> Option<(Option<u32>, &str)> {
+    let (head, rest) = text.split_at_checked(text.find("HOLESIZE")?)?;
+    let head = head.trim();
+    if head.is_empty() {
+        return Some((None, rest));
+    }
+    Some((Some(head.strip_prefix('T')?.parse().ok()?), rest))
 }
 
 /// The units that a header command names.

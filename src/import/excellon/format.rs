@@ -79,7 +79,7 @@ impl NumberFormat {
             },
             i32::from,
         );
-        scaled(number, point, self.units)
+        scaled(number, point - i32::from(number.beyond), self.units)
     }
 
     /// The diameter that `number` means. One without a point is whole millimetres where that makes a drill, else
@@ -90,14 +90,16 @@ impl NumberFormat {
             (None, Units::Mm) if number.digits <= 10 => 0,
             (None, _) => 3,
         };
-        scaled(number, point, self.units)
+        scaled(number, point - i32::from(number.beyond), self.units)
     }
 }
 
 /// `digits` × 10^−`point` units in nanometres, rounded half away from zero.
 fn scaled(number: Number, point: i32, units: Units) -> Option<Nm> {
     let value = i128::from(number.digits) * units.nm();
-    let power = 10_i128.checked_pow(point.unsigned_abs())?;
+    // 18 digits in inches are below 10²⁶ nanometres: of what has more decimals than that nothing is left.
+    let power =
+        10_i128.checked_pow(if point < 0 { point.unsigned_abs() } else { point.unsigned_abs().min(37) })?;
     let nm = if point < 0 { value.checked_mul(power)? } else { (value + power / 2) / power };
     let nm = i64::try_from(if number.negative { -nm } else { nm }).ok()?;
     Nm::try_new(nm).ok()
@@ -121,7 +123,7 @@ mod tests {
         NumberFormat { units: Units::Inch, digits: Digits { whole: 2, decimals: 4 }, zeros: Zeros::Leading };
 
     fn number(digits: u64, count: u8) -> Number {
-        Number { negative: false, digits, count, decimals: None }
+        Number { negative: false, digits, count, decimals: None, beyond: 0 }
     }
 
     #[test]
@@ -135,7 +137,7 @@ mod tests {
 
     #[test]
     fn a_point_settles_it() {
-        let written = Number { negative: true, digits: 15, count: 2, decimals: Some(1) };
+        let written = Number { negative: true, digits: 15, count: 2, decimals: Some(1), beyond: 0 };
         assert_eq!(INCH.length(written), Some(Nm::new(-38_100_000)), "-1.5 inch");
     }
 

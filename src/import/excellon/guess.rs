@@ -17,7 +17,7 @@ use crate::geometry::{Nm, Point, Rect};
 pub struct Context {
     /// The middles of flashed pads, in cells of [`NEAR`].
     pads: BTreeSet<(i64, i64)>,
-    /// A rectangle that holds all copper.
+    /// A rectangle that holds all copper, and the board if its edge is known.
     bounds: Option<Rect>,
 }
 
@@ -72,6 +72,23 @@ impl Score {
     pub(super) const fn points(self) -> usize {
         2 * self.on_pads + self.inside
     }
+
+    /// Whether most holes lie beside the board.
+    pub(super) const fn is_off(self) -> bool {
+        2 * self.inside < self.holes
+    }
+}
+
+/// Whether `holes` are so wide, and so narrow, as drills are.
+pub(super) fn are_drilled(holes: &[Hole]) -> bool {
+    /// Chosen: the finest mechanical drills, and beyond the widest.
+    const DRILLS: std::ops::RangeInclusive<Nm> = Nm::from_um(100)..=Nm::from_mm(10);
+    holes.iter().all(|hole| DRILLS.contains(&hole.diameter))
+}
+
+/// All readings of a file that is not believed in what it declares.
+pub(super) fn all(lines: &[Line]) -> Vec<NumberFormat> {
+    candidates(&Declared::default(), lines)
 }
 
 /// The readings that a file allows, the likeliest first. One alone where it says all, or writes every point.
@@ -116,10 +133,10 @@ fn likely_units(lines: &[Line]) -> Vec<Units> {
     if largest > 0.0 && largest < 0.28 { vec![Units::Inch, Units::Mm] } else { vec![Units::Mm, Units::Inch] }
 }
 
+#[expect(clippy::cast_precision_loss, reason = "a size to be compared with others")]
 fn value(number: Number) -> Option<f64> {
     let decimals = number.decimals?;
-    let digits = u32::try_from(number.digits).ok()?;
-    Some((0..decimals).fold(f64::from(digits), |value, _| value / 10.0))
+    Some((0..decimals).fold(number.digits as f64, |value, _| value / 10.0))
 }
 
 pub(super) fn has_bare_coordinates(lines: &[Line]) -> bool {

@@ -9,18 +9,21 @@ use crate::import::error::Error;
 pub(super) struct Number {
     /// Whether a minus stands before it.
     pub(super) negative: bool,
-    /// All digits as one integer, the point left out.
+    /// The first 18 digits, zeros before the first of them left aside, as one integer, the point left out.
     pub(super) digits: u64,
     /// How many digits there are, leading zeros counted.
     pub(super) count: u8,
-    /// How many digits stand after the point; none without a point.
+    /// How many of `digits` stand after the point; none without a point.
     pub(super) decimals: Option<u8>,
+    /// How many digits before the point `digits` does not hold; those after it that it does not hold are below any rounding.
+    pub(super) beyond: u8,
 }
 
 impl Number {
     /// As a count or a code, `T01`, `R5`: none with a sign or a point, or beyond 2³² − 1.
     pub(super) fn integer(self) -> Option<u32> {
-        (!self.negative && self.decimals.is_none()).then(|| u32::try_from(self.digits).ok())?
+        (!self.negative && self.decimals.is_none() && self.beyond == 0)
+            .then(|| u32::try_from(self.digits).ok())?
     }
 }
 
@@ -46,6 +49,8 @@ pub(super) enum Kind {
     Keyword(Vec<String>),
     /// Letters with numbers.
     Words(Vec<Word>),
+    /// The definition of a tool, by its number, that cannot be read.
+    BrokenTool(u32, Box<Error>),
 }
 
 /// A line that says something.
@@ -112,7 +117,11 @@ impl Lexer<'_> {
             self.bytes[place.clone()].iter().position(|&b| b == b';').map_or(place.end, |i| place.start + i);
         let comment = (code_end < place.end).then(|| text(&self.bytes[code_end + 1..place.end]));
         self.end = code_end;
-        if let Some(kind) = self.code()? {
+        let code = self.code().or_else(|error| {
+            let tool = broken_tool(&self.bytes[place.start..code_end]);
+            tool.map(|number| Some(Kind::BrokenTool(number, Box::new(error.clone())))).ok_or(error)
+        });
+        if let Some(kind) = code? {
             found.push(Line { place: place.clone(), number, kind });
         }
         found.extend(comment.map(|text| Line { place, number, kind: Kind::Comment(text) }));
@@ -162,18 +171,24 @@ impl Lexer<'_> {
         if matches!(self.peek(), Some(b'+' | b'-')) {
             self.at += 1;
         }
-        let (mut digits, mut count, mut decimals) = (0_u64, 0_u8, None);
+        /// From here on a further digit may be more than an `i64` holds.
+        const FULL: u64 = 10_u64.pow(17);
+        let (mut digits, mut count, mut decimals, mut beyond) = (0_u64, 0_u8, None, 0_u8);
         while let Some(b) = self.peek() {
             match b {
-                b'0'..=b'9' if count < 18 => {
-                    digits = digits * 10 + u64::from(b - b'0');
-                    count += 1;
-                    decimals = decimals.map(|d: u8| d + 1);
+                b'0'..=b'9' => {
+                    count = count.saturating_add(1);
+                    if digits < FULL {
+                        digits = digits * 10 + u64::from(b - b'0');
+                        decimals = decimals.map(|d: u8| d.saturating_add(1));
+                    } else if decimals.is_none() {
+                        beyond = beyond.saturating_add(1);
+                    }
                 }
                 b'.' if decimals.is_none() => decimals = Some(0),
-                b'0'..=b'9' | b'.' => {
+                b'.' => {
                     self.at += 1;
-                    return Err(self.unexpected(word, "not a number", "at most 18 digits and one point"));
+                    return Err(self.unexpected(word, "not a number", "digits and one point"));
                 }
                 _ => break,
             }
@@ -182,7 +197,7 @@ impl Lexer<'_> {
         if count == 0 {
             return Err(self.unexpected(word, "a letter without its number", "digits after the letter"));
         }
-        Ok(Number { negative, digits, count, decimals })
+        Ok(Number { negative, digits, count, decimals, beyond })
     }
 
     fn unexpected(&self, start: usize, what: &str, expected: &str) -> Error {
@@ -204,6 +219,14 @@ impl Lexer<'_> {
             self.at = 3.min(self.end);
         }
     }
+}
+
+/// The number of the tool that a line defines, `T3C…`.
+fn broken_tool(line: &[u8]) -> Option<u32> {
+    let rest = line.strip_prefix(b"T").or_else(|| line.strip_prefix(b"t"))?;
+    let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
+    let is_definition = rest.get(digits).is_some_and(|b| b.eq_ignore_ascii_case(&b'C'));
+    text(&rest[..digits]).parse().ok().filter(|_| is_definition)
 }
 
 /// Whether a line is a header command or a message and not letters with numbers: `INCH,TZ`, `M71,LZ`, `R,T`, `M47…`.
@@ -242,6 +265,21 @@ mod tests {
         {
             assert_eq!(words(text), expected, "{text:?}");
         }
+    }
+
+    #[test]
+    fn a_number_has_any_number_of_digits() {
+        assert_eq!(
+            words("X0.024000000000000004"),
+            [('X', 24_000_000_000_000_004, Some(18))],
+            "all that matter"
+        );
+        assert_eq!(
+            words("X1.00000000000000000000000000"),
+            [('X', 100_000_000_000_000_000, Some(17))],
+            "the first"
+        );
+        assert_eq!(words("X0000000000000000000000012"), [('X', 12, None)], "zeros before it");
     }
 
     #[test]

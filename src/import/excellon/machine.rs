@@ -41,6 +41,8 @@ pub(super) struct Run {
     pub(super) holes: Vec<Hole>,
     /// By number, as last defined.
     pub(super) tools: BTreeMap<u32, Tool>,
+    /// What is wrong with tools that are not among them.
+    pub(super) broken: BTreeMap<u32, (Range<usize>, Error)>,
 }
 
 /// Everything a run needs to know of its file.
@@ -52,13 +54,15 @@ pub(super) struct File<'a> {
     pub(super) declared: &'a Declared,
     /// What the file's name or function says of its holes.
     pub(super) plating: Plating,
+    /// Whether the number format holds whatever unit the file declares.
+    pub(super) disbelieved: bool,
 }
 
 /// Runs the whole file.
 pub(super) fn run(file: File<'_>, format: NumberFormat, warnings: &mut Warnings<'_>) -> Result<Run, Error> {
     let mut machine = Machine::new(file, format, warnings, MOST_HOLES);
     machine.all()?;
-    Ok(Run { holes: machine.holes, tools: machine.tools })
+    Ok(Run { holes: machine.holes, tools: machine.tools, broken: machine.broken })
 }
 
 /// The first holes of a file, to judge a number format by.
@@ -92,6 +96,8 @@ struct Machine<'a, 'w, 'b> {
     zero: Point,
     at: Point,
     tools: BTreeMap<u32, Tool>,
+    /// Where tools are defined that cannot be read, and why not: an error where one drills.
+    broken: BTreeMap<u32, (Range<usize>, Error)>,
     tool: Option<u32>,
     /// What comments said of the tools that follow.
     plating: Plating,
@@ -126,6 +132,7 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
             zero: Point::default(),
             at: Point::default(),
             tools: BTreeMap::new(),
+            broken: BTreeMap::new(),
             tool: None,
             plating: file.plating,
             routing: None,
@@ -167,6 +174,10 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
                 Ok(())
             }
             Kind::Words(words) => self.block(&Block::new(words), line),
+            Kind::BrokenTool(number, error) => {
+                self.break_tool(*number, line.place.clone(), error.as_ref().clone());
+                self.change_to(*number)
+            }
         }
     }
 
@@ -196,7 +207,7 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
 
     /// The same unit again says nothing new; another one changes what follows.
     pub(super) fn units(&mut self, units: Units, place: &Range<usize>) {
-        if units != self.format.units {
+        if units != self.format.units && !self.file.disbelieved {
             let message = format!("the unit changes to {} here; what follows is read in it", units.name());
             self.warnings.add(&flaw::UNIT_CHANGES, place.clone(), message);
             self.format = NumberFormat { units, digits: units.default_digits(), zeros: self.format.zeros };
@@ -233,6 +244,9 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
             let expected = "a line such as T01 before it";
             return Err(self.wrong_line(line, "a hole is drilled before any tool is chosen", expected));
         };
+        if let Some((_, error)) = self.broken.get(&number) {
+            return Err(error.clone());
+        }
         let Some(tool) = self.tools.get(&number) else {
             let what = format!("tool T{number} drills here, but its diameter is given nowhere");
             let hint = format!("add its diameter to the header: T{number}C0.8");

@@ -61,8 +61,9 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
     let declared = Declared::gather(&lines);
     let cut_off = cut_off(&declared, bytes).then(|| lines.pop()).flatten();
     let plating = declared.function.as_deref().map_or_else(|| plating_by_name(name), plating_by_function);
-    let file = File { name, bytes, lines: &lines, declared: &declared, plating };
+    let file = File { name, bytes, lines: &lines, declared: &declared, plating, disbelieved: false };
     let reading = Reading::choose(file, context)?;
+    let file = File { disbelieved: reading.against, ..file };
     let mut warnings = Warnings::new(name, bytes);
     let run = machine::run(file, reading.format, &mut warnings)?;
     reading.explain(file, context, &mut warnings);
@@ -74,6 +75,14 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
         warnings.add(&flaw::MISSING_END_OF_DRILL_FILE, last_line(bytes), message);
     }
     warn_of_size(&run, &mut warnings);
+    for (number, (place, error)) in &run.broken {
+        let what = match error {
+            Error::Syntax(diagnosis) => &diagnosis.what,
+            Error::Content { what, .. } => what,
+        };
+        let message = format!("{what}; nothing is drilled with tool T{number}, so it is left out");
+        warnings.add(&flaw::MALFORMED_TOOL, place.clone(), message);
+    }
     if run.holes.is_empty() {
         warnings.add(&flaw::DRILL_WITHOUT_HOLES, last_line(bytes), "the drill file has no holes");
     }
@@ -204,6 +213,8 @@ struct Reading {
     /// The reading that would have been taken without looking at the copper.
     usual: NumberFormat,
     usual_score: Score,
+    /// Whether it is not one that the file declares.
+    against: bool,
 }
 
 impl Reading {
@@ -237,7 +248,29 @@ impl Reading {
             }
         }
         let (format, score) = best;
-        Ok(Self { format, score, rivals: runs.len() - 1, usual: *usual, usual_score: *usual_score })
+        let (usual, usual_score, rivals) = (*usual, *usual_score, runs.len() - 1);
+        let allowed = Self { format, score, rivals, usual, usual_score, against: false };
+        Ok(if context.is_empty() || !score.is_off() { allowed } else { allowed.or_any(file, context) })
+    }
+
+    /// This reading, under which most holes lie beside the board; or the one, if there is one, that all speaks for but what the file
+    /// declares: every hole lies on the board, most of them on pads, and drills are as wide as drills are.
+    fn or_any(self, file: File<'_>, context: &Context) -> Self {
+        /// Chosen: two holes may lie on pads by chance.
+        const LEAST: usize = 3;
+        let file = File { disbelieved: true, ..file };
+        let mut best = self;
+        for format in guess::all(file.lines) {
+            let Ok(holes) = machine::sample(file, format) else { continue };
+            let score = context.judge(&holes);
+            let fits =
+                score.inside == score.holes && 2 * score.on_pads > score.holes && score.on_pads >= LEAST;
+            let is_better = !best.against || score.points() > best.score.points();
+            if fits && is_better && guess::are_drilled(&holes) {
+                best = Self { format, score, against: true, ..best };
+            }
+        }
+        best
     }
 
     /// Warns of what was guessed, and of holes that do not fit the copper.
@@ -246,7 +279,15 @@ impl Reading {
         let place = || file.declared.units.as_ref().map_or(0..0, |(_, place)| place.clone());
         let read_as = format!("read as {} {}", self.format.units.name(), self.format);
         let undeclared = file.declared.units.is_none() || file.declared.zeros.is_none();
-        if self.format != self.usual {
+        if self.against {
+            let Score { inside: before, .. } = self.usual_score;
+            let message = format!(
+                "as the file declares its numbers ({} {}) {before} of {holes} holes lie on the board; {read_as}, with all on the board and {on_pads} on pads",
+                self.usual.units.name(),
+                self.usual
+            );
+            warnings.add(&flaw::DRILL_FORMAT_GUESSED, place(), message);
+        } else if self.format != self.usual {
             let usual =
                 format!("{} {} puts {} there", self.usual.units.name(), self.usual, self.usual_score.on_pads);
             let message = format!(
@@ -262,9 +303,9 @@ impl Reading {
             let message = format!("the file does not say its number format, and no copper tells; {read_as}");
             warnings.add(&flaw::DRILL_FORMAT_GUESSED, place(), message);
         }
-        if !context.is_empty() && 2 * inside < holes && holes > 0 {
+        if !context.is_empty() && self.score.is_off() {
             let message = format!(
-                "only {inside} of {holes} holes lie within the copper ({read_as}): drill and copper may not belong together"
+                "only {inside} of {holes} holes lie on the board ({read_as}): drill and copper may not belong together"
             );
             warnings.add(&flaw::DRILL_OFF_BOARD, place(), message);
         }

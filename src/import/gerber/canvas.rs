@@ -166,8 +166,10 @@ impl Canvas {
         if objects.is_empty() {
             return Ok(true);
         }
-        for i in 0..i64::from(copies.0) {
-            for j in 0..i64::from(copies.1) {
+        // Copies in one place are one, whatever their polarity: what is drawn last there is what one copy draws last.
+        let distinct = |copies: u32, step: Nm| if step == Nm::ZERO { 1 } else { i64::from(copies) };
+        for i in 0..distinct(copies.0, step.x) {
+            for j in 0..distinct(copies.1, step.y) {
                 let way = Vector::new(step.x * i, step.y * j);
                 for (feature, polarity) in &objects {
                     self.push((moved(feature, Linear::IDENTITY, way), *polarity))?;
@@ -175,6 +177,11 @@ impl Canvas {
             }
         }
         Ok(true)
+    }
+
+    /// What bounds the image.
+    pub(super) fn bounds(&self) -> Option<Rect> {
+        self.image.iter().map(|(feature, _)| feature.shape.bounds()).reduce(Rect::union)
     }
 
     /// The image, all frames closed.

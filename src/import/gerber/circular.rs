@@ -8,10 +8,13 @@ use crate::import::flaw;
 use super::super::error::Error;
 use super::radii::{COARSE, Verdict, single_quadrant};
 use super::reader::{Quadrants, Reader, Words};
+use super::state::Unit;
 
-/// How arcs are read that are given in each of three ways.
+/// How arcs are read that are given in each of three ways, and lengths without a unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Reading {
+    /// The unit where the file does not say it; none where its number format decides.
+    pub(super) unit: Option<Unit>,
     /// After G74.
     pub(super) single: Quadrants,
     /// After G75.
@@ -23,7 +26,7 @@ pub(super) struct Reading {
 impl Reading {
     /// As the specification has it, and where the file says nothing, as programs have written for thirty years.
     pub(super) const USUAL: Self =
-        Self { single: Quadrants::Single, multi: Quadrants::Multi, undeclared: Quadrants::Multi };
+        Self { unit: None, single: Quadrants::Single, multi: Quadrants::Multi, undeclared: Quadrants::Multi };
 
     const fn of(self, declared: Option<Quadrants>) -> Quadrants {
         match declared {
@@ -95,8 +98,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// How the radii of all arcs read so far ask for the file to be read.
-    pub(super) fn reading_by_radii(&self) -> Reading {
+    /// How what has been read so far asks for the file to be read: the radii of its arcs, and how large the board is that it draws.
+    pub(super) fn reading_by_evidence(&self) -> Reading {
         let [single, multi, undeclared] = &self.radii;
         let declared = |mode| match mode {
             Quadrants::Single => single.refutes(mode).map_or(mode, |(other, _)| other),
@@ -106,7 +109,8 @@ impl<'a> Reader<'a> {
             Verdict::Single(_) => Quadrants::Single,
             Verdict::Multi(_) | Verdict::Either | Verdict::Contradiction { .. } => Quadrants::Multi,
         };
-        Reading { single: declared(Quadrants::Single), multi: declared(Quadrants::Multi), undeclared }
+        let unit = self.is_too_wide().then_some(Unit::Millimetre);
+        Reading { unit, single: declared(Quadrants::Single), multi: declared(Quadrants::Multi), undeclared }
     }
 
     /// Says how arcs are read that the file leaves open or declares against their radii.

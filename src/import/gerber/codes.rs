@@ -25,6 +25,9 @@ impl<'a> Reader<'a> {
                 self.aperture = u32::try_from(code).ok();
                 (self.form, self.set) = (None, None);
                 if self.aperture.is_none_or(|number| !self.apertures.contains_key(&number)) {
+                    if let Some(error) = self.aperture.and_then(|number| self.malformed(number)) {
+                        return Err(error);
+                    }
                     let message = format!("aperture D{code} is selected, but not defined");
                     self.warnings.add(&flaw::UNDEFINED_APERTURE, place.clone(), message);
                 }

@@ -9,12 +9,44 @@ use super::super::error::{Error, printable};
 use super::aperture::{Hole, Template};
 use super::aperture_macro::{Macro, MacroFault, VERTICES};
 use super::lex::{Block, End, Number, is_blank};
-use super::reader::{Aperture, Reader};
+use super::reader::{Aperture, Malformed, Reader};
 use super::state::Unit;
 
 impl<'a> Reader<'a> {
+    /// Defines an aperture, or keeps what is wrong with it until it is selected.
+    pub(super) fn define(&mut self, text: &[u8], place: Range<usize>) {
+        if let Err(error) = self.define_aperture(text, place.clone()) {
+            let number =
+                text.strip_prefix(b"D").and_then(Number::read).and_then(|(number, _)| number.to_integer());
+            let number = number.and_then(|number| u32::try_from(number).ok());
+            if let Some(number) = number {
+                self.apertures.remove(&number);
+                self.forget_aperture(number);
+            }
+            self.malformed.push(Malformed { number, place, error });
+        }
+    }
+
+    /// Why aperture `number` cannot be selected, where its last definition cannot be read.
+    pub(super) fn malformed(&self, number: u32) -> Option<Error> {
+        let of = |malformed: &&Malformed| malformed.number == Some(number);
+        self.malformed.iter().rfind(of).map(|malformed| malformed.error.clone())
+    }
+
+    /// Says what is wrong with apertures that nothing selects.
+    pub(super) fn explain_malformed(&mut self) {
+        for Malformed { place, error, .. } in std::mem::take(&mut self.malformed) {
+            let what = match &error {
+                Error::Syntax(diagnosis) => diagnosis.what.clone(),
+                Error::Content { what, .. } => what.clone(),
+            };
+            let message = format!("{what}; nothing selects this aperture, so it is left out");
+            self.warnings.add(&flaw::MALFORMED_APERTURE, place, message);
+        }
+    }
+
     /// `ADD10C,0.25`
-    pub(super) fn define_aperture(&mut self, text: &[u8], place: Range<usize>) -> Result<(), Error> {
+    fn define_aperture(&mut self, text: &[u8], place: Range<usize>) -> Result<(), Error> {
         let expected = "an aperture definition, such as `%ADD10C,0.25*%`";
         let read = text.strip_prefix(b"D").and_then(Number::read);
         let (number, length) =

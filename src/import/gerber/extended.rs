@@ -23,7 +23,10 @@ impl<'a> Reader<'a> {
         match code {
             b"FS" => self.format_statement(rest, place),
             b"MO" => self.unit_statement(rest, place),
-            b"AD" => self.define_aperture(rest, place),
+            b"AD" => {
+                self.define(rest, place);
+                Ok(())
+            }
             b"AM" => self.define_macro(block),
             b"AB" => self.block_aperture(rest, place),
             b"SR" => self.repeat(rest, place),
@@ -37,9 +40,13 @@ impl<'a> Reader<'a> {
             }
             b"IP" => self.image_polarity(rest, place),
             b"AS" | b"MI" | b"OF" | b"SF" | b"IR" => self.place_statement(code, rest, place),
-            // Names, of the image and of what follows.
-            b"IN" | b"LN" => Ok(()),
-            b"IJ" | b"IO" | b"PF" | b"RO" => {
+            // Names, of the image and of what follows; the plotter's film.
+            b"IN" | b"LN" | b"PF" => Ok(()),
+            // The code of the file's characters, which is ASCII if it can be read at all; and what says nothing but the default.
+            b"IC" if rest.eq_ignore_ascii_case(b"AS") => Ok(()),
+            b"IO" | b"RO" if rest.iter().all(|b| b"AB0.+-".contains(b) || is_blank(*b)) => Ok(()),
+            b"IJ" if rest.iter().all(|b| b"ABL".contains(b) || is_blank(*b)) => Ok(()),
+            b"IC" | b"IJ" | b"IO" | b"RO" => {
                 let code = printable(code);
                 let message = format!("%{code} was never used by tools and is not followed");
                 self.warnings.add(&flaw::UNKNOWN_COMMAND, place, message);

@@ -9,6 +9,7 @@ use super::super::design;
 use super::super::digest::sha256;
 use super::super::error::{Error, find, last_line};
 use super::Image;
+use super::distinct::distinct;
 use super::lex::is_blank;
 use super::reader::{Aperture, Counts, Reader};
 use super::state::{Format, Unit};
@@ -16,6 +17,7 @@ use super::state::{Format, Unit};
 impl<'a> Reader<'a> {
     pub(super) fn finish(mut self) -> Result<Image, Error> {
         self.explain_arcs()?;
+        self.explain_malformed();
         let end = last_line(self.bytes);
         if self.region.is_some() {
             let message = "the file ends within a region, which is ended there";
@@ -53,7 +55,7 @@ impl<'a> Reader<'a> {
 
     pub(super) fn into_image(mut self) -> Result<Image, Error> {
         let mut source = self.source();
-        let mut objects = self.canvas.finish();
+        let mut objects = distinct(self.canvas.finish());
         if let Some(place) = self.negative.clone()
             && let Some(frame) = objects.iter().map(|(feature, _)| feature.shape.bounds()).reduce(Rect::union)
         {

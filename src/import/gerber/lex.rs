@@ -112,31 +112,37 @@ pub(super) const fn is_blank(byte: u8) -> bool {
 /// A decimal number as it is written; what it means depends on the format.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Number {
-    /// All its digits, with the sign.
+    /// Its first 18 digits, zeros before the first of them left aside, with the sign.
     pub(super) mantissa: i64,
     /// How many digits there are.
     pub(super) digits: u32,
-    /// How many of them stand after the point; none without a point.
+    /// How many of the mantissa's stand after the point; none without a point.
     pub(super) decimals: Option<u32>,
+    /// How many digits before the point the mantissa does not hold. Those after the point that it does not hold are below any
+    /// rounding.
+    pub(super) beyond: u32,
 }
 
-/// The most digits a number may have: as many as an `i64` holds for sure.
-const DIGITS: u32 = 18;
+/// From here on a further digit may be more than an `i64` holds.
+const FULL: i64 = 10_i64.pow(17);
 
 impl Number {
-    /// Reads a number at the start of `text`: the number and how many bytes it takes. None where there is none, or one
-    /// of more than 18 digits.
+    /// Reads a number at the start of `text`: the number and how many bytes it takes. None where there is none.
     ///
     /// White space within it is skipped, for files cut into lines of fixed length.
     pub(super) fn read(text: &[u8]) -> Option<(Self, usize)> {
-        let (mut mantissa, mut digits, mut decimals) = (0_i64, 0, None);
+        let (mut mantissa, mut digits, mut decimals, mut beyond) = (0_i64, 0_u32, None, 0_u32);
         let (mut negative, mut signed, mut length) = (false, false, 0);
         for (i, &byte) in text.iter().enumerate() {
             match byte {
                 b'0'..=b'9' => {
-                    mantissa = mantissa.checked_mul(10)?.checked_add(i64::from(byte - b'0'))?;
-                    digits += 1;
-                    decimals = decimals.map(|d| d + 1);
+                    digits = digits.saturating_add(1);
+                    if mantissa < FULL {
+                        mantissa = mantissa * 10 + i64::from(byte - b'0');
+                        decimals = decimals.map(|d: u32| d.saturating_add(1));
+                    } else if decimals.is_none() {
+                        beyond = beyond.saturating_add(1);
+                    }
                 }
                 b'.' if decimals.is_none() => decimals = Some(0),
                 b'+' | b'-' if digits == 0 && decimals.is_none() && !signed => {
@@ -148,7 +154,7 @@ impl Number {
             length = i + 1;
         }
         let mantissa = if negative { -mantissa } else { mantissa };
-        (digits > 0 && digits <= DIGITS).then_some((Self { mantissa, digits, decimals }, length))
+        (digits > 0).then_some((Self { mantissa, digits, decimals, beyond }, length))
     }
 
     /// Reads `text` as a number and nothing else.
@@ -158,14 +164,20 @@ impl Number {
     }
 
     /// The value with a point where it is written.
-    #[expect(clippy::cast_precision_loss, reason = "files carry far fewer than 15 digits")]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "what a float does not hold of 18 digits is below any rounding"
+    )]
     pub(super) fn to_f64(self) -> f64 {
-        let power = i32::try_from(self.decimals.unwrap_or(0)).unwrap_or(0);
-        self.mantissa as f64 / (0..power).fold(1.0, |power, _| power * 10.0)
+        let power = |exponent: u32| (0..exponent.min(400)).fold(1.0, |power, _| power * 10.0);
+        self.mantissa as f64 * power(self.beyond) / power(self.decimals.unwrap_or(0))
     }
 
     /// The value as a whole number, if it is one.
     pub(super) fn to_integer(self) -> Option<i64> {
+        if self.mantissa == 0 || self.beyond > 0 {
+            return (self.beyond == 0).then_some(0);
+        }
         let power = 10_i64.checked_pow(self.decimals.unwrap_or(0))?;
         (self.mantissa % power == 0).then_some(self.mantissa / power)
     }
@@ -206,12 +218,17 @@ mod tests {
     #[test]
     fn numbers_remember_how_they_were_written() {
         let number = |text: &str| Number::read(text.as_bytes());
-        let plain = Number { mantissa: -1500, digits: 5, decimals: None };
+        let plain = Number { mantissa: -1500, digits: 5, decimals: None, beyond: 0 };
         assert_eq!(number("-01500Y3"), Some((plain, 6)), "leading zeros count as digits");
-        let point = Number { mantissa: 15, digits: 2, decimals: Some(1) };
+        let point = Number { mantissa: 15, digits: 2, decimals: Some(1), beyond: 0 };
         assert_eq!(number("+1.5"), Some((point, 4)), "a point");
         assert_eq!(number("1\r\n2X").map(|n| n.0.mantissa), Some(12), "a number over two lines");
         assert_eq!(number("-"), None, "no digit");
-        assert_eq!(number("1234567890123456789"), None, "too many digits");
+        let long = Number { mantissa: 123_456_789_012_345_678, digits: 20, decimals: None, beyond: 2 };
+        assert_eq!(number("12345678901234567890"), Some((long, 20)), "more digits than it keeps");
+        let value = |text: &str| number(text).expect("a number").0.to_f64();
+        assert!((value("0.024000000000000004") - 0.024).abs() < 1e-15, "as programs print floats");
+        assert!((value("12345678901234567890") - 12_345_678_901_234_567_890.0).abs() < 1e4, "a large one");
+        assert!(value("0.00000000000000000000000000000000000000001").abs() < 1e-40, "a small one");
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! The reader is one state machine over several files: `codes`, `operation`, `circular` (with `radii`), `contour` and `selected` carry
 //! out the blocks of words, `extended` tells the commands between `%` apart, which `numbers`, `definition`, `copies`
-//! and `transformation` carry out, and `finish` ends it.
+//! and `transformation` carry out, and `finish` ends it, with `distinct`.
 //!
 //! Written for files in the wild, with the specification (Ucamco, revision 2023.08) deciding where they disagree. Three
 //! choices make it both quick and forgiving. Blocks are cut at `*`, never at line ends, because some tools write a file
@@ -28,6 +28,7 @@ mod codes;
 mod contour;
 mod copies;
 mod definition;
+mod distinct;
 mod draw;
 mod expression;
 mod extended;

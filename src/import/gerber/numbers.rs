@@ -7,6 +7,7 @@ use super::extended::one_line;
 use super::lex::is_blank;
 use super::reader::Reader;
 use super::state::{Format, Unit, Zeros};
+use crate::geometry::Nm;
 use crate::import::flaw;
 
 impl<'a> Reader<'a> {
@@ -72,16 +73,29 @@ impl<'a> Reader<'a> {
             list.unit
         } else {
             // Four digits before the point are ten metres in millimetres and 250 m in inches.
-            let unit = if self.format(place)?.x.0 >= 4 { Unit::Millimetre } else { Unit::Inch };
-            let message = format!(
-                "the file does not say its unit; {} is assumed, as its number format suggests",
-                unit.name()
-            );
+            let usual = if self.format(place)?.x.0 >= 4 { Unit::Millimetre } else { Unit::Inch };
+            let unit = self.reading.unit.unwrap_or(usual);
+            self.unit_guessed = true;
+            let reason = if unit == usual {
+                "as its number format suggests"
+            } else {
+                "because in inches it would be wider than any board"
+            };
+            let message = format!("the file does not say its unit; {} is assumed, {reason}", unit.name());
             self.warnings.add(&flaw::MISSING_UNITS, place.clone(), message);
             unit
         };
         self.unit = Some(unit);
         Ok(unit)
+    }
+
+    /// Whether what is drawn so far, its unit a guess, is wider than a board in inches, or lies beyond what is handled: then it is in
+    /// millimetres.
+    pub(super) fn is_too_wide(&self) -> bool {
+        /// Chosen: the largest panels are 610 mm long.
+        const WIDEST: Nm = Nm::from_mm(620);
+        let extent = self.canvas.bounds().map_or(Nm::ZERO, |bounds| bounds.width().max(bounds.height()));
+        self.unit_guessed && self.unit == Some(Unit::Inch) && (extent > WIDEST || self.is_beyond)
     }
 
     /// `FSLAX46Y46`

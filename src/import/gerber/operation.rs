@@ -70,7 +70,9 @@ impl<'a> Reader<'a> {
         at: &Range<usize>,
     ) -> Result<Nm, Error> {
         let (format, unit) = (self.format(at)?, self.unit(at)?);
-        format.coordinate(number, places, unit).ok_or_else(|| {
+        let coordinate = format.coordinate(number, places, unit);
+        self.is_beyond |= coordinate.is_none();
+        coordinate.ok_or_else(|| {
             self.error(
                 at.clone(),
                 "this coordinate lies beyond what is handled",

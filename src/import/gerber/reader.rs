@@ -72,6 +72,15 @@ impl Aperture {
     }
 }
 
+/// An aperture definition that cannot be read: an error where it is selected.
+#[derive(Debug)]
+pub(super) struct Malformed {
+    /// Its number, where that can be read.
+    pub(super) number: Option<u32>,
+    pub(super) place: Range<usize>,
+    pub(super) error: Error,
+}
+
 /// The words of one block that are left for its operation.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Words {
@@ -102,8 +111,14 @@ pub(super) struct Reader<'a> {
     pub(super) unit: Option<Unit>,
     /// Whether MO gave the unit, rather than G70 or G71.
     pub(super) unit_by_mode: bool,
+    /// Whether the number format gave it, because nothing else does.
+    pub(super) unit_guessed: bool,
+    /// Whether a coordinate was beyond what is handled.
+    pub(super) is_beyond: bool,
     pub(super) format: Option<Format>,
     pub(super) apertures: FxHashMap<u32, Aperture>,
+    /// Definitions that cannot be read, and that nothing has selected.
+    pub(super) malformed: Vec<Malformed>,
     pub(super) macros: FxHashMap<&'a [u8], Macro<'a>>,
     pub(super) canvas: Canvas,
     pub(super) attributes: Attributes,
@@ -163,7 +178,7 @@ pub(super) fn read<'a>(
     };
     let mut reader = begin(Reading::USUAL);
     let mut drawn = reader.all();
-    let reading = reader.reading_by_radii();
+    let reading = reader.reading_by_evidence();
     if reading != Reading::USUAL {
         reader = begin(reading);
         drawn = reader.all();
@@ -182,8 +197,11 @@ impl<'a> Reader<'a> {
             warnings: Warnings::new(name, bytes),
             unit: None,
             unit_by_mode: false,
+            unit_guessed: false,
+            is_beyond: false,
             format: None,
             apertures: FxHashMap::default(),
+            malformed: Vec::new(),
             macros: FxHashMap::default(),
             canvas: Canvas::new(options.features, options.vertices),
             attributes: Attributes::new(),
@@ -328,12 +346,7 @@ impl<'a> Reader<'a> {
             self.warnings.add(&flaw::UNKNOWN_COMMAND, place, message);
             return Ok(());
         }
-        Err(self.error(
-            place,
-            "this is not a command",
-            "a letter and a number of at most 18 digits, as in `X1500`",
-            "",
-        ))
+        Err(self.error(place, "this is not a command", "a letter and a number, as in `X1500`", ""))
     }
 
     pub(super) fn comment(&mut self, text: &[u8]) {

@@ -22,6 +22,7 @@ impl Unit {
 
     /// A length written with its point, rounded to the nanometre; none beyond what is handled.
     pub(super) fn length(self, number: Number) -> Option<Nm> {
+        within(number)?;
         scaled(number.mantissa, self.nm(), number.decimals.unwrap_or(0))
     }
 
@@ -68,12 +69,15 @@ impl Format {
             return unit.length(number);
         }
         match self.zeros {
-            Zeros::Leading => scaled(number.mantissa, unit.nm(), places.1),
+            Zeros::Leading => {
+                within(number)?;
+                scaled(number.mantissa, unit.nm(), places.1)
+            }
             Zeros::Trailing => match (places.0 + places.1).checked_sub(number.digits) {
                 Some(missing) => {
                     scaled(number.mantissa.checked_mul(10_i64.pow(missing))?, unit.nm(), places.1)
                 }
-                None => scaled(number.mantissa, unit.nm(), number.digits - places.0),
+                None => scaled(number.mantissa, unit.nm(), number.digits - places.0 - number.beyond),
             },
         }
     }
@@ -90,15 +94,18 @@ impl Format {
     }
 }
 
+/// Nothing for a number that is beyond any length by its count of digits.
+fn within(number: Number) -> Option<()> {
+    (number.beyond == 0).then_some(())
+}
+
 /// `mantissa` × `unit` ÷ 10^`decimals`, halves away from zero; none beyond the range of [`Nm`].
 fn scaled(mantissa: i64, unit: i64, decimals: u32) -> Option<Nm> {
-    let power = 10_i64.checked_pow(decimals)?;
-    let (mantissa, unit) =
-        if unit % power == 0 { (mantissa.checked_mul(unit / power)?, 1) } else { (mantissa, unit) };
-    if unit == 1 {
-        return Nm::try_new(mantissa).ok();
+    if let Some(power) = 10_i64.checked_pow(decimals).filter(|power| unit % power == 0) {
+        return Nm::try_new(mantissa.checked_mul(unit / power)?).ok();
     }
-    let (product, power) = (i128::from(mantissa) * i128::from(unit), i128::from(power));
+    // 18 digits in inches are below 10²⁶ nanometres: of what has more decimals than that nothing is left.
+    let (product, power) = (i128::from(mantissa) * i128::from(unit), 10_i128.pow(decimals.min(37)));
     let half = if product < 0 { -power / 2 } else { power / 2 };
     i64::try_from((product + half) / power).ok().and_then(|nm| Nm::try_new(nm).ok())
 }
@@ -257,6 +264,15 @@ mod tests {
         let mm = |text| format.coordinate(number(text), format.x, Unit::Millimetre);
         assert_eq!(mm("10000005"), Some(Nm::new(1_000_001)), "half goes away from zero");
         assert_eq!(mm("-10000004"), Some(Nm::new(-1_000_000)), "less does not");
+        let written = |text| Unit::Inch.length(number(text));
+        assert_eq!(written("0.024000000000000004"), Some(Nm::new(609_600)), "any number of decimals");
+        assert_eq!(
+            written("0.0000000000000000000000000000000000000000000001"),
+            Some(Nm::ZERO),
+            "even so many"
+        );
+        assert_eq!(written("00000000000000000000000000000.5"), Some(Nm::new(12_700_000)), "and of zeros");
+        assert_eq!(written("12345678901234567890"), None, "but no more than a metre");
     }
 
     #[test]

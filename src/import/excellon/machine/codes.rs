@@ -1,5 +1,7 @@
 //! What T, G and M words do.
 
+use std::ops::Range;
+
 use super::{Machine, Mode, Tool};
 use crate::geometry::{Nm, Turn, Vector};
 use crate::import::error::Error;
@@ -17,8 +19,11 @@ impl Machine<'_, '_, '_> {
             let length = self.format.diameter(size.number).filter(|&d| d > Nm::ZERO);
             let Some(diameter) = length else {
                 let expected = "a diameter above zero, such as C0.8";
-                return Err(self.wrong(size, "a drill cannot have this diameter", expected));
+                let error = self.wrong(size, "a drill cannot have this diameter", expected);
+                self.break_tool(number, size.place.clone(), error);
+                return self.change_to(number);
             };
+            self.broken.remove(&number);
             if size.number.decimals.is_none() {
                 let message = format!("the diameter has no decimal point and is taken for {diameter:.3} mm");
                 self.warnings.add(&flaw::DIAMETER_WITHOUT_POINT, size.place.clone(), message);
@@ -29,9 +34,20 @@ impl Machine<'_, '_, '_> {
         {
             self.tools.insert(number, Tool { diameter, plating: self.plating, place: word.place.clone() });
         }
+        self.change_to(number)
+    }
+
+    /// Takes up another tool.
+    pub(super) fn change_to(&mut self, number: u32) -> Result<(), Error> {
         self.raise()?;
         self.tool = (number != 0).then_some(number);
         Ok(())
+    }
+
+    /// Keeps what is wrong with a tool until it drills.
+    pub(super) fn break_tool(&mut self, number: u32, place: Range<usize>, error: Error) {
+        self.tools.remove(&number);
+        self.broken.insert(number, (place, error));
     }
 
     pub(super) fn general(&mut self, word: &Word) -> Result<(), Error> {
