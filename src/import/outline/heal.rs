@@ -71,11 +71,11 @@ impl Limit {
     }
 }
 
-/// Moves each loose end onto the nearest other end that its stroke touches, and then such as are left onto the nearest within
-/// `gap`: loose ends first, so that pairs find each other.
+/// Joins each loose end to the nearest other loose one that its stroke touches, and then moves such as are left onto the nearest
+/// within `gap`: loose ends first, so that pairs find each other. What touches a corner that is closed already closes nothing.
 pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) {
     let (mut closed, mut widest) = (0_u32, None::<(f64, Point)>);
-    let rounds = [(false, true), (false, false), (true, true), (true, false)];
+    let rounds = [(false, true), (true, true), (true, false)];
     for (anywhere, loose_only) in rounds {
         let limit = if anywhere { Limit::Gap(gap) } else { Limit::touch(edges) };
         let mut moves = nearest_pairs(edges, &limit, loose_only);
