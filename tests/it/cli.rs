@@ -304,7 +304,7 @@ fn an_option_that_changes_nothing_beside_the_others_is_refused() {
     let board = board.to_string_lossy();
     for (option, value, hint) in [
         ("--overlap", "50%", "--width"),
-        ("--drill-bore-tool", "endmill:0.8mm", "--drill-bore"),
+        ("--alignment-margin", "9mm", "--alignment-holes"),
         ("--tile-spacing", "3mm", "--tile"),
     ] {
         let said = format!("{option} changes nothing of what is made so");
