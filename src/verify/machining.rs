@@ -1,7 +1,7 @@
 //! A program followed: its motions on the board, and what the cutter sweeps.
 
 use crate::board::{Board, Shape, Side};
-use crate::gcode::read::{self, Motion, Way};
+use crate::gcode::read::{self, Motion, Note, Way};
 use crate::geometry::{Arc, Nm, Point};
 
 use super::stated::Stated;
@@ -15,6 +15,8 @@ pub(super) struct Machining {
     pub(super) placement: Placement,
     /// What it says, until that was looked at.
     pub(super) motions: Vec<Motion>,
+    /// What was assumed to follow it.
+    pub(super) notes: Vec<Note>,
     /// What is cut away, deep enough to part the copper.
     pub(super) swept: Vec<Swept>,
     /// Where the tool goes straight down into the board.
@@ -88,8 +90,15 @@ impl Machining {
         });
         let placement = placement.unwrap_or_default();
         let file = program.file.clone();
-        let mut machining =
-            Self { file, role, placement, motions: listing.motions, swept: Vec::new(), plunges: Vec::new() };
+        let mut machining = Self {
+            file,
+            role,
+            placement,
+            motions: listing.motions,
+            notes: listing.notes,
+            swept: Vec::new(),
+            plunges: Vec::new(),
+        };
         machining.sweep(&tools, settings.copper)?;
         machining.plunge(&tools);
         Ok(machining)

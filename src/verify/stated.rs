@@ -1,6 +1,7 @@
 //! What a program says of itself in its comments, where it is one of ours: the tools, what it is for, how the board lies.
 
 use crate::board::Side;
+use crate::gcode::read::lines;
 use crate::geometry::{Nm, Vector};
 
 use super::{Cutter, Role};
@@ -26,7 +27,7 @@ impl Stated {
     /// Reads the comments of `text`.
     pub(super) fn read(text: &str) -> Self {
         let mut stated = Self::default();
-        for (line, number) in text.lines().zip(1_u32..) {
+        for (line, number) in lines(text).zip(1_u32..) {
             for comment in comments(line) {
                 stated.comment(comment.trim(), number);
             }
@@ -72,7 +73,7 @@ impl Stated {
 pub fn said(text: &str, setting: &str) -> Option<String> {
     let value =
         |comment: &str| Some(comment.trim().strip_prefix(setting)?.strip_prefix(' ')?.trim().to_owned());
-    let parts: Vec<String> = text.lines().take(HEADER).flat_map(comments).filter_map(value).collect();
+    let parts: Vec<String> = lines(text).take(HEADER).flat_map(comments).filter_map(value).collect();
     (!parts.is_empty()).then(|| unescaped(&parts.join(" ")))
 }
 

@@ -310,7 +310,11 @@ fn programs_that_cannot_be_bent_say_why_and_where() {
         matches!(error("G90\nG0 Z0.05\nX0 Y0\nX1\nG1 Z-1 F1\n"), LevelError::High { .. }),
         "travel too low"
     );
-    assert!(matches!(error("G92 X0\n"), LevelError::Read(_)), "what the reader refuses");
+    assert!(matches!(error("G68 X0\n"), LevelError::Read(_)), "what the reader refuses");
+    assert!(
+        matches!(error("G92 X0\n"), LevelError::Indirect { line: 1, .. }),
+        "what can only be followed whole"
+    );
     let inside = level("G90\nG0 Z2\nX0 Y0\nG1 Z-1 F1\nX16.9\n", &map, &Levelling::default());
     assert!(inside.is_ok(), "within the margin: {inside:?}");
     assert!(matches!(HeightMap::through(&[]), Err(MapError::Few { columns: 0, rows: 0 })), "nothing touched");

@@ -8,6 +8,7 @@ mod drills;
 mod euler;
 mod exact_voronoi;
 mod excellon;
+mod foreign_programs;
 mod gcode;
 mod gerber;
 mod gerber_constructs;

@@ -160,11 +160,7 @@ fn assert_safe(motions: &[Motion], safe: Nm, what: &str) {
             motion.line
         );
         assert!(!into || motion.way != Way::Rapid, "{what}: a rapid into the board in line {}", motion.line);
-        assert!(
-            !into || motion.spindle.is_some_and(|s| s > 0),
-            "{what}: spindle off in line {}",
-            motion.line
-        );
+        assert!(!into || motion.spindle.turns(), "{what}: spindle off in line {}", motion.line);
     }
 }
 

@@ -58,7 +58,7 @@ fn written(motions: &[Motion], tool: &str) -> String {
     for motion in motions {
         let word = |letter: char, value: Option<Nm>| value.map_or(String::new(), |v| format!(" {letter}{v}"));
         let (x, y, z) = (word('X', motion.to.x), word('Y', motion.to.y), word('Z', motion.to.z));
-        text += if motion.spindle.is_some() { "M3 S10000\n" } else { "M5\n" };
+        text += if motion.spindle.turns() { "M3 S10000\n" } else { "M5\n" };
         text += &match motion.way {
             Way::Rapid => format!("G0{x}{y}{z}\n"),
             Way::Feed => format!("G1{x}{y}{z} F100\n"),

@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 
-use crate::gcode::read::lex::{Pointer, Word, words};
-use crate::gcode::read::{Listing, Motion, Place, Way, read};
+use super::words::{Pointer, Word, words};
+use crate::gcode::read::{Listing, Motion, Place, Way, lines, read};
 use crate::geometry::{Arc, Nm, Point};
 
 use super::course::Course;
@@ -52,6 +52,9 @@ pub struct Levelled {
 /// that travels lower than the surface is high.
 pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Levelled, LevelError> {
     let listing = read(text)?;
+    if let Some((line, what)) = listing.indirect {
+        return Err(LevelError::Indirect { line, what });
+    }
     let safe = levelling.safe.unwrap_or_else(|| travel(&listing));
     let [_, (place, height)] = map.extremes();
     if height >= safe {
@@ -59,7 +62,7 @@ pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Level
     }
     let mut bender = Bender::new(map, levelling, safe);
     let mut motions = listing.motions.chunk_by(|a, b| a.line == b.line).peekable();
-    for (number, source) in (1_u32..).zip(text.lines()) {
+    for (number, source) in (1_u32..).zip(lines(text)) {
         let own = motions.next_if(|own| own[0].line == number).unwrap_or_default();
         if listing.end.is_some_and(|end| number > end) {
             bender.lines.push(source.to_owned());

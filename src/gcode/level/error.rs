@@ -106,6 +106,14 @@ pub enum LevelError {
     /// The program cannot be followed.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// Its lines cannot be changed one by one.
+    #[error("line {line}: {what}: such a program cannot be bent line by line")]
+    Indirect {
+        /// From 1.
+        line: u32,
+        /// What stands there.
+        what: &'static str,
+    },
     /// It cuts where nobody has touched.
     #[error(
         "line {line}: it cuts at x = {x:.3} mm, y = {y:.3} mm, outside what was probed, x {left:.3} to {right:.3} mm and y {bottom:.3} to {top:.3} mm, by more than {margin:.3} mm"

@@ -25,6 +25,7 @@ mod format;
 mod height_map;
 mod modal;
 mod outlier;
+mod words;
 
 pub use bend::{Levelled, Levelling, level};
 pub use error::{LevelError, MapError};

@@ -1,4 +1,4 @@
-use crate::gcode::read::lex::Word;
+use super::words::Word;
 use crate::geometry::Turn;
 
 /// What the words so far say of those that follow.

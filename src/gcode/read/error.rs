@@ -1,3 +1,5 @@
+//! What a text that cannot be followed is refused with.
+
 /// Why a text is not a program that can be followed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}, column {column}: `{text}`: {expected}")]

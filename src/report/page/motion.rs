@@ -104,7 +104,7 @@ fn cutters(text: &str) -> Vec<(u32, Cutter)> {
         tool.split([' ', ')']).rfind(|word| !word.is_empty())?.parse().ok()
     };
     let mut cutters: Vec<(u32, Cutter)> =
-        (1..).zip(text.lines()).filter_map(|(number, line)| Some((number, named(line)?))).collect();
+        (1..).zip(read::lines(text)).filter_map(|(number, line)| Some((number, named(line)?))).collect();
     // The header names the tool too.
     cutters.dedup_by_key(|(_, cutter)| *cutter);
     cutters

@@ -18,6 +18,7 @@ mod short;
 mod sliver;
 mod tab_missing;
 mod too_deep;
+mod unclear;
 
 use crate::board::{Board, Hole, Shape};
 use crate::gcode::read::Motion;
@@ -71,6 +72,7 @@ pub const ALL: &[Check] = &[
     hole_size::CHECK,
     tab_missing::CHECK,
     revision::CHECK,
+    unclear::CHECK,
 ];
 
 /// The checks of any program.

@@ -24,7 +24,7 @@ const NAME: &str = "plunge-spindle-off";
 
 fn wrong(motion: &Motion) -> Option<Wrong> {
     let depth = -[motion.from.z, motion.to.z].into_iter().flatten().min()?;
-    let still = motion.spindle.is_none_or(|speed| speed == 0);
+    let still = !motion.spindle.turns();
     let message = || format!("the tool is {depth:.3} mm below the surface and the spindle is off");
     (motion.way != Way::Rapid && depth > Nm::ZERO && still).then(|| Wrong {
         severity: Severity::Error,

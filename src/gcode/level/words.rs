@@ -1,17 +1,17 @@
 //! A line → words: a letter and a number each.
 
-use super::error::ReadError;
+use crate::gcode::read::ReadError;
 
 /// A decimal number, exactly: `mantissa` / 10^`decimals`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(in crate::gcode) struct Number {
-    pub(in crate::gcode) mantissa: i64,
-    pub(in crate::gcode) decimals: u32,
+pub(super) struct Number {
+    pub(super) mantissa: i64,
+    pub(super) decimals: u32,
 }
 
 impl Number {
     /// The number of `unit`s it stands for, in whole ones, halves away from zero; none beyond an `i64`.
-    pub(in crate::gcode) fn times(self, unit: i64) -> Option<i64> {
+    pub(super) fn times(self, unit: i64) -> Option<i64> {
         let scale = 10_i128.pow(self.decimals);
         let scaled = i128::from(self.mantissa) * i128::from(unit);
         let half = scale / 2 * scaled.signum();
@@ -21,11 +21,11 @@ impl Number {
 
 /// A letter, its number, and where it stands.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::gcode) struct Word<'a> {
-    pub(in crate::gcode) letter: char,
-    pub(in crate::gcode) number: Number,
-    pub(in crate::gcode) column: u32,
-    pub(in crate::gcode) text: &'a str,
+pub(super) struct Word<'a> {
+    pub(super) letter: char,
+    pub(super) number: Number,
+    pub(super) column: u32,
+    pub(super) text: &'a str,
 }
 
 /// How many characters of an offending text an error shows. Chosen: more than any word, less than a line of a terminal.
@@ -33,13 +33,13 @@ const SHOWN: usize = 40;
 
 /// Makes errors that point into a line.
 #[derive(Clone, Copy)]
-pub(in crate::gcode) struct Pointer<'a> {
-    pub(in crate::gcode) line: u32,
-    pub(in crate::gcode) source: &'a str,
+pub(super) struct Pointer<'a> {
+    pub(super) line: u32,
+    pub(super) source: &'a str,
 }
 
 impl Pointer<'_> {
-    pub(in crate::gcode) fn error(self, column: u32, text: &str, expected: impl Into<String>) -> ReadError {
+    pub(super) fn error(self, column: u32, text: &str, expected: impl Into<String>) -> ReadError {
         let mut shown: String = text.chars().take(SHOWN).collect();
         if shown.len() < text.len() {
             shown.push('…');
@@ -49,7 +49,7 @@ impl Pointer<'_> {
 }
 
 /// The words of a line, without comments.
-pub(in crate::gcode) fn words<'a>(pointer: Pointer<'a>) -> Result<Vec<Word<'a>>, ReadError> {
+pub(super) fn words<'a>(pointer: Pointer<'a>) -> Result<Vec<Word<'a>>, ReadError> {
     let source = pointer.source;
     let bytes = source.as_bytes();
     let (mut at, mut words) = (0, Vec::new());

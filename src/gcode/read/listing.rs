@@ -1,0 +1,131 @@
+//! What a program does: its motions, and what had to be taken for granted to follow them.
+
+use crate::geometry::{Nm, Point, Turn};
+
+/// Where the tool is, as far as the program has said so.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Place {
+    /// To the right; none where the program does not tell it.
+    pub x: Option<Nm>,
+    /// Away from the operator; none where the program does not tell it.
+    pub y: Option<Nm>,
+    /// Up; none where the program does not tell it.
+    pub z: Option<Nm>,
+}
+
+impl Place {
+    /// The point in the plane, once both coordinates are known.
+    #[must_use]
+    pub fn point(self) -> Option<Point> {
+        Some(Point::new(self.x?, self.y?))
+    }
+}
+
+/// How a motion runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// As fast as the machine goes, not necessarily in a straight line.
+    Rapid,
+    /// Straight, at the feed.
+    Feed,
+    /// Round a centre at the feed; a full turn where it ends over its start.
+    Arc {
+        /// The point it runs round.
+        center: Point,
+        /// Which way.
+        turn: Turn,
+    },
+}
+
+/// What the spindle does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Spindle {
+    /// It stands.
+    #[default]
+    Off,
+    /// It turns at a speed that the program does not give: by a knob, or as the controller
+    /// remembers.
+    Unstated,
+    /// It turns at so many revolutions per minute.
+    At(u32),
+}
+
+impl Spindle {
+    /// Whether it turns.
+    #[must_use]
+    pub const fn turns(self) -> bool {
+        match self {
+            Self::Off | Self::At(0) => false,
+            Self::Unstated | Self::At(_) => true,
+        }
+    }
+}
+
+/// One motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Motion {
+    /// How it runs.
+    pub way: Way,
+    /// Where it begins.
+    pub from: Place,
+    /// Where it ends.
+    pub to: Place,
+    /// The feed in nanometres per minute; none before the program's first F.
+    pub feed: Option<i64>,
+    /// What the spindle does meanwhile.
+    pub spindle: Spindle,
+    /// The tool in the spindle; none before the program's first T with M6.
+    pub tool: Option<u32>,
+    /// The line of the text, from 1.
+    pub line: u32,
+}
+
+/// Something that the text leaves open or that was passed over, and what was assumed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Note {
+    /// Whether the judgement depends on it; else it is only worth knowing.
+    pub warns: bool,
+    /// Where it occurs first.
+    pub line: u32,
+    /// How often it occurs.
+    pub count: u32,
+    /// One sentence without a full stop.
+    pub message: String,
+}
+
+/// What a program does.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Listing {
+    /// Every motion, in order.
+    pub motions: Vec<Motion>,
+    /// Where the program waits for a person or changes tools: the number of motions before it, and
+    /// its line.
+    pub stops: Vec<(usize, u32)>,
+    /// How long it dwells, in milliseconds.
+    pub dwell: u64,
+    /// The line that ends it (M2 or M30); none where the text just stops.
+    pub end: Option<u32>,
+    /// Whether the spindle still turns at the end.
+    pub spinning: bool,
+    /// What was assumed, in the order of its first occurrence.
+    pub notes: Vec<Note>,
+    /// The first line, and why, from which on places are not the numbers of the text one for one (a
+    /// subprogram, an expression, a moved zero); none where the text can be changed line by line.
+    pub indirect: Option<(u32, &'static str)>,
+}
+
+impl Listing {
+    /// Notes something once, and counts how often it occurs.
+    pub(super) fn note(&mut self, warns: bool, line: u32, message: impl Into<String>) {
+        let message = message.into();
+        match self.notes.iter_mut().find(|note| note.message == message) {
+            Some(note) => note.count += 1,
+            None => self.notes.push(Note { warns, line, count: 1, message }),
+        }
+    }
+
+    /// Remembers where places are no longer the numbers of the text.
+    pub(super) fn is_indirect(&mut self, line: u32, why: &'static str) {
+        self.indirect.get_or_insert((line, why));
+    }
+}

@@ -1,0 +1,266 @@
+//! The controller: what holds from line to line, and what a line makes of it.
+
+mod arc;
+mod curve;
+mod cycle;
+mod parameters;
+mod place;
+mod setting;
+mod travel;
+
+use crate::geometry::Nm;
+
+use super::block::{Block, Word};
+use super::error::ReadError;
+use super::frame::{Axis, Plane};
+use super::listing::{Listing, Place, Spindle};
+use super::meaning::{Distance, FeedMode, Meaning, Mode, Special, meaning};
+use super::source::Pointer;
+use super::variables::Variables;
+
+use curve::Curves;
+use cycle::Holes;
+
+/// What M70 and M73 keep, and the words of a line change.
+#[derive(Clone, Copy, Debug)]
+struct Modal {
+    mode: Mode,
+    plane: Plane,
+    distance: Distance,
+    centers: Distance,
+    /// Nanometres in a unit, and whether the program has said so.
+    unit: i64,
+    unit_given: bool,
+    feed_mode: FeedMode,
+    to_initial: bool,
+    system: usize,
+    feed: Option<i64>,
+    speed: Option<u32>,
+    spinning: bool,
+}
+
+impl Default for Modal {
+    fn default() -> Self {
+        Self {
+            mode: Mode::None,
+            plane: Plane::Xy,
+            distance: Distance::Absolute,
+            centers: Distance::Incremental,
+            unit: 1_000_000,
+            unit_given: false,
+            feed_mode: FeedMode::PerMinute,
+            to_initial: false,
+            system: 0,
+            feed: None,
+            speed: None,
+            spinning: false,
+        }
+    }
+}
+
+/// A controller that runs a program.
+#[derive(Debug, Default)]
+pub(super) struct Machine {
+    pub(super) listing: Listing,
+    pub(super) variables: Variables,
+    /// The line that is being run.
+    pub(super) line: u32,
+    modal: Modal,
+    axes: [Axis; 3],
+    selected: Option<u32>,
+    tool: Option<u32>,
+    /// Where cutter compensation was switched on.
+    compensated: Option<u32>,
+    holes: Holes,
+    curves: Curves,
+    /// F with G93, of this line.
+    inverse: Option<f64>,
+    saved: Option<Modal>,
+    /// What the last probe found, in nanometres on the board.
+    probed: [Option<Nm>; 3],
+}
+
+/// What a line asks of the flow of the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ask {
+    On,
+    End,
+    /// M98.
+    Call,
+    /// M99.
+    Return,
+}
+
+/// What the codes of a line ask for.
+#[derive(Default)]
+struct Orders {
+    motion: Option<Mode>,
+    special: Option<Special>,
+    ends_curve: bool,
+    in_machine: bool,
+    dwell: bool,
+    change_tool: bool,
+    stop: bool,
+    ask: Option<Ask>,
+}
+
+/// A line that is being run.
+#[derive(Clone, Copy)]
+struct Run<'a> {
+    pointer: Pointer<'a>,
+    block: &'a Block,
+}
+
+impl Run<'_> {
+    const fn line(&self) -> u32 {
+        self.pointer.line
+    }
+
+    fn error(&self, word: Word, expected: impl Into<String>) -> ReadError {
+        self.pointer.error(word.column, expected)
+    }
+
+    /// An error at the line's first word.
+    fn refuse(&self, expected: impl Into<String>) -> ReadError {
+        let lead = self.pointer.source.len() - self.pointer.source.trim_start().len();
+        self.pointer.error(u32::try_from(lead + 1).unwrap_or(1), expected)
+    }
+}
+
+impl Machine {
+    /// Runs a line, in the order of RS274/NGC §3.8: feed, speed, tool, spindle, dwell, plane,
+    /// units, systems, distance, motion, stop.
+    pub(super) fn run(&mut self, pointer: Pointer<'_>, block: &Block) -> Result<Ask, ReadError> {
+        let run = Run { pointer, block };
+        self.remarks(run);
+        let orders = self.orders(run)?;
+        self.settings(run)?;
+        if orders.change_tool {
+            self.tool = self.selected;
+        }
+        if orders.dwell {
+            self.dwell(run)?;
+        }
+        if orders.ends_curve {
+            self.end_curve(run)?;
+        }
+        match orders.special {
+            Some(special) => self.special(run, special)?,
+            None => self.motion(run, &orders)?,
+        }
+        for (name, value) in &block.assignments {
+            self.variables.set(name.clone(), *value);
+        }
+        if orders.stop {
+            self.listing.stops.push((self.listing.motions.len(), run.line()));
+        }
+        if orders.ask == Some(Ask::End) {
+            self.listing.end = Some(run.line());
+            self.modal.spinning = false;
+        }
+        Ok(orders.ask.unwrap_or(Ask::On))
+    }
+
+    /// Whether the spindle turns.
+    pub(super) const fn is_spinning(&self) -> bool {
+        self.modal.spinning
+    }
+
+    /// Where the tool is.
+    fn place(&self) -> Place {
+        let [x, y, z] = self.axes.map(|axis| axis.at);
+        Place { x, y, z }
+    }
+
+    const fn spindle(&self) -> Spindle {
+        match (self.modal.spinning, self.modal.speed) {
+            (false, _) => Spindle::Off,
+            (true, None) => Spindle::Unstated,
+            (true, Some(speed)) => Spindle::At(speed),
+        }
+    }
+
+    /// What of a line is passed over.
+    fn remarks(&mut self, run: Run<'_>) {
+        let (line, block) = (run.line(), run.block);
+        for &letter in &block.others {
+            let what = if letter == 'E' { "the extruder" } else { "an axis that is not followed" };
+            self.listing.note(true, line, format!("{letter} is passed over: {what}"));
+        }
+        if block.checksum == Some(false) {
+            self.listing.note(true, line, "a checksum does not fit its line: a controller asks for it again");
+        }
+        if block.computed {
+            self.listing.is_indirect(line, "a parameter or an expression");
+        }
+        if block.optional {
+            self.listing.note(
+                false,
+                line,
+                "a line behind `/` is run: a switch of the machine may leave it out",
+            );
+        }
+    }
+
+    /// Takes the codes of a line into account, as far as they act before its motion.
+    fn orders(&mut self, run: Run<'_>) -> Result<Orders, ReadError> {
+        let mut orders = Orders::default();
+        for &order in &run.block.orders {
+            let refuse = |expected: &str| Err(run.pointer.error(order.column, expected));
+            match meaning(order.letter, order.key) {
+                Meaning::Motion(mode) => {
+                    // `G80 G0` is written often; two motions are not.
+                    let before = orders.motion.filter(|before| *before != Mode::None && mode != Mode::None);
+                    if before.is_some_and(|before| before != mode) {
+                        return refuse("a second kind of motion in the line");
+                    }
+                    orders.motion = orders.motion.filter(|_| mode == Mode::None).or(Some(mode));
+                }
+                Meaning::EndCurve => orders.ends_curve = true,
+                Meaning::Plane(plane) => self.modal.plane = plane,
+                Meaning::Unit(unit) => (self.modal.unit, self.modal.unit_given) = (unit, true),
+                Meaning::Distance(distance) => self.modal.distance = distance,
+                Meaning::Centers(centers) => self.modal.centers = centers,
+                Meaning::FeedMode(mode) => self.modal.feed_mode = mode,
+                Meaning::ToInitial(to_initial) => self.modal.to_initial = to_initial,
+                Meaning::Dwell => orders.dwell = true,
+                Meaning::System(system) => self.choose(system, run.line()),
+                Meaning::MachineCoordinates => orders.in_machine = true,
+                Meaning::Special(special) => orders.special = Some(special),
+                Meaning::Compensation(on) => self.compensated = on.then_some(run.line()),
+                Meaning::Spindle(on) => self.modal.spinning = on,
+                Meaning::ToolChange | Meaning::SetTool => orders.change_tool = true,
+                Meaning::Stop => orders.stop = true,
+                Meaning::End => orders.ask = Some(Ask::End),
+                Meaning::Call => orders.ask = Some(Ask::Call),
+                Meaning::Return => orders.ask = Some(Ask::Return),
+                Meaning::Save { .. } => self.saved = Some(self.modal),
+                Meaning::Restore => self.modal = self.saved.unwrap_or(self.modal),
+                Meaning::Nothing => {}
+                Meaning::Unknown => {
+                    let tenth =
+                        if order.key % 10 == 0 { String::new() } else { format!(".{}", order.key % 10) };
+                    let message =
+                        format!("M{}{tenth} is not known: it is taken to move nothing", order.key / 10);
+                    self.listing.note(true, run.line(), message);
+                }
+                Meaning::Refused(why) => return refuse(why),
+            }
+            if meaning(order.letter, order.key) == (Meaning::Save { again: true }) {
+                return refuse("what a subprogram restores at its end is not followed");
+            }
+        }
+        if let Some(Ask::End) = orders.ask {
+            orders.motion = orders.motion.or(Some(self.modal.mode));
+        }
+        Ok(orders)
+    }
+
+    /// Another coordinate system.
+    fn choose(&mut self, system: usize, line: u32) {
+        if system != self.modal.system && !self.listing.motions.is_empty() {
+            self.listing.is_indirect(line, "another coordinate system");
+        }
+        self.modal.system = system;
+    }
+}

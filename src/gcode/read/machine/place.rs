@@ -1,0 +1,209 @@
+//! Words → places on the board, and what moves the zeros they count from.
+
+use crate::gcode::read::block::{Block, Word};
+use crate::gcode::read::error::ReadError;
+use crate::gcode::read::expression::index;
+use crate::gcode::read::frame::SYSTEMS;
+use crate::gcode::read::listing::Way;
+use crate::gcode::read::meaning::{Distance, Special};
+use crate::gcode::read::source::Pointer;
+use crate::geometry::Nm;
+
+use super::{Machine, Run};
+
+/// The letters of the axes.
+pub(super) const AXES: [char; 3] = ['X', 'Y', 'Z'];
+
+/// Somewhere on the board, as far as it is known.
+pub(super) type Target = [Option<Nm>; 3];
+
+impl Machine {
+    /// Where the words of a line lead.
+    pub(super) fn target(&mut self, run: Run<'_>) -> Result<Target, ReadError> {
+        let mut to = self.axes.map(|axis| axis.at);
+        for (index, letter) in AXES.into_iter().enumerate() {
+            if let Some(word) = run.block.get(letter) {
+                to[index] = self.coordinate(run, index, word)?;
+            }
+        }
+        if run.block.radius.is_some() || run.block.angle.is_some() {
+            [to[0], to[1]] = self.polar(run)?;
+        }
+        Ok(to)
+    }
+
+    /// Where a coordinate of an axis lies.
+    pub(super) fn coordinate(
+        &mut self,
+        run: Run<'_>,
+        axis: usize,
+        word: Word,
+    ) -> Result<Option<Nm>, ReadError> {
+        let value = Nm::new(self.scaled(run, word)?);
+        self.unit_is_used(run);
+        let system = self.modal.system;
+        match self.modal.distance {
+            Distance::Absolute => Ok(self.axes[axis].origin(system).map(|origin| origin + value)),
+            Distance::Incremental => Ok(Some(self.known(run, axis)? + value)),
+        }
+    }
+
+    /// Notes a length in a unit that the program has not given.
+    fn unit_is_used(&mut self, run: Run<'_>) {
+        if !self.modal.unit_given {
+            self.modal.unit_given = true;
+            let what = "neither G20 nor G21 before the first length: taken for millimetres";
+            self.listing.note(true, run.line(), what);
+        }
+    }
+
+    /// Where an axis is, or at the start of a program, zero.
+    pub(super) fn known(&mut self, run: Run<'_>, axis: usize) -> Result<Nm, ReadError> {
+        if let Some(at) = self.axes[axis].at {
+            return Ok(at);
+        }
+        let system = self.modal.system;
+        let origin = self.axes[axis].origin(system);
+        match origin.filter(|_| !self.axes[axis].sent) {
+            Some(origin) => {
+                let letter = AXES[axis];
+                let what = format!("it begins where the machine stands in {letter}: taken for {letter}0");
+                self.listing.note(true, run.line(), what);
+                self.axes[axis].at = Some(origin);
+                Ok(origin)
+            }
+            None => Err(run.refuse("a motion from a place of the machine that the program does not give")),
+        }
+    }
+
+    /// `@` and `^`: how far from zero in the plane, and in which direction; what is left out stays
+    /// as it is.
+    fn polar(&mut self, run: Run<'_>) -> Result<[Option<Nm>; 2], ReadError> {
+        let word = run.block.radius.or(run.block.angle).expect("one of them was asked for");
+        let system = self.modal.system;
+        let (x, y) = (self.known(run, 0)?, self.known(run, 1)?);
+        let origins = (self.axes[0].origin(system), self.axes[1].origin(system));
+        let (Some(left), Some(bottom)) = origins else {
+            return Err(run.error(word, "a zero that the program does not give"));
+        };
+        self.unit_is_used(run);
+        self.listing.is_indirect(run.line(), "polar coordinates");
+        let (dx, dy) = ((x - left).to_f64(), (y - bottom).to_f64());
+        let (mut radius, mut angle) = (libm::hypot(dx, dy), libm::atan2(dy, dx));
+        let adds = self.modal.distance == Distance::Incremental;
+        if let Some(word) = run.block.radius {
+            radius = Nm::new(self.scaled(run, word)?).to_f64() + if adds { radius } else { 0.0 };
+        }
+        if let Some(word) = run.block.angle {
+            angle = word.value.to_radians() + if adds { angle } else { 0.0 };
+        }
+        let (sin, cos) = libm::sincos(angle);
+        Ok([Some(left + Nm::from_f64(radius * cos)), Some(bottom + Nm::from_f64(radius * sin))])
+    }
+
+    /// Codes that take the axis words of a line for something else than a motion.
+    pub(super) fn special(&mut self, run: Run<'_>, special: Special) -> Result<(), ReadError> {
+        match special {
+            Special::Data => return self.data(run),
+            Special::Home => return self.home(run),
+            Special::Here | Special::Local => {
+                self.listing.is_indirect(run.line(), "a moved zero");
+                for (axis, letter) in AXES.into_iter().enumerate() {
+                    let Some(word) = run.block.get(letter) else { continue };
+                    let value = Nm::new(self.scaled(run, word)?);
+                    self.unit_is_used(run);
+                    match special {
+                        Special::Local => self.axes[axis].set_shift(value),
+                        _ => self.axes[axis].here(self.modal.system, value, false),
+                    }
+                }
+            }
+            Special::Drop { keep } => self.axes.iter_mut().for_each(|axis| axis.drop_shift(keep)),
+            Special::Restore => self.axes.iter_mut().for_each(|axis| axis.restore_shift()),
+            Special::Ignored => {}
+        }
+        Ok(())
+    }
+
+    /// G10: L2 sets the zero of a system from the machine's, L20 from where the tool is; L1, L10
+    /// and L11 the tool table.
+    fn data(&mut self, run: Run<'_>) -> Result<(), ReadError> {
+        let Some(kind) = run.block.get('L') else {
+            // Marlin and others: retract the filament, or a menu of the controller.
+            self.listing.note(true, run.line(), "G10 without L is passed over");
+            return Ok(());
+        };
+        let which = run.block.get('P').map_or(Some(0), |word| index(word.value));
+        let wrong = || run.error(kind, "expected L1, L2, L10, L11 or L20, and P from 0 to 9");
+        let which = which.ok_or_else(wrong)? as usize;
+        match index(kind.value) {
+            Some(1 | 10 | 11) => return Ok(()),
+            Some(2 | 20) if which <= SYSTEMS => {}
+            _ => return Err(wrong()),
+        }
+        if let Some(word) = run.block.get('R').filter(|word| word.value != 0.0) {
+            return Err(run.error(word, "a system that is turned is not followed"));
+        }
+        self.listing.is_indirect(run.line(), "a moved zero");
+        let system = which.checked_sub(1).unwrap_or(self.modal.system);
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            let Some(word) = run.block.get(letter) else { continue };
+            let value = Nm::new(self.scaled(run, word)?);
+            self.unit_is_used(run);
+            if index(kind.value) == Some(2) {
+                self.axes[axis].set_zero(system, value);
+            } else {
+                self.axes[axis].here(system, value, true);
+            }
+        }
+        Ok(())
+    }
+
+    /// G28 and G30: by the place that the line gives, if any, to one that only the machine knows.
+    fn home(&mut self, run: Run<'_>) -> Result<(), ReadError> {
+        self.listing.is_indirect(run.line(), "a place of the machine");
+        let named = AXES.map(|letter| run.block.get(letter).is_some());
+        let all = !named.contains(&true);
+        let mut by = self.axes.map(|axis| axis.at);
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            // From nowhere, a step leads nowhere.
+            let steps = self.modal.distance == Distance::Incremental && self.axes[axis].at.is_none();
+            if let Some(word) = run.block.get(letter).filter(|_| !steps) {
+                by[axis] = self.coordinate(run, axis, word)?;
+            }
+        }
+        if by != self.axes.map(|axis| axis.at) {
+            self.go(run, Way::Rapid, by)?;
+        }
+        let what = "a place of the machine that the program does not give: taken for one above all work";
+        self.listing.note(false, run.line(), what);
+        self.send(run, [0, 1, 2].map(|axis| all || named[axis]))
+    }
+
+    /// Grbl's `$H`.
+    pub(in crate::gcode::read) fn home_all(
+        &mut self,
+        pointer: Pointer<'_>,
+        block: &Block,
+    ) -> Result<(), ReadError> {
+        self.listing.is_indirect(pointer.line, "a place of the machine");
+        self.send(Run { pointer, block }, [true; 3])
+    }
+
+    /// To places of the machine along some axes: up first.
+    pub(super) fn send(&mut self, run: Run<'_>, which: [bool; 3]) -> Result<(), ReadError> {
+        if which[2] && self.axes[2].at.is_some() {
+            let [x, y, _] = self.axes.map(|axis| axis.at);
+            self.go(run, Way::Rapid, [x, y, None])?;
+        }
+        let at = self.axes.map(|axis| axis.at);
+        let to = [0, 1, 2].map(|axis| at[axis].filter(|_| !which[axis]));
+        if to != at {
+            self.go(run, Way::Rapid, to)?;
+        }
+        for (axis, _) in self.axes.iter_mut().zip(which).filter(|(_, which)| *which) {
+            axis.sent = true;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,196 @@
+//! Motions: which kind a line asks for, and what is known of where it goes.
+
+use crate::gcode::read::error::ReadError;
+use crate::gcode::read::listing::{Motion, Place, Way};
+use crate::gcode::read::meaning::{FeedMode, Meaning, Mode, meaning};
+use crate::geometry::Nm;
+
+use super::place::{AXES, Target};
+use super::{Machine, Orders, Run};
+
+/// How many motions are followed. Chosen: a hundred times as many as a large board has.
+const MOTIONS: usize = 5_000_000;
+
+impl Machine {
+    /// The motion of a line, if it has one.
+    pub(super) fn motion(&mut self, run: Run<'_>, orders: &Orders) -> Result<(), ReadError> {
+        if let Some(mode) = orders.motion {
+            if let (Mode::Cycle(_), false) = (mode, matches!(self.modal.mode, Mode::Cycle(_))) {
+                self.begin_cycle();
+            }
+            self.modal.mode = mode;
+        }
+        let block = run.block;
+        // The words of a dwell or a call are its own.
+        let calls = block.orders.iter().any(|order| meaning(order.letter, order.key) == Meaning::Call);
+        if (orders.dwell && orders.motion.is_none()) || calls {
+            return Ok(());
+        }
+        let letters = if matches!(self.modal.mode, Mode::Arc(_)) { "XYZIJKR" } else { "XYZ" };
+        let Some(first) = block.first(letters).or(block.radius).or(block.angle) else { return Ok(()) };
+        if let Some(line) = self.compensated {
+            let what = format!("cutter compensation since line {line}: the path depends on a tool table");
+            return Err(run.error(first, what));
+        }
+        if orders.in_machine {
+            return self.in_machine(run);
+        }
+        match self.modal.mode {
+            Mode::None => Err(run.error(first, "a coordinate before the first of G0 to G3 or a cycle")),
+            Mode::Rapid => {
+                let to = self.target(run)?;
+                self.go(run, Way::Rapid, to)
+            }
+            Mode::Feed | Mode::Synchronous { .. } => self.straight(run),
+            Mode::Arc(turn) => self.arc(run, turn),
+            Mode::Cycle(cycle) => self.drill(run, cycle),
+            Mode::Probe => self.probe(run),
+            Mode::Curve(curve) => self.curve(run, curve),
+        }
+    }
+
+    /// G1, G33 and G33.1.
+    fn straight(&mut self, run: Run<'_>) -> Result<(), ReadError> {
+        let to = self.target(run)?;
+        self.start(run, to)?;
+        let from = self.axes.map(|axis| axis.at);
+        if let Mode::Synchronous { returns } = self.modal.mode {
+            let lead = run
+                .block
+                .get('K')
+                .ok_or_else(|| run.refuse("expected K, the way in a turn of the spindle"))?;
+            let turns = self.modal.speed.map_or(0, i64::from);
+            self.modal.feed = Some(self.scaled(run, lead)?.abs() * turns);
+            self.go(run, Way::Feed, to)?;
+            return if returns { self.go(run, Way::Feed, from) } else { Ok(()) };
+        }
+        self.inverse_feed(run, distance(from, to))?;
+        self.go(run, Way::Feed, to)
+    }
+
+    /// A motion in coordinates of the machine: known where the program has told where its zero is,
+    /// a retract where only Z is given and not far below the top.
+    fn in_machine(&mut self, run: Run<'_>) -> Result<(), ReadError> {
+        let mut to = self.axes.map(|axis| axis.at);
+        let mut unknown = [false; 3];
+        for (axis, letter) in AXES.into_iter().enumerate() {
+            let Some(word) = run.block.get(letter) else { continue };
+            let value = Nm::new(self.scaled(run, word)?);
+            to[axis] = self.axes[axis].of_machine(value);
+            unknown[axis] = to[axis].is_none();
+        }
+        self.listing.is_indirect(run.line(), "a place of the machine");
+        let way = if self.modal.mode == Mode::Feed { Way::Feed } else { Way::Rapid };
+        if !unknown.contains(&true) {
+            return self.go(run, way, to);
+        }
+        let low = run.block.get('Z').filter(|word| unknown[2] && word.value < 0.0);
+        if low.is_some() {
+            let what = "G53 with Z below the machine's zero: how high above the board that is, the program does not give";
+            self.listing.note(true, run.line(), what);
+        } else {
+            let what = "a place of the machine that the program does not give: taken for one above all work";
+            self.listing.note(false, run.line(), what);
+        }
+        if way == Way::Feed && (unknown[0] || unknown[1]) && self.axes[2].at.is_none_or(|z| z < Nm::ZERO) {
+            return Err(run.refuse("a cut to a place of the machine that the program does not give"));
+        }
+        self.send(run, unknown)?;
+        // What is known is gone to, too.
+        let rest = [0, 1, 2].map(|axis| if unknown[axis] { self.axes[axis].at } else { to[axis] });
+        if rest == self.axes.map(|axis| axis.at) { Ok(()) } else { self.go(run, Way::Rapid, rest) }
+    }
+
+    /// G38.2 to G38.5 and G31: down to the board, whose surface is zero; along other axes as far as
+    /// the program says.
+    fn probe(&mut self, run: Run<'_>) -> Result<(), ReadError> {
+        self.listing.is_indirect(run.line(), "a probe");
+        let mut to = self.target(run)?;
+        let from = self.axes.map(|axis| axis.at);
+        let down = to[2] != from[2] && to[2] < Some(Nm::ZERO);
+        if down {
+            to[2] = Some(Nm::ZERO);
+            self.listing.note(false, run.line(), "a probe: taken to touch the board's surface at Z0");
+        } else {
+            self.listing.note(true, run.line(), "a probe: taken to go as far as it may");
+        }
+        self.go(run, Way::Feed, to)?;
+        for axis in 0..3 {
+            self.axes[axis].found = to[axis] != from[axis];
+        }
+        self.probed = to;
+        Ok(())
+    }
+
+    /// What a cut needs to know of where it begins.
+    pub(super) fn start(&mut self, run: Run<'_>, to: Target) -> Result<(), ReadError> {
+        let at = self.axes.map(|axis| axis.at);
+        let low = |z: Option<Nm>| z.is_some_and(|z| z < Nm::ZERO);
+        // Straight down it goes wherever it is.
+        let moves = run.block.first("XY").is_some();
+        for axis in [0, 1].into_iter().filter(|_| moves) {
+            if at[axis].is_none() && (low(to[2]) || low(at[2])) {
+                self.known(run, axis)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// With G93 a motion of this length takes a minute divided by F.
+    pub(super) fn inverse_feed(&mut self, run: Run<'_>, length: f64) -> Result<(), ReadError> {
+        if self.modal.feed_mode == FeedMode::Inverse {
+            let missing = || run.refuse("with G93 each line that cuts needs an F");
+            let feed = self.inverse.ok_or_else(missing)?;
+            self.modal.feed = Some(Nm::from_f64(length * feed).get());
+        }
+        Ok(())
+    }
+
+    /// Moves.
+    pub(super) fn go(&mut self, run: Run<'_>, way: Way, to: Target) -> Result<(), ReadError> {
+        if self.listing.motions.len() >= MOTIONS {
+            return Err(
+                run.refuse(format!("the program moves more than {MOTIONS} times, which is not followed"))
+            );
+        }
+        let from = self.place();
+        let unknown = |axis: usize| to[axis].is_none() && self.axes[axis].at.is_some();
+        let low = to[2].or(from.z).is_none_or(|z| z < Nm::ZERO);
+        if way != Way::Rapid && (unknown(0) || unknown(1)) && low {
+            let what =
+                "a cut to a place that nobody can know: the program does not give the zero it counts from";
+            return Err(run.refuse(what));
+        }
+        let z_lost = run.block.get('Z').is_some() && to[2].is_none() && !self.axes[2].sent;
+        if way != Way::Rapid && z_lost {
+            return Err(
+                run.refuse("a cut to a depth that nobody can know: the program does not give its zero")
+            );
+        }
+        let [x, y, z] = to;
+        let motion = Motion {
+            way,
+            from,
+            to: Place { x, y, z },
+            feed: self.modal.feed,
+            spindle: self.spindle(),
+            tool: self.tool,
+            line: run.line(),
+        };
+        self.listing.motions.push(motion);
+        for (axis, to) in self.axes.iter_mut().zip(to) {
+            axis.found &= axis.at == to;
+            axis.cut |= way != Way::Rapid;
+            axis.sent &= to.is_none();
+            axis.at = to;
+        }
+        Ok(())
+    }
+}
+
+/// How far it is, in nanometres, along the axes that are known.
+pub(super) fn distance(from: Target, to: Target) -> f64 {
+    let along = |axis: usize| from[axis].zip(to[axis]).map_or(0.0, |(from, to)| (to - from).to_f64());
+    let [x, y, z] = [0, 1, 2].map(along);
+    (x * x + y * y + z * z).sqrt()
+}

@@ -1,0 +1,45 @@
+//! # What it checks
+//!
+//! What the text of a program leaves open, and how it was taken: no unit, no speed of the spindle,
+//! places of the machine, words that were passed over.
+//!
+//! # Why
+//!
+//! The rest of the verdict holds as far as that was taken right.
+//!
+//! # What it can miss
+//!
+//! What the controller remembers from before the program. What the motion depends on, and nobody
+//! can know, is no finding: such a program is not judged.
+
+use super::{Check, Run, Severity};
+use crate::gcode::read::{Motion, Note, Spindle, Way};
+use crate::verify::machining::Machining;
+use crate::verify::report::Finding;
+
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "something that the program leaves open",
+    run: Run::Motion(|program, _, _| check(program)),
+};
+
+const NAME: &str = "unclear";
+
+fn check(program: &Machining) -> Vec<Finding> {
+    let of = |severity: Severity, line: u32, message: String| Finding {
+        program: Some(program.file.clone()),
+        line: Some(line),
+        ..Finding::new(NAME, severity, message)
+    };
+    let note = |Note { warns, line, count, message }: &Note| {
+        let severity = if *warns { Severity::Warning } else { Severity::Info };
+        let often = if *count > 1 { format!(" ({count} times)") } else { String::new() };
+        of(severity, *line, format!("{message}{often}"))
+    };
+    let unstated = |motion: &&Motion| motion.way != Way::Rapid && motion.spindle == Spindle::Unstated;
+    let knob = program.motions.iter().find(unstated).map(|motion| {
+        let what = "the spindle turns at a speed that the program does not give: set it by hand";
+        of(Severity::Info, motion.line, what.to_owned())
+    });
+    program.notes.iter().map(note).chain(knob).collect()
+}
