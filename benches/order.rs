@@ -97,6 +97,7 @@ fn cut(trails: &[Trail], order: Order) -> Section {
         machine: &machine,
         narrow: Narrow::Centre,
         adaptive: None,
+        direction: None,
     };
     isolate("trails", &boundaries, &[], |_| Role::Cut, |_| String::new(), &settings).0
 }

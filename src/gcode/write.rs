@@ -10,8 +10,10 @@ use std::fmt::Write as _;
 use crate::geometry::{Arc, Nm, Point, Turn};
 use crate::toolpath::{Feed, Move, Position, Program, Section, Tool};
 
-use super::dialect::{ArcCheck, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Rapids, ToolChange};
-use super::header::Header;
+use super::dialect::{
+    ArcCheck, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, Rapids, ToolChange,
+};
+use super::header::{Header, brief, highest, named};
 
 /// The whole program as text, every line ended.
 ///
@@ -44,6 +46,8 @@ pub(super) struct Writer<'a> {
     unit: i64,
     line: u32,
     at: Option<Rounded>,
+    /// How high the tool is, which is known before the place is.
+    height: Option<i64>,
     /// Where the plan is: what the rounded position stands for.
     planned: Option<Position>,
     /// The feed in force; none where the controller may have another, or lost it.
@@ -55,25 +59,50 @@ pub(super) struct Writer<'a> {
 impl<'a> Writer<'a> {
     pub(super) fn new(dialect: &'a Dialect) -> Self {
         let unit = 10_i64.pow(u32::try_from(6_usize.saturating_sub(dialect.decimals)).unwrap_or(0));
-        Self { dialect, text: String::new(), unit, line: 0, at: None, planned: None, feed: None, fed: false }
+        Self {
+            dialect,
+            text: String::new(),
+            unit,
+            line: 0,
+            at: None,
+            height: None,
+            planned: None,
+            feed: None,
+            fed: false,
+        }
     }
 
-    /// Header, start lines, and the first lift.
+    /// Header, start lines, and the first lift: as high as the program goes anywhere, since nobody knows where the machine stands.
     pub(super) fn begin(&mut self, program: &Program, header: &Header) {
-        self.comment(&program.title);
-        for line in header.lines() {
-            self.comment(&line);
+        for line in brief(program, self.dialect, header).iter().chain(&header.provenance()) {
+            self.comment(line);
         }
-        for note in program.notes.iter().map(String::as_str).chain(self.dialect.condition.as_deref()) {
-            self.comment(note);
-        }
+        self.own(|own| &own.before);
+        self.modes();
+        self.lift(highest(program));
+    }
+
+    /// What numbers and words mean from here on.
+    fn modes(&mut self) {
         for line in self.dialect.start.iter() {
             self.line(line);
         }
         if let Some(Blend::Within(most)) = self.dialect.blend {
             self.line(&format!("G64 P{}", most.to_string().trim_end_matches('0').trim_end_matches('.')));
         }
-        self.lift(program.safe);
+    }
+
+    /// Lines of the user's own, between comments that tell them from ours.
+    fn own(&mut self, which: impl Fn(&OwnCode) -> &Vec<String>) {
+        let lines = which(&self.dialect.own);
+        if lines.is_empty() {
+            return;
+        }
+        self.comment(OWN_BEGINS);
+        for line in lines {
+            self.line(line);
+        }
+        self.comment(OWN_ENDS);
     }
 
     /// The tool change and the spindle, unless the tool is in and turning, and the moves.
@@ -83,11 +112,18 @@ impl<'a> Writer<'a> {
                 self.stop();
             }
             self.comment(&section.label);
+            let height = self.height.unwrap_or_default().max(self.round(program.safe));
+            if before.is_some() {
+                self.own(|own| &own.at_tool_change);
+            }
             self.change(&section.tool, before.is_none());
             if before.is_some() {
-                self.lift(program.safe);
+                if !self.dialect.own.at_tool_change.is_empty() {
+                    self.modes();
+                }
                 // Whoever changes the tool may have moved the machine: the next place is written in full.
                 self.at = None;
+                self.lift(Nm::new(height * self.unit));
             }
             self.start(&section.tool);
         } else {
@@ -109,10 +145,11 @@ impl<'a> Writer<'a> {
     /// The last lift, the spindle off, and the end lines.
     pub(super) fn finish(&mut self, program: &Program) {
         let safe = self.round(program.safe);
-        if self.at.is_some_and(|at| at.z != safe) {
+        if self.height.is_some_and(|height| height < safe) {
             self.lift(program.safe);
         }
         self.stop();
+        self.own(|own| &own.after);
         for line in self.dialect.end.iter() {
             self.line(line);
         }
@@ -131,28 +168,24 @@ impl<'a> Writer<'a> {
         let mut line = format!("G0 Z{}", self.number(z));
         self.rapid_feed(&mut line);
         self.line(&line);
+        self.height = Some(z);
         self.at = self.at.map(|at| Rounded { z, ..at });
         self.planned = self.planned.map(|at| Position { z: safe, ..at });
     }
 
     fn change(&mut self, tool: &Tool, first: bool) {
-        let what = format!("tool {}: {} {}", tool.number, tool.name, tool.kind);
-        let text = if tool.name == tool.kind.to_string() {
-            format!("tool {}: {}", tool.number, tool.kind)
-        } else {
-            what
-        };
+        let text = named(tool);
         match self.dialect.tool_change {
             ToolChange::M6 => {
-                self.comment(&text);
+                self.message(&text);
                 self.line(&format!("T{} M6", tool.number));
             }
             ToolChange::Pause | ToolChange::PauseWithText | ToolChange::Files if first => {
-                self.comment(&format!("starts with {text}"))
+                self.message(&format!("starts with {text}"))
             }
             // A program for files has one tool; with more it waits, as the safest.
             ToolChange::Pause | ToolChange::Files => {
-                self.comment(&format!("fit {text}"));
+                self.message(&format!("fit {text}"));
                 self.line(&self.dialect.pause);
             }
             ToolChange::PauseWithText => self.line(&format!("M0 fit {}", plain(&text))),
@@ -186,6 +219,11 @@ impl<'a> Writer<'a> {
         if self.at == Some(rounded) {
             return;
         }
+        if feed.is_none() && self.at.is_none() && self.height.is_some_and(|height| height > rounded.z) {
+            // From the height at which the tool was changed: there first, and then down.
+            let height = Nm::new(self.height.unwrap_or_default() * self.unit);
+            self.straight(word, Position { z: height, ..to }, None);
+        }
         let mut line = word.to_owned();
         let at = self.at;
         self.coordinate(&mut line, 'X', rounded.x, at.map(|at| at.x));
@@ -199,6 +237,7 @@ impl<'a> Writer<'a> {
             None => self.rapid_feed(&mut line),
         }
         self.at = Some(rounded);
+        self.height = Some(rounded.z);
         self.line(&line);
     }
 
@@ -280,6 +319,7 @@ impl<'a> Writer<'a> {
         _ = write!(line, " I{} J{}", self.number(i), self.number(j));
         self.feed_word(&mut line, feed);
         self.at = Some(rounded);
+        self.height = Some(rounded.z);
         self.planned = Some(to);
         self.line(&line);
     }
@@ -304,6 +344,7 @@ impl<'a> Writer<'a> {
             _ = write!(line, " R{}", self.number(self.round(Nm::from_f64(arc.radius()))));
             self.feed_word(&mut line, feed);
             self.at = Some(rounded);
+            self.height = Some(rounded.z);
             self.line(&line);
         }
         self.planned = Some(to);
@@ -343,6 +384,14 @@ impl<'a> Writer<'a> {
         if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
     }
 
+    /// A comment that the operator sees, where the controller shows any.
+    fn message(&mut self, text: &str) {
+        match self.dialect.messages {
+            Messages::Msg => self.comment(&format!("MSG, {text}")),
+            Messages::Hidden => self.comment(text),
+        }
+    }
+
     /// A comment in as many lines as it needs.
     pub(super) fn comment(&mut self, text: &str) {
         let (open, close) = match self.dialect.comments {
@@ -365,6 +414,10 @@ impl<'a> Writer<'a> {
         self.text.push('\n');
     }
 }
+
+/// What stands before and after lines of the user's own, for whoever reads the program.
+const OWN_BEGINS: &str = "own G-code begins";
+const OWN_ENDS: &str = "own G-code ends";
 
 /// How far chords may leave an arc that is written as lines.
 const CHORD: Nm = Nm::from_um(1);

@@ -216,6 +216,7 @@ fn cut(
                 choice::Narrow::Skip => Narrow::Skip,
             },
             adaptive: settings.adaptive_depth,
+            direction: settings.direction,
         };
         let (section, found) = isolate(format!("isolate {side}"), boundaries, &[], role, name, &isolation);
         // Of several tools one may find nothing to do; a side where nothing is to be cut still has its program.

@@ -5,13 +5,14 @@ use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use crate::gcode::dialect::ToolChange;
-use crate::toolpath::{Angle, Feed, Material};
+use crate::toolpath::{Angle, Direction, Feed, Material};
 
 use super::by_net::StrategyFor;
 use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::machine::{MachineChoice, in_settings};
 use super::output_name::OutputName;
 use super::overlap::Overlap;
+use super::own_lines::OwnLines;
 use super::pattern::Pattern;
 use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::tools::{Library, ToolChoice};
@@ -153,6 +154,11 @@ pub struct Options {
     #[serde(deserialize_with = "turns::deserialize")]
     pub spindle: Option<u32>,
 
+    /// Which way round loops about nets and contours go: climb (what is kept on the right), conventional [default: either]
+    #[arg(long, value_enum, hide_possible_values = true, value_name = "WAY", help_heading = "Machine")]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub direction: Option<Direction>,
+
     /// How long the spindle is given to come up to speed [default: 3s, or as the dialect says]
     #[arg(long, value_name = "TIME", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
@@ -212,7 +218,27 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub machine_travel: Option<Triple>,
 
-    /// Where the machine waits for a tool to be changed, such as 0mm,0mm,30mm; or how high, above where it is
+    /// Where the tool goes at the end of each program, and for each change of tools: x, y and z, such as 0mm,80mm,30mm; or how high alone
+    #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true, help_heading = "Machine")]
+    #[serde(with = "text")]
+    pub park: Option<ToolChangeAt>,
+
+    /// G-code of your own before each program, in a file: lines that are written as they stand, after the header
+    #[arg(long, value_name = "FILE", help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub before: Option<OwnLines>,
+
+    /// The same at the end of each, the tool lifted and the spindle off
+    #[arg(long, value_name = "FILE", help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub after: Option<OwnLines>,
+
+    /// The same at each change of tools within a program, before the machine waits
+    #[arg(long, value_name = "FILE", help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub at_tool_change: Option<OwnLines>,
+
+    /// Where the machine waits for a tool to be changed, unless that is where it parks, such as 0mm,0mm,30mm; or how high
     #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tool_change_at: Option<ToolChangeAt>,

@@ -6,7 +6,7 @@ use crate::gcode::{Header, Input};
 use crate::geometry::Nm;
 use crate::import::Loaded;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
-use crate::toolpath::{Order, Placement, Program, Section};
+use crate::toolpath::{Order, Origin, Placement, Program, Section};
 use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
@@ -209,10 +209,26 @@ fn in_files(program: Program, settings: &Settings) -> Vec<Program> {
 fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings) -> Program {
     Program {
         title: format!("{} {what}", board.name),
-        notes: vec!["z 0 is the top of the copper".to_owned()],
+        notes: vec![zero(settings)],
         safe: settings.safe,
         sections,
     }
+}
+
+/// Where zero is, for whoever sets it.
+pub(super) fn zero(settings: &Settings) -> String {
+    let place = match settings.origin {
+        Origin::LowerLeft => "the lower left corner of the board",
+        Origin::Keep => "where the files have it",
+        Origin::Center => "the middle of the board",
+    };
+    let (x, y) = (settings.offset.x, settings.offset.y);
+    let moved = if (x, y) == (Nm::ZERO, Nm::ZERO) {
+        String::new()
+    } else {
+        format!(", less {x:.3} mm and {y:.3} mm")
+    };
+    format!("zero: x y {place}{moved}, z the top of the copper")
 }
 
 fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Vec<Section>, Vec<Warning>) {
@@ -239,6 +255,7 @@ fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cuto
         placement,
         tabs: Tabs { places: settings.tabs.places(), width: settings.tab_width, height: settings.tab_height },
         ramp: settings.cutout_ramp,
+        direction: settings.direction,
     }
 }
 

@@ -2,9 +2,9 @@ use clap::ValueEnum;
 
 use crate::board::Side;
 use crate::gcode::Dialect;
-use crate::gcode::dialect::ToolChange;
+use crate::gcode::dialect::{OwnCode, ToolChange};
 use crate::geometry::{Nm, Vector};
-use crate::toolpath::{self, Angle, DrillSpeeds, Heights, Machine, Tool, ToolKind};
+use crate::toolpath::{self, Angle, Direction, DrillSpeeds, Heights, Machine, Tool, ToolKind};
 
 use super::Error;
 use super::Options;
@@ -13,6 +13,7 @@ use super::choice::{DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::cutting::{Cutting, frame_margin, isolation, sites};
 use super::holding::{Holding, holding};
 use super::output_name;
+use super::own_lines::OwnLines;
 use super::pattern::Pattern;
 use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Wait};
 use super::sense;
@@ -34,8 +35,10 @@ pub struct Settings {
     pub ignore: Vec<Pattern>,
     /// How often the board is made from one piece of stock, and how far its copies are apart.
     pub tiles: Option<(Tiles, Nm)>,
-    /// Where the machine waits for a tool to be changed.
+    /// Where the machine waits for a tool to be changed; none for where it parks.
     pub tool_change: Option<ToolChangeAt>,
+    /// Where the tool goes at the end of a program.
+    pub park: ToolChangeAt,
     /// The diameter of the holes for turning the board over on pins, and their distance from it.
     pub alignment: Option<(Nm, Nm)>,
     /// Voronoi or outline.
@@ -110,6 +113,8 @@ pub struct Settings {
     pub cutout_side: Side,
     /// How high and deep it goes.
     pub cutout: Heights,
+    /// Which way round loops go that have on one side what is kept; none for either.
+    pub direction: Option<Direction>,
     /// How steeply it goes down along the contour; none for straight down.
     pub cutout_ramp: Option<Angle>,
     /// Where tabs hold the board.
@@ -202,6 +207,7 @@ impl Settings {
             ignore: options.ignore.clone(),
             tiles,
             tool_change: options.tool_change_at,
+            park: options.park.expect(open),
             alignment: sense::alignment(&options)?,
             drilling,
             drill_tips: drill_depth.is_none(),
@@ -248,6 +254,7 @@ impl Settings {
                 Origin::Keep => toolpath::Origin::Keep,
                 Origin::Center => toolpath::Origin::Center,
             },
+            direction: options.direction,
             cutout_ramp: ramp(options.cutout_ramp)?,
             tabs,
             tab_width: positive("tab-width", options.tab_width)?,
@@ -285,7 +292,17 @@ fn dialect(options: &Options, base: Dialect) -> Result<Dialect, Error> {
     if !base.changes.contains(&tool_change) {
         return Err(Error::Value { key: "tool-change", problem: unheld(tool_change, &base) });
     }
+    if options.at_tool_change.is_some() && tool_change == ToolChange::Files {
+        let problem = format!("in {} each tool has a file of its own, and is changed within none", base.name);
+        return Err(Error::Value { key: "at-tool-change", problem });
+    }
+    let lines = |own: Option<&OwnLines>| own.map_or_else(Vec::new, |own| own.lines().to_vec());
     Ok(Dialect {
+        own: OwnCode {
+            before: lines(options.before.as_ref()),
+            at_tool_change: lines(options.at_tool_change.as_ref()),
+            after: lines(options.after.as_ref()),
+        },
         spin_up: options.spin_up.map_or(base.spin_up, |Wait { milliseconds }| milliseconds),
         tool_change,
         blend: base.blend.map(|own| options.blend.unwrap_or(own)),

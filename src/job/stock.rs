@@ -12,6 +12,7 @@ use crate::geometry::{Nm, Path, Point, Rect, Vector};
 use crate::toolpath::strategy::{Drilling, drill};
 use crate::toolpath::{Heights, Order, Placement, Program, Tiling, alignment_holes};
 
+use super::pipeline::zero;
 use super::{Settings, Tiles};
 
 /// A board in its stock.
@@ -106,7 +107,7 @@ impl Stock {
         let depth = format!("the holes go {below:.1} mm into what lies below the board");
         let program = Program {
             title: format!("{} alignment", board.name),
-            notes: vec!["z 0 is the top of the copper".to_owned(), note, depth],
+            notes: vec![zero(settings), note, depth],
             safe: settings.drilling.safe,
             sections,
         };

@@ -50,8 +50,9 @@ impl Part {
             "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
             "feed" | "plunge" | "spindle" | "spin-up" | "safe-z" | "dialect" | "origin" | "tile"
             | "tile-spacing" | "thickness" | "machine" | "machine-travel" | "tool-change"
-            | "tool-change-at" | "blend" | "offset" => true,
+            | "tool-change-at" | "park" | "before" | "after" | "at-tool-change" | "blend" | "offset" => true,
             "output-name" => false,
+            "direction" => matches!(self, Self::Front | Self::Back | Self::Cutout),
             _ if option.starts_with("alignment") => self == Self::Alignment,
             "drill-tip-angle" | "drill-safe-z" | "drill-plunge" | "drill-spindle" | "material" => {
                 matches!(self, Self::Alignment | Self::Drill)
@@ -94,13 +95,13 @@ impl Written {
         tiling: Option<Tiling>,
         settings: &Settings,
     ) -> Self {
-        let wait = |program: Program| match settings.tool_change {
-            Some(ToolChangeAt::Place(Triple([x, y, z]))) => {
-                program.waiting_at(Some(Point::new(x.nm(), y.nm())), z.nm())
-            }
-            Some(ToolChangeAt::Height(z)) => program.waiting_at(None, z.nm()),
-            None => program,
+        let place = |at: ToolChangeAt| match at {
+            ToolChangeAt::Place(Triple([x, y, z])) => (Some(Point::new(x.nm(), y.nm())), z.nm()),
+            ToolChangeAt::Height(z) => (None, z.nm()),
         };
+        let end = place(settings.park);
+        let change = settings.tool_change.map_or(end, place);
+        let wait = |program: Program| program.parking(change, end);
         let whole = wait(tiling.map_or_else(|| program.clone(), |tiling| program.clone().tiled(tiling)));
         let statistics = measure(&whole, &settings.machine);
         let mut options = settings.options().listed();

@@ -6,6 +6,7 @@
 //! the [`Machine`], so re-cutting a short way, lifting, and rapid travel are compared in one currency.
 
 mod angle;
+mod direction;
 mod drill_speed;
 mod feed;
 mod head;
@@ -22,6 +23,7 @@ mod tool;
 mod trails;
 
 pub use angle::{Angle, ParseAngleError};
+pub use direction::Direction;
 pub use drill_speed::{DrillSpeeds, Material};
 pub use feed::{Feed, ParseFeedError};
 pub use heights::Heights;

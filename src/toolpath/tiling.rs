@@ -41,16 +41,20 @@ impl Program {
         self
     }
 
-    /// The program with the machine waiting at height `z`, or the safe height if that is higher, wherever another tool is fitted: over `place`,
-    /// or over where it is.
+    /// The program with the tool going up to a height, or the safe height if that is higher, and over a place if there is one: to `change` wherever
+    /// another tool is fitted, to `end` in the end.
     #[must_use]
-    pub fn waiting_at(mut self, place: Option<Point>, z: Nm) -> Self {
-        let z = z.max(self.safe);
+    pub fn parking(mut self, change: (Option<Point>, Nm), end: (Option<Point>, Nm)) -> Self {
         let tools: Vec<Tool> = self.sections.iter().map(|section| section.tool.clone()).collect();
-        for (section, pair) in self.sections.iter_mut().zip(tools.windows(2)) {
-            let end = section.moves.iter().rev().find_map(Move::to);
-            if let Some(end) = end.filter(|_| pair[0] != pair[1]) {
-                section.moves.push(Move::Rapid { to: Position { z, ..end } });
+        for (index, section) in self.sections.iter_mut().enumerate() {
+            let (place, z) = match tools.get(index + 1) {
+                None => end,
+                Some(next) if *next != tools[index] => change,
+                Some(_) => continue,
+            };
+            let z = z.max(self.safe);
+            if let Some(last) = section.moves.iter().rev().find_map(Move::to) {
+                section.moves.push(Move::Rapid { to: Position { z, ..last } });
                 section.moves.extend(place.map(|place| Move::Rapid { to: Position::over(place, z) }));
             }
         }
@@ -70,8 +74,9 @@ impl Program {
         let [x, y, z] = machine.travel?;
         let bounds = self.bounds()?;
         let ends = self.sections.iter().flat_map(|section| &section.moves).filter_map(Move::to);
-        let lowest = ends.map(|to| to.z).min()?;
-        let height = self.safe - lowest;
+        let (lowest, highest) =
+            ends.map(|to| to.z).fold((self.safe, self.safe), |(low, high), z| (low.min(z), high.max(z)));
+        let height = highest - lowest;
         if bounds.width() <= x && bounds.height() <= y && height <= z {
             return None;
         }

@@ -72,7 +72,7 @@ impl Machining {
     /// Follows `program` on `board`.
     pub(super) fn read(program: &Program, board: &Board, settings: &Settings) -> Result<Self, Error> {
         let failed = |reason| Error::Read { file: program.file.clone(), reason };
-        let listing = read::read(&program.text).map_err(failed)?;
+        let listing = read::read(&read::without_own_code(&program.text)).map_err(failed)?;
         if listing.motions.is_empty() {
             return Err(Error::NoMotion(program.file.clone()));
         }

@@ -23,6 +23,7 @@ mod machine;
 mod millproject;
 mod mixed;
 mod nonsense;
+mod operator;
 mod oracle;
 mod outline;
 mod page;

@@ -605,7 +605,7 @@ fn ends_as_it_must(case: &Case) -> Vec<String> {
     let ends = code.ends_with(&wanted);
     let last = case.lines.last().is_some_and(|line| line.text == *wanted.last().expect("an end"));
     let up =
-        followed(case).last().is_some_and(|(line, _, after)| line.has("G0") && after[2] > Some(1_000_000));
+        followed(case).last().is_some_and(|(line, _, after)| line.has("G0") && after[2] >= Some(20_000_000));
     if ends && last && up {
         Vec::new()
     } else {

@@ -119,6 +119,7 @@ fn isolation<'a>(tool: &'a Tool, placement: &'a Placement, machine: &'a Machine)
         machine,
         narrow: Narrow::Centre,
         adaptive: None,
+        direction: None,
     }
 }
 
@@ -185,7 +186,7 @@ fn outline() -> Outline {
 
 fn cutting<'a>(tool: &'a Tool, placement: &'a Placement, count: u32) -> Cutout<'a> {
     let tabs = Tabs { places: TabPlaces::Count(count), width: Nm::from_mm(2), height: Nm::from_um(600) };
-    Cutout { tool, heights: heights(1700, Some(600)), placement, tabs, ramp: None }
+    Cutout { tool, heights: heights(1700, Some(600)), placement, tabs, ramp: None, direction: None }
 }
 
 #[test]

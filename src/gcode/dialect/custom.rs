@@ -6,7 +6,9 @@ use std::ops::RangeInclusive;
 
 use serde::de::{Deserialize, Deserializer, Error};
 
-use super::{Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Rapids, Text, ToolChange, Touches};
+use super::{
+    Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Messages, Rapids, Text, ToolChange, Touches,
+};
 
 /// Why a text does not describe a dialect: what is wrong with it, and in which line.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -27,6 +29,7 @@ struct Keys {
     decimals: Option<usize>,
     arcs: Option<Arcs>,
     comments: Option<Comments>,
+    messages: Option<Messages>,
     dwell: Option<Dwell>,
     tool_change: Option<ToolChange>,
     #[serde(default, deserialize_with = "line")]
@@ -89,6 +92,7 @@ impl Dialect {
             decimals: keys.decimals.unwrap_or(base.decimals),
             arcs: keys.arcs.unwrap_or(base.arcs),
             comments: keys.comments.unwrap_or(base.comments),
+            messages: keys.messages.unwrap_or(base.messages),
             dwell: keys.dwell.unwrap_or(base.dwell),
             arc_check: base.arc_check,
             rapids: keys.rapids.unwrap_or(base.rapids),
@@ -106,6 +110,7 @@ impl Dialect {
             spin_up: keys.spin_up.unwrap_or(base.spin_up),
             touches: keys.touches.unwrap_or(base.touches),
             condition: base.condition,
+            own: base.own,
         })
     }
 }

@@ -8,7 +8,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, RAPID, Rapids, SPIN_UP, ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
+    ToolChange, Touches,
 };
 
 /// In laser mode (`$32=1`) the spindle stops on every rapid.
@@ -25,6 +26,7 @@ pub(super) const GRBL: Dialect = Dialect {
     rapids: Rapids::Unfed,
     rapid: RAPID,
     comments: Comments::Parentheses,
+    messages: Messages::Hidden,
     dwell: Dwell::SecondsP,
     tool_change: ToolChange::Files,
     changes: Borrowed(&[ToolChange::Files, ToolChange::Pause]),
@@ -39,6 +41,7 @@ pub(super) const GRBL: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::Reported,
     condition: Some(Borrowed(NO_LASER)),
+    own: OwnCode::NONE,
 };
 
 /// grblHAL.
@@ -52,6 +55,7 @@ pub(super) const GRBLHAL: Dialect = Dialect {
     rapids: Rapids::Unfed,
     rapid: RAPID,
     comments: Comments::Parentheses,
+    messages: Messages::Msg,
     dwell: Dwell::SecondsP,
     tool_change: ToolChange::M6,
     changes: Borrowed(&[ToolChange::M6, ToolChange::Files, ToolChange::Pause]),
@@ -66,6 +70,7 @@ pub(super) const GRBLHAL: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::Reported,
     condition: Some(Borrowed(NO_LASER)),
+    own: OwnCode::NONE,
 };
 
 /// `FluidNC`.
@@ -79,6 +84,7 @@ pub(super) const FLUIDNC: Dialect = Dialect {
     rapids: Rapids::Unfed,
     rapid: RAPID,
     comments: Comments::Parentheses,
+    messages: Messages::Msg,
     dwell: Dwell::SecondsP,
     tool_change: ToolChange::Files,
     changes: FILES,
@@ -93,4 +99,5 @@ pub(super) const FLUIDNC: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::Reported,
     condition: None,
+    own: OwnCode::NONE,
 };

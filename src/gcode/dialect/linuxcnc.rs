@@ -3,7 +3,8 @@ use std::borrow::Cow::Borrowed;
 use crate::geometry::Nm;
 
 use super::{
-    ArcCheck, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, RAPID, Rapids, SPIN_UP, ToolChange, Touches,
+    ArcCheck, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
+    ToolChange, Touches,
 };
 
 /// LinuxCNC. G64 with a tolerance lets it blend corners by at most 5 µm, instead of stopping at each or rounding without bound.
@@ -17,6 +18,7 @@ pub(super) const LINUXCNC: Dialect = Dialect {
     rapids: Rapids::Unfed,
     rapid: RAPID,
     comments: Comments::Parentheses,
+    messages: Messages::Msg,
     dwell: Dwell::SecondsP,
     tool_change: ToolChange::M6,
     changes: Borrowed(&[ToolChange::M6, ToolChange::Files, ToolChange::Pause]),
@@ -31,4 +33,5 @@ pub(super) const LINUXCNC: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::Logged,
     condition: None,
+    own: OwnCode::NONE,
 };

@@ -3,7 +3,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, LineNumbers, RAPID, Rapids, SPIN_UP, ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
+    ToolChange, Touches,
 };
 
 /// Mach3. G91.1 because its own default for centres is a setting; G64 without a tolerance, which it does not know, would
@@ -18,6 +19,7 @@ pub(super) const MACH3: Dialect = Dialect {
     rapids: Rapids::Unfed,
     rapid: RAPID,
     comments: Comments::Parentheses,
+    messages: Messages::Msg,
     dwell: Dwell::SecondsP,
     tool_change: ToolChange::M6,
     changes: Borrowed(&[ToolChange::M6, ToolChange::Files, ToolChange::Pause]),
@@ -32,6 +34,7 @@ pub(super) const MACH3: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::None,
     condition: Some(Borrowed("G4 must count seconds and M6 must stop: both are settings of the controller")),
+    own: OwnCode::NONE,
 };
 
 /// Mach4, which reads the same words.
@@ -45,6 +48,7 @@ pub(super) const MACH4: Dialect = Dialect {
     rapids: Rapids::Unfed,
     rapid: RAPID,
     comments: Comments::Parentheses,
+    messages: Messages::Msg,
     dwell: Dwell::SecondsP,
     tool_change: ToolChange::M6,
     changes: Borrowed(&[ToolChange::M6, ToolChange::Files, ToolChange::Pause]),
@@ -59,4 +63,5 @@ pub(super) const MACH4: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::None,
     condition: Some(Borrowed("G4 must count seconds and M6 must stop: both are settings of the controller")),
+    own: OwnCode::NONE,
 };

@@ -40,6 +40,8 @@ pub struct Dialect {
     pub rapid: [Feed; 2],
     /// How comments are written.
     pub comments: Comments,
+    /// Whether the controller shows some comments to its operator.
+    pub messages: Messages,
     /// How a dwell is written.
     pub dwell: Dwell,
     /// How tools are changed unless a person says otherwise.
@@ -68,6 +70,23 @@ pub struct Dialect {
     pub touches: Touches,
     /// What a person must have set for the programs to run as they are meant, for their headers.
     pub condition: Option<Text>,
+    /// G-code of the user's own.
+    pub own: OwnCode,
+}
+
+/// G-code of the user's own, line by line as it stands in programs.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct OwnCode {
+    /// Before everything else; what the dialect says of units and modes comes after it.
+    pub before: Vec<String>,
+    /// At each change of tools within a program, the tool lifted and the spindle off.
+    pub at_tool_change: Vec<String>,
+    /// At the end, the tool lifted and the spindle off.
+    pub after: Vec<String>,
+}
+
+impl OwnCode {
+    const NONE: Self = Self { before: Vec::new(), at_tool_change: Vec::new(), after: Vec::new() };
 }
 
 /// What small spindles need. Chosen.
@@ -122,6 +141,16 @@ pub enum Comments {
     Semicolon,
     /// Not at all.
     None,
+}
+
+/// Which comments the operator sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Messages {
+    /// None, as far as is known.
+    Hidden,
+    /// `(MSG, so)`
+    Msg,
 }
 
 /// How a dwell is written.

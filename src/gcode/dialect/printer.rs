@@ -8,7 +8,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, RAPID, Rapids, SPIN_UP, ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
+    ToolChange, Touches,
 };
 
 /// Marlin 2. Its G4 counts milliseconds in P and seconds in S; its M0 shows the text behind it.
@@ -22,6 +23,7 @@ pub(super) const MARLIN: Dialect = Dialect {
     rapids: Rapids::Fed,
     rapid: RAPID,
     comments: Comments::Semicolon,
+    messages: Messages::Hidden,
     dwell: Dwell::SecondsS,
     tool_change: ToolChange::Files,
     changes: Borrowed(&[ToolChange::Files, ToolChange::PauseWithText]),
@@ -36,6 +38,7 @@ pub(super) const MARLIN: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::None,
     condition: Some(Borrowed("Marlin must be built with SPINDLE_FEATURE, S in turns per minute")),
+    own: OwnCode::NONE,
 };
 
 /// `RepRapFirmware` 3. Without a tool that has a spindle M3 must name one.
@@ -49,6 +52,7 @@ pub(super) const REPRAPFIRMWARE: Dialect = Dialect {
     rapids: Rapids::Fed,
     rapid: RAPID,
     comments: Comments::Semicolon,
+    messages: Messages::Hidden,
     dwell: Dwell::SecondsS,
     tool_change: ToolChange::Files,
     changes: FILES,
@@ -63,6 +67,7 @@ pub(super) const REPRAPFIRMWARE: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::None,
     condition: Some(Borrowed("the spindle must be number 0 [M950 R0]")),
+    own: OwnCode::NONE,
 };
 
 /// Klipper. G4 counts milliseconds; M3 and M5 are what its configuration makes of them.
@@ -76,6 +81,7 @@ pub(super) const KLIPPER: Dialect = Dialect {
     rapids: Rapids::Fed,
     rapid: RAPID,
     comments: Comments::Semicolon,
+    messages: Messages::Hidden,
     dwell: Dwell::MillisecondsP,
     tool_change: ToolChange::Files,
     changes: FILES,
@@ -90,4 +96,5 @@ pub(super) const KLIPPER: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::None,
     condition: Some(Borrowed("macros must make M3 S and M5 turn the spindle on and off")),
+    own: OwnCode::NONE,
 };

@@ -1,7 +1,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, LineNumbers, RAPID, Rapids, SPIN_UP, ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
+    ToolChange, Touches,
 };
 
 /// Smoothieware. Its G4 takes P in seconds or milliseconds by a setting, S always in seconds; its arcs cut corners by
@@ -17,6 +18,7 @@ pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     rapids: Rapids::FirstFed,
     rapid: RAPID,
     comments: Comments::Semicolon,
+    messages: Messages::Hidden,
     dwell: Dwell::SecondsS,
     tool_change: ToolChange::Files,
     changes: Borrowed(&[ToolChange::Files, ToolChange::Pause]),
@@ -31,4 +33,5 @@ pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::Reported,
     condition: None,
+    own: OwnCode::NONE,
 };

@@ -5,7 +5,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, RAPID, Rapids, SPIN_UP, ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
+    ToolChange, Touches,
 };
 
 /// TinyG. It refuses an arc whose radii differ by a thousandth, and only then asks by how much (plan_arc.c), so it gets a decimal more.
@@ -19,6 +20,7 @@ pub(super) const TINYG: Dialect = Dialect {
     rapids: Rapids::Unfed,
     rapid: RAPID,
     comments: Comments::Parentheses,
+    messages: Messages::Hidden,
     dwell: Dwell::SecondsP,
     tool_change: ToolChange::Files,
     changes: FILES,
@@ -33,6 +35,7 @@ pub(super) const TINYG: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::ReportedJson,
     condition: None,
+    own: OwnCode::NONE,
 };
 
 /// g2core. Its check of radii is as Grbl's.
@@ -46,6 +49,7 @@ pub(super) const G2CORE: Dialect = Dialect {
     rapids: Rapids::Unfed,
     rapid: RAPID,
     comments: Comments::Parentheses,
+    messages: Messages::Msg,
     dwell: Dwell::SecondsP,
     tool_change: ToolChange::Files,
     changes: FILES,
@@ -60,4 +64,5 @@ pub(super) const G2CORE: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::ReportedJson,
     condition: None,
+    own: OwnCode::NONE,
 };

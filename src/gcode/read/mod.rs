@@ -21,10 +21,12 @@ mod frame;
 mod listing;
 mod machine;
 mod meaning;
+mod own_code;
 mod source;
 mod variables;
 
 pub use error::ReadError;
 pub use flow::read;
 pub use listing::{Listing, Motion, Note, Place, Spindle, Way};
+pub use own_code::without_own_code;
 pub use source::lines;

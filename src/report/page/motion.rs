@@ -76,7 +76,7 @@ pub struct ProgramDrawing {
 ///
 /// [`ReadError`] where the text cannot be followed.
 pub(super) fn drawing(program: &Machined<'_>) -> Result<ProgramDrawing, ReadError> {
-    let listing = read::read(program.text)?;
+    let listing = read::read(&read::without_own_code(program.text))?;
     let cutters = cutters(program.text);
     Ok(ProgramDrawing {
         file: program.file.clone(),

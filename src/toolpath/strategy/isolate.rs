@@ -8,7 +8,7 @@ use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::planner::hop;
 use crate::toolpath::trails::{Link, Step, walk};
-use crate::toolpath::{Heights, Machine, Move, Placement, Section, Tool};
+use crate::toolpath::{Direction, Heights, Machine, Move, Placement, Section, Tool};
 use crate::voronoi::{Boundaries, Boundary, Owner};
 
 use super::share::SLACK;
@@ -51,6 +51,8 @@ pub struct Isolation<'a> {
     pub narrow: Narrow,
     /// The least depth to which a V-bit may rise so that its kerf fits the gap; none keeps the full depth.
     pub adaptive: Option<Nm>,
+    /// Which way round copper a loop goes that has copper on one side alone; none for either.
+    pub direction: Option<Direction>,
 }
 
 /// Cuts every boundary that `role` says to cut, once, and the closed `laps` (the frame) beside.
@@ -99,6 +101,8 @@ struct Way<'a> {
     path: Path,
     clearance: Cow<'a, [Nm]>,
     link: Link,
+    /// Whether copper lies on its left, or else on its right; none where it lies on both sides or on none.
+    left: Option<bool>,
 }
 
 impl<'a> Way<'a> {
@@ -111,6 +115,11 @@ impl<'a> Way<'a> {
                 seconds: boundary.path.length() / settings.tool.feed.nm_per_second(),
                 must: role == Role::Cut,
             },
+            left: match (boundary.left, boundary.right) {
+                (Owner::Net(_), Owner::Background | Owner::Outside) => Some(true),
+                (Owner::Background | Owner::Outside, Owner::Net(_)) => Some(false),
+                (Owner::Net(_) | Owner::Background | Owner::Outside, _) => None,
+            },
         }
     }
 
@@ -119,6 +128,7 @@ impl<'a> Way<'a> {
             path: settings.placement.path(path),
             clearance: Cow::Borrowed(&[]),
             link: Link { ends: None, seconds: 0.0, must: true },
+            left: None,
         }
     }
 }
@@ -173,7 +183,7 @@ fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move>
     for leg in arrange(&stretches, Point::default(), settings.order, length) {
         let line = &mut lines[leg.stretch];
         line.begin_at(leg.entry.unwrap_or(0));
-        if leg.reversed {
+        if line.reverses(settings).unwrap_or(leg.reversed) {
             line.reverse();
         }
         if !before.is_some_and(|before| hops(before, line, settings)) {
@@ -214,16 +224,24 @@ fn cut_line(head: &mut Head, line: &mut Line, settings: &Isolation<'_>) {
 struct Line {
     path: Path,
     clearance: Vec<Option<Nm>>,
+    /// As of its ways, where that is the same for all.
+    left: Option<bool>,
 }
 
 impl Line {
+    /// Whether a closed one must be turned round for the direction that is asked for; none where either will do.
+    fn reverses(&self, settings: &Isolation<'_>) -> Option<bool> {
+        let left = self.left.filter(|_| self.path.is_closed())?;
+        Some(settings.direction?.reverses(left, settings.placement.mirror.is_some()))
+    }
+
     fn along(ways: &[Way<'_>], steps: &[Step]) -> Option<Self> {
         let mut line: Option<Self> = None;
         for step in steps {
             let way = &ways[step.link];
             let mut clearance: Vec<Option<Nm>> = way.clearance.iter().copied().map(Some).collect();
             clearance.resize(way.path.segments.len() + 1, None);
-            let mut next = Self { path: way.path.clone(), clearance };
+            let mut next = Self { path: way.path.clone(), clearance, left: way.left };
             if step.backwards {
                 next.reverse();
             }
@@ -232,6 +250,7 @@ impl Line {
                 Some(line) => {
                     line.path.segments.append(&mut next.path.segments);
                     line.clearance.extend(next.clearance.drain(1..));
+                    line.left = line.left.filter(|_| line.left == next.left);
                 }
             }
         }
@@ -261,6 +280,7 @@ impl Line {
 
     fn reverse(&mut self) {
         self.clearance.reverse();
+        self.left = self.left.map(|left| !left);
         self.path = self.path.reversed();
     }
 

@@ -12,7 +12,7 @@ use crate::board::{FLATTEN, Outline, Warning, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
-use crate::toolpath::{Angle, Heights, Placement, Position, Section, Tool};
+use crate::toolpath::{Angle, Direction, Heights, Placement, Position, Section, Tool};
 use crate::voronoi;
 
 use ring::Ring;
@@ -31,6 +31,8 @@ pub struct Cutout<'a> {
     pub tabs: Tabs<'a>,
     /// How steeply the cutter goes down along the contour at the beginning of each pass; none for straight down.
     pub ramp: Option<Angle>,
+    /// Which way round; none for either.
+    pub direction: Option<Direction>,
 }
 
 /// How far the cutter's way may leave the offset curve: a fifth of what mills of this kind repeat to. Chosen.
@@ -45,11 +47,15 @@ pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning
     let board = outline.polygon(FLATTEN);
     let mut warnings = Vec::new();
     let (mut inner, mut outer) = (Vec::new(), Vec::new());
+    // Contours of a polygon have it on their left, those of its holes too.
+    let turned = |direction: Direction| direction.reverses(true, settings.placement.mirror.is_some());
+    let is_turned = settings.direction.is_some_and(turned);
     for polygon in polarity::offset(&board, radius, FLATTEN) {
         for contour in polygon.contours() {
             let boards = Polygon::new(vec![contour.clone()]).is_some_and(|ring| ring.area_mm2() > 0.0);
             let closed = contour.iter().chain(contour.first()).copied();
             let way = voronoi::fit_points(closed, TOLERANCE).filter(Path::is_closed);
+            let way = way.map(|way| if is_turned { way.reversed() } else { way });
             if boards { &mut outer } else { &mut inner }.extend(way.map(Ring::new));
         }
     }
