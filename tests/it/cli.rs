@@ -305,6 +305,7 @@ fn an_option_that_changes_nothing_beside_the_others_is_refused() {
     for (option, value, hint) in [
         ("--overlap", "50%", "--width"),
         ("--alignment-margin", "9mm", "--alignment-holes"),
+        ("--alignment-depth", "9mm", "--alignment-holes"),
         ("--tile-spacing", "3mm", "--tile"),
     ] {
         let said = format!("{option} changes nothing of what is made so");
@@ -330,7 +331,8 @@ fn an_option_that_changes_nothing_beside_the_others_is_refused() {
 #[test]
 fn a_default_is_told_once() {
     let out = folder();
-    for command in ["mill", "isolate", "draw", "inspect", "verify", "diff", "probe", "level", "tools", "init"]
+    for command in
+        ["mill", "isolate", "draw", "inspect", "verify", "diff", "probe", "level", "tools", "machine", "init"]
     {
         let help = stdout(&voromill(out.path(), &[command, "--help"]));
         let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
