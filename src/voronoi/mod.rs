@@ -17,6 +17,7 @@ mod bridge;
 mod copper;
 mod cross;
 mod edge;
+pub mod exact;
 mod fit;
 mod frame;
 mod groove;

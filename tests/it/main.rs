@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod aperture_lists;
+mod certified_diagram;
 mod cli;
 mod dialect_files;
 mod drills;

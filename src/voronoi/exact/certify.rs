@@ -1,0 +1,115 @@
+//! Certificates: the empty circle of a vertex, the empty strip of an edge, asked of all generators anew.
+
+use super::form::Place;
+use super::vertex::TIE;
+use super::{Diagram, Edge};
+use crate::geometry::Point;
+use crate::voronoi::plane::Spot;
+
+/// What a certificate contradicts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Violation {
+    /// Where.
+    pub at: Point,
+    /// By how much a generator is nearer than those that should be nearest, or these differ, in nanometres.
+    pub by: f64,
+}
+
+impl Diagram {
+    /// Points along an edge from its beginning to its end, with the distance to copper: chords stay within `tolerance` nanometres of it, but none is
+    /// shorter than an eighth of a millionth of a turn.
+    #[must_use]
+    pub fn course(&self, edge: &Edge, tolerance: f64) -> Vec<((f64, f64), f64)> {
+        let [from, to] = [edge.from, edge.to].map(|i| &self.vertices[i as usize]);
+        let [a, b] = [from, to].map(|vertex| Spot::new(vertex.at.0, vertex.at.1));
+        let mut course = vec![(a, from.clearance)];
+        self.halve(edge, (a, b), tolerance, 16, &mut course);
+        course.push((b, to.clearance));
+        course.into_iter().map(|(p, clearance)| ((p.x, p.y), clearance)).collect()
+    }
+
+    /// The place midway between two of an edge, by the foot on one of its generators.
+    pub(super) fn midway(&self, edge: &Edge, a: Spot, b: Spot) -> Option<(Spot, f64)> {
+        let pair = self.pair(edge.left, edge.right);
+        let main = pair.main(a.midpoint(b));
+        let form = &pair.forms[main];
+        let middle = match (form.place(a), form.place(b)) {
+            (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
+            (Place::Toward(u), Place::Toward(v)) => {
+                let (sense, half) = (pair.sense(main), super::form::unit(u + v));
+                let (u, v) = if sense > 0.0 { (u, v) } else { (v, u) };
+                if u.cross(v) < 0.0 && (u - v).dot(u - v) > 1e-12 {
+                    Place::Toward(half * -1.0)
+                } else if half.dot(half) < 0.5 {
+                    Place::Toward(Spot::new(-u.y, u.x))
+                } else {
+                    Place::Toward(half)
+                }
+            }
+            (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => return None,
+        };
+        pair.at(main, middle)
+    }
+
+    fn halve(
+        &self,
+        edge: &Edge,
+        (a, b): (Spot, Spot),
+        tolerance: f64,
+        left: u32,
+        course: &mut Vec<(Spot, f64)>,
+    ) {
+        if left == 0 || (b - a).length() < 1.0 {
+            return;
+        }
+        let Some((middle, clearance)) = self.midway(edge, a, b) else { return };
+        if middle.distance_to_chord(a, b) > tolerance {
+            self.halve(edge, (a, middle), tolerance, left - 1, course);
+            course.push((middle, clearance));
+            self.halve(edge, (middle, b), tolerance, left - 1, course);
+        }
+    }
+
+    /// Checks every vertex and, at places at most `spacing` nanometres apart, every edge against all generators.
+    #[must_use]
+    pub fn certify(&self, spacing: f64) -> Vec<Violation> {
+        let mut violations = Vec::new();
+        for vertex in &self.vertices {
+            let at = Spot::new(vertex.at.0, vertex.at.1);
+            self.check(at, vertex.clearance, &vertex.tied, &mut violations);
+        }
+        for edge in &self.edges {
+            let ends = [edge.from, edge.to].map(|i| self.vertices[i as usize].at);
+            let [a, b] = ends.map(|(x, y)| Spot::new(x, y));
+            self.check_between(edge, (a, b), spacing, 20, &mut violations);
+        }
+        violations
+    }
+
+    fn check_between(
+        &self,
+        edge: &Edge,
+        (a, b): (Spot, Spot),
+        spacing: f64,
+        left: u32,
+        found: &mut Vec<Violation>,
+    ) {
+        let Some((middle, clearance)) = self.midway(edge, a, b) else { return };
+        self.check(middle, clearance, &[edge.left, edge.right], found);
+        if left > 0 && (b - a).length() > spacing {
+            self.check_between(edge, (a, middle), spacing, left - 1, found);
+            self.check_between(edge, (middle, b), spacing, left - 1, found);
+        }
+    }
+
+    fn check(&self, at: Spot, clearance: f64, tied: &[u32], found: &mut Vec<Violation>) {
+        let off = tied.iter().map(|&i| (self.forms()[i as usize].distance(at) - clearance).abs());
+        let mut worst = off.fold(0.0, f64::max);
+        for (_, distance) in self.within(at, clearance) {
+            worst = worst.max(clearance - distance);
+        }
+        if worst > 2.0 * TIE {
+            found.push(Violation { at: at.rounded(), by: worst });
+        }
+    }
+}

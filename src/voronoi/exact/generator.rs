@@ -1,0 +1,337 @@
+//! Generators: the one-sided edges that distances are measured to, each with an owner, and what they hang together with.
+//!
+//! ```text
+//!          end disc ──╮                             A stroke is two lines and a disc round either end, a polygon its
+//!        ╭────────────┴─╮ line        ▓▓▓▓▓▓        edges and convex corners (discs of radius 0), an arc one full and one
+//!        │ ▓▓▓▓▓▓▓▓▓▓▓▓ │             ▓▓▓▓▓▓        hollow arc and a disc round either end.
+//!        ╰──────────────╯ line        corner ●
+//! ```
+//!
+//! Lines and arcs count where the foot lies on them. A disc counts everywhere: it lies within the copper, so its distance is never too
+//! small, and no gap is left at an end. Where a line or an arc hands over to the disc at its end the two have the same foot and the same
+//! normal; such *joined* generators have no bisector. Every generator knows its *breaks*, the places where another one that lies on it ends,
+//! so that a walk stops at the same places from either side.
+//!
+//! What is the same from two features is one generator. Buried edges need not be found: from outside all copper they are never nearest.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use crate::board::{Copper, FLATTEN, Shape};
+use crate::geometry::{Arc, Nm, Point, Polygon};
+use crate::voronoi::plane::Spot;
+
+use super::form::{Form, Place, SLAB, clockwise, unit};
+use super::vertex::TIE;
+
+/// No generator.
+const NONE: u32 = u32::MAX;
+
+/// Arcs of which the two radii differ by more, in nanometres, are cut into chords: rounding three points leaves less.
+const DRIFT: f64 = 1_000.0;
+
+/// So far from a foot its normal is looked at, in nanometres. Chosen.
+const AHEAD: f64 = 1_000.0;
+
+/// Generators under construction: what [`Diagram::new`](super::Diagram::new) takes.
+#[derive(Clone, Debug, Default)]
+pub struct Generators {
+    pub(super) forms: Vec<Form>,
+    pub(super) owners: Vec<u32>,
+    /// The discs at the start and the end of each.
+    ends: Vec<[u32; 2]>,
+    discs: FxHashMap<(Point, i64, u32), u32>,
+    strokes: FxHashSet<(Point, Point, i64, u32)>,
+}
+
+impl Generators {
+    /// None yet.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.forms.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.forms.is_empty()
+    }
+
+    /// The edges of all features of a layer that `owner` gives an owner.
+    #[must_use]
+    pub fn of_copper(copper: &Copper, owner: impl Fn(usize) -> Option<u32>) -> Self {
+        let mut generators = Self::new();
+        for (i, feature) in copper.features.iter().enumerate() {
+            if let Some(owner) = owner(i) {
+                generators.add(&feature.shape, owner);
+            }
+        }
+        generators
+    }
+
+    /// Adds the edges of a shape; the space outside it is free.
+    pub fn add(&mut self, shape: &Shape, owner: u32) {
+        match shape {
+            Shape::Disc { center, radius } => {
+                self.disc(*center, radius.get(), owner);
+            }
+            Shape::Stroke { from, to, radius } => self.stroke(*from, *to, radius.get(), owner),
+            Shape::Arc { arc, radius } => self.arc(arc, radius.get(), owner),
+            Shape::Polygon(polygon) => self.polygon(polygon, owner),
+        }
+    }
+
+    /// Adds the rings of a polygon; the space outside it is free.
+    pub fn polygon(&mut self, polygon: &Polygon, owner: u32) {
+        self.rings(polygon, |_| owner, false);
+    }
+
+    /// Adds the rings of a polygon, each with an owner of its own; the space inside it is free.
+    pub fn inside(&mut self, polygon: &Polygon, owner: impl Fn(usize) -> u32) {
+        self.rings(polygon, owner, true);
+    }
+
+    fn rings(&mut self, polygon: &Polygon, owner: impl Fn(usize) -> u32, inwards: bool) {
+        let rings: Vec<Vec<Point>> = polygon.contours().iter().map(|ring| simple(ring)).collect();
+        let largest = rings.iter().map(|ring| twice_area(ring)).max_by_key(|area| area.unsigned_abs());
+        let backwards = largest.is_some_and(|area| area < 0);
+        for (i, mut ring) in rings.into_iter().enumerate().filter(|(_, ring)| ring.len() > 1) {
+            if backwards != inwards {
+                ring.reverse();
+            }
+            self.ring(&ring, owner(i));
+        }
+    }
+
+    /// A ring with copper on its left.
+    fn ring(&mut self, ring: &[Point], owner: u32) {
+        let n = ring.len();
+        let corner = |i: usize| {
+            let (a, b, c) = (ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
+            cross(a, b, c) > 0 || (cross(a, b, c) == 0 && is_back(a, b, c))
+        };
+        let corners: Vec<u32> =
+            (0..n).map(|i| if corner(i) { self.disc(ring[i], 0, owner) } else { NONE }).collect();
+        for i in 0..n {
+            let next = (i + 1) % n;
+            let form = Form::line(ring[i].into(), ring[next].into());
+            self.push(form, owner, [corners[i], corners[next]]);
+        }
+    }
+
+    fn push(&mut self, form: Form, owner: u32, ends: [u32; 2]) -> u32 {
+        let number = u32::try_from(self.forms.len()).expect("below 2³² generators");
+        self.forms.push(form);
+        self.owners.push(owner);
+        self.ends.push(ends);
+        number
+    }
+
+    fn disc(&mut self, center: Point, radius: i64, owner: u32) -> u32 {
+        if let Some(&known) = self.discs.get(&(center, radius, owner)) {
+            return known;
+        }
+        let disc = self.push(Form::disc(center.into(), Nm::new(radius).to_f64()), owner, [NONE; 2]);
+        self.discs.insert((center, radius, owner), disc);
+        disc
+    }
+
+    fn stroke(&mut self, from: Point, to: Point, radius: i64, owner: u32) {
+        let (from, to) = (from.min(to), from.max(to));
+        let discs = [from, to].map(|end| self.disc(end, radius, owner));
+        if from == to || !self.strokes.insert((from, to, radius, owner)) {
+            return;
+        }
+        self.sides(from.into(), to.into(), Nm::new(radius).to_f64(), owner, discs);
+    }
+
+    /// The two sides of a stroke.
+    fn sides(&mut self, from: Spot, to: Spot, radius: f64, owner: u32, [first, last]: [u32; 2]) {
+        let out = clockwise(unit(to - from)) * radius;
+        for (a, b, out, ends) in [(from, to, out, [first, last]), (to, from, out * -1.0, [last, first])] {
+            // The length stays that of the axis, so that its ends are those of the discs.
+            self.push(Form::line(a + out, b + out), owner, ends);
+        }
+    }
+
+    fn arc(&mut self, arc: &Arc, radius: i64, owner: u32) {
+        let half = Nm::new(radius).to_f64();
+        let whole = arc.start == arc.end;
+        let Some((center, reach)) = centred(arc) else {
+            let points: Vec<Point> = std::iter::once(arc.start).chain(arc.flatten(FLATTEN)).collect();
+            points.windows(2).for_each(|pair| self.stroke(pair[0], pair[1], radius, owner));
+            return;
+        };
+        let (from, to) = if arc.sweep() > 0.0 { (arc.start, arc.end) } else { (arc.end, arc.start) };
+        let sector = (!whole).then(|| [from, to].map(|end| unit(Spot::from(end) - center)));
+        let ends = if whole { [NONE; 2] } else { [from, to].map(|end| self.disc(end, radius, owner)) };
+        self.push(Form::Circle { center, radius: reach + half, hollow: false, sector }, owner, ends);
+        if reach > half {
+            self.push(Form::Circle { center, radius: reach - half, hollow: true, sector }, owner, ends);
+        }
+    }
+
+    /// Whether two generators have the same foot and normal where one ends on the other.
+    pub(super) fn are_joined(&self, a: u32, b: u32) -> bool {
+        self.ends[a as usize].contains(&b) || self.ends[b as usize].contains(&a)
+    }
+
+    /// The discs at the ends of a generator.
+    pub(super) fn ends_of(&self, a: u32) -> [Option<u32>; 2] {
+        self.ends[a as usize].map(|end| (end != NONE).then_some(end))
+    }
+}
+
+/// The centre and radius of an arc that meets both its ends; none where the radii differ too much.
+fn centred(arc: &Arc) -> Option<(Spot, f64)> {
+    let (a, b, center) = (Spot::from(arc.start), Spot::from(arc.end), Spot::from(arc.center));
+    if arc.start == arc.end {
+        return Some((center, arc.radius()));
+    }
+    if arc.drift() > DRIFT {
+        return None;
+    }
+    // The foot of the centre on the perpendicular bisector of the chord.
+    let (middle, along) = (a.midpoint(b), unit(b - a));
+    let moved = center - along * (center - middle).dot(along);
+    let small = (moved - center).length() <= DRIFT;
+    small.then(|| (moved, f64::midpoint((a - moved).length(), (b - moved).length())))
+}
+
+/// Twice the signed area of the triangle.
+fn cross(a: Point, b: Point, c: Point) -> i128 {
+    let (u, v) = (b - a, c - b);
+    i128::from(u.x.get()) * i128::from(v.y.get()) - i128::from(u.y.get()) * i128::from(v.x.get())
+}
+
+/// Whether a ring turns back on itself at `b`.
+fn is_back(a: Point, b: Point, c: Point) -> bool {
+    let (u, v) = (b - a, c - b);
+    i128::from(u.x.get()) * i128::from(v.x.get()) + i128::from(u.y.get()) * i128::from(v.y.get()) < 0
+}
+
+/// Twice the signed area of a ring.
+fn twice_area(ring: &[Point]) -> i128 {
+    let Some(&origin) = ring.first() else { return 0 };
+    ring.windows(2).map(|pair| cross(origin, pair[0], pair[1])).sum()
+}
+
+/// A ring without repeated points and without points on straight edges.
+fn simple(ring: &[Point]) -> Vec<Point> {
+    let mut points = ring.to_vec();
+    points.dedup();
+    while points.len() > 1 && points.first() == points.last() {
+        points.pop();
+    }
+    let n = points.len();
+    let straight = |i: usize| {
+        let (a, b, c) = (points[(i + n - 1) % n], points[i], points[(i + 1) % n]);
+        cross(a, b, c) == 0 && !is_back(a, b, c)
+    };
+    if n < 3 {
+        return points;
+    }
+    (0..n).filter(|&i| !straight(i)).map(|i| points[i]).collect()
+}
+
+/// Generators by place, with the breaks of discs.
+pub(super) struct Index {
+    boxes: Vec<[f64; 4]>,
+    tree: Option<StaticAABB2DIndex<f64>>,
+    /// The breaks of generator `i`: `breaks[starts[i]..starts[i + 1]]`.
+    breaks: Vec<Place>,
+    starts: Vec<u32>,
+}
+
+impl Index {
+    pub(super) fn new(generators: &Generators) -> Self {
+        let boxes: Vec<[f64; 4]> = generators.forms.iter().map(Form::bounds).collect();
+        let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
+        for [left, bottom, right, top] in &boxes {
+            builder.add(*left, *bottom, *right, *top);
+        }
+        let mut index = Self { boxes, tree: builder.build().ok(), breaks: Vec::new(), starts: Vec::new() };
+        let mut found = index.find_breaks(generators);
+        found.sort_by_key(|(generator, _)| *generator);
+        let mut at = 0;
+        for i in (0_u32..).take(generators.len() + 1) {
+            while at < found.len() && found[at].0 < i {
+                at += 1;
+            }
+            index.starts.push(u32::try_from(at).expect("below 2³² breaks"));
+        }
+        index.breaks = found.into_iter().map(|(_, place)| place).collect();
+        index
+    }
+
+    /// The places on generators where a line or an arc ends with the same foot and normal. A disc on its own has two all the same, so that
+    /// no loop round it is without a vertex.
+    fn find_breaks(&self, generators: &Generators) -> Vec<(u32, Place)> {
+        let mut found: Vec<(u32, Place)> = Vec::new();
+        let mut counts = vec![0_u32; generators.len()];
+        for (i, form) in (0_u32..).zip(&generators.forms) {
+            for place in form.ends().into_iter().flatten() {
+                let (foot, normal) = form.foot(place);
+                // A disc of no radius has its normal a little way off.
+                let ahead = foot + normal * AHEAD;
+                self.visit_round(foot, TIE, |other| {
+                    let touched = &generators.forms[other as usize];
+                    let touches = touched.distance(foot).abs() <= TIE
+                        && touched.slack(ahead) >= -SLAB
+                        && touched.away(ahead).dot(normal) > 1.0 - 1e-9;
+                    if other != i && touches {
+                        found.push((other, touched.place(ahead)));
+                        counts[other as usize] += 1;
+                    }
+                });
+            }
+        }
+        for (i, (form, &count)) in (0_u32..).zip(generators.forms.iter().zip(&counts)) {
+            if count < 2 && matches!(form, Form::Circle { sector: None, .. }) {
+                found.extend([1.0, -1.0].map(|x| (i, Place::Toward(Spot::new(x, 0.0)))));
+            }
+        }
+        found
+    }
+
+    /// Shows the generators whose boxes meet a box, left, bottom, right, top.
+    pub(super) fn visit(&self, [left, bottom, right, top]: [f64; 4], mut show: impl FnMut(u32)) {
+        if let Some(tree) = &self.tree {
+            tree.visit_query(left, bottom, right, top, &mut |i: usize| {
+                show(u32::try_from(i).expect("below 2³² generators"));
+            });
+        }
+    }
+
+    /// Shows the generators whose boxes come within `reach` of `p`.
+    pub(super) fn visit_round(&self, p: Spot, reach: f64, mut show: impl FnMut(u32)) {
+        self.visit([p.x - reach, p.y - reach, p.x + reach, p.y + reach], |i| {
+            let [left, bottom, right, top] = self.boxes[i as usize];
+            let x = (left - p.x).max(p.x - right).max(0.0);
+            let y = (bottom - p.y).max(p.y - top).max(0.0);
+            if x * x + y * y <= reach * reach {
+                show(i);
+            }
+        });
+    }
+
+    /// The box round all generators.
+    pub(super) fn bounds(&self) -> [f64; 4] {
+        let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        self.boxes.iter().fold(far, |[a, b, c, d], [left, bottom, right, top]| {
+            [a.min(*left), b.min(*bottom), c.max(*right), d.max(*top)]
+        })
+    }
+
+    /// The places on a generator where another one begins or ends.
+    pub(super) fn breaks(&self, generator: u32) -> &[Place] {
+        let i = generator as usize;
+        &self.breaks[self.starts[i] as usize..self.starts[i + 1] as usize]
+    }
+}

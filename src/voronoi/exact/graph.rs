@@ -1,0 +1,182 @@
+//! The graph: walks from seeds until every edge of every vertex that was met has been followed.
+//!
+//! A vertex is known by its place; what arrives there continues in the slot that looks back. So each edge is walked once, and two ends that
+//! do not find each other are a fault with a place.
+
+use rustc_hash::FxHashMap;
+
+use super::vertex::{Junction, Slot, TIE};
+use super::walk::{Event, Pair};
+use super::{Diagram, Edge, Space, Vertex};
+use crate::voronoi::plane::Spot;
+
+/// The graph as it grows.
+#[derive(Default)]
+pub(super) struct Growth {
+    pub(super) junctions: Vec<Junction>,
+    edges: Vec<Edge>,
+    /// The junctions of each square nanometre.
+    by_place: FxHashMap<[i64; 2], Vec<u32>>,
+    /// Slots that nobody has followed yet.
+    open: Vec<(u32, usize)>,
+    faults: Vec<Spot>,
+}
+
+/// How often an event is corrected that the certificate contradicts. Chosen: more than was ever seen.
+const RETRIES: usize = 8;
+
+/// Places nearer to each other are one, in nanometres: twice what ties may leave.
+const ONE: f64 = 2.0 * TIE;
+
+#[expect(clippy::cast_possible_truncation, reason = "a board is smaller than 2⁶³ nanometres")]
+fn square(p: Spot) -> [i64; 2] {
+    [p.x.floor() as i64, p.y.floor() as i64]
+}
+
+impl Growth {
+    fn find(&self, p: Spot) -> Option<u32> {
+        let [low, high] = [square(p - Spot::new(ONE, ONE)), square(p + Spot::new(ONE, ONE))];
+        let squares = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
+        let known = squares.filter_map(|square| self.by_place.get(&square)).flatten();
+        known.copied().find(|&i| (self.junctions[i as usize].at - p).length() <= ONE)
+    }
+
+    /// The number of a junction, which is new or known.
+    pub(super) fn place(&mut self, junction: Junction) -> u32 {
+        if let Some(known) = self.find(junction.at) {
+            return known;
+        }
+        let number = u32::try_from(self.junctions.len()).expect("below 2³² vertices");
+        self.by_place.entry(square(junction.at)).or_default().push(number);
+        self.open.extend((0..junction.slots.len()).map(|slot| (number, slot)));
+        self.junctions.push(junction);
+        number
+    }
+
+    pub(super) fn fault(&mut self, at: Spot) {
+        self.faults.push(at);
+    }
+
+    /// The slot of a junction that looks back along an edge that arrives in direction `way`.
+    fn back(
+        &self,
+        junction: u32,
+        left: u32,
+        right: u32,
+        way: Spot,
+        same: impl Fn(&Slot) -> bool,
+    ) -> Option<usize> {
+        let slots = self.junctions[junction as usize].slots.iter().enumerate();
+        let free = slots.filter(|(_, slot)| slot.edge.is_none());
+        let exact = free.clone().find(|(_, slot)| slot.left == right && slot.right == left);
+        let alike = || free.filter(|(_, slot)| same(slot) && slot.way.dot(way) < -0.5);
+        exact.or_else(|| alike().min_by(|a, b| a.1.way.dot(way).total_cmp(&b.1.way.dot(way)))).map(|(i, _)| i)
+    }
+
+    fn connect(&mut self, (from, slot): (u32, usize), to: u32, back: usize) {
+        let number = u32::try_from(self.edges.len()).expect("below 2³² edges");
+        let Slot { left, right, .. } = self.junctions[from as usize].slots[slot];
+        self.edges.push(Edge { from, to, left, right });
+        self.junctions[from as usize].slots[slot].edge = Some(number);
+        self.junctions[to as usize].slots[back].edge = Some(number);
+    }
+}
+
+/// Where one edge ends alone.
+fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Junction {
+    let slot = Slot { left: pair.right, right: pair.left, way: way * -1.0, edge: None };
+    let tied = vec![pair.left.min(pair.right), pair.left.max(pair.right)];
+    Junction { at, clearance, tied, slots: vec![slot] }
+}
+
+impl Diagram {
+    /// Finds all vertices and edges.
+    pub(super) fn walk_all(&mut self, space: Space) {
+        let mut growth = Growth::default();
+        self.sow(&mut growth, space);
+        self.finish(growth);
+    }
+
+    /// Follows all open slots, and what they lead to.
+    pub(super) fn grow(&self, growth: &mut Growth) {
+        while let Some((from, slot)) = growth.open.pop() {
+            let junction = &growth.junctions[from as usize];
+            let Slot { left, right, edge: None, .. } = junction.slots[slot] else { continue };
+            let pair = self.pair(left, right);
+            let event = self.follow(&pair, junction.at, &junction.tied);
+            let Some((ending, way)) = self.ending(&pair, junction.at, event) else {
+                growth.fault(growth.junctions[from as usize].at);
+                continue;
+            };
+            let to = growth.place(ending);
+            let owners = |slot: &Slot| (self.owner(slot.left), self.owner(slot.right));
+            let same = |slot: &Slot| owners(slot) == (self.owner(right), self.owner(left));
+            match growth.back(to, left, right, way, same) {
+                Some(back) => growth.connect((from, slot), to, back),
+                None if growth.junctions[to as usize].clearance < TIE => {
+                    // Any number of edges may end in one notch.
+                    let slots = &mut growth.junctions[to as usize].slots;
+                    slots.push(Slot { left: right, right: left, way: way * -1.0, edge: None });
+                    let back = slots.len() - 1;
+                    growth.connect((from, slot), to, back);
+                }
+                None => growth.fault(growth.junctions[to as usize].at),
+            }
+        }
+    }
+
+    pub(super) fn pair(&self, left: u32, right: u32) -> Pair {
+        Pair { left, right, forms: [left, right].map(|i| self.forms()[i as usize]) }
+    }
+
+    /// The junction at which an edge from `start` ends, and the direction in which it arrives.
+    pub(super) fn ending(&self, pair: &Pair, start: Spot, event: Event) -> Option<(Junction, Spot)> {
+        match event {
+            Event::Junction { at, clearance, way, .. } if clearance < TIE => {
+                Some((dead_end(pair, at, 0.0, way), way))
+            }
+            Event::Junction { mut at, mut clearance, mut third, .. } => {
+                for _ in 0..RETRIES {
+                    if let Some(junction) = self.junction(at, clearance, [pair.left, pair.right, third]) {
+                        return Some((junction, pair.way(at)));
+                    }
+                    // The certificate names what was overlooked.
+                    let nearer = self.within(at, clearance - TIE);
+                    third = nearer.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))?.0;
+                    (at, clearance) = self.entered(pair, start, (at, clearance), third)?;
+                }
+                None
+            }
+            Event::Window { at, clearance, way } => Some((dead_end(pair, at, clearance, way), way)),
+            Event::Contact { at, way } => Some((dead_end(pair, at, 0.0, way), way)),
+            Event::Fault => None,
+        }
+    }
+
+    /// Puts everything in an order of its own.
+    fn finish(&mut self, growth: Growth) {
+        let place = |junction: &Junction| (junction.at.x, junction.at.y);
+        let mut order: Vec<usize> = (0..growth.junctions.len()).collect();
+        order.sort_by(|&a, &b| {
+            let ((ax, ay), (bx, by)) = (place(&growth.junctions[a]), place(&growth.junctions[b]));
+            ax.total_cmp(&bx).then(ay.total_cmp(&by))
+        });
+        let mut numbers = vec![0_u32; order.len()];
+        (0_u32..).zip(&order).for_each(|(number, &old)| numbers[old] = number);
+        let renamed = |edge: Edge| {
+            let [from, to] = [edge.from, edge.to].map(|old| numbers[old as usize]);
+            let turned = Edge { from: to, to: from, left: edge.right, right: edge.left };
+            Edge { from, to, ..edge }.min(turned)
+        };
+        self.edges = growth.edges.into_iter().map(renamed).collect();
+        self.edges.sort_unstable();
+        let vertex = |&old: &usize| {
+            let Junction { at, clearance, tied, .. } = &growth.junctions[old];
+            Vertex { at: (at.x, at.y), clearance: *clearance, tied: tied.clone() }
+        };
+        self.vertices = order.iter().map(vertex).collect();
+        self.faults = growth.faults.iter().map(|at| at.rounded()).collect();
+        self.faults.sort_unstable();
+        self.faults.dedup();
+    }
+}

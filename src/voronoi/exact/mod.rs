@@ -1,0 +1,171 @@
+//! One certified Voronoi diagram of points, segments and arcs: exact vertices, conic edges, and a certificate for each.
+//!
+//! ```text
+//!  ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓             A *generator* is a piece of the edge of copper, with an owner. The *cell* of a generator is what is
+//!  ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓             nearer to it than to any other. An *edge* is the border of two cells, part of the bisector of two
+//!   ─────●───────               generators: a line, a parabola, a hyperbola or an ellipse. A *vertex* is a place where three or
+//!       ╱ ╲   edge              more are equally far: the centre of a circle that touches them and holds none, or a place where
+//!  ▓▓▓ ╱   ╲ ▓▓▓▓▓              one generator of an owner hands over to the next.
+//! ```
+//!
+//! # How it is found
+//!
+//! 1. [`Generators`] are the one-sided edges of the copper, each alike but for its [form](form): lines and circles.
+//! 2. *Seeds* are provable places on the graph: one ray for each owner and the sides of the window (`seed`).
+//! 3. From each, the [walk](walk) follows the bisector to the first event: the end of a generator, or a third one that enters the
+//!    empty circle. All events are one equation, the problem of [Apollonius](apollonius).
+//! 4. At an event all generators within a [tie](vertex) of the circle are sorted by the direction of their feet; an edge leaves between each two
+//!    neighbours with different owners. Four and more, the rule on a grid, are nothing special.
+//! 5. The [graph] grows until nothing is open. An edge must arrive where one leaves; if not, the place is one of [`Diagram::faults`].
+//! 6. [`Diagram::certify`] asks all generators anew whether each circle is empty.
+//!
+//! # What it guarantees
+//!
+//! Vertices and edges depend on the generators alone: they are solved from the lowest tied generators whatever the walk came from, and sorted by
+//! place at the end. Only `+ − × ÷ √` are used. With [`Kind::Owners`] the graph is complete if every owner's copper is connected.
+//!
+//! With [`Kind::MedialAxis`] around copper what is enclosed by one owner is not found, for no ray leads there.
+//!
+//! # What it is not yet
+//!
+//! The program does not use it yet: its boundaries still come from [`Diagram`](super::Diagram), which traces a picture. Here the picture is not asked
+//! for seeds, borders and core axes are not known, and offsets are not drawn.
+//!
+//! # Sources
+//!
+//! M. Held, *On the Computational Geometry of Pocket Machining*, LNCS 500, Springer 1991 (wavefronts and bisectors as conics by clearance).
+//! A. Okabe, B. Boots, K. Sugihara, S. N. Chiu, *Spatial Tessellations*, 2nd ed., Wiley 2000, ch. 3 (line and area Voronoi diagrams).
+//! K. E. Hoff et al., *Fast Computation of Generalized Voronoi Diagrams Using Graphics Hardware*, SIGGRAPH 1999 (cells as lower envelopes of
+//! distance surfaces). Apollonius of Perga, *Tangencies*, after Pappus (circles that touch three given ones).
+
+mod apollonius;
+mod certify;
+mod form;
+mod generator;
+mod graph;
+mod seed;
+mod vertex;
+mod walk;
+
+use crate::geometry::{Nm, Point};
+use crate::voronoi::plane::Spot;
+
+use form::Form;
+use generator::Index;
+
+pub use certify::Violation;
+pub use generator::Generators;
+
+/// The number of no generator.
+const NOBODY: u32 = u32::MAX;
+
+/// Which edges a diagram has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Those between different owners.
+    Owners,
+    /// All: the medial axis of the free space.
+    MedialAxis,
+}
+
+/// Where the space is free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Space {
+    /// Outside the generators, up to a window that is so much larger than they are on all sides.
+    Around(Nm),
+    /// Inside rings added by [`Generators::inside`].
+    Within,
+}
+
+/// A place where edges meet or end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vertex {
+    /// Where it is, in nanometres.
+    pub at: (f64, f64),
+    /// The radius of the empty circle round it, in nanometres.
+    pub clearance: f64,
+    /// The generators that touch the circle, ascending.
+    pub tied: Vec<u32>,
+}
+
+/// The bisector of two generators between two vertices.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Edge {
+    /// The vertex it begins at.
+    pub from: u32,
+    /// The vertex it ends at.
+    pub to: u32,
+    /// The generator on its left.
+    pub left: u32,
+    /// The generator on its right.
+    pub right: u32,
+}
+
+/// The Voronoi diagram of generators.
+pub struct Diagram {
+    generators: Generators,
+    index: Index,
+    kind: Kind,
+    /// Left, bottom, right, top.
+    window: [f64; 4],
+    vertices: Vec<Vertex>,
+    edges: Vec<Edge>,
+    faults: Vec<Point>,
+}
+
+impl Diagram {
+    /// The diagram of `generators`.
+    #[must_use]
+    pub fn new(generators: Generators, kind: Kind, space: Space) -> Self {
+        let index = Index::new(&generators);
+        let margin = match space {
+            Space::Around(margin) => margin.to_f64(),
+            Space::Within => 1e3,
+        };
+        let [left, bottom, right, top] = index.bounds();
+        let window = [left - margin, bottom - margin, right + margin, top + margin];
+        let (vertices, edges, faults) = (Vec::new(), Vec::new(), Vec::new());
+        let mut diagram = Self { generators, index, kind, window, vertices, edges, faults };
+        if !diagram.generators.is_empty() {
+            diagram.walk_all(space);
+        }
+        diagram
+    }
+
+    /// The vertices, by place.
+    #[must_use]
+    pub fn vertices(&self) -> &[Vertex] {
+        &self.vertices
+    }
+
+    /// The edges, by their vertices.
+    #[must_use]
+    pub fn edges(&self) -> &[Edge] {
+        &self.edges
+    }
+
+    /// Where an edge could not be followed to its end, or ended where no other begins: none, unless the program is at fault.
+    #[must_use]
+    pub fn faults(&self) -> &[Point] {
+        &self.faults
+    }
+
+    /// The owner of a generator.
+    #[must_use]
+    pub fn owner(&self, generator: u32) -> u32 {
+        self.generators.owners[generator as usize]
+    }
+
+    fn forms(&self) -> &[Form] {
+        &self.generators.forms
+    }
+
+    /// Whether `p` lies within the window, but for a little.
+    fn holds(&self, p: Spot) -> bool {
+        let [left, bottom, right, top] = self.window;
+        (left - BEYOND..=right + BEYOND).contains(&p.x) && (bottom - BEYOND..=top + BEYOND).contains(&p.y)
+    }
+}
+
+/// Edges end so far beyond the window that its sides can be walked, in nanometres. Chosen.
+const BEYOND: f64 = 1_000.0;

@@ -1,0 +1,198 @@
+//! Seeds: certified places from which every piece of the graph is reached.
+//!
+//! ```text
+//!   ╔══════════════ window ═══════════╗     *Rays.* Beyond the rightmost point of a net, straight on, no copper farther left comes
+//!   ║   ▓▓▓▓                          ║     nearer. Of all nets within a loop of boundary take the rightmost: its ray leaves its cell
+//!   ║   ▓▓▓▓●─────×                   ║     across that loop. So one ray for each net finds every loop.
+//!   ║           ▓▓▓▓▓●─────────────   ║     *Window.* All other pieces leave the window. So its sides are walked: a side is the
+//!   ╚═════════════════════════════════╝     bisector of the nearest generator and its mirror image, and what enters there is met.
+//! ```
+//!
+//! The medial axis of one connected part of the free space is connected; a generator of which no edge is known yet is therefore
+//! in a part of its own, and its own normal is the ray.
+
+use super::form::{Form, Place, turn};
+use super::graph::Growth;
+use super::vertex::TIE;
+use super::walk::{Event, Pair};
+use super::{Diagram, NOBODY, Space};
+use crate::voronoi::plane::Spot;
+
+/// Where a search begins, in nanometres; it doubles.
+const FIRST_REACH: f64 = 100_000.0;
+
+/// Events along one side of the window at most.
+const EVENTS: usize = 1_000_000;
+
+impl Diagram {
+    /// Sows all seeds, and grows what comes of them.
+    pub(super) fn sow(&self, growth: &mut Growth, space: Space) {
+        match space {
+            Space::Around(_) => {
+                for (generator, foot) in self.rightmost() {
+                    self.shoot(growth, generator, foot, Spot::new(1.0, 0.0));
+                }
+                self.grow(growth);
+                self.sow_window(growth);
+                self.grow(growth);
+            }
+            Space::Within => self.sow_parts(growth),
+        }
+    }
+
+    /// The rightmost point of each owner, with the generator that has it.
+    fn rightmost(&self) -> Vec<(u32, Spot)> {
+        let right = Spot::new(1.0, 0.0);
+        let mut found: std::collections::BTreeMap<u32, (f64, u32, Spot)> = std::collections::BTreeMap::new();
+        for (i, form) in (0_u32..).zip(self.forms()) {
+            let Form::Circle { hollow: false, .. } = form else { continue };
+            let (foot, _) = form.foot(Place::Toward(right));
+            if form.slack(foot) < 0.0 {
+                continue;
+            }
+            let best = found.entry(self.owner(i)).or_insert((f64::NEG_INFINITY, i, foot));
+            if foot.x > best.0 {
+                *best = (foot.x, i, foot);
+            }
+        }
+        found.into_values().map(|(_, i, foot)| (i, foot)).collect()
+    }
+
+    /// Follows the normal of a generator to where another is equally near, and plants what begins there.
+    fn shoot(&self, growth: &mut Growth, generator: u32, foot: Spot, normal: Spot) {
+        let [left, bottom, right, top] = self.window;
+        let farthest = (right - left) + (top - bottom);
+        let mut reach = FIRST_REACH;
+        let mut nearest: Option<(f64, u32)> = None;
+        while reach < 2.0 * farthest {
+            self.index.visit_round(foot + normal * reach, reach, |c| {
+                let form = &self.forms()[c as usize];
+                if c == generator || !self.parts(generator, c) || self.generators.are_joined(generator, c) {
+                    return;
+                }
+                let Some(s) = form.meet(foot, normal).filter(|&s| s > TIE) else { return };
+                let nearer = nearest.is_none_or(|known| (s, c) < known);
+                if nearer && form.counts(foot + normal * s, TIE) {
+                    nearest = Some((s, c));
+                }
+            });
+            match nearest {
+                Some((s, _)) if s <= reach => break,
+                Some((s, _)) => reach = s.min(2.0 * reach),
+                None => reach *= 2.0,
+            }
+        }
+        let Some((s, other)) = nearest else { return };
+        let at = foot + normal * s;
+        if self.holds(at) {
+            self.plant(growth, at, s, [generator, other]);
+        }
+    }
+
+    /// Begins at a place where two generators are equally near: there, if it is a vertex, else at the next one.
+    fn plant(&self, growth: &mut Growth, at: Spot, clearance: f64, [a, b]: [u32; 2]) {
+        let Some(junction) = self.junction(at, clearance, [a, b, b]) else { return };
+        match junction.slots[..] {
+            // An edge passes here, also where others touch the circle and do not enter: it is no vertex.
+            [one, other] if (one.left, one.right) == (other.right, other.left) => {
+                self.plant_pair(growth, &self.pair(one.left, one.right), at);
+            }
+            _ => {
+                growth.place(junction);
+            }
+        }
+    }
+
+    fn plant_pair(&self, growth: &mut Growth, pair: &Pair, at: Spot) {
+        let tied = [pair.left, pair.right];
+        match self.ending(pair, at, self.follow(pair, at, &tied)) {
+            Some((junction, _)) => {
+                growth.place(junction);
+            }
+            None => growth.fault(at),
+        }
+    }
+
+    /// The generator nearest to a place outside all copper.
+    fn nearest(&self, p: Spot) -> Option<(u32, f64)> {
+        let mut reach = FIRST_REACH;
+        let [left, bottom, right, top] = self.window;
+        while reach < 4.0 * ((right - left) + (top - bottom)) {
+            let near = self.within(p, reach);
+            if let Some(&found) = near.iter().min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0))) {
+                return Some(found);
+            }
+            reach *= 2.0;
+        }
+        None
+    }
+
+    /// Walks the sides of the window, and plants what crosses them.
+    fn sow_window(&self, growth: &mut Growth) {
+        let [left, bottom, right, top] = self.window;
+        let corners =
+            [(left, bottom), (right, bottom), (right, top), (left, top)].map(|(x, y)| Spot::new(x, y));
+        for (i, &corner) in corners.iter().enumerate() {
+            let axis = super::form::unit(corners[(i + 1) % 4] - corner);
+            self.sow_side(growth, corner, axis);
+        }
+    }
+
+    /// Walks one side, the window on its left.
+    fn sow_side(&self, growth: &mut Growth, corner: Spot, axis: Spot) {
+        let Some((nearest, distance)) = self.nearest(corner) else { return };
+        let mut at = corner;
+        let mut tied: Vec<u32> = self.within(corner, distance + TIE).into_iter().map(|(i, _)| i).collect();
+        let mut current = self.ahead_of(corner, distance, axis, &tied).unwrap_or(nearest);
+        for _ in 0..EVENTS {
+            let form = self.forms()[current as usize];
+            let image = form.mirrored(corner, axis);
+            let pair = Pair { left: current, right: NOBODY, forms: [form, image] };
+            let Event::Junction { at: next, clearance, third, .. } = self.follow(&pair, at, &tied) else {
+                return;
+            };
+            // The bisector of an image strays from the side by rounding only.
+            let next = corner + axis * (next - corner).dot(axis);
+            let Some(junction) = self.junction(next, clearance, [current, third, third]) else {
+                growth.fault(next);
+                return;
+            };
+            tied = self.within(next, clearance + TIE).into_iter().map(|(i, _)| i).collect();
+            for slot in junction.slots.iter().filter(|slot| axis.cross(slot.way) > 0.0) {
+                self.plant_pair(growth, &self.pair(slot.left, slot.right), next);
+            }
+            let Some(ahead) = self.ahead_of(next, clearance, axis, &tied) else { return };
+            (current, at) = (ahead, next);
+        }
+        growth.fault(at);
+    }
+
+    /// Walks from the normals of generators of which no edge is known.
+    fn sow_parts(&self, growth: &mut Growth) {
+        let mut known = vec![false; self.forms().len()];
+        let mut seen = 0;
+        for i in 0..self.forms().len() {
+            for junction in &growth.junctions[seen..] {
+                junction.tied.iter().for_each(|&i| known[i as usize] = true);
+            }
+            seen = growth.junctions.len();
+            let form = &self.forms()[i];
+            if known[i] {
+                continue;
+            }
+            let Some([from, to]) = form.ends() else { continue };
+            let middle = match (from, to) {
+                (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
+                (Place::Toward(a), Place::Toward(b)) => {
+                    let half = super::form::unit(a + b);
+                    Place::Toward(if turn(a, b) > 2.0 { half * -1.0 } else { half })
+                }
+                (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => continue,
+            };
+            let (foot, normal) = form.foot(middle);
+            let number = u32::try_from(i).expect("below 2³² generators");
+            self.shoot(growth, number, foot, normal);
+            self.grow(growth);
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! A vertex: all generators that are equally far from a place, in the order of the directions of their feet, and what leaves between them.
+//!
+//! ```text
+//!            foot 2
+//!       edge   │   edge          One edge leaves between each two neighbours of different owners (or any two, for the medial axis);
+//!          ╲   │   ╱             with four or more feet, as on a grid, nothing is special. Generators with the same foot direction
+//!           ╲  │  ╱              are one *group*: a line and the disc at its end, or copper that touches from within. For the edges
+//!   foot 3 ─────●───── foot 1    on either side the one that is nearest a little ahead stands for the group.
+//!           ╱  │
+//! ```
+
+use super::form::{SLAB, clockwise, turn};
+use super::{Diagram, Kind, apollonius};
+use crate::voronoi::plane::Spot;
+
+/// Distances that differ by less are equal, in nanometres. Chosen: rounding is a millionth of it, and whole nanometres rarely come so close.
+pub(super) const TIE: f64 = 0.02;
+
+/// A place so near to the end of a slab is taken for it where all that is tied stays so, in nanometres. Chosen.
+const SNAP: f64 = 1.0;
+
+/// Feet nearer to each other than this have one direction, beside what a tie may turn them by.
+const SAME: f64 = 1e-6;
+
+/// A generator tied at a place.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tied {
+    pub(super) generator: u32,
+    /// The direction of its foot, a unit vector.
+    pub(super) toward: Spot,
+    group: usize,
+}
+
+/// What leaves a vertex: an edge between two generators, in a direction.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slot {
+    pub(super) left: u32,
+    pub(super) right: u32,
+    pub(super) way: Spot,
+    /// The edge that leaves here.
+    pub(super) edge: Option<u32>,
+}
+
+/// A place where edges end, solved.
+#[derive(Clone, Debug)]
+pub(super) struct Junction {
+    pub(super) at: Spot,
+    pub(super) clearance: f64,
+    pub(super) tied: Vec<u32>,
+    pub(super) slots: Vec<Slot>,
+}
+
+impl Diagram {
+    /// The generators that count at `p` and are at most `reach` far, with their distances.
+    pub(super) fn within(&self, p: Spot, reach: f64) -> Vec<(u32, f64)> {
+        let mut found = Vec::new();
+        self.index.visit_round(p, reach + TIE, |i| {
+            let form = &self.forms()[i as usize];
+            let distance = form.distance(p);
+            if distance <= reach && form.counts(p, TIE) {
+                found.push((i, distance));
+            }
+        });
+        found.sort_unstable_by_key(|&(i, _)| i);
+        found
+    }
+
+    /// What is tied near `p`, which `third` generators at about `clearance` have led to; none where something is nearer.
+    pub(super) fn junction(&self, p: Spot, clearance: f64, led: [u32; 3]) -> Option<Junction> {
+        let near = self.within(p, clearance + 8.0 * TIE);
+        let least = near.iter().map(|&(_, d)| d).fold(f64::INFINITY, f64::min);
+        if near.is_empty() || least < clearance - 4.0 * TIE {
+            return None;
+        }
+        let numbers = || near.iter().map(|&(i, _)| i);
+        let at_first = self.tied(p, clearance, numbers(), SLAB);
+        let at = self.hand_over(p, &self.tied(p, clearance, numbers(), SNAP));
+        let at = at.unwrap_or_else(|| self.settled(p, &at_first, led));
+        let clearance = at_first.iter().map(|tied| self.forms()[tied.generator as usize].distance(at));
+        let clearance = clearance.fold(f64::INFINITY, f64::min).max(0.0);
+        let tied = self.tied(at, clearance, numbers(), SLAB);
+        let slots = self.slots(at, clearance, &tied);
+        let mut generators: Vec<u32> = tied.iter().map(|tied| tied.generator).collect();
+        generators.sort_unstable();
+        generators.dedup();
+        Some(Junction { at, clearance, tied: generators, slots })
+    }
+
+    /// The generators among some that are `clearance` far from `p`, by the direction of their feet, in groups of one direction.
+    fn tied(&self, p: Spot, clearance: f64, among: impl Iterator<Item = u32>, slab: f64) -> Vec<Tied> {
+        let mut tied: Vec<Tied> = Vec::new();
+        for generator in among {
+            let form = &self.forms()[generator as usize];
+            if (form.distance(p) - clearance).abs() > TIE || form.slack(p) < -slab || form.distance(p) < -TIE
+            {
+                continue;
+            }
+            let mut add = |toward| tied.push(Tied { generator, toward, group: 0 });
+            match form.around(p) {
+                // From its centre an arc is everywhere: its two ends stand for it.
+                Some(Some(ends)) => ends.into_iter().for_each(add),
+                Some(None) => add(Spot::new(1.0, 0.0)),
+                None => add(form.away(p) * -1.0),
+            }
+        }
+        let from = Spot::new(1.0, 0.0);
+        tied.sort_by(|a, b| {
+            turn(from, a.toward).total_cmp(&turn(from, b.toward)).then(a.generator.cmp(&b.generator))
+        });
+        let same = SAME + 2.0 * TIE / clearance.max(TIE);
+        let is_same = |a: Spot, b: Spot| a.dot(b) > 0.0 && a.cross(b).abs() < same;
+        // Begin after a gap between two directions, so that no group is cut in two.
+        let n = tied.len();
+        if let Some(gap) = (0..n).find(|&i| !is_same(tied[(i + n - 1) % n].toward, tied[i].toward)) {
+            tied.rotate_left(gap);
+        }
+        for i in 1..n {
+            let step = usize::from(!is_same(tied[i - 1].toward, tied[i].toward));
+            tied[i].group = tied[i - 1].group + step;
+        }
+        tied
+    }
+
+    /// The place that the tied generators define, the same from wherever it was reached.
+    fn settled(&self, p: Spot, tied: &[Tied], led: [u32; 3]) -> Spot {
+        let near = |solution: [Option<apollonius::Solution>; 2]| {
+            let found = solution.into_iter().flatten().map(|(at, _)| at);
+            let nearest = found.min_by(|a, b| (*a - p).length().total_cmp(&(*b - p).length()))?;
+            ((nearest - p).length() <= 1.0 + 1e-3 * (nearest - p).length()).then_some(nearest)
+        };
+        let solve = |three: [u32; 3]| near(apollonius::solve(three.map(|i| &self.forms()[i as usize])));
+        // One of each group, the first by number, well apart.
+        let mut firsts: Vec<(usize, u32, Spot)> = Vec::new();
+        for entry in tied {
+            match firsts.iter_mut().find(|(group, ..)| *group == entry.group) {
+                Some(first) if entry.generator < first.1 => {
+                    *first = (entry.group, entry.generator, entry.toward)
+                }
+                Some(_) => {}
+                None => firsts.push((entry.group, entry.generator, entry.toward)),
+            }
+        }
+        firsts.sort_unstable_by_key(|first| first.1);
+        firsts.truncate(12);
+        let area = |a: Spot, b: Spot, c: Spot| (b - a).cross(c - a).abs();
+        let mut best: Option<(f64, [u32; 3])> = None;
+        for (i, a) in firsts.iter().enumerate() {
+            for (j, b) in firsts.iter().enumerate().skip(i + 1) {
+                for c in firsts.iter().skip(j + 1) {
+                    let area = area(a.2, b.2, c.2);
+                    if a.1 != b.1 && b.1 != c.1 && best.is_none_or(|best| area > 1.5 * best.0) {
+                        best = Some((area, [a.1, b.1, c.1]));
+                    }
+                }
+            }
+        }
+        let mut led = led;
+        led.sort_unstable();
+        best.and_then(|(_, three)| solve(three)).or_else(|| solve(led)).unwrap_or(p)
+    }
+
+    /// The place where a line or an arc hands over to the disc at its end, if two tied ones do.
+    fn hand_over(&self, p: Spot, tied: &[Tied]) -> Option<Spot> {
+        let mut joined: Vec<(u32, usize, usize)> = Vec::new();
+        for entry in tied {
+            let slacks = self.forms()[entry.generator as usize].slacks(p);
+            for (end, disc) in self.generators.ends_of(entry.generator).into_iter().enumerate() {
+                let is_tied = |disc: u32| {
+                    tied.iter().any(|other| other.generator == disc && other.group == entry.group)
+                };
+                if slacks[end].abs() <= SNAP && disc.is_some_and(is_tied) {
+                    joined.push((entry.generator, end, entry.group));
+                }
+            }
+        }
+        let &(generator, end, group) = joined.iter().min()?;
+        let form = &self.forms()[generator as usize];
+        let (foot, normal) = form.foot(form.ends()?[end]);
+        let other = tied.iter().filter(|other| other.group != group).map(|other| other.generator).min()?;
+        let s = self.forms()[other as usize].meet(foot, normal)?;
+        let at = foot + normal * s;
+        let stays = |other: &Tied| (self.forms()[other.generator as usize].distance(at) - s).abs() <= TIE;
+        ((at - p).length() < 2.0 * SNAP && tied.iter().all(stays)).then_some(at)
+    }
+
+    /// What leaves between neighbouring groups.
+    fn slots(&self, at: Spot, clearance: f64, tied: &[Tied]) -> Vec<Slot> {
+        let groups = tied.last().map_or(0, |last| last.group + 1);
+        if groups < 2 || clearance < TIE {
+            return Vec::new();
+        }
+        let group = |g: usize| tied.iter().filter(move |entry| entry.group == g % groups);
+        let mut slots = Vec::new();
+        for g in 0..groups {
+            let (Some(last), Some(first)) = (group(g).next_back(), group(g + 1).next()) else { continue };
+            let way = super::form::unit(clockwise(first.toward - last.toward));
+            let [right, left] = [g, g + 1].map(|g| self.ahead(at, clearance, way, group(g)));
+            if left != right && self.parts(left, right) && !self.generators.are_joined(left, right) {
+                slots.push(Slot { left, right, way, edge: None });
+            }
+        }
+        slots
+    }
+
+    /// Whether edges between two generators are wanted.
+    pub(super) fn parts(&self, a: u32, b: u32) -> bool {
+        match self.kind {
+            Kind::Owners => self.owner(a) != self.owner(b),
+            Kind::MedialAxis => true,
+        }
+    }
+
+    /// The one of some tied generators that is nearest a little ahead.
+    pub(super) fn ahead_of(&self, at: Spot, clearance: f64, way: Spot, tied: &[u32]) -> Option<u32> {
+        let tied: Vec<Tied> =
+            tied.iter().map(|&generator| Tied { generator, toward: Spot::default(), group: 0 }).collect();
+        (!tied.is_empty()).then(|| self.ahead(at, clearance, way, tied.iter()))
+    }
+
+    /// The one of a group that is nearest a little ahead.
+    fn ahead<'a>(
+        &self,
+        at: Spot,
+        clearance: f64,
+        way: Spot,
+        group: impl Iterator<Item = &'a Tied> + Clone,
+    ) -> u32 {
+        let probe = at + way * (60.0 * TIE * clearance).sqrt().max(1.0);
+        let goes_on = |i: u32| {
+            let form = &self.forms()[i as usize];
+            let Some(ends) = form.ends() else { return true };
+            if form.around(at).is_some() {
+                return form.slack(probe) >= 0.0;
+            }
+            let slacks = form.slacks(at);
+            (0..2).all(|end| {
+                let (_, normal) = form.foot(ends[end]);
+                // The direction in which feet move inwards from this end.
+                let onward = clockwise(normal) * if form.is_hollow() { 1.0 } else { -1.0 };
+                let inward = if end == 0 { onward } else { onward * -1.0 };
+                slacks[end].abs() > SLAB || way.dot(inward) >= -1e-9
+            })
+        };
+        let rank = |i: u32| (self.forms()[i as usize].distance(probe), self.owner(i), i);
+        let nearer = |a: (f64, u32, u32), b: (f64, u32, u32)| {
+            let is_tie = (a.0 - b.0).abs() < 1e-6;
+            let a_first = if is_tie { (a.1, a.2) < (b.1, b.2) } else { a.0 < b.0 };
+            if a_first { a } else { b }
+        };
+        let all = || group.clone().map(|tied| tied.generator);
+        let going = all().filter(|&i| goes_on(i)).map(rank).reduce(nearer);
+        going.or_else(|| all().map(rank).reduce(nearer)).map_or(u32::MAX, |found| found.2)
+    }
+}

@@ -1,0 +1,362 @@
+//! The walk: a bisector is followed from a certified place to its first event.
+//!
+//! ```text
+//!     a ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓          One step: from p along the bisector to q, no farther than the nearest end of a slab. Whatever
+//!      ╭───────────────╮                could enter a circle that is empty at p lies within the capsule round the chord; the
+//!      │ p ─── m ─── q │ capsule        first that does shortens the step, and is the event. Only what *enters* counts: its
+//!      ╰───────────────╯     ●          foot lies ahead of those of a and b.
+//!     b ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
+//! ```
+//!
+//! Along a bisector the feet on both generators move in one sense only (see [`Form::meet`](super::form::Form::meet)), so the place of the foot on
+//! one of them orders all events.
+
+use super::apollonius;
+use super::form::{Form, Place, SLAB, clockwise, unit};
+use super::vertex::TIE;
+use super::{Diagram, NOBODY};
+use crate::voronoi::plane::Spot;
+
+/// A step is so many clearances long, and no shorter than this, in nanometres. Measured: see the module's table.
+const STRIDE: f64 = 2.0;
+const LEAST: f64 = 20_000.0;
+
+/// What comes nearer by less than this a unit of way only touches; if it enters after all, the end of the step shows it. Rounding is less.
+const FLAT: f64 = 1e-6;
+
+/// Who cannot step so far has come to where two generators touch, in nanometres.
+const SHORTEST: f64 = 1e-4;
+
+/// What a flat touch may be seen off its place, in nanometres: the root of a tie times the largest radius.
+const NEAR: f64 = 2_000.0;
+
+/// Steps in an edge at most, chosen far above need: a fault rather than a hang.
+const STEPS: usize = 100_000;
+
+/// Two generators with the space between them; one of them may be a mirror image that is nobody's.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    pub(super) left: u32,
+    pub(super) right: u32,
+    pub(super) forms: [Form; 2],
+}
+
+/// How an edge ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Event {
+    /// At a place, where a third generator enters or one of the two ends (then `third` is one of them).
+    Junction { at: Spot, clearance: f64, third: u32, way: Spot },
+    /// Where the window ends.
+    Window { at: Spot, clearance: f64, way: Spot },
+    /// Where the two generators touch each other.
+    Contact { at: Spot, way: Spot },
+    /// Nowhere that can be explained.
+    Fault,
+}
+
+/// A place on a bisector.
+#[derive(Clone, Copy)]
+struct Here {
+    at: Spot,
+    clearance: f64,
+    place: Place,
+}
+
+/// A candidate for the event: how far ahead it is, where, how far from copper, and by whom.
+type Hit = (f64, Spot, f64, u32);
+
+impl Pair {
+    /// The direction of travel at `p`, with the left generator on the left.
+    pub(super) fn way(&self, p: Spot) -> Spot {
+        let [left, right] = self.forms;
+        let turned = clockwise(right.away(p) - left.away(p));
+        if turned.dot(turned) > 1e-24 { unit(turned) } else { left.away(p) }
+    }
+
+    /// The generator that orders places along the edge: 0 for the left.
+    pub(super) fn main(&self, p: Spot) -> usize {
+        let rank = |form: &Form| match *form {
+            Form::Line { .. } => 0.0,
+            Form::Circle { hollow: false, .. } => 1.0,
+            // The nearer the centre, the worse.
+            Form::Circle { center, radius, .. } => 3.0 - ((p - center).length() / radius).min(1.0),
+        };
+        usize::from(rank(&self.forms[1]) < rank(&self.forms[0]))
+    }
+
+    /// The sense in which feet move on a side.
+    pub(super) fn sense(&self, side: usize) -> f64 {
+        self.forms[side].sense_on_left() * if side == 0 { 1.0 } else { -1.0 }
+    }
+
+    /// The end of an edge that runs into a notch, if it does: there both distances are zero.
+    fn contact(&self, here: &Here) -> Event {
+        let [left, right] = &self.forms;
+        let mut at = here.at;
+        for _ in 0..4 {
+            let (u, v) = (left.away(at), right.away(at));
+            let volume = u.cross(v);
+            let (e, f) = (-left.distance(at), -right.distance(at));
+            let step = Spot::new(e * v.y - f * u.y, f * u.x - e * v.x) * (1.0 / volume);
+            if volume.abs() < 1e-9 || step.length() > NEAR {
+                break;
+            }
+            at = at + step;
+        }
+        let touches = self.forms.iter().all(|form| form.distance(at).abs() < TIE);
+        if touches { Event::Contact { at, way: self.way(here.at) } } else { Event::Fault }
+    }
+
+    /// The place on the bisector whose foot on one side is given.
+    pub(super) fn at(&self, side: usize, place: Place) -> Option<(Spot, f64)> {
+        let (foot, normal) = self.forms[side].foot(place);
+        let s = self.forms[1 - side].meet(foot, normal)?;
+        Some((foot + normal * s, s))
+    }
+}
+
+impl Diagram {
+    /// Follows a bisector from `start`, where `tied` are tied, to its first event.
+    pub(super) fn follow(&self, pair: &Pair, start: Spot, tied: &[u32]) -> Event {
+        let main = pair.main(start);
+        let (form, sense) = (&pair.forms[main], pair.sense(main));
+        let mut here = Here { at: start, clearance: form.distance(start).max(0.0), place: form.place(start) };
+        let end = self.nearest_end(pair, main, &here);
+        let mut stride = STRIDE;
+        for _ in 0..STEPS {
+            let Some((mut next, mut is_end)) = self.step(pair, main, &here, end.as_ref(), stride) else {
+                return pair.contact(&here);
+            };
+            let mut leaves = false;
+            if !self.holds(next.at) {
+                (next, leaves, is_end) = (self.leave(pair, main, &here, next), true, false);
+            }
+            let ahead = form.progress(here.place, next.place, sense);
+            if let Some((_, at, clearance, third)) =
+                self.first_hit(pair, main, &here, &next, ahead, (start, tied))
+            {
+                return Event::Junction { at, clearance, third, way: pair.way(at) };
+            }
+            let Here { at, clearance, .. } = next;
+            if leaves {
+                return Event::Window { at, clearance, way: pair.way(at) };
+            }
+            if is_end {
+                let third = if pair.left == NOBODY { pair.right } else { pair.left };
+                return Event::Junction { at, clearance, third, way: pair.way(at) };
+            }
+            here = next;
+            stride = (stride * 1.5).min(8.0);
+        }
+        Event::Fault
+    }
+
+    /// The first place ahead where a slab ends, or a disc hands over.
+    fn nearest_end(&self, pair: &Pair, main: usize, here: &Here) -> Option<Here> {
+        let mut nearest: Option<(f64, Here)> = None;
+        for side in 0..2 {
+            let (form, sense) = (&pair.forms[side], pair.sense(side));
+            let from = form.place(here.at);
+            let number = [pair.left, pair.right][side];
+            let breaks = if number == NOBODY { &[] } else { self.index.breaks(number) };
+            // Of its own two ends the one ahead.
+            let own = form.ends().map(|[start, end]| if sense > 0.0 { end } else { start });
+            let ends = own.into_iter().chain(breaks.iter().copied());
+            for place in ends {
+                let ahead = form.progress(from, place, sense);
+                // In nanometres where it is small, which alone matters here.
+                let out = match *form {
+                    Form::Line { .. } => 1.0,
+                    Form::Circle { center, .. } => (here.at - center).length(),
+                };
+                let is_behind = matches!(form, Form::Circle { .. }) && (4.0 - ahead) * out <= 2.0 * SLAB;
+                if ahead * out <= SLAB || is_behind {
+                    continue;
+                }
+                let Some((at, clearance)) = pair.at(side, place) else { continue };
+                let there = Here { at, clearance, place: pair.forms[main].place(at) };
+                let mut along = pair.forms[main].progress(here.place, there.place, pair.sense(main));
+                if along < -1e-9 {
+                    continue;
+                }
+                along = along.max(0.0);
+                if nearest.as_ref().is_none_or(|(least, _)| along < *least) {
+                    nearest = Some((along, there));
+                }
+            }
+        }
+        nearest.map(|(_, there)| there)
+    }
+
+    /// One step ahead, and whether it reaches the end.
+    fn step(
+        &self,
+        pair: &Pair,
+        main: usize,
+        here: &Here,
+        end: Option<&Here>,
+        stride: f64,
+    ) -> Option<(Here, bool)> {
+        let (form, sense) = (&pair.forms[main], pair.sense(main));
+        let out = match *form {
+            Form::Line { .. } => 1.0,
+            Form::Circle { center, .. } => (here.at - center).length(),
+        };
+        let way = pair.way(here.at);
+        let across = match here.place {
+            Place::Along(_) => way.dot(clockwise(form.away(here.at))).abs(),
+            Place::Toward(n) => way.cross(n).abs(),
+        };
+        let wanted = (here.clearance * stride).max(LEAST);
+        let mut length = wanted * across.max(1e-6);
+        for _ in 0..60 {
+            let place = form.advance(here.place, sense * length, out);
+            let ahead = form.progress(here.place, place, sense);
+            if let Some(end) = end
+                && form.progress(here.place, end.place, sense) <= ahead
+                && (end.at - here.at).length() <= 3.0 * wanted
+            {
+                return Some((*end, true));
+            }
+            if let Some((at, clearance)) = pair.at(main, place)
+                && (at - here.at).length() <= 3.0 * wanted
+            {
+                return Some((Here { at, clearance, place }, false));
+            }
+            length *= 0.5;
+            if length < SHORTEST {
+                break;
+            }
+        }
+        None
+    }
+
+    /// The place where the way from one place to another, beyond the window, leaves it.
+    fn leave(&self, pair: &Pair, main: usize, here: &Here, beyond: Here) -> Here {
+        let form = &pair.forms[main];
+        let (mut inside, mut outside) = (*here, beyond);
+        for _ in 0..60 {
+            let place = match (inside.place, outside.place) {
+                (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
+                (Place::Toward(a), Place::Toward(b)) => Place::Toward(unit(a + b)),
+                (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => break,
+            };
+            let Some((at, clearance)) = pair.at(main, place) else { break };
+            let middle = Here { at, clearance, place: form.place(at) };
+            if self.holds(at) { inside = middle } else { outside = middle }
+        }
+        outside
+    }
+
+    /// The first generator that enters between two places, if any does.
+    fn first_hit(
+        &self,
+        pair: &Pair,
+        main: usize,
+        here: &Here,
+        next: &Here,
+        ahead: f64,
+        (start, tied): (Spot, &[u32]),
+    ) -> Option<Hit> {
+        let (form, sense) = (&pair.forms[main], pair.sense(main));
+        let middle = here.at.midpoint(next.at);
+        let half = (next.at - here.at).length() / 2.0;
+        // The arc strays from its chord by no more than half of it, for it turns by less than a quarter.
+        let reach = form.distance(middle).max(0.0).max(here.clearance).max(next.clearance);
+        let room = reach + half + TIE;
+        let look = [
+            here.at.x.min(next.at.x) - room,
+            here.at.y.min(next.at.y) - room,
+            here.at.x.max(next.at.x) + room,
+            here.at.y.max(next.at.y) + room,
+        ];
+        let mut first: Option<Hit> = None;
+        let mut missed: Option<u32> = None;
+        let near = (60.0 * TIE * here.clearance).sqrt().max(1.0);
+        self.index.visit(look, |c| {
+            if c == pair.left || c == pair.right || self.joined_to(pair, c) {
+                return;
+            }
+            let other = &self.forms()[c as usize];
+            let distance = other.distance(middle);
+            if distance > reach + 2.0 * half + TIE || distance < -half - half - TIE {
+                return;
+            }
+            let was_tied = tied.contains(&c);
+            for (at, s) in apollonius::solve([&pair.forms[0], &pair.forms[1], other]).into_iter().flatten() {
+                let place = form.place(at);
+                let along = form.progress(here.place, place, sense);
+                let limit = first.map_or(ahead, |hit| hit.0);
+                if !(along > 0.0 && along <= limit) || other.slack(at) < -SLAB || s < -TIE {
+                    continue;
+                }
+                let off = (at - start).length();
+                let is_near = off < 2.0 * TIE || (was_tied && off < near);
+                let entering = (other.away(at) - form.away(at)).dot(pair.way(at));
+                if (is_near && entering > -0.1) || entering >= -FLAT {
+                    continue;
+                }
+                first = Some((along, at, s, c));
+            }
+            let nearer = other.distance(next.at) < next.clearance - TIE && other.counts(next.at, TIE);
+            if nearer && missed.is_none_or(|known| c < known) {
+                missed = Some(c);
+            }
+        });
+        if first.is_some() {
+            return first;
+        }
+        self.entry(pair, main, here, next, missed?)
+    }
+
+    /// Where a generator comes nearer that touches too flatly for an equation: by halving.
+    fn entry(&self, pair: &Pair, main: usize, here: &Here, next: &Here, c: u32) -> Option<Hit> {
+        let (form, other) = (&pair.forms[main], &self.forms()[c as usize]);
+        let (mut clear, mut hit) = (*here, *next);
+        for _ in 0..80 {
+            let place = match (clear.place, hit.place) {
+                (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
+                (Place::Toward(a), Place::Toward(b)) => Place::Toward(unit(a + b)),
+                (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => break,
+            };
+            let Some((at, clearance)) = pair.at(main, place) else { break };
+            let middle = Here { at, clearance, place };
+            let nearer = other.distance(at) < clearance - TIE / 4.0 && other.counts(at, TIE);
+            if nearer { hit = middle } else { clear = middle }
+        }
+        let along = form.progress(here.place, hit.place, pair.sense(main));
+        let (at, clearance) = touch(pair, other, hit.at).unwrap_or((hit.at, hit.clearance));
+        Some((along, at, clearance, c))
+    }
+
+    /// The place at which a generator that is nearer at the end of a way along a bisector entered.
+    pub(super) fn entered(
+        &self,
+        pair: &Pair,
+        start: Spot,
+        (at, clearance): (Spot, f64),
+        c: u32,
+    ) -> Option<(Spot, f64)> {
+        let main = pair.main(start);
+        let form = &pair.forms[main];
+        let here = Here { at: start, clearance: form.distance(start).max(0.0), place: form.place(start) };
+        let next = Here { at, clearance, place: form.place(at) };
+        self.entry(pair, main, &here, &next, c).map(|(_, at, clearance, _)| (at, clearance))
+    }
+
+    fn joined_to(&self, pair: &Pair, c: u32) -> bool {
+        [pair.left, pair.right].into_iter().any(|i| i != NOBODY && self.generators.are_joined(i, c))
+    }
+}
+
+/// The place near `p` where an end of a line or an arc begins to touch one of two generators from within.
+fn touch(pair: &Pair, other: &Form, p: Spot) -> Option<(Spot, f64)> {
+    let slacks = other.slacks(p);
+    let end = usize::from(slacks[1].abs() < slacks[0].abs());
+    let (foot, normal) = other.foot(other.ends()?[end]);
+    let meetings = pair.forms.iter().filter_map(|form| form.meet(foot, normal));
+    let mut places = meetings.map(|s| (foot + normal * s, s));
+    places.find(|&(at, s)| {
+        (at - p).length() < NEAR && pair.forms.iter().all(|form| (form.distance(at) - s).abs() < TIE)
+    })
+}

@@ -1,0 +1,212 @@
+//! The certified diagram beside brute force: random copper at free places, and on coarse grids where equal distances, tangencies and
+//! coincident edges are the rule.
+
+use voromill::board::{Attributes, Axis, Copper, Feature, Shape, Side};
+use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
+use voromill::topology::{self, Method, Nets};
+use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
+
+use crate::oracle::distance::distances;
+use crate::oracle::polyline;
+
+/// A splitmix64 generator.
+struct Random(u64);
+
+impl Random {
+    fn below(&mut self, bound: i64) -> i64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let high = i64::from(u32::try_from((z ^ (z >> 31)) >> 33).expect("31 bits"));
+        (high * bound) >> 31
+    }
+}
+
+/// The side of the square that most of a scene lies in.
+const SIDE: i64 = 8_000_000;
+/// A large size.
+const LARGE: i64 = 1_000_000;
+/// How much the brute force may be off, in nanometres: it takes arcs by chords within 5 nm.
+const OFF: f64 = 20.0;
+
+/// A point so many grid steps from the origin.
+fn at(grid: i64, x: i64, y: i64) -> Point {
+    Point::new(Nm::new(x * grid), Nm::new(y * grid))
+}
+
+/// An arc with both ends on the grid: quarter turns round a grid point.
+fn arc(random: &mut Random, grid: i64, (x, y): (i64, i64)) -> Arc {
+    let large = LARGE / grid;
+    let (dx, dy) = (1 + random.below(large), random.below(large));
+    let ends = [(dx, dy), (-dy, dx), (-dx, -dy), (dy, -dx)].map(|(dx, dy)| at(grid, x + dx, y + dy));
+    let mut end = || ends[usize::try_from(random.below(4)).expect("below four")];
+    let (start, end) = (end(), end());
+    let turn = if random.below(2) == 0 { Turn::Clockwise } else { Turn::CounterClockwise };
+    Arc { start, end, center: at(grid, x, y), turn }
+}
+
+fn shape(random: &mut Random, grid: i64) -> Shape {
+    let large = LARGE / grid;
+    let (x, y) = (random.below(SIDE / grid), random.below(SIDE / grid));
+    let (center, radius) = (at(grid, x, y), Nm::new((1 + random.below(large / 2)) * grid));
+    let to = at(grid, x + random.below(4 * large) - 2 * large, y + random.below(4 * large) - 2 * large);
+    let mut away = || 1 + random.below(2 * large);
+    match away() % 8 {
+        0 | 1 if to != center => Shape::Stroke { from: center, to, radius },
+        2 => Shape::Stroke { from: center, to: at(grid, x + away(), y), radius },
+        3 => Shape::Arc { arc: arc(random, grid, (x, y)), radius },
+        4 | 5 => Shape::Polygon(Polygon::rectangle(Rect::new(center, at(grid, x + away(), y + away())))),
+        6 => {
+            let corners: Vec<Point> = (0..5).map(|_| at(grid, x + away(), y + away())).collect();
+            Polygon::hull(corners).map_or(Shape::Disc { center, radius }, Shape::Polygon)
+        }
+        _ => Shape::Disc { center, radius },
+    }
+}
+
+fn scene(seed: u64, grid: i64) -> (Copper, Nets) {
+    let mut random = Random(seed);
+    let count = 3 + seed % 30;
+    let feature = |shape: Shape| Feature { axis: Axis::Region, shape, attributes: 0, line: 0 };
+    let features = (0..count).map(|_| feature(shape(&mut random, grid))).collect();
+    let copper = Copper { side: Side::Front, features, attributes: vec![Attributes::default()] };
+    let nets = topology::recover(&copper, Method::Contact);
+    (copper, nets)
+}
+
+fn diagram(copper: &Copper, nets: &Nets, kind: Kind) -> Diagram {
+    let generators = Generators::of_copper(copper, |i| Some(nets.of(i).0));
+    Diagram::new(generators, kind, Space::Around(Nm::from_mm(1)))
+}
+
+/// The distances to the two nearest nets, and the nearest.
+fn nearest(copper: &Copper, nets: &Nets, [x, y]: [f64; 2]) -> ([f64; 2], usize) {
+    let mut all: Vec<(f64, usize)> =
+        distances(copper, nets, x, y).into_iter().enumerate().map(|(i, d)| (d, i)).collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ([all[0].0, all.get(1).map_or(f64::INFINITY, |second| second.0)], all[0].1)
+}
+
+/// Every certificate holds, and brute force agrees with every circle and every edge.
+fn check(name: &str, copper: &Copper, nets: &Nets, diagram: &Diagram) {
+    assert_eq!(diagram.faults(), [], "{name}: no end is loose");
+    assert_eq!(diagram.certify(100_000.0), [], "{name}: all circles are empty");
+    for vertex in diagram.vertices() {
+        let ([clearance, _], _) = nearest(copper, nets, vertex.at.into());
+        let off = (clearance - vertex.clearance).abs();
+        assert!(off <= OFF, "{name}: {off} nm beside the circle of {vertex:?}");
+    }
+    for edge in diagram.edges() {
+        let course = diagram.course(edge, 1_000.0);
+        let ((x, y), clearance) = course[course.len() / 2];
+        let ([one, other], _) = nearest(copper, nets, [x, y]);
+        assert!((one - clearance).abs() <= OFF, "{name}: {edge:?} at {x}, {y}: {one} and {clearance} nm");
+        assert!(other - one <= OFF, "{name}: {edge:?} at {x}, {y} parts {one} from {other} nm");
+    }
+}
+
+/// Wherever a way from somewhere to somewhere goes from one net's region into another's, there is an edge.
+fn check_complete(name: &str, copper: &Copper, nets: &Nets, diagram: &Diagram, random: &mut Random) {
+    let curves: Vec<Vec<[f64; 2]>> = diagram
+        .edges()
+        .iter()
+        .map(|edge| diagram.course(edge, 20.0).into_iter().map(|(p, _)| p.into()).collect())
+        .collect();
+    let bounds = copper.bounds().expect("copper");
+    for _ in 0..6 {
+        // Within the copper's bounds: beyond them the window ends edges.
+        let mut place = || {
+            let mut part = |least: Nm, size: Nm| (least + Nm::new(random.below(size.get()))).to_f64();
+            [part(bounds.min().x, bounds.width()), part(bounds.min().y, bounds.height())]
+        };
+        let (mut from, mut to) = (place(), place());
+        let [here, there] = [from, to].map(|p| nearest(copper, nets, p).1);
+        if here == there {
+            continue;
+        }
+        for _ in 0..50 {
+            let middle = [f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])];
+            if nearest(copper, nets, middle).1 == here { from = middle } else { to = middle }
+        }
+        let off = polyline::distance(from, &curves);
+        // Where the nets all but touch, brute force cannot tell.
+        let is_free = nearest(copper, nets, from).0[0] > 1_000.0;
+        assert!(
+            !is_free || off <= 1_000.0,
+            "{name}: {off} nm from {from:?}, where regions meet, to any edge"
+        );
+    }
+}
+
+/// A planar graph has as many faces as edges beyond the vertices, and one more for each piece: here faces are regions of nets.
+fn check_euler(name: &str, nets: &Nets, diagram: &Diagram) {
+    // What leaves the window ends at one place beyond it.
+    let (n, mut degree) = (diagram.vertices().len(), vec![0; diagram.vertices().len()]);
+    let mut parent: Vec<usize> = (0..=n).collect();
+    fn root(parent: &[usize], mut i: usize) -> usize {
+        while parent[i] != i {
+            i = parent[i];
+        }
+        i
+    }
+    let ends = |i: u32| usize::try_from(i).expect("an index");
+    for edge in diagram.edges() {
+        [edge.from, edge.to].into_iter().for_each(|i| degree[ends(i)] += 1);
+    }
+    let beyond = |i: u32| if degree[ends(i)] == 1 { n } else { ends(i) };
+    for edge in diagram.edges() {
+        let (a, b) = (root(&parent, beyond(edge.from)), root(&parent, beyond(edge.to)));
+        parent[a] = b;
+    }
+    let leave = degree.iter().filter(|&&degree| degree == 1).count();
+    let vertices = n - leave + usize::from(leave > 0);
+    let used = (0..=n).filter(|&i| if i == n { leave > 0 } else { degree[i] != 1 });
+    let pieces = used.filter(|&i| root(&parent, i) == i).count();
+    let faces = diagram.edges().len() + 1 + pieces - vertices;
+    assert_eq!(faces, nets.nets().len(), "{name}: one region for each net");
+}
+
+fn check_owners(seeds: std::ops::Range<u64>, grid: i64) {
+    for seed in seeds {
+        let name = format!("seed {seed} on a grid of {grid} nm");
+        let (copper, nets) = scene(seed, grid);
+        let diagram = diagram(&copper, &nets, Kind::Owners);
+        check(&name, &copper, &nets, &diagram);
+        check_complete(&name, &copper, &nets, &diagram, &mut Random(seed));
+        check_euler(&name, &nets, &diagram);
+    }
+}
+
+#[test]
+fn at_free_places_brute_force_agrees_with_the_certified_diagram() {
+    check_owners(0..30, 1);
+}
+
+#[test]
+fn on_coarse_grids_brute_force_agrees_with_the_certified_diagram() {
+    check_owners(0..30, 100_000);
+    check_owners(100..130, 250_000);
+}
+
+#[test]
+fn an_edge_between_two_discs_is_a_hyperbola_with_its_clearance() {
+    let disc = |x: i64, radius: i64| Shape::Disc { center: at(1_000, x, 0), radius: Nm::from_um(radius) };
+    let mut generators = Generators::new();
+    generators.add(&disc(0, 500), 0);
+    generators.add(&disc(3_000, 1_000), 1);
+    let diagram = Diagram::new(generators, Kind::Owners, Space::Around(Nm::from_mm(1)));
+    assert_eq!(diagram.faults(), [], "no end is loose");
+    let narrowest = diagram.vertices().iter().map(|vertex| vertex.clearance).fold(f64::INFINITY, f64::min);
+    assert!((narrowest - 750_000.0).abs() < 1e-3, "half of 1.5 mm: {narrowest} nm");
+    for edge in diagram.edges() {
+        for ((x, y), clearance) in diagram.course(edge, 100.0) {
+            let reach = |center: f64, radius: f64| ((x - center) * (x - center) + y * y).sqrt() - radius;
+            let [one, other] = [reach(0.0, 5e5), reach(3e6, 1e6)];
+            assert!(
+                (one - clearance).abs() < 1e-3 && (other - clearance).abs() < 1e-3,
+                "{one} {other} {clearance}"
+            );
+        }
+    }
+}
