@@ -74,6 +74,10 @@ pub(super) struct Verify {
     #[arg(long, value_name = "LENGTH", default_value = "0.01mm")]
     max_gouge: Nm,
 
+    /// The part of its width that a net must keep where a cut reaches into it, such as 0.5
+    #[arg(long, value_name = "PART", default_value = "0.5", value_parser = part)]
+    keep_width: f64,
+
     /// Below this width a strip of copper between two cuts is a sliver
     #[arg(long, value_name = "LENGTH", default_value = "0.05mm")]
     sliver: Nm,
@@ -134,6 +138,12 @@ enum Format {
     Junit,
 }
 
+/// A part of something: from 0 to 1.
+fn part(text: &str) -> Result<f64, String> {
+    let part = text.parse().ok().filter(|part| (0.0..=1.0).contains(part));
+    part.ok_or_else(|| "expected a part from 0 to 1, such as 0.5".to_owned())
+}
+
 /// Two lengths.
 #[derive(Clone, Copy)]
 struct Offset(Vector);
@@ -185,6 +195,7 @@ impl Verify {
         let settings = verify::Settings {
             copper: self.copper,
             gouge: self.max_gouge,
+            keep: self.keep_width,
             sliver: self.sliver,
             travel: self.travel.map(|Travel(travel)| travel),
             tabs: self.tabs,

@@ -67,6 +67,9 @@ pub struct FindingEntry {
     /// Its line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<u32>,
+    /// Where else it is the same, and no worse.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<Place>,
 }
 
 impl From<&Finding> for FindingEntry {
@@ -82,6 +85,7 @@ impl From<&Finding> for FindingEntry {
             area_mm2: finding.area.map(|area| (area * 1e6).round() / 1e6),
             program: finding.program.clone(),
             line: finding.line,
+            places: finding.places.iter().copied().map(Place::from).collect(),
         }
     }
 }

@@ -22,16 +22,25 @@ pub(super) struct Hit {
     pub(super) forced: bool,
 }
 
-/// All pieces of cuts that reach further than `tolerance` into a net: by net, what the gap forces apart from the rest, in order.
-pub(super) fn hits(sheet: &Sheet<'_>, tolerance: Nm) -> Vec<Hit> {
+/// What reaches less far into copper is nothing: so many nanometres, or this part of the kerf. Both chosen: no mill is as true.
+pub(super) const FAINT: f64 = 1_000.0;
+const FAINT_SHARE: f64 = 0.01;
+
+/// All pieces of cuts that reach further than `tolerance` into a net: by net, what the gap forces apart from the rest, in order;
+/// and how many more reach so little into one that it is nothing.
+pub(super) fn hits(sheet: &Sheet<'_>, tolerance: Nm) -> (Vec<Hit>, usize) {
     let cuts = sheet.cuts.par_iter().enumerate();
     let mut hits: Vec<Hit> = cuts.flat_map_iter(|(index, cut)| taken(sheet, index, cut, tolerance)).collect();
+    let all = hits.len();
+    let kerf = |hit: &Hit| sheet.cuts[hit.cut].swept.half().to_f64() * 2.0;
+    hits.retain(|hit| hit.depth > (kerf(hit) * FAINT_SHARE).max(FAINT));
+    let faint = all - hits.len();
     hits.sort_by_key(|hit| (hit.net, hit.forced, hit.cut));
-    hits
+    (hits, faint)
 }
 
 /// Hits this near to each other are one. Chosen: what one looks at at once.
-const TOGETHER: Nm = Nm::from_um(500);
+pub(super) const TOGETHER: Nm = Nm::from_um(500);
 
 /// Hits in order, those together that follow one another or are near each other.
 pub(super) fn clusters(hits: &[Hit]) -> impl Iterator<Item = &[Hit]> {

@@ -34,6 +34,7 @@ mod spans;
 mod stated;
 mod tiles;
 mod walls;
+mod width;
 
 use std::fmt;
 
@@ -114,6 +115,10 @@ pub struct Settings {
     pub copper: Nm,
     /// How far a cut may reach into copper.
     pub gouge: Nm,
+    /// The part of its width that a net must keep wherever a cut reaches into it.
+    pub keep: f64,
+    /// A deeper cut into copper is an error, however much is left.
+    pub deep: Nm,
     /// Copper below this area, in mm², is a crumb: it neither conducts nor is missed.
     pub crumb: f64,
     /// How far the stock reaches beyond the board.
@@ -139,13 +144,16 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Copper of 35 µm (one ounce); 10 µm into copper, twice what a centred cut may be off; crumbs of 0.01 mm², a tenth
+    /// Copper of 35 µm (one ounce); 10 µm into copper, twice what a centred cut may be off, a tenth of a millimetre at the deepest, and
+    /// half of each net's width left; crumbs of 0.01 mm², a tenth
     /// of a millimetre square; 10 mm of stock; rapids 0.1 mm up; holes within 0.05 mm; strips of 0.05 mm; a board of
     /// 1.6 mm. All chosen.
     fn default() -> Self {
         Self {
             copper: Nm::from_um(35),
             gouge: Nm::from_um(10),
+            keep: 0.5,
+            deep: Nm::from_um(100),
             crumb: 0.01,
             margin: Nm::from_mm(10),
             clearance: Nm::from_um(100),

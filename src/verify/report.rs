@@ -60,6 +60,8 @@ pub struct Finding {
     pub program: Option<String>,
     /// The line of the program, from 1.
     pub line: Option<u32>,
+    /// Where else it is the same, and no worse.
+    pub places: Vec<Point>,
 }
 
 impl Finding {
@@ -77,6 +79,7 @@ impl Finding {
             area: None,
             program: None,
             line: None,
+            places: Vec::new(),
         }
     }
 

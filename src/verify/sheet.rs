@@ -38,6 +38,8 @@ pub(super) struct Sheet<'a> {
     pub(super) remains: Remains,
     /// Where the cuts take copper of nets.
     pub(super) hits: Vec<Hit>,
+    /// How often they take so little that it is nothing.
+    pub(super) faint: usize,
     /// What bounds the copper that is left.
     pub(super) walls: Walls,
     /// Half the narrowest kerf.
@@ -110,13 +112,14 @@ impl<'a> Sheet<'a> {
             parts: Vec::new(),
             remains: Remains::default(),
             hits: Vec::new(),
+            faint: 0,
             walls,
             half,
             places,
             outline,
             grid,
         };
-        sheet.hits = hits(&sheet, settings.gouge);
+        (sheet.hits, sheet.faint) = hits(&sheet, settings.gouge);
         sheet.parts = milled::pieces(&sheet, Nm::from_f64(sheet.pitch().to_f64() * DOUBT));
         sheet.remains = Remains::new(&sheet, settings);
         Ok(sheet)

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use voromill::board::{Board, Side};
 use voromill::geometry::Nm;
 use voromill::import::{self, Selection};
-use voromill::verify::{Program, Report, Role, Settings, Severity, verify};
+use voromill::verify::{Finding, Program, Report, Role, Settings, Severity, verify};
 
 fn fixture(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(path)
@@ -230,4 +230,74 @@ fn a_board_that_nothing_holds_is_told() {
     };
     assert_eq!(judged(""), ["tab-missing"], "all round");
     assert_eq!(judged("X6\nG0 Z2\nX3\nG1 Z-1.8\n"), [""; 0], "held by a tab");
+}
+
+/// A straight cut between the pads of 2 mm, whose gap is 1 mm, and what is said of copper that it takes.
+fn gouges(way: &str, tool: &str, settings: &Settings) -> Vec<Finding> {
+    let board = load(&["verify/pads-F_Cu.gbr"]).board;
+    let text = format!("G21 G90 G94 F100\nM3 S10000\nG0 Z2\n{way}G0 Z2\nM5\nM2\n");
+    let report = verify(&[foreign("gap.nc", text, tool, FRONT)], &board, &[], settings);
+    let findings = report.expect("it can be judged").findings;
+    findings.into_iter().filter(|finding| finding.name == "gouge").collect()
+}
+
+#[test]
+fn that_a_gap_is_narrow_explains_a_gouge_and_does_not_excuse_it() {
+    let middle = "G0 X3.5 Y1\nG1 Z-0.1\nY3\n";
+    let judged = |tool: &str| gouges(middle, tool, &Settings::default());
+    let [deep] = judged("endmill:1.4mm").try_into().expect("one finding of both pads");
+    assert_eq!(deep.severity, Severity::Error, "0.2 mm of each: {}", deep.message);
+    assert_eq!(deep.nets, ["LEFT", "RIGHT"], "one place is one finding");
+    assert!(deep.message.contains("narrower than the kerf"), "it says why: {}", deep.message);
+    let [shallow] = judged("endmill:1.06mm").try_into().expect("one finding of both pads");
+    assert_eq!(shallow.severity, Severity::Warning, "30 µm of 2 mm: {}", shallow.message);
+    assert_eq!(shallow.size, Some(Nm::from_um(30)), "{}", shallow.message);
+}
+
+#[test]
+fn a_cut_off_its_place_that_costs_little_is_a_warning() {
+    let beside = |x: &str| {
+        let way = format!("G0 X{x} Y1\nG1 Z-0.1\nY3\n");
+        gouges(&way, "endmill:0.2mm", &Settings::default()).pop().map(|finding| finding.severity)
+    };
+    assert_eq!(beside("3.07"), Some(Severity::Warning), "30 µm of 2 mm");
+    assert_eq!(beside("2.95"), Some(Severity::Error), "0.15 mm, with its middle in the pad");
+    assert_eq!(beside("3.11"), None, "none");
+}
+
+#[test]
+fn shallow_places_of_one_cause_are_one_finding_that_holds_all_places() {
+    let away: String = (0..4).map(|step| format!("G1 X10 Y{step}\n")).collect();
+    let way = format!(
+        "G0 X3.5 Y1.9\nG1 Z-0.1\nY2\nG0 Z2\nG0 X10 Y9\nG1 Z-0.1\n{away}G0 Z2\n\
+         G0 X0.5 Y2\nG1 Z-0.1\nY2.1\nG0 Z2\nG0 X10 Y-1\nG1 Z-0.1\n{away}G0 Z2\n\
+         G0 X6.5 Y2\nG1 Z-0.1\nY2.1\n"
+    );
+    let found = gouges(&way, "endmill:1.06mm", &Settings::default());
+    let told: Vec<_> = found.iter().map(|f| (f.severity, f.nets.len(), f.places.len())).collect();
+    // In the gap, of both pads; and beside each pad, where nothing forces it.
+    assert_eq!(told, [(Severity::Warning, 2, 0), (Severity::Warning, 2, 1)], "{found:?}");
+    assert!(found[0].message.contains("narrower"), "{}", found[0].message);
+    assert!(found[1].message.contains("in 2 places"), "{}", found[1].message);
+}
+
+#[test]
+fn what_is_less_than_a_micrometre_is_counted_and_not_listed() {
+    let strict = Settings { gouge: Nm::ZERO, ..Settings::default() };
+    let found = gouges("G0 X3.5 Y1\nG1 Z-0.1\nY3\n", "endmill:1.0015mm", &strict);
+    let [faint] = found.try_into().expect("one finding");
+    assert_eq!((faint.severity, faint.size), (Severity::Info, None), "{}", faint.message);
+    assert!(faint.message.contains("2 times"), "it is counted: {}", faint.message);
+}
+
+#[test]
+fn a_net_whose_end_is_cut_off_has_no_width_of_nothing() {
+    let board = load(&["verify/seven-F_Cu.gbr", "verify/seven-Edge_Cuts.gbr"]).board;
+    // Over the free end of a trace of 0.3 mm that lies at y = 6: all of its width goes, from one side.
+    let end = "G21 G90 G94 F100\nM3 S10000\nG0 Z2\nG0 X8.4 Y6.2\nG1 Z-0.1\nG1 X8.9\nG0 Z2\nM5\nM2\n";
+    let report = judge(&board, foreign("end.nc", end.to_owned(), "endmill:1mm", FRONT));
+    let narrow: Vec<_> = report.findings.iter().filter(|finding| finding.name == "minimum-width").collect();
+    assert!(narrow.iter().all(|finding| finding.size > Some(Nm::ZERO)), "{narrow:?}");
+    let gouge = report.findings.iter().find(|finding| finding.name == "gouge").expect("it is told");
+    assert_eq!(gouge.severity, Severity::Error, "{}", gouge.message);
 }

@@ -18,6 +18,7 @@ use super::{Check, Run, Severity, along};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::verify::Settings;
+use crate::verify::hit::FAINT;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::walls::Neck;
@@ -61,7 +62,7 @@ fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
 fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
     let near = sheet.walls.beside(cut, sliver, |other| other < cut || other >= sheet.cuts.len());
     // Of ways that follow one another one touches the other: what is between the first and the third is no strip.
-    let apart = near.into_iter().filter(|(_, neck)| neck.width > 0.0);
+    let apart = near.into_iter().filter(|(_, neck)| neck.width > FAINT);
     let is_clad = |neck: &Neck| {
         let spot = Shape::Disc { center: neck.at, radius: Nm::ZERO };
         let covered = sheet.walls.around(neck.at, Nm::ZERO).iter().any(|wall| wall.distance < 0.0);
