@@ -66,7 +66,8 @@ impl<'a> Code<'a> {
                 b')' if depth > 0 => depth -= 1,
                 _ if depth > 0 => {}
                 b';' => break,
-                0..=b' ' => {}
+                // Other control characters are no blanks: they belong to no program.
+                b' ' | b'\t' | b'\r' | 0 | 0x1a => {}
                 _ => {
                     code.bytes.push(byte.to_ascii_uppercase());
                     code.columns.push(column);
