@@ -276,9 +276,11 @@ fn a_single_file_is_the_side_that_it_or_a_person_says() {
     }
     for name in ["some.gbr", "art002.pho"] {
         let path = folder.path(name);
-        let error = load(&[path.clone()], &Selection::default()).expect_err("a guess").to_string();
+        let error =
+            load(std::slice::from_ref(&path), &Selection::default()).expect_err("a guess").to_string();
         assert!(error.contains("which side") && error.contains("--back"), "{name}: {error}");
-        let looked_at = survey(&[path.clone()], &Selection::default()).expect("it may be looked at");
+        let looked_at =
+            survey(std::slice::from_ref(&path), &Selection::default()).expect("it may be looked at");
         assert_eq!(files_of(&looked_at, "front-copper"), [name], "as the front");
         let said = Selection { back: Some(path.clone()), ..Selection::default() };
         assert_eq!(files_of(&load(&[path], &said).expect("said"), "back-copper"), [name], "as it is said");
