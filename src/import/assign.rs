@@ -148,9 +148,14 @@ fn refuse_unknown(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
 /// the other: one of the two is wrong, and guessing cuts the wrong thing.
 fn refuse_contradictions(gathered: &Gathered, votes: &[Vote], selection: &Selection) -> Result<(), Error> {
     refuse_other_side(gathered, votes)?;
+    let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
+    let shared = layers::shared_start(&names);
     for vote in votes {
         let file = &gathered.files[vote.file];
-        let named = layers::role_by_sure_name(&file.name);
+        let by_words = || layers::role_by_name(&file.name, shared);
+        // Words count where the extension says layer and the content does not.
+        let is_odd = file.kind == Kind::Excellon && layers::is_gerber_by_extension(&file.name);
+        let named = layers::role_by_sure_name(&file.name).or_else(|| by_words().filter(|_| is_odd));
         let skip = format!("or leave it aside: --skip {}", quoted(&file.name));
         let (what, hint) = match (named, file.kind, vote.role) {
             (Some(Role::Drill), Kind::Gerber, Some(Role::Copper(_))) if vote.witness == Witness::Function => {
@@ -166,7 +171,7 @@ fn refuse_contradictions(gathered: &Gathered, votes: &[Vote], selection: &Select
                 let what = "named like a drill file, but it is a Gerber file that does not say what it draws";
                 (what, format!("export the drill file again as Excellon, {skip}"))
             }
-            (Some(Role::Copper(_) | Role::Outline), Kind::Excellon, Some(Role::Drill))
+            (Some(Role::Copper(_) | Role::Outline | Role::Group(_)), Kind::Excellon, Some(Role::Drill))
                 if selection.drill.is_empty() =>
             {
                 let what = "named like a layer, but it is an Excellon drill file";

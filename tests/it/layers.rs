@@ -9,7 +9,7 @@ use voromill::geometry::{Nm, Point};
 use voromill::import::{Loaded, Selection, load, load_copper, survey};
 
 #[expect(clippy::print_stderr, reason = "a test that skips says so")]
-fn boards() -> Option<Vec<PathBuf>> {
+pub(crate) fn boards() -> Option<Vec<PathBuf>> {
     let folder =
         std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
     if !folder.is_dir() {

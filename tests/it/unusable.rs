@@ -112,6 +112,16 @@ fn a_file_whose_name_and_content_contradict_each_other_is_an_error() {
 }
 
 #[test]
+fn a_drill_file_named_like_a_layer_by_its_words_is_an_error() {
+    let drill = DRILL.replace("5.0", "7.0");
+    let folder = Folder::with(&[("a_group1.grb", SQUARE), ("a_group2.grb", &drill), ("a_holes.drl", DRILL)]);
+    assert!(
+        is_refused(&folder, "a_group2.grb").contains("named like a layer"),
+        "an error, not one side less"
+    );
+}
+
+#[test]
 fn a_person_who_named_the_layer_needs_no_other() {
     let folder = board();
     fs::write(folder.path("amp-back.txt"), [1, 2, 3]).expect("written");
