@@ -22,7 +22,7 @@ use super::{Failure, Shared};
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Verify {
-    /// Programs to judge; those for the same side together
+    /// Programs to judge, those for the same side together; of a folder all in it, and what the board asks for beside them is missed
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
 
@@ -128,6 +128,8 @@ enum Purpose {
     Drill,
     /// Cuts the board out
     Cutout,
+    /// Drills the holes on whose pins the board is turned over
+    Alignment,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -169,6 +171,24 @@ impl FromStr for Travel {
     }
 }
 
+/// What programs in a folder end in.
+const PROGRAMS: [&str; 8] = ["ngc", "nc", "gcode", "gc", "g", "cnc", "tap", "iso"];
+
+/// A length that a program was made with, as the first that says so says.
+fn length(programs: &[Program], setting: &str) -> Option<Nm> {
+    programs.iter().find_map(|program| verify::said(&program.text, setting)?.parse().ok())
+}
+
+/// How many tabs each board was given, where that is known of all.
+fn tabs(programs: &[Program]) -> Option<u32> {
+    let of = |program: &Program| {
+        let said = |setting| verify::said(&program.text, setting);
+        let elsewhere = said("tab-spacing").or_else(|| said("tab-at"));
+        if elsewhere.is_some() { None } else { said("tabs")?.parse().ok() }
+    };
+    programs.iter().find_map(of)
+}
+
 /// A length of something that is there.
 fn above_zero(text: &str) -> Result<Nm, String> {
     match text.parse::<Nm>() {
@@ -189,20 +209,25 @@ impl Verify {
         let selection = Selection { skip: self.skip.clone(), ..Selection::default() };
         // What is cut says which side it is for; a file of copper that does not may be looked at as either.
         let Loaded { mut board, sources, .. } = import::survey(&self.board, &selection)?;
-        let mut programs =
-            self.programs.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
+        let files = self.files()?;
+        let mut programs = files.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
         self.leave_out(&mut board, &programs);
+        let usual = verify::Settings::default();
         let settings = verify::Settings {
             copper: self.copper,
             gouge: self.max_gouge,
             keep: self.keep_width,
             sliver: self.sliver,
             travel: self.travel.map(|Travel(travel)| travel),
-            tabs: self.tabs,
+            tabs: self.tabs.or_else(|| tabs(&programs)),
+            tab_width: length(&programs, "tab-width"),
+            diameter: length(&programs, "drill-tolerance")
+                .map_or(usual.diameter, |own| own.max(usual.diameter)),
+            complete: self.programs.iter().any(|path| path.is_dir()),
             tiles: self.tiles(&programs)?,
             pixel: self.resolution,
             board: self.thickness(&programs)?,
-            ..verify::Settings::default()
+            ..usual
         };
         if self.register {
             for program in &mut programs {
@@ -241,6 +266,34 @@ impl Verify {
         }
         // That a pattern means no net was said when the program was made.
         let _ = job::ignore(board, &patterns, topology.unwrap_or(Topology::Contact));
+    }
+
+    /// The programs, those of folders in order of their names.
+    fn files(&self) -> Result<Vec<PathBuf>, Failure> {
+        let mut files = Vec::new();
+        for path in &self.programs {
+            if !path.is_dir() {
+                files.push(path.clone());
+                continue;
+            }
+            let entries = std::fs::read_dir(path).map_err(|error| Failure::io("read", path, &error))?;
+            let mut found = Vec::new();
+            for entry in entries {
+                let file = entry.map_err(|error| Failure::io("read", path, &error))?.path();
+                let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
+                if PROGRAMS.contains(&extension.to_ascii_lowercase().as_str()) && file.is_file() {
+                    found.push(file);
+                }
+            }
+            if found.is_empty() {
+                let cause = format!("{}: no program in this folder", path.display());
+                let hint = "a program ends in .ngc, .nc, .gcode, .gc, .g, .cnc, .tap or .iso; name others one by one";
+                return Err(Failure::new(cause, hint));
+            }
+            found.sort();
+            files.extend(found);
+        }
+        Ok(files)
     }
 
     /// How thick the board is.
@@ -310,6 +363,7 @@ impl Verify {
             Purpose::Back => Role::Isolation(Side::Back),
             Purpose::Drill => Role::Drilling,
             Purpose::Cutout => Role::Cutout,
+            Purpose::Alignment => Role::Alignment,
         });
         let placed = self.offset.is_some() || self.mirror.is_some() || self.rotate.is_some();
         let degrees = self.rotate.map_or(0.0, Angle::degrees);

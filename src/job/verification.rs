@@ -20,8 +20,8 @@ impl Job {
         let programs: Vec<Program> = self
             .programs
             .iter()
-            // The holes for turning the board over lie beside it.
-            .filter(|written| written.part != Part::Alignment)
+            // The holes for turning several tiles over lie beside all of them.
+            .filter(|written| written.part != Part::Alignment || settings.tiles.is_none())
             .map(|written| Program {
                 file: written.file_name(&self.board.name, settings),
                 text: written.tile.as_ref().unwrap_or(&written.text).clone(),
@@ -39,6 +39,7 @@ impl Job {
             board: settings.thickness,
             travel: settings.machine.travel,
             tabs: settings.tabs.count(),
+            tab_width: Some(settings.tab_width),
             ..usual
         };
         Ok(verify(&programs, &self.board, &known, &judging)?)
@@ -57,7 +58,8 @@ const fn role(part: Part) -> Role {
     match part {
         Part::Front => Role::Isolation(Side::Front),
         Part::Back => Role::Isolation(Side::Back),
-        Part::Alignment | Part::Drill => Role::Drilling,
+        Part::Alignment => Role::Alignment,
+        Part::Drill => Role::Drilling,
         Part::Cutout => Role::Cutout,
     }
 }

@@ -4,7 +4,7 @@ use crate::board::{Board, Shape, Side};
 use crate::gcode::read::{self, Motion, Note, Way};
 use crate::geometry::{Arc, Nm, Point};
 
-use super::stated::Stated;
+use super::stated::{Stated, said};
 use super::{Cutter, CutterKind, Error, Placement, Program, Role, Settings, origin};
 
 /// A program, followed.
@@ -19,8 +19,8 @@ pub(super) struct Machining {
     pub(super) notes: Vec<Note>,
     /// What is cut away, deep enough to part the copper.
     pub(super) swept: Vec<Swept>,
-    /// Where the tool goes straight down into the board.
-    pub(super) plunges: Vec<Plunge>,
+    /// Where the tool goes straight down into the board and nothing sideways follows, on the board.
+    pub(super) plunges: Vec<Point>,
 }
 
 /// A piece of what the cutter sweeps, on the board.
@@ -28,8 +28,19 @@ pub(super) struct Machining {
 pub(super) struct Swept {
     /// The axis of the cutter's way, its radius half the kerf.
     pub(super) shape: Shape,
+    /// Half the kerf at the bottom of the copper: what the cutter leaves below it on either side conducts.
+    ///
+    /// ```text
+    ///   ▔▔▔▔▔╲         ╱▔▔▔▔▔   surface: shape's radius, what copper is lost by
+    ///   copper╲       ╱
+    ///   ▁▁▁▁▁▁▁╲     ╱▁▁▁▁▁▁▁   bottom: floor, what nets are parted by
+    ///           ╲___╱
+    /// ```
+    pub(super) floor: Nm,
     /// How deep below the surface.
     pub(super) depth: Nm,
+    /// How deep it has its full width: the point of a drill is narrower.
+    pub(super) full: Nm,
     /// The line of the program.
     pub(super) line: u32,
 }
@@ -41,6 +52,11 @@ impl Swept {
             Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => *radius,
             Shape::Polygon(_) => Nm::ZERO,
         }
+    }
+
+    /// What it takes away down to the bottom of the copper.
+    pub(super) fn parting(&self) -> Shape {
+        with_radius(&self.shape, self.floor)
     }
 
     /// The way of the cutter's middle.
@@ -59,15 +75,6 @@ pub(super) fn with_radius(shape: &Shape, radius: Nm) -> Shape {
     }
 }
 
-/// A way straight down into the board that nothing sideways follows.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Plunge {
-    /// On the board.
-    pub(super) at: Point,
-    pub(super) diameter: Nm,
-    pub(super) line: u32,
-}
-
 impl Machining {
     /// Follows `program` on `board`.
     pub(super) fn read(program: &Program, board: &Board, settings: &Settings) -> Result<Self, Error> {
@@ -76,7 +83,11 @@ impl Machining {
         if listing.motions.is_empty() {
             return Err(Error::NoMotion(program.file.clone()));
         }
-        let stated = Stated::read(&program.text);
+        let mut stated = Stated::read(&program.text);
+        let point = said(&program.text, "drill-tip-angle");
+        if let Some(degrees) = point.and_then(|angle| angle.strip_suffix("deg")?.parse::<f64>().ok()) {
+            stated.cutters.iter_mut().for_each(|(_, cutter)| *cutter = cutter.pointed(degrees));
+        }
         let tools = Tools { only: program.cutter, stated: &stated.cutters };
         let role = match program.role.or(stated.role) {
             Some(role) => role,
@@ -99,13 +110,14 @@ impl Machining {
             swept: Vec::new(),
             plunges: Vec::new(),
         };
-        machining.sweep(&tools, settings.copper)?;
-        machining.plunge(&tools);
+        machining.sweep(&tools, settings)?;
+        machining.plunge();
         Ok(machining)
     }
 
     /// Collects what is cut.
-    fn sweep(&mut self, tools: &Tools<'_>, copper: Nm) -> Result<(), Error> {
+    fn sweep(&mut self, tools: &Tools<'_>, settings: &Settings) -> Result<(), Error> {
+        let copper = settings.copper;
         for motion in &self.motions {
             let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { continue };
             let Some((above, below)) = heights(motion) else { continue };
@@ -118,11 +130,14 @@ impl Machining {
             let Some(cutter) = tools.at(motion.line) else {
                 return Err(Error::NoTool { file: self.file.clone(), line: motion.line });
             };
-            for (shape, depth) in pieces(motion, from, to, cutter) {
+            let levels = [copper, settings.board + cutter.point()];
+            for (shape, depth) in pieces(motion, from, to, cutter, levels) {
                 if depth >= copper {
                     let shape = with_radius(&shape, cutter.width_at(depth) / 2);
                     let shape = self.placement.undo_axis(shape);
-                    self.swept.push(Swept { shape, depth, line: motion.line });
+                    let floor = cutter.width_at(depth - copper) / 2;
+                    let full = depth - cutter.point();
+                    self.swept.push(Swept { shape, floor, depth, full, line: motion.line });
                 }
             }
         }
@@ -131,13 +146,13 @@ impl Machining {
     }
 
     /// Collects where the tool only goes down and up.
-    fn plunge(&mut self, tools: &Tools<'_>) {
+    fn plunge(&mut self) {
         // A full turn ends where it began, too.
         let level = |motion: &Motion| {
             motion.from.point() == motion.to.point() && !matches!(motion.way, Way::Arc { .. })
         };
         let sunk = |z: Option<Nm>| z.is_some_and(|z| z < Nm::ZERO);
-        let mut down: Option<Plunge> = None;
+        let mut down: Option<Point> = None;
         for motion in &self.motions {
             let Some(at) = motion.to.point() else { continue };
             if !level(motion) && (sunk(motion.from.z) || sunk(motion.to.z)) {
@@ -145,13 +160,12 @@ impl Machining {
                 continue;
             }
             if sunk(motion.to.z) && !sunk(motion.from.z) {
-                let diameter = tools.at(motion.line).map_or(Nm::ZERO, |cutter| cutter.tip);
-                down = Some(Plunge { at: self.placement.undo(at), diameter, line: motion.line });
+                down = Some(self.placement.undo(at));
             } else if sunk(motion.from.z) && !sunk(motion.to.z) {
                 self.plunges.extend(down.take());
             }
         }
-        self.plunges.dedup_by(|a, b| a.at == b.at && a.diameter == b.diameter);
+        self.plunges.dedup();
     }
 }
 
@@ -180,12 +194,13 @@ fn within_range(points: &[Point]) -> bool {
     points.iter().flat_map(|p| [p.x, p.y]).all(|coordinate| Nm::try_new(coordinate.get() * 2).is_ok())
 }
 
-/// How much half the kerf may change within a piece.
+/// How much half the kerf may change within a piece, and how much the depth.
 const STEP: f64 = 1_000.0;
+const SINK: f64 = 50_000.0;
 
-/// A motion as pieces of one depth each: one where it is level, else so many that the kerf is true to [`STEP`].
-#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
-fn pieces(motion: &Motion, from: Point, to: Point, cutter: Cutter) -> Vec<(Shape, Nm)> {
+/// A motion as pieces of one depth each: one where it is level, else so many that the kerf is true to [`STEP`]. Each lies either above
+/// or below each of `levels`, depths that something is judged by.
+fn pieces(motion: &Motion, from: Point, to: Point, cutter: Cutter, levels: [Nm; 2]) -> Vec<(Shape, Nm)> {
     let Some((start, end)) = heights(motion) else { return Vec::new() };
     let whole = axis(motion.way, from, to);
     if start == end {
@@ -194,17 +209,28 @@ fn pieces(motion: &Motion, from: Point, to: Point, cutter: Cutter) -> Vec<(Shape
     if matches!(whole, Shape::Disc { .. }) {
         return vec![(whole, -start.min(end))];
     }
+    let (top, sink) = (start.to_f64(), (end - start).to_f64());
+    let mut stops: Vec<f64> = levels.iter().map(|level| (-level.to_f64() - top) / sink).collect();
+    stops.retain(|stop| *stop > 0.0 && *stop < 1.0);
+    stops.extend([0.0, 1.0]);
+    stops.sort_by(f64::total_cmp);
     let change = (cutter.width_at(-start) - cutter.width_at(-end)).abs().to_f64() / 2.0;
-    let count = ((change / STEP).ceil() as u32).clamp(16, 256);
-    let at = |step: u32| f64::from(step) / f64::from(count);
-    let pieces = (0..count).map(|step| {
-        let middle = f64::midpoint(at(step), at(step + 1));
-        let z = start.to_f64() + (end - start).to_f64() * middle;
-        (part(&whole, at(step), at(step + 1)), Nm::from_f64(-z))
+    let steps = (change / STEP).max(sink.abs() / SINK);
+    let parts = stops.windows(2).flat_map(|pair| shares(pair[0], pair[1], steps));
+    let pieces = parts.map(|(first, last)| {
+        (part(&whole, first, last), Nm::from_f64(-(top + sink * f64::midpoint(first, last))))
     });
     pieces
         .flat_map(|(shape, depth)| straightened(shape).into_iter().map(move |shape| (shape, depth)))
         .collect()
+}
+
+/// Equal shares of the part of a way from one fraction of it to another, of which the whole has `steps`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
+fn shares(from: f64, to: f64, steps: f64) -> impl Iterator<Item = (f64, f64)> {
+    let count = ((steps * (to - from)).ceil() as u32).clamp(1, 256);
+    let at = move |step: u32| from + (to - from) * f64::from(step) / f64::from(count);
+    (0..count).map(move |step| (at(step), at(step + 1)))
 }
 
 /// A shape, and where it is an arc so flat that its centre lies out of range, its chords.
@@ -279,3 +305,29 @@ fn guess(motions: &[Motion], tools: &Tools<'_>, board: &Board) -> Option<Role> {
 
 /// Deeper than this no isolation is cut. Chosen: half the thickness of a thin board.
 const CUTOUT: Nm = Nm::from_um(500);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gcode::read::Place;
+
+    #[test]
+    fn a_move_that_rises_is_cut_in_two_where_it_leaves_the_copper() {
+        let place =
+            |x: i64, z: i64| Place { x: Some(Nm::from_um(x)), y: Some(Nm::ZERO), z: Some(Nm::from_um(z)) };
+        let (from, to) = (place(0, -100), place(10_000, 0));
+        let motion = Motion { way: Way::Feed, from, to, feed: None, spindle: None, tool: None, line: 1 };
+        let ends = [from, to].map(|place| place.point().expect("a place"));
+        for tool in ["endmill:0.2mm", "vbit:0.1mm:30deg"] {
+            let cutter: Cutter = tool.parse().expect("a tool");
+            let levels = [Nm::from_um(35), Nm::from_um(1600)];
+            let pieces = pieces(&motion, ends[0], ends[1], cutter, levels);
+            let parting = pieces.iter().filter(|(_, depth)| *depth >= levels[0]);
+            let last = parting.map(|(shape, _)| shape.bounds().max().x).max();
+            assert_eq!(last, Some(Nm::from_um(6500)), "{tool} parts copper to where it is 35 µm deep");
+            let half = |depth: Nm| cutter.width_at(depth).to_f64() / 2.0;
+            let step = pieces.windows(2).map(|pair| (half(pair[0].1) - half(pair[1].1)).abs());
+            assert!(step.fold(0.0, f64::max) <= 1_001.0, "{tool} narrows in steps of a micrometre");
+        }
+    }
+}

@@ -79,7 +79,7 @@ fn draw(
         match *item {
             Item::Cut(index) => {
                 let swept = sheet.cuts[index].swept;
-                cut.add(&with_radius(&swept.shape, (swept.half() - narrower).max(Nm::ZERO)), CUT);
+                cut.add(&with_radius(&swept.shape, (swept.floor - narrower).max(Nm::ZERO)), CUT);
             }
             Item::Feature(index) => {
                 nets.add(&sheet.copper.features[index].shape, NETS + sheet.nets.of(index).0);

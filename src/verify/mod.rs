@@ -13,7 +13,9 @@
 //!
 //! Checks are listed in [`check::ALL`], a file each.
 
+mod bores;
 pub mod check;
+mod contours;
 mod cutter;
 mod diff;
 mod flood;
@@ -54,6 +56,8 @@ pub use report::{Finding, Judged, Report, Severity};
 pub use stated::said;
 pub use tiles::Tiles;
 
+use bores::Bores;
+use contours::Contours;
 use machining::Machining;
 use sheet::Sheet;
 
@@ -66,6 +70,8 @@ pub enum Role {
     Drilling,
     /// Cuts the board out.
     Cutout,
+    /// Drills the holes on whose pins the board is turned over.
+    Alignment,
 }
 
 impl fmt::Display for Role {
@@ -74,6 +80,7 @@ impl fmt::Display for Role {
             Self::Isolation(side) => write!(f, "{side} isolation"),
             Self::Drilling => f.write_str("drilling"),
             Self::Cutout => f.write_str("cutout"),
+            Self::Alignment => f.write_str("alignment"),
         }
     }
 }
@@ -137,6 +144,12 @@ pub struct Settings {
     pub travel: Option<[Nm; 3]>,
     /// How many tabs were asked for; none where nobody said so: at least one for each board.
     pub tabs: Option<u32>,
+    /// How wide tabs were asked for; none where nobody said so: whatever is short may be one.
+    pub tab_width: Option<Nm>,
+    /// How far the board's edge may be off.
+    pub edge: Nm,
+    /// Whether these are all programs there are, so that one that the board asks for is missed.
+    pub complete: bool,
     /// How many boards there are in the stock; none for one.
     pub tiles: Option<Tiles>,
     /// The pixel of the picture; none for a quarter of the narrowest kerf, within 5 µm to 25 µm.
@@ -147,7 +160,7 @@ impl Default for Settings {
     /// Copper of 35 µm (one ounce); 10 µm into copper, twice what a centred cut may be off, a tenth of a millimetre at the deepest, and
     /// half of each net's width left; crumbs of 0.01 mm², a tenth
     /// of a millimetre square; 10 mm of stock; rapids 0.1 mm up; holes within 0.05 mm; strips of 0.05 mm; a board of
-    /// 1.6 mm. All chosen.
+    /// 1.6 mm, its edge within 0.1 mm. All chosen.
     fn default() -> Self {
         Self {
             copper: Nm::from_um(35),
@@ -163,6 +176,9 @@ impl Default for Settings {
             board: Nm::from_um(1600),
             travel: None,
             tabs: None,
+            tab_width: None,
+            edge: Nm::from_um(100),
+            complete: false,
             tiles: None,
             pixel: None,
         }
@@ -270,6 +286,7 @@ pub fn verify(
     let mut roles: Vec<Role> = read.iter().map(|machining| machining.role).collect();
     roles.sort_unstable();
     roles.dedup();
+    findings.extend(check::whole(&roles, board, settings));
     let judged: Vec<(Judged, Vec<Finding>)> = roles
         .into_par_iter()
         .map(|role| {
@@ -306,8 +323,12 @@ fn judge(
             resolution = Some(sheet.pitch());
             findings.extend(check::isolation(&sheet, settings));
         }
-        Role::Drilling => findings.extend(check::drilling(programs, board, settings)),
-        Role::Cutout => findings.extend(check::cutout(programs, board, settings)),
+        Role::Drilling => findings.extend(check::drilling(&Bores::new(programs, board), board, settings)),
+        Role::Cutout => {
+            let contours = Contours::new(programs, board, settings);
+            findings.extend(contours.iter().flat_map(|contours| check::cutout(contours, board, settings)));
+        }
+        Role::Alignment => findings.extend(check::alignment(programs, board, settings)),
     }
     let programs = programs.iter().map(|program| program.file.clone()).collect();
     Ok((Judged { programs, role, resolution }, findings))

@@ -97,7 +97,7 @@ fn trial(
     let placed = Program { placement: Some(placement), ..program.clone() };
     let read = Machining::read(&placed, board, settings)?;
     let points = match read.role {
-        Role::Drilling => read.plunges.iter().map(|plunge| plunge.at).collect(),
+        Role::Drilling | Role::Alignment => read.plunges,
         Role::Isolation(_) | Role::Cutout => spread(&read),
     };
     Ok(Trial { placement, points, role: read.role })
@@ -133,7 +133,7 @@ fn lay(trial: &Trial, board: &Board) -> Option<Fit> {
                 .filter_map(|target| map.search(&trial.points, own, target))
                 .reduce(better)
         }
-        Role::Drilling => lay_holes(&trial.points, board),
+        Role::Drilling | Role::Alignment => lay_holes(&trial.points, board),
         Role::Cutout => {
             let target = board.outline.as_ref()?.bounds();
             let off = (own.width() - target.width()).abs() + (own.height() - target.height()).abs();

@@ -175,7 +175,7 @@ const FINE: Nm = Nm::new(50);
 /// The kerfs that touch `rect`.
 fn kerfs(sheet: &Sheet<'_>, rect: Rect) -> Vec<Polygon> {
     let near = sheet.places.cuts.touching(rect);
-    near.par_iter().filter_map(|&cut| sheet.cuts[cut].swept.shape.polygon(FINE)).collect()
+    near.par_iter().filter_map(|&cut| sheet.cuts[cut].swept.parting().polygon(FINE)).collect()
 }
 
 /// The copper of a net within `rect`, one polygon for each connected piece.

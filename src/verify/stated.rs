@@ -116,6 +116,8 @@ fn role(title: &str) -> Option<Role> {
         Some(Role::Isolation(Side::Back))
     } else if title.ends_with(" drill") {
         Some(Role::Drilling)
+    } else if title.ends_with(" alignment") {
+        Some(Role::Alignment)
     } else if title.ends_with(" cutout") {
         Some(Role::Cutout)
     } else {

@@ -47,5 +47,6 @@ mod verify;
 mod verify_cli;
 mod verify_foreign;
 mod verify_mutations;
+mod verify_whole;
 mod voronoi;
 mod warnings;

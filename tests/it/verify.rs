@@ -51,6 +51,24 @@ fn loops_of_straight_lines_isolate() {
 }
 
 #[test]
+fn what_a_v_bit_leaves_at_the_bottom_of_the_copper_joins() {
+    // Round the left pad, and short of closing the loop: at the surface the round ends overlap, at the bottom of the copper they do not.
+    let around = |gap: &str| {
+        format!(
+            "(a loop)\nG21 G90 G94\nM3 S10000\nG0 Z2\nG0 X0.85 Y2\nG1 Z-0.1 F60\nG1 X0.85 Y0.85 F120\nX3.15\nY3.15\nX0.85\n\
+             Y{gap}\nG0 Z2\nM5\nM2\n"
+        )
+    };
+    let board = load(&["verify/pads-F_Cu.gbr"]).board;
+    let find = |gap: &str| {
+        let program = foreign("loop.nc", around(gap), "vbit:0.1mm:30deg", FRONT);
+        judge(&board, program).findings.iter().filter(|finding| finding.name == "short").count()
+    };
+    // Half the kerf is 76.8 µm at the surface, and 67.4 µm below 35 µm of copper.
+    assert_eq!((find("2.13"), find("2.145"), find("2.16")), (0, 1, 1), "130 µm, 145 µm, 160 µm");
+}
+
+#[test]
 fn relative_inches_are_followed_and_a_line_that_parts_nothing_is_found_out() {
     let board = load(&["verify/pads-F_Cu.gbr"]).board;
     let report = judge(&board, foreign("relative.nc", text("verify/relative.nc"), "vbit:0.1mm:30deg", FRONT));

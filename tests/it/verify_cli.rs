@@ -67,6 +67,37 @@ fn a_program_says_how_thick_its_board_is_and_a_person_knows_better() {
 }
 
 #[test]
+fn in_a_folder_the_programs_that_nobody_wrote_are_missed() {
+    let folder = TempDir::new().expect("a folder");
+    let board = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
+    let board = board.to_string_lossy();
+    let done = voromill(
+        folder.path(),
+        &["mill", &board, "-o", "out", "--no-verify", "--alignment-holes", "3mm", "--dialect", "linuxcnc"],
+    );
+    assert!(done.status.success(), "{}", stderr(&done));
+    let judge = || voromill(folder.path(), &["verify", "out", "--board", &board]);
+    assert_eq!(judge().status.code(), Some(0), "all are there: {}", stdout(&judge()));
+    for (part, said) in
+        [("drill", "no program drills"), ("cutout", "no program cuts it out"), ("back", "on the back")]
+    {
+        let (file, aside) = (format!("out/blinker-{part}.ngc"), format!("{part}.aside"));
+        let [file, aside] = [file, aside].map(|name| folder.path().join(name));
+        fs::rename(&file, &aside).expect("moved away");
+        let without = judge();
+        assert_eq!(without.status.code(), Some(1), "without {part}: {}", stdout(&without));
+        assert!(stdout(&without).contains(said), "{part}: {}", stdout(&without));
+        assert!(stdout(&without).contains("[program-missing]"), "{part}: {}", stdout(&without));
+        fs::rename(&aside, &file).expect("moved back");
+    }
+    let one = voromill(folder.path(), &["verify", "out/blinker-back.ngc", "--board", &board]);
+    assert_eq!(one.status.code(), Some(0), "one was chosen: {}", stdout(&one));
+    fs::create_dir(folder.path().join("empty")).expect("a folder");
+    let empty = voromill(folder.path(), &["verify", "empty", "--board", &board]);
+    assert_eq!(empty.status.code(), Some(2), "none: {}", stdout(&empty));
+}
+
+#[test]
 fn every_form_is_printed() {
     let json = stdout(&verify("arcs.nc", &["--format", "json"]));
     let verdict: serde_json::Value = serde_json::from_str(&json).expect("JSON");

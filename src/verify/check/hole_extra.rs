@@ -1,6 +1,6 @@
 //! # What it checks
 //!
-//! Nothing is drilled where the board has neither hole nor slot.
+//! Nothing is drilled or milled where the board has neither hole nor slot.
 //!
 //! # Why
 //!
@@ -8,33 +8,33 @@
 //!
 //! # What it can miss
 //!
-//! Nothing that goes straight down; what is milled is not looked at.
+//! What is less deep than the copper is thick.
 
-use super::{Check, Run, Severity, from_hole, plunges};
-use crate::board::Board;
+use super::{Check, Run, Severity};
+use crate::board::{Board, Shape};
 use crate::verify::Settings;
-use crate::verify::machining::Machining;
+use crate::verify::bores::Bores;
 use crate::verify::report::Finding;
+use crate::verify::sheet::Cut;
 
 pub(super) const CHECK: Check =
     Check { name: NAME, about: "a hole that the board has not", run: Run::Drilling(check) };
 
 const NAME: &str = "hole-extra";
 
-fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
-    let reach = settings.place;
-    let holes: Vec<_> = board.holes.iter().map(|hole| (hole.path.bounds().inflate(reach), hole)).collect();
-    let extra = plunges(programs).filter(|(_, plunge)| {
-        let mut near = holes.iter().filter(|(bounds, _)| bounds.contains(plunge.at));
-        !near.any(|(_, hole)| from_hole(hole, plunge.at) <= reach.to_f64())
-    });
-    extra
-        .map(|(program, plunge)| Finding {
-            at: Some(plunge.at),
-            size: Some(plunge.diameter),
-            program: Some(program.file.clone()),
-            line: Some(plunge.line),
-            ..Finding::new(NAME, Severity::Error, "drilled where the board has no hole")
-        })
-        .collect()
+fn check(bores: &Bores<'_>, _: &Board, _: &Settings) -> Vec<Finding> {
+    let finding = |cut: &Cut<'_>| {
+        let how = match cut.swept.shape {
+            Shape::Disc { .. } => "drilled",
+            Shape::Stroke { .. } | Shape::Arc { .. } | Shape::Polygon(_) => "milled",
+        };
+        Finding {
+            at: Some(cut.swept.shape.anchor()),
+            size: Some(cut.swept.half() * 2),
+            program: Some(cut.program.file.clone()),
+            line: Some(cut.swept.line),
+            ..Finding::new(NAME, Severity::Error, format!("{how} where the board has no hole"))
+        }
+    };
+    bores.strays.iter().map(finding).collect()
 }

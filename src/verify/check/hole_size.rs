@@ -1,6 +1,6 @@
 //! # What it checks
 //!
-//! What is drilled at a hole has its diameter.
+//! Every hole has its diameter, drilled or milled; every slot its width and its length.
 //!
 //! # Why
 //!
@@ -10,44 +10,44 @@
 //!
 //! Which drill is really in the spindle. Plating, which makes holes narrower, is not counted.
 
-use super::{Check, Run, Severity, from_hole, plunges};
+use super::{Check, Run, Severity, hole};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
-use crate::verify::machining::Machining;
+use crate::verify::bores::{Bore, Bores, Made};
 use crate::verify::report::Finding;
 
 pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a hole drilled with another diameter", run: Run::Drilling(check) };
+    Check { name: NAME, about: "a hole or slot of another size", run: Run::Drilling(check) };
 
 const NAME: &str = "hole-size";
 
-fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
-    let reach = settings.place;
-    let holes: Vec<_> = board.holes.iter().map(|hole| (hole.path.bounds().inflate(reach), hole)).collect();
-    let mut findings = Vec::new();
-    for (program, plunge) in plunges(programs).filter(|(_, plunge)| plunge.diameter > Nm::ZERO) {
-        let near = holes.iter().filter(|(bounds, _)| bounds.contains(plunge.at));
-        let near = near.filter(|(_, hole)| from_hole(hole, plunge.at) <= reach.to_f64());
-        // Of holes over one another any may be the one that is meant.
-        let Some(off) = near.map(|(_, hole)| plunge.diameter - hole.diameter).min_by_key(|off| off.abs())
-        else {
-            continue;
-        };
-        if off.abs() > settings.diameter {
-            let message = format!(
-                "drilled with {:.3} mm where the board has {:.3} mm",
-                plunge.diameter,
-                plunge.diameter - off
-            );
-            findings.push(Finding {
-                at: Some(plunge.at),
-                size: Some(off.abs()),
-                program: Some(program.file.clone()),
-                line: Some(plunge.line),
-                ..Finding::new(NAME, Severity::Error, message)
-            });
-        }
+fn check(bores: &Bores<'_>, _: &Board, settings: &Settings) -> Vec<Finding> {
+    bores.holes.iter().filter_map(|bore| wrong(bore, bore.made.as_ref()?, settings)).collect()
+}
+
+fn wrong(bore: &Bore<'_>, made: &Made<'_>, settings: &Settings) -> Option<Finding> {
+    let (size, message) =
+        if bore.hole.is_slot() { slot(made, settings) } else { round(bore, made, settings) }?;
+    Some(Finding { size: Some(Nm::from_f64(size)), ..hole(bore, made, NAME, Severity::Error, message) })
+}
+
+/// How much wider it is than it should be, wherever it is.
+fn round(bore: &Bore<'_>, made: &Made<'_>, settings: &Settings) -> Option<(f64, String)> {
+    let (off, wanted) = (made.beyond - made.short, bore.hole.diameter);
+    let message = || format!("{:.3} mm wide, where the board has {wanted:.3} mm", wanted + Nm::from_f64(off));
+    // Doubled from a radius.
+    (off.abs() > settings.diameter.to_f64() + 10.0).then(|| (off.abs(), message()))
+}
+
+/// How far its wall is off anywhere.
+fn slot(made: &Made<'_>, settings: &Settings) -> Option<(f64, String)> {
+    let most = (settings.place + settings.diameter / 2).to_f64();
+    if made.short > most {
+        Some((made.short, format!("the slot ends {:.3} mm before its wall", made.short / 1e6)))
+    } else if made.beyond > most {
+        Some((made.beyond, format!("the slot goes {:.3} mm beyond its wall", made.beyond / 1e6)))
+    } else {
+        None
     }
-    findings
 }

@@ -1,33 +1,44 @@
 //! What is looked for: a file each, listed in [`ALL`].
 
+mod alignment_hole;
+mod board_gouged;
+mod board_left;
 mod destroyed;
 mod feed_missing;
 mod gouge;
+mod hole_depth;
 mod hole_extra;
 mod hole_missing;
+mod hole_place;
 mod hole_size;
 mod minimum_width;
+mod not_through;
 mod open;
 mod outside_stock;
 mod overtravel;
 mod plunge_spindle_off;
+mod program_missing;
 mod rapid_in_material;
 mod recut;
 mod revision;
 mod short;
 mod sliver;
+mod tab_extra;
 mod tab_missing;
+mod tab_thin;
 mod too_deep;
 mod unclear;
 
-use crate::board::{Board, Hole, Shape};
+use crate::board::{Board, Shape};
 use crate::gcode::read::Motion;
 use crate::geometry::{Nm, Point};
 
-use super::machining::{Machining, Plunge};
+use super::bores::{Bore, Bores, Made};
+use super::contours::Contours;
+use super::machining::Machining;
 use super::report::Finding;
 use super::sheet::Sheet;
-use super::{Input, Program, Settings, Severity};
+use super::{Input, Program, Role, Settings, Severity};
 
 /// A thing that is looked for.
 pub struct Check {
@@ -44,10 +55,14 @@ enum Run {
     Motion(fn(&Machining, &Board, &Settings) -> Vec<Finding>),
     /// A side, milled.
     Isolation(fn(&Sheet<'_>, &Settings) -> Vec<Finding>),
-    /// All drilling programs together.
-    Drilling(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
-    /// All programs that cut out together.
-    Cutout(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
+    /// The board's holes, drilled.
+    Drilling(fn(&Bores<'_>, &Board, &Settings) -> Vec<Finding>),
+    /// The board's outline, cut out.
+    Cutout(fn(&Contours<'_>, &Board, &Settings) -> Vec<Finding>),
+    /// All programs that drill holes for turning the board over.
+    Alignment(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
+    /// What all programs together are for.
+    Whole(fn(&[Role], &Board, &Settings) -> Vec<Finding>),
     /// A program's text, and the board's files.
     Inputs(fn(&Program, &[Input]) -> Vec<Finding>),
 }
@@ -69,55 +84,98 @@ pub const ALL: &[Check] = &[
     overtravel::CHECK,
     hole_missing::CHECK,
     hole_extra::CHECK,
+    hole_place::CHECK,
     hole_size::CHECK,
+    hole_depth::CHECK,
+    alignment_hole::CHECK,
+    board_gouged::CHECK,
+    board_left::CHECK,
+    not_through::CHECK,
     tab_missing::CHECK,
     revision::CHECK,
     unclear::CHECK,
+    tab_extra::CHECK,
+    tab_thin::CHECK,
+    program_missing::CHECK,
 ];
 
 /// The checks of any program.
 pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
-    let run = |check: &Check| match check.run {
-        Run::Motion(run) => run(program, board, settings),
-        Run::Isolation(_) | Run::Drilling(_) | Run::Cutout(_) | Run::Inputs(_) => Vec::new(),
-    };
-    ALL.iter().flat_map(run).collect()
+    each(|check| {
+        let Run::Motion(run) = check else { return None };
+        Some(run(program, board, settings))
+    })
 }
 
 /// The checks of a milled side.
 pub(super) fn isolation(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
-    let run = |check: &Check| match check.run {
-        Run::Isolation(run) => run(sheet, settings),
-        Run::Motion(_) | Run::Drilling(_) | Run::Cutout(_) | Run::Inputs(_) => Vec::new(),
-    };
-    ALL.iter().flat_map(run).map(|finding| Finding { side: Some(sheet.side), ..finding }).collect()
+    let mut findings = each(|check| {
+        let Run::Isolation(run) = check else { return None };
+        Some(run(sheet, settings))
+    });
+    findings.iter_mut().for_each(|finding| finding.side = Some(sheet.side));
+    findings
 }
 
 /// The checks of what is drilled.
-pub(super) fn drilling(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
-    let run = |check: &Check| match check.run {
-        Run::Drilling(run) => run(programs, board, settings),
-        Run::Motion(_) | Run::Isolation(_) | Run::Cutout(_) | Run::Inputs(_) => Vec::new(),
-    };
-    ALL.iter().flat_map(run).collect()
+pub(super) fn drilling(bores: &Bores<'_>, board: &Board, settings: &Settings) -> Vec<Finding> {
+    each(|check| {
+        let Run::Drilling(run) = check else { return None };
+        Some(run(bores, board, settings))
+    })
 }
 
 /// The checks of what is cut out.
-pub(super) fn cutout(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
-    let run = |check: &Check| match check.run {
-        Run::Cutout(run) => run(programs, board, settings),
-        Run::Motion(_) | Run::Isolation(_) | Run::Drilling(_) | Run::Inputs(_) => Vec::new(),
-    };
-    ALL.iter().flat_map(run).collect()
+pub(super) fn cutout(contours: &Contours<'_>, board: &Board, settings: &Settings) -> Vec<Finding> {
+    each(|check| {
+        let Run::Cutout(run) = check else { return None };
+        Some(run(contours, board, settings))
+    })
+}
+
+/// The checks of holes for turning the board over.
+pub(super) fn alignment(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
+    each(|check| {
+        let Run::Alignment(run) = check else { return None };
+        Some(run(programs, board, settings))
+    })
+}
+
+/// The checks of all programs together, which are for `roles`.
+pub(super) fn whole(roles: &[Role], board: &Board, settings: &Settings) -> Vec<Finding> {
+    each(|check| {
+        let Run::Whole(run) = check else { return None };
+        Some(run(roles, board, settings))
+    })
 }
 
 /// The checks of what a program was made from.
 pub(super) fn inputs(program: &Program, inputs: &[Input]) -> Vec<Finding> {
-    let run = |check: &Check| match check.run {
-        Run::Inputs(run) => run(program, inputs),
-        Run::Motion(_) | Run::Isolation(_) | Run::Drilling(_) | Run::Cutout(_) => Vec::new(),
-    };
-    ALL.iter().flat_map(run).collect()
+    each(|check| {
+        let Run::Inputs(run) = check else { return None };
+        Some(run(program, inputs))
+    })
+}
+
+/// What all checks find that `run` runs.
+fn each(run: impl Fn(&Run) -> Option<Vec<Finding>>) -> Vec<Finding> {
+    ALL.iter().filter_map(|check| run(&check.run)).flatten().collect()
+}
+
+/// A finding about a hole as it is made.
+fn hole(
+    bore: &Bore<'_>,
+    made: &Made<'_>,
+    name: &'static str,
+    severity: Severity,
+    message: String,
+) -> Finding {
+    Finding {
+        at: Some(bore.hole.path.start),
+        program: Some(made.cut.program.file.clone()),
+        line: Some(made.cut.swept.line),
+        ..Finding::new(name, severity, message)
+    }
 }
 
 /// What is wrong with a motion.
@@ -177,27 +235,4 @@ pub(super) fn along(way: &Shape, count: u32) -> Vec<(Point, f64)> {
         Shape::Arc { arc, .. } => spread(arc.radius() * arc.sweep().abs(), &|f| arc.at(f)),
         Shape::Disc { .. } | Shape::Polygon(_) => Vec::new(),
     }
-}
-
-/// How far a point is from where a hole's cutter goes, in nanometres.
-fn from_hole(hole: &Hole, p: Point) -> f64 {
-    let points = hole.path.flatten(Nm::from_um(5));
-    let to_point = p.distance(points[0]);
-    points.windows(2).map(|pair| from_segment(p, pair[0], pair[1])).fold(to_point, f64::min)
-}
-
-/// The distance from a point to a segment, in nanometres.
-fn from_segment(p: Point, a: Point, b: Point) -> f64 {
-    let ((px, py), (ax, ay), (bx, by)) = (p.to_f64(), a.to_f64(), b.to_f64());
-    let (ux, uy) = (bx - ax, by - ay);
-    let squared = ux * ux + uy * uy;
-    let along =
-        if squared > 0.0 { (((px - ax) * ux + (py - ay) * uy) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    let (dx, dy) = (px - ax - ux * along, py - ay - uy * along);
-    (dx * dx + dy * dy).sqrt()
-}
-
-/// All plunges of all programs with the program that each belongs to.
-fn plunges<'a>(programs: &[&'a Machining]) -> impl Iterator<Item = (&'a Machining, Plunge)> {
-    programs.iter().copied().flat_map(|program| program.plunges.iter().map(move |&plunge| (program, plunge)))
 }

@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! What is cut out is held until the last: with the deepest pass done, every board hangs together with the stock round it through
-//! at least one tab. Where the program says how many tabs it was asked for, fewer are told too.
+//! What is cut out is held until the last: with everything cut, every board hangs together with the stock round it through at least one
+//! tab. Where the program says how many tabs it was asked for, fewer are told too.
 //!
 //! # Why
 //!
@@ -9,14 +9,14 @@
 //!
 //! # What it can miss
 //!
-//! Whether the tabs are strong enough; boards held by tape, which need none (ask for `--tabs 0`).
+//! Boards held by tape, which need none (ask for `--tabs 0`). Whether tabs are strong enough is for `tab-thin` to say.
 
 use super::{Check, Run, Severity};
-use crate::board::{Board, FLATTEN, Shape};
-use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::board::{Board, Shape};
+use crate::geometry::{Nm, Point, Rect};
 use crate::grid::Grid;
 use crate::verify::Settings;
-use crate::verify::machining::{Machining, Swept};
+use crate::verify::contours::Contours;
 use crate::verify::pieces::{Joiner, Part};
 use crate::verify::report::Finding;
 use crate::verify::spans::{Spans, filled, less};
@@ -28,99 +28,79 @@ const NAME: &str = "tab-missing";
 
 /// The stock round the board.
 const STOCK: u32 = 0;
-/// Cut, but not in the deepest pass: a tab.
-const TAB: u32 = 1;
+/// Cut through.
+const CUT: u32 = 1;
 /// The board.
 const BOARD: u32 = 2;
 
-/// How much the depth of the deepest pass may vary. Chosen: less than any tab is thick.
-const PASS: Nm = Nm::from_um(20);
-
-fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
+fn check(contours: &Contours<'_>, _: &Board, settings: &Settings) -> Vec<Finding> {
     if settings.tabs == Some(0) {
         return Vec::new();
     }
-    let Some(outline) = board.outline.as_ref().map(|outline| outline.polygon(FLATTEN)) else {
-        return Vec::new();
+    let (program, line) = contours.last();
+    let finding = |at: Point, severity: Severity, message: String| Finding {
+        at: Some(at),
+        program: program.clone(),
+        line,
+        ..Finding::new(NAME, severity, message)
     };
-    programs.iter().flat_map(|program| missing(program, &outline, settings)).collect()
-}
-
-fn missing(program: &Machining, outline: &Polygon, settings: &Settings) -> Vec<Finding> {
-    let Some(half) = program.swept.iter().map(Swept::half).min() else { return Vec::new() };
-    // An eighth of the groove: no way through it is missed, and a tab is many pixels long.
-    let pitch = (half / 4).max(Nm::from_um(10));
-    let rim = half * 4;
-    let Ok(grid) = Grid::covering(outline.bounds().inflate(rim), pitch) else { return Vec::new() };
-    let Left { all, tabs } = left(program, outline, &grid);
-    let finding = |place: Rect, message: String| Finding {
-        at: Some(place.min().midpoint(place.max())),
-        program: Some(program.file.clone()),
-        line: program.swept.last().map(|swept| swept.line),
-        ..Finding::new(NAME, Severity::Warning, message)
-    };
-    let mm2 = |part: &Part| super::area(usize::try_from(part.pixels).unwrap_or(usize::MAX), pitch);
-    let place = |part: &Part| {
-        let corner = |column: u32, row: u32| grid.corner(i64::from(column), i64::from(row));
-        let extent = part.extent;
-        Rect::new(corner(extent.left, extent.top), corner(extent.right + 1, extent.bottom + 1))
-    };
-    let held = |parts: &[Part]| parts.iter().any(|part| part.extent.left == 0 || part.extent.top == 0);
-    let mut findings: Vec<Finding> = all
-        .chunk_by(|a, b| a.piece == b.piece)
-        .filter(|parts| !held(parts))
-        .filter_map(|parts| parts.iter().find(|part| part.label == BOARD && mm2(part) >= LEAST))
-        .map(|board| finding(place(board), "nothing holds the board when it is cut out".to_owned()))
-        .collect();
-    let tabs = tabs.iter().filter(|tab| mm2(tab) >= half.to_mm() * half.to_mm()).count();
-    let boards = outline.contours().iter().filter(|ring| path_area(ring) > 0).count();
-    if let Some(wanted) =
-        settings.tabs.and_then(|wanted| usize::try_from(wanted).ok()).map(|each| each * boards)
+    // Somebody wanted tabs; else the board may be held by tape.
+    let severity = if settings.tabs.is_some() { Severity::Error } else { Severity::Warning };
+    let loose = loose(contours, settings);
+    let message = "nothing holds the board when it is cut out";
+    let mut findings: Vec<Finding> =
+        loose.into_iter().map(|at| finding(at, severity, message.to_owned())).collect();
+    let boards: Vec<_> = contours.rings.iter().filter(|ring| ring.is_board).collect();
+    let tabs: usize = boards.iter().map(|ring| contours.tabs(ring, settings).count()).sum();
+    let wanted = settings.tabs.and_then(|wanted| usize::try_from(wanted).ok());
+    if let Some(wanted) = wanted.map(|each| each * boards.len())
         && findings.is_empty()
         && (1..wanted).contains(&tabs)
     {
-        findings.push(finding(outline.bounds(), format!("the board is held by {tabs} of {wanted} tabs")));
+        let message = format!("the board is held by {tabs} of {wanted} tabs");
+        let bounds = contours.outline.bounds();
+        findings.push(finding(bounds.min().midpoint(bounds.max()), Severity::Warning, message));
     }
     findings
-}
-
-/// Twice the area of a ring in nm²: above zero where it goes round counter-clockwise, as boards do; cut-outs go round the other way.
-fn path_area(ring: &[Point]) -> i128 {
-    let next = ring.iter().cycle().skip(1);
-    ring.iter()
-        .zip(next)
-        .map(|(a, b)| {
-            i128::from(a.x.get()) * i128::from(b.y.get()) - i128::from(b.x.get()) * i128::from(a.y.get())
-        })
-        .sum()
 }
 
 /// In mm², what is a board and no crumb. Chosen.
 const LEAST: f64 = 1.0;
 
-/// What the deepest pass leaves, in connected pieces.
-struct Left {
-    all: Vec<Part>,
-    tabs: Vec<Part>,
+/// The middles of boards that hang together with nothing.
+fn loose(contours: &Contours<'_>, settings: &Settings) -> Vec<Point> {
+    // An eighth of the groove: no way through it is missed.
+    let pitch = (contours.half / 4).max(Nm::from_um(10));
+    let rim = contours.half * 4;
+    let Ok(grid) = Grid::covering(contours.outline.bounds().inflate(rim), pitch) else { return Vec::new() };
+    let parts = pieces(contours, settings, &grid);
+    let mm2 = |part: &Part| super::area(usize::try_from(part.pixels).unwrap_or(usize::MAX), pitch);
+    let middle = |part: &Part| {
+        let corner = |column: u32, row: u32| grid.corner(i64::from(column), i64::from(row));
+        let extent = part.extent;
+        let place = Rect::new(corner(extent.left, extent.top), corner(extent.right + 1, extent.bottom + 1));
+        place.min().midpoint(place.max())
+    };
+    let held = |parts: &[Part]| parts.iter().any(|part| part.extent.left == 0 || part.extent.top == 0);
+    parts
+        .chunk_by(|a, b| a.piece == b.piece)
+        .filter(|parts| !held(parts))
+        .filter_map(|parts| parts.iter().find(|part| part.label == BOARD && mm2(part) >= LEAST))
+        .map(middle)
+        .collect()
 }
 
-fn left(program: &Machining, outline: &Polygon, grid: &Grid) -> Left {
-    let [mut deepest, mut groove, mut board] = [(); 3].map(|()| Spans::new(grid, 0..grid.height()));
-    let depth = program.swept.iter().map(|swept| swept.depth).max().unwrap_or(Nm::ZERO);
-    for swept in &program.swept {
-        let pass = if swept.depth >= depth - PASS { &mut deepest } else { &mut groove };
-        pass.add(&swept.shape, TAB);
+/// What is left of the stock, in connected pieces.
+fn pieces(contours: &Contours<'_>, settings: &Settings, grid: &Grid) -> Vec<Part> {
+    let [mut through, mut board] = [(); 2].map(|()| Spans::new(grid, 0..grid.height()));
+    let swept = contours.programs.iter().flat_map(|program| &program.swept);
+    for swept in swept.filter(|swept| swept.full >= settings.board) {
+        through.add(&swept.shape, CUT);
     }
-    board.add(&Shape::Polygon(outline.clone()), BOARD);
-    let (mut all, mut tabs) = (Joiner::default(), Joiner::default());
-    let rows = deepest.into_rows().zip(groove.into_rows()).zip(board.into_rows());
-    for (row, ((deepest, groove), board)) in (0..).zip(rows) {
-        let tab = less(&groove, &deepest);
-        let mut clad = less(&board, &tab);
-        clad.extend(&tab);
-        clad.sort_unstable_by_key(|run| run.start);
-        all.row(row, &less(&filled(&clad, STOCK, grid.width()), &deepest));
-        tabs.row(row, &tab);
+    board.add(&Shape::Polygon(contours.outline.clone()), BOARD);
+    let mut all = Joiner::default();
+    for (row, (through, board)) in (0..).zip(through.into_rows().zip(board.into_rows())) {
+        all.row(row, &less(&filled(&board, STOCK, grid.width()), &through));
     }
-    Left { all: all.parts(), tabs: tabs.parts() }
+    all.parts()
 }

@@ -1,5 +1,8 @@
 use crate::geometry::{Nm, Path, Point, Segment, Vector};
 
+/// Less of a segment, in nanometres, is nothing where both its ends are one point. Chosen: below what programs write.
+const NOTHING: f64 = 1_000.0;
+
 /// A closed way, by the distance along it from its start, in nanometres.
 #[derive(Clone, Debug)]
 pub(super) struct Ring {
@@ -81,7 +84,7 @@ impl Ring {
         self.distances.partition_point(|&begin| begin <= distance).clamp(1, self.path.segments.len()) - 1
     }
 
-    /// The way from one distance to a later one.
+    /// The way from one distance to a later one; an arc of no length would be cut as a full circle.
     pub(super) fn between(&self, from: f64, to: f64) -> Path {
         let (first, last) = (self.segment_at(from), self.segment_at(to));
         let start = self.at(from);
@@ -96,7 +99,7 @@ impl Ring {
             way.segments.remove(0);
         }
         let before_last = way.segments.len().checked_sub(2).map_or(start, |i| way.segments[i].to());
-        if before_last == end && to - from < self.length() / 2.0 {
+        if before_last == end && to - self.distances[last].max(from) < NOTHING {
             way.segments.pop();
         }
         way

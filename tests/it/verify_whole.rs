@@ -1,0 +1,257 @@
+//! Cutouts and holes, spoilt in one place: what is wrong is found under its name, and nothing where nothing is wrong.
+
+use std::path::Path;
+use std::sync::LazyLock;
+
+use voromill::board::{Board, Hole, Outline, Plating};
+use voromill::geometry::{Nm, Path as Way, Point, Segment};
+use voromill::import::{self, Selection};
+use voromill::job::{self, Job, Options, Part};
+use voromill::verify::{Finding, Program, Role, Settings, Severity, verify};
+
+static BLINKER: LazyLock<Job> = LazyLock::new(|| {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
+    let loaded = import::load(&[folder], &Selection::default()).expect("a board");
+    // All drills in one program.
+    let options = Options::from_toml("settings", "dialect = \"linuxcnc\"").expect("options");
+    job::mill(loaded, &job::Settings::resolve(options).expect("settings")).expect("a job")
+});
+
+fn text(part: Part) -> &'static str {
+    &BLINKER.programs.iter().find(|written| written.part == part).expect("a program").text
+}
+
+fn judge(board: &Board, role: Option<Role>, text: &str) -> Vec<Finding> {
+    let program =
+        Program { file: "spoilt.ngc".to_owned(), text: text.to_owned(), role, ..Program::default() };
+    let settings = Settings { tabs: Some(4), tab_width: Some(Nm::from_mm(2)), ..Settings::default() };
+    verify(&[program], board, &[], &settings).expect("it can be judged").findings
+}
+
+/// What is found, as bad as `severity` or worse, each name once.
+fn names(findings: &[Finding], severity: Severity) -> Vec<&'static str> {
+    let mut names: Vec<_> =
+        findings.iter().filter(|finding| finding.severity >= severity).map(|finding| finding.name).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// Every x of the motions, changed.
+fn each_x(text: &str, change: impl Fn(f64) -> f64) -> String {
+    let word = |word: &str| match word.strip_prefix('X').and_then(|x| x.parse::<f64>().ok()) {
+        Some(x) => format!("X{:.4}", change(x)),
+        None => word.to_owned(),
+    };
+    let line = |line: &str| {
+        if line.starts_with('(') {
+            line.to_owned()
+        } else {
+            line.split(' ').map(word).collect::<Vec<_>>().join(" ")
+        }
+    };
+    text.lines().map(line).collect::<Vec<_>>().join("\n")
+}
+
+/// Depths beyond `from` become `to`.
+fn depth(text: &str, from: f64, to: &str) -> String {
+    let word = |word: &str| match word.strip_prefix("Z-").and_then(|z| z.parse::<f64>().ok()) {
+        Some(z) if z > from => format!("Z-{to}"),
+        _ => word.to_owned(),
+    };
+    text.lines()
+        .map(|line| {
+            if line.starts_with('(') {
+                line.to_owned()
+            } else {
+                line.split(' ').map(word).collect::<Vec<_>>().join(" ")
+            }
+        })
+        .collect::<Vec<_>>()
+        .join("\n")
+}
+
+#[test]
+fn a_spoilt_cutout_is_found_out() {
+    let whole = text(Part::Cutout);
+    let find = |text: &str| judge(&BLINKER.board, Some(Role::Cutout), text);
+    assert_eq!(find(whole), [], "nothing is wrong with it");
+    let lines: Vec<&str> = whole.lines().collect();
+    let two_thirds = [&lines[..lines.len() * 2 / 3], &["M5", "M2"]].concat().join("\n");
+    let wide = whole.replace("endmill:1mm", "endmill:2mm");
+    let thin = whole.replace("endmill:1mm", "endmill:0.6mm");
+    for (what, text, expected) in [
+        ("moved by 0.5 mm", each_x(whole, |x| x + 0.5), &["board-gouged", "board-left"][..]),
+        ("for a thinner cutter than is in the spindle", wide, &["board-gouged"]),
+        ("for a thicker one", thin, &["board-left"]),
+        ("1.4 mm deep", depth(whole, 1.4, "1.4"), &["not-through"]),
+        ("1.59 mm deep", depth(whole, 1.59, "1.59"), &["not-through"]),
+        ("the last third left out", two_thirds, &["not-through"]),
+        (
+            "nothing cut",
+            lines
+                .iter()
+                .filter(|line| !["G1", "G2", "G3"].contains(&line.split(' ').next().unwrap_or_default()))
+                .copied()
+                .collect::<Vec<_>>()
+                .join("\n"),
+            &["board-left"],
+        ),
+        ("all tabs cut through", whole.replace("Z-1.1", "Z-1.7"), &["tab-missing"]),
+    ] {
+        let findings = find(&text);
+        for name in expected {
+            assert!(names(&findings, Severity::Error).contains(name), "{what}: {findings:?}");
+        }
+    }
+    let one_tab = find(&whole.replacen("Z-1.1", "Z-1.7", 1));
+    assert!(names(&one_tab, Severity::Warning).contains(&"tab-missing"), "a tab of four: {one_tab:?}");
+    let weak = find(&whole.replace("Z-1.1", "Z-1.45"));
+    assert_eq!(names(&weak, Severity::Warning), ["tab-thin"], "tabs of 0.15 mm: {weak:?}");
+}
+
+#[test]
+fn a_cutout_a_little_off_is_no_error() {
+    let whole = text(Part::Cutout);
+    let find = |text: &str| judge(&BLINKER.board, Some(Role::Cutout), text);
+    for (what, text) in [
+        ("moved by 10 µm", each_x(whole, |x| x + 0.01)),
+        ("deeper", depth(whole, 1.69, "2")),
+        ("less deep, but through", depth(whole, 1.69, "1.61")),
+    ] {
+        assert_eq!(find(&text), [], "{what}");
+    }
+    let moved = find(&each_x(whole, |x| x + 0.05));
+    assert_eq!(names(&moved, Severity::Error), [""; 0], "50 µm: {moved:?}");
+    assert_eq!(names(&moved, Severity::Warning), ["board-gouged", "board-left"], "50 µm: {moved:?}");
+    let size = moved.iter().filter_map(|finding| finding.size).max().expect("how much");
+    assert!((size - Nm::from_um(50)).abs() < Nm::from_um(10), "as far as it was moved: {size}");
+}
+
+#[test]
+fn spoilt_holes_are_found_out() {
+    let whole = text(Part::Drill);
+    let find = |text: &str| judge(&BLINKER.board, Some(Role::Drilling), text);
+    assert_eq!(find(whole), [], "nothing is wrong with it");
+    let lines: Vec<&str> = whole.lines().collect();
+    let first = lines.iter().position(|line| line.starts_with("G0 X")).expect("a hole");
+    let without = |lines: &[&str]| lines.join("\n");
+    let left_out: Vec<&str> = [&lines[..first], &lines[first + 4..]].concat();
+    let moved = lines[first].split(' ').map(|word| match word.strip_prefix('X') {
+        Some(x) => format!("X{:.4}", x.parse::<f64>().expect("a number") + 0.3),
+        None => word.to_owned(),
+    });
+    let moved = moved.collect::<Vec<_>>().join(" ");
+    let mut one_moved = lines.clone();
+    one_moved[first] = &moved;
+    let extra = [&lines[..first], &["G0 X5 Y5", "G1 Z-2.2 F60", "G0 Z2"], &lines[first..]].concat();
+    for (what, text, expected) in [
+        ("0.5 mm deep", depth(whole, 0.5, "0.5"), "hole-depth"),
+        ("only the points go through", depth(whole, 1.61, "1.61"), "hole-depth"),
+        ("another drill", whole.replace("drill:0.8mm", "drill:1.1mm"), "hole-size"),
+        ("moved by 0.2 mm", each_x(whole, |x| x + 0.2), "hole-place"),
+        ("a hole left out", without(&left_out), "hole-missing"),
+        ("a hole moved", without(&one_moved), "hole-place"),
+        ("a hole too many", without(&extra), "hole-extra"),
+        ("half as large", each_x(whole, |x| x / 2.0), "hole-missing"),
+    ] {
+        let findings = find(&text);
+        assert!(names(&findings, Severity::Error).contains(&expected), "{what}: {findings:?}");
+    }
+    assert_eq!(find(&each_x(whole, |x| x + 0.01)), [], "10 µm are nothing");
+    let slight = find(&each_x(whole, |x| x + 0.04));
+    assert_eq!(names(&slight, Severity::Warning), ["hole-place"], "40 µm are told: {slight:?}");
+    assert_eq!(names(&slight, Severity::Error), [""; 0], "and no error: {slight:?}");
+}
+
+fn hole(from: (i64, i64), to: Option<(i64, i64)>, diameter: i64) -> Hole {
+    let at = |(x, y): (i64, i64)| Point::new(Nm::from_um(x), Nm::from_um(y));
+    let segments = to.into_iter().map(|to| Segment::Line { to: at(to) }).collect();
+    let path = Way { start: at(from), segments };
+    Hole { path, diameter: Nm::from_um(diameter), plating: Plating::NonPlated, tool: 1, line: 1 }
+}
+
+/// 30 mm by 20 mm with one hole.
+fn board(hole: Hole) -> Board {
+    let corner = |x: i64, y: i64| Point::new(Nm::from_mm(x), Nm::from_mm(y));
+    let ring = [corner(0, 0), corner(30, 0), corner(30, 20), corner(0, 20), corner(0, 0)];
+    let outline = Outline::new(Way::polyline(ring).into_iter().collect());
+    Board { name: "plate".to_owned(), front: None, back: None, outline, holes: vec![hole] }
+}
+
+#[test]
+fn milled_holes_and_slots_have_their_size() {
+    let bored = board(hole((10_000, 10_000), None, 3000));
+    let slot = board(hole((10_000, 10_000), Some((13_000, 10_000)), 1000));
+    let circle = |x: &str, i: &str| {
+        format!(
+            "(tool 1: endmill:1mm)\nG21 G90\nM3 S9000\nG0 X{x} Y10 Z2\nG1 Z-1.8 F60\nG3 X{x} Y10 I-{i} J0 F90\nG0 Z2\n"
+        )
+    };
+    let way = |to: &str, z: &str| {
+        format!("(tool 1: endmill:1mm)\nG21 G90\nM3 S9000\nG0 X10 Y10 Z2\nG1 Z-{z} F60\nX{to} F90\nG0 Z2\n")
+    };
+    // Down along the slot, and back on the floor.
+    let ramp = |back: &str| {
+        format!(
+            "(tool 1: endmill:1mm)\nG21 G90\nM3 S9000\nG0 X10 Y10 Z2\nG1 Z0 F60\nX13 Z-1.8 F90\n{back}G0 Z2\n"
+        )
+    };
+    let half = circle("11", "1").replace("G3 X11 Y10", "G3 X9 Y10");
+    for (board, text, expected) in [
+        (&bored, circle("11", "1"), &[][..]),
+        (&bored, circle("10.9", "0.9"), &["hole-size"]),
+        (&bored, circle("11.1", "1.1"), &["hole-size"]),
+        (&bored, circle("11.1", "1"), &["hole-place"]),
+        (&bored, half, &["hole-place", "hole-size"]),
+        (&bored, circle("11", "1").replace("Z-1.8", "Z-1.2"), &["hole-depth"]),
+        (&slot, way("13", "1.8"), &[]),
+        (&slot, way("12.8", "1.8"), &["hole-size"]),
+        (&slot, way("13.2", "1.8"), &["hole-size"]),
+        (&slot, way("13", "1.3"), &["hole-depth"]),
+        (&slot, ramp("X10\n"), &[]),
+        (&slot, ramp(""), &["hole-depth"]),
+    ] {
+        let findings = judge(board, Some(Role::Drilling), &text);
+        assert_eq!(names(&findings, Severity::Error), expected, "{text}: {findings:?}");
+    }
+}
+
+#[test]
+fn the_point_of_a_drill_is_what_its_tool_says() {
+    let board = board(hole((10_000, 10_000), None, 3000));
+    // Points of 0.901 mm (118°) and 0.699 mm (130°).
+    for (tool, z, expected) in [
+        ("drill:3mm", "2.52", &[][..]),
+        ("drill:3mm", "2.35", &["hole-depth"]),
+        ("drill:3mm:130deg", "2.35", &[]),
+        ("endmill:3mm", "1.61", &[]),
+    ] {
+        let text = format!("(tool 1: {tool})\nG21 G90\nM3 S9000\nG0 X10 Y10 Z2\nG1 Z-{z} F60\nG0 Z2\n");
+        let findings = judge(&board, Some(Role::Drilling), &text);
+        assert_eq!(names(&findings, Severity::Error), expected, "{tool} {z}: {findings:?}");
+    }
+}
+
+#[test]
+fn holes_for_pins_lie_beside_the_board_and_go_deep_enough() {
+    let board = board(hole((10_000, 10_000), None, 1000));
+    let program = |y: &str, z: &str| {
+        format!(
+            "(plate alignment)\n(tool 1: drill:3mm)\nG21 G90\nM3 S9000\nG0 X15 Y-5 Z2\nG1 Z-5 F60\nG0 Z2\n\
+             G0 X15 Y{y}\nG1 Z-{z}\nG0 Z2\n"
+        )
+    };
+    for (y, z, errors, warnings) in [
+        ("25", "5", &[][..], &[][..]),
+        ("25", "1.8", &["alignment-hole"], &["alignment-hole"]),
+        ("25", "3", &[], &["alignment-hole"]),
+        ("15", "5", &["alignment-hole"], &["alignment-hole"]),
+    ] {
+        let findings = judge(&board, None, &program(y, z));
+        assert_eq!(names(&findings, Severity::Error), errors, "{y} {z}: {findings:?}");
+        assert_eq!(names(&findings, Severity::Warning), warnings, "{y} {z}: {findings:?}");
+    }
+    let only = program("25", "5").replace("G0 X15 Y25\nG1 Z-5\n", "");
+    assert_eq!(names(&judge(&board, None, &only), Severity::Error), ["alignment-hole"], "one alone");
+}
