@@ -309,14 +309,15 @@ const CUTOUT: Nm = Nm::from_um(500);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::gcode::read::Place;
+    use crate::gcode::read::{Place, Spindle};
 
     #[test]
     fn a_move_that_rises_is_cut_in_two_where_it_leaves_the_copper() {
         let place =
             |x: i64, z: i64| Place { x: Some(Nm::from_um(x)), y: Some(Nm::ZERO), z: Some(Nm::from_um(z)) };
         let (from, to) = (place(0, -100), place(10_000, 0));
-        let motion = Motion { way: Way::Feed, from, to, feed: None, spindle: None, tool: None, line: 1 };
+        let motion =
+            Motion { way: Way::Feed, from, to, feed: None, spindle: Spindle::Off, tool: None, line: 1 };
         let ends = [from, to].map(|place| place.point().expect("a place"));
         for tool in ["endmill:0.2mm", "vbit:0.1mm:30deg"] {
             let cutter: Cutter = tool.parse().expect("a tool");

@@ -104,8 +104,11 @@ fn controllers_that_show_messages_are_told_what_to_fit() {
     }
 }
 
-/// Each stop and the end: the height, the place, and whether the spindle turns.
-fn stands(text: &str) -> Vec<(f64, Option<(f64, f64)>, bool)> {
+/// A stop or the end of a program: the height, the place, and whether the spindle turns.
+type Stand = (f64, Option<(f64, f64)>, bool);
+
+/// Each stop and the end.
+fn stands(text: &str) -> Vec<Stand> {
     let listing = read(text).expect("a program");
     let mut stands = Vec::new();
     let ends = listing.stops.iter().map(|stop| stop.0).chain([listing.motions.len()]);
