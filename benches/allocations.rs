@@ -1,8 +1,9 @@
-//! How much memory each stage asks for, how often, and how many pixels are drawn, over boards of 10 to 10⁴ features:
-//! `cargo bench --bench allocations`.
+//! How much memory each stage asks for, how often, and how many pixels are drawn, over boards of 10
+//! to 10⁴ features: `cargo bench --bench allocations`.
 //!
-//! A plain program of its own, because counting has a price that the times of other benchmarks should not pay. On one
-//! thread the counts are the same in every run but for what the runtime itself allocates.
+//! A plain program of its own, because counting has a price that the times of other benchmarks
+//! should not pay. On one thread the counts are the same in every run but for what the runtime
+//! itself allocates.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 mod synthetic;

@@ -1,4 +1,5 @@
-//! One real board from bytes to G-code, the number people quote; and its stages, at several resolutions.
+//! One real board from bytes to G-code, the number people quote; and its stages, at several
+//! resolutions.
 
 use std::path::PathBuf;
 
@@ -31,7 +32,8 @@ fn whole(criterion: &mut Criterion) {
     group.finish();
 }
 
-/// Nets, and boundaries at 250 to 2000 DPI: twice the resolution must cost little more than twice the time.
+/// Nets, and boundaries at 250 to 2000 DPI: twice the resolution must cost little more than twice
+/// the time.
 fn stages(criterion: &mut Criterion) {
     let loaded = import::load(&[fixture("qfn-breakout")], &Selection::default()).expect("a board of ours");
     let copper = loaded.board.copper(Side::Front).expect("two sides");

@@ -1,8 +1,10 @@
 //! How good the order of trails is: `cargo bench --bench order [-- TRAILS…]`.
 //!
-//! Random trails and holes; the travel between them, nearest next and improved, beside a length below which no order can be:
-//! Held and Karp's bound (The traveling-salesman problem and minimum spanning trees, 1970), a spanning tree whose penalties push every end of
-//! a trail to one way through the air. The bound itself lies up to a percent or two below the best order. Ten thousand take minutes.
+//! Random trails and holes; the travel between them, nearest next and improved, beside a length
+//! below which no order can be: Held and Karp's bound (The traveling-salesman problem and minimum
+//! spanning trees, 1970), a spanning tree whose penalties push every end of a trail to one way
+//! through the air. The bound itself lies up to a percent or two below the best order. Ten thousand
+//! take minutes.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 use std::time::Instant;
@@ -155,7 +157,8 @@ impl Bound {
 
     /// The highest bound found in a number of steps towards `length`, that of a known order.
     ///
-    /// The penalties are sought with a tree of short ways alone, which is not quite the shortest; the bound is that of the shortest.
+    /// The penalties are sought with a tree of short ways alone, which is not quite the shortest;
+    /// the bound is that of the shortest.
     fn rise(mut self, length: f64) -> f64 {
         let ways = self.short_ways();
         let mut best = (f64::NEG_INFINITY, self.penalties.clone());
@@ -186,10 +189,12 @@ impl Bound {
         self.tree().0
     }
 
-    /// The ways from each end to its nearest, and those of the shortest tree, so that all trails hang together.
+    /// The ways from each end to its nearest, and those of the shortest tree, so that all trails
+    /// hang together.
     fn short_ways(&self) -> Vec<(usize, usize)> {
         const NEAR: usize = 10;
-        // Ends in strips as wide as about ten of them: the nearest are hardly ever farther than in the strips beside.
+        // Ends in strips as wide as about ten of them: the nearest are hardly ever farther than in
+        // the strips beside.
         let ends = self.ends.len() - 1;
         let extent = self.ends.iter().map(|end| end.0).fold(0.0, f64::max);
         let width = extent / (f64::from(u32::try_from(ends).expect("few")) / 10.0).sqrt() + 1.0;
@@ -232,7 +237,8 @@ impl Bound {
         self.less_penalties(&joins)
     }
 
-    /// The shortest tree with the ways lengthened by the penalties of their ends, less all penalties; and how many ways come to each end.
+    /// The shortest tree with the ways lengthened by the penalties of their ends, less all
+    /// penalties; and how many ways come to each end.
     fn tree(&self) -> (f64, Vec<i32>) {
         self.less_penalties(&self.joins())
     }
@@ -270,7 +276,8 @@ impl Bound {
         joins
     }
 
-    /// The length of a tree, less all penalties, and its degrees. The order's last end has no way, so the least penalty counts twice.
+    /// The length of a tree, less all penalties, and its degrees. The order's last end has no way,
+    /// so the least penalty counts twice.
     fn less_penalties(&self, joins: &[(usize, usize)]) -> (f64, Vec<i32>) {
         let home = self.ends.len() - 2;
         let mut degrees = vec![0; self.ends.len()];
@@ -292,8 +299,8 @@ impl Bound {
     }
 }
 
-/// How often the penalties are changed, and how many changes in vain make them smaller. Measured: twice as many raise the bound by less than
-/// a tenth of a percent.
+/// How often the penalties are changed, and how many changes in vain make them smaller. Measured:
+/// twice as many raise the bound by less than a tenth of a percent.
 const STEPS: usize = 1500;
 const PATIENCE: usize = 12;
 

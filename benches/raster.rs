@@ -1,9 +1,10 @@
-//! The raster engine's figures, as ratios measured in one run: `cargo bench --bench raster`, or a part of
-//! them: `-- picture`, `pick`, `growth`, `doubling`.
+//! The raster engine's figures, as ratios measured in one run: `cargo bench --bench raster`, or a
+//! part of them: `-- picture`, `pick`, `growth`, `doubling`.
 //!
-//! A plain program rather than a Criterion suite, because what counts are ratios between two things done in turns
-//! on the same warm memory, and peak memory. Times are the least of several rounds. `VOROMILL_PEERS=FOLDER` writes the
-//! scenes and pictures instead that `benches/peers/raster.py` holds others against.
+//! A plain program rather than a Criterion suite, because what counts are ratios between two things
+//! done in turns on the same warm memory, and peak memory. Times are the least of several rounds.
+//! `VOROMILL_PEERS=FOLDER` writes the scenes and pictures instead that `benches/peers/raster.py`
+//! holds others against.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 mod usage;
@@ -30,8 +31,8 @@ impl Random {
     }
 }
 
-/// `count` segments of up to `length` pixels along x and y in a square picture, each with its own label or all
-/// under `labels`.
+/// `count` segments of up to `length` pixels along x and y in a square picture, each with its own
+/// label or all under `labels`.
 fn segments(side: u32, count: u32, length: i32, labels: u32) -> Scene {
     limited_segments(side, count, length, labels, None).1
 }
@@ -135,8 +136,9 @@ fn picks() {
     }
 }
 
-/// Writes scenes and what the engine makes of them for the programs under `benches/peers`: `NAME.segments` has a line
-/// `label x0 y0 x1 y1` each, in pixels; `NAME.labels` is 32 bits a pixel; `NAME.time` is in seconds.
+/// Writes scenes and what the engine makes of them for the programs under `benches/peers`:
+/// `NAME.segments` has a line `label x0 y0 x1 y1` each, in pixels; `NAME.labels` is 32 bits a
+/// pixel; `NAME.time` is in seconds.
 fn write_for_peers(folder: &Path) -> std::io::Result<()> {
     std::fs::create_dir_all(folder)?;
     let mut buffers = Buffers::new();

@@ -1,10 +1,12 @@
-//! Time by stage and peak memory over boards of 10 to 10⁶ features: `cargo bench --bench scale [-- FEATURES…]`; and of a panel of
-//! 300 × 300 mm at 5 µm, 3.6 gigapixels: `cargo bench --bench scale -- panel`; and of so many features in one place:
+//! Time by stage and peak memory over boards of 10 to 10⁶ features:
+//! `cargo bench --bench scale [-- FEATURES…]`; and of a panel of 300 × 300 mm at 5 µm, 3.6
+//! gigapixels: `cargo bench --bench scale -- panel`; and of so many features in one place:
 //! `cargo bench --bench scale -- 10000x 1000000x`.
 //!
-//! A plain program: each size runs in a process of its own, so that its peak memory can be told. Without sizes it takes
-//! 10 to 100 000; a million takes some minutes. Times are seconds on all cores; the CPU time of a feature, in which nets and gap are
-//! counted twice, depends less on what else the machine does.
+//! A plain program: each size runs in a process of its own, so that its peak memory can be told.
+//! Without sizes it takes 10 to 100 000; a million takes some minutes. Times are seconds on all
+//! cores; the CPU time of a feature, in which nets and gap are counted twice, depends less on what
+//! else the machine does.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 mod synthetic;

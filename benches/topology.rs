@@ -19,8 +19,8 @@ impl Random {
     }
 }
 
-/// A layer of about `count` features on an area that grows with them: walks of a few strokes from pad to pad, on a
-/// raster of half a millimetre, the pads round or rectangular.
+/// A layer of about `count` features on an area that grows with them: walks of a few strokes from
+/// pad to pad, on a raster of half a millimetre, the pads round or rectangular.
 fn layer(count: usize) -> Copper {
     let mut random = Random(1);
     let cells = i64::try_from(count).expect("small").isqrt().max(4) * 2;

@@ -1,8 +1,10 @@
-//! Judging a board's programs beside making them, in time and in memory: `cargo bench --bench verify [-- BOARD…]`.
+//! Judging a board's programs beside making them, in time and in memory:
+//! `cargo bench --bench verify [-- BOARD…]`.
 //!
-//! A plain program: each board is milled in one process, which writes the programs, and these are judged in another, so that the
-//! peak memory of each can be told. Both begin with the board as it was read. Times are CPU seconds of all threads, the least of
-//! several rounds. The boards are ours and, where there are some, those of `VOROMILL_BOARDS`.
+//! A plain program: each board is milled in one process, which writes the programs, and these are
+//! judged in another, so that the peak memory of each can be told. Both begin with the board as it
+//! was read. Times are CPU seconds of all threads, the least of several rounds. The boards are ours
+//! and, where there are some, those of `VOROMILL_BOARDS`.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 mod usage;
@@ -17,7 +19,8 @@ use voromill::verify::{self, Program, verify};
 
 use usage::{cpu_seconds, peak_mib};
 
-/// What a process is to do: `mill` or `judge`; the board is its first argument, the folder of programs the second.
+/// What a process is to do: `mill` or `judge`; the board is its first argument, the folder of
+/// programs the second.
 const TASK: &str = "VOROMILL_VERIFY_TASK";
 
 /// Rounds go on until they have taken so many CPU seconds, or there are enough of them.
@@ -105,7 +108,8 @@ fn load(board: &Path) -> import::Loaded {
     import::survey(&[board.to_owned()], &Selection::default()).expect("a good board")
 }
 
-/// Does it several times, and prints the CPU seconds that the quickest took, and the peak memory in MiB.
+/// Does it several times, and prints the CPU seconds that the quickest took, and the peak memory in
+/// MiB.
 fn rounds<T>(work: impl Fn() -> T) -> T {
     let (mut spent, mut least) = (0.0, f64::INFINITY);
     let mut last = None;

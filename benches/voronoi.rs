@@ -1,13 +1,16 @@
-//! Boundaries by stage, over boards and resolutions: `cargo bench --bench voronoi [-- BOARD…]`, where a board is the name of one of
-//! `fixtures/boards` or a number of features for a synthetic one.
+//! Boundaries by stage, over boards and resolutions: `cargo bench --bench voronoi [-- BOARD…]`,
+//! where a board is the name of one of `fixtures/boards` or a number of features for a synthetic
+//! one.
 //!
 //! * *regions*: the tiles that a boundary crosses are drawn, and nothing made of them;
-//! * *trace and place*: what `Diagram::boundaries` takes beside drawing and fitting. A piece of boundary is placed as it is
-//!   traced, on the worker that drew its tile, so there is no line to be drawn between the two;
+//! * *trace and place*: what `Diagram::boundaries` takes beside drawing and fitting. A piece of
+//!   boundary is placed as it is traced, on the worker that drew its tile, so there is no line to
+//!   be drawn between the two;
 //! * *fit*: lines and arcs through all placed points.
 //!
-//! A plain program: each board and resolution runs in a process of its own, on one thread, so that its peak memory can be told and
-//! its time be that of the processor, whatever else the machine does.
+//! A plain program: each board and resolution runs in a process of its own, on one thread, so that
+//! its peak memory can be told and its time be that of the processor, whatever else the machine
+//! does.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 mod synthetic;
@@ -121,7 +124,8 @@ fn load(board: &str) -> Board {
     loaded.board
 }
 
-/// CPU seconds of a round, in the mean of as many as take half a second: the system counts in ticks of some milliseconds.
+/// CPU seconds of a round, in the mean of as many as take half a second: the system counts in ticks
+/// of some milliseconds.
 fn mean(mut work: impl FnMut()) -> f64 {
     let start = cpu_seconds().expect("a Linux");
     let mut rounds = 0.0;

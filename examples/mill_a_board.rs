@@ -1,4 +1,5 @@
-//! Mills a board through `job`: `cargo run --release --example mill_a_board -- fixtures/boards/regulator out`.
+//! Mills a board through `job`:
+//! `cargo run --release --example mill_a_board -- fixtures/boards/regulator out`.
 #![expect(clippy::print_stdout, reason = "an example shows what it did")]
 
 use std::error::Error;

@@ -1,5 +1,6 @@
-//! Figures 4, 5 and 6 of the VIsolate paper, drawn from a board of our own or the Gerber file that is named:
-//! `cargo run --release --example paper_figures [FILE]` writes `figure_4.png` to `figure_6.png`.
+//! Figures 4, 5 and 6 of the VIsolate paper, drawn from a board of our own or the Gerber file that
+//! is named: `cargo run --release --example paper_figures [FILE]` writes `figure_4.png` to
+//! `figure_6.png`.
 
 use std::path::PathBuf;
 
@@ -93,7 +94,8 @@ fn regions(copper: &Copper, grid: &Grid, limit: Option<Nm>) -> Result<Picture, v
     Ok(picture)
 }
 
-/// What is drawn for a trace of two strokes, cones and roofs, seen from the side with its edges: Figure 5.
+/// What is drawn for a trace of two strokes, cones and roofs, seen from the side with its edges:
+/// Figure 5.
 fn oblique() -> Picture {
     let at = PixelPoint::from_pixels;
     let corners = [at(160, 240), at(420, 240), at(600, 120)];

@@ -1,6 +1,7 @@
 //! Judges G-code that somebody else's program wrote.
 //!
-//! `cargo run --example verify_foreign` mills two loops of straight lines, one of them with its last side left out, round two pads.
+//! `cargo run --example verify_foreign` mills two loops of straight lines, one of them with its
+//! last side left out, round two pads.
 #![expect(clippy::print_stdout, reason = "an example shows what it did")]
 
 use voromill::board::Side;
@@ -30,7 +31,8 @@ M30
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let copper = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/verify/pads-F_Cu.gbr");
     let board = import::load(&[copper.into()], &Selection::default())?.board;
-    // A foreign program names neither its tool nor the side; where it lies on the board can be found with `verify::register`.
+    // A foreign program names neither its tool nor the side; where it lies on the board can be
+    // found with `verify::register`.
     let program = Program {
         file: "loops.nc".to_owned(),
         text: LOOPS.to_owned(),

@@ -37,7 +37,8 @@ fn main() -> Result<(), image::ImageError> {
     let side = SIDE.unsigned_abs();
     let picture = image::RgbImage::from_fn(side, side, |column, row| {
         let pixel = diagram.pixel(column as usize, row as usize);
-        // A colour for each label, dark on the site itself, with a contour every 20 pixels of distance.
+        // A colour for each label, dark on the site itself, with a contour every 20 pixels of
+        // distance.
         let shade = if pixel.depth < 2.0 {
             0
         } else if pixel.depth % 20.0 < 1.0 {

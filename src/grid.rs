@@ -11,14 +11,15 @@
 //!                                        ▼ row
 //! ```
 //!
-//! The y axis turns over: row 0 is the top. A position goes to the nearest 1/256 pixel, half away from zero; a
-//! pixel's corner comes back without rounding. The board's coordinates are whole nanometres and so is the
-//! pitch, so a picture of 500 DPI has pixels of exactly 50.8 µm.
+//! The y axis turns over: row 0 is the top. A position goes to the nearest 1/256 pixel, half away
+//! from zero; a pixel's corner comes back without rounding. The board's coordinates are whole
+//! nanometres and so is the pitch, so a picture of 500 DPI has pixels of exactly 50.8 µm.
 
 use crate::geometry::{Nm, Point, Rect};
 use crate::raster::{PixelPoint, SubPx};
 
-/// The smallest pitch: below it, the far end of the coordinate range would not fit the fixed point of the raster.
+/// The smallest pitch: below it, the far end of the coordinate range would not fit the fixed point
+/// of the raster.
 pub const FINEST: Nm = Nm::from_um(1);
 
 /// The largest picture in either direction, in pixels.
@@ -56,7 +57,8 @@ pub enum GridError {
 }
 
 impl Grid {
-    /// The grid of pixels of `pitch` that covers `rect`, from its upper left corner; at least one pixel.
+    /// The grid of pixels of `pitch` that covers `rect`, from its upper left corner; at least one
+    /// pixel.
     ///
     /// # Errors
     ///
@@ -122,7 +124,8 @@ impl Grid {
         (length.to_f64() / self.pitch.to_f64()) as f32
     }
 
-    /// The place of the corner above and to the left of pixel (`column`, `row`), in nanometres; exact.
+    /// The place of the corner above and to the left of pixel (`column`, `row`), in nanometres;
+    /// exact.
     #[must_use]
     pub fn corner(&self, column: i64, row: i64) -> Point {
         Point::new(self.left + self.pitch * column, self.top - self.pitch * row)

@@ -1,9 +1,11 @@
 //! voromill turns the manufacturing files of a printed-circuit board into G-code for a mill.
 //!
-//! It isolates nets by *Voronoi toolpaths*: each net is drawn as cones and curtains, surfaces that rise with the distance from its copper;
-//! seen from above, every point shows the net that it is nearest to, and the borders between differently labelled regions are cut once.
-//! That is the method of VIsolate (M. Vona, D. Rus: *Voronoi toolpaths for PCB mechanical etch*, ICRA 2005), which drew on a GPU. Here a
-//! z-buffer engine of our own draws, on any processor, the same bits everywhere; and what it finds is then placed exactly.
+//! It isolates nets by *Voronoi toolpaths*: each net is drawn as cones and curtains, surfaces that
+//! rise with the distance from its copper; seen from above, every point shows the net that it is
+//! nearest to, and the borders between differently labelled regions are cut once. That is the
+//! method of VIsolate (M. Vona, D. Rus: *Voronoi toolpaths for PCB mechanical etch*, ICRA 2005),
+//! which drew on a GPU. Here a z-buffer engine of our own draws, on any processor, the same bits
+//! everywhere; and what it finds is then placed exactly.
 //!
 //! # The flow
 //!
@@ -30,20 +32,25 @@
 //! | [`report`] | what a person looks at: pictures, tables, JSON | all above |
 //! | [`job`] | settings, and the pipeline as one short function | all above |
 //!
-//! The command line (`src/cli`, in the binary alone) turns arguments into files and an exit code. A test,
-//! `tests/it/layering.rs`, keeps the table true.
+//! The command line (`src/cli`, in the binary alone) turns arguments into files and an exit code. A
+//! test, `tests/it/layering.rs`, keeps the table true.
 //!
 //! # Laws
 //!
-//! 1. **The same bytes.** The same input gives the same output for any number of threads, on any machine. A pixel is the minimum over
-//!    fragments of (depth, label), and a fragment depends on its primitive and its pixel alone; floats see only `+ − × ÷ √`
-//!    and the `libm` crate; no order of a hash map, no clock and no path reaches an output.
-//! 2. **Exact where it decides.** Lengths are integer nanometres; orientation, containment and contact are decided in integers.
-//! 3. **The picture decides what meets what, analysis decides where.** Which regions touch is read from pixels; every point
-//!    of a boundary is then moved to where its two exact distances are equal. The resolution limits what is *seen*, not how accurately it is *cut*.
-//! 4. **Nothing in silence.** What is skipped, too narrow or off the board is a [`Warning`](board::Warning) with a place; broken
-//!    input is an error naming file, line, column and what was expected; no output is half-written.
-//! 5. **Bounded memory.** Tiles are drawn, read and dropped; nothing holds a picture of the whole board to compute with.
+//! 1. **The same bytes.** The same input gives the same output for any number of threads, on any
+//!    machine. A pixel is the minimum over fragments of (depth, label), and a fragment depends on
+//!    its primitive and its pixel alone; floats see only `+ − × ÷ √` and the `libm` crate; no order
+//!    of a hash map, no clock and no path reaches an output.
+//! 2. **Exact where it decides.** Lengths are integer nanometres; orientation, containment and
+//!    contact are decided in integers.
+//! 3. **The picture decides what meets what, analysis decides where.** Which regions touch is read
+//!    from pixels; every point of a boundary is then moved to where its two exact distances are
+//!    equal. The resolution limits what is *seen*, not how accurately it is *cut*.
+//! 4. **Nothing in silence.** What is skipped, too narrow or off the board is a
+//!    [`Warning`](board::Warning) with a place; broken input is an error naming file, line, column
+//!    and what was expected; no output is half-written.
+//! 5. **Bounded memory.** Tiles are drawn, read and dropped; nothing holds a picture of the whole
+//!    board to compute with.
 //! 6. **Work follows boundaries.** A tile that provably belongs to one net is never drawn.
 //!
 //! # Example

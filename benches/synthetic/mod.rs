@@ -1,5 +1,6 @@
-//! Boards of any size that look like real ones, as Gerber text: tiles of 10 × 10 mm, each a bus, a fine-pitch field, a
-//! plane with thermals or a field of holes with traces between, all of it with gaps of 0.2 mm and more.
+//! Boards of any size that look like real ones, as Gerber text: tiles of 10 × 10 mm, each a bus, a
+//! fine-pitch field, a plane with thermals or a field of holes with traces between, all of it with
+//! gaps of 0.2 mm and more.
 
 use std::fmt::Write as _;
 
@@ -19,8 +20,8 @@ impl Random {
     }
 }
 
-/// A copper layer of about `features` features, and how many it has. Beyond 300 000 everything is half as large, or the board
-/// would be larger than a metre.
+/// A copper layer of about `features` features, and how many it has. Beyond 300 000 everything is
+/// half as large, or the board would be larger than a metre.
 pub(crate) fn gerber(features: usize) -> (String, usize) {
     let unit = if features > 300_000 { 500 } else { 1000 };
     let along = i64::try_from((features / 90).max(1).isqrt().max(1)).expect("small");
@@ -34,8 +35,8 @@ pub(crate) fn panel(side: i64) -> (String, usize) {
     tiles(1000, (0..side).flat_map(|row| (0..side).map(move |column| (column, row))), |_| false)
 }
 
-/// A copper layer of `features` flashes in one place, half of them by a step-and-repeat of no step, and one pad beside them; it has two
-/// places with copper.
+/// A copper layer of `features` flashes in one place, half of them by a step-and-repeat of no step,
+/// and one pad beside them; it has two places with copper.
 #[allow(dead_code, reason = "not every benchmark needs it")]
 pub(crate) fn coincident(features: usize) -> String {
     let mut text = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,1*%\nD10*\nX0Y2000000D03*\n".to_owned();
@@ -45,7 +46,8 @@ pub(crate) fn coincident(features: usize) -> String {
     text + &format!("%SRX{}Y1I0J0*%\nX0Y0D03*\n%SR*%\nM02*\n", (features / 2).max(1))
 }
 
-/// Tiles at these columns and rows, until there are enough features; `unit` nanometres stand for a micrometre.
+/// Tiles at these columns and rows, until there are enough features; `unit` nanometres stand for a
+/// micrometre.
 fn tiles(
     unit: i64,
     places: impl Iterator<Item = (i64, i64)>,
@@ -71,7 +73,8 @@ fn tiles(
     (layer.text, layer.features)
 }
 
-/// Apertures in micrometres from D10 on: trace, round pad, fine pad lying, fine pad standing, via, antipad, spoke.
+/// Apertures in micrometres from D10 on: trace, round pad, fine pad lying, fine pad standing, via,
+/// antipad, spoke.
 const APERTURES: [(char, &[i64]); 7] = [
     ('C', &[200]),
     ('C', &[1600]),

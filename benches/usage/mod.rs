@@ -1,4 +1,5 @@
-//! What a process has used of the machine so far, as Linux counts it; none where a system does not say.
+//! What a process has used of the machine so far, as Linux counts it; none where a system does not
+//! say.
 
 use std::path::PathBuf;
 

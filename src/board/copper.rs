@@ -1,3 +1,7 @@
+//! One copper layer of a resolved board: its features and its side.
+//!
+//! Whoever holds a `Copper` need not ask for polarity, repeats or apertures: import resolved them.
+
 use std::fmt;
 
 use crate::geometry::Rect;
@@ -40,7 +44,8 @@ pub struct Attributes {
 ///
 /// # Guarantees
 ///
-/// Every feature's [`Feature::attributes`] is an index into [`Copper::attributes`], whose entry 0 is empty.
+/// Every feature's [`Feature::attributes`] is an index into [`Copper::attributes`], whose entry 0
+/// is empty.
 #[derive(Clone, Debug)]
 pub struct Copper {
     /// Which side of the board it lies on.

@@ -69,7 +69,8 @@ pub fn show(
         let Excerpt { text, marked } = &span.excerpt;
         let annotation = AnnotationKind::Primary.span(marked.clone()).label(expected.as_str());
         let snippet = Snippet::source(text.as_str()).line_start(span.line as usize).annotation(annotation);
-        // The column counts from the start of the excerpt, which is that of the line unless that is long.
+        // The column counts from the start of the excerpt, which is that of the line unless that is
+        // long.
         group = if marked.start + 1 == span.column as usize {
             group.element(snippet.path(span.file.as_str()))
         } else {

@@ -1,3 +1,7 @@
+//! A piece of copper: its exact shape, and the axis along which it was drawn.
+//!
+//! The shape decides contact and distance; the axis is kept for the paper's core medial axes.
+
 use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Turn, Vector};
 
 use super::polarity;
@@ -12,7 +16,8 @@ pub enum Shape {
         /// Half the diameter; zero for a point.
         radius: Nm,
     },
-    /// All points within `radius` of the line from `from` to `to`: a round aperture drawn along it, or an obround.
+    /// All points within `radius` of the line from `from` to `to`: a round aperture drawn along it,
+    /// or an obround.
     Stroke {
         /// One end of the axis.
         from: Point,
@@ -28,8 +33,8 @@ pub enum Shape {
         /// Half the width; zero for a bare arc.
         radius: Nm,
     },
-    /// Anything else: rectangles, regions, macros, and what clear polarity left. Curves are flattened within
-    /// [`FLATTEN`](super::FLATTEN).
+    /// Anything else: rectangles, regions, macros, and what clear polarity left. Curves are
+    /// flattened within [`FLATTEN`](super::FLATTEN).
     Polygon(Polygon),
 }
 
@@ -96,7 +101,8 @@ impl Shape {
 fn swept_arc(arc: &Arc, radius: Nm, tolerance: Nm) -> Option<Polygon> {
     let steps = u32::try_from(arc.chords(tolerance) * 2).unwrap_or(u32::MAX);
     let (start, sweep, (x, y)) = (arc.start_angle(), arc.sweep(), arc.center.to_f64());
-    // A stroke wider than the arc's radius reaches over the centre: what lies there belongs to the discs.
+    // A stroke wider than the arc's radius reaches over the centre: what lies there belongs to the
+    // discs.
     let edge = |out: Nm| {
         let reach = |end: Point| (arc.center.distance(end) + out.to_f64()).max(0.0);
         let (from, to) = (reach(arc.start), reach(arc.end));
@@ -122,7 +128,8 @@ fn swept_arc(arc: &Arc, radius: Nm, tolerance: Nm) -> Option<Polygon> {
     polarity::clean(&contours).into_iter().next()
 }
 
-/// How a feature was drawn: the paper's vertices and approximate core medial axis (§III-A.1, III-D).
+/// How a feature was drawn: the paper's vertices and approximate core medial axis (§III-A.1,
+/// III-D).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Axis {
     /// An aperture flashed at a point.

@@ -1,3 +1,8 @@
+//! Holes of a board: drilled, slotted or routed, plated or not.
+//!
+//! All three are one thing, a round cutter moved along a path, so that no later stage tells them
+//! apart by format.
+
 use crate::geometry::{Nm, Path, Rect};
 
 /// Whether a hole's wall is plated, and so joins the two sides.

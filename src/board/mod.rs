@@ -1,8 +1,9 @@
 //! The resolved board: what [`import`](crate::import) promises and everything after it trusts.
 //!
-//! Apertures, macros, repeats and polarity are gone: a copper layer is a list of dark [`Feature`]s, exact in
-//! nanometres, that may overlap. Where a file erased copper, the pieces left are polygons
-//! (see [`polarity`]). Coordinates are the file's own: seen from the front, x to the right, y up, also for the back.
+//! Apertures, macros, repeats and polarity are gone: a copper layer is a list of dark [`Feature`]s,
+//! exact in nanometres, that may overlap. Where a file erased copper, the pieces left are polygons
+//! (see [`polarity`]). Coordinates are the file's own: seen from the front, x to the right, y up,
+//! also for the back.
 
 mod copper;
 mod excerpt;
@@ -23,7 +24,8 @@ pub use warning::{Help, SourceSpan, Warning};
 
 use crate::geometry::{Nm, Rect};
 
-/// How far a polygon may leave the curve it stands for: flattened arcs of regions, macros and outlines.
+/// How far a polygon may leave the curve it stands for: flattened arcs of regions, macros and
+/// outlines.
 ///
 /// Chosen: a quarter of the 1 µm that the toolpath promises off the true bisector.
 pub const FLATTEN: Nm = Nm::new(250);

@@ -1,18 +1,21 @@
+//! The edge of a board: the closed contours along which it is cut out of its sheet.
+
 use crate::geometry::{Nm, Path, Polygon, Rect};
 
 /// The edge of a board: closed contours along which it is cut out.
 ///
 /// # Guarantees
 ///
-/// At least one contour; every contour is closed, has an area, and touches no other. A contour inside an odd number of others
-/// is a cut-out, the rest are boards (several in a panel).
+/// At least one contour; every contour is closed, has an area, and touches no other. A contour
+/// inside an odd number of others is a cut-out, the rest are boards (several in a panel).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Outline {
     contours: Vec<Path>,
 }
 
 impl Outline {
-    /// The outline made of `contours`, without those that are not closed; none where no contour is left.
+    /// The outline made of `contours`, without those that are not closed; none where no contour is
+    /// left.
     #[must_use]
     pub fn new(mut contours: Vec<Path>) -> Option<Self> {
         contours.retain(Path::is_closed);
@@ -32,8 +35,8 @@ impl Outline {
         self.contours.iter().fold(first, |bounds, contour| bounds.union(contour.bounds()))
     }
 
-    /// The contours flattened within `tolerance`, each turned so that the non-zero rule fills the board and leaves
-    /// its cut-outs empty: boards counter-clockwise, cut-outs clockwise.
+    /// The contours flattened within `tolerance`, each turned so that the non-zero rule fills the
+    /// board and leaves its cut-outs empty: boards counter-clockwise, cut-outs clockwise.
     #[must_use]
     pub fn polygon(&self, tolerance: Nm) -> Polygon {
         let rings: Vec<Polygon> = self

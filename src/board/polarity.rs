@@ -1,9 +1,10 @@
-//! Exact polygon booleans, and what clear polarity leaves of the copper: the one place that knows the boolean library.
+//! Exact polygon booleans, and what clear polarity leaves of the copper: the one place that knows
+//! the boolean library.
 //!
-//! `i_overlay` works in 32-bit integers whose range is exactly that of [`Nm`]: points of the input keep their place,
-//! crossings are rounded to the nanometre, and every machine gives the same polygons. Of the libraries tried
-//! (a C++ and a Rust Clipper2, `geo`) it was the fastest by a factor of five, and the one that independent sampling
-//! sided with where they disagreed.
+//! `i_overlay` works in 32-bit integers whose range is exactly that of [`Nm`]: points of the input
+//! keep their place, crossings are rounded to the nanometre, and every machine gives the same
+//! polygons. Of the libraries tried (a C++ and a Rust Clipper2, `geo`) it was the fastest by a
+//! factor of five, and the one that independent sampling sided with where they disagreed.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{Overlay, ShapeType};
@@ -39,8 +40,8 @@ impl Polarity {
     }
 }
 
-/// The area where `contours`, taken together, wind round a point any number of times but none: as simple polygons,
-/// one for each connected piece, holes included.
+/// The area where `contours`, taken together, wind round a point any number of times but none: as
+/// simple polygons, one for each connected piece, holes included.
 #[must_use]
 pub fn clean(contours: &[Vec<Point>]) -> Vec<Polygon> {
     let mut overlay = Overlay::new(contours.iter().map(Vec::len).sum());
@@ -77,8 +78,8 @@ pub fn intersection(a: &Polygon, b: &Polygon) -> Vec<Polygon> {
     polygons(overlay.overlay(OverlayRule::Intersect, FillRule::NonZero))
 }
 
-/// `polygon` grown by `by` on every side, with round corners within `tolerance`; shrunk where `by` is negative.
-/// Polygons as for [`union`].
+/// `polygon` grown by `by` on every side, with round corners within `tolerance`; shrunk where `by`
+/// is negative. Polygons as for [`union`].
 #[must_use]
 pub fn offset(polygon: &Polygon, by: Nm, tolerance: Nm) -> Vec<Polygon> {
     let radius = by.abs().to_f64().max(1.0);
@@ -91,8 +92,9 @@ pub fn offset(polygon: &Polygon, by: Nm, tolerance: Nm) -> Vec<Polygon> {
     polygons(contours.outline(&style).unwrap_or_default())
 }
 
-/// The most vertices that erasing may take in, all features together, [`CROSSINGS`] that may be counting as one.
-/// Chosen: below ten seconds of work; a plane from which ten thousand rings are erased takes in a million.
+/// The most vertices that erasing may take in, all features together, [`CROSSINGS`] that may be
+/// counting as one. Chosen: below ten seconds of work; a plane from which ten thousand rings are
+/// erased takes in a million.
 pub const EFFORT: u64 = 8_000_000;
 
 /// How many pairs of edges that may cross cost as much as a vertex: measured, 0.13 µs beside 1 µs.
@@ -107,13 +109,14 @@ pub struct TooMuch;
 
 /// The copper that a sequence of objects leaves: every dark one less all clear ones after it.
 ///
-/// A feature that nothing touches keeps its shape; of the others each connected piece is a polygon of its own, with
-/// the axis, attributes and line of the feature it was cut from. So the work grows with what is erased, and a layer
-/// without clear objects costs nothing.
+/// A feature that nothing touches keeps its shape; of the others each connected piece is a polygon
+/// of its own, with the axis, attributes and line of the feature it was cut from. So the work grows
+/// with what is erased, and a layer without clear objects costs nothing.
 ///
 /// # Errors
 ///
-/// [`TooMuch`] for objects made to keep a program busy, such as thousands of planes with thousands of holes each.
+/// [`TooMuch`] for objects made to keep a program busy, such as thousands of planes with thousands
+/// of holes each.
 pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Result<Vec<Feature>, TooMuch> {
     let clear: Vec<(usize, Polygon)> = objects
         .iter()
@@ -141,8 +144,8 @@ pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Result<Vec<Feature>, TooMuc
     Ok(left)
 }
 
-/// Whether the edges of `contours` cross so often that a boolean of them would take minutes and gigabytes. Contours of
-/// fewer than four thousand points are never tangled.
+/// Whether the edges of `contours` cross so often that a boolean of them would take minutes and
+/// gigabytes. Contours of fewer than four thousand points are never tangled.
 #[must_use]
 pub fn is_tangled<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> bool {
     Tangle::of(contours).is_too_much()
@@ -158,13 +161,15 @@ pub fn effort<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> u64 {
 #[derive(Clone, Copy, Debug)]
 struct Tangle {
     edges: u64,
-    /// An estimate from a sample of the edges: how many others each may cross, going by their bounds.
+    /// An estimate from a sample of the edges: how many others each may cross, going by their
+    /// bounds.
     crossings: u64,
 }
 
 impl Tangle {
     fn of<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> Self {
-        /// Chosen: a fraction of what the boolean itself takes, and enough to tell a tangle from a plane.
+        /// Chosen: a fraction of what the boolean itself takes, and enough to tell a tangle from a
+        /// plane.
         const SAMPLE: usize = 64;
         let edges: Vec<Rect> = contours
             .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| Rect::new(a, b)))
@@ -251,7 +256,8 @@ fn polygons(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> Vec<Polygon> {
     shapes.into_iter().filter_map(|shape| Polygon::new(rings(shape).collect())).collect()
 }
 
-/// The library's point. Coordinates of a board are in range; those of a margin beyond it are drawn back to the range.
+/// The library's point. Coordinates of a board are in range; those of a margin beyond it are drawn
+/// back to the range.
 fn int(p: Point) -> IntPoint<i32> {
     IntPoint::new(int_length(p.x), int_length(p.y))
 }

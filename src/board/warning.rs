@@ -1,3 +1,5 @@
+//! What a reader or planner tells a person without stopping: code, text, place and advice.
+
 use serde::Serialize;
 
 use super::{Excerpt, Side};
@@ -40,7 +42,8 @@ pub struct Help {
 /// Something a person must know and the program could go on from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// A stable name in kebab case: `missing-end-of-file`, `gap-narrower-than-tool`. People filter by it.
+    /// A stable name in kebab case: `missing-end-of-file`, `gap-narrower-than-tool`. People filter
+    /// by it.
     pub code: &'static str,
     /// What was found and what was done about it, one sentence without a full stop.
     pub message: String,

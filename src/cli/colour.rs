@@ -1,4 +1,5 @@
-//! Colours for what is read in a terminal: the verdict green, yellow or red, so that it is seen at once.
+//! Colours for what is read in a terminal: the verdict green, yellow or red, so that it is seen at
+//! once.
 
 use std::borrow::Cow;
 use std::io::IsTerminal;

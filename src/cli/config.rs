@@ -30,7 +30,8 @@ impl Config {
         Ok(settings)
     }
 
-    /// An error of settings, with the line of the project that said them unless they were given here.
+    /// An error of settings, with the line of the project that said them unless they were given
+    /// here.
     fn explain(&self, error: Error, project: &MillProject) -> Error {
         let is_given = |key: &str| self.options.listed().iter().any(|(option, _)| option == key);
         match &error {
@@ -46,7 +47,8 @@ impl Config {
         })
     }
 
-    /// What the settings file says: the one that was `named`, or one beside `inputs`; nothing where there is none.
+    /// What the settings file says: the one that was `named`, or one beside `inputs`; nothing where
+    /// there is none.
     pub(super) fn found(named: Option<&Path>, inputs: &[PathBuf]) -> Result<Options, Failure> {
         let file = match named {
             Some(named) => Some(named.to_path_buf()),

@@ -1,3 +1,5 @@
+//! `voromill diff`: what copper changes between two programs or two folders of them.
+
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -14,9 +16,10 @@ use super::{Failure, Shared};
 
 /// What copper changes between two programs, not which lines
 ///
-/// Mills both on a picture and compares: how much more is cut away, how much less, and where. For reviewing G-code. Programs in two
-/// folders are compared by name; what is in one folder alone is all of it a difference. Exit code 0: the same copper; 1:
-/// not the same; 2: it could not be compared.
+/// Mills both on a picture and compares: how much more is cut away, how much less, and where. For
+/// reviewing G-code. Programs in two folders are compared by name; what is in one folder alone is
+/// all of it a difference. Exit code 0: the same copper; 1: not the same; 2: it could not be
+/// compared.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Diff {
@@ -32,7 +35,8 @@ pub(super) struct Diff {
     #[arg(long, short, value_name = "OUT")]
     output: Option<PathBuf>,
 
-    /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: as the programs' comments say]
+    /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: as the programs' comments
+    /// say]
     #[arg(long, value_name = "TOOL")]
     tool: Option<Cutter>,
 

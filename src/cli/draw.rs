@@ -1,3 +1,5 @@
+//! `voromill draw`: a picture of one stage, as PNG, SVG or in the terminal.
+
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -21,9 +23,10 @@ use super::{Failure, Shared, colour};
 
 /// A picture of one stage
 ///
-/// A pixel shows what lies at its centre; row 0 is on top; both sides are seen from the front. `copper` is white on
-/// black and nothing between. The picture's pixel is that of --pixel or --dpi, or 1000 to the inch. A name
-/// that ends in .svg gives lines and areas instead of pixels, and `-` shows the picture in the terminal.
+/// A pixel shows what lies at its centre; row 0 is on top; both sides are seen from the front.
+/// `copper` is white on black and nothing between. The picture's pixel is that of --pixel or --dpi,
+/// or 1000 to the inch. A name that ends in .svg gives lines and areas instead of pixels, and `-`
+/// shows the picture in the terminal.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Draw {
@@ -38,7 +41,8 @@ pub(super) struct Draw {
     #[arg(long, short, value_name = "FILE")]
     output: PathBuf,
 
-    /// How it is written [default: as the name ends; in a terminal, blocks, or shades where it wants no colours]
+    /// How it is written [default: as the name ends; in a terminal, blocks, or shades where it
+    /// wants no colours]
     #[arg(long, value_enum)]
     format: Option<Format>,
 
@@ -46,7 +50,8 @@ pub(super) struct Draw {
     #[arg(long, value_enum)]
     side: Option<SideName>,
 
-    /// Part of the board: left, bottom, width, height, such as `0mm,0mm,2in,1in` [default: all of it]
+    /// Part of the board: left, bottom, width, height, such as `0mm,0mm,2in,1in` [default: all of
+    /// it]
     #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true)]
     window: Option<Window>,
 
@@ -75,7 +80,8 @@ enum Stage {
     Voronoi,
     /// The boundaries alone, with the points where they meet
     Boundaries,
-    /// The boundaries by the room that they leave on either side: red where there is least, blue from a millimetre on
+    /// The boundaries by the room that they leave on either side: red where there is least, blue
+    /// from a millimetre on
     Heat,
     /// How far from copper, dark to light: half as bright is a quarter as far
     Depth,
@@ -169,10 +175,12 @@ impl Draw {
     }
 }
 
-/// The area a hair to the right and down: copper that ends exactly at the middle of a pixel, as on boards drawn in mils
-/// it often does, then covers the pixel at its left and upper end and not that at its right and lower one.
+/// The area a hair to the right and down: copper that ends exactly at the middle of a pixel, as on
+/// boards drawn in mils it often does, then covers the pixel at its left and upper end and not that
+/// at its right and lower one.
 ///
-/// Half a step of the raster's fixed point, 24.8, so that what lies on a middle is never rounded back to it.
+/// Half a step of the raster's fixed point, 24.8, so that what lies on a middle is never rounded
+/// back to it.
 fn off_ties(area: Rect, pixel: Nm) -> Rect {
     let hair = pixel / 512 + Nm::new(1);
     let way = Vector::new(hair, -hair);

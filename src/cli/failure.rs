@@ -1,3 +1,8 @@
+//! Why a command did nothing, in words for a terminal: the cause and the way out.
+//!
+//! The one place where errors of all stages become text; control characters of hostile files are
+//! made visible.
+
 use std::io::IsTerminal;
 
 use voromill::{import, job, verify};

@@ -1,3 +1,5 @@
+//! `voromill init`: a commented settings file with every default.
+
 use std::path::PathBuf;
 
 use clap::Args;

@@ -1,3 +1,5 @@
+//! The options that name input files and their roles, shared by all commands that read a board.
+
 use std::path::PathBuf;
 
 use clap::Args;

@@ -1,3 +1,5 @@
+//! `voromill inspect`: what is in the files, before anything is made of them.
+
 use clap::{Args, ValueEnum};
 use voromill::job::{inspect, paper};
 
@@ -7,8 +9,8 @@ use super::{Failure, Shared};
 
 /// What is in these files
 ///
-/// Lists each file with its role, format, units and apertures; size, nets, names, smallest gaps and holes of the
-/// board; and everything that was repaired or left out. Nothing is written.
+/// Lists each file with its role, format, units and apertures; size, nets, names, smallest gaps and
+/// holes of the board; and everything that was repaired or left out. Nothing is written.
 #[derive(Args)]
 pub(super) struct Inspect {
     #[command(flatten)]
@@ -18,7 +20,8 @@ pub(super) struct Inspect {
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 
-    /// Add the figures of the paper's Table V, computed the paper's way at 500 DPI, and voromill's own beside them
+    /// Add the figures of the paper's Table V, computed the paper's way at 500 DPI, and voromill's
+    /// own beside them
     ///
     /// Run times are among them, so no two runs print the same.
     #[arg(long)]

@@ -1,3 +1,5 @@
+//! `voromill isolate`: the isolation program of one copper layer.
+
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -12,8 +14,8 @@ use super::{Failure, Shared};
 
 /// The isolation program of one copper layer
 ///
-/// Reads one copper file (with an outline beside it, if it is named too) and writes the one program that isolates its
-/// nets. A back layer is mirrored, as the program's header says.
+/// Reads one copper file (with an outline beside it, if it is named too) and writes the one program
+/// that isolates its nets. A back layer is mirrored, as the program's header says.
 #[derive(Args)]
 pub(super) struct Isolate {
     #[command(flatten)]

@@ -1,8 +1,9 @@
-//! What earlier runs left in the folder that is written to: an old program beside new ones is milled by mistake.
+//! What earlier runs left in the folder that is written to: an old program beside new ones is
+//! milled by mistake.
 //!
-//! `NAME.json` lists the files that a run wrote, with their hashes. What the next run of the same board does not write
-//! again goes, unless somebody has changed it since. All other programs in the folder are named: nobody knows of which
-//! board, or of which revision of it, they are.
+//! `NAME.json` lists the files that a run wrote, with their hashes. What the next run of the same
+//! board does not write again goes, unless somebody has changed it since. All other programs in the
+//! folder are named: nobody knows of which board, or of which revision of it, they are.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -36,7 +37,8 @@ struct Manifest {
 }
 
 impl Leftovers {
-    /// What lies in `folder` where a run writes `written`, the last of them its manifest, from `sources`.
+    /// What lies in `folder` where a run writes `written`, the last of them its manifest, from
+    /// `sources`.
     pub(super) fn find(folder: &Path, written: &[(String, Vec<u8>)], sources: &[Source]) -> Self {
         // A file system may hold names of capitals and small letters for the same.
         let is_written = |name: &str| written.iter().any(|(other, _)| other.eq_ignore_ascii_case(name));

@@ -1,3 +1,5 @@
+//! `voromill level`: a program that follows the surface that a probe has found.
+
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -11,11 +13,12 @@ use super::{Failure, Shared};
 
 /// A program bent to the surface that a probe has found
 ///
-/// Reads anybody's program and a map of heights, and adds the height of the surface to every z below the height for travel. Cuts
-/// and arcs are split where the surface asks for it; comments, tools, feeds and rapids above the board stay as they are. The map is
-/// bCNC's .probe, OpenCNCPilot's .hmap, Candle's .map, an .xyz table of Universal Gcode Sender, a probe log of LinuxCNC or Mach, or a log
-/// with Grbl's [PRB:...] or TinyG's {"prb":...} lines, known by what is in it. A touch that lies off its neighbours by more than the
-/// rest scatters is refused.
+/// Reads anybody's program and a map of heights, and adds the height of the surface to every z
+/// below the height for travel. Cuts and arcs are split where the surface asks for it; comments,
+/// tools, feeds and rapids above the board stay as they are. The map is bCNC's .probe,
+/// OpenCNCPilot's .hmap, Candle's .map, an .xyz table of Universal Gcode Sender, a probe log of
+/// LinuxCNC or Mach, or a log with Grbl's [PRB:...] or TinyG's {"prb":...} lines, known by what is
+/// in it. A touch that lies off its neighbours by more than the rest scatters is refused.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Level {
@@ -31,11 +34,13 @@ pub(super) struct Level {
     #[arg(long, short, value_name = "OUT")]
     output: Option<PathBuf>,
 
-    /// How far the tool may leave its depth below the surface between the points where a cut is split
+    /// How far the tool may leave its depth below the surface between the points where a cut is
+    /// split
     #[arg(long, value_name = "LENGTH", default_value = "5um")]
     tolerance: Length,
 
-    /// How far outside the probed area the program may cut; the surface is taken to go on level there
+    /// How far outside the probed area the program may cut; the surface is taken to go on level
+    /// there
     #[arg(long, value_name = "LENGTH", default_value = "2mm")]
     margin: Length,
 
@@ -55,7 +60,8 @@ pub(super) struct Level {
     #[arg(long)]
     accept_outliers: bool,
 
-    /// Take the height at this place as zero: where z was set to zero after probing, with another tool
+    /// Take the height at this place as zero: where z was set to zero after probing, with another
+    /// tool
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     zero_at: Option<Place>,
 }
@@ -170,7 +176,8 @@ fn off(outliers: &[Outlier]) -> String {
 }
 
 fn positive(option: &str, length: Length) -> Result<Nm, Failure> {
-    /// A cut split more often than each micrometre of height is longer than any machine has patience for.
+    /// A cut split more often than each micrometre of height is longer than any machine has
+    /// patience for.
     const LEAST: Nm = Nm::from_um(1);
     if length.nm() >= LEAST {
         return Ok(length.nm());

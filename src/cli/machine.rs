@@ -1,3 +1,5 @@
+//! `voromill machine`: profiles of machines, and one made from a controller's own settings.
+
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -8,9 +10,9 @@ use super::{Failure, Shared};
 
 /// The machines whose figures are known, and those that say theirs
 ///
-/// A machine's profile says how far and how fast its axes go, how fast they come up to speed, what its spindle turns at and what it
-/// speaks. `--machine NAME` (or a file) of the other commands takes it: times are then that machine's, and programs ask no more
-/// of it than it can do.
+/// A machine's profile says how far and how fast its axes go, how fast they come up to speed, what
+/// its spindle turns at and what it speaks. `--machine NAME` (or a file) of the other commands
+/// takes it: times are then that machine's, and programs ask no more of it than it can do.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Machine {
@@ -27,7 +29,8 @@ enum Action {
         /// A name of `list`
         name: String,
     },
-    /// The profile of a machine, as TOML, from what its controller says: Grbl's answer to $$, or a LinuxCNC ini file
+    /// The profile of a machine, as TOML, from what its controller says: Grbl's answer to $$, or a
+    /// LinuxCNC ini file
     Import {
         /// A file with that; `-` for stdin
         file: PathBuf,

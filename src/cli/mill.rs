@@ -1,3 +1,5 @@
+//! `voromill mill`: the main job, from files to all programs, pictures and the report.
+
 use std::path::PathBuf;
 use std::process::ExitCode;
 
@@ -19,12 +21,13 @@ use super::{Failure, Shared};
 
 /// All programs, pictures and the report of a board
 ///
-/// Reads a folder, a zip archive or single files, finds the copper of both sides, the outline and the holes, and
-/// writes into OUT, named after the board: NAME-front.ngc and NAME-back.ngc that isolate the nets (the back turned
-/// over left to right), NAME-drill.ngc, NAME-cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut,
-/// NAME.html to look at it all in a browser, and NAME.json, which lists them. What an earlier run of the board wrote there
-/// and this one does not is removed. With one copper file alone, that side. The programs are
-/// read back and milled on a picture before anybody mills them: exit code 1 where that finds something.
+/// Reads a folder, a zip archive or single files, finds the copper of both sides, the outline and
+/// the holes, and writes into OUT, named after the board: NAME-front.ngc and NAME-back.ngc that
+/// isolate the nets (the back turned over left to right), NAME-drill.ngc, NAME-cutout.ngc,
+/// NAME-front.png and NAME-back.png that show what will be cut, NAME.html to look at it all in a
+/// browser, and NAME.json, which lists them. What an earlier run of the board wrote there and this
+/// one does not is removed. With one copper file alone, that side. The programs are read back and
+/// milled on a picture before anybody mills them: exit code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Mill {
@@ -55,7 +58,8 @@ pub(super) struct Mill {
     #[arg(long, help_heading = "Output")]
     json: bool,
 
-    /// Print a name for what would be made, and make nothing: the same for the same files, settings and version
+    /// Print a name for what would be made, and make nothing: the same for the same files, settings
+    /// and version
     #[arg(long, help_heading = "Output", conflicts_with_all = ["output", "json"])]
     cache_key: bool,
 

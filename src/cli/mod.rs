@@ -31,8 +31,9 @@ use failure::Failure;
 
 /// Gerber and drill files in, G-code for a mill out
 ///
-/// voromill isolates the nets of a printed-circuit board along the Voronoi diagram of its copper: one cut midway
-/// between neighbours, as far from copper as there is room. No GPU, no display, the same bytes on every machine.
+/// voromill isolates the nets of a printed-circuit board along the Voronoi diagram of its copper:
+/// one cut midway between neighbours, as far from copper as there is room. No GPU, no display, the
+/// same bytes on every machine.
 #[derive(Parser)]
 #[command(version, propagate_version = true, arg_required_else_help = true, after_help = EXAMPLES)]
 struct Cli {
@@ -122,7 +123,8 @@ pub(crate) fn run() -> ExitCode {
     }
 }
 
-/// The command with the default of each option that it takes, as the built-in settings have it, in its help.
+/// The command with the default of each option that it takes, as the built-in settings have it, in
+/// its help.
 fn command() -> clap::Command {
     let defaults = Options::defaults().listed();
     scope::hidden(Cli::command()).mut_subcommands(move |sub| {

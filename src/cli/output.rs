@@ -1,9 +1,10 @@
-//! Files appear whole or not at all: all are written beside their place under another name, and renamed once
-//! every one of them is complete. A link is followed, and what is no file (a device, a pipe) is written to as it
-//! stands: renamed onto, `/dev/null` would be a file from then on, for every program of the machine.
+//! Files appear whole or not at all: all are written beside their place under another name, and
+//! renamed once every one of them is complete. A link is followed, and what is no file (a device, a
+//! pipe) is written to as it stands: renamed onto, `/dev/null` would be a file from then on, for
+//! every program of the machine.
 //!
-//! A program that is interrupted (SIGINT, SIGTERM) leaves nothing either: a thread waits for these signals, removes what
-//! was not renamed yet, and lets the signal end the program as it would have.
+//! A program that is interrupted (SIGINT, SIGTERM) leaves nothing either: a thread waits for these
+//! signals, removes what was not renamed yet, and lets the signal end the program as it would have.
 
 use std::borrow::Cow;
 use std::fs;
@@ -66,7 +67,8 @@ impl Output {
             self.streams.push((path.to_path_buf(), bytes.to_vec()));
             return Ok(());
         }
-        // Held while it is written, so that no signal ends the program between the file and its entry.
+        // Held while it is written, so that no signal ends the program between the file and its
+        // entry.
         let mut pending = self.pending();
         if pending.staged.iter().any(|(_, staged)| staged == path) {
             let hint = "choose another name with --output-name";
@@ -85,7 +87,8 @@ impl Output {
 
     /// Fills devices and pipes, then gives all files their names.
     pub(super) fn commit(self) -> Result<(), Failure> {
-        // A pipe may wait for its reader for ever, and must not keep a signal waiting: nothing is locked yet.
+        // A pipe may wait for its reader for ever, and must not keep a signal waiting: nothing is
+        // locked yet.
         for (path, bytes) in &self.streams {
             fs::write(path, bytes).map_err(|error| Failure::io("write", path, &error))?;
         }
@@ -117,7 +120,8 @@ fn lock(pending: &Mutex<Pending>) -> MutexGuard<'_, Pending> {
     pending.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Clears `pending` where a signal ends the program. Where no signal can be waited for, it ends as it always did.
+/// Clears `pending` where a signal ends the program. Where no signal can be waited for, it ends as
+/// it always did.
 #[cfg(unix)]
 fn leave_nothing_when_interrupted(pending: &Arc<Mutex<Pending>>) {
     use signal_hook::consts::{SIGINT, SIGTERM};

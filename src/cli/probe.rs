@@ -1,3 +1,5 @@
+//! `voromill probe`: the program that probes the surface for `voromill level`.
+
 use std::path::{Path, PathBuf};
 
 use clap::Args;
@@ -13,9 +15,10 @@ use super::{Failure, Shared};
 
 /// The program that touches a board's surface, for `voromill level`
 ///
-/// Touches the copper in a grid over the board as it will lie on the machine (with the same --origin, --rotate, --tile and
-/// --mirror-axis as `voromill mill`), with the tool itself, a wire on it and the spindle off. LinuxCNC keeps the touches in a
-/// file that the program names; of Grbl keep what it reports. Work zero stays where it was.
+/// Touches the copper in a grid over the board as it will lie on the machine (with the same
+/// --origin, --rotate, --tile and --mirror-axis as `voromill mill`), with the tool itself, a wire
+/// on it and the spindle off. LinuxCNC keeps the touches in a file that the program names; of Grbl
+/// keep what it reports. Work zero stays where it was.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Probe {

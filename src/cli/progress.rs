@@ -1,3 +1,5 @@
+//! What is being done, shown on a terminal while it takes long.
+
 use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressStyle};

@@ -1,7 +1,9 @@
-//! Which options of a job mean something to which subcommand: the others are neither shown nor taken there.
+//! Which options of a job mean something to which subcommand: the others are neither shown nor
+//! taken there.
 //!
-//! All that read a board share the options of a job, and its settings file, so that a board is seen as it will be milled. What changes
-//! nothing of what comes out would be believed to have done something.
+//! All that read a board share the options of a job, and its settings file, so that a board is seen
+//! as it will be milled. What changes nothing of what comes out would be believed to have done
+//! something.
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
@@ -9,7 +11,8 @@ use voromill::job::{Options, Part};
 
 use super::Failure;
 
-/// The command, with the options of a job left out of the help of the subcommands to which they mean nothing.
+/// The command, with the options of a job left out of the help of the subcommands to which they
+/// mean nothing.
 pub(super) fn hidden(command: Command) -> Command {
     let options = options();
     command.mut_subcommands(move |sub| {
@@ -71,7 +74,8 @@ fn places(option: &str) -> bool {
     matches!(option, "origin" | "rotate" | "offset" | "mirror-axis" | "tile" | "tile-spacing")
 }
 
-/// What is of the text of programs, or of the machine that reads it, and not of what is cut on a board.
+/// What is of the text of programs, or of the machine that reads it, and not of what is cut on a
+/// board.
 fn is_of_the_machine(option: &str) -> bool {
     matches!(
         option,

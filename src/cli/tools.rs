@@ -1,3 +1,5 @@
+//! `voromill tools`: the tools there are, and the kerf of each at several depths.
+
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
@@ -11,8 +13,9 @@ use super::{Failure, Shared};
 
 /// The tools there are, and how wide they cut at which depth
 ///
-/// Lists the built-in tools and those of the `[tools.NAME]` tables of voromill.toml (beside PATH, or here), with their speeds and the width of
-/// their cut at several depths. With --depth: the cut at that depth; with --kerf: the depth for a cut of that width.
+/// Lists the built-in tools and those of the `[tools.NAME]` tables of voromill.toml (beside PATH,
+/// or here), with their speeds and the width of their cut at several depths. With --depth: the cut
+/// at that depth; with --kerf: the depth for a cut of that width.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Tools {
@@ -50,7 +53,8 @@ A tool of your own, in voromill.toml:
   number = 3               # in the machine's tool table
   kerf = \"0.15mm\"          # or depth: how it isolates";
 
-/// The depths at which kerfs are shown unless others are asked for. Chosen: about one to six times common copper.
+/// The depths at which kerfs are shown unless others are asked for. Chosen: about one to six times
+/// common copper.
 const DEPTHS: [Length; 4] =
     [Length(Nm::from_um(50)), Length(Nm::from_um(100)), Length(Nm::from_um(150)), Length(Nm::from_um(200))];
 

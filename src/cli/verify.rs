@@ -1,3 +1,5 @@
+//! `voromill verify`: what programs, anybody's, do to a board before a machine does it.
+
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -16,13 +18,15 @@ use super::{Failure, Shared};
 
 /// What programs do to a board, before a machine does it
 ///
-/// Reads G-code, anybody's, mills the board with it on a picture, and compares what is left with the design: nets joined or cut in two,
-/// copper lost, rapids through material, holes missed. What voromill wrote says itself which tool and side it is
-/// for; of other programs tell it. Exit code 0: nothing as bad as --deny; 1: something; 2: it could not be judged.
+/// Reads G-code, anybody's, mills the board with it on a picture, and compares what is left with
+/// the design: nets joined or cut in two, copper lost, rapids through material, holes missed. What
+/// voromill wrote says itself which tool and side it is for; of other programs tell it. Exit code
+/// 0: nothing as bad as --deny; 1: something; 2: it could not be judged.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Verify {
-    /// Programs to judge, those for the same side together; of a folder all in it, and what the board asks for beside them is missed
+    /// Programs to judge, those for the same side together; of a folder all in it, and what the
+    /// board asks for beside them is missed
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
 
@@ -34,7 +38,8 @@ pub(super) struct Verify {
     #[arg(long, value_name = "FILE")]
     skip: Vec<PathBuf>,
 
-    /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: as the program's comments say]
+    /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: as the program's comments
+    /// say]
     #[arg(long, value_name = "TOOL")]
     tool: Option<Cutter>,
 
@@ -54,7 +59,8 @@ pub(super) struct Verify {
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     rotate: Option<Angle>,
 
-    /// Find from what is cut how the board lies under each program: the offset, and unless given, --mirror and quarter turns
+    /// Find from what is cut how the board lies under each program: the offset, and unless given,
+    /// --mirror and quarter turns
     #[arg(long, conflicts_with = "offset")]
     register: bool,
 
@@ -86,7 +92,8 @@ pub(super) struct Verify {
     #[arg(long, value_name = "X,Y,Z")]
     travel: Option<Travel>,
 
-    /// How many tabs must hold each board; 0 for boards that are held otherwise [default: at least one]
+    /// How many tabs must hold each board; 0 for boards that are held otherwise [default: at least
+    /// one]
     #[arg(long, value_name = "NUMBER")]
     tabs: Option<u32>,
 
@@ -207,7 +214,8 @@ fn lengths<const COUNT: usize>(text: &str) -> Option<[Nm; COUNT]> {
 impl Verify {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
         let selection = Selection { skip: self.skip.clone(), ..Selection::default() };
-        // What is cut says which side it is for; a file of copper that does not may be looked at as either.
+        // What is cut says which side it is for; a file of copper that does not may be looked at as
+        // either.
         let Loaded { mut board, sources, .. } = import::survey(&self.board, &selection)?;
         let files = self.files()?;
         let mut programs = files.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
@@ -248,7 +256,8 @@ impl Verify {
         Ok(if report.passes(self.deny) { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 
-    /// Takes the nets out of the copper that were not to be isolated, and widens holes that are for rivets.
+    /// Takes the nets out of the copper that were not to be isolated, and widens holes that are for
+    /// rivets.
     fn leave_out(&self, board: &mut Board, programs: &[Program]) {
         let mut patterns = self.ignore.clone();
         if patterns.is_empty() {

@@ -7,7 +7,8 @@ use crate::toolpath::{Move, Program, Tool, duration};
 
 use super::dialect::Dialect;
 
-/// What a program says of itself before it begins: what made it, from what, how. No clock, no path, no host.
+/// What a program says of itself before it begins: what made it, from what, how. No clock, no path,
+/// no host.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Header {
     /// The program and its version: `voromill 0.1.0`.
@@ -62,7 +63,8 @@ fn setting(name: &str, value: &str) -> Vec<String> {
     lines
 }
 
-/// A value whose every character survives in a comment: what does not is written as `^` and two hexadecimal digits for each byte.
+/// A value whose every character survives in a comment: what does not is written as `^` and two
+/// hexadecimal digits for each byte.
 fn escaped(value: &str) -> String {
     let mut out = String::with_capacity(value.len());
     for byte in value.bytes() {
@@ -75,8 +77,8 @@ fn escaped(value: &str) -> String {
     out
 }
 
-/// What a person wants to know before they start a program, at most ten lines: what it makes, of which tools, how long, how far it goes, where zero is,
-/// what must be set.
+/// What a person wants to know before they start a program, at most ten lines: what it makes, of
+/// which tools, how long, how far it goes, where zero is, what must be set.
 pub(super) fn brief(program: &Program, dialect: &Dialect, header: &Header) -> Vec<String> {
     let mut lines = vec![program.title.clone()];
     lines.extend(tools(program));

@@ -1,3 +1,5 @@
+//! The program that probes a surface in a grid, for the dialects that can.
+
 use crate::geometry::{Nm, Point, Rect};
 use crate::toolpath::{Feed, Move, Position, Program};
 

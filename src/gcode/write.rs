@@ -1,9 +1,10 @@
 //! Toolpath → text.
 //!
-//! Coordinates are rounded here, once, to the dialect's last digit, and everything is decided on the rounded
-//! figures: what has not moved is not written, and an arc that rounding would turn into another (a
-//! short one whose end slips behind its start would become a full circle) is written as lines. A full circle is written in two halves,
-//! as controllers differ in what an arc is that ends where it begins: all round, nothing, or an error.
+//! Coordinates are rounded here, once, to the dialect's last digit, and everything is decided on
+//! the rounded figures: what has not moved is not written, and an arc that rounding would turn into
+//! another (a short one whose end slips behind its start would become a full circle) is written as
+//! lines. A full circle is written in two halves, as controllers differ in what an arc is that ends
+//! where it begins: all round, nothing, or an error.
 
 use std::fmt::Write as _;
 
@@ -17,7 +18,8 @@ use super::header::{Header, brief, highest, named};
 
 /// The whole program as text, every line ended.
 ///
-/// It lifts first, has the spindle up to speed before each plunge, and ends lifted with the spindle off.
+/// It lifts first, has the spindle up to speed before each plunge, and ends lifted with the spindle
+/// off.
 #[must_use]
 pub fn write(program: &Program, dialect: &Dialect, header: &Header) -> String {
     let mut writer = Writer::new(dialect);
@@ -72,7 +74,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Header, start lines, and the first lift: as high as the program goes anywhere, since nobody knows where the machine stands.
+    /// Header, start lines, and the first lift: as high as the program goes anywhere, since nobody
+    /// knows where the machine stands.
     pub(super) fn begin(&mut self, program: &Program, header: &Header) {
         for line in brief(program, self.dialect, header).iter().chain(&header.provenance()) {
             self.comment(line);
@@ -121,7 +124,8 @@ impl<'a> Writer<'a> {
                 if !self.dialect.own.at_tool_change.is_empty() {
                     self.modes();
                 }
-                // Whoever changes the tool may have moved the machine: the next place is written in full.
+                // Whoever changes the tool may have moved the machine: the next place is written in
+                // full.
                 self.at = None;
                 self.lift(Nm::new(height * self.unit));
             }
@@ -241,7 +245,8 @@ impl<'a> Writer<'a> {
         self.line(&line);
     }
 
-    /// The speed of a rapid, where it must be said; the cut that follows it then says its own again.
+    /// The speed of a rapid, where it must be said; the cut that follows it then says its own
+    /// again.
     fn rapid_feed(&mut self, line: &mut String) {
         let says = match self.dialect.rapids {
             Rapids::Unfed => false,
@@ -278,8 +283,9 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Whether the arc between the rounded points round the rounded centre is still that arc: every point of it
-    /// within two units of the last digit, and the two radii as near as the controller asks.
+    /// Whether the arc between the rounded points round the rounded centre is still that arc: every
+    /// point of it within two units of the last digit, and the two radii as near as the controller
+    /// asks.
     fn survives_rounding(&self, arc: &Arc) -> bool {
         let snap =
             |p: Point| Point::new(Nm::new(self.round(p.x) * self.unit), Nm::new(self.round(p.y) * self.unit));
@@ -422,10 +428,12 @@ const OWN_ENDS: &str = "own G-code ends";
 /// How far chords may leave an arc that is written as lines.
 const CHORD: Nm = Nm::from_um(1);
 
-/// How far the radii at an arc's two ends may differ: LinuxCNC refuses more than 1.27 µm, Grbl more than 5 µm.
+/// How far the radii at an arc's two ends may differ: LinuxCNC refuses more than 1.27 µm, Grbl more
+/// than 5 µm.
 const RADIUS_ERROR: Nm = Nm::new(1200);
 
-/// The part of the radius by which they may differ where that is asked too: half of the thousandth that is refused.
+/// The part of the radius by which they may differ where that is asked too: half of the thousandth
+/// that is refused.
 const RELATIVE: f64 = 2_000.0;
 
 fn word(turn: Turn) -> &'static str {
@@ -435,7 +443,8 @@ fn word(turn: Turn) -> &'static str {
     }
 }
 
-/// Text that every controller bears in a comment: printable ASCII, without what ends a comment or acts at once.
+/// Text that every controller bears in a comment: printable ASCII, without what ends a comment or
+/// acts at once.
 pub(super) fn plain(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -1,3 +1,5 @@
+//! Circular arcs between whole nanometres: turn, radius, flattening to a tolerance.
+
 use std::f64::consts::PI;
 
 use super::{Nm, Point, Rect};
@@ -22,10 +24,12 @@ impl Turn {
     }
 }
 
-/// A circular arc from `start` round `center` to `end`; a full circle where `start` and `end` are the same point.
+/// A circular arc from `start` round `center` to `end`; a full circle where `start` and `end` are
+/// the same point.
 ///
-/// The three points are whole nanometres, so the two radii may differ by a rounding (and, in sloppy files, by
-/// more): in between, the radius goes over evenly from one to the other, and both ends are met exactly.
+/// The three points are whole nanometres, so the two radii may differ by a rounding (and, in sloppy
+/// files, by more): in between, the radius goes over evenly from one to the other, and both ends
+/// are met exactly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Arc {
     /// Where it begins.
@@ -45,7 +49,8 @@ impl Arc {
         self.center.distance(self.start)
     }
 
-    /// How much its two radii differ, in nanometres: what rounding three points leaves, and in sloppy files more.
+    /// How much its two radii differ, in nanometres: what rounding three points leaves, and in
+    /// sloppy files more.
     #[must_use]
     pub fn drift(&self) -> f64 {
         (self.radius() - self.center.distance(self.end)).abs()
@@ -80,7 +85,8 @@ impl Arc {
         f64::midpoint(self.radius(), self.center.distance(self.end)) * self.sweep().abs()
     }
 
-    /// The point at `fraction` (0 at the start, 1 at the end) of the way round, in nanometres, not rounded.
+    /// The point at `fraction` (0 at the start, 1 at the end) of the way round, in nanometres, not
+    /// rounded.
     #[must_use]
     pub fn at(&self, fraction: f64) -> (f64, f64) {
         let (from, to) = (self.radius(), self.center.distance(self.end));
@@ -96,7 +102,8 @@ impl Arc {
         Self { start: self.end, end: self.start, center: self.center, turn: self.turn.reversed() }
     }
 
-    /// How many equal chords stay within `tolerance` of the arc; at least 1, and 3 for a full circle.
+    /// How many equal chords stay within `tolerance` of the arc; at least 1, and 3 for a full
+    /// circle.
     ///
     /// A chord over the angle φ leaves a circle of radius r by r (1 − cos φ/2).
     #[must_use]
@@ -109,7 +116,8 @@ impl Arc {
         ((self.sweep().abs() / step).ceil() as usize).clamp(least, 1 << 16)
     }
 
-    /// The end points of chords within `tolerance` of the arc, without the start and with the exact end.
+    /// The end points of chords within `tolerance` of the arc, without the start and with the exact
+    /// end.
     #[expect(clippy::cast_precision_loss, reason = "at most 2¹⁶ chords")]
     pub fn flatten(&self, tolerance: Nm) -> impl Iterator<Item = Point> + use<> {
         let (arc, count) = (*self, self.chords(tolerance));

@@ -1,4 +1,5 @@
-//! Lengths as people write them: `0.2mm`, `200um`, `8mil`, `0.1in`. The decimal is read exactly, never as a float.
+//! Lengths as people write them: `0.2mm`, `200um`, `8mil`, `0.1in`. The decimal is read exactly,
+//! never as a float.
 
 use std::str::FromStr;
 
@@ -34,7 +35,8 @@ impl FromStr for Nm {
     }
 }
 
-/// The nanometres of a length, also of one beyond what [`Nm`] holds: what a machine goes in a minute may be longer than any board.
+/// The nanometres of a length, also of one beyond what [`Nm`] holds: what a machine goes in a
+/// minute may be longer than any board.
 pub(crate) fn nanometres(text: &str) -> Result<i64, ParseLengthError> {
     let trimmed = text.trim();
     let digits = trimmed
@@ -58,8 +60,8 @@ pub(crate) fn nanometres(text: &str) -> Result<i64, ParseLengthError> {
     i64::try_from((scaled + half) / scale).map_err(|_| ParseLengthError::OutOfRange(text.to_owned()))
 }
 
-/// A decimal as mantissa and power of ten, `1.25` → (125, 100); at most 18 digits before the point. What stands behind the 18th after it is below
-/// any rounding.
+/// A decimal as mantissa and power of ten, `1.25` → (125, 100); at most 18 digits before the point.
+/// What stands behind the 18th after it is below any rounding.
 fn decimal(text: &str) -> Option<(i128, i128)> {
     let (negative, unsigned) = match text.as_bytes() {
         [b'-', ..] => (true, &text[1..]),

@@ -1,8 +1,9 @@
 //! Exact plane geometry in integer nanometres.
 //!
-//! Everything that is not a pixel is an [`Nm`]: a whole number of nanometres within ±(2³⁰ − 1), about a metre
-//! each way. The bound is what makes the rest exact: the difference of two coordinates fits 31 bits, a cross or dot
-//! product of two differences fits an `i64`, so orientation and containment are decided without rounding.
+//! Everything that is not a pixel is an [`Nm`]: a whole number of nanometres within ±(2³⁰ − 1),
+//! about a metre each way. The bound is what makes the rest exact: the difference of two
+//! coordinates fits 31 bits, a cross or dot product of two differences fits an `i64`, so
+//! orientation and containment are decided without rounding.
 //!
 //! ```text
 //!        y ▲         x to the right, y up, as in Gerber;
@@ -10,8 +11,8 @@
 //!          └────▶ x
 //! ```
 //!
-//! Floats appear only in [`Arc`] flattening (through `libm`, so that every machine agrees) and are rounded to the
-//! nanometre before they leave.
+//! Floats appear only in [`Arc`] flattening (through `libm`, so that every machine agrees) and are
+//! rounded to the nanometre before they leave.
 
 mod arc;
 mod length;

@@ -1,3 +1,7 @@
+//! Lengths in whole nanometres, their range and their decimal text.
+//!
+//! Integers, so that contact and containment are decided exactly and no bit depends on a machine.
+
 use std::fmt;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -6,9 +10,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 ///
 /// # Range
 ///
-/// A coordinate read from a file lies within [`Nm::MIN`]..=[`Nm::MAX`] (±(2³⁰ − 1) nm, ±1.07 m): [`Nm::try_new`]
-/// checks it. Arithmetic on coordinates in range (differences, a tool's offset, a margin) cannot overflow the `i64`
-/// inside.
+/// A coordinate read from a file lies within [`Nm::MIN`]..=[`Nm::MAX`] (±(2³⁰ − 1) nm, ±1.07 m):
+/// [`Nm::try_new`] checks it. Arithmetic on coordinates in range (differences, a tool's offset, a
+/// margin) cannot overflow the `i64` inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Nm(i64);
 
@@ -25,7 +29,8 @@ impl Nm {
     /// Zero.
     pub const ZERO: Self = Self(0);
 
-    /// `value` nanometres, unchecked: for constants and for results of arithmetic on checked coordinates.
+    /// `value` nanometres, unchecked: for constants and for results of arithmetic on checked
+    /// coordinates.
     #[must_use]
     pub const fn new(value: i64) -> Self {
         Self(value)
@@ -85,8 +90,8 @@ impl Nm {
     }
 }
 
-/// Millimetres with as many decimals as the precision asks for (6 by default), rounded half away from zero by
-/// integer division; never `-0`.
+/// Millimetres with as many decimals as the precision asks for (6 by default), rounded half away
+/// from zero by integer division; never `-0`.
 impl fmt::Display for Nm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let decimals = f.precision().unwrap_or(6).min(6);

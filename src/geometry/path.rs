@@ -1,3 +1,5 @@
+//! Connected lines and arcs: what a stroke, a contour or a cut follows.
+
 use super::{Arc, Nm, Point, Rect, Turn, Vector};
 
 /// A step of a [`Path`], from where the one before it ended.

@@ -1,3 +1,5 @@
+//! Points and vectors in nanometres, with exact products.
+
 use std::ops::{Add, Neg, Sub};
 
 use super::Nm;
@@ -66,7 +68,8 @@ impl Vector {
         self.x.get() * other.x.get() + self.y.get() * other.y.get()
     }
 
-    /// The cross product in nm²: positive where `other` lies counter-clockwise of this; exact as [`Vector::dot`].
+    /// The cross product in nm²: positive where `other` lies counter-clockwise of this; exact as
+    /// [`Vector::dot`].
     #[must_use]
     pub const fn cross(self, other: Self) -> i64 {
         self.x.get() * other.y.get() - self.y.get() * other.x.get()
@@ -204,7 +207,8 @@ impl Rect {
         }
     }
 
-    /// Grown by `margin` on every side; a negative margin that would turn it inside out leaves its centre.
+    /// Grown by `margin` on every side; a negative margin that would turn it inside out leaves its
+    /// centre.
     #[must_use]
     pub fn inflate(self, margin: Nm) -> Self {
         let by = margin.max(-(self.width().min(self.height()) / 2));

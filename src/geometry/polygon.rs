@@ -1,18 +1,23 @@
+//! Filled areas of closed contours, and their clipping to rectangles.
+
 use super::{Nm, Orientation, Point, Rect, Vector, orientation};
 
-/// A filled area: closed contours, of which each point counts as inside by the non-zero winding rule.
+/// A filled area: closed contours, of which each point counts as inside by the non-zero winding
+/// rule.
 ///
 /// # Guarantees
 ///
-/// Every contour has at least three points; the closing edge from last to first is implied. A polygon that comes
-/// from a boolean is simple: outer contours counter-clockwise, holes clockwise, no crossing.
+/// Every contour has at least three points; the closing edge from last to first is implied. A
+/// polygon that comes from a boolean is simple: outer contours counter-clockwise, holes clockwise,
+/// no crossing.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Polygon {
     contours: Vec<Vec<Point>>,
 }
 
 impl Polygon {
-    /// The area inside `contours`, less those of fewer than three points; none where nothing is left.
+    /// The area inside `contours`, less those of fewer than three points; none where nothing is
+    /// left.
     #[must_use]
     pub fn new(mut contours: Vec<Vec<Point>>) -> Option<Self> {
         contours.retain(|contour| contour.len() >= 3);
@@ -84,8 +89,9 @@ impl Polygon {
         Self { contours: self.contours.iter().map(|ring| ring.iter().map(|&p| p + way).collect()).collect() }
     }
 
-    /// What of it lies within `rect`, contour by contour; none where nothing does. Edges may run along those of the rectangle more than
-    /// once, there and back: the area is right, but the polygon is not simple.
+    /// What of it lies within `rect`, contour by contour; none where nothing does. Edges may run
+    /// along those of the rectangle more than once, there and back: the area is right, but the
+    /// polygon is not simple.
     #[must_use]
     pub fn clipped(&self, rect: Rect) -> Option<Self> {
         let within = |bounds: Rect| rect.contains(bounds.min()) && rect.contains(bounds.max());
@@ -101,7 +107,8 @@ impl Polygon {
         self.edges().map(|(a, b)| a.distance(b)).sum()
     }
 
-    /// The area inside a circle, as a polygon within `tolerance` of it that reaches as far as the circle in x and y.
+    /// The area inside a circle, as a polygon within `tolerance` of it that reaches as far as the
+    /// circle in x and y.
     #[must_use]
     pub fn disc(center: Point, radius: Nm, tolerance: Nm) -> Option<Self> {
         let east = center + Vector::new(radius, Nm::ZERO);
@@ -116,7 +123,8 @@ impl Polygon {
         Self::new(vec![(0..4 * quarter).map(point).collect()])
     }
 
-    /// The convex hull of `points`, counter-clockwise, without points on its edges; none where it has no area. Exact.
+    /// The convex hull of `points`, counter-clockwise, without points on its edges; none where it
+    /// has no area. Exact.
     pub fn hull(points: impl IntoIterator<Item = Point>) -> Option<Self> {
         let mut points: Vec<Point> = points.into_iter().collect();
         points.sort_unstable();

@@ -19,8 +19,8 @@ use crate::board::SourceSpan;
 /// Chosen: a Gerber of a 600 mm panel has some 50 MB; ten times that.
 const MOST_BYTES: u64 = 512 << 20;
 
-/// How much an archive may unpack to at least, and how many times its own size beyond that. Gerber packs to a tenth; an
-/// archive that packs to less than a hundredth is made to fill the memory.
+/// How much an archive may unpack to at least, and how many times its own size beyond that. Gerber
+/// packs to a tenth; an archive that packs to less than a hundredth is made to fill the memory.
 const UNPACKED: (u64, u64) = (64 << 20, 100);
 
 /// The most entries of an archive that are looked at.
@@ -242,8 +242,9 @@ fn special(path: &Path) -> Option<&'static str> {
 
 /// The name of two entries with different contents, from the directory at the end of an archive.
 ///
-/// Of entries of one name the library shows the last only. The directory's records begin with PK\x01\x02 and have the
-/// checksum at byte 16, both lengths behind it, and the name at byte 46 (APPNOTE 6.3.10 §4.3.12).
+/// Of entries of one name the library shows the last only. The directory's records begin with
+/// PK\x01\x02 and have the checksum at byte 16, both lengths behind it, and the name at byte 46
+/// (APPNOTE 6.3.10 §4.3.12).
 fn doubled(archive: &[u8], start: u64) -> Option<String> {
     let mut rest = archive.get(usize::try_from(start).ok()?..)?;
     let mut seen = BTreeMap::new();
@@ -260,9 +261,11 @@ fn doubled(archive: &[u8], start: u64) -> Option<String> {
     None
 }
 
-/// Texts of two bytes a character as texts of one or more (UTF-8), and all without a byte order mark.
+/// Texts of two bytes a character as texts of one or more (UTF-8), and all without a byte order
+/// mark.
 ///
-/// Editors of Windows save them so. Without a mark they are known by every other byte of the beginning, which is zero.
+/// Editors of Windows save them so. Without a mark they are known by every other byte of the
+/// beginning, which is zero.
 fn decoded(bytes: Vec<u8>) -> Vec<u8> {
     /// How many characters must be of plain ASCII where there is no mark.
     const ENOUGH: usize = 8;
@@ -334,7 +337,8 @@ fn unreadable(shown: &str, error: &io::Error) -> Error {
     }
 }
 
-/// Whether a file of a folder could be a layer: hidden files, pictures and documents are not opened.
+/// Whether a file of a folder could be a layer: hidden files, pictures and documents are not
+/// opened.
 fn worth_reading(name: &str) -> bool {
     const NEVER: [&str; 24] = [
         "png",

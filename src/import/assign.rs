@@ -1,4 +1,5 @@
-//! Files → roles: who is the front, the back, the edge; what is ambiguous is an error that says how to settle it.
+//! Files → roles: who is the front, the back, the edge; what is ambiguous is an error that says how
+//! to settle it.
 
 use std::path::{Path, PathBuf};
 
@@ -144,8 +145,9 @@ fn refuse_unknown(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
     ))
 }
 
-/// A file whose name says drill and whose content says layer, or the other way round, or one named for one side that calls itself
-/// the other: one of the two is wrong, and guessing cuts the wrong thing.
+/// A file whose name says drill and whose content says layer, or the other way round, or one named
+/// for one side that calls itself the other: one of the two is wrong, and guessing cuts the wrong
+/// thing.
 fn refuse_contradictions(gathered: &Gathered, votes: &[Vote], selection: &Selection) -> Result<(), Error> {
     refuse_other_side(gathered, votes)?;
     let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
@@ -257,8 +259,8 @@ fn witness(gathered: &Gathered, job: &Job) -> Vec<Vote> {
     gathered.files.iter().enumerate().map(vote).collect()
 }
 
-/// The role that content allows: Excellon is always a drill file, and a Gerber that only its name calls a drill file
-/// is a drawing of one.
+/// The role that content allows: Excellon is always a drill file, and a Gerber that only its name
+/// calls a drill file is a drawing of one.
 fn by_content(role: Role, witness: Witness, kind: Kind) -> Role {
     match (kind, role) {
         (Kind::Excellon, _) => Role::Drill,

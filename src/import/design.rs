@@ -1,18 +1,21 @@
 //! A name for what a file says, whatever it says it with: a hash of what was read.
 //!
-//! KiCad writes the date into every file, so a file's own hash changes with each export though the board does not. The
-//! programs name their inputs by this hash instead: the same design gives the same programs, and a program can be told
-//! from one of another revision.
+//! KiCad writes the date into every file, so a file's own hash changes with each export though the
+//! board does not. The programs name their inputs by this hash instead: the same design gives the
+//! same programs, and a program can be told from one of another revision.
 //!
-//! Hashed are numbers of eight bytes, lowest first, and texts with their lengths before them, in this order:
+//! Hashed are numbers of eight bytes, lowest first, and texts with their lengths before them, in
+//! this order:
 //!
-//! * of a Gerber file, for each feature in file order, with polarity, macros and repeats resolved: its shape with all
-//!   coordinates in nanometres, its axis, and the texts of its net, component, pin and function;
-//! * of a drill file, for each hole in file order: its path, its diameter, its plating and its tool's number;
+//! * of a Gerber file, for each feature in file order, with polarity, macros and repeats resolved:
+//!   its shape with all coordinates in nanometres, its axis, and the texts of its net, component,
+//!   pin and function;
+//! * of a drill file, for each hole in file order: its path, its diameter, its plating and its
+//!   tool's number;
 //! * of an aperture list: the number and the shape of each aperture.
 //!
-//! So comments, dates, units, number formats, line ends and names of apertures do not count. Another version of this
-//! program may flatten curves otherwise and hash to something else.
+//! So comments, dates, units, number formats, line ends and names of apertures do not count.
+//! Another version of this program may flatten curves otherwise and hash to something else.
 
 use sha2::{Digest, Sha256};
 

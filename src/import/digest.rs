@@ -1,3 +1,5 @@
+//! SHA-256, by which outputs name the inputs that they were made from.
+
 use sha2::{Digest, Sha256};
 
 /// SHA-256 of `bytes` in hexadecimal, as `sha256sum` prints it.

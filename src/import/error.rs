@@ -1,7 +1,8 @@
-//! What can be wrong with a file, and where: errors stop the reading, [`Warnings`] are collected on the way.
+//! What can be wrong with a file, and where: errors stop the reading, [`Warnings`] are collected on
+//! the way.
 //!
-//! Both know their place as bytes of the file. Line and column are worked out only when something is reported, so
-//! the readers do not count while nothing is wrong.
+//! Both know their place as bytes of the file. Line and column are worked out only when something
+//! is reported, so the readers do not count while nothing is wrong.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -50,7 +51,8 @@ impl std::fmt::Display for Diagnosis {
 }
 
 impl Error {
-    /// An error at the bytes `place` of the file `file` with content `bytes`. `hint` says what to do; it may be empty.
+    /// An error at the bytes `place` of the file `file` with content `bytes`. `hint` says what to
+    /// do; it may be empty.
     pub(in crate::import) fn syntax(
         file: &str,
         bytes: &[u8],
@@ -80,7 +82,8 @@ impl Error {
         self
     }
 
-    /// The error as a terminal shows it: the line with a marker under the offending text, what was expected, the hint.
+    /// The error as a terminal shows it: the line with a marker under the offending text, what was
+    /// expected, the hint.
     #[must_use]
     pub fn render(&self) -> String {
         let Self::Syntax(diagnosis) = self else { return format!("error: {self}") };
@@ -115,7 +118,8 @@ const fn ends_line(bytes: &[u8], at: usize) -> bool {
     }
 }
 
-/// What stands on line `number`, counted from 1, without its end; the last line where there is no such one.
+/// What stands on line `number`, counted from 1, without its end; the last line where there is no
+/// such one.
 pub(in crate::import) fn line(bytes: &[u8], number: u32) -> Range<usize> {
     let mut ends = (0..bytes.len()).filter(|&i| ends_line(bytes, i));
     let before = (number as usize).checked_sub(2);
@@ -126,7 +130,8 @@ pub(in crate::import) fn line(bytes: &[u8], number: u32) -> Range<usize> {
     start..start + bytes[start..end].trim_ascii_end().len()
 }
 
-/// The line around `place`, at most [`SHOWN`] bytes of it on either side, and where in it the place is.
+/// The line around `place`, at most [`SHOWN`] bytes of it on either side, and where in it the place
+/// is.
 fn excerpt(bytes: &[u8], place: Range<usize>) -> Excerpt {
     let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
     let start = place.start.min(bytes.len());
@@ -159,16 +164,19 @@ pub(in crate::import) fn find(bytes: &[u8], words: &[u8]) -> Option<usize> {
     bytes.windows(words.len().max(1)).position(|window| window == words)
 }
 
-/// The last line of a file that says anything, for what is wrong with a file's end or with all of it.
+/// The last line of a file that says anything, for what is wrong with a file's end or with all of
+/// it.
 pub(in crate::import) fn last_line(bytes: &[u8]) -> Range<usize> {
     let end = bytes.iter().rposition(|&b| b > b' ').map_or(0, |i| i + 1);
     let start = bytes[..end].iter().rposition(|b| matches!(b, b'\n' | b'\r')).map_or(0, |i| i + 1);
     start.max(end.saturating_sub(SHOWN))..end
 }
 
-/// What was repaired or left out while reading one file: of each kind the first place, and how many there were.
+/// What was repaired or left out while reading one file: of each kind the first place, and how many
+/// there were.
 ///
-/// A file with a habit has it on every line, and a thousand equal warnings hide the one that matters.
+/// A file with a habit has it on every line, and a thousand equal warnings hide the one that
+/// matters.
 #[derive(Debug)]
 pub(in crate::import) struct Warnings<'a> {
     file: &'a str,

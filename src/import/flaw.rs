@@ -1,5 +1,5 @@
-//! The kinds of things that are wrong with files and do not keep them from being read: what was expected instead, and
-//! what a person does about it.
+//! The kinds of things that are wrong with files and do not keep them from being read: what was
+//! expected instead, and what a person does about it.
 //!
 //! A warning of a reader is one of these at one place, so none can go out without advice.
 

@@ -1,4 +1,5 @@
-//! Drill files written in Gerber (X2 file function `Plated` or `NonPlated`): flashes are holes, strokes are slots.
+//! Drill files written in Gerber (X2 file function `Plated` or `NonPlated`): flashes are holes,
+//! strokes are slots.
 
 use crate::board::{Axis, Feature, Hole, Shape, Warning};
 use crate::geometry::{Nm, Path, Point, Segment};
@@ -35,7 +36,8 @@ pub(super) fn holes(file: &Found, image: &Image) -> (Vec<Hole>, Option<Warning>)
     (holes, warning)
 }
 
-/// The way and the diameter of the round cutter that makes a feature; none where no such cutter does.
+/// The way and the diameter of the round cutter that makes a feature; none where no such cutter
+/// does.
 fn cutter(feature: &Feature) -> Option<(Path, Nm)> {
     let (path, radius) = match (&feature.shape, &feature.axis) {
         (Shape::Disc { center, radius }, _) => (Path { start: *center, segments: vec![] }, *radius),

@@ -1,4 +1,5 @@
-//! Gerber job files: the list of a board's files and their functions, in JSON (Ucamco, Gerber Job Format 2023.02 §4).
+//! Gerber job files: the list of a board's files and their functions, in JSON (Ucamco, Gerber Job
+//! Format 2023.02 §4).
 
 use super::layers::{Role, role_by_function};
 

@@ -1,14 +1,16 @@
 //! What each file is for: by the job file, by its X2 file function, by its name.
 //!
-//! Every program names its layers differently, and people rename them. So three witnesses are heard, in this order:
+//! Every program names its layers differently, and people rename them. So three witnesses are
+//! heard, in this order:
 //!
 //! 1. a Gerber job file (`.gbrjob`), which lists the files and their functions;
-//! 2. the X2 attribute `.FileFunction` in the file itself (Gerber specification 2024.05 §5.6.3), also where KiCad and
-//!    Eagle hide it in comments;
-//! 3. the name: KiCad's `-F_Cu`, Altium's and Protel's `.GTL`, Eagle's `.cmp` and `copper_top`, EasyEDA's
-//!    `Gerber_TopLayer`, DipTrace's `_Top`, gEDA's `.front` and `group1`, OrCAD's `.top`.
+//! 2. the X2 attribute `.FileFunction` in the file itself (Gerber specification 2024.05 §5.6.3),
+//!    also where KiCad and Eagle hide it in comments;
+//! 3. the name: KiCad's `-F_Cu`, Altium's and Protel's `.GTL`, Eagle's `.cmp` and `copper_top`,
+//!    EasyEDA's `Gerber_TopLayer`, DipTrace's `_Top`, gEDA's `.front` and `group1`, OrCAD's `.top`.
 //!
-//! Words of a name count only where they differ between the files: the board `solder-station` has no back side for it.
+//! Words of a name count only where they differ between the files: the board `solder-station` has
+//! no back side for it.
 
 use crate::board::{Plating, Side};
 
@@ -191,7 +193,8 @@ const PARTS: &[(&str, Role)] = &[
     ("cutout", Role::Outline),
 ];
 
-/// Whole words that set a layer aside, whatever else its name says: `StopTop`, `PosiBot`, `TopAssy`.
+/// Whole words that set a layer aside, whatever else its name says: `StopTop`, `PosiBot`,
+/// `TopAssy`.
 const ASIDE: &[(&str, Role)] = &[
     ("stop", Role::Other("solder mask")),
     ("posi", Role::Other("silkscreen")),
@@ -220,15 +223,16 @@ const WORDS: &[(&str, Role)] = &[
     ("holes", Role::Drill),
 ];
 
-/// Words before the number of a layer that is counted from the component side: gEDA's `group1`, Zuken's
-/// `Conductive-1`, PADS' `art001`, and `L1`.
+/// Words before the number of a layer that is counted from the component side: gEDA's `group1`,
+/// Zuken's `Conductive-1`, PADS' `art001`, and `L1`.
 const COUNTED: [&str; 5] = ["group", "layer", "conductive", "art", "l"];
 
 fn looked_up(table: &[(&str, Role)], mut fits: impl FnMut(&str) -> bool) -> Option<Role> {
     table.iter().find(|(text, _)| fits(text)).map(|&(_, role)| role)
 }
 
-/// The role that a file's name tells; `shared` bytes at its start are the same for all files and tell nothing.
+/// The role that a file's name tells; `shared` bytes at its start are the same for all files and
+/// tell nothing.
 pub(super) fn role_by_name(name: &str, shared: usize) -> Option<Role> {
     let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
     let extension = extension.to_ascii_lowercase();
@@ -303,8 +307,9 @@ fn numbered(word: &str, heads: &[&str]) -> Option<u32> {
     heads.iter().find_map(|head| word.strip_prefix(head)?.parse().ok())
 }
 
-/// The words of a name in lower case: parted by anything but letters and digits, where a capital follows a small letter, and where a
-/// letter follows a digit; with `in_capitals` also before the last of several capitals, `PCBBottom`.
+/// The words of a name in lower case: parted by anything but letters and digits, where a capital
+/// follows a small letter, and where a letter follows a digit; with `in_capitals` also before the
+/// last of several capitals, `PCBBottom`.
 fn words(text: &str, in_capitals: bool) -> Vec<String> {
     let mut words = vec![String::new()];
     let mut before = ' ';

@@ -32,7 +32,8 @@ pub struct Selection {
     pub no_drill: bool,
     /// What the board is called.
     pub name: Option<String>,
-    /// How far apart two lines of the outline may end and still meet; [`outline::GAP`] where it is left open.
+    /// How far apart two lines of the outline may end and still meet; [`outline::GAP`] where it is
+    /// left open.
     pub outline_gap: Option<Nm>,
 }
 
@@ -49,22 +50,24 @@ pub struct Loaded {
     pub ignored: Vec<String>,
 }
 
-/// Reads the board in `paths`: folders, zip archives and single files, mixed. Folders inside folders are not looked
-/// into.
+/// Reads the board in `paths`: folders, zip archives and single files, mixed. Folders inside
+/// folders are not looked into.
 ///
 /// # Errors
 ///
-/// A path that cannot be read, two files for one role, a copper layer whose side nothing tells, neither copper nor outline nor holes, or
-/// what the readers say of a file.
+/// A path that cannot be read, two files for one role, a copper layer whose side nothing tells,
+/// neither copper nor outline nor holes, or what the readers say of a file.
 pub fn load(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error> {
     put_together(paths, selection, Need::Job)
 }
 
-/// As [`load()`], to be looked at: copper that draws nothing, or of which only a guess tells the side, is a warning.
+/// As [`load()`], to be looked at: copper that draws nothing, or of which only a guess tells the
+/// side, is a warning.
 ///
 /// # Errors
 ///
-/// A path that cannot be read, two files for one role, no layer at all, or what the readers say of a file.
+/// A path that cannot be read, two files for one role, no layer at all, or what the readers say of
+/// a file.
 pub fn survey(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error> {
     put_together(paths, selection, Need::AnyLayer)
 }
@@ -301,7 +304,8 @@ impl Build {
 
     /// A board as wide as a table is a unit taken for another.
     fn warn_of_size(&mut self) {
-        /// Chosen: the largest panels are 610 mm long; an inch taken for a millimetre makes 25 mm wider than this.
+        /// Chosen: the largest panels are 610 mm long; an inch taken for a millimetre makes 25 mm
+        /// wider than this.
         const WIDEST: Nm = Nm::from_mm(620);
         let Some(bounds) = self.board.bounds() else { return };
         if bounds.width().max(bounds.height()) > WIDEST {
@@ -314,7 +318,8 @@ impl Build {
 
     /// A board of a metre is none: a file is in another unit than it says.
     fn refuse_size(&self, place: &str) -> Result<(), Error> {
-        /// Chosen: beyond what any mill for boards reaches, and below a board of 50 mm whose millimetres are taken for inches.
+        /// Chosen: beyond what any mill for boards reaches, and below a board of 50 mm whose
+        /// millimetres are taken for inches.
         const METRE: Nm = Nm::from_mm(1000);
         let bounds = self.board.bounds().filter(|bounds| bounds.width().max(bounds.height()) > METRE);
         let Some(bounds) = bounds else { return Ok(()) };
@@ -378,7 +383,8 @@ impl Build {
     }
 }
 
-/// The holes of a Gerber file; one that does not say it is a drill file is refused where a person chose it.
+/// The holes of a Gerber file; one that does not say it is a drill file is refused where a person
+/// chose it.
 fn gerber_holes(
     gathered: &Gathered,
     file: &Found,
@@ -422,7 +428,8 @@ fn has_area(feature: &Feature) -> bool {
     }
 }
 
-/// Fails for a file that draws nothing and has no end: what it had was cut off. One that was written empty has its end.
+/// Fails for a file that draws nothing and has no end: what it had was cut off. One that was
+/// written empty has its end.
 fn refuse_cut_off(file: &Found, is_empty: bool, warnings: &[Warning]) -> Result<(), Error> {
     const CUT_OFF: [&str; 3] = ["missing-end-of-file", "missing-end-of-drill-file", "truncated-file"];
     if is_empty && warnings.iter().any(|warning| CUT_OFF.contains(&warning.code)) {

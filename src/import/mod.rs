@@ -6,8 +6,8 @@
 //!                                     gerber, excellon, outline ──┘
 //! ```
 //!
-//! [`load()`] takes a folder, an archive or single files and puts a board together; the readers of the formats stand
-//! alone and never touch the file system.
+//! [`load()`] takes a folder, an archive or single files and puts a board together; the readers of
+//! the formats stand alone and never touch the file system.
 
 mod archive;
 mod assign;

@@ -13,7 +13,8 @@ pub(super) fn stem(name: &str) -> &str {
     name.rsplit_once('.').map_or(name, |(stem, _)| stem)
 }
 
-/// What the board is called: as told, as the job file has it, as all layers begin, or as their folder is named.
+/// What the board is called: as told, as the job file has it, as all layers begin, or as their
+/// folder is named.
 pub(super) fn board_name(
     gathered: &Gathered,
     paths: &[PathBuf],
@@ -46,7 +47,8 @@ pub(super) fn board_name(
     safe(&name.or_else(shared).or_else(folder).unwrap_or_else(|| "board".to_owned()))
 }
 
-/// The start that two stems share, up to a mark that parts words; the whole of one that the other begins with.
+/// The start that two stems share, up to a mark that parts words; the whole of one that the other
+/// begins with.
 fn shared_head<'a>(a: &'a str, b: &str) -> &'a str {
     let shared = a.bytes().zip(b.bytes()).take_while(|(x, y)| x == y).count();
     let ends = |text: &str| text.len() == shared || !text.as_bytes()[shared].is_ascii_alphanumeric();

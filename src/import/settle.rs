@@ -1,4 +1,5 @@
-//! Several files for one role: settled where the files themselves tell, left to a person where they do not.
+//! Several files for one role: settled where the files themselves tell, left to a person where they
+//! do not.
 
 use super::archive::{Found, Gathered};
 use super::assign::{Vote, Witness};
@@ -9,8 +10,8 @@ use crate::board::{Side, Warning};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
 
-/// gEDA's numbered groups: the first is the component side, the last the solder side, where nothing better tells. The file whose side
-/// that is a guess of: of one layer alone that is not the first.
+/// gEDA's numbered groups: the first is the component side, the last the solder side, where nothing
+/// better tells. The file whose side that is a guess of: of one layer alone that is not the first.
 pub(super) fn groups(votes: &mut [Vote]) -> Option<usize> {
     let numbers: Vec<u32> = votes.iter().filter_map(|vote| group(vote.role)).collect();
     let sided = votes.iter().any(|vote| matches!(vote.role, Some(Role::Copper(_))));
@@ -36,7 +37,8 @@ const fn group(role: Option<Role>) -> Option<u32> {
     }
 }
 
-/// The one file of a role, by the best witness; two of them are an error that says how to settle it.
+/// The one file of a role, by the best witness; two of them are an error that says how to settle
+/// it.
 pub(super) fn only(
     votes: &[Vote],
     gathered: &Gathered,
@@ -63,8 +65,8 @@ pub(super) fn only(
     }
 }
 
-/// Of several outline layers told by name alone (`.GKO` and `.GM1`), keeps those that draw an edge; of edges that lie
-/// in the same place, the first. What is left may still be a choice for a person.
+/// Of several outline layers told by name alone (`.GKO` and `.GM1`), keeps those that draw an edge;
+/// of edges that lie in the same place, the first. What is left may still be a choice for a person.
 pub(super) fn outlines(votes: &mut [Vote], gathered: &Gathered, warnings: &mut Vec<Warning>) {
     let all = || votes.iter().filter(|vote| vote.role == Some(Role::Outline));
     if all().count() < 2 || all().any(|vote| vote.witness > Witness::Name) {

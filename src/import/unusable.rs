@@ -1,16 +1,18 @@
-//! What lies among the files of a board, is meant as a layer or a drill file, and cannot be read as one.
+//! What lies among the files of a board, is meant as a layer or a drill file, and cannot be read as
+//! one.
 //!
-//! A board whose back was left out because its file is empty is a wrong board that nobody notices. So whatever says
-//! that it is copper, an outline or a drill file, by any of its marks, must be read or be left aside by a person
-//! (`--skip`). The marks, the surest first:
+//! A board whose back was left out because its file is empty is a wrong board that nobody notices.
+//! So whatever says that it is copper, an outline or a drill file, by any of its marks, must be
+//! read or be left aside by a person (`--skip`). The marks, the surest first:
 //!
 //! 1. the job file lists it;
 //! 2. it has an X2 file function;
 //! 3. its lines are those of a drill file, though its beginning is not;
-//! 4. its name: an extension that only layers have, KiCad's endings, or, for texts, words such as `top` and `drill`.
+//! 4. its name: an extension that only layers have, KiCad's endings, or, for texts, words such as
+//!    `top` and `drill`.
 //!
-//! What says nothing of the kind (a README, a list of parts, G-code) is listed as no layer. In between are texts that
-//! are no prose, and folders named like a layer: they are warned of.
+//! What says nothing of the kind (a README, a list of parts, G-code) is listed as no layer. In
+//! between are texts that are no prose, and folders named like a layer: they are warned of.
 
 use super::archive::Gathered;
 use super::error::Error;
@@ -236,7 +238,8 @@ fn is_prose(bytes: &[u8]) -> bool {
         && text.split_whitespace().filter(is_word).count() >= WORDS
 }
 
-/// Whether it is a known file that shares its extension with a layer: KiCad's old list of components is a `.cmp`.
+/// Whether it is a known file that shares its extension with a layer: KiCad's old list of
+/// components is a `.cmp`.
 fn is_of_another_kind(bytes: &[u8]) -> bool {
     bytes.starts_with(b"Cmp-Mod")
 }
@@ -252,7 +255,8 @@ fn is_program(bytes: &[u8]) -> bool {
     !bytes.contains(&b'*') && lines.any(|line| line.split_whitespace().any(|word| is_word(word, 'Z')))
 }
 
-/// Whether every byte has an odd number of bits: the paper tape's code (EIA RS-244), which Altium still writes.
+/// Whether every byte has an odd number of bits: the paper tape's code (EIA RS-244), which Altium
+/// still writes.
 fn is_binary_drill(bytes: &[u8]) -> bool {
     !bytes.is_empty() && bytes.iter().all(|b| b.count_ones() % 2 == 1)
 }

@@ -1,7 +1,8 @@
 //! Which aperture list belongs to which RS-274-D file.
 //!
-//! A list lies in the same folder or archive as its files. One list is for all; of several, the one named like the
-//! file; where that tells nothing, guessing would draw with the wrong sizes, so it is an error.
+//! A list lies in the same folder or archive as its files. One list is for all; of several, the one
+//! named like the file; where that tells nothing, guessing would draw with the wrong sizes, so it
+//! is an error.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -29,7 +30,8 @@ impl Gathered {
         }
     }
 
-    /// The list that `file` draws with; none where it has apertures of its own, or where there is no list.
+    /// The list that `file` draws with; none where it has apertures of its own, or where there is
+    /// no list.
     pub(super) fn list_for(&self, file: &Found) -> Result<Option<&ApertureList>, Error> {
         if self.lists.is_empty() || !gerber::lacks_apertures(&file.bytes) {
             return Ok(None);

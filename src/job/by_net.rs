@@ -48,7 +48,8 @@ impl fmt::Display for StrategyFor {
     }
 }
 
-/// What a net is called: its names, its number, and what all its copper is for if that is one thing.
+/// What a net is called: its names, its number, and what all its copper is for if that is one
+/// thing.
 pub(super) fn names(copper: &Copper, nets: &Nets, id: NetId) -> Vec<String> {
     let net = &nets.nets()[id.index()];
     let function = |&feature: &u32| copper.attributes_of(&copper.features[feature as usize]).function.clone();
@@ -62,7 +63,8 @@ pub(super) fn names(copper: &Copper, nets: &Nets, id: NetId) -> Vec<String> {
     names
 }
 
-/// The nets that have a loop of their own: the first pattern that means a net decides, and else the strategy of all.
+/// The nets that have a loop of their own: the first pattern that means a net decides, and else the
+/// strategy of all.
 pub(super) fn looped(copper: &Copper, nets: &Nets, settings: &Settings) -> Vec<NetId> {
     let strategy = |id: NetId| {
         let chosen = &settings.strategy_for;

@@ -7,12 +7,13 @@ use crate::import::{Loaded, sha256};
 use super::Settings;
 use super::pipeline::GENERATOR;
 
-/// A name for what a job makes, SHA-256 in hexadecimal: the same wherever the version of the program, the files and the
-/// settings are the same.
+/// A name for what a job makes, SHA-256 in hexadecimal: the same wherever the version of the
+/// program, the files and the settings are the same.
 ///
-/// The outputs then are the same bytes on every machine, so whoever keeps them by this name (a farm, a build) need not
-/// run the job again. `choices` are further settings, of what is written for instance. Folders do not count, names of
-/// files do: programs say which files they were made from.
+/// The outputs then are the same bytes on every machine, so whoever keeps them by this name (a
+/// farm, a build) need not run the job again. `choices` are further settings, of what is written
+/// for instance. Folders do not count, names of files do: programs say which files they were made
+/// from.
 #[must_use]
 pub fn cache_key(loaded: &Loaded, settings: &Settings, choices: &[(&str, String)]) -> String {
     let mut text = format!("{GENERATOR}\nboard {}\n", loaded.board.name);

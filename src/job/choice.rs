@@ -64,7 +64,8 @@ pub enum Topology {
     All,
 }
 
-/// What the machine speaks: one of [`dialect::ALL`](crate::gcode::dialect::ALL), or one of one's own.
+/// What the machine speaks: one of [`dialect::ALL`](crate::gcode::dialect::ALL), or one of one's
+/// own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DialectChoice(pub Dialect);
 

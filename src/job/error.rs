@@ -1,3 +1,5 @@
+//! Why a job could not be done.
+
 use crate::board::Side;
 use crate::grid::GridError;
 use crate::import;

@@ -1,3 +1,5 @@
+//! Where tabs hold the board in its sheet while it is cut out.
+
 use crate::geometry::{Nm, Point};
 use crate::toolpath::strategy::TabPlaces;
 

@@ -5,7 +5,8 @@ use crate::board::Warning;
 use super::{Layer, Options, Settings, Sites};
 
 impl Settings {
-    /// The first of the `given` options that changes nothing beside the other settings, and what to say with it or instead.
+    /// The first of the `given` options that changes nothing beside the other settings, and what to
+    /// say with it or instead.
     ///
     /// A settings file may have it: it is for many boards.
     #[must_use]
@@ -46,7 +47,8 @@ impl Settings {
     }
 }
 
-/// Warns of each isolating tool that cuts nothing on any side: a wider or a finer one cuts all it could.
+/// Warns of each isolating tool that cuts nothing on any side: a wider or a finer one cuts all it
+/// could.
 pub(super) fn tools(layers: &[Layer], settings: &Settings) -> Vec<Warning> {
     let tools = settings.isolation.iter().map(|cutting| &cutting.tool);
     let cuts =

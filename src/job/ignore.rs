@@ -7,9 +7,11 @@ use super::by_net::{names, without_net};
 use super::layer::method;
 use super::{Pattern, Topology};
 
-/// Takes the nets that a pattern means out of the copper of `board`: cuts go through them as if they were not there.
+/// Takes the nets that a pattern means out of the copper of `board`: cuts go through them as if
+/// they were not there.
 ///
-/// Warned about: `nets-ignored` on each side that has some, `pattern-without-net` for what means none.
+/// Warned about: `nets-ignored` on each side that has some, `pattern-without-net` for what means
+/// none.
 pub fn ignore(board: &mut Board, patterns: &[Pattern], topology: Topology) -> Vec<Warning> {
     let mut meant = vec![false; patterns.len()];
     let mut warnings = Vec::new();

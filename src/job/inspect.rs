@@ -1,3 +1,5 @@
+//! What is known of a board before anything is planned: sizes, nets, gaps, holes.
+
 use crate::board::{Board, Copper, Side};
 use crate::import::Loaded;
 use crate::report::Inspection;

@@ -35,7 +35,8 @@ pub struct Layer {
 }
 
 impl Layer {
-    /// Isolates the nets of `copper`, a side of `board` that lies on the machine as `placement` says.
+    /// Isolates the nets of `copper`, a side of `board` that lies on the machine as `placement`
+    /// says.
     ///
     /// # Errors
     ///
@@ -74,7 +75,8 @@ impl Layer {
     }
 }
 
-/// The lap without which nets that reach the frame stay joined; none where there is no frame, or none reaches it.
+/// The lap without which nets that reach the frame stay joined; none where there is no frame, or
+/// none reaches it.
 fn needed_frame(diagram: &Diagram, boundaries: &Boundaries) -> Option<Path> {
     let reached = boundaries.edges.iter().any(|edge| edge.is_border() && !edge.is_bare());
     diagram.frame().filter(|_| reached).cloned()
@@ -100,14 +102,15 @@ pub(super) fn method(topology: Topology) -> Method {
     }
 }
 
-/// How many pixels the narrowest gap is wide, at least. Chosen: with two a gap may fall between pixel centres and be seen only in
-/// places; the third is for slanted ones.
+/// How many pixels the narrowest gap is wide, at least. Chosen: with two a gap may fall between
+/// pixel centres and be seen only in places; the third is for slanted ones.
 const PIXELS_A_GAP: i64 = 3;
 /// The finest pixel that a narrow gap asks for: finer gaps no cutter fits.
 const FINEST: Nm = Nm::from_um(5);
 /// The coarsest pixel that is taken unasked. Chosen: half as many again save next to nothing.
 const COARSEST: Nm = Nm::from_um(100);
-/// The same as a part of the kerf where cuts follow the copper at a distance, which pixels must tell from each other. Chosen.
+/// The same as a part of the kerf where cuts follow the copper at a distance, which pixels must
+/// tell from each other. Chosen.
 const PIXELS_A_KERF: i64 = 4;
 
 /// The pixel that sees the smallest gap, and what the settings ask for.
@@ -131,7 +134,8 @@ fn diagram(
 ) -> Result<Diagram, voronoi::Error> {
     let looped = by_net::looped(copper, nets, settings);
     let plain = diagram_settings(settings, pitch(settings, gap, !looped.is_empty()));
-    // Half the kerf, and what fitting may take of it: a loop never touches the copper it goes round.
+    // Half the kerf, and what fitting may take of it: a loop never touches the copper it goes
+    // round.
     let radius = settings.kerf() / 2 + settings.tolerance;
     if looped.is_empty() {
         Diagram::new(copper, nets, outline, &plain)
@@ -153,15 +157,16 @@ fn diagram_settings(settings: &Settings, pitch: Nm) -> voronoi::Settings {
         // A cut along the edge of a region then leaves the copper alone, where there is room.
         min_width: settings.min_width.then(|| settings.finest_kerf() / 2 + settings.tolerance),
         tolerance: settings.tolerance,
-        // The end of a cut is round: with half a kerf beyond the outline its whole width reaches the edge, and a fine
-        // cutter leaves no scratches outside.
+        // The end of a cut is round: with half a kerf beyond the outline its whole width reaches
+        // the edge, and a fine cutter leaves no scratches outside.
         overlap: voronoi::Settings::default().overlap.min(settings.finest_kerf() / 2),
         frame: Frame::Hull(settings.frame_margin),
         ..voronoi::Settings::default()
     }
 }
 
-/// What each tool cuts, with its kerf, the widest first: its share of the boundaries, and the passes beside them. With what is to be said of passes.
+/// What each tool cuts, with its kerf, the widest first: its share of the boundaries, and the
+/// passes beside them. With what is to be said of passes.
 fn shares(
     diagram: &Diagram,
     boundaries: &Boundaries,
@@ -184,7 +189,8 @@ fn shares(
     (cut, warnings)
 }
 
-/// The moves of each tool along the boundaries that isolate something, and round the frame where one must be.
+/// The moves of each tool along the boundaries that isolate something, and round the frame where
+/// one must be.
 fn cut(
     side: Side,
     nets: &Nets,
@@ -193,7 +199,8 @@ fn cut(
     placement: &Placement,
     settings: &Settings,
 ) -> (Vec<Section>, Vec<Warning>) {
-    // What lies along the outline is cut with the board; along a frame it is part of the graph, and joins what ends there.
+    // What lies along the outline is cut with the board; along a frame it is part of the graph, and
+    // joins what ends there.
     let role = |boundary: &Boundary| {
         if boundary.is_border() && (boundary.is_bare() || frame.is_none()) { Role::Leave } else { Role::Cut }
     };
@@ -219,7 +226,8 @@ fn cut(
             direction: settings.direction,
         };
         let (section, found) = isolate(format!("isolate {side}"), boundaries, &[], role, name, &isolation);
-        // Of several tools one may find nothing to do; a side where nothing is to be cut still has its program.
+        // Of several tools one may find nothing to do; a side where nothing is to be cut still has
+        // its program.
         if !section.moves.is_empty() || settings.isolation.len() == 1 {
             sections.push(section);
         }

@@ -1,4 +1,5 @@
-//! Options of one place over those of another: the command line over the settings file, that over the defaults.
+//! Options of one place over those of another: the command line over the settings file, that over
+//! the defaults.
 
 use super::Options;
 

@@ -1,7 +1,8 @@
 //! A whole job: settings, and the pipeline as one short function.
 //!
-//! [`Options`] are what a person wrote, on the command line or in `voromill.toml`; [`Settings`] are those and the
-//! defaults, complete and checked; [`mill`] does the work, in memory. Who calls it decides what becomes a file.
+//! [`Options`] are what a person wrote, on the command line or in `voromill.toml`; [`Settings`] are
+//! those and the defaults, complete and checked; [`mill`] does the work, in memory. Who calls it
+//! decides what becomes a file.
 
 mod by_net;
 mod cache_key;

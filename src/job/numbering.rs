@@ -1,13 +1,14 @@
 //! Numbers of tools: each tool has one in all programs of a job, and no other tool has it.
 //!
-//! A machine's operator then prepares a table once, and T2 in the program that drills is not the cutter of T2 in the one before.
+//! A machine's operator then prepares a table once, and T2 in the program that drills is not the
+//! cutter of T2 in the one before.
 
 use crate::toolpath::{Program, Tool, ToolKind};
 
 use super::tools::Library;
 
-/// Gives the tools of `programs` their numbers: those of one's own the ones that their tables say, the others the lowest that are free, in
-/// the order in which they are first used.
+/// Gives the tools of `programs` their numbers: those of one's own the ones that their tables say,
+/// the others the lowest that are free, in the order in which they are first used.
 pub(super) fn number<'a>(programs: impl Iterator<Item = &'a mut Program>, library: &Library) {
     let taken = library.numbers();
     let mut free = (1..).filter(|number| !taken.contains(number));

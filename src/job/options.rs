@@ -1,5 +1,5 @@
-//! The options of a job, each known once: its name on the command line is its key in `voromill.toml` and in the
-//! report, its text is read by the same parser everywhere.
+//! The options of a job, each known once: its name on the command line is its key in
+//! `voromill.toml` and in the report, its text is read by the same parser everywhere.
 
 use clap::Args;
 use serde::{Deserialize, Serialize};
@@ -23,12 +23,14 @@ use crate::gcode::dialect::Blend;
 #[derive(Clone, Debug, Default, PartialEq, Eq, Args, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct Options {
-    /// Cutter for isolation: vbit:TIP:ANGLE, endmill:DIAMETER or a name; of several the widest that fits cuts each place
+    /// Cutter for isolation: vbit:TIP:ANGLE, endmill:DIAMETER or a name; of several the widest that
+    /// fits cuts each place
     #[arg(long, value_name = "TOOL", value_delimiter = ',', help_heading = "Isolation")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub tool: Vec<ToolChoice>,
 
-    /// Nets that are not isolated, such as text: by name, with * and ?, or by what their copper is for (NonConductor)
+    /// Nets that are not isolated, such as text: by name, with * and ?, or by what their copper is
+    /// for (NonConductor)
     #[arg(long, value_name = "PATTERN", value_delimiter = ',', help_heading = "Isolation")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub ignore: Vec<Pattern>,
@@ -53,7 +55,8 @@ pub struct Options {
     )]
     pub strategy: Option<Strategy>,
 
-    /// The strategy of some nets, by name as for --ignore, such as GND*=outline; the first that means a net decides
+    /// The strategy of some nets, by name as for --ignore, such as GND*=outline; the first that
+    /// means a net decides
     #[arg(long, value_name = "PATTERN=STRATEGY", value_delimiter = ',', help_heading = "Isolation")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub strategy_for: Vec<StrategyFor>,
@@ -93,7 +96,8 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub overlap: Option<Overlap>,
 
-    /// Size of a pixel of the picture that finds the boundaries, at most [default: as coarse as the smallest gap allows]
+    /// Size of a pixel of the picture that finds the boundaries, at most [default: as coarse as the
+    /// smallest gap allows]
     #[arg(long, value_name = "LENGTH", conflicts_with = "dpi", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Length>,
@@ -107,16 +111,19 @@ pub struct Options {
     #[arg(long = "no-frame", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
     pub frame: Option<bool>,
 
-    /// How far that lap keeps from copper [default: as wide as the cut or the width to be cleared, 0.2mm at least]
+    /// How far that lap keeps from copper [default: as wide as the cut or the width to be cleared,
+    /// 0.2mm at least]
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub frame_margin: Option<Length>,
 
-    /// With core axes: let boundaries run through copper that a neighbour's axis is nearer to, as without the paper's minimum width
+    /// With core axes: let boundaries run through copper that a neighbour's axis is nearer to, as
+    /// without the paper's minimum width
     #[arg(long = "no-min-width", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
     pub min_width: Option<bool>,
 
-    /// How touching copper is found: contact, translucency, coincidence; all compares them in inspect
+    /// How touching copper is found: contact, translucency, coincidence; all compares them in
+    /// inspect
     #[arg(long, value_enum, hide_possible_values = true, value_name = "METHOD", help_heading = "Isolation")]
     pub topology: Option<Topology>,
 
@@ -125,7 +132,8 @@ pub struct Options {
     #[serde(with = "text")]
     pub tolerance: Option<Length>,
 
-    /// Where the cut does not fit: keep it centred (centre), leave the gap uncut (skip), or fail (error)
+    /// Where the cut does not fit: keep it centred (centre), leave the gap uncut (skip), or fail
+    /// (error)
     #[arg(long, value_enum, hide_possible_values = true, value_name = "WHAT", help_heading = "Isolation")]
     pub narrow: Option<Narrow>,
 
@@ -134,7 +142,8 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub adaptive_depth: Option<Length>,
 
-    /// The machine, for its speeds, its travel, its dialect and the time: 3018, shapeoko, linuxcnc-router, pcb-mill, or a file such as mine.toml
+    /// The machine, for its speeds, its travel, its dialect and the time: 3018, shapeoko,
+    /// linuxcnc-router, pcb-mill, or a file such as mine.toml
     #[arg(long, value_name = "MACHINE", help_heading = "Machine")]
     #[serde(with = "in_settings", skip_serializing_if = "Option::is_none")]
     pub machine: Option<MachineChoice>,
@@ -154,7 +163,8 @@ pub struct Options {
     #[serde(deserialize_with = "turns::deserialize")]
     pub spindle: Option<u32>,
 
-    /// Which way round loops about nets and contours go: climb (what is kept on the right), conventional [default: either]
+    /// Which way round loops about nets and contours go: climb (what is kept on the right),
+    /// conventional [default: either]
     #[arg(long, value_enum, hide_possible_values = true, value_name = "WAY", help_heading = "Machine")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<Direction>,
@@ -169,17 +179,21 @@ pub struct Options {
     #[serde(with = "text")]
     pub safe_z: Option<Length>,
 
-    /// What the machine speaks: grbl, grblhal, fluidnc, linuxcnc, mach3, mach4, marlin, reprapfirmware, klipper, smoothieware, tinyg, g2core, or a file such as mine.toml that describes a dialect
+    /// What the machine speaks: grbl, grblhal, fluidnc, linuxcnc, mach3, mach4, marlin,
+    /// reprapfirmware, klipper, smoothieware, tinyg, g2core, or a file such as mine.toml that
+    /// describes a dialect
     #[arg(long, value_name = "DIALECT", help_heading = "Machine")]
     #[serde(with = "text")]
     pub dialect: Option<DialectChoice>,
 
-    /// How far the machine may round corners off to keep its speed (G64 P), such as 0.01mm; machine leaves it as the machine is set
+    /// How far the machine may round corners off to keep its speed (G64 P), such as 0.01mm; machine
+    /// leaves it as the machine is set
     #[arg(long, value_name = "LENGTH|machine", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub blend: Option<Blend>,
 
-    /// How tools are changed: files (each tool has its own), m6, pause (M0), or pause-with-text, where the machine waits at it [default: as the dialect says]
+    /// How tools are changed: files (each tool has its own), m6, pause (M0), or pause-with-text,
+    /// where the machine waits at it [default: as the dialect says]
     #[arg(long, value_enum, hide_possible_values = true, value_name = "HOW", help_heading = "Machine")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_change: Option<ToolChange>,
@@ -218,12 +232,14 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub machine_travel: Option<Triple>,
 
-    /// Where the tool goes at the end of each program, and for each change of tools: x, y and z, such as 0mm,80mm,30mm; or how high alone
+    /// Where the tool goes at the end of each program, and for each change of tools: x, y and z,
+    /// such as 0mm,80mm,30mm; or how high alone
     #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text")]
     pub park: Option<ToolChangeAt>,
 
-    /// G-code of your own before each program, in a file: lines that are written as they stand, after the header
+    /// G-code of your own before each program, in a file: lines that are written as they stand,
+    /// after the header
     #[arg(long, value_name = "FILE", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub before: Option<OwnLines>,
@@ -238,7 +254,8 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub at_tool_change: Option<OwnLines>,
 
-    /// Where the machine waits for a tool to be changed, unless that is where it parks, such as 0mm,0mm,30mm; or how high
+    /// Where the machine waits for a tool to be changed, unless that is where it parks, such as
+    /// 0mm,0mm,30mm; or how high
     #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tool_change_at: Option<ToolChangeAt>,
@@ -278,7 +295,8 @@ pub struct Options {
     #[serde(deserialize_with = "turns::deserialize", skip_serializing_if = "Option::is_none")]
     pub drill_spindle: Option<u32>,
 
-    /// Bore slots, and holes thicker than the thickest drill or without one, with an end mill; =false drills slots hole by hole
+    /// Bore slots, and holes thicker than the thickest drill or without one, with an end mill;
+    /// =false drills slots hole by hole
     #[arg(
         long,
         value_name = "true|false",
@@ -320,12 +338,14 @@ pub struct Options {
     #[serde(with = "text")]
     pub alignment_margin: Option<Length>,
 
-    /// How deep alignment holes go at their full width, for pins to stand in what lies below [default: the board's thickness and 3mm]
+    /// How deep alignment holes go at their full width, for pins to stand in what lies below
+    /// [default: the board's thickness and 3mm]
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub alignment_depth: Option<Length>,
 
-    /// How deep all holes go, whatever their drill [default: the board's thickness, --break-through and the tip of each drill]
+    /// How deep all holes go, whatever their drill [default: the board's thickness, --break-through
+    /// and the tip of each drill]
     #[arg(
         long,
         value_name = "LENGTH",
@@ -345,7 +365,8 @@ pub struct Options {
     #[serde(with = "text")]
     pub drill_tip_angle: Option<Angle>,
 
-    /// What the board is made of, for the speeds of drills: fr4 (glass epoxy) or fr1 (paper phenolic)
+    /// What the board is made of, for the speeds of drills: fr4 (glass epoxy) or fr1 (paper
+    /// phenolic)
     #[arg(
         long,
         value_enum,
@@ -375,7 +396,8 @@ pub struct Options {
     #[serde(with = "text")]
     pub cutout_tool: Option<ToolChoice>,
 
-    /// The side that is up while the board is cut out: front, or back for a board that is turned over
+    /// The side that is up while the board is cut out: front, or back for a board that is turned
+    /// over
     #[arg(
         long,
         value_enum,
@@ -437,7 +459,8 @@ pub struct Options {
     #[serde(with = "text")]
     pub tab_height: Option<Length>,
 
-    /// What a program's file is called in the folder of outputs: front, back, drill, cutout or alignment, and a name, such as front=top.ngc
+    /// What a program's file is called in the folder of outputs: front, back, drill, cutout or
+    /// alignment, and a name, such as front=top.ngc
     #[arg(long, value_name = "PROGRAM=FILE", help_heading = "Output")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub output_name: Vec<OutputName>,

@@ -1,3 +1,5 @@
+//! The figures of the paper's Table V for one side, its own way and by exact boundaries.
+
 use std::time::Instant;
 
 use crate::board::{Board, Copper, Side};
@@ -9,7 +11,8 @@ use crate::voronoi::{self, Diagram, Frame};
 
 use super::Error;
 
-/// The figures of the paper's Table V for a side, its own way and by exact boundaries; none where there is no copper.
+/// The figures of the paper's Table V for a side, its own way and by exact boundaries; none where
+/// there is no copper.
 ///
 /// # Errors
 ///

@@ -1,8 +1,11 @@
+//! Names with `*` and `?`, by which options choose nets.
+
 use std::convert::Infallible;
 use std::fmt;
 use std::str::FromStr;
 
-/// A name with `*` for any letters and `?` for one, as shells have it; letters count as they are written.
+/// A name with `*` for any letters and `?` for one, as shells have it; letters count as they are
+/// written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pattern(String);
 

@@ -1,3 +1,5 @@
+//! The whole job as one function: a board and settings in, programs and findings out.
+
 use rayon::prelude::*;
 
 use crate::board::{Board, Side, Source, Warning};
@@ -48,7 +50,8 @@ pub struct Job {
 ///
 /// # Errors
 ///
-/// [`Error`] if there is neither copper nor an outline nor a hole, a file was cut off, or a side cannot be isolated.
+/// [`Error`] if there is neither copper nor an outline nor a hole, a file was cut off, or a side
+/// cannot be isolated.
 pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let Loaded { mut board, sources, mut warnings, ignored } = loaded;
     if let Some(cut_off) = warnings.iter().find(|warning| warning.code == TRUNCATED) {
@@ -130,7 +133,8 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     Ok(Job { board, sources, ignored, placement, axis, layers, electrical, programs, warnings })
 }
 
-/// Lowers what programs ask of the machine to what it can do; what is said of several programs is said once.
+/// Lowers what programs ask of the machine to what it can do; what is said of several programs is
+/// said once.
 fn restrained<'a>(programs: impl Iterator<Item = &'a mut Program>, settings: &Settings) -> Vec<Warning> {
     let mut said: Vec<Warning> = Vec::new();
     for warning in programs.flat_map(|program| settings.machine.restrain(program)) {

@@ -1,4 +1,5 @@
-//! Touching the surface of a board before it is cut: as it will lie on the machine, all its tiles at once.
+//! Touching the surface of a board before it is cut: as it will lie on the machine, all its tiles
+//! at once.
 
 use std::fmt;
 use std::str::FromStr;
@@ -76,7 +77,8 @@ const MOST: u32 = 1000;
 ///
 /// # Errors
 ///
-/// [`Error::Value`] for lengths that make no sense and for a dialect that does not probe, [`Error::NoCopper`] for files without extent.
+/// [`Error::Value`] for lengths that make no sense and for a dialect that does not probe,
+/// [`Error::NoCopper`] for files without extent.
 pub fn probe(loaded: &Loaded, settings: &Settings, probing: &Probing) -> Result<String, Error> {
     let bounds = loaded.board.bounds().ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
     let area = Stock::new(bounds, settings).area(probing.side).inflate(-probing.inset.nm());
@@ -133,7 +135,8 @@ fn wrong<T>(key: &'static str, value: impl fmt::Display, expected: &str) -> Resu
     Err(Error::Value { key, problem: format!("`{value}` makes no sense: {expected}") })
 }
 
-/// How many touches along `length` are no further apart than `spacing`, if that is a number of touches.
+/// How many touches along `length` are no further apart than `spacing`, if that is a number of
+/// touches.
 fn count(length: Nm, spacing: Nm) -> Option<u32> {
     let spacing = spacing.get();
     // The rectangle of a rounded corner is rounded outwards.

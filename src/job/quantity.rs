@@ -111,7 +111,8 @@ impl From<Place> for Point {
     }
 }
 
-/// Where the machine waits for a tool: a place, written as three lengths, or a height above where it is.
+/// Where the machine waits for a tool: a place, written as three lengths, or a height above where
+/// it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ToolChangeAt {
     /// Such as `0mm,0mm,30mm`.
@@ -248,8 +249,8 @@ impl fmt::Display for Length {
     }
 }
 
-/// For serde: an optional value as the text people write. A bare number in a settings file is read as text too, so
-/// that it meets the same refusal, with the same hint, as on the command line.
+/// For serde: an optional value as the text people write. A bare number in a settings file is read
+/// as text too, so that it meets the same refusal, with the same hint, as on the command line.
 pub(super) mod text {
     use std::fmt;
     use std::marker::PhantomData;
@@ -305,7 +306,8 @@ pub(super) mod text {
     }
 }
 
-/// For serde: a list, as texts in an array, or as one text with blanks or commas between; written with blanks.
+/// For serde: a list, as texts in an array, or as one text with blanks or commas between; written
+/// with blanks.
 pub(super) mod list {
     use std::fmt;
     use std::str::FromStr;

@@ -8,7 +8,8 @@ use super::quantity::{Length, Triple};
 use super::settings::{given, positive};
 use super::{Cutting, Error, Options, Profile};
 
-/// The options with what a machine says where a person left it open: its dialect, and the default speeds no faster than it goes.
+/// The options with what a machine says where a person left it open: its dialect, and the default
+/// speeds no faster than it goes.
 pub(super) fn defaults_for(profile: Option<&Profile>, mut options: Options) -> Options {
     let Some(profile) = profile else { return options };
     let usual = Options::defaults();
@@ -26,7 +27,8 @@ pub(super) fn defaults_for(profile: Option<&Profile>, mut options: Options) -> O
     options
 }
 
-/// A number as large as it can be meant: the command line says the same, a settings file has nothing else that does.
+/// A number as large as it can be meant: the command line says the same, a settings file has
+/// nothing else that does.
 pub(super) fn count(
     key: &'static str,
     count: Option<u32>,
@@ -121,7 +123,8 @@ pub(super) fn adaptive_depth(options: &Options, cuttings: &[Cutting]) -> Result<
     }
 }
 
-/// The widest isolating cut. Chosen: wider ones leave nothing of a board, and take minutes to say so.
+/// The widest isolating cut. Chosen: wider ones leave nothing of a board, and take minutes to say
+/// so.
 const WIDEST: Nm = Nm::from_mm(10);
 
 /// Fails for tools that would cut boards away.

@@ -1,3 +1,8 @@
+//! Everything a job needs to know, complete and checked.
+//!
+//! Options say what a person asked for; settings say what will be done, so that later stages check
+//! nothing again.
+
 use clap::ValueEnum;
 
 use crate::board::Side;
@@ -23,7 +28,8 @@ use super::tools::{ToolChoice, Workshop, point_angle};
 ///
 /// # Guarantees
 ///
-/// Lengths that must be are above zero; tools suit what they are for; the cutout's tabs are thinner than its depth.
+/// Lengths that must be are above zero; tools suit what they are for; the cutout's tabs are thinner
+/// than its depth.
 #[derive(Clone, Debug)]
 pub struct Settings {
     options: Options,
@@ -49,7 +55,8 @@ pub struct Settings {
     pub sites: Sites,
     /// How far from copper a net's region may reach.
     pub limit: Option<Nm>,
-    /// The pixel of the picture that finds the boundaries, at most; none for as coarse as the smallest gap allows.
+    /// The pixel of the picture that finds the boundaries, at most; none for as coarse as the
+    /// smallest gap allows.
     pub pixel: Option<Nm>,
     /// Whether a lap is cut round copper without an outline.
     pub frame: bool,
@@ -125,11 +132,12 @@ pub struct Settings {
     pub tab_height: Nm,
 }
 
-/// The height above the copper from which the tool goes down at the plunge feed. Chosen: clear of any burr, and not
-/// long enough to cost time.
+/// The height above the copper from which the tool goes down at the plunge feed. Chosen: clear of
+/// any burr, and not long enough to cost time.
 const APPROACH: Nm = Nm::from_um(200);
 
-/// How deep alignment pins stand in what lies below the board, unasked. Chosen: as deep as a pin of 3 mm is thick, so that it stands straight.
+/// How deep alignment pins stand in what lies below the board, unasked. Chosen: as deep as a pin of
+/// 3 mm is thick, so that it stands straight.
 const PINS: Nm = Nm::from_mm(3);
 
 /// The finest pixel.
@@ -139,7 +147,8 @@ const FINEST: Nm = Nm::from_um(1);
 const PICTURE: Nm = Nm::new(25_400);
 
 impl Settings {
-    /// The pixel of pictures that are drawn of the board: that asked for, or one of 1000 to the inch.
+    /// The pixel of pictures that are drawn of the board: that asked for, or one of 1000 to the
+    /// inch.
     #[must_use]
     pub fn picture_pixel(&self) -> Nm {
         self.pixel.unwrap_or(PICTURE)
@@ -310,7 +319,8 @@ fn dialect(options: &Options, base: Dialect) -> Result<Dialect, Error> {
     })
 }
 
-/// Why a way of changing tools cannot be asked for: a machine that does not stand still cuts on with the tool that is in.
+/// Why a way of changing tools cannot be asked for: a machine that does not stand still cuts on
+/// with the tool that is in.
 fn unheld(change: ToolChange, base: &Dialect) -> String {
     let word = match change {
         ToolChange::M6 => "M6",
@@ -348,7 +358,8 @@ fn up(side: Option<DrillSide>) -> Side {
     }
 }
 
-/// How drills are run: as fast as the machine turns, or, where nothing is known of it, as fast as its cutters are to turn.
+/// How drills are run: as fast as the machine turns, or, where nothing is known of it, as fast as
+/// its cutters are to turn.
 pub(super) fn drill_speeds(options: &Options) -> DrillSpeeds {
     let machine = options.machine.as_ref().map(|machine| machine.0.machine());
     let usual = options.spindle.expect("the defaults leave nothing open");

@@ -11,7 +11,8 @@ use super::{Error, Options};
 /// The name it has beside a board.
 pub const FILE_NAME: &str = "voromill.toml";
 
-/// The defaults, as the commented settings file that `voromill init` writes: there is no second list of them.
+/// The defaults, as the commented settings file that `voromill init` writes: there is no second
+/// list of them.
 pub const DEFAULTS: &str = include_str!("defaults.toml");
 
 impl Options {
@@ -19,8 +20,8 @@ impl Options {
     ///
     /// # Errors
     ///
-    /// [`Error::Settings`] with line and column for what is not TOML, for unknown keys (naming the nearest), and
-    /// for values that are not what their key takes.
+    /// [`Error::Settings`] with line and column for what is not TOML, for unknown keys (naming the
+    /// nearest), and for values that are not what their key takes.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
         toml::from_str(text).map_err(|error| {
             let before = &text[..error.span().map_or(0, |span| span.start).min(text.len())];

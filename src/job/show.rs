@@ -9,8 +9,8 @@ use crate::toolpath::{Placement, Section};
 
 use super::{Error, Job, Layer, Part, Settings};
 
-/// Bare ground round the board, and the most pixels of the longer side. Chosen: the cutout shows, and it fills a
-/// large screen.
+/// Bare ground round the board, and the most pixels of the longer side. Chosen: the cutout shows,
+/// and it fills a large screen.
 const MARGIN: Nm = Nm::from_um(1500);
 const MOST: i64 = 2400;
 
@@ -37,8 +37,8 @@ impl Job {
         })
     }
 
-    /// The picture of `side` that goes with its program, as the bytes of a PNG file: regions, copper, cuts, holes, and a legend. None
-    /// where the side has no copper.
+    /// The picture of `side` that goes with its program, as the bytes of a PNG file: regions,
+    /// copper, cuts, holes, and a legend. None where the side has no copper.
     pub fn picture(&self, side: Side, settings: &Settings) -> Option<Result<Vec<u8>, Error>> {
         let shown = self.shown(side)?;
         let area = picture::whole(&self.board, MARGIN)?;

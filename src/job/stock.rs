@@ -74,7 +74,8 @@ impl Stock {
         })
     }
 
-    /// The program for the holes on whose pins the stock is turned over; none where none are asked for, or nothing is turned.
+    /// The program for the holes on whose pins the stock is turned over; none where none are asked
+    /// for, or nothing is turned.
     pub(super) fn alignment(&self, board: &Board, settings: &Settings) -> Option<(Program, Vec<Warning>)> {
         let (diameter, margin) = settings.alignment.filter(|_| board.back.is_some())?;
         let holes = alignment_holes(self.bounds, self.axis, margin).map(|start| Hole {

@@ -1,4 +1,5 @@
-//! What the files of programs are called where each tool has one of its own: by what the tool is, as the person who fits it reads it.
+//! What the files of programs are called where each tool has one of its own: by what the tool is,
+//! as the person who fits it reads it.
 
 use std::fmt::Write as _;
 
@@ -9,8 +10,8 @@ use crate::toolpath::{Program, Tool, ToolKind};
 
 use super::{Part, Settings};
 
-/// The end of each program's file name, no two the same: the part, and in a file of its own a drill with its diameter, and any other tool that is not the
-/// only one of its part.
+/// The end of each program's file name, no two the same: the part, and in a file of its own a drill
+/// with its diameter, and any other tool that is not the only one of its part.
 pub(super) fn tags(planned: &[(Part, Side, Program)], settings: &Settings) -> Vec<String> {
     let mut tags: Vec<String> = Vec::with_capacity(planned.len());
     for (part, _, program) in planned {

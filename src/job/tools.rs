@@ -1,7 +1,8 @@
-//! The tools of a workshop: those that are built in, and one's own as `[tools.NAME]` tables of `voromill.toml`.
+//! The tools of a workshop: those that are built in, and one's own as `[tools.NAME]` tables of
+//! `voromill.toml`.
 //!
-//! What a table leaves open is as for any tool: speeds from the settings, the depth from `depth` or `kerf`. What a person says on the
-//! command line holds for every tool, whatever its table says.
+//! What a table leaves open is as for any tool: speeds from the settings, the depth from `depth` or
+//! `kerf`. What a person says on the command line holds for every tool, whatever its table says.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -11,7 +11,8 @@ impl Job {
     ///
     /// Of several tiles the first is judged: the others are the same moves elsewhere.
     ///
-    /// The programs say for themselves what tools they are for; how the board lies is told, not found.
+    /// The programs say for themselves what tools they are for; how the board lies is told, not
+    /// found.
     ///
     /// # Errors
     ///

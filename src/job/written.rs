@@ -1,3 +1,5 @@
+//! A program of the job: planned, measured, as text, and what its file is called.
+
 use crate::board::{Side, Warning};
 use crate::gcode::{self, Header};
 use crate::geometry::Point;
@@ -86,7 +88,8 @@ impl Part {
 }
 
 impl Written {
-    /// `program`, on every tile, in the dialect of `settings`, under `header` with its settings and the time it takes.
+    /// `program`, on every tile, in the dialect of `settings`, under `header` with its settings and
+    /// the time it takes.
     #[must_use]
     pub fn new(
         (part, side, tag): (Part, Side, String),

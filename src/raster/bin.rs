@@ -1,3 +1,8 @@
+//! Which primitives may be seen in a cell, and how near at best.
+//!
+//! A cell's bin is sifted from that of the cell around it, so that unlimited cones do not cost
+//! sites × tiles.
+
 use super::canvas::{Canvas, Extent, LANES, SIDE};
 use super::cell::Cell;
 use super::half_plane::Cover;
@@ -16,7 +21,8 @@ pub(super) struct Bin {
     pub parts: Vec<Part>,
     /// The edges of the parts.
     pub edges: Vec<u32>,
-    /// No fragment is nearer, and none that is seen is deeper; infinite where something may not be covered.
+    /// No fragment is nearer, and none that is seen is deeper; infinite where something may not be
+    /// covered.
     near: f32,
     far: f32,
     /// Whether what lies behind is kept, too: for blending, where nothing hides anything.
@@ -29,10 +35,11 @@ pub(super) struct Candidate {
     pub primitive: u32,
     /// No fragment is nearer than this nor than 0.
     pub near: f32,
-    /// And none is deeper than the larger of this and 0, where it covers the whole cell; else infinite.
+    /// And none is deeper than the larger of this and 0, where it covers the whole cell; else
+    /// infinite.
     pub far: f32,
-    /// How its depth changes a pixel along x and y in the middle of the cell, infinite where that is not known; and
-    /// how much that may change a pixel.
+    /// How its depth changes a pixel along x and y in the middle of the cell, infinite where that
+    /// is not known; and how much that may change a pixel.
     pub way: (f32, f32),
     pub curve: f32,
 }
@@ -48,11 +55,13 @@ impl Candidate {
         curve: f32::INFINITY,
     };
 
-    /// Whether it lies behind `other` everywhere in a cell whose samples lie within `radius` of its middle.
+    /// Whether it lies behind `other` everywhere in a cell whose samples lie within `radius` of its
+    /// middle.
     ///
-    /// Both depths in the middle are known up to the radius that `near` and `far` allow for. From there a convex
-    /// distance grows no slower than its plane says, and no faster than its plane and its curve say. That tells sites
-    /// apart that lie the same way, where the radius alone would not: |d₁ − d₂| > |g₁ − g₂| r + r² / 2 d₂.
+    /// Both depths in the middle are known up to the radius that `near` and `far` allow for. From
+    /// there a convex distance grows no slower than its plane says, and no faster than its plane
+    /// and its curve say. That tells sites apart that lie the same way, where the radius alone
+    /// would not: |d₁ − d₂| > |g₁ − g₂| r + r² / 2 d₂.
     fn lies_behind(&self, other: &Self, radius: f32) -> bool {
         let (x, y) = (self.way.0 - other.way.0, self.way.1 - other.way.1);
         let apart = self.near - other.far + 2.0 * radius;
@@ -104,7 +113,8 @@ impl Bin {
         self.sees_through = from.sees_through;
     }
 
-    /// Lets go of all that lies behind `hidden`, and behind the nearest candidate in a cell of this radius.
+    /// Lets go of all that lies behind `hidden`, and behind the nearest candidate in a cell of this
+    /// radius.
     pub(super) fn settle(&mut self, scene: &Scene, hidden: f32, radius: f32) {
         let depth = |part: &Part| match &scene.primitives[index(part.primitive)].shape {
             Shape::Polygon(polygon) => polygon.depth(),
@@ -123,8 +133,8 @@ impl Bin {
         self.far = hidden;
     }
 
-    /// The one owner of every pixel of the cell, where that is certain, and certain that no pixel lies at a depth
-    /// on the other side of one of `levels` than another.
+    /// The one owner of every pixel of the cell, where that is certain, and certain that no pixel
+    /// lies at a depth on the other side of one of `levels` than another.
     pub(super) fn uniform(&self, scene: &Scene, levels: &[f32]) -> Option<u32> {
         let mut candidates = self.primitives();
         let Some(first) = candidates.next() else { return Some(scene.owner(Label::BACKGROUND)) };
@@ -148,7 +158,8 @@ impl Bin {
         self.shapes.len() + self.parts.len()
     }
 
-    /// Draws each primitive alone on a canvas as large as `cell`, a block; `drawn` gets them in the order of labels.
+    /// Draws each primitive alone on a canvas as large as `cell`, a block; `drawn` gets them in the
+    /// order of labels.
     pub(super) fn draw_each(
         &self,
         scene: &Scene,
@@ -226,8 +237,8 @@ const CELL: i32 = 160;
 
 const _: () = assert!(CELL / LANES <= SIDE, "a piece of a cell fits a block");
 
-/// Pixels along a side of the pieces that a cell `side` pixels long is cut into, and how many candidates one of them
-/// may have to be drawn as it is. Measured: see the module's doc.
+/// Pixels along a side of the pieces that a cell `side` pixels long is cut into, and how many
+/// candidates one of them may have to be drawn as it is. Measured: see the module's doc.
 const fn grain(side: i32) -> (i32, usize) {
     match side {
         ..=24 => (8, usize::MAX),

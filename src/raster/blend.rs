@@ -1,4 +1,5 @@
-//! Pictures in which a pixel shows more than what is nearest: translucent layers, and how many there are.
+//! Pictures in which a pixel shows more than what is nearest: translucent layers, and how many
+//! there are.
 
 use rayon::prelude::*;
 
@@ -30,12 +31,12 @@ impl Window {
     }
 }
 
-/// The colour of one pixel over which translucent layers lie, the nearest first: each component is Σ ⌈cᵢ / 2ⁱ⌉ with
-/// i = 1, 2, … ([Downing and Rus, VIsolate, § III-A.2]), at most 255.
+/// The colour of one pixel over which translucent layers lie, the nearest first: each component is
+/// Σ ⌈cᵢ / 2ⁱ⌉ with i = 1, 2, … ([Vona and Rus, VIsolate, § III-A.2]), at most 255.
 ///
 /// From the ninth layer on nothing is left of a component but its being there.
 ///
-/// [Downing and Rus, VIsolate, § III-A.2]: super#references
+/// [Vona and Rus, VIsolate, § III-A.2]: super#references
 #[must_use]
 pub fn mix(layers: impl IntoIterator<Item = [u8; 3]>) -> [u8; 3] {
     let mut sum = [0_u8; 3];
@@ -48,8 +49,9 @@ pub fn mix(layers: impl IntoIterator<Item = [u8; 3]>) -> [u8; 3] {
     sum
 }
 
-/// Draws every label translucently, in its colour from `colors` (black where there is none): a pixel is the [`mix`]
-/// of the distinct labels that have a fragment there, in the order of their depth. Row by row from the top.
+/// Draws every label translucently, in its colour from `colors` (black where there is none): a
+/// pixel is the [`mix`] of the distinct labels that have a fragment there, in the order of their
+/// depth. Row by row from the top.
 ///
 /// However many primitives of one label lie on a pixel, they count once, at the nearest.
 ///
@@ -84,7 +86,8 @@ pub fn render_overdraw(scene: &Scene, window: Window) -> Vec<u32> {
 /// Depth and label of a fragment.
 type Layer = (f32, u32);
 
-/// A picture in which `shade` makes each pixel from all its fragments; it gets none where there is no fragment.
+/// A picture in which `shade` makes each pixel from all its fragments; it gets none where there is
+/// no fragment.
 fn layered<P: Copy + Send + Sync>(
     scene: &Scene,
     window: Window,

@@ -1,3 +1,5 @@
+//! Blocks of pixels and the loops that draw on them: the inner loops of the engine.
+
 use std::ops::Range;
 
 use pulp::{Arch, Simd, WithSimd};
@@ -7,10 +9,12 @@ use super::lanes::Lanes;
 use super::subpixel::sample;
 use super::{Fragment, Label};
 
-/// Pixels that a row is padded to: as many as any processor works on at once. Cells are cut at multiples of it.
+/// Pixels that a row is padded to: as many as any processor works on at once. Cells are cut at
+/// multiples of it.
 pub(super) const LANES: i32 = 8;
 
-/// Pixels along a side of the largest block of pixels drawn at a time. Chosen: 8 KiB, a quarter of a first-level cache.
+/// Pixels along a side of the largest block of pixels drawn at a time. Chosen: 8 KiB, a quarter of
+/// a first-level cache.
 pub(super) const SIDE: i32 = 32;
 
 /// Sample positions of neighbouring pixels from the first one on, in steps.
@@ -44,7 +48,8 @@ pub(super) trait Field {
 pub(super) struct Slope<S: Simd> {
     /// Its depth is nowhere less than `near` + `way` · h, at a place h pixels away.
     pub near: Lanes<S>,
-    /// And nowhere more than the larger of 0 and `far` + `way` · h + `curve` · h² / 2, nor than `far` + |h|.
+    /// And nowhere more than the larger of 0 and `far` + `way` · h + `curve` · h² / 2, nor than
+    /// `far` + |h|.
     pub far: Lanes<S>,
     /// Along x and y; infinite where there is no such plane: then `near` − |h| is the bound.
     pub way: (Lanes<S>, Lanes<S>),
@@ -62,10 +67,11 @@ pub(super) enum Extent<'a> {
     Part(&'a [Range<i32>], f32),
 }
 
-/// Depths and labels of a rectangle of pixels, its frame, while primitives are laid on it block by block.
+/// Depths and labels of a rectangle of pixels, its frame, while primitives are laid on it block by
+/// block.
 ///
-/// Rows of a block are padded to whole lanes; what lies beyond it is drawn along. Blocks that are cut from the left of the
-/// frame at multiples of [`LANES`] do not reach into each other.
+/// Rows of a block are padded to whole lanes; what lies beyond it is drawn along. Blocks that are
+/// cut from the left of the frame at multiples of [`LANES`] do not reach into each other.
 pub(super) struct Canvas {
     arch: Arch,
     frame: Cell,
@@ -91,8 +97,8 @@ impl Canvas {
     /// Stretches it on `frame`; what was drawn before is still there.
     pub(super) fn stretch(&mut self, frame: Cell) {
         self.frame = frame;
-        // Room for a block that does not begin at the frame's left, and a stride that is no power of two: rows of a
-        // block a power of two apart would push one another out of the cache.
+        // Room for a block that does not begin at the frame's left, and a stride that is no power
+        // of two: rows of a block a power of two apart would push one another out of the cache.
         self.stride = count(frame.width).next_multiple_of(count(LANES)) + 2 * count(LANES);
         let pixels = self.stride * count(frame.height);
         if self.depths.len() < pixels {
@@ -215,7 +221,8 @@ impl<F: Field> WithSimd for Lay<'_, F> {
             Extent::Part(columns, _) => columns.iter(),
             Extent::First | Extent::Whole => [].iter(),
         };
-        // Split row by row: chunks of a length not known beforehand would cost a division each time.
+        // Split row by row: chunks of a length not known beforehand would cost a division each
+        // time.
         for y in block.y..block.y + block.height {
             let (row_depths, row_labels);
             (row_depths, depths) = depths.split_at_mut(stride.min(depths.len()));
@@ -253,7 +260,8 @@ impl<F: Field> WithSimd for Lay<'_, F> {
     }
 }
 
-/// Goes along a row whose first column is `first`, with the sample positions, depths and labels of several pixels.
+/// Goes along a row whose first column is `first`, with the sample positions, depths and labels of
+/// several pixels.
 #[inline(always)]
 fn along<S: Simd>(
     simd: S,
@@ -263,7 +271,8 @@ fn along<S: Simd>(
     mut pixels: impl FnMut(Lanes<S>, &mut S::f32s, &mut S::u32s),
 ) {
     let offsets = Lanes::new(simd, simd.partial_load_f32s(&OFFSETS[..S::F32_LANES]));
-    // Whole numbers below 2²⁴ all the way: adding them is exact, and a position is what it is wherever a row starts.
+    // Whole numbers below 2²⁴ all the way: adding them is exact, and a position is what it is
+    // wherever a row starts.
     let step = Lanes::splat(simd, OFFSETS[1]) * Lanes::splat(simd, LANES_AS_FLOAT[S::F32_LANES]);
     let mut x = Lanes::splat(simd, position(first)) + offsets;
     let (depths, labels) = (S::as_mut_simd_f32s(depths).0, S::as_mut_simd_u32s(labels).0);

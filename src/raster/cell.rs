@@ -1,3 +1,5 @@
+//! A rectangle of pixels: what bins and bounds speak of.
+
 use super::subpixel::sample;
 
 /// A rectangle of pixels, never empty.

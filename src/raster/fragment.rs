@@ -1,3 +1,7 @@
+//! One primitive's claim on a pixel, and the order that decides between claims.
+//!
+//! The order (depth, then label) is total, so a picture does not depend on the order of drawing.
+
 /// What a pixel shows: a number of the caller's choosing, 0 for nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Label(pub u32);

@@ -1,11 +1,15 @@
+//! Half-planes in integers: ends of strips, sides of sectors, edges of triangles.
+
 use std::ops::Range;
 
 use super::cell::Cell;
 use super::subpixel::sample;
 
-/// The samples with a x + b y + c ≥ 0 (in steps): where a strip ends, a sector begins, a triangle has its edge.
+/// The samples with a x + b y + c ≥ 0 (in steps): where a strip ends, a sector begins, a triangle
+/// has its edge.
 ///
-/// Decided in integers, without error: |a|, |b| ≤ 2³¹ and coordinates within ±2³⁰ keep every term below 2⁶³.
+/// Decided in integers, without error: |a|, |b| ≤ 2³¹ and coordinates within ±2³⁰ keep every term
+/// below 2⁶³.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct HalfPlane {
     a: i64,
@@ -42,7 +46,8 @@ impl HalfPlane {
         Self { a: way.0, b: way.1, c: -(way.0 * x + way.1 * y) }
     }
 
-    /// The samples p that lie clockwise of `way` as seen from `from` (at its right hand), those on the line included.
+    /// The samples p that lie clockwise of `way` as seen from `from` (at its right hand), those on
+    /// the line included.
     pub(super) fn clockwise(from: (i32, i32), way: (i64, i64)) -> Self {
         Self::ahead(from, (-way.1, way.0))
     }
@@ -54,7 +59,8 @@ impl HalfPlane {
 
     /// The same with the samples on the line only where it is a left edge or a flat top edge.
     ///
-    /// That is the half-plane of the sample moved by (ε, ε²): right by next to nothing, down by still less.
+    /// That is the half-plane of the sample moved by (ε, ε²): right by next to nothing, down by
+    /// still less.
     pub(super) const fn top_left(self) -> Self {
         let keeps = self.a > 0 || (self.a == 0 && self.b > 0);
         Self { c: if keeps { self.c } else { self.c - 1 }, ..self }

@@ -1,11 +1,14 @@
+//! Arithmetic on as many pixels at once as the processor takes, with the bits of one at a time.
+
 use std::ops::{Add, Div, Mul, Sub};
 
 use pulp::Simd;
 
-/// As many single-precision numbers as the processor works on at once; each lane for itself, correctly rounded.
+/// As many single-precision numbers as the processor works on at once; each lane for itself,
+/// correctly rounded.
 ///
-/// A formula written with it reads as for one number, and gives each lane the bits that one number would have got:
-/// nothing is fused, nothing crosses lanes.
+/// A formula written with it reads as for one number, and gives each lane the bits that one number
+/// would have got: nothing is fused, nothing crosses lanes.
 #[derive(Clone, Copy)]
 pub(super) struct Lanes<S: Simd> {
     simd: S,

@@ -1,8 +1,10 @@
-//! The distance surfaces as triangles: what the papers gave to a GPU, to compare with, and to look at.
+//! The distance surfaces as triangles: what the papers gave to a GPU, to compare with, and to look
+//! at.
 //!
-//! A cone becomes a fan. Its rim is a polygon of n corners inscribed in the circle of radius R, so in the middle of a side it
-//! is too deep by R (1 − cos π/n) ([Hoff et al., § 4](super#references)): that is the error asked for, and it is
-//! largest at the rim. Corners are rounded to 1/256 pixel and given the depth of where they then lie.
+//! A cone becomes a fan. Its rim is a polygon of n corners inscribed in the circle of radius R, so
+//! in the middle of a side it is too deep by R (1 − cos π/n)
+//! ([Hoff et al., § 4](super#references)): that is the error asked for, and it is largest at the
+//! rim. Corners are rounded to 1/256 pixel and given the depth of where they then lie.
 
 use std::f64::consts::PI;
 
@@ -28,7 +30,8 @@ pub fn cone(apex: PixelPoint, reach: f64, error: f64) -> Vec<Surface> {
     pairs.map(|(&(a, a_depth), &(b, b_depth))| triangle([apex, a, b], [0.0, a_depth, b_depth])).collect()
 }
 
-/// Two quads and a fan at each end: the distance to the segment from `from` to `to` as far as `reach` pixels.
+/// Two quads and a fan at each end: the distance to the segment from `from` to `to` as far as
+/// `reach` pixels.
 #[must_use]
 pub fn curtain(from: PixelPoint, to: PixelPoint, reach: f64, error: f64) -> Vec<Surface> {
     let mut faces = cone(from, reach, error);
@@ -49,7 +52,8 @@ pub fn curtain(from: PixelPoint, to: PixelPoint, reach: f64, error: f64) -> Vec<
     faces
 }
 
-/// The distance to a circle of `radius` pixels, inside to its centre and outside as far as `reach` pixels.
+/// The distance to a circle of `radius` pixels, inside to its centre and outside as far as `reach`
+/// pixels.
 #[must_use]
 #[expect(clippy::cast_possible_truncation, reason = "rounded correctly")]
 pub fn ring(center: PixelPoint, radius: f64, reach: f64, error: f64) -> Vec<Surface> {

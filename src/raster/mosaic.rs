@@ -1,3 +1,5 @@
+//! Depth bounds of many cells at once: the hierarchical z-buffer of the engine.
+
 use pulp::{Arch, Simd, WithSimd};
 
 use super::Scene;
@@ -15,10 +17,12 @@ pub(super) type Across = [f32; ACROSS];
 
 const NOWHERE: Across = [f32::INFINITY; ACROSS];
 
-/// Candidates beyond which a split looks at some of them first. Chosen: 64 bins of so many are 400 KiB.
+/// Candidates beyond which a split looks at some of them first. Chosen: 64 bins of so many are 400
+/// KiB.
 const MANY: usize = 512;
 
-/// Where a cell is cut: columns and rows of pieces, each with its first pixel and its length. Pieces may overlap.
+/// Where a cell is cut: columns and rows of pieces, each with its first pixel and its length.
+/// Pieces may overlap.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cuts {
     pub columns: Vec<(i32, i32)>,
@@ -26,8 +30,8 @@ pub(super) struct Cuts {
 }
 
 impl Cuts {
-    /// Cuts a cell into pieces of about `grain` pixels, or of an eighth of its side if that is more; columns are cut
-    /// at multiples of [`LANES`] from its left.
+    /// Cuts a cell into pieces of about `grain` pixels, or of an eighth of its side if that is
+    /// more; columns are cut at multiples of [`LANES`] from its left.
     pub(super) fn even(&mut self, cell: Cell, grain: i32) {
         let pieces = |from: i32, length: i32, multiple: i32, out: &mut Vec<(i32, i32)>| {
             let count = ((length + grain - 1) / grain).clamp(1, LANES);
@@ -72,9 +76,9 @@ impl Weights {
 
 /// Cuts the bin of a cell into bins of its pieces.
 ///
-/// It draws a coarse picture of the cell with the formulas that draw the fine one: one sample in the middle of each
-/// piece, and the piece's radius as the doubt. So a candidate is weighed for 64 pieces by as many instructions as
-/// drawing 64 pixels takes.
+/// It draws a coarse picture of the cell with the formulas that draw the fine one: one sample in
+/// the middle of each piece, and the piece's radius as the doubt. So a candidate is weighed for 64
+/// pieces by as many instructions as drawing 64 pixels takes.
 pub(super) struct Mosaic {
     arch: Arch,
     /// The middles of the columns and rows of pieces, in steps.
@@ -99,10 +103,11 @@ impl Mosaic {
         }
     }
 
-    /// Makes `bins`, from the first on, the bins of the pieces that `cuts` makes of `around`, whose bin is `from`.
+    /// Makes `bins`, from the first on, the bins of the pieces that `cuts` makes of `around`, whose
+    /// bin is `from`.
     ///
-    /// A primitive that covers a whole piece no deeper than `far` hides all that lie entirely behind. Only what is
-    /// strictly behind goes: a tie is decided pixel by pixel.
+    /// A primitive that covers a whole piece no deeper than `far` hides all that lie entirely
+    /// behind. Only what is strictly behind goes: a tie is decided pixel by pixel.
     pub(super) fn split(
         &mut self,
         scene: &Scene,

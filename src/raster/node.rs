@@ -1,3 +1,5 @@
+//! The descent from the whole picture to tiles: ever smaller squares with their bins.
+
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -33,15 +35,16 @@ impl Grid {
         (self.width.div_ceil(self.tile), self.height.div_ceil(self.tile))
     }
 
-    /// The pixels of `count` × `count` tiles from the tile at (`column`, `row`), with their apron, as far as the
-    /// picture goes; none of an empty picture.
+    /// The pixels of `count` × `count` tiles from the tile at (`column`, `row`), with their apron,
+    /// as far as the picture goes; none of an empty picture.
     pub(super) fn cell(self, column: u32, row: u32, count: u32) -> Option<Cell> {
         let (x, width) = self.span(column, count, self.width);
         let (y, height) = self.span(row, count, self.height);
         (width > 0 && height > 0).then_some(Cell { x, y, width, height })
     }
 
-    /// The first pixel and the length of `count` tiles with their apron in a picture `side` pixels long.
+    /// The first pixel and the length of `count` tiles with their apron in a picture `side` pixels
+    /// long.
     pub(super) fn span(self, tile: u32, count: u32, side: u32) -> (i32, i32) {
         let (first, end) =
             (u64::from(tile) * u64::from(self.tile), u64::from(tile + count) * u64::from(self.tile));
@@ -52,9 +55,11 @@ impl Grid {
     }
 }
 
-/// The picture cut into ever smaller squares of tiles, depth first, a row of squares at a time from top to bottom.
+/// The picture cut into ever smaller squares of tiles, depth first, a row of squares at a time from
+/// top to bottom.
 ///
-/// Only the rows on the way down are alive, so memory follows the bins along a line across the picture.
+/// Only the rows on the way down are alive, so memory follows the bins along a line across the
+/// picture.
 pub(super) struct Descent<'a> {
     scene: &'a Scene,
     grid: Grid,
@@ -65,7 +70,8 @@ pub(super) struct Descent<'a> {
     rows: Vec<Row>,
 }
 
-/// A row of squares of `count` tiles a side, of whose rows of pieces the first few are already cut off.
+/// A row of squares of `count` tiles a side, of whose rows of pieces the first few are already cut
+/// off.
 struct Row {
     count: u32,
     nodes: Vec<Node>,
@@ -75,13 +81,14 @@ struct Row {
 /// Pieces along a side that a square is cut into at most.
 const FAN: u32 = 8;
 
-/// Candidates in a row of squares beyond which its pieces are cut off a row at a time. In the largest squares one may be seen in
-/// half a dozen pieces; cutting all at once would take that many times the memory of the scene. Chosen: 1.5 MiB of them.
+/// Candidates in a row of squares beyond which its pieces are cut off a row at a time. In the
+/// largest squares one may be seen in half a dozen pieces; cutting all at once would take that many
+/// times the memory of the scene. Chosen: 1.5 MiB of them.
 const HEAVY: usize = 65_536;
 
 impl<'a> Descent<'a> {
-    /// Cuts down to squares of `size` tiles (a power of two); squares that are uniform in respect of `levels` are
-    /// left out where `skip` says so.
+    /// Cuts down to squares of `size` tiles (a power of two); squares that are uniform in respect
+    /// of `levels` are left out where `skip` says so.
     pub(super) fn new(scene: &'a Scene, grid: Grid, size: u32, levels: &'a [f32], skip: bool) -> Self {
         let (columns, rows) = grid.size();
         let count = columns.max(rows).next_power_of_two().max(size);
@@ -91,7 +98,8 @@ impl<'a> Descent<'a> {
         Self { scene, grid, levels, skip, size, rows }
     }
 
-    /// The squares of `count` tiles a side in a square of `from` tiles, by those rows of them that are asked for.
+    /// The squares of `count` tiles a side in a square of `from` tiles, by those rows of them that
+    /// are asked for.
     fn children(
         &self,
         mosaic: &mut Mosaic,

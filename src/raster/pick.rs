@@ -1,3 +1,5 @@
+//! All fragments at one pixel, nearest first: the paper's 3-D pick.
+
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
@@ -6,9 +8,9 @@ use super::{Fragment, Scene};
 
 /// A scene made ready to be asked what lies at a pixel.
 ///
-/// A hierarchy of boxes around the primitives. Building it takes O(n log n); the first fragment of a pick is found in
-/// about O(log n), and each further one costs as much, so that taking a few is cheap even where every primitive
-/// reaches the pixel.
+/// A hierarchy of boxes around the primitives. Building it takes O(n log n); the first fragment of
+/// a pick is found in about O(log n), and each further one costs as much, so that taking a few is
+/// cheap even where every primitive reaches the pixel.
 ///
 /// # Examples
 ///
@@ -25,7 +27,8 @@ use super::{Fragment, Scene};
 #[derive(Debug)]
 pub struct Picker<'a> {
     scene: &'a Scene,
-    /// A complete binary tree: the children of node i are 2 i + 1 and 2 i + 2, the leaves are the last.
+    /// A complete binary tree: the children of node i are 2 i + 1 and 2 i + 2, the leaves are the
+    /// last.
     nodes: Vec<Bounds>,
     /// Primitives, as the leaves hold them: [`LEAF`] each.
     order: Vec<u32>,
@@ -53,8 +56,8 @@ impl<'a> Picker<'a> {
         Self { scene, nodes, order, leaves }
     }
 
-    /// All fragments on the pixel at a column and row, the nearest first and of equal depths the smaller label;
-    /// none for a pixel beyond the largest picture.
+    /// All fragments on the pixel at a column and row, the nearest first and of equal depths the
+    /// smaller label; none for a pixel beyond the largest picture.
     pub fn pick(&self, column: u32, row: u32) -> Picks<'_> {
         let mut waiting = BinaryHeap::new();
         let inside = column < Scene::MAX_SIDE && row < Scene::MAX_SIDE;
@@ -66,7 +69,8 @@ impl<'a> Picker<'a> {
     }
 }
 
-/// Sorts primitives so that each half, quarter, … lies together in the plane; leaves fill up from the left.
+/// Sorts primitives so that each half, quarter, … lies together in the plane; leaves fill up from
+/// the left.
 fn divide(order: &mut [u32], leaves: usize, bounds: &[Bounds]) {
     let middle = leaves / 2 * LEAF;
     if leaves < 2 || order.len() <= middle {

@@ -1,3 +1,5 @@
+//! Whole pictures: label and depth of every pixel, drawn by all workers.
+
 use rayon::prelude::*;
 
 use super::bin::Painter;
@@ -53,12 +55,13 @@ impl Buffers {
     }
 }
 
-/// Rows that a worker draws at a time. Chosen: the height of a mosaic, and 32 jobs in a picture of 4096 rows.
+/// Rows that a worker draws at a time. Chosen: the height of a mosaic, and 32 jobs in a picture of
+/// 4096 rows.
 const BAND: u32 = 128;
 
-/// Squares side by side that are drawn before they go into the picture. Rows of a block are one line of the cache each,
-/// and a picture's width apart; memory takes long rows faster, and a canvas of so many fits a second-level cache.
-/// Measured: see the module's doc.
+/// Squares side by side that are drawn before they go into the picture. Rows of a block are one
+/// line of the cache each, and a picture's width apart; memory takes long rows faster, and a canvas
+/// of so many fits a second-level cache. Measured: see the module's doc.
 const RUN: usize = 8;
 
 /// Draws the whole picture into `buffers`.

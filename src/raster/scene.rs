@@ -1,3 +1,5 @@
+//! What is to be drawn: primitives, in any order, and the size of the picture.
+
 use super::primitive::{Primitive, Shape};
 use super::{Label, Surface};
 
@@ -41,10 +43,11 @@ impl Scene {
         self.primitives.reserve_exact(primitives);
     }
 
-    /// Says which owner each label belongs to (the index is the label); a label beyond the list is its own owner,
-    /// and so are all before the first call.
+    /// Says which owner each label belongs to (the index is the label); a label beyond the list is
+    /// its own owner, and so are all before the first call.
     ///
-    /// Labels may be finer than what the caller calls one region. A tile is uniform where it has one owner.
+    /// Labels may be finer than what the caller calls one region. A tile is uniform where it has
+    /// one owner.
     pub fn set_owners(&mut self, owners: Vec<u32>) {
         self.owners = owners;
     }

@@ -1,3 +1,5 @@
+//! Pictures tile by tile, for those that are too large to be kept.
+
 use rayon::prelude::*;
 
 use super::Scene;
@@ -10,13 +12,16 @@ use super::tile::{Tile, TileContent, TilePixels};
 /// How a picture is streamed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Pixels along a side of a tile; those at the right and bottom of the picture may be smaller. 64 unless told.
+    /// Pixels along a side of a tile; those at the right and bottom of the picture may be smaller.
+    /// 64 unless told.
     pub tile: u32,
     /// Further pixels that every tile carries on all four sides. 0 unless told.
     pub apron: u32,
-    /// Depths that the caller will tell apart: a tile is uniform only where none of them can lie within its range.
+    /// Depths that the caller will tell apart: a tile is uniform only where none of them can lie
+    /// within its range.
     pub levels: Vec<f32>,
-    /// Whether uniform tiles are left out altogether, whole squares of them at a time. No unless told.
+    /// Whether uniform tiles are left out altogether, whole squares of them at a time. No unless
+    /// told.
     pub skip_uniform: bool,
 }
 
@@ -26,19 +31,22 @@ impl Default for Options {
     }
 }
 
-/// Pixels along a side of what one worker takes at a time, at least. Chosen: sixteen tiles of 64 are weighed together.
+/// Pixels along a side of what one worker takes at a time, at least. Chosen: sixteen tiles of 64
+/// are weighed together.
 const SQUARE: u32 = 256;
 
-/// Draws the picture tile by tile: `work` gets every tile on some worker, `sink` gets what it made of them on the
-/// calling thread, row by row from the top and from left to right.
+/// Draws the picture tile by tile: `work` gets every tile on some worker, `sink` gets what it made
+/// of them on the calling thread, row by row from the top and from left to right.
 ///
-/// A row of squares of tiles is drawn while the one before is handed over; no more than two are held.
-/// A tile is uniform where it is certain, without drawing it, that all its pixels inside the picture, its apron's
-/// included, have one owner, and that none of [`Options::levels`] lies within its range of depths.
+/// A row of squares of tiles is drawn while the one before is handed over; no more than two are
+/// held. A tile is uniform where it is certain, without drawing it, that all its pixels inside the
+/// picture, its apron's included, have one owner, and that none of [`Options::levels`] lies within
+/// its range of depths.
 ///
 /// # Panics
 ///
-/// Where a tile is of no size, or has more than 65 536 pixels along a side or an apron wider than a tile.
+/// Where a tile is of no size, or has more than 65 536 pixels along a side or an apron wider than a
+/// tile.
 pub fn stream<T: Send>(
     scene: &Scene,
     options: &Options,

@@ -1,8 +1,12 @@
-/// A coordinate in the pixel plane: 24.8 fixed point, 256 steps a pixel, as a GPU snaps its vertices.
+//! Coordinates of the pixel plane: 24.8 fixed point, as a GPU snaps its vertices.
+
+/// A coordinate in the pixel plane: 24.8 fixed point, 256 steps a pixel, as a GPU snaps its
+/// vertices.
 ///
 /// # Range
 ///
-/// Within ±(2³⁰ − 1) steps, about ±4.19 million pixels: then twice the area of any triangle fits an `i64`.
+/// Within ±(2³⁰ − 1) steps, about ±4.19 million pixels: then twice the area of any triangle fits an
+/// `i64`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct SubPx(i32);
 

@@ -1,3 +1,5 @@
+//! What a caller says of a primitive: fill rule, caps, offset and limit.
+
 use super::PixelPoint;
 
 /// Which points contours enclose.
@@ -18,7 +20,8 @@ pub enum FillRule {
 ///            ┆        ┆
 /// ```
 ///
-/// With [`Caps::Start`] on every edge, a closed chain needs one primitive an edge and leaves no gap.
+/// With [`Caps::Start`] on every edge, a closed chain needs one primitive an edge and leaves no
+/// gap.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Caps {
     /// Neither: the strip alone.
@@ -55,7 +58,8 @@ impl Caps {
 pub enum Sides {
     /// On both.
     Both,
-    /// To the left of one who walks from `from` to `to` on the picture: above a curtain that runs to the right.
+    /// To the left of one who walks from `from` to `to` on the picture: above a curtain that runs
+    /// to the right.
     Left,
     /// To the right.
     Right,
@@ -72,12 +76,14 @@ pub enum Spin {
 
 /// A surface over the pixel plane: which pixels it covers, and how deep it lies there.
 ///
-/// Distances are in pixels. A distance surface lies at max(0, d − `offset`), where d is the distance to its
-/// curve: a stroke of half-width r is the curve with offset r. Where that depth exceeds `limit`, it has no fragment.
+/// Distances are in pixels. A distance surface lies at max(0, d − `offset`), where d is the
+/// distance to its curve: a stroke of half-width r is the curve with offset r. Where that depth
+/// exceeds `limit`, it has no fragment.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Surface {
-    /// Flat at `depth` wherever the contours enclose the sample (each closed from its last point to its first).
-    /// A sample on an edge is inside on a left or top edge and outside on a right or bottom one.
+    /// Flat at `depth` wherever the contours enclose the sample (each closed from its last point to
+    /// its first). A sample on an edge is inside on a left or top edge and outside on a right or
+    /// bottom one.
     Polygon {
         /// Closed rings of points; those of fewer than three points enclose nothing.
         contours: Vec<Vec<PixelPoint>>,
@@ -86,7 +92,8 @@ pub enum Surface {
         /// How deep.
         depth: f32,
     },
-    /// A triangle whose depth runs evenly between its corners. Covers as a polygon does, either way round.
+    /// A triangle whose depth runs evenly between its corners. Covers as a polygon does, either way
+    /// round.
     Triangle {
         /// Its corners.
         corners: [PixelPoint; 3],
@@ -119,7 +126,8 @@ pub enum Surface {
     },
     /// The distance to a circular arc; the whole circle where `start` = `end`.
     ///
-    /// The radius is the mean of the two that the end points give. The strip of an arc is its sector.
+    /// The radius is the mean of the two that the end points give. The strip of an arc is its
+    /// sector.
     Ring {
         /// The point it runs round.
         center: PixelPoint,

@@ -1,3 +1,5 @@
+//! A finished piece of a picture, with the apron around it.
+
 use super::Label;
 use super::canvas::Canvas;
 
@@ -27,8 +29,8 @@ pub enum TileContent<'a> {
 
 /// The pixels of a tile and of the apron around it.
 ///
-/// Columns and rows count from the tile's own top left pixel, so that the apron's are negative or beyond its size.
-/// Beyond the picture lies background, infinitely deep.
+/// Columns and rows count from the tile's own top left pixel, so that the apron's are negative or
+/// beyond its size. Beyond the picture lies background, infinitely deep.
 #[derive(Clone, Copy, Debug)]
 pub struct TilePixels<'a> {
     labels: &'a [u32],

@@ -1,12 +1,12 @@
 //! Surfaces seen from the side, as the papers' figures show them: shaded faces with their edges.
 //!
-//! Faces are projected into the picture and drawn by the engine itself, each under a label of its own; an edge is where
-//! the label of a pixel differs from that of the pixel to its right or below.
+//! Faces are projected into the picture and drawn by the engine itself, each under a label of its
+//! own; an edge is where the label of a pixel differs from that of the pixel to its right or below.
 
 use super::{Buffers, Label, PixelPoint, Scene, SubPx, Surface, render};
 
-/// A flat triangle in space: x to the right and y down in pixels of the plane, z away from the plane, towards the
-/// viewer of [`Projection::Above`] where negative.
+/// A flat triangle in space: x to the right and y down in pixels of the plane, z away from the
+/// plane, towards the viewer of [`Projection::Above`] where negative.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Face {
     /// Its corners as (x, y, z).
@@ -20,14 +20,14 @@ pub struct Face {
 pub enum Projection {
     /// From above, along z: x and y as they are.
     Above,
-    /// Parallel, from the front: y is foreshortened by `tilt` (1 is from above, 0 from the side), z points down the
-    /// picture by what is left.
+    /// Parallel, from the front: y is foreshortened by `tilt` (1 is from above, 0 from the side), z
+    /// points down the picture by what is left.
     Oblique {
         /// The cosine of the angle between the line of sight and z, from 0 to 1.
         tilt: f64,
     },
-    /// From a point `distance` pixels before the plane's `center`, tilted as [`Projection::Oblique`]: what is farther is
-    /// smaller.
+    /// From a point `distance` pixels before the plane's `center`, tilted as
+    /// [`Projection::Oblique`]: what is farther is smaller.
     Perspective {
         /// As in [`Projection::Oblique`].
         tilt: f64,
@@ -115,7 +115,8 @@ impl View {
                 if away <= distance * 1e-3 {
                     return None;
                 }
-                // Minus one over the distance runs evenly along a line on the picture; the distance itself does not.
+                // Minus one over the distance runs evenly along a line on the picture; the distance
+                // itself does not.
                 let scale = distance / away;
                 (center[0] + (x - center[0]) * scale, center[1] + y * scale, -scale)
             }

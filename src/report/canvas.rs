@@ -12,7 +12,8 @@ use crate::grid::Grid;
 
 use super::Rgb;
 
-/// The thinnest line, in pixels. Measured: at one pixel and less the painter draws hairlines, with specks where they end and at the picture's rim.
+/// The thinnest line, in pixels. Measured: at one pixel and less the painter draws hairlines, with
+/// specks where they end and at the picture's rim.
 const THINNEST: f32 = 1.01;
 
 /// A picture being painted, in board coordinates.
@@ -75,8 +76,8 @@ impl Canvas {
 
     /// Fills `shape`: all pixels whose centres it holds, and then smoothly up to its edge.
     ///
-    /// Planes are often hatched with strokes that just touch. Smooth edges alone would let the ground shine through
-    /// where two of them share a pixel; the whole pixels close those seams.
+    /// Planes are often hatched with strokes that just touch. Smooth edges alone would let the
+    /// ground shine through where two of them share a pixel; the whole pixels close those seams.
     pub fn fill(&mut self, shape: &Shape, colour: Rgb) {
         if !self.shows(shape.bounds()) {
             return;

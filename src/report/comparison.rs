@@ -136,7 +136,8 @@ fn rounded(area: f64) -> f64 {
     (area * 1e6).round() / 1e6
 }
 
-/// A picture of all that either cuts: what both cut is pale, what is cut now and was not is red, what is left now is green.
+/// A picture of all that either cuts: what both cut is pale, what is cut now and was not is red,
+/// what is left now is green.
 ///
 /// # Errors
 ///

@@ -1,8 +1,8 @@
 //! The report as data: what `NAME.json` holds.
 //!
-//! Lengths are millimetres with the decimals of a nanometre, times are seconds. Keys come in the order of these
-//! types, lists in the order of the board, so two runs over the same files give the same bytes. There is no clock, path
-//! or host in it.
+//! Lengths are millimetres with the decimals of a nanometre, times are seconds. Keys come in the
+//! order of these types, lists in the order of the board, so two runs over the same files give the
+//! same bytes. There is no clock, path or host in it.
 
 use std::collections::BTreeMap;
 
@@ -14,7 +14,8 @@ use crate::toolpath::Statistics;
 
 use super::colours::ColoursEntry;
 
-/// The version of the shape of [`Document`]: it grows when a key changes its meaning or goes, not when one is added.
+/// The version of the shape of [`Document`]: it grows when a key changes its meaning or goes, not
+/// when one is added.
 pub const SCHEMA_VERSION: u32 = 2;
 
 /// Everything that is known after a job.

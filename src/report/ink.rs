@@ -27,8 +27,9 @@ pub(super) const fn pen(shape: &Shape) -> Nm {
 
 /// A pen that writes where it goes.
 ///
-/// Points are rounded before they are subtracted, so that errors do not add up and paths that share a point share it in the text
-/// too. A letter that repeats is left out, and so is the blank before a minus.
+/// Points are rounded before they are subtracted, so that errors do not add up and paths that share
+/// a point share it in the text too. A letter that repeats is left out, and so is the blank before
+/// a minus.
 #[derive(Debug, Default)]
 pub(super) struct Ink {
     text: String,
@@ -81,7 +82,8 @@ impl Ink {
         self.step('l', place(p), &[]);
     }
 
-    /// SVG: a spot that round ends make a disc of. A line of no length would not be drawn everywhere.
+    /// SVG: a spot that round ends make a disc of. A line of no length would not be drawn
+    /// everywhere.
     pub(super) fn spot(&mut self, p: Point) {
         self.begin(p);
         self.put('h', &[1]);

@@ -6,14 +6,14 @@ use crate::grid::{Grid, GridError};
 use super::palette::{COPPER, CUT, GROUND, HOLE, INK};
 use super::{Canvas, Lettering, picture};
 
-/// Height of a capital as a part of the picture's width, and its limits in pixels. Chosen: legible on a page and on
-/// a screen.
+/// Height of a capital as a part of the picture's width, and its limits in pixels. Chosen: legible
+/// on a page and on a screen.
 const PART: f32 = 110.0;
 const SMALLEST: f32 = 8.0;
 const LARGEST: f32 = 18.0;
 
-/// A grid over `area` with room for the legend below, of `pixel`, or as much coarser as keeps the longer side within
-/// `most` pixels.
+/// A grid over `area` with room for the legend below, of `pixel`, or as much coarser as keeps the
+/// longer side within `most` pixels.
 ///
 /// # Errors
 ///

@@ -1,6 +1,7 @@
 //! A plain stroke font, drawn for this program, so that pictures need no font file.
 //!
-//! A glyph is polylines on a grid 4 wide and 6 high, each point two digits, x then y from the base line:
+//! A glyph is polylines on a grid 4 wide and 6 high, each point two digits, x then y from the base
+//! line:
 //!
 //! ```text
 //!   6 ┌──┐      F = "0006 0646 0333"

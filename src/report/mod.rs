@@ -1,4 +1,5 @@
-//! What a person looks at: pictures of every stage, the report as data, and the summary in a terminal.
+//! What a person looks at: pictures of every stage, the report as data, and the summary in a
+//! terminal.
 
 mod canvas;
 pub mod colours;

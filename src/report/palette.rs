@@ -1,7 +1,8 @@
 //! Colours: a dark board, warm copper, cool soft regions, bright cuts.
 //!
-//! Neighbouring regions get different tints by greedy colouring of the boundary graph. It is planar, so seven
-//! tints nearly always do; the least used of the free ones is taken so that no tint dominates.
+//! Neighbouring regions get different tints by greedy colouring of the boundary graph. It is
+//! planar, so seven tints nearly always do; the least used of the free ones is taken so that no
+//! tint dominates.
 
 use crate::topology::NetId;
 use crate::voronoi::{Boundaries, Owner};
@@ -67,8 +68,8 @@ pub fn tints(count: usize, boundaries: &Boundaries) -> Vec<Rgb> {
     chosen.into_iter().map(|tint| TINTS[tint.unwrap_or_default()]).collect()
 }
 
-/// A bright colour for a net, distinct from that of the nets numbered near it: the hue goes round by the golden
-/// angle, the lightness steps.
+/// A bright colour for a net, distinct from that of the nets numbered near it: the hue goes round
+/// by the golden angle, the lightness steps.
 #[must_use]
 pub fn vivid(net: NetId) -> Rgb {
     let hue = (u64::from(net.0) * 2_654_435_769 % (1 << 32)) >> 16;

@@ -1,4 +1,5 @@
-//! The figures of the paper's Table V for a layer, the paper's way and voromill's, as data and as text.
+//! The figures of the paper's Table V for a layer, the paper's way and voromill's, as data and as
+//! text.
 
 use std::fmt::Write as _;
 
@@ -53,7 +54,8 @@ pub struct Paths {
 }
 
 impl Columns {
-    /// The paper's "length savings": how much longer the outline is than the Voronoi paths, in percent of these.
+    /// The paper's "length savings": how much longer the outline is than the Voronoi paths, in
+    /// percent of these.
     #[must_use]
     pub fn savings(&self) -> f64 {
         percent(self.outline.length_in / self.voronoi.length_in - 1.0)

@@ -84,7 +84,8 @@ pub fn boundaries(side: &Shown<'_>, grid: Grid) -> Canvas {
 /// The clearance from which on a boundary is as free as it can be shown to be.
 const FREE: Nm = Nm::from_mm(1);
 
-/// The freedom of each stretch of boundary over dimmed copper: how far its narrower end is from copper, red to blue.
+/// The freedom of each stretch of boundary over dimmed copper: how far its narrower end is from
+/// copper, red to blue.
 #[must_use]
 pub fn heat(side: &Shown<'_>, grid: Grid) -> Canvas {
     let width = grid.pitch() * 3;
@@ -115,10 +116,11 @@ fn dimmed(side: &Shown<'_>, grid: Grid) -> Canvas {
     canvas
 }
 
-/// How far pixels are from copper: dark near it, light far from it, white where nothing is in reach.
+/// How far pixels are from copper: dark near it, light far from it, white where nothing is in
+/// reach.
 ///
-/// Brightness goes with the square root of the distance. Gaps of a fifth of a millimetre were all but black beside one corner of
-/// a centimetre, in proportion; half as bright is a quarter as far.
+/// Brightness goes with the square root of the distance. Gaps of a fifth of a millimetre were all
+/// but black beside one corner of a centimetre, in proportion; half as bright is a quarter as far.
 #[derive(Clone, Copy)]
 pub struct Depth<'a> {
     diagram: &'a Diagram,
@@ -127,7 +129,8 @@ pub struct Depth<'a> {
 }
 
 impl<'a> Depth<'a> {
-    /// The greys of a picture of `grid`, which is looked through band by band for its deepest pixel.
+    /// The greys of a picture of `grid`, which is looked through band by band for its deepest
+    /// pixel.
     #[must_use]
     pub fn new(diagram: &'a Diagram, grid: &Grid) -> Self {
         let mut deepest = 1.0_f32;
@@ -149,7 +152,8 @@ impl<'a> Depth<'a> {
     }
 }
 
-/// Everything: regions, copper, cuts at their true width, holes; with the tool's way through the air where `rapids`.
+/// Everything: regions, copper, cuts at their true width, holes; with the tool's way through the
+/// air where `rapids`.
 #[must_use]
 pub fn toolpath(side: &Shown<'_>, grid: Grid, rapids: bool) -> Canvas {
     let mut canvas = ground(side, grid);
@@ -207,7 +211,8 @@ fn holes(canvas: &mut Canvas, holes: &[Hole]) {
     }
 }
 
-/// The name of each named net, beside its largest feature, where that is large enough to read it on.
+/// The name of each named net, beside its largest feature, where that is large enough to read it
+/// on.
 fn names(canvas: &mut Canvas, copper: &Copper, nets: &Nets) {
     const HEIGHT: f32 = 9.0;
     for net in nets.nets().iter().filter(|net| !net.names.is_empty()) {

@@ -1,4 +1,5 @@
-//! Pictures as the bytes of PNG files: 8 bits a channel, no time, no text, the same bytes everywhere.
+//! Pictures as the bytes of PNG files: 8 bits a channel, no time, no text, the same bytes
+//! everywhere.
 
 use std::io::Write as _;
 
@@ -8,11 +9,12 @@ use crate::grid::Grid;
 
 use super::Canvas;
 
-/// Rows that are drawn at a time. Chosen: a band of a large picture takes two megabytes, and there are few of them.
+/// Rows that are drawn at a time. Chosen: a band of a large picture takes two megabytes, and there
+/// are few of them.
 const BAND: u32 = 240;
 
-/// Rows above a band that are drawn and thrown away: of what ends right above a picture, the drawing library lays the last row onto
-/// the picture's first.
+/// Rows above a band that are drawn and thrown away: of what ends right above a picture, the
+/// drawing library lays the last row onto the picture's first.
 const APRON: u32 = 2;
 
 /// A picture of `grid` that `draw` paints band by band: it is given the grid of each, from the top.
@@ -57,7 +59,8 @@ fn encode(grid: &Grid, colour: ColorType, paint: impl FnOnce(&mut dyn FnMut(&[u8
     let mut encoder = Encoder::new(&mut bytes, grid.width(), grid.height());
     encoder.set_color(colour);
     encoder.set_depth(BitDepth::Eight);
-    // Pictures of boards are mostly flat: the fast level is nearly as small as the best and ten times as fast.
+    // Pictures of boards are mostly flat: the fast level is nearly as small as the best and ten
+    // times as fast.
     encoder.set_compression(Compression::Fast);
     encoder.set_filter(Filter::Up);
     let mut writer = encoder.write_header().expect(MEMORY);

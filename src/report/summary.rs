@@ -82,7 +82,8 @@ impl LayerEntry {
     }
 }
 
-/// The warnings by kind, of each the first few unless `verbose`, below an empty line; nothing where there are none.
+/// The warnings by kind, of each the first few unless `verbose`, below an empty line; nothing where
+/// there are none.
 #[must_use]
 pub fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
     let mut text = if warnings.is_empty() { String::new() } else { "\n".to_owned() };
@@ -107,7 +108,8 @@ pub fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
 }
 
 impl WarningEntry {
-    /// The sentence with the code to filter by, the place with what stands there, and what to do: indented lines.
+    /// The sentence with the code to filter by, the place with what stands there, and what to do:
+    /// indented lines.
     #[must_use]
     pub fn to_text(&self) -> String {
         let what = format!("{}{} [{}]", self.place(), self.message, self.code);

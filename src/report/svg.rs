@@ -1,7 +1,7 @@
 //! A side as SVG, for documents: true lines and areas that a drawing program can take apart.
 //!
-//! A user unit is a micrometre, the size is in millimetres, y points up within the one group. Each layer is a group with a name.
-//! There is no background, so it lies well on paper.
+//! A user unit is a micrometre, the size is in millimetres, y points up within the one group. Each
+//! layer is a group with a name. There is no background, so it lies well on paper.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

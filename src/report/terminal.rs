@@ -1,10 +1,12 @@
-//! Pictures in a terminal: half blocks in 24-bit colour, which most terminals show, sixels, which some do and sharper, or shades, which all do.
+//! Pictures in a terminal: half blocks in 24-bit colour, which most terminals show, sixels, which
+//! some do and sharper, or shades, which all do.
 
 use std::fmt::Write as _;
 
 use super::{Canvas, Rgb};
 
-/// A picture as lines of half blocks: a character shows two pixels, the upper as its ink and the lower as its ground.
+/// A picture as lines of half blocks: a character shows two pixels, the upper as its ink and the
+/// lower as its ground.
 #[must_use]
 pub fn half_blocks(canvas: Canvas) -> String {
     let width = canvas.grid().width() as usize;

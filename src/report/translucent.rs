@@ -1,4 +1,5 @@
-//! The picture that Algorithm 2 looks at (§III-A.2 of the paper): every trace translucent in a random colour.
+//! The picture that Algorithm 2 looks at (§III-A.2 of the paper): every trace translucent in a
+//! random colour.
 
 use crate::board::Copper;
 use crate::geometry::{Nm, Path, Point, Segment, Turn, Vector};
@@ -10,7 +11,8 @@ use super::{Canvas, Rgb};
 /// The radius of the ring round a pick, in pixels. Chosen: it is seen, and hides little.
 const RING: i64 = 5;
 
-/// The traces that shared vertices leave, as translucent sheets; a white ring round every pixel that was picked.
+/// The traces that shared vertices leave, as translucent sheets; a white ring round every pixel
+/// that was picked.
 pub struct Translucent<'a> {
     copper: &'a Copper,
     traces: Nets,

@@ -1,4 +1,5 @@
-//! A verdict in the forms that people and build systems read: text, JSON, SARIF 2.1.0 and JUnit XML.
+//! A verdict in the forms that people and build systems read: text, JSON, SARIF 2.1.0 and JUnit
+//! XML.
 
 use std::fmt::Write as _;
 
@@ -112,7 +113,8 @@ impl From<&Report> for Verdict {
 const SHOWN: usize = 5;
 
 impl Verdict {
-    /// For people: what was found, and the verdict in the last line; where `verbose`, all findings, and what is only worth knowing.
+    /// For people: what was found, and the verdict in the last line; where `verbose`, all findings,
+    /// and what is only worth knowing.
     #[must_use]
     pub fn to_text(&self, verbose: bool) -> String {
         let mut text = String::new();
@@ -176,14 +178,16 @@ impl Verdict {
         }))
     }
 
-    /// The program that a finding is about: of what no line does, the first that should have done it.
+    /// The program that a finding is about: of what no line does, the first that should have done
+    /// it.
     fn program<'a>(&'a self, finding: &'a FindingEntry) -> Option<&'a str> {
         let role = finding.side.map_or("drilling".to_owned(), |side| side.to_string());
         let judged = || self.judged.iter().find(|judged| judged.role.starts_with(&role));
         finding.program.as_deref().or_else(|| judged()?.programs.first().map(String::as_str))
     }
 
-    /// As JUnit XML: a test case for each check, which fails once with all its findings of at least `deny`.
+    /// As JUnit XML: a test case for each check, which fails once with all its findings of at least
+    /// `deny`.
     #[must_use]
     pub fn to_junit(&self, deny: Severity) -> String {
         let of = |name: &str| {
@@ -234,7 +238,8 @@ fn sarif(finding: &FindingEntry, program: Option<&str>) -> serde_json::Value {
     result
 }
 
-/// A file's name as a URI, relative unless it is absolute (RFC 3986 §2.1): what is not unreserved becomes bytes in hexadecimal.
+/// A file's name as a URI, relative unless it is absolute (RFC 3986 §2.1): what is not unreserved
+/// becomes bytes in hexadecimal.
 fn uri(name: &str) -> String {
     let mut text = if name.starts_with('/') { "file://".to_owned() } else { String::new() };
     for byte in name.bytes() {

@@ -1,3 +1,5 @@
+//! Angles in millionths of a degree, exact as they are written.
+
 use std::f64::consts::PI;
 use std::fmt;
 use std::str::FromStr;

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// On which side of the cutter's way lies what is kept, for a spindle that turns clockwise as all here do (M3).
+/// On which side of the cutter's way lies what is kept, for a spindle that turns clockwise as all
+/// here do (M3).
 ///
 /// ```text
 ///     climb: ┌──→──┐       conventional: ┌──←──┐
@@ -19,7 +20,8 @@ pub enum Direction {
 }
 
 impl Direction {
-    /// Whether a way with what is kept on its left must be turned round, on a board that is `mirrored` after that or not.
+    /// Whether a way with what is kept on its left must be turned round, on a board that is
+    /// `mirrored` after that or not.
     #[must_use]
     pub const fn reverses(self, kept_on_the_left: bool, mirrored: bool) -> bool {
         let left = kept_on_the_left != mirrored;

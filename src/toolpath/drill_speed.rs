@@ -1,8 +1,9 @@
 //! How fast a drill turns and goes down, by its diameter and what it drills.
 //!
-//! Two figures decide: the speed of the drill's rim, and how far it goes down in one turn, its chip load. A spindle for boards at
-//! home turns too slowly for the first, so what counts is the second: a drill that advances too little rubs and burns, one that
-//! advances too much breaks. The feed is the chip load times the turns that the spindle really makes.
+//! Two figures decide: the speed of the drill's rim, and how far it goes down in one turn, its chip
+//! load. A spindle for boards at home turns too slowly for the first, so what counts is the second:
+//! a drill that advances too little rubs and burns, one that advances too much breaks. The feed is
+//! the chip load times the turns that the spindle really makes.
 //!
 //! | | rim | chip load |
 //! |---|---|---|
@@ -10,9 +11,11 @@
 //! | fine bits, by rule of thumb | | 1 % of the diameter a turn |
 //! | here, FR-4 | 150 m/min (490 ft/min) | [`CHIP_LOADS`] |
 //!
-//! Sources: P. Gould on IPC TechNet, 9 February 1996 (industry); the rule of pcb-gcode as forscience.nl quotes it; the formulae between rim, turns,
-//! chip load and feed are Union Tool's ("Terms for drilling parameter"). The table goes by the rule for fine drills, and stays at half of what
-//! industry gives copper for thick ones: small machines have no pressure foot, and their spindles give way. Chosen between those bounds.
+//! Sources: P. Gould on IPC TechNet, 9 February 1996 (industry); the rule of pcb-gcode as
+//! forscience.nl quotes it; the formulae between rim, turns, chip load and feed are Union Tool's
+//! ("Terms for drilling parameter"). The table goes by the rule for fine drills, and stays at half
+//! of what industry gives copper for thick ones: small machines have no pressure foot, and their
+//! spindles give way. Chosen between those bounds.
 
 use crate::geometry::Nm;
 
@@ -34,8 +37,8 @@ pub enum Material {
 /// The speed of the rim, in nanometres per minute.
 const RIM: f64 = 150e9;
 
-/// Diameters in micrometres, rising, with the chip load in nanometres for FR-4. Between them the chip load goes evenly, and beyond the last
-/// it stays.
+/// Diameters in micrometres, rising, with the chip load in nanometres for FR-4. Between them the
+/// chip load goes evenly, and beyond the last it stays.
 const CHIP_LOADS: &[(i64, i64)] = &[
     (0, 0),
     (300, 5_000),

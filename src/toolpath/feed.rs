@@ -1,3 +1,5 @@
+//! Feeds in micrometres per minute, and the texts that say them.
+
 use std::fmt;
 use std::str::FromStr;
 

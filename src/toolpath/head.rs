@@ -1,12 +1,17 @@
+//! The machine's head while a section is planned.
+//!
+//! Its few methods are the only way to make moves, so no strategy can plan an unsafe one.
+
 use crate::geometry::{Nm, Path, Point, Segment};
 
 use super::feed::Feed;
 use super::heights::Heights;
 use super::program::{Move, Position};
 
-/// The machine's head while a section is planned. Its methods are the only way to make moves, so what a
-/// [`Section`](super::Section) guarantees holds by construction: sideways below the safe height is always a feed,
-/// a rapid is level at the safe height or straight up or down, and the last move is a lift.
+/// The machine's head while a section is planned. Its methods are the only way to make moves, so
+/// what a [`Section`](super::Section) guarantees holds by construction: sideways below the safe
+/// height is always a feed, a rapid is level at the safe height or straight up or down, and the
+/// last move is a lift.
 pub(super) struct Head {
     heights: Heights,
     plunge: Feed,
@@ -30,7 +35,8 @@ impl Head {
         }
     }
 
-    /// Straight down to `depth` below the surface: fast down to the approach height, then at the plunge feed.
+    /// Straight down to `depth` below the surface: fast down to the approach height, then at the
+    /// plunge feed.
     pub(super) fn plunge(&mut self, depth: Nm) {
         let at = self.at.expect("the head is over a point before it plunges");
         if at.z > self.heights.approach {
@@ -39,7 +45,8 @@ impl Head {
         self.feed_to(Position { z: -depth, ..at }, self.plunge);
     }
 
-    /// Down to `depth` over `point`: a plunge where the head is over it, and else, when it is down already, straight there at `feed`.
+    /// Down to `depth` over `point`: a plunge where the head is over it, and else, when it is down
+    /// already, straight there at `feed`.
     pub(super) fn reach(&mut self, point: Point, depth: Nm, feed: Feed) {
         match self.at {
             Some(at) if at.point() != point => self.feed_to(Position::over(point, -depth), feed),
@@ -75,7 +82,8 @@ impl Head {
         }
     }
 
-    /// Along `path`, which begins where the head is, evenly from the depth that the head has to `depth`.
+    /// Along `path`, which begins where the head is, evenly from the depth that the head has to
+    /// `depth`.
     pub(super) fn descend(&mut self, path: &Path, depth: Nm, feed: Feed) {
         let from = -self.at.expect("the head is at the path's start").z;
         let whole = path.length().max(1.0);

@@ -1,3 +1,5 @@
+//! How high and how deep a section goes: safe height, approach, passes.
+
 use crate::geometry::Nm;
 
 /// How high and how deep; all above zero.
@@ -24,8 +26,8 @@ pub struct Heights {
 }
 
 impl Heights {
-    /// The depths of the passes, positive downwards: as few as `step` allows, all equally thick, the last at
-    /// `cut`.
+    /// The depths of the passes, positive downwards: as few as `step` allows, all equally thick,
+    /// the last at `cut`.
     pub fn passes(&self) -> impl Iterator<Item = Nm> + use<> {
         let cut = self.cut.get();
         let count = match self.step {

@@ -1,3 +1,5 @@
+//! The person's machine: what it can do, for times and for what a retract costs.
+
 use std::fmt;
 use std::str::FromStr;
 
@@ -73,7 +75,8 @@ impl fmt::Display for Acceleration {
     }
 }
 
-/// What the machine can do: for the time estimate, for what a lift costs, and for what programs may ask of it.
+/// What the machine can do: for the time estimate, for what a lift costs, and for what programs may
+/// ask of it.
 ///
 /// Figures for x, y and z are in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,8 +99,8 @@ pub struct Machine {
     pub travel: Option<[Nm; 3]>,
 }
 
-/// A small desktop engraver under Grbl. Chosen: the settings that the common 3018 machines are sold with, and
-/// Grbl's own junction deviation.
+/// A small desktop engraver under Grbl. Chosen: the settings that the common 3018 machines are sold
+/// with, and Grbl's own junction deviation.
 impl Default for Machine {
     fn default() -> Self {
         let [level, vertical] = [1500, 600].map(Feed::from_mm_per_min);
@@ -127,7 +130,8 @@ impl Machine {
         self.acceleration[0].min(self.acceleration[1])
     }
 
-    /// Lowers the speeds of a program to what the machine can do, and says so: `beyond-the-machine-speed`, once for each tool and speed.
+    /// Lowers the speeds of a program to what the machine can do, and says so:
+    /// `beyond-the-machine-speed`, once for each tool and speed.
     #[must_use]
     pub fn restrain(&self, program: &mut Program) -> Vec<Warning> {
         let mut warnings: Vec<Warning> = Vec::new();

@@ -1,7 +1,7 @@
 //! What a program amounts to on a machine: ways, lifts, time.
 //!
-//! There is one estimate of time, the [planner's](super::planner): the summary, the report, the page's player and the headers of programs
-//! all take theirs from here.
+//! There is one estimate of time, the [planner's](super::planner): the summary, the report, the
+//! page's player and the headers of programs all take theirs from here.
 
 use std::collections::BTreeMap;
 

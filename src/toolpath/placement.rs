@@ -1,11 +1,14 @@
+//! From board to machine coordinates: turned, moved, and mirrored for the back.
+
 use crate::geometry::{Nm, Path, Point, Rect, Segment, Turn, Vector};
 
 use super::angle::Angle;
 
-/// From board to machine coordinates: turned about the board's origin, moved, and for the back mirrored.
+/// From board to machine coordinates: turned about the board's origin, moved, and for the back
+/// mirrored.
 ///
-/// Front, back, drills and outline of one board share the first two steps, so they register; the back is what
-/// the machine sees when the board has been turned over left to right about the axis:
+/// Front, back, drills and outline of one board share the first two steps, so they register; the
+/// back is what the machine sees when the board has been turned over left to right about the axis:
 ///
 /// ```text
 ///        front            │            back
@@ -49,14 +52,15 @@ impl Placement {
         Self { shift: Vector::new(-zero.x, -zero.y) + offset, ..turned }
     }
 
-    /// The same board turned over left to right about the vertical line at `axis`, in machine coordinates.
+    /// The same board turned over left to right about the vertical line at `axis`, in machine
+    /// coordinates.
     #[must_use]
     pub const fn turned_over(self, axis: Nm) -> Self {
         Self { mirror: Some(axis), ..self }
     }
 
-    /// The vertical middle line of a board within `bounds`, in machine coordinates, to the micrometre: turned
-    /// over about it, the board lies where it lay before.
+    /// The vertical middle line of a board within `bounds`, in machine coordinates, to the
+    /// micrometre: turned over about it, the board lies where it lay before.
     #[must_use]
     pub fn middle(&self, bounds: Rect) -> Nm {
         let around = Rect::around(bounds.corners().map(|corner| self.point(corner))).unwrap_or(bounds);
@@ -82,7 +86,8 @@ impl Placement {
         self.mirror.map_or(moved, |axis| Point::new(axis * 2 - moved.x, moved.y))
     }
 
-    /// The point of the board that lies at `p` on the machine; to the nanometre where the turn is no quarter turn.
+    /// The point of the board that lies at `p` on the machine; to the nanometre where the turn is
+    /// no quarter turn.
     #[must_use]
     pub fn undo(&self, p: Point) -> Point {
         let unturned = self.mirror.map_or(p, |axis| Point::new(axis * 2 - p.x, p.y)) - self.shift;

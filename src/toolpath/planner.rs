@@ -1,4 +1,5 @@
-//! How long motions take: Grbl 1.1's planner as a model (planner.c, `plan_buffer_line` and `planner_recalculate`).
+//! How long motions take: Grbl 1.1's planner as a model (planner.c, `plan_buffer_line` and
+//! `planner_recalculate`).
 //!
 //! ```text
 //!  speed   ┌────────┐ nominal: the feed, or what the slowest axis on the way allows
@@ -8,14 +9,16 @@
 //!  stop ──── block ────│─────── next ──▶ the last block that the buffer holds ends in a standstill
 //! ```
 //!
-//! * A motion becomes a block whose nominal speed and acceleration are the least that an axis on its way allows.
+//! * A motion becomes a block whose nominal speed and acceleration are the least that an axis on
+//!   its way allows.
 //! * An arc becomes chords that stay within [`ARC_TOLERANCE`].
-//! * While a block runs, the planner knows it and [`LOOK_AHEAD`] − 1 blocks after it, and must be able to stop at the end of the last: programs of
-//!   very short motions run slower than their feed for that.
+//! * While a block runs, the planner knows it and [`LOOK_AHEAD`] − 1 blocks after it, and must be
+//!   able to stop at the end of the last: programs of very short motions run slower than their feed
+//!   for that.
 //! * Dwells, pauses and every change of the spindle let the buffer run empty: the machine stops.
 //!
-//! Not modelled: the rounding of targets to steps, the time that a line takes over the wire, and the S-curves and blending of other controllers, for
-//! which the same model stands in.
+//! Not modelled: the rounding of targets to steps, the time that a line takes over the wire, and
+//! the S-curves and blending of other controllers, for which the same model stands in.
 
 use crate::geometry::{Arc, Nm};
 
@@ -88,7 +91,8 @@ impl<'a> Planner<'a> {
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
     fn chords(&mut self, arc: &Arc, (from, to): (Nm, Nm), speed: f64) {
         let (radius, climb) = (arc.radius(), (to - from).to_f64());
-        // A circle smaller than the tolerance has no such chord: `max` takes one line for what is not a number.
+        // A circle smaller than the tolerance has no such chord: `max` takes one line for what is
+        // not a number.
         let half_chord = (ARC_TOLERANCE * (2.0 * radius - ARC_TOLERANCE)).sqrt();
         let count = (0.5 * arc.sweep().abs() * radius / half_chord).floor().max(1.0) as u32;
         let mut at = [arc.start.x.to_f64(), arc.start.y.to_f64(), from.to_f64()];
@@ -170,7 +174,8 @@ impl<'a> Planner<'a> {
     }
 }
 
-/// The square of the most speed at which the first of `blocks` may begin so that the machine can stop at the end of the last.
+/// The square of the most speed at which the first of `blocks` may begin so that the machine can
+/// stop at the end of the last.
 fn stoppable(blocks: &[Block]) -> f64 {
     let stops = |after: f64, block: &Block| block.entry.min(after + 2.0 * block.acceleration * block.length);
     blocks.iter().rev().fold(0.0, stops)
@@ -185,8 +190,8 @@ fn trapezoid(length: f64, (entry, exit): (f64, f64), speed: f64, acceleration: f
     (2.0 * peak - entry.sqrt() - exit.sqrt()) / acceleration + level / peak.max(1.0)
 }
 
-/// The time from a standstill to a standstill along `length` at `speed` (nanometres per second): a motion between two others that turn
-/// sharply.
+/// The time from a standstill to a standstill along `length` at `speed` (nanometres per second): a
+/// motion between two others that turn sharply.
 pub(super) fn hop(length: Nm, speed: f64, acceleration: Acceleration) -> f64 {
     trapezoid(length.to_f64(), (0.0, 0.0), speed, acceleration.nm_per_s2())
 }

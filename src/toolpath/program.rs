@@ -1,9 +1,12 @@
+//! A planned program: sections of moves by one tool each, valid once built.
+
 use crate::geometry::{Nm, Point, Turn};
 
 use super::feed::Feed;
 use super::tool::Tool;
 
-/// A place of the tool's tip in machine coordinates: z is zero at the surface of the board, up is positive.
+/// A place of the tool's tip in machine coordinates: z is zero at the surface of the board, up is
+/// positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Position {
     /// To the right.
@@ -31,7 +34,8 @@ impl Position {
 /// A planned motion, from where the one before it ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Move {
-    /// As fast as the machine goes, through air alone; straight up, straight down, or level at the safe height.
+    /// As fast as the machine goes, through air alone; straight up, straight down, or level at the
+    /// safe height.
     Rapid {
         /// Where it ends.
         to: Position,
@@ -43,8 +47,8 @@ pub enum Move {
         /// How fast.
         feed: Feed,
     },
-    /// Round a centre in the plane, evenly up or down where the heights differ; a full turn where start and end lie
-    /// over the same point.
+    /// Round a centre in the plane, evenly up or down where the heights differ; a full turn where
+    /// start and end lie over the same point.
     Arc {
         /// Where it ends.
         to: Position,
@@ -77,8 +81,8 @@ impl Move {
 ///
 /// # Guarantees
 ///
-/// The tool stands at the safe height before the first move and after the last. The first move is a rapid
-/// there, level; below the safe height only feeds go sideways.
+/// The tool stands at the safe height before the first move and after the last. The first move is a
+/// rapid there, level; below the safe height only feeds go sideways.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Section {
     /// The tool.

@@ -1,3 +1,5 @@
+//! The same board several times in one piece of stock, and the pins that register it.
+
 use crate::board::Warning;
 use crate::geometry::{Nm, Point, Rect, Vector};
 
@@ -17,8 +19,8 @@ pub struct Tiling {
 }
 
 impl Tiling {
-    /// Where each tile lies, in the order in which they are worked: up one column and down the next, so that the
-    /// way between is short.
+    /// Where each tile lies, in the order in which they are worked: up one column and down the
+    /// next, so that the way between is short.
     fn shifts(self) -> impl Iterator<Item = Vector> {
         (0..self.columns).flat_map(move |column| {
             (0..self.rows).map(move |row| {
@@ -41,8 +43,9 @@ impl Program {
         self
     }
 
-    /// The program with the tool going up to a height, or the safe height if that is higher, and over a place if there is one: to `change` wherever
-    /// another tool is fitted, to `end` in the end.
+    /// The program with the tool going up to a height, or the safe height if that is higher, and
+    /// over a place if there is one: to `change` wherever another tool is fitted, to `end` in the
+    /// end.
     #[must_use]
     pub fn parking(mut self, change: (Option<Point>, Nm), end: (Option<Point>, Nm)) -> Self {
         let tools: Vec<Tool> = self.sections.iter().map(|section| section.tool.clone()).collect();
@@ -100,8 +103,9 @@ fn shifted(step: &Move, by: Vector) -> Move {
     }
 }
 
-/// Two holes that register a board turned over left to right about the vertical line at `axis`: on that line, `margin`
-/// above and below `bounds`, so that pins in them hold either side in the same place.
+/// Two holes that register a board turned over left to right about the vertical line at `axis`: on
+/// that line, `margin` above and below `bounds`, so that pins in them hold either side in the same
+/// place.
 #[must_use]
 pub fn alignment_holes(bounds: Rect, axis: Nm, margin: Nm) -> [Point; 2] {
     [Point::new(axis, bounds.min().y - margin), Point::new(axis, bounds.max().y + margin)]

@@ -1,3 +1,5 @@
+//! Tools: the shape of the cutting end, and how each is run.
+
 use std::fmt;
 use std::str::FromStr;
 
@@ -154,7 +156,8 @@ impl Tool {
         Self { name: kind.to_string(), kind, number: 1, feed, plunge, spindle, point: POINT }
     }
 
-    /// How far its tip reaches below the place from which on it cuts its full width: a drill's cone.
+    /// How far its tip reaches below the place from which on it cuts its full width: a drill's
+    /// cone.
     ///
     /// ```text
     ///   │  d  │
@@ -176,8 +179,8 @@ impl Tool {
         self.kind.width_at(depth)
     }
 
-    /// How deep it must go to cut a groove of `width`; none where no depth gives it. An end mill cuts its one width
-    /// at any depth, of which the least is returned.
+    /// How deep it must go to cut a groove of `width`; none where no depth gives it. An end mill
+    /// cuts its one width at any depth, of which the least is returned.
     #[must_use]
     pub fn depth_for(&self, width: Nm) -> Option<Nm> {
         self.kind.depth_for(width)

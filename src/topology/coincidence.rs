@@ -1,13 +1,15 @@
-//! Algorithm 1 of the paper, SIMPLE-TOPOLOGY-RECOVER (§III-A.1): features that share a vertex are one trace.
+//! Algorithm 1 of the paper, SIMPLE-TOPOLOGY-RECOVER (§III-A.1): features that share a vertex are
+//! one trace.
 //!
-//! The vertices of a flash are its centre, of a stroke or arc its two ends. The paper takes them for points of the
-//! copper; with real apertures they need not be: a flashed ring is hollow at its centre, and a stroke that a clear
-//! feature cut in two has each end in one of its pieces only, while both pieces carry the whole axis. So a vertex
-//! counts for a feature only where its copper really is there, which keeps the paper's Theorem 1 (what is joined does
-//! overlap) for everything a Gerber file can say. It costs the joins of hollow flashes, which contact finds.
+//! The vertices of a flash are its centre, of a stroke or arc its two ends. The paper takes them
+//! for points of the copper; with real apertures they need not be: a flashed ring is hollow at its
+//! centre, and a stroke that a clear feature cut in two has each end in one of its pieces only,
+//! while both pieces carry the whole axis. So a vertex counts for a feature only where its copper
+//! really is there, which keeps the paper's Theorem 1 (what is joined does overlap) for everything
+//! a Gerber file can say. It costs the joins of hollow flashes, which contact finds.
 //!
-//! The paper walks depth first; joining sets as vertices recur is the same partition without the recursion, in linear
-//! time (Theorem 2).
+//! The paper walks depth first; joining sets as vertices recur is the same partition without the
+//! recursion, in linear time (Theorem 2).
 
 use rustc_hash::FxHashMap;
 

@@ -19,7 +19,8 @@ pub struct Differences {
     pub translucency: Translucency,
     /// What touches.
     pub contact: Nets,
-    /// What the first two missed, in this order, by net. None of the three joins what does not touch.
+    /// What the first two missed, in this order, by net. None of the three joins what does not
+    /// touch.
     pub missed: Vec<Missed>,
 }
 
@@ -50,8 +51,8 @@ pub enum Reason {
     ColourCollision,
 }
 
-/// Runs all three methods on `copper` and lists what the paper's two miss: for every net, as few places as would join
-/// its parts.
+/// Runs all three methods on `copper` and lists what the paper's two miss: for every net, as few
+/// places as would join its parts.
 ///
 /// # Errors
 ///
@@ -78,7 +79,8 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// What `fine` has apart and `contact` together. With a grid, overlaps that a pixel shows come first.
+    /// What `fine` has apart and `contact` together. With a grid, overlaps that a pixel shows come
+    /// first.
     fn missed(&mut self, by: Method, fine: &Nets, contact: &Nets, grid: Option<&Grid>) -> Vec<Missed> {
         let mut joined = DisjointSets::new(fine.nets().len());
         let mut missed = Vec::new();

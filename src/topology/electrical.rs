@@ -1,5 +1,5 @@
-//! The nets of the whole board: islands of both sides joined through plated holes. For reports only; each side is
-//! isolated island by island.
+//! The nets of the whole board: islands of both sides joined through plated holes. For reports
+//! only; each side is isolated island by island.
 
 use std::ops::ControlFlow;
 
@@ -12,8 +12,8 @@ use super::{NetId, Nets};
 
 /// How far the plating of a hole is taken to reach beyond the drill.
 ///
-/// Chosen: pads with a hole of their own are drawn with the drill's diameter, rounded to a mil's tenths here and to a
-/// micrometre's there; clearances are ten times as wide.
+/// Chosen: pads with a hole of their own are drawn with the drill's diameter, rounded to a mil's
+/// tenths here and to a micrometre's there; clearances are ten times as wide.
 const PLATING: Nm = Nm::from_um(10);
 
 /// What conducts on the assembled board.
@@ -37,7 +37,8 @@ pub struct ElectricalNet {
 }
 
 impl Electrical {
-    /// A warning for every name that is on several electrical nets: one that a wire must join, or an open circuit.
+    /// A warning for every name that is on several electrical nets: one that a wire must join, or
+    /// an open circuit.
     #[must_use]
     pub fn check(&self) -> Vec<Warning> {
         let mut names: Vec<&str> = self.nets.iter().flat_map(|net| &net.names).map(String::as_str).collect();
@@ -53,7 +54,8 @@ impl Electrical {
     }
 }
 
-/// The electrical nets of a board with these layers and holes. Holes that may be plated are taken for plated.
+/// The electrical nets of a board with these layers and holes. Holes that may be plated are taken
+/// for plated.
 #[must_use]
 pub fn electrical(
     front: Option<(&Copper, &Nets)>,

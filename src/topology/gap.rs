@@ -1,3 +1,5 @@
+//! The narrowest gap between two nets of a layer: what tool a board asks for.
+
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;
@@ -27,7 +29,8 @@ const FIRST_LIMIT: Nm = Nm::from_um(250);
 
 /// The narrowest gap between two nets of `copper`; none with fewer than two nets.
 ///
-/// Looks within a small distance of every feature, then within twice that, until it finds a gap: near-linear time.
+/// Looks within a small distance of every feature, then within twice that, until it finds a gap:
+/// near-linear time.
 #[must_use]
 pub fn smallest_gap(copper: &Copper, nets: &Nets) -> Option<Gap> {
     if nets.nets().len() < 2 {

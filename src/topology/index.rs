@@ -1,3 +1,5 @@
+//! Rectangles by place: the packed R-tree behind contact and gaps.
+
 use std::ops::ControlFlow;
 
 use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
@@ -21,7 +23,8 @@ impl RectIndex {
         Self { tree: builder.build().expect("as many rectangles as announced") }
     }
 
-    /// The numbers of all rectangles, neighbours close to each other: the order in which to ask about all of them.
+    /// The numbers of all rectangles, neighbours close to each other: the order in which to ask
+    /// about all of them.
     pub(super) fn order(&self) -> &[usize] {
         self.tree.item_indices()
     }
@@ -37,7 +40,8 @@ impl RectIndex {
         found
     }
 
-    /// Calls `visit` with the number of every rectangle that shares a point with `window`, until it breaks.
+    /// Calls `visit` with the number of every rectangle that shares a point with `window`, until it
+    /// breaks.
     ///
     /// `stack` is scratch memory. The order depends on the rectangles alone.
     pub(super) fn visit(

@@ -1,7 +1,7 @@
 //! Which features conduct to each other.
 //!
-//! Gerber does not say what is connected; three [`Method`]s find it, all with one result, a partition of the features
-//! of a layer into [`Nets`]:
+//! Gerber does not say what is connected; three [`Method`]s find it, all with one result, a
+//! partition of the features of a layer into [`Nets`]:
 //!
 //! | method | joins | time |
 //! |---|---|---|
@@ -9,18 +9,19 @@
 //! | [`translucency`](Method::Translucency) | also what overlaps at some pixel: Algorithm 2 (§III-A.2) | with the area, in pixels |
 //! | [`contact`](Method::Contact) | also all whose copper touches, exactly | near-linear |
 //!
-//! Both others run after coincidence, which does most of their work for next to nothing. [`differences()`] holds all three
-//! against each other.
+//! Both others run after coincidence, which does most of their work for next to nothing.
+//! [`differences()`] holds all three against each other.
 //!
-//! `cargo bench --bench topology` times layers of strokes, discs and rectangles at a constant density (two threads):
+//! `cargo bench --bench topology` times layers of strokes, discs and rectangles at a constant
+//! density (two threads):
 //!
 //! | features | 10³ | 10⁴ | 10⁵ | 10⁶ |
 //! |---|---|---|---|---|
 //! | contact, µs a feature | 0.62 | 0.75 | 0.84 | 0.99 |
 //! | of that coincidence | 0.06 | 0.04 | 0.08 | 0.29 |
 //!
-//! Contact grows by 1.6 over three powers of ten. What grows in coincidence is reading memory: one table of all vertices
-//! no longer fits a cache.
+//! Contact grows by 1.6 over three powers of ten. What grows in coincidence is reading memory: one
+//! table of all vertices no longer fits a cache.
 
 mod coincidence;
 mod contact;
@@ -55,7 +56,8 @@ use contact::Bodies;
 pub enum Method {
     /// Algorithm 1 alone: shared end points and centres. Misses what touches elsewhere.
     Coincidence,
-    /// Algorithm 1, then Algorithm 2 at 500 DPI: overlaps by blended colours. Misses what no pixel shows.
+    /// Algorithm 1, then Algorithm 2 at 500 DPI: overlaps by blended colours. Misses what no pixel
+    /// shows.
     Translucency,
     /// Algorithm 1, then exact contact.
     #[default]
@@ -72,7 +74,8 @@ pub fn recover(copper: &Copper, method: Method) -> Nets {
     }
 }
 
-/// The nets of `copper` by Algorithm 1 and then Algorithm 2 at 500 DPI, with all that was seen on the way.
+/// The nets of `copper` by Algorithm 1 and then Algorithm 2 at 500 DPI, with all that was seen on
+/// the way.
 #[must_use]
 pub fn by_translucency(copper: &Copper) -> Translucency {
     let traces = Nets::from_sets(copper, coincidence::join(copper));

@@ -9,8 +9,8 @@ use crate::geometry::{Nm, Point};
 
 use super::{Net, NetId, Nets, Proximity};
 
-/// A warning for every island that carries several names, a short in the design or a net tie, with the places where
-/// they meet.
+/// A warning for every island that carries several names, a short in the design or a net tie, with
+/// the places where they meet.
 ///
 /// One name on several islands is no warning: they are joined on another layer or by a wire (see
 /// [`islands_of_names`], and [`electrical`](super::electrical()) for those that are not).
@@ -42,7 +42,8 @@ pub fn names_check(copper: &Copper, nets: &Nets) -> Vec<Warning> {
 
 /// Where copper of one name meets copper of another, a place for each two names.
 ///
-/// Names spread from the features that carry them, breadth first and in the order of the file, over copper without one.
+/// Names spread from the features that carry them, breadth first and in the order of the file, over
+/// copper without one.
 fn meetings<'a>(copper: &'a Copper, net: &Net, proximity: &Proximity) -> BTreeMap<(&'a str, &'a str), Point> {
     let mut names: FxHashMap<usize, &str> = FxHashMap::default();
     let mut queue = VecDeque::new();

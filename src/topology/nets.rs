@@ -1,3 +1,5 @@
+//! Nets of one layer: a partition of its features into islands of copper.
+
 use crate::board::Copper;
 
 use super::sets::DisjointSets;
@@ -23,12 +25,13 @@ pub struct Net {
     pub features: Vec<u32>,
 }
 
-/// A partition of the features of a layer: two features are in one net exactly if they conduct to each other.
+/// A partition of the features of a layer: two features are in one net exactly if they conduct to
+/// each other.
 ///
 /// # Guarantees
 ///
-/// Every feature is in exactly one net. Nets are numbered by their first feature, so the numbering does not depend
-/// on how they were found.
+/// Every feature is in exactly one net. Nets are numbered by their first feature, so the numbering
+/// does not depend on how they were found.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Nets {
     of: Vec<NetId>,
@@ -54,7 +57,8 @@ impl Nets {
     pub(super) fn from_sets(copper: &Copper, mut sets: DisjointSets) -> Self {
         let mut found = Self { of: Vec::with_capacity(copper.features.len()), nets: Vec::new() };
         for (feature, index) in copper.features.iter().zip(0_u32..) {
-            // The representative of a set is its smallest member, so it has been numbered before the others come.
+            // The representative of a set is its smallest member, so it has been numbered before
+            // the others come.
             let first = sets.find(index);
             if first == index {
                 found.of.push(NetId(u32::try_from(found.nets.len()).expect("no more nets than features")));

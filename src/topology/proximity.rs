@@ -1,3 +1,5 @@
+//! What comes near a shape, for shapes that are asked about many times.
+
 use std::ops::ControlFlow;
 
 use rayon::prelude::*;

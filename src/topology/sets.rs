@@ -1,3 +1,5 @@
+//! Disjoint sets (union-find) whose representative is the smallest member.
+
 /// A partition of 0..n that only ever grows coarser (union-find).
 ///
 /// # Guarantees

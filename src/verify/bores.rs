@@ -1,8 +1,8 @@
-//! Holes as programs make them: how far the wall of each is from where the board has it, how deep it goes, and what is cut
-//! where the board has no hole.
+//! Holes as programs make them: how far the wall of each is from where the board has it, how deep
+//! it goes, and what is cut where the board has no hole.
 //!
-//! A drill leaves a disc, an end mill a ring of strokes and arcs: both are the same here, pieces of what the cutter sweeps. The wall
-//! of a hole is looked at from its middle in all directions.
+//! A drill leaves a disc, an end mill a ring of strokes and arcs: both are the same here, pieces of
+//! what the cutter sweeps. The wall of a hole is looked at from its middle in all directions.
 //!
 //! ```text
 //!      ╭──────╮         short: how far the cut ends before the wall, at its worst; below zero where it goes
@@ -49,8 +49,8 @@ pub(super) struct Made<'a> {
     pub(super) cut: Cut<'a>,
 }
 
-/// Pieces whose distances from a place differ by less than this both make the wall there. Chosen: more than the ridges between
-/// the holes of a slot.
+/// Pieces whose distances from a place differ by less than this both make the wall there. Chosen:
+/// more than the ridges between the holes of a slot.
 const BOTH: f64 = 20_000.0;
 
 impl<'a> Bores<'a> {
@@ -106,7 +106,8 @@ struct Wall<'a> {
 
 /// How far the flattened way of a slot may leave its curve. Chosen: far below what is tolerated.
 const FLAT: Nm = Nm::from_um(2);
-/// Directions in which a wall is looked at. Chosen: a hole off its place is seen to half a hundredth of how far it is off.
+/// Directions in which a wall is looked at. Chosen: a hole off its place is seen to half a
+/// hundredth of how far it is off.
 const DIRECTIONS: u32 = 32;
 
 impl<'a> Wall<'a> {
@@ -164,8 +165,8 @@ impl<'a> Wall<'a> {
         Some(self.seen(made, own, cuts))
     }
 
-    /// The hole where pieces for other holes make some of it, too: holes may overlap. None where nothing of its own is cut, and the
-    /// others leave some of it.
+    /// The hole where pieces for other holes make some of it, too: holes may overlap. None where
+    /// nothing of its own is cut, and the others leave some of it.
     fn shared(&self, own: Option<Made<'a>>, near: &[usize], cuts: &[Cut<'a>]) -> Option<Made<'a>> {
         let first = *near.first()?;
         let (beyond, depth, end) = (0.0, Nm::MAX, Nm::MAX);
@@ -201,7 +202,8 @@ impl<'a> Wall<'a> {
     }
 }
 
-/// The hole that a piece is for: that past whose wall it reaches least. None where it touches no hole.
+/// The hole that a piece is for: that past whose wall it reaches least. None where it touches no
+/// hole.
 fn owner(shape: &Shape, walls: &[Wall<'_>], by_place: &RectIndex) -> Option<usize> {
     let touching = by_place.touching(shape.bounds()).into_iter();
     let past = touching.map(|index| (walls[index].past(shape), index));

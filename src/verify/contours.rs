@@ -1,7 +1,9 @@
-//! The board's edge as programs cut it out: what of it is cut through, held by tabs, or left, and where the board itself is cut.
+//! The board's edge as programs cut it out: what of it is cut through, held by tabs, or left, and
+//! where the board itself is cut.
 //!
-//! Each contour is looked at in many spots. Beyond a spot the board must be cut through; a stretch of spots that is cut, but not
-//! through, is a tab or a mistake. An inner corner that no round cutter reaches into counts as cut.
+//! Each contour is looked at in many spots. Beyond a spot the board must be cut through; a stretch
+//! of spots that is cut, but not through, is a tab or a mistake. An inner corner that no round
+//! cutter reaches into counts as cut.
 //!
 //! ```text
 //!   stock ░░░░░░░░░░░░░░░░░░░░░░░      spots  · · · · · ·
@@ -60,7 +62,8 @@ pub(super) struct Stretch {
     pub(super) length: f64,
     /// The spot where most is left.
     pub(super) at: Point,
-    /// How far the board goes on beyond its edge there, in nanometres; infinite where nothing near is cut through.
+    /// How far the board goes on beyond its edge there, in nanometres; infinite where nothing near
+    /// is cut through.
     pub(super) left: f64,
     /// How long the parts are together where the board notably goes on.
     pub(super) off: f64,
@@ -94,14 +97,15 @@ struct Seen {
     depth: Nm,
 }
 
-/// How far the edge may be off before anybody is told. Chosen: what cheap machines repeat to, and several times what paths are
-/// rounded to.
+/// How far the edge may be off before anybody is told. Chosen: what cheap machines repeat to, and
+/// several times what paths are rounded to.
 const NOTABLE: Nm = Nm::from_um(20);
 
 /// Half the groove where nothing is cut. Chosen: that of the usual cutter.
 const IDLE: Nm = Nm::from_um(500);
 
-/// How far a cutter that just fits may seem to touch the other side of a slot: what flattening makes of curves. Chosen.
+/// How far a cutter that just fits may seem to touch the other side of a slot: what flattening
+/// makes of curves. Chosen.
 const FIT: f64 = 3_000.0;
 
 impl<'a> Contours<'a> {
@@ -136,7 +140,8 @@ impl<'a> Contours<'a> {
         Some(Self { programs: programs.to_vec(), outline, rings, taken, half })
     }
 
-    /// How wide a stretch that is not cut through is in the groove, where it is narrowest: the cutter's round end reaches into it.
+    /// How wide a stretch that is not cut through is in the groove, where it is narrowest: the
+    /// cutter's round end reaches into it.
     pub(super) fn width(&self, stretch: &Stretch, settings: &Settings) -> f64 {
         let (half, edge) = (self.half.to_f64(), settings.edge.to_f64());
         stretch.length - 2.0 * (half - (2.0 * half * edge).sqrt().min(half))
@@ -175,8 +180,8 @@ impl<'a> Contours<'a> {
     }
 }
 
-/// The widest that is a tab, and no mistake: twice as wide as asked for and some, or where nobody said how wide, wider than any
-/// that holds a board of this size. Chosen.
+/// The widest that is a tab, and no mistake: twice as wide as asked for and some, or where nobody
+/// said how wide, wider than any that holds a board of this size. Chosen.
 fn widest(settings: &Settings) -> Nm {
     settings.tab_width.map_or(Nm::from_mm(10), |width| width * 2 + Nm::from_mm(1))
 }
@@ -297,7 +302,8 @@ fn stretches(spots: &[Spot], seen: &[Seen]) -> Vec<Stretch> {
     found
 }
 
-/// Twice the area of a ring in nm²: above zero where it goes round counter-clockwise, as boards do; cut-outs go round the other way.
+/// Twice the area of a ring in nm²: above zero where it goes round counter-clockwise, as boards do;
+/// cut-outs go round the other way.
 fn area(ring: &[Point]) -> i128 {
     let next = ring.iter().cycle().skip(1);
     ring.iter()

@@ -1,3 +1,5 @@
+//! What a tool cuts, as the judge sees it: kept apart from the planner's tool on purpose.
+
 use std::fmt;
 use std::str::FromStr;
 
@@ -5,19 +7,21 @@ use crate::geometry::Nm;
 
 /// What a tool cuts: how wide at which depth.
 ///
-/// Written as everywhere on the command line: `vbit:0.1mm:30deg`, `endmill:0.2mm`, `drill:0.8mm`. Judging is kept apart
-/// from planning, so this is not the planner's tool.
+/// Written as everywhere on the command line: `vbit:0.1mm:30deg`, `endmill:0.2mm`, `drill:0.8mm`.
+/// Judging is kept apart from planning, so this is not the planner's tool.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cutter {
     /// What it is called.
     pub kind: CutterKind,
     /// Its width at the tip.
     pub tip: Nm,
-    /// The full angle in degrees between the flanks of a V-bit, or at the point of a drill; zero for an end mill.
+    /// The full angle in degrees between the flanks of a V-bit, or at the point of a drill; zero
+    /// for an end mill.
     pub degrees: f64,
 }
 
-/// The angle at the point of a twist drill of steel that nobody said more of (DIN 1897, type N); drills of carbide have 130°.
+/// The angle at the point of a twist drill of steel that nobody said more of (DIN 1897, type N);
+/// drills of carbide have 130°.
 const POINT: f64 = 118.0;
 
 /// What a tool is made for.
@@ -57,7 +61,8 @@ impl Cutter {
         }
     }
 
-    /// The same with a point of this angle, where it is a drill that nobody said more of, and the angle one that a point can have.
+    /// The same with a point of this angle, where it is a drill that nobody said more of, and the
+    /// angle one that a point can have.
     pub(super) fn pointed(self, degrees: f64) -> Self {
         let is_usual = self.kind == CutterKind::Drill && (self.degrees - POINT).abs() < 1e-9;
         if is_usual && degrees > 0.0 && degrees < 180.0 { Self { degrees, ..self } } else { self }

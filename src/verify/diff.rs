@@ -1,8 +1,9 @@
 //! What another program cuts that this one does not: copper, not lines.
 //!
-//! Both are drawn on one picture, row of tiles by row of tiles. A pixel is a difference where one cuts it and the other stays clear
-//! of it by more than a tolerance, so that programs that say the same in other words (lines for arcs, another order, other
-//! digits) do not differ. Differences that hang together are one.
+//! Both are drawn on one picture, row of tiles by row of tiles. A pixel is a difference where one
+//! cuts it and the other stays clear of it by more than a tolerance, so that programs that say the
+//! same in other words (lines for arcs, another order, other digits) do not differ. Differences
+//! that hang together are one.
 
 use rayon::prelude::*;
 
@@ -62,8 +63,8 @@ pub enum Spot {
     One(Change),
 }
 
-/// Compares what two programs cut, each deeper than the copper of `settings` is thick; a difference counts from `tolerance` on.
-/// An empty text cuts nothing.
+/// Compares what two programs cut, each deeper than the copper of `settings` is thick; a difference
+/// counts from `tolerance` on. An empty text cuts nothing.
 ///
 /// # Errors
 ///

@@ -1,9 +1,10 @@
 //! What parts of the copper hang together by, and how wide that is.
 //!
-//! Imagine all cuts and the board's edge growing until everything is gone, and then receding: pixels come back, the farthest from
-//! all of them first. Where one of them joins two parts that are looked for, the copper between these is narrowest: no way from one to
-//! the other has a wider narrowest place (Kruskal's maximum spanning tree). Pixels under the cuts come back last, so
-//! that parts that are cut apart join too, at a width below zero.
+//! Imagine all cuts and the board's edge growing until everything is gone, and then receding:
+//! pixels come back, the farthest from all of them first. Where one of them joins two parts that
+//! are looked for, the copper between these is narrowest: no way from one to the other has a wider
+//! narrowest place (Kruskal's maximum spanning tree). Pixels under the cuts come back last, so that
+//! parts that are cut apart join too, at a width below zero.
 //!
 //! The picture finds the place; how wide it is there is asked of the exact shapes.
 
@@ -56,14 +57,15 @@ impl Basin {
         self.grid.center(index % i64::from(self.grid.width()), index / i64::from(self.grid.width()))
     }
 
-    /// How wide it is at a pixel as far as the picture tells: twice the way to the nearest kerf; none where no cut is near.
+    /// How wide it is at a pixel as far as the picture tells: twice the way to the nearest kerf;
+    /// none where no cut is near.
     fn seen(&self, sheet: &Sheet<'_>, pixel: usize) -> Option<f64> {
         let depth = self.depths[pixel];
         depth.is_finite().then(|| 2.0 * (f64::from(depth) * self.grid.pitch().to_f64() - sheet.half.to_f64()))
     }
 
-    /// How wide it is where a pixel joins two parts, and where exactly; no width where nothing bounds it on both sides. A width that
-    /// is not above zero says that the parts are apart.
+    /// How wide it is where a pixel joins two parts, and where exactly; no width where nothing
+    /// bounds it on both sides. A width that is not above zero says that the parts are apart.
     pub(super) fn width(&self, sheet: &Sheet<'_>, pixel: usize) -> (Option<Nm>, Point) {
         let at = self.place(pixel);
         let Some(seen) = self.seen(sheet, pixel) else { return (None, at) };
@@ -74,8 +76,8 @@ impl Basin {
         }
     }
 
-    /// Lets pixels come back, those near `plugs` excepted, and tells `joined` of each two parts that join; until it says that it has
-    /// seen enough.
+    /// Lets pixels come back, those near `plugs` excepted, and tells `joined` of each two parts
+    /// that join; until it says that it has seen enough.
     pub(super) fn flood(&self, water: &mut Water, plugs: &[Point], mut joined: impl FnMut(Join) -> bool) {
         let (width, count) = (self.grid.width() as usize, self.labels.len());
         let plug = self.grid.pitch().to_f64() * 3.0;

@@ -22,12 +22,13 @@ pub(super) struct Hit {
     pub(super) forced: bool,
 }
 
-/// What reaches less far into copper is nothing: so many nanometres, or this part of the kerf. Both chosen: no mill is as true.
+/// What reaches less far into copper is nothing: so many nanometres, or this part of the kerf. Both
+/// chosen: no mill is as true.
 pub(super) const FAINT: f64 = 1_000.0;
 const FAINT_SHARE: f64 = 0.01;
 
-/// All pieces of cuts that reach further than `tolerance` into a net: by net, what the gap forces apart from the rest, in order;
-/// and how many more reach so little into one that it is nothing.
+/// All pieces of cuts that reach further than `tolerance` into a net: by net, what the gap forces
+/// apart from the rest, in order; and how many more reach so little into one that it is nothing.
 pub(super) fn hits(sheet: &Sheet<'_>, tolerance: Nm) -> (Vec<Hit>, usize) {
     let cuts = sheet.cuts.par_iter().enumerate();
     let mut hits: Vec<Hit> = cuts.flat_map_iter(|(index, cut)| taken(sheet, index, cut, tolerance)).collect();
@@ -74,8 +75,8 @@ fn taken(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, tolerance: Nm) -> Vec<H
     hits
 }
 
-/// Whether the gap between the net and the next one is narrower than the kerf, and the cut goes through its middle as far as
-/// it can.
+/// Whether the gap between the net and the next one is narrower than the kerf, and the cut goes
+/// through its middle as far as it can.
 fn forced(sheet: &Sheet<'_>, cut: &Cut<'_>, hit: &Hit, tolerance: Nm) -> bool {
     let kerf = cut.swept.half().to_f64() * 2.0;
     let own = cut.swept.half().to_f64() - hit.depth;

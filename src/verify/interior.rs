@@ -1,4 +1,5 @@
-//! How deep inside the copper of a net a place lies: the distance to its edge, exactly, however far that is.
+//! How deep inside the copper of a net a place lies: the distance to its edge, exactly, however far
+//! that is.
 
 use crate::board::Shape;
 use crate::geometry::{Nm, Point, Polygon};
@@ -22,7 +23,8 @@ pub(super) struct Deepest {
     pub(super) depth: f64,
 }
 
-/// How much deeper the deepest place may be than what is found, in nanometres. Chosen: what is told is rounded to this.
+/// How much deeper the deepest place may be than what is found, in nanometres. Chosen: what is told
+/// is rounded to this.
 const NEAR: f64 = 1_000.0;
 /// How far edges are looked for at first. Chosen: half of a wide trace.
 const REACH: Nm = Nm::from_um(200);
@@ -38,10 +40,12 @@ impl<'a> Interior<'a> {
         Self { sheet, net, edges: Proximity::of(&edges), most }
     }
 
-    /// The deepest place of a way, where one is deeper than `floor` nanometres: within a micrometre of the deepest there is.
+    /// The deepest place of a way, where one is deeper than `floor` nanometres: within a micrometre
+    /// of the deepest there is.
     ///
-    /// From one place to the next the depth changes by no more than the way between them, so that a stretch whose middle is not deep
-    /// enough for its length holds nothing deeper (Piyavskii 1972).
+    /// From one place to the next the depth changes by no more than the way between them, so that a
+    /// stretch whose middle is not deep enough for its length holds nothing deeper (Piyavskii
+    /// 1972).
     pub(super) fn deepest(&self, way: &Shape, floor: f64) -> Option<Deepest> {
         let (mut found, mut floor) = (None, floor);
         let mut stretches = vec![(0.0_f64, 1.0_f64)];

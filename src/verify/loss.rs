@@ -9,8 +9,9 @@ use super::hit::Hit;
 use super::ruling::Ruling;
 use super::sheet::Sheet;
 
-/// How far apart the lines are along which it is measured: a share of how large the cuts are together, within bounds. Chosen: of a
-/// shaving as long as they are it is true to a few thousandths, whichever way it runs.
+/// How far apart the lines are along which it is measured: a share of how large the cuts are
+/// together, within bounds. Chosen: of a shaving as long as they are it is true to a few
+/// thousandths, whichever way it runs.
 const SHARE: i64 = 500;
 const FINEST: Nm = Nm::new(250);
 const COARSEST: Nm = Nm::from_um(10);

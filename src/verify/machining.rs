@@ -28,7 +28,8 @@ pub(super) struct Machining {
 pub(super) struct Swept {
     /// The axis of the cutter's way, its radius half the kerf.
     pub(super) shape: Shape,
-    /// Half the kerf at the bottom of the copper: what the cutter leaves below it on either side conducts.
+    /// Half the kerf at the bottom of the copper: what the cutter leaves below it on either side
+    /// conducts.
     ///
     /// ```text
     ///   ▔▔▔▔▔╲         ╱▔▔▔▔▔   surface: shape's radius, what copper is lost by
@@ -198,8 +199,9 @@ fn within_range(points: &[Point]) -> bool {
 const STEP: f64 = 1_000.0;
 const SINK: f64 = 50_000.0;
 
-/// A motion as pieces of one depth each: one where it is level, else so many that the kerf is true to [`STEP`]. Each lies either above
-/// or below each of `levels`, depths that something is judged by.
+/// A motion as pieces of one depth each: one where it is level, else so many that the kerf is true
+/// to [`STEP`]. Each lies either above or below each of `levels`, depths that something is judged
+/// by.
 fn pieces(motion: &Motion, from: Point, to: Point, cutter: Cutter, levels: [Nm; 2]) -> Vec<(Shape, Nm)> {
     let Some((start, end)) = heights(motion) else { return Vec::new() };
     let whole = axis(motion.way, from, to);
@@ -225,7 +227,8 @@ fn pieces(motion: &Motion, from: Point, to: Point, cutter: Cutter, levels: [Nm; 
         .collect()
 }
 
-/// Equal shares of the part of a way from one fraction of it to another, of which the whole has `steps`.
+/// Equal shares of the part of a way from one fraction of it to another, of which the whole has
+/// `steps`.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
 fn shares(from: f64, to: f64, steps: f64) -> impl Iterator<Item = (f64, f64)> {
     let count = ((steps * (to - from)).ceil() as u32).clamp(1, 256);
@@ -282,8 +285,8 @@ fn part(axis: &Shape, from: f64, to: f64) -> Shape {
     }
 }
 
-/// What a program is for, by its motions: drilling where it never goes sideways below the surface, cutting out where it goes
-/// deeper than copper asks for, else isolating the side that has copper.
+/// What a program is for, by its motions: drilling where it never goes sideways below the surface,
+/// cutting out where it goes deeper than copper asks for, else isolating the side that has copper.
 fn guess(motions: &[Motion], tools: &Tools<'_>, board: &Board) -> Option<Role> {
     let sunk = |motion: &&Motion| heights(motion).is_some_and(|(a, b)| a.min(b) < Nm::ZERO);
     let sideways =

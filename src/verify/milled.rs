@@ -1,6 +1,7 @@
 //! The picture of what is left of a side: which nets hang together in it.
 //!
-//! It is never whole in memory: bands of rows are worked out side by side, and joined from top to bottom.
+//! It is never whole in memory: bands of rows are worked out side by side, and joined from top to
+//! bottom.
 
 use rayon::prelude::*;
 

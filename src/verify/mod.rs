@@ -1,9 +1,11 @@
 //! Programs milled before anybody mills them: text and a board → a [`Report`].
 //!
-//! The text is read back by [`gcode::read`](mod@crate::gcode::read), laid over the board, and the cutter that it moves is drawn on a picture of
-//! the copper. What is left conducts: its pieces are found as connected pixels, and compared with the nets of the design. How much
-//! copper the cutter takes is asked of the exact geometry instead, so that it does not depend on the pixel.
-//! Neither the planner nor the diagram is used, so that agreement says something, and any program can be judged.
+//! The text is read back by [`gcode::read`](mod@crate::gcode::read), laid over the board, and the
+//! cutter that it moves is drawn on a picture of the copper. What is left conducts: its pieces are
+//! found as connected pixels, and compared with the nets of the design. How much copper the cutter
+//! takes is asked of the exact geometry instead, so that it does not depend on the pixel. Neither
+//! the planner nor the diagram is used, so that agreement says something, and any program can be
+//! judged.
 //!
 //! ```text
 //!   ▒▒▒▒▒▒░░░░▒▒▒▒▒    ▒ net   ░ clad that stays   · cut
@@ -109,7 +111,8 @@ pub struct Input {
     pub design: String,
 }
 
-/// What says of `programs` that they were made from other files than `inputs`; nothing for programs that do not tell.
+/// What says of `programs` that they were made from other files than `inputs`; nothing for programs
+/// that do not tell.
 #[must_use]
 pub fn revisions(programs: &[Program], inputs: &[Input]) -> Vec<Finding> {
     programs.iter().flat_map(|program| check::inputs(program, inputs)).collect()
@@ -157,10 +160,10 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Copper of 35 µm (one ounce); 10 µm into copper, twice what a centred cut may be off, a tenth of a millimetre at the deepest, and
-    /// half of each net's width left; crumbs of 0.01 mm², a tenth
-    /// of a millimetre square; 10 mm of stock; rapids 0.1 mm up; holes within 0.05 mm; strips of 0.05 mm; a board of
-    /// 1.6 mm, its edge within 0.1 mm. All chosen.
+    /// Copper of 35 µm (one ounce); 10 µm into copper, twice what a centred cut may be off, a tenth
+    /// of a millimetre at the deepest, and half of each net's width left; crumbs of 0.01 mm², a
+    /// tenth of a millimetre square; 10 mm of stock; rapids 0.1 mm up; holes within 0.05 mm; strips
+    /// of 0.05 mm; a board of 1.6 mm, its edge within 0.1 mm. All chosen.
     fn default() -> Self {
         Self {
             copper: Nm::from_um(35),
@@ -264,7 +267,8 @@ pub struct Known<'a> {
 ///
 /// # Errors
 ///
-/// [`Error`] where something cannot be judged at all: a text that cannot be followed, a tool or a side that nothing names.
+/// [`Error`] where something cannot be judged at all: a text that cannot be followed, a tool or a
+/// side that nothing names.
 pub fn verify(
     programs: &[Program],
     board: &Board,
@@ -334,7 +338,8 @@ fn judge(
     Ok((Judged { programs, role, resolution }, findings))
 }
 
-/// Where a board lies, turned so, whose lower left corner (or middle, or own zero) is the machine's zero.
+/// Where a board lies, turned so, whose lower left corner (or middle, or own zero) is the machine's
+/// zero.
 fn origin(name: &str, degrees: f64, board: &Board) -> Option<Placement> {
     let zero = |around: Rect| match name {
         "lower-left" => around.min(),

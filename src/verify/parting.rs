@@ -1,9 +1,11 @@
-//! Whether cuts may part a net: what is beyond doubt, at pixels much finer than the picture of the whole side.
+//! Whether cuts may part a net: what is beyond doubt, at pixels much finer than the picture of the
+//! whole side.
 //!
-//! Most cuts that reach into copper shave a trace or a pad, where a gap is narrower than the kerf. Around each of them the copper
-//! of the net is drawn without and with kerfs, these wider by a pixel all round: as many pieces as before, and no cut parts it. Where
-//! that leaves a doubt all of the net is drawn so: a plane that is cut at one place hangs together by others.
-//! Polygons said the same in many times the time, and of a plane in fifteen times the memory.
+//! Most cuts that reach into copper shave a trace or a pad, where a gap is narrower than the kerf.
+//! Around each of them the copper of the net is drawn without and with kerfs, these wider by a
+//! pixel all round: as many pieces as before, and no cut parts it. Where that leaves a doubt all of
+//! the net is drawn so: a plane that is cut at one place hangs together by others. Polygons said
+//! the same in many times the time, and of a plane in fifteen times the memory.
 
 use crate::board::Shape;
 use crate::geometry::{Nm, Rect};
@@ -20,21 +22,24 @@ use super::spans::{Spans, less};
 
 /// How large a window is, unless a single cut is larger. Chosen: a few pieces of a cut.
 const WINDOW: Nm = Nm::from_mm(1);
-/// How many halves of a kerf it reaches beyond the cuts, and its pixel: first a small window of large pixels, and others that leave less doubt
-/// where that leaves some. Chosen: the first takes a tenth of the time of the last, and mostly is enough.
+/// How many halves of a kerf it reaches beyond the cuts, and its pixel: first a small window of
+/// large pixels, and others that leave less doubt where that leaves some. Chosen: the first takes a
+/// tenth of the time of the last, and mostly is enough.
 const LOOKS: [(i64, Nm); 3] = [(2, Nm::from_um(24)), (2, Nm::from_um(10)), (6, Nm::from_um(3))];
-/// The pixel for all of a net, which may hang together by another way than the one that is cut. Chosen: a plane's takes a tenth of the time
-/// of its polygons, and a hundredth of their memory.
+/// The pixel for all of a net, which may hang together by another way than the one that is cut.
+/// Chosen: a plane's takes a tenth of the time of its polygons, and a hundredth of their memory.
 const WHOLE: Nm = Nm::from_um(8);
 /// Pixels along a window at most: of one round a cut that is very long they are larger.
 const MOST: i64 = 30_000;
 /// Rows that are held at once. Chosen: they take a few megabytes.
 const BAND: u32 = 512;
-/// Below this area, in mm², a piece at the edge of a window is nothing. Chosen: a hundredth of a millimetre square.
+/// Below this area, in mm², a piece at the edge of a window is nothing. Chosen: a hundredth of a
+/// millimetre square.
 const NOTHING: f64 = 1e-4;
 
-/// Whether cuts may part the copper of a net, all of which lies in `place`: the middle of one goes through it, or around some there are more
-/// pieces after than before; and there are more in all of it, too.
+/// Whether cuts may part the copper of a net, all of which lies in `place`: the middle of one goes
+/// through it, or around some there are more pieces after than before; and there are more in all of
+/// it, too.
 pub(super) fn may_part(sheet: &Sheet<'_>, hits: &[Hit], place: Rect, settings: &Settings) -> bool {
     let net = hits[0].net;
     let locally = |rect: Rect| {
@@ -70,7 +75,8 @@ enum Pieces {
     Others,
 }
 
-/// What the cuts make of the pieces of a net within a window. Crumbs do not count, unless the window cuts them off from more.
+/// What the cuts make of the pieces of a net within a window. Crumbs do not count, unless the
+/// window cuts them off from more.
 fn parts(sheet: &Sheet<'_>, net: NetId, rect: Rect, pitch: Nm, settings: &Settings) -> Pieces {
     let pitch = pitch.max(rect.width().max(rect.height()) / MOST);
     let Ok(grid) = Grid::covering(rect, pitch) else { return Pieces::Others };

@@ -1,7 +1,7 @@
 //! What hangs together: the connected pieces of a picture, found row by row.
 //!
-//! A row of pixels is kept as runs of one label; only the row above is remembered. Runs that share an edge are joined (union-find), so
-//! memory follows the number of regions, not of pixels.
+//! A row of pixels is kept as runs of one label; only the row above is remembered. Runs that share
+//! an edge are joined (union-find), so memory follows the number of regions, not of pixels.
 
 /// A label's share of a connected piece.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +60,8 @@ pub(super) struct Joiner {
 }
 
 impl Joiner {
-    /// The runs of the row that was taken last, each with what stands for its region; see [`find`](Self::find).
+    /// The runs of the row that was taken last, each with what stands for its region; see
+    /// [`find`](Self::find).
     pub(super) fn last(&self) -> &[(Run, u32)] {
         &self.above
     }

@@ -1,7 +1,10 @@
+//! From machine coordinates back to the board, as the judge sees it.
+
 use crate::board::Shape;
 use crate::geometry::{Arc, Nm, Point, Rect, Vector};
 
-/// How the board lies on the machine: turned about its own zero, moved, then (the back) mirrored about a vertical line.
+/// How the board lies on the machine: turned about its own zero, moved, then (the back) mirrored
+/// about a vertical line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Placement {
     /// First: counter-clockwise, in degrees.
@@ -20,7 +23,8 @@ impl Placement {
         turned(moved, -self.degrees)
     }
 
-    /// The placement that turns a board so, and lays the point of it that `zero` picks from the turned bounds on zero.
+    /// The placement that turns a board so, and lays the point of it that `zero` picks from the
+    /// turned bounds on zero.
     pub(super) fn turned(degrees: f64, bounds: Rect, zero: impl Fn(Rect) -> Point) -> Self {
         let around = Rect::around(bounds.corners().map(|corner| turned(corner, degrees))).unwrap_or(bounds);
         let zero = zero(around);

@@ -1,9 +1,10 @@
 //! Where a program lies on the board, found from what it cuts.
 //!
-//! Every quarter turn, mirrored and not, is tried. Points along the cuts are laid over a picture of how far copper is, and pushed about
-//! until most of them run close beside copper and as few as possible through it (a cross-correlation); then, on the exact shapes,
-//! until the least clearances are as large as they can be, which centres cuts between nets and loops round them alike. What drills is
-//! laid on the holes, what cuts out on the outline.
+//! Every quarter turn, mirrored and not, is tried. Points along the cuts are laid over a picture of
+//! how far copper is, and pushed about until most of them run close beside copper and as few as
+//! possible through it (a cross-correlation); then, on the exact shapes, until the least clearances
+//! are as large as they can be, which centres cuts between nets and loops round them alike. What
+//! drills is laid on the holes, what cuts out on the outline.
 
 use std::borrow::Cow;
 
@@ -43,14 +44,16 @@ struct Fit {
     score: f64,
 }
 
-/// Points that are looked at. Chosen: enough for one part of a millimetre square each on a small board.
+/// Points that are looked at. Chosen: enough for one part of a millimetre square each on a small
+/// board.
 const POINTS: usize = 600;
 
 /// Finds how the board lies under `program`; of several tiles, the first.
 ///
 /// # Errors
 ///
-/// [`Error`] where the program cannot be followed, and [`Error::Unplaced`] where nothing of it lies anywhere near the board.
+/// [`Error`] where the program cannot be followed, and [`Error::Unplaced`] where nothing of it lies
+/// anywhere near the board.
 pub fn register(
     program: &Program,
     board: &Board,
@@ -66,7 +69,8 @@ pub fn register(
         let placement = Placement { degrees, shift: Vector::default(), mirror };
         let trial = trial(program, board, placement, settings)?;
         let Some(fit) = lay(&trial, &laid(degrees)) else { continue };
-        // Of a board that is its own mirror image, the orientation that is likelier comes first, and stays.
+        // Of a board that is its own mirror image, the orientation that is likelier comes first,
+        // and stays.
         if best.is_none_or(|(best, _)| fit.score > best.score + best.score.abs() * 0.02) {
             best = Some((fit, trial.placement));
         }
@@ -161,7 +165,8 @@ struct Map {
 const BESIDE: f64 = 400_000.0;
 /// What a point on copper costs, against one beside it.
 const THROUGH: f64 = 4.0;
-/// How far the middles of the board and of the program may differ beyond what their sizes differ by. Chosen.
+/// How far the middles of the board and of the program may differ beyond what their sizes differ
+/// by. Chosen.
 const ROOM: Nm = Nm::from_mm(1);
 
 impl Map {
@@ -267,7 +272,8 @@ fn refine(trial: &Trial, board: &Board, shift: Vector) -> Vector {
     at
 }
 
-/// How far a clearance counts, in nanometres: so much more weighs a third. Chosen: fine beside a kerf.
+/// How far a clearance counts, in nanometres: so much more weighs a third. Chosen: fine beside a
+/// kerf.
 const FALL: f64 = 30_000.0;
 
 /// How near to copper points are: the nearer, the much more.
@@ -288,7 +294,8 @@ fn turned_by(shift: Vector, degrees: f64) -> Vector {
     turned(Point::default() + shift, degrees) - Point::default()
 }
 
-/// Programs are laid on round numbers: what is within 3 µm of a hundredth of a millimetre is taken for it.
+/// Programs are laid on round numbers: what is within 3 µm of a hundredth of a millimetre is taken
+/// for it.
 fn whole(shift: Vector) -> Vector {
     let round = |length: Nm| {
         let hundredths = (length.get() + 5_000).div_euclid(10_000);

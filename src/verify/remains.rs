@@ -1,8 +1,9 @@
 //! What is left, exactly: polygons where the picture leaves a doubt.
 //!
-//! The picture tells cheaply what is beyond doubt: drawn with narrower kerfs, a piece that holds one net has no short. Whatever it
-//! leaves in doubt, and every net that a cut may part, is asked here: the sheet less all kerfs, and the copper of each net
-//! less all kerfs, as polygons ([`polarity`]), around the place in doubt only. A program without faults costs nothing here.
+//! The picture tells cheaply what is beyond doubt: drawn with narrower kerfs, a piece that holds
+//! one net has no short. Whatever it leaves in doubt, and every net that a cut may part, is asked
+//! here: the sheet less all kerfs, and the copper of each net less all kerfs, as polygons
+//! ([`polarity`]), around the place in doubt only. A program without faults costs nothing here.
 //!
 //! ```text
 //!   ▒▒▒▒╲ · ╱▒▒▒▒     A cut along a net leaves it whole; one across it leaves two pieces, however thin one
@@ -65,7 +66,8 @@ impl Rest {
         self.designed.iter().map(Polygon::area_mm2).sum()
     }
 
-    /// The parts by what they conduct to, each group the largest first; more than one for a net that is cut in two.
+    /// The parts by what they conduct to, each group the largest first; more than one for a net
+    /// that is cut in two.
     pub(super) fn apart(&self) -> Vec<Vec<&Remnant>> {
         let mut groups: Vec<Vec<&Remnant>> = Vec::new();
         for part in &self.parts {
@@ -88,7 +90,8 @@ struct Doubt {
     parted: BTreeSet<NetId>,
 }
 
-/// In shares of a crumb, the copper of a net in the picture from which on a piece is in doubt. Chosen: pixels are coarse.
+/// In shares of a crumb, the copper of a net in the picture from which on a piece is in doubt.
+/// Chosen: pixels are coarse.
 pub(super) const HINT: f64 = 0.1;
 
 impl Remains {
@@ -170,7 +173,8 @@ fn merge(doubts: &mut Vec<Doubt>, mut doubt: Doubt) {
     doubts.push(doubt);
 }
 
-/// How far curves are flattened where areas count: of a strip of a tenth of a millimetre that is a thousandth. Chosen.
+/// How far curves are flattened where areas count: of a strip of a tenth of a millimetre that is a
+/// thousandth. Chosen.
 const FINE: Nm = Nm::new(50);
 /// The kerfs that touch `rect`.
 fn kerfs(sheet: &Sheet<'_>, rect: Rect) -> Vec<Polygon> {
@@ -244,7 +248,8 @@ impl Within {
 /// Rows that are looked along for a point inside. Chosen.
 const ROWS: u32 = 7;
 
-/// A point inside a simple polygon, far from its edges as such points go: the middle of the longest way across it in a few rows.
+/// A point inside a simple polygon, far from its edges as such points go: the middle of the longest
+/// way across it in a few rows.
 fn inside(polygon: &Polygon) -> Option<Point> {
     let bounds = polygon.bounds();
     let row = |row: u32| {

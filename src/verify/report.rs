@@ -1,3 +1,5 @@
+//! Findings with their places and figures: what verification says.
+
 use std::fmt;
 use std::str::FromStr;
 

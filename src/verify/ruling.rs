@@ -1,4 +1,5 @@
-//! Where parallel lines run through shapes: how exact shapes become rows of pixels, areas and widths.
+//! Where parallel lines run through shapes: how exact shapes become rows of pixels, areas and
+//! widths.
 //!
 //! ```text
 //!   ──────────╮        A line through a shape is inside along its chords: one for what is convex, two where it crosses
@@ -7,8 +8,9 @@
 //!   ──████───███───
 //! ```
 //!
-//! Rows of pixels are horizontal lines through their centres. Areas are lines at a slant that edges of boards do not have (3 to 4), so
-//! that a strip of any direction is crossed by many. A width is one line.
+//! Rows of pixels are horizontal lines through their centres. Areas are lines at a slant that edges
+//! of boards do not have (3 to 4), so that a strip of any direction is crossed by many. A width is
+//! one line.
 //!
 //! Filling pixels instead, judging a clean board took three times as long.
 
@@ -50,7 +52,8 @@ impl Ruling {
         Self { origin: place.to_f64(), way: (0.8, 0.6), pitch: pitch.to_f64() }
     }
 
-    /// The lines that may run through a shape, of all there are; the first below zero for some before the first one.
+    /// The lines that may run through a shape, of all there are; the first below zero for some
+    /// before the first one.
     #[expect(clippy::cast_possible_truncation, reason = "lines are counted in 64 bits")]
     pub(super) fn lines(&self, shape: &Shape) -> Range<i64> {
         let bounds = shape.bounds();
@@ -61,7 +64,8 @@ impl Ruling {
         low.ceil() as i64..high.floor() as i64 + 1
     }
 
-    /// Tells `chord` of every stretch of `lines` inside `shape`: the line, from where, and to where, in nanometres. They may overlap.
+    /// Tells `chord` of every stretch of `lines` inside `shape`: the line, from where, and to
+    /// where, in nanometres. They may overlap.
     pub(super) fn rule(&self, shape: &Shape, lines: Range<i64>, chord: &mut impl FnMut(i64, f64, f64)) {
         let own = self.lines(shape);
         let lines = lines.start.max(own.start)..lines.end.min(own.end);
@@ -154,7 +158,8 @@ impl Ruling {
         }
     }
 
-    /// The lines above `low` up to `high`: of edges that follow one another one only owns the line through their corner.
+    /// The lines above `low` up to `high`: of edges that follow one another one only owns the line
+    /// through their corner.
     #[expect(clippy::cast_possible_truncation, reason = "lines are counted in 64 bits")]
     fn between(&self, low: f64, high: f64, lines: &Range<i64>) -> Range<i64> {
         let after = |off: f64| (off / self.pitch).floor() as i64 + 1;
@@ -166,7 +171,8 @@ impl Ruling {
     }
 }
 
-/// Radii of an arc this near to each other, in nanometres, are one: what a last digit of a program makes of them. Chosen.
+/// Radii of an arc this near to each other, in nanometres, are one: what a last digit of a program
+/// makes of them. Chosen.
 const ROUND: f64 = 2_000.0;
 /// How far chords may leave a spiral. Chosen: far below what is tolerated.
 const CHORD: Nm = Nm::new(200);
@@ -208,7 +214,8 @@ impl Capsule {
         }
     }
 
-    /// Both ends and what is between them are convex together, so that it is from the first of them to the last.
+    /// Both ends and what is between them are convex together, so that it is from the first of them
+    /// to the last.
     fn chord(&self, v: f64) -> Option<(f64, f64)> {
         let hull = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
         let [one, other] = self.ends.map(|end| end.chord(v));
@@ -250,7 +257,8 @@ impl Slab {
 /// An arc with its round ends.
 struct Ring {
     center: Local,
-    /// From the centre, with the turn: from the first counter-clockwise, as the local frame has it, to the second.
+    /// From the centre, with the turn: from the first counter-clockwise, as the local frame has it,
+    /// to the second.
     ends: (Local, Local),
     whole: bool,
     outer: f64,
@@ -280,7 +288,8 @@ impl Ring {
 
     /// What of the chord of the outer circle lies in the ring, between its ends.
     fn within(&self, off: f64, (from, to): (f64, f64), found: &mut dyn FnMut(Option<(f64, f64)>)) {
-        // Where anything can change: at the inner circle, and where the line crosses the ways to both ends.
+        // Where anything can change: at the inner circle, and where the line crosses the ways to
+        // both ends.
         let mut stops = [from, to, to, to, to, to];
         let mut count = 1;
         let mut stop = |at: f64| {
@@ -309,7 +318,8 @@ impl Ring {
         }
     }
 
-    /// Whether a place within the outer circle, seen from the centre, lies in the ring between its ends.
+    /// Whether a place within the outer circle, seen from the centre, lies in the ring between its
+    /// ends.
     fn holds(&self, p: Local) -> bool {
         let cross = |a: Local, b: Local| a.0 * b.1 - a.1 * b.0;
         let is_outside = self.inner <= 0.0 || p.0 * p.0 + p.1 * p.1 >= self.inner * self.inner;

@@ -32,7 +32,8 @@ pub(super) struct Sheet<'a> {
     pub(super) proximity: Proximity,
     /// All that is cut, program by program in order.
     pub(super) cuts: Vec<Cut<'a>>,
-    /// What is left, in connected pieces, of a picture with kerfs narrower by [`DOUBT`]: whatever may hang together does.
+    /// What is left, in connected pieces, of a picture with kerfs narrower by [`DOUBT`]: whatever
+    /// may hang together does.
     pub(super) parts: Vec<Part>,
     /// The same exactly, where the picture leaves a doubt.
     pub(super) remains: Remains,
@@ -69,7 +70,8 @@ pub(super) struct Cut<'a> {
 pub(super) enum Show {
     /// What is left: nets, clad, cuts, the outside.
     Left,
-    /// How far it is to the way of the nearest cut, less what half its kerf has beyond half the narrowest.
+    /// How far it is to the way of the nearest cut, less what half its kerf has beyond half the
+    /// narrowest.
     Ways,
     /// How far it is to the board's edge.
     Edge,
@@ -77,8 +79,9 @@ pub(super) enum Show {
 
 /// In pixels, how much narrower the cuts are drawn so that nothing that hangs together is missed.
 ///
-/// A strip of a width of √2 pixels holds a row of pixel centres that share edges, whichever way it lies. A gap of any
-/// width between two cuts that are narrower by three quarters of a pixel each is wider than that.
+/// A strip of a width of √2 pixels holds a row of pixel centres that share edges, whichever way it
+/// lies. A gap of any width between two cuts that are narrower by three quarters of a pixel each is
+/// wider than that.
 const DOUBT: f64 = 0.75;
 
 impl<'a> Sheet<'a> {
@@ -244,12 +247,14 @@ impl<'a> Sheet<'a> {
     }
 }
 
-/// A quarter of the narrowest kerf, so that a cut that is drawn narrower is still a wall without doors, within 5 µm to 25 µm.
+/// A quarter of the narrowest kerf, so that a cut that is drawn narrower is still a wall without
+/// doors, within 5 µm to 25 µm.
 pub(super) fn pixel(half: Nm) -> Nm {
     (half / 2).max(Nm::from_um(5)).min(Nm::from_um(25))
 }
 
-/// The sheet: the board, or without an outline all copper and cuts and a rim round them, which is clad and conducts.
+/// The sheet: the board, or without an outline all copper and cuts and a rim round them, which is
+/// clad and conducts.
 fn area(copper: &Copper, outline: Option<&Polygon>, cuts: &[Cut<'_>], pitch: Nm) -> Rect {
     if let Some(outline) = outline {
         return outline.bounds().inflate(pitch * 2);

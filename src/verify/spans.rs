@@ -59,8 +59,8 @@ fn run(from: f64, to: f64, width: u32) -> Option<Run> {
     (start < end).then_some(Run { start, end, label: 0 })
 }
 
-/// Runs from left to right that share no pixel: those of one label that touch as one; where labels overlap, the one that began first
-/// keeps the pixels.
+/// Runs from left to right that share no pixel: those of one label that touch as one; where labels
+/// overlap, the one that began first keeps the pixels.
 fn apart(mut runs: Vec<Run>) -> Vec<Run> {
     runs.sort_unstable_by_key(|run| (run.start, run.label, run.end));
     let mut apart: Vec<Run> = Vec::with_capacity(runs.len());

@@ -1,4 +1,5 @@
-//! What a program says of itself in its comments, where it is one of ours: the tools, what it is for, how the board lies.
+//! What a program says of itself in its comments, where it is one of ours: the tools, what it is
+//! for, how the board lies.
 
 use crate::board::Side;
 use crate::gcode::read::lines;
@@ -66,9 +67,11 @@ impl Stated {
     }
 }
 
-/// What a program that voromill wrote says of a setting in its comments, `tile` or `ignore`; none where it says nothing.
+/// What a program that voromill wrote says of a setting in its comments, `tile` or `ignore`; none
+/// where it says nothing.
 ///
-/// A long value stands in several comments; what no comment can hold is `^` and two hexadecimal digits for each byte.
+/// A long value stands in several comments; what no comment can hold is `^` and two hexadecimal
+/// digits for each byte.
 #[must_use]
 pub fn said(text: &str, setting: &str) -> Option<String> {
     let value =
@@ -90,7 +93,8 @@ fn unescaped(value: &str) -> String {
     String::from_utf8_lossy(&bytes).into_owned()
 }
 
-/// What a program that voromill wrote was made from: each file with the beginning of its design's hash, and the line that says so.
+/// What a program that voromill wrote was made from: each file with the beginning of its design's
+/// hash, and the line that says so.
 pub(super) fn origins(text: &str) -> Vec<(String, String, u32)> {
     let origin = |comment: &str| {
         let (file, design) = comment.trim().strip_prefix("from ")?.rsplit_once(" design ")?;
@@ -105,7 +109,8 @@ pub(super) fn origins(text: &str) -> Vec<(String, String, u32)> {
         .collect()
 }
 
-/// In so many lines at most a program says what it was made with. Chosen: several times as many as there are settings.
+/// In so many lines at most a program says what it was made with. Chosen: several times as many as
+/// there are settings.
 const HEADER: usize = 200;
 
 /// The first line names the board and the part.
@@ -125,7 +130,8 @@ fn role(title: &str) -> Option<Role> {
     }
 }
 
-/// The comments of a line: in parentheses, or behind a semicolon; and what stands behind M0, which some machines show.
+/// The comments of a line: in parentheses, or behind a semicolon; and what stands behind M0, which
+/// some machines show.
 fn comments(line: &str) -> Vec<&str> {
     let mut found = Vec::new();
     let mut rest = line;

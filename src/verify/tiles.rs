@@ -1,3 +1,5 @@
+//! The copies of a board in a tiled program, for the judge.
+
 use crate::board::{Board, Copper, Feature, Hole, Outline};
 use crate::geometry::{Nm, Rect, Vector};
 
@@ -15,7 +17,8 @@ pub struct Tiles {
 }
 
 impl Tiles {
-    /// All tiles of `board`, which lies on the machine turned by so many degrees, as one board: the first where it was.
+    /// All tiles of `board`, which lies on the machine turned by so many degrees, as one board: the
+    /// first where it was.
     pub(super) fn lay(self, board: &Board, degrees: f64) -> Board {
         let Some(bounds) = board.bounds() else { return board.clone() };
         let corners = bounds.corners().map(|corner| turned(corner, degrees));

@@ -1,4 +1,5 @@
-//! What bounds the copper that is left, exactly: the ways of the cutter with half the kerf round them, and the board's edge.
+//! What bounds the copper that is left, exactly: the ways of the cutter with half the kerf round
+//! them, and the board's edge.
 
 use crate::board::Shape;
 use crate::geometry::{Nm, Point, Polygon, Vector};
@@ -35,7 +36,8 @@ pub(super) struct Neck {
     pub(super) width: f64,
 }
 
-/// Steps towards the narrowest place. Chosen: two are enough for straight walls, the rest are for corners.
+/// Steps towards the narrowest place. Chosen: two are enough for straight walls, the rest are for
+/// corners.
 const STEPS: usize = 5;
 
 impl Walls {
@@ -77,8 +79,8 @@ impl Walls {
         self.around_of(p, Nm::ZERO, |wall| wall == index).first().map_or(p, |wall| wall.foot)
     }
 
-    /// The walls that are `wanted` and whose faces come within `reach` of that of wall `index`: which, how far, and the middle between
-    /// the axes.
+    /// The walls that are `wanted` and whose faces come within `reach` of that of wall `index`:
+    /// which, how far, and the middle between the axes.
     pub(super) fn beside(
         &self,
         index: usize,
@@ -94,10 +96,11 @@ impl Walls {
         near.into_iter().map(gap).filter(|(_, neck)| neck.width <= reach.to_f64()).collect()
     }
 
-    /// The neck at `p`, give or take `room`, between walls on both sides of it whose faces are within `reach`; none where there is a
-    /// wall on no more than one side.
+    /// The neck at `p`, give or take `room`, between walls on both sides of it whose faces are
+    /// within `reach`; none where there is a wall on no more than one side.
     ///
-    /// From the nearest wall and the nearest one across it goes to where these two are nearest to each other, and looks again.
+    /// From the nearest wall and the nearest one across it goes to where these two are nearest to
+    /// each other, and looks again.
     pub(super) fn neck(&self, p: Point, reach: Nm, room: Nm) -> Option<Neck> {
         let mut best = self.across(p, reach)?.1;
         let mut at = p;
@@ -122,7 +125,8 @@ impl Walls {
         Some(best)
     }
 
-    /// The nearest wall, the nearest on the other side of `p`, and how wide it is between them there.
+    /// The nearest wall, the nearest on the other side of `p`, and how wide it is between them
+    /// there.
     fn across(&self, p: Point, reach: Nm) -> Option<((usize, usize), Neck)> {
         let walls = self.around(p, reach);
         let first = walls.first()?;

@@ -1,4 +1,5 @@
-//! How wide a net is where a cut reaches into it, straight across the cut: as designed, and what is left.
+//! How wide a net is where a cut reaches into it, straight across the cut: as designed, and what is
+//! left.
 
 use std::borrow::Borrow;
 
@@ -11,7 +12,8 @@ use super::sheet::Sheet;
 
 /// How far it looks. Chosen: wider than most traces.
 const AROUND: Nm = Nm::from_um(600);
-/// So much further in than a face is, in nanometres, is behind it: places are whole nanometres. Chosen.
+/// So much further in than a face is, in nanometres, is behind it: places are whole nanometres.
+/// Chosen.
 const BEHIND: f64 = 1_000.0;
 /// What is left across a place, and what was designed.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +34,8 @@ impl Width {
 /// Places that are looked at, the deepest first. Chosen: a net so often cut has other findings.
 const PLACES: usize = 8;
 
-/// The place where the smallest part of a net's width is left, of the deepest ones of these; none where it is wide at all.
+/// The place where the smallest part of a net's width is left, of the deepest ones of these; none
+/// where it is wide at all.
 pub(super) fn narrowest(sheet: &Sheet<'_>, hits: &[Hit]) -> Option<Width> {
     let mut hits = hits.to_vec();
     hits.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.cut.cmp(&b.cut)));
@@ -62,8 +65,8 @@ fn across(sheet: &Sheet<'_>, hit: &Hit) -> Option<Width> {
     let designed = end(&copper, edge + BEHIND)?.min(brink) - edge;
     let reached = end(&cut, face - BEHIND).unwrap_or(face);
     let next = cut.iter().map(|(from, _)| *from).find(|from| *from > reached).unwrap_or(brink);
-    // Where nothing is left straight behind the cut, an end or a corner of the net is gone, or it is parted there: `gouge` and
-    // `open` tell of that. It has no width that anybody could measure.
+    // Where nothing is left straight behind the cut, an end or a corner of the net is gone, or it
+    // is parted there: `gouge` and `open` tell of that. It has no width that anybody could measure.
     let left = end(&copper, reached + BEHIND)?.min(next).min(brink) - reached;
     let measured = left > BEHIND && designed < AROUND.to_f64();
     measured.then(|| Width { hit: *hit, left: Nm::from_f64(left), designed: Nm::from_f64(designed) })

@@ -9,8 +9,8 @@
 //!       ╰─╯        ─▶                   pixels each way: pixels see it or not by chance. It is left to that net; no other is near.
 //! ```
 //!
-//! Fitting takes the other half of the tolerance, so what ends at a merged node stays within all of it. Ends that hang loose,
-//! which others call stubs, there are none: every region's border closes.
+//! Fitting takes the other half of the tolerance, so what ends at a merged node stays within all of
+//! it. Ends that hang loose, which others call stubs, there are none: every region's border closes.
 
 use std::collections::BTreeMap;
 

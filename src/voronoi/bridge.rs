@@ -7,8 +7,8 @@
 //!    ──╱     B  ╲    B
 //! ```
 //!
-//! The same where pixels show two regions C and D touch, along a line or at a corner, between which a third one passes in truth; and where
-//! a strip along the border is thinner than a pixel.
+//! The same where pixels show two regions C and D touch, along a line or at a corner, between which
+//! a third one passes in truth; and where a strip along the border is thinner than a pixel.
 
 use super::OUTSIDE;
 use super::plane::Spot;
@@ -19,14 +19,16 @@ use super::tip::{
 };
 use super::trace::Corner;
 
-/// The two pairs of ends that are to be joined past a place where two regions seem to touch, and these two.
+/// The two pairs of ends that are to be joined past a place where two regions seem to touch, and
+/// these two.
 struct Joints {
     pairs: [(End, End); 2],
     apart: (u32, u32),
 }
 
 impl Tips<'_> {
-    /// Takes out all lines that lie inside a third region from one open node to another, and open nodes at which two regions do not touch.
+    /// Takes out all lines that lie inside a third region from one open node to another, and open
+    /// nodes at which two regions do not touch.
     pub(super) fn take_out_bridges(&self, lines: &mut Vec<Line>) {
         let mut nodes = open_nodes(lines);
         let mut gone = vec![false; lines.len()];
@@ -64,7 +66,8 @@ impl Tips<'_> {
         lines.retain(|_| gone.next() != Some(true));
     }
 
-    /// The ends that are to be joined past line `i`, if it lies inside a third region from one open node to another.
+    /// The ends that are to be joined past line `i`, if it lies inside a third region from one open
+    /// node to another.
     fn bridge(&self, lines: &[Line], nodes: &Nodes, i: usize) -> Option<Joints> {
         let line = &lines[i];
         let (from, to) = line.ends.filter(|(from, to)| from.open && to.open)?;
@@ -84,7 +87,8 @@ impl Tips<'_> {
         self.is_swallowed(line, third).then_some(Joints { pairs, apart: (line.left, line.right) })
     }
 
-    /// The ends that are to be joined at a node of four lines between which one region lies twice, if it passes between the other two there.
+    /// The ends that are to be joined at a node of four lines between which one region lies twice,
+    /// if it passes between the other two there.
     fn crossing_of_one(&self, lines: &[Line], ends: &[End]) -> Option<Joints> {
         let owners = owners_at(lines, ends);
         let has = |end: &End, owner: u32| [lines[end.line].left, lines[end.line].right].contains(&owner);
@@ -114,13 +118,14 @@ impl Tips<'_> {
         inner.chain(middle).all(|p| self.is_parted((line.left, line.right), third, p))
     }
 
-    /// Whether the places near `p` that are equally far from two regions lie in the region of `third`. What the pixels show of their boundary there
-    /// may not have been placed on it.
+    /// Whether the places near `p` that are equally far from two regions lie in the region of
+    /// `third`. What the pixels show of their boundary there may not have been placed on it.
     fn is_parted(&self, pair: (u32, u32), third: u32, p: Spot) -> bool {
         self.project(pair, p).is_some_and(|middle| self.is_inside(pair, third, middle.at))
     }
 
-    /// The lines past a bridge or a node; none where they would not follow their boundaries: it stays then, as the picture has it.
+    /// The lines past a bridge or a node; none where they would not follow their boundaries: it
+    /// stays then, as the picture has it.
     fn past(&self, lines: &[Line], joints: &Joints) -> Option<[Line; 2]> {
         let (a, b) = joints.apart;
         let join = |(here, there): (End, End)| {
@@ -131,8 +136,8 @@ impl Tips<'_> {
         Some([join(joints.pairs[0])?, join(joints.pairs[1])?])
     }
 
-    /// The line that runs up to one end and on from the other, without what lies in the region of `third` there; a loop where both are
-    /// ends of one line.
+    /// The line that runs up to one end and on from the other, without what lies in the region of
+    /// `third` there; a loop where both are ends of one line.
     fn joined(&self, lines: &[Line], (here, there): (End, End), third: u32) -> Option<Line> {
         let first = &lines[here.line];
         if first.is_border() {
@@ -168,7 +173,8 @@ impl Tips<'_> {
     }
 }
 
-/// The line along the border that runs up to one end and on from the other: its way in between is the border's own.
+/// The line along the border that runs up to one end and on from the other: its way in between is
+/// the border's own.
 fn joined_at_border(lines: &[Line], (here, there): (End, End)) -> Line {
     let first = &lines[here.line];
     let (left, right) = if here.tail { (first.left, first.right) } else { (first.right, first.left) };

@@ -1,7 +1,7 @@
 //! The distance to copper, whatever sites boundaries were found with.
 //!
-//! With [`SiteKind::Core`](super::SiteKind) the picture knows distances to axes; how far the tool is from copper must be asked
-//! of the copper itself, through an index of its edges.
+//! With [`SiteKind::Core`](super::SiteKind) the picture knows distances to axes; how far the tool
+//! is from copper must be asked of the copper itself, through an index of its edges.
 //!
 //! ```text
 //!      ╭──────╴ boundary      Where a boundary goes over from the band round a trace's copper ┄ into the bisector of two axes it has a
@@ -46,7 +46,8 @@ impl Edges {
         Some(Self { sites, near })
     }
 
-    /// The samples of a boundary, of which none lies nearer to copper than `band` nanometres but its ends, and where there is no room.
+    /// The samples of a boundary, of which none lies nearer to copper than `band` nanometres but
+    /// its ends, and where there is no room.
     pub(super) fn keep_off(&self, samples: &[Sample], band: f64) -> Vec<Sample> {
         let Some((first, rest)) = samples.split_first() else { return Vec::new() };
         let mut kept = vec![self.sample(first.at)];

@@ -9,8 +9,8 @@
 //!                              ╱ ╲
 //! ```
 //!
-//! And where four regions meet at one corner of the pixels, one node stands for both. The outside may be one of the four: then a region ends in a tip
-//! just before the border, or just reaches it.
+//! And where four regions meet at one corner of the pixels, one node stands for both. The outside
+//! may be one of the four: then a region ends in a tip just before the border, or just reaches it.
 
 use super::OUTSIDE;
 use super::plane::Spot;
@@ -69,7 +69,8 @@ impl Tips<'_> {
         Some(Crossing { line: i, regions: [line.left, line.right, behind, ahead], places })
     }
 
-    /// Puts a boundary of the regions behind and ahead in place of one of those on its left and right.
+    /// Puts a boundary of the regions behind and ahead in place of one of those on its left and
+    /// right.
     fn turn(&self, lines: &mut [Line], nodes: &mut Nodes, crossing: &Crossing) {
         let Crossing { line: turned, regions: [left, _, behind, ahead], places } = crossing;
         let Some((from, to)) = lines[*turned].ends else { return };
@@ -109,11 +110,13 @@ impl Tips<'_> {
         }
     }
 
-    /// Four regions round a node, counter-clockwise, of which the first and the third touch, and the two places where they meet the second and
-    /// the fourth; none where all four meet in one point. The outside may be one of them.
+    /// Four regions round a node, counter-clockwise, of which the first and the third touch, and
+    /// the two places where they meet the second and the fourth; none where all four meet in one
+    /// point. The outside may be one of them.
     fn parted(&self, lines: &[Line], ends: &[End]) -> Option<([u32; 4], [Vertex; 2])> {
         let [a, b, c, d] = regions_round(lines, ends)?;
-        // Where the picture has one node, it stands where three of the regions are equally far: the fourth may be nearer, or farther.
+        // Where the picture has one node, it stands where three of the regions are equally far: the
+        // fourth may be nearer, or farther.
         let node = end_vertex(lines, ends[0]);
         let nets: Vec<u32> = [a, b, c, d].into_iter().filter(|&owner| owner != OUTSIDE).collect();
         let [least, most] = self.spread(&nets, node.at);
@@ -146,7 +149,8 @@ impl Tips<'_> {
         }
     }
 
-    /// Whether a region is nearer to a place than those whose boundaries meet there; whether it lies beyond the border, if that is the outside.
+    /// Whether a region is nearer to a place than those whose boundaries meet there; whether it
+    /// lies beyond the border, if that is the outside.
     fn is_nearer(&self, place: Vertex, owner: u32) -> bool {
         if owner == OUTSIDE {
             return self.border.distance(place.at) > NEARER;
@@ -155,7 +159,8 @@ impl Tips<'_> {
         self.near.nearer(self.sites, place.at, bound, |_, other| other == owner).is_some()
     }
 
-    /// The place near `from` that is equally far from three regions; on the border, if the outside is one of them.
+    /// The place near `from` that is equally far from three regions; on the border, if the outside
+    /// is one of them.
     pub(super) fn equally_far(&self, mut owners: [u32; 3], from: Spot) -> Option<Vertex> {
         owners.sort_unstable_by_key(|&owner| owner == OUTSIDE);
         let mut p = from;
@@ -177,7 +182,8 @@ impl Tips<'_> {
         None
     }
 
-    /// How much nearer than `other` a region is to a place, or how far that lies beyond the border, and which way it grows.
+    /// How much nearer than `other` a region is to a place, or how far that lies beyond the border,
+    /// and which way it grows.
     fn third(&self, owner: u32, p: Spot, other: Reach) -> Reach {
         if owner == OUTSIDE {
             return self.border.reach(p);
@@ -189,7 +195,8 @@ impl Tips<'_> {
 
 /// Four different regions round a node, counter-clockwise; none where there are others than four.
 fn regions_round(lines: &[Line], ends: &[End]) -> Option<[u32; 4]> {
-    // Seen from the node, a line parts the region on its right from the next one counter-clockwise on its left.
+    // Seen from the node, a line parts the region on its right from the next one counter-clockwise
+    // on its left.
     let sides = |end: &End| {
         let line = &lines[end.line];
         if end.tail { (line.left, line.right) } else { (line.right, line.left) }

@@ -1,8 +1,9 @@
 //! The board's edge, beyond which nothing is cut.
 //!
-//! Nets are also joined through whatever copper lies outside the board, so boundaries must run out to where the board
-//! is cut free: to the outline and a little beyond, or, where no outline is known, to a frame round the copper that is cut once.
-//! Whatever lies beyond is drawn above everything else with a label of its own; boundaries end where they meet it.
+//! Nets are also joined through whatever copper lies outside the board, so boundaries must run out
+//! to where the board is cut free: to the outline and a little beyond, or, where no outline is
+//! known, to a frame round the copper that is cut once. Whatever lies beyond is drawn above
+//! everything else with a label of its own; boundaries end where they meet it.
 
 use crate::board::{Copper, FLATTEN, Outline, Shape, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon, Rect};
@@ -22,13 +23,14 @@ pub(super) struct Border {
     pub(super) ring_count: u32,
     /// One lap round the frame, where no outline is known.
     pub(super) frame: Option<Path>,
-    /// How far copper is from it where it is cut: along a frame, no nearer; along an outline nobody asks, and it is finite
-    /// so that it can be interpolated.
+    /// How far copper is from it where it is cut: along a frame, no nearer; along an outline nobody
+    /// asks, and it is finite so that it can be interpolated.
     pub(super) clearance: Nm,
 }
 
 impl Border {
-    /// The border of a board with an outline, or of one with this `copper`, which lies within `bounds`.
+    /// The border of a board with an outline, or of one with this `copper`, which lies within
+    /// `bounds`.
     pub(super) fn new(outline: Option<&Outline>, copper: &Copper, bounds: Rect, settings: &Settings) -> Self {
         let (inside, frame, clearance) = match outline {
             Some(outline) => {
@@ -42,11 +44,13 @@ impl Border {
             }
         };
         let window = inside.iter().map(Polygon::bounds).reduce(Rect::union).unwrap_or(bounds);
-        // A few pixels of outside all round, so that no boundary meets the edge of the picture itself.
+        // A few pixels of outside all round, so that no boundary meets the edge of the picture
+        // itself.
         Self::round(inside, window.inflate(settings.pitch * 4), frame, clearance)
     }
 
-    /// The border of what lies within `inside`, in a picture of `window`; where it is cut, copper is farther than `clearance`.
+    /// The border of what lies within `inside`, in a picture of `window`; where it is cut, copper
+    /// is farther than `clearance`.
     pub(super) fn round(inside: Vec<Polygon>, window: Rect, frame: Option<Path>, clearance: Nm) -> Self {
         let mut rings = Rings::default();
         let mut ring_count = 0;
@@ -75,7 +79,8 @@ impl Border {
         self.rings.border(0..self.ring_count, p)
     }
 
-    /// Whether any of a shape's area lies on the board: a pad round a drawn hole does, though its middle does not.
+    /// Whether any of a shape's area lies on the board: a pad round a drawn hole does, though its
+    /// middle does not.
     pub(super) fn has_some_of(&self, shape: &Shape) -> bool {
         self.inside.iter().any(|inside| lies_in(shape, inside))
     }

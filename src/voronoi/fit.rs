@@ -1,10 +1,12 @@
 //! Few lines and arcs within a tolerance of many points.
 //!
-//! Greedy from the start of a path: the longest line or arc whose points all stay within the tolerance is taken,
-//! found by doubling and halving. A segment ends on a true point of the boundary, so fitting never moves where
-//! boundaries meet. It also ends wherever the clearance has a minimum, so that the narrowest place of a segment is at one of its ends.
+//! Greedy from the start of a path: the longest line or arc whose points all stay within the
+//! tolerance is taken, found by doubling and halving. A segment ends on a true point of the
+//! boundary, so fitting never moves where boundaries meet. It also ends wherever the clearance has
+//! a minimum, so that the narrowest place of a segment is at one of its ends.
 //!
-//! An arc passes three of the true points; it is taken only where it reaches half as far again as the line would.
+//! An arc passes three of the true points; it is taken only where it reaches half as far again as
+//! the line would.
 
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 
@@ -13,13 +15,17 @@ use super::span::{CHORD, Sample};
 
 /// Clearance may dip between vertices by this much before a vertex is kept there, in nanometres.
 const DIP: f64 = 2_000.0;
-/// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight. Chosen.
+/// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight.
+/// Chosen.
 const RADII: std::ops::Range<f64> = 5_000.0..2e8;
-/// The part of the tolerance that fitting uses. Chosen: with less than half, paths from two pictures of the same board differ by no more than the tolerance,
-/// and so do the distances to either side, for a point off the middle by t is nearer to one side than to the other by 2 t. At 1, that difference went
-/// beyond the tolerance at 12 % of the points of a dense board, at 0.6 at 1 %, for a sixth more segments.
+/// The part of the tolerance that fitting uses. Chosen: with less than half, paths from two
+/// pictures of the same board differ by no more than the tolerance, and so do the distances to
+/// either side, for a point off the middle by t is nearer to one side than to the other by 2 t. At
+/// 1, that difference went beyond the tolerance at 12 % of the points of a dense board, at 0.6 at 1
+/// %, for a sixth more segments.
 const SHARE: f64 = 0.45;
-/// A minimum is looked for at most so many vertices apart; beyond, the search would become quadratic.
+/// A minimum is looked for at most so many vertices apart; beyond, the search would become
+/// quadratic.
 const REACH: usize = 4096;
 
 /// A fitted path with the clearance at its vertices: the start's, then each segment's end.
@@ -82,7 +88,8 @@ impl Fitter<'_> {
         self.vertices[i].at.rounded()
     }
 
-    /// The next vertex after `i` at which the clearance stops falling by more than [`DIP`], or the last.
+    /// The next vertex after `i` at which the clearance stops falling by more than [`DIP`], or the
+    /// last.
     fn next_minimum(&self, i: usize) -> usize {
         let last = (self.vertices.len() - 1).min(i + REACH);
         let (mut lowest, mut at) = (self.vertices[i].clearance, i);
@@ -103,7 +110,8 @@ impl Fitter<'_> {
         self.vertices[i + 1..j].iter().all(|vertex| vertex.at.distance_to_chord(a, b) <= self.tolerance)
     }
 
-    /// The arc from vertex `i` to vertex `j` through one between, if all vertices and the chords between them lie on it.
+    /// The arc from vertex `i` to vertex `j` through one between, if all vertices and the chords
+    /// between them lie on it.
     fn arc(&self, i: usize, j: usize) -> Option<Segment> {
         if j < i + 2 {
             return None;
@@ -130,7 +138,8 @@ impl Fitter<'_> {
     }
 }
 
-/// The largest j in `least..=most` up to which `holds` is seen to hold, by doubling and then halving; at least `least`.
+/// The largest j in `least..=most` up to which `holds` is seen to hold, by doubling and then
+/// halving; at least `least`.
 fn farthest(least: usize, most: usize, holds: impl Fn(usize) -> bool) -> usize {
     let (mut good, mut step) = (least, 1);
     let mut bad = most + 1;

@@ -8,8 +8,8 @@
 //!       ╰────────╯
 //! ```
 //!
-//! Beside the rectangle that pcb2gcode and the paper's program cut round the same copper it is shorter wherever a corner has none,
-//! and so are the boundaries that reach it.
+//! Beside the rectangle that pcb2gcode and the paper's program cut round the same copper it is
+//! shorter wherever a corner has none, and so are the boundaries that reach it.
 
 use crate::board::{Copper, Shape};
 use crate::geometry::{Nm, Point, Polygon, Rect, Vector};
@@ -45,7 +45,8 @@ impl Frame {
 /// The hull of octagons round all that sticks out of `copper`; none where that has no area.
 fn hull(copper: &Copper, margin: Nm) -> Option<Polygon> {
     let shapes = || copper.features.iter().map(|feature| &feature.shape);
-    // What lies within the hull of some of its points need not be looked at: nearly all (Akl and Toussaint 1978).
+    // What lies within the hull of some of its points need not be looked at: nearly all (Akl and
+    // Toussaint 1978).
     let far =
         |way: &Vector| shapes().map(Shape::anchor).max_by_key(|&p| ((p - Point::default()).dot(*way), p));
     let extreme: Vec<Point> = octagon(Nm::from_mm(1)).iter().filter_map(far).collect();

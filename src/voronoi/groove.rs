@@ -16,10 +16,11 @@ use super::span::{Span, Vertex};
 use super::stitch::Line;
 use super::trace::Corner;
 
-/// A pass goes on until it is so much nearer to a cut than it need be, in nanometres, so that one along the very edge of what is cleared is one
-/// pass. Chosen.
+/// A pass goes on until it is so much nearer to a cut than it need be, in nanometres, so that one
+/// along the very edge of what is cleared is one pass. Chosen.
 const DEEP: f64 = 5_000.0;
-/// Places this far apart are looked at, in nanometres. Chosen: less than what passes share, for any kerf that is worth widening.
+/// Places this far apart are looked at, in nanometres. Chosen: less than what passes share, for any
+/// kerf that is worth widening.
 const STEP: f64 = 10_000.0;
 /// Where a pass ends is halved so often.
 const HALVINGS: usize = 12;

@@ -1,4 +1,5 @@
-//! Boundaries that end on a loop, joined to it: the loop gets a node there, and the boundary is led on to it.
+//! Boundaries that end on a loop, joined to it: the loop gets a node there, and the boundary is led
+//! on to it.
 //!
 //! ```text
 //!   ┃         ┃
@@ -44,8 +45,9 @@ impl Junctions {
         Self { nodes, cuts: vec![Vec::new(); edges.len()], loops: edges, known, others: Vec::new(), leash }
     }
 
-    /// Adds those edges of `found` that `keep` accepts. Where they meet one that is not kept they end on a loop, if one is near.
-    /// `clearance` tells the distance from a point to the nearest copper of all.
+    /// Adds those edges of `found` that `keep` accepts. Where they meet one that is not kept they
+    /// end on a loop, if one is near. `clearance` tells the distance from a point to the nearest
+    /// copper of all.
     pub(super) fn add(
         &mut self,
         found: Boundaries,
@@ -90,7 +92,8 @@ impl Junctions {
         node
     }
 
-    /// The loop nearest to `p` within the leash: its index, that of its segment there, and the place.
+    /// The loop nearest to `p` within the leash: its index, that of its segment there, and the
+    /// place.
     fn nearest(&self, p: Spot) -> Option<(usize, usize, Spot)> {
         let mut best = (self.leash, None);
         let reach = Nm::from_f64(self.leash);
@@ -138,7 +141,8 @@ fn push(nodes: &mut Vec<Point>, at: Point) -> NodeId {
     NodeId(u32::try_from(nodes.len() - 1).expect("below 2³² nodes"))
 }
 
-/// The point of `path` nearest to `p`: the index of its segment, the point, and how far it is, in nanometres.
+/// The point of `path` nearest to `p`: the index of its segment, the point, and how far it is, in
+/// nanometres.
 pub(super) fn foot(path: &Path, p: Spot) -> (usize, Spot, f64) {
     let mut best = (0, path.start.into(), f64::INFINITY);
     for (index, (from, segment)) in path.steps().enumerate() {
@@ -162,7 +166,8 @@ const fn with_end(segment: Segment, to: Point) -> Segment {
     }
 }
 
-/// Parts `edge` at its cuts into edges from node to node; one without a node is parted into a loop with one at least.
+/// Parts `edge` at its cuts into edges from node to node; one without a node is parted into a loop
+/// with one at least.
 fn part(mut edge: Boundary, mut cuts: Vec<Cut>, nodes: &[Point], parts: &mut Vec<Boundary>) {
     cuts.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.along.total_cmp(&b.along)));
     if cuts.is_empty() {

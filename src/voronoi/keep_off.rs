@@ -17,12 +17,13 @@ use super::{BACKGROUND, Diagram};
 
 /// What lies nearer than this below its level is there by rounding, in nanometres.
 const ROUNDING: f64 = 50.0;
-/// How often a vertex is moved at most. Derived: between two edges at an angle of 60° each turn leaves a quarter of what is missing.
+/// How often a vertex is moved at most. Derived: between two edges at an angle of 60° each turn
+/// leaves a quarter of what is missing.
 const TURNS: usize = 48;
 
 impl Diagram {
-    /// Moves the vertices of `lines` that lie nearer to copper than `level` off it; where a corner is farther away than pixels mislead,
-    /// they stay, and who judges the cut finds them.
+    /// Moves the vertices of `lines` that lie nearer to copper than `level` off it; where a corner
+    /// is farther away than pixels mislead, they stay, and who judges the cut finds them.
     pub(super) fn keep_off(&self, lines: &mut [Line], level: Nm) {
         let Some(near) = &self.near else { return };
         let level = level.to_f64();

@@ -6,7 +6,8 @@ use super::plane::Spot;
 use super::{Boundaries, Owner};
 
 impl Boundaries {
-    /// The length of all that isolates, in nanometres: what runs along the board's edge or the frame is left out.
+    /// The length of all that isolates, in nanometres: what runs along the board's edge or the
+    /// frame is left out.
     #[must_use]
     pub fn length(&self) -> f64 {
         self.edges.iter().filter(|edge| !edge.is_border()).map(|edge| edge.path.length()).sum()

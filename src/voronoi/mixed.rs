@@ -1,6 +1,8 @@
-//! Loops round some nets, boundaries midway between the others: the paper's "Voronoi regions for only a subset of traces" (§V).
+//! Loops round some nets, boundaries midway between the others: the paper's "Voronoi regions for
+//! only a subset of traces" (§V).
 //!
-//! A net with a loop takes no more room than that, and the others share what is left as if it were a hole in the board:
+//! A net with a loop takes no more room than that, and the others share what is left as if it were
+//! a hole in the board:
 //!
 //! ```text
 //!       region of B                 ━ the loop of A: what it parts, it parts for both sides
@@ -10,9 +12,10 @@
 //!       region of C
 //! ```
 //!
-//! First all nets are gone round in one picture. The loops of those that are to have one cut what remains of the board
-//! into fields; in each field a diagram of the nets that lie in it is drawn, so that nothing is parted where a loop has parted it
-//! already: a field with one net has no boundary. The ends of the fields' boundaries become junctions of the loops.
+//! First all nets are gone round in one picture. The loops of those that are to have one cut what
+//! remains of the board into fields; in each field a diagram of the nets that lie in it is drawn,
+//! so that nothing is parted where a loop has parted it already: a field with one net has no
+//! boundary. The ends of the fields' boundaries become junctions of the loops.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -45,7 +48,8 @@ pub(super) struct Mixed {
     fields: Vec<Diagram>,
 }
 
-/// How far the border of a field may leave the loops: its boundaries are led on to the loops themselves. Chosen: far below any kerf, and few corners.
+/// How far the border of a field may leave the loops: its boundaries are led on to the loops
+/// themselves. Chosen: far below any kerf, and few corners.
 const FLAT: Nm = Nm::from_um(2);
 
 impl Diagram {
@@ -126,7 +130,8 @@ fn middle(edge: &Boundary) -> Spot {
     }
 }
 
-/// The diagrams of the pieces into which `loops` cut the board, each of the nets that lie in it; pieces without a net have none.
+/// The diagrams of the pieces into which `loops` cut the board, each of the nets that lie in it;
+/// pieces without a net have none.
 fn fields(
     all: &Diagram,
     loops: &Boundaries,
@@ -158,7 +163,8 @@ fn fields(
 
 /// What the board is without `taken`.
 ///
-/// Along an outline loops end as coarsely as pixels are, and a strip may remain: whatever is narrower than three pixels is none.
+/// Along an outline loops end as coarsely as pixels are, and a strip may remain: whatever is
+/// narrower than three pixels is none.
 fn pieces(all: &Diagram, taken: &[Polygon]) -> Vec<Polygon> {
     let left = all.border.inside.iter().flat_map(|board| polarity::difference(board, taken));
     if all.border.frame.is_some() {
@@ -172,7 +178,8 @@ fn pieces(all: &Diagram, taken: &[Polygon]) -> Vec<Polygon> {
 /// What the loops go round.
 fn gone_round(loops: &Boundaries, looped: &[bool]) -> Vec<Polygon> {
     let mut contours = Vec::new();
-    // By where they begin; each has the looped side on its left, so as many begin at a point as end there.
+    // By where they begin; each has the looped side on its left, so as many begin at a point as end
+    // there.
     let mut open: BTreeMap<Point, Vec<Vec<Point>>> = BTreeMap::new();
     for edge in &loops.edges {
         let way = match (has_loop(looped, edge.left), has_loop(looped, edge.right)) {

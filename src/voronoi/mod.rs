@@ -1,4 +1,5 @@
-//! Nets → Voronoi regions → a planar graph of boundaries → smooth exact paths (the paper's §III-B to III-D).
+//! Nets → Voronoi regions → a planar graph of boundaries → smooth exact paths (the paper's §III-B
+//! to III-D).
 //!
 //! ```text
 //!  Copper, Nets ── seed ──▶ sites ── raster ──▶ tiles ── trace ──▶ pieces ── stitch ──▶ lines ── fit ──▶ Boundaries
@@ -6,11 +7,13 @@
 //!                  edge: where the board ends
 //! ```
 //!
-//! The picture decides which regions meet and where boundaries branch; the exact distances of the features decide where the
-//! boundary runs ([`place`](self)). The resolution limits which gaps are *seen*, not how accurately they are *cut*.
+//! The picture decides which regions meet and where boundaries branch; the exact distances of the
+//! features decide where the boundary runs ([`place`](self)). The resolution limits which gaps are
+//! *seen*, not how accurately they are *cut*.
 //!
-//! Only tiles that a boundary may cross are drawn, each on a worker that at once traces and places what it sees; no stage holds a
-//! picture of the whole board. Labels are sites, so a pixel names the feature that it is nearest to, and placing costs a few distances.
+//! Only tiles that a boundary may cross are drawn, each on a worker that at once traces and places
+//! what it sees; no stage holds a picture of the whole board. Labels are sites, so a pixel names
+//! the feature that it is nearest to, and placing costs a few distances.
 
 mod artifact;
 mod bridge;
@@ -111,8 +114,9 @@ pub struct NodeId(pub u32);
 pub struct Boundary {
     /// The way, from node to node (or closed).
     pub path: Path,
-    /// The distance to the nearest copper at each vertex of `path`: the start, then the end of each segment.
-    /// Between vertices it is never less than at the nearer end by more than the fitting tolerance.
+    /// The distance to the nearest copper at each vertex of `path`: the start, then the end of each
+    /// segment. Between vertices it is never less than at the nearer end by more than the fitting
+    /// tolerance.
     pub clearance: Vec<Nm>,
     /// The region on its left.
     pub left: Owner,
@@ -140,8 +144,8 @@ impl Boundary {
 ///
 /// # Guarantees
 ///
-/// A boundary begins and ends exactly at the points of its nodes; nodes and boundaries are in a fixed order that
-/// depends on the board and the settings alone.
+/// A boundary begins and ends exactly at the points of its nodes; nodes and boundaries are in a
+/// fixed order that depends on the board and the settings alone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Boundaries {
     /// Where boundaries meet or end.
@@ -168,11 +172,11 @@ pub struct Settings {
     pub pitch: Nm,
     /// What distances are measured to.
     pub sites: SiteKind,
-    /// How far regions reach (§III-D.1); none for as far as there is room. The outline strategy is `copper` sites with
-    /// the cutter's radius here (§III-C).
+    /// How far regions reach (§III-D.1); none for as far as there is room. The outline strategy is
+    /// `copper` sites with the cutter's radius here (§III-C).
     pub limit: Option<Nm>,
-    /// With [`SiteKind::Core`], what every region holds at least: its net's copper (§III-D.2), fattened by so much (§III-C), but no more than half of
-    /// the gap; none for no such minimum.
+    /// With [`SiteKind::Core`], what every region holds at least: its net's copper (§III-D.2),
+    /// fattened by so much (§III-C), but no more than half of the gap; none for no such minimum.
     pub min_width: Option<Nm>,
     /// How far a fitted path may leave the true boundary.
     pub tolerance: Nm,
@@ -299,8 +303,8 @@ impl Diagram {
         self.border.frame.as_ref()
     }
 
-    /// Shows `paint` who owns the pixels of `grid` (row, columns, owner), tile by tile: nothing holds the whole picture but what
-    /// `paint` makes of it. A pixel may be painted again.
+    /// Shows `paint` who owns the pixels of `grid` (row, columns, owner), tile by tile: nothing
+    /// holds the whole picture but what `paint` makes of it. A pixel may be painted again.
     pub fn regions(&self, grid: &Grid, mut paint: impl FnMut(u32, Range<u32>, Owner)) {
         match &self.mixed {
             Some(mixed) => mixed.regions(self, grid, &mut paint),
@@ -347,7 +351,8 @@ impl Diagram {
         })
     }
 
-    /// How far each pixel's centre is from the sites, in pixels, row by row from the top; infinite where nothing is in reach.
+    /// How far each pixel's centre is from the sites, in pixels, row by row from the top; infinite
+    /// where nothing is in reach.
     #[must_use]
     pub fn depths(&self, grid: &Grid) -> Vec<f32> {
         let mut buffers = raster::Buffers::default();
@@ -355,7 +360,8 @@ impl Diagram {
         buffers.depths().to_vec()
     }
 
-    /// How many pixels are drawn to find the boundaries: those of the tiles that no one owner has to itself.
+    /// How many pixels are drawn to find the boundaries: those of the tiles that no one owner has
+    /// to itself.
     #[must_use]
     pub fn pixels_drawn(&self) -> u64 {
         let mut drawn = 0;
@@ -368,7 +374,8 @@ impl Diagram {
         self.sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
     }
 
-    /// The boundaries between all regions, with what could not be placed and what was too small to be cut.
+    /// The boundaries between all regions, with what could not be placed and what was too small to
+    /// be cut.
     #[must_use]
     pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
         if let Some(mixed) = &self.mixed {
@@ -396,7 +403,8 @@ impl Diagram {
         Some(Warning::new("boundary-torn", message).at(torn.first?.rounded()).on(self.side))
     }
 
-    /// Places the nodes that the picture left open; returns what is not where it belongs. Among core axes with copper above them, no open one is.
+    /// Places the nodes that the picture left open; returns what is not where it belongs. Among
+    /// core axes with copper above them, no open one is.
     fn extend_tips(&self, lines: &mut Vec<Line>) -> Unplaced {
         let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
         let insides = self.settings.limit.map(|_| Insides::new(&self.sites));

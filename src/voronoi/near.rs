@@ -18,9 +18,9 @@ pub(super) struct Near {
     owned: FxHashMap<u32, Vec<usize>>,
 }
 
-/// How many sites an owner has at most for them to be asked one by one. Chosen: traces and pads have
-/// fewer, pours more. Where hundreds of traces point at one place, the nearest of a given one is the
-/// last of them all in the order of their boxes.
+/// How many sites an owner has at most for them to be asked one by one. Chosen: traces and pads
+/// have fewer, pours more. Where hundreds of traces point at one place, the nearest of a given one
+/// is the last of them all in the order of their boxes.
 const FEW: usize = 64;
 
 impl Near {
@@ -44,8 +44,8 @@ impl Near {
         Some(Self { labels, boxes, index, owned })
     }
 
-    /// The site that is nearer to `p` than `bound`, in nanometres, among those that are accepted by label and owner: the nearest such. `p` lies
-    /// on no copper.
+    /// The site that is nearer to `p` than `bound`, in nanometres, among those that are accepted by
+    /// label and owner: the nearest such. `p` lies on no copper.
     pub(super) fn nearer(
         &self,
         sites: &Sites,
@@ -64,7 +64,8 @@ impl Near {
         nearest.1
     }
 
-    /// Shows the entries of sites whose boxes come within `radius` of `p`, with their owners, in an order that is the same wherever one asks.
+    /// Shows the entries of sites whose boxes come within `radius` of `p`, with their owners, in an
+    /// order that is the same wherever one asks.
     pub(super) fn visit(&self, sites: &Sites, p: Spot, radius: f64, mut show: impl FnMut(u32, u32)) {
         self.visit_box(p, radius, &mut |i| {
             if self.is_box_within(i, p, radius) {
@@ -107,7 +108,8 @@ impl Near {
         }
     }
 
-    /// Shows `look` every site whose box comes nearer than `room`, in nanometres, to that of two places: its label, and its box.
+    /// Shows `look` every site whose box comes nearer than `room`, in nanometres, to that of two
+    /// places: its label, and its box.
     pub(super) fn visit_along(&self, a: Spot, b: Spot, room: f64, look: &mut dyn FnMut(u32, [f64; 4])) {
         let (left, right) = (a.x.min(b.x) - room, a.x.max(b.x) + room);
         let (bottom, top) = (a.y.min(b.y) - room, a.y.max(b.y) + room);
@@ -193,7 +195,8 @@ impl Insides {
         Self(insides)
     }
 
-    /// The signed distance to the edge of a polygon of `owner` that holds `p`; none where none does.
+    /// The signed distance to the edge of a polygon of `owner` that holds `p`; none where none
+    /// does.
     pub(super) fn reach(&self, sites: &Sites, p: Spot, owner: u32) -> Option<Reach> {
         let holds = |[left, bottom, right, top]: [f64; 4]| {
             (left..=right).contains(&p.x) && (bottom..=top).contains(&p.y)
@@ -204,7 +207,8 @@ impl Insides {
     }
 }
 
-/// What sites are compared by: how far their copper is. An edge of a ring that shows its back is no nearer for that.
+/// What sites are compared by: how far their copper is. An edge of a ring that shows its back is no
+/// nearer for that.
 pub(super) fn rank(site: &Site, reach: Reach) -> f64 {
     match site.form {
         Form::Chain { .. } => reach.distance.abs(),

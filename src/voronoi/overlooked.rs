@@ -7,8 +7,9 @@
 //!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
 //! ```
 //!
-//! So once all is placed every curve asks the index for sites of its own two regions that come nearer to it than its clearance. Where one
-//! does, the boundary is followed anew from there to both sides. Then what is cut depends on pixels no more, but for which regions meet.
+//! So once all is placed every curve asks the index for sites of its own two regions that come
+//! nearer to it than its clearance. Where one does, the boundary is followed anew from there to
+//! both sides. Then what is cut depends on pixels no more, but for which regions meet.
 
 use rayon::prelude::*;
 
@@ -20,16 +21,19 @@ use super::span::{Span, Vertex};
 use super::stitch::Line;
 use super::tip::{HALVINGS, Tips};
 
-/// A site must be nearer than a curve knows by more than this, in nanometres. Chosen: half of it is what the curve may be off.
+/// A site must be nearer than a curve knows by more than this, in nanometres. Chosen: half of it is
+/// what the curve may be off.
 const NEARER: f64 = 400.0;
 /// A curve that is off by less is left as it is, in nanometres. As for probes.
 const OFF: f64 = 200.0;
-/// The foot on a site and that on a curve are sought by turns so often. Chosen: for sites as short as are overlooked, one is nearly enough.
+/// The foot on a site and that on a curve are sought by turns so often. Chosen: for sites as short
+/// as are overlooked, one is nearly enough.
 const TURNS: usize = 3;
-/// A turn that leads on by less is none, in nanometres along the curve. Chosen: at a clearance of 0.1 mm the distance is then right within a fifth of
-/// [`NEARER`].
+/// A turn that leads on by less is none, in nanometres along the curve. Chosen: at a clearance of
+/// 0.1 mm the distance is then right within a fifth of [`NEARER`].
 const STEP: f64 = 4_000.0;
-/// What is found beside one site may pass another: so often at most. Chosen: more than two is not seen.
+/// What is found beside one site may pass another: so often at most. Chosen: more than two is not
+/// seen.
 const ROUNDS: u32 = 4;
 
 impl Tips<'_> {
@@ -73,8 +77,9 @@ impl Tips<'_> {
         Some(whole)
     }
 
-    /// A true place of the boundary that the curve between two vertices misses: beside the site that comes nearest against what the curve knows, or
-    /// half way, where its two regions are not equally far.
+    /// A true place of the boundary that the curve between two vertices misses: beside the site
+    /// that comes nearest against what the curve knows, or half way, where its two regions are not
+    /// equally far.
     fn overlooked(&self, pair: (u32, u32), from: Vertex, to: Vertex) -> Option<Vertex> {
         let span = Span::new(from, to);
         if span.is_known_within(NEARER) {
@@ -82,7 +87,8 @@ impl Tips<'_> {
         }
         let (middle, room) = (span.place(0.5), from.clearance().max(to.clearance()));
         let strip = Strip::new(from.at, to.at, room - NEARER + span.bulge());
-        // Beside the middle either region begins where the curve says; one that does not is seen no farther than to tell.
+        // Beside the middle either region begins where the curve says; one that does not is seen no
+        // farther than to tell.
         let known = span.clearance(0.5) + 2.0 * NEARER;
         let level = |owner: u32| if owner == BACKGROUND { self.level } else { known };
         let mut far = [level(pair.0), level(pair.1)];
@@ -106,7 +112,8 @@ impl Tips<'_> {
         });
         let [is_lost, is_other_lost] = far.map(|far| far >= known);
         let is_level = pair.0 == BACKGROUND || pair.1 == BACKGROUND;
-        // Copper that is not in reach is beyond the level; of two nets, one that is not has been lost sight of.
+        // Copper that is not in reach is beyond the level; of two nets, one that is not has been
+        // lost sight of.
         let strays = if is_level {
             (far[0] - far[1]).abs() > NEARER && !is_lost && !is_other_lost
         } else {
@@ -133,7 +140,8 @@ impl Tips<'_> {
     }
 }
 
-/// The places nearer than so much to the chord of a curve: what has no part in it is as far from the curve as that knows.
+/// The places nearer than so much to the chord of a curve: what has no part in it is as far from
+/// the curve as that knows.
 struct Strip {
     from: Spot,
     /// The unit vector along.

@@ -6,9 +6,11 @@
 //!          ╰─kerf─╯    boundary                     as far as there is room
 //! ```
 //!
-//! What the first cut has cleared is drawn above everything, as wide as passes overlap: where a pass would run nearer than that to
-//! it, it clears nothing that its neighbours do not, and is left out; and what lies between two passes that do run is never wider
-//! than a kerf, so one more cut clears it ([`super::speck`]). Passes need not mind each other: a step apart in their distance from copper, they are no nearer anywhere.
+//! What the first cut has cleared is drawn above everything, as wide as passes overlap: where a
+//! pass would run nearer than that to it, it clears nothing that its neighbours do not, and is left
+//! out; and what lies between two passes that do run is never wider than a kerf, so one more cut
+//! clears it ([`super::speck`]). Passes need not mind each other: a step apart in their distance
+//! from copper, they are no nearer anywhere.
 
 use rayon::prelude::*;
 
@@ -25,7 +27,8 @@ use super::stitch::Line;
 use super::tip::MISPLACED;
 use super::{Boundaries, Boundary, Diagram, Owner};
 
-/// How much farther than the last pass is drawn, in pixels: what tracing looks at beyond a tile, and one.
+/// How much farther than the last pass is drawn, in pixels: what tracing looks at beyond a tile,
+/// and one.
 const SPARE: f32 = 3.0;
 
 /// How the gap beside copper is widened.
@@ -40,7 +43,8 @@ pub struct Widening {
 }
 
 impl Widening {
-    /// The distances from copper at which passes run, from the nearest to the farthest, evenly spaced; none of more than `most`.
+    /// The distances from copper at which passes run, from the nearest to the farthest, evenly
+    /// spaced; none of more than `most`.
     fn levels(&self, first: Nm, most: Nm) -> Vec<Nm> {
         let last = self.width - self.kerf / 2;
         let advance = (self.kerf - self.overlap).max(Nm::new(1));
@@ -53,11 +57,13 @@ impl Widening {
 }
 
 impl Diagram {
-    /// `base` with further passes beside its cuts, until the gap beside every net is as wide as asked for. `before` is what wider tools have
-    /// cut, each with its kerf: nothing of that is cut again.
+    /// `base` with further passes beside its cuts, until the gap beside every net is as wide as
+    /// asked for. `before` is what wider tools have cut, each with its kerf: nothing of that is cut
+    /// again.
     ///
-    /// A pass never runs nearer to copper than half the kerf and the fitting tolerance. What `base` has at that distance already (the
-    /// outline strategy's loops) is not cut again. With it comes what could not be placed.
+    /// A pass never runs nearer to copper than half the kerf and the fitting tolerance. What `base`
+    /// has at that distance already (the outline strategy's loops) is not cut again. With it comes
+    /// what could not be placed.
     #[must_use]
     pub fn widened(
         &self,
@@ -159,8 +165,9 @@ impl Diagram {
         self.settings.limit == Some(level) && self.mixed.as_ref().is_none_or(|mixed| mixed.has_loop(owner))
     }
 
-    /// Draws the grooves of wider tools, so wide that a cut of `kerf` along their edges clears next to nothing beside them: with a part of the
-    /// kerf to spare, and two pixels, so that a pass along the very edge does not flicker.
+    /// Draws the grooves of wider tools, so wide that a cut of `kerf` along their edges clears next
+    /// to nothing beside them: with a part of the kerf to spare, and two pixels, so that a pass
+    /// along the very edge does not flicker.
     fn add_wider(&self, scene: &mut raster::Scene, kerf: Nm, before: &[(Nm, Boundaries)]) {
         let spare = (kerf / 8).max(self.grid.pitch() * 2).min(kerf / 3);
         for (wide, cuts) in before {

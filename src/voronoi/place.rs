@@ -1,14 +1,17 @@
-//! Points moved from the pixel raster to where they truly belong (DESIGN: the raster decides topology, analysis decides place).
+//! Points moved from the pixel raster to where they truly belong (DESIGN: the raster decides
+//! topology, analysis decides place).
 //!
-//! A boundary point near pixels of two sites satisfies one equation, distance to the one = distance to the other
-//! (or = the limit); a node satisfies two. Newton's steps solve them on the sites' exact distances, starting at most
-//! a pixel away; nothing may move further than a pixel and a half. Where Newton does not settle (the nearest site of a net
-//! changes right there), the same equation is bisected along its gradient.
+//! A boundary point near pixels of two sites satisfies one equation, distance to the one = distance
+//! to the other (or = the limit); a node satisfies two. Newton's steps solve them on the sites'
+//! exact distances, starting at most a pixel away; nothing may move further than a pixel and a
+//! half. Where Newton does not settle (the nearest site of a net changes right there), the same
+//! equation is bisected along its gradient.
 //!
-//! The equation begins with the sites seen in the pixels round the point. The nearest may not be among them: where one site of a net takes
-//! over from another, its region may begin in a wedge thinner than a pixel. So an index of all sites is asked whether any is
-//! nearer at the place found; if so it joins the equation, which is solved again. What comes out is as far from both nets as
-//! can be, whatever the pixels showed.
+//! The equation begins with the sites seen in the pixels round the point. The nearest may not be
+//! among them: where one site of a net takes over from another, its region may begin in a wedge
+//! thinner than a pixel. So an index of all sites is asked whether any is nearer at the place
+//! found; if so it joins the equation, which is solved again. What comes out is as far from both
+//! nets as can be, whatever the pixels showed.
 
 use crate::geometry::Nm;
 
@@ -25,18 +28,19 @@ const SETTLED: f64 = 0.05;
 /// What a point may be off at the very most when its steps run out, in nanometres.
 const ACCEPTED: f64 = 5.0;
 const STEPS: usize = 8;
-/// Where curves meet at an angle, pixels show the place off by the inverse of its sine; below this they are followed no further. Chosen: what lies
-/// farther away is found as the tip of a wedge.
+/// Where curves meet at an angle, pixels show the place off by the inverse of its sine; below this
+/// they are followed no further. Chosen: what lies farther away is found as the tip of a wedge.
 const SHALLOW: f64 = 0.25;
 /// A site must be nearer by more than this to join an equation, in nanometres.
 const NEARER: f64 = 1.0;
-/// Sites in directions that differ by less, in radians, let a boundary go on as if they were one. Derived: over a tenth of a millimetre, the corner is off by
-/// a quarter of a micrometre at most.
+/// Sites in directions that differ by less, in radians, let a boundary go on as if they were one.
+/// Derived: over a tenth of a millimetre, the corner is off by a quarter of a micrometre at most.
 const SMOOTH: f64 = 0.02;
 /// How often sites may join an equation at one point. Chosen: more than three is not seen.
 const ROUNDS: usize = 6;
 
-/// A few labels of sites: those seen in the pixels round a point, and nearer ones found beside them.
+/// A few labels of sites: those seen in the pixels round a point, and nearer ones found beside
+/// them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Candidates {
     labels: [u32; 16],
@@ -51,7 +55,8 @@ impl Candidates {
         }
     }
 
-    /// Adds a label that is nearer than the others, in place of the last one where there is no room.
+    /// Adds a label that is nearer than the others, in place of the last one where there is no
+    /// room.
     fn admit(&mut self, label: u32) {
         self.len = self.len.min(self.labels.len() - 1);
         self.add(label);
@@ -118,7 +123,8 @@ impl Unplaced {
     }
 }
 
-/// How far a point is off its target, and which way that grows; with its clearance, and which way that grows.
+/// How far a point is off its target, and which way that grows; with its clearance, and which way
+/// that grows.
 struct Miss {
     value: f64,
     slope: Spot,
@@ -171,7 +177,8 @@ impl Placer<'_> {
         self.sites.band.to_f64()
     }
 
-    /// The nearest of several sites. An edge of a ring that shows its back, across a thin piece of copper, is no nearer for that.
+    /// The nearest of several sites. An edge of a ring that shows its back, across a thin piece of
+    /// copper, is no nearer for that.
     fn reach(&self, candidates: &Candidates, p: Spot) -> Reach {
         self.nearest(candidates, p).1
     }
@@ -219,7 +226,8 @@ impl Placer<'_> {
         Placed { vertex, curve: self.curve(target, vertex.at) }
     }
 
-    /// Whether one curve goes over into another without a corner worth the name, as seen from a point near both.
+    /// Whether one curve goes over into another without a corner worth the name, as seen from a
+    /// point near both.
     pub(super) fn is_smooth(&self, one: Curve, other: Curve, p: Spot) -> bool {
         let alike = |a: u32, b: u32| {
             let (one, other) = (self.site(a, p), self.site(b, p));
@@ -252,7 +260,8 @@ impl Placer<'_> {
             }
             Target::OnBorder => {
                 let border = self.border.border(0..self.border_rings, p);
-                // The least of a node's clearances counts, and that is its nets'; finite so that it can be interpolated.
+                // The least of a node's clearances counts, and that is its nets'; finite so that it
+                // can be interpolated.
                 let (clearance, away) = (Nm::MAX.to_f64(), Spot::default());
                 Miss { value: border.distance, slope: border.away, clearance, away }
             }
@@ -270,8 +279,8 @@ impl Placer<'_> {
         self.miss(target, p).clearance
     }
 
-    /// The point near `from` that satisfies `target`, with its course; none where there is none within the leash. Sites that prove
-    /// nearer join the target.
+    /// The point near `from` that satisfies `target`, with its course; none where there is none
+    /// within the leash. Sites that prove nearer join the target.
     pub(super) fn project(&self, target: &mut Target, from: Spot) -> Option<Vertex> {
         for _ in 0..ROUNDS {
             let found = self.solve(target, from).or_else(|| self.corner(target, from))?;
@@ -282,8 +291,8 @@ impl Placer<'_> {
         None
     }
 
-    /// The point near `from` at which two sites are as far as a level line is from either: its corner in the wedge between them, where steps
-    /// away from the one lead too near to the other.
+    /// The point near `from` at which two sites are as far as a level line is from either: its
+    /// corner in the wedge between them, where steps away from the one lead too near to the other.
     fn corner(&self, target: &Target, from: Spot) -> Option<Vertex> {
         let Target::At(sites, level) = target else { return None };
         let (first, _) = self.nearest(sites, from);
@@ -294,7 +303,8 @@ impl Placer<'_> {
         if second == first { Some(beside) } else { self.meet(&mut one, &mut other, from) }
     }
 
-    /// A node as a vertex of the curve that `target` has there: on its course, if it satisfies that. Sites that prove nearer join the target.
+    /// A node as a vertex of the curve that `target` has there: on its course, if it satisfies
+    /// that. Sites that prove nearer join the target.
     pub(super) fn join_node(&self, target: &mut Target, node: Vertex) -> Placed {
         for _ in 0..ROUNDS {
             if !self.admit(target, node) {
@@ -306,7 +316,8 @@ impl Placer<'_> {
         self.on_curve(target, if fits { miss.vertex(node.at) } else { node })
     }
 
-    /// Whether a curve may have corners of its own: beside the edges of a ring, which a site hands on to the next one.
+    /// Whether a curve may have corners of its own: beside the edges of a ring, which a site hands
+    /// on to the next one.
     pub(super) fn is_angular(&self, curve: Curve) -> bool {
         let is_ring = |label: u32| matches!(self.sites.sites[label as usize].form, Form::Chain { .. });
         match curve {
@@ -316,7 +327,8 @@ impl Placer<'_> {
         }
     }
 
-    /// Whether the same edge or corner of either side is nearest at all of these places on one curve.
+    /// Whether the same edge or corner of either side is nearest at all of these places on one
+    /// curve.
     pub(super) fn is_one_part(&self, places: [Placed; 3]) -> bool {
         let is_one = |label: u32| {
             let parts = places
@@ -332,8 +344,9 @@ impl Placer<'_> {
             }
     }
 
-    /// Where one curve ends and another begins, near `from`: on the course of either; none where there is no such corner within the leash, or where on
-    /// both sides another site takes over, which must be at two places.
+    /// Where one curve ends and another begins, near `from`: on the course of either; none where
+    /// there is no such corner within the leash, or where on both sides another site takes over,
+    /// which must be at two places.
     pub(super) fn kink(&self, one: Curve, other: Curve, level: f64, from: Spot) -> Option<[Placed; 2]> {
         let in_common = match (one, other) {
             (Curve::Between(a, b), Curve::Between(c, d)) => a == c || b == d,
@@ -371,7 +384,8 @@ impl Placer<'_> {
         one.join(&other)
     }
 
-    /// Takes the site into `target` that is nearer to a place than those it has; false if there is none.
+    /// Takes the site into `target` that is nearer to a place than those it has; false if there is
+    /// none.
     fn admit(&self, target: &mut Target, place: Vertex) -> bool {
         let owner = |candidates: &Candidates| {
             candidates.as_slice().first().map_or(BACKGROUND, |&label| self.owners[label as usize])
@@ -446,7 +460,8 @@ impl Placer<'_> {
         (miss.value.abs() <= ACCEPTED).then(|| miss.vertex(low))
     }
 
-    /// The point near `from` that satisfies both targets; none where there is none within the leash.
+    /// The point near `from` that satisfies both targets; none where there is none within the
+    /// leash.
     pub(super) fn meet(&self, first: &mut Target, second: &mut Target, from: Spot) -> Option<Vertex> {
         for _ in 0..ROUNDS {
             let found = self.solve_both(first, second, from)?;
@@ -457,7 +472,8 @@ impl Placer<'_> {
         None
     }
 
-    /// The same where one of the targets leads nowhere, as beside a slit of a few nanometres: a point that satisfies the other satisfies it too.
+    /// The same where one of the targets leads nowhere, as beside a slit of a few nanometres: a
+    /// point that satisfies the other satisfies it too.
     fn solve_level(&self, first: &Target, second: &Target, from: Spot) -> Option<Vertex> {
         [(first, second), (second, first)].into_iter().find_map(|(level, other)| {
             let found = self.solve(other, from)?;

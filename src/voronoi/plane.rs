@@ -1,4 +1,5 @@
-//! Floating positions and distances, in nanometres: what places points between pixels. They never decide what meets what.
+//! Floating positions and distances, in nanometres: what places points between pixels. They never
+//! decide what meets what.
 
 use std::ops::{Add, Mul, Sub};
 

@@ -26,7 +26,8 @@ struct Place {
 }
 
 impl Border {
-    /// Makes all lines beside the outside, which were seen in pixels of `pitch`, run along the border between their ends.
+    /// Makes all lines beside the outside, which were seen in pixels of `pitch`, run along the
+    /// border between their ends.
     pub(super) fn follow(&self, lines: &mut [Line], pitch: Nm) {
         for line in lines.iter_mut().filter(|line| line.is_border()) {
             if let Some(way) = self.way(line, pitch) {
@@ -37,8 +38,9 @@ impl Border {
         }
     }
 
-    /// The corners of the border between the ends of a line; none where its ends lie on different rings, or where the border takes quite another
-    /// way than the pixels saw, as between two ends in one place.
+    /// The corners of the border between the ends of a line; none where its ends lie on different
+    /// rings, or where the border takes quite another way than the pixels saw, as between two ends
+    /// in one place.
     fn way(&self, line: &Line, pitch: Nm) -> Option<Vec<Spot>> {
         let (first, last) = (line.vertices.first()?.at, line.vertices.last()?.at);
         let (mut from, mut to) = (self.nearest(first)?, self.nearest(last)?);
@@ -67,7 +69,8 @@ impl Border {
         };
         let seen = length(&mut line.vertices.iter().map(|vertex| vertex.at));
         let found = length(&mut way.iter().copied().chain([last]));
-        // A corner that a tile's chord cuts off makes the way longer by less than a half; ends are seen within some pixels.
+        // A corner that a tile's chord cuts off makes the way longer by less than a half; ends are
+        // seen within some pixels.
         (found <= 2.0 * seen + 4.0 * pitch.to_f64()).then_some(way)
     }
 

@@ -1,10 +1,11 @@
 //! Features → sites: what is drawn, each with a label of its own, and who owns it.
 //!
-//! A label is a site, not a net: the picture then says which *feature* a pixel is nearest to, and placing need not search
-//! for it. Regions are judged by owner, which many sites share.
+//! A label is a site, not a net: the picture then says which *feature* a pixel is nearest to, and
+//! placing need not search for it. Regions are judged by owner, which many sites share.
 //!
-//! A polygon's ring is drawn coarser than it is, by edges that stay within an eighth of a pixel of it; each such edge stands for
-//! the run of true edges that distances are measured to. So a pad whose corners were flattened into a hundred edges costs a dozen.
+//! A polygon's ring is drawn coarser than it is, by edges that stay within an eighth of a pixel of
+//! it; each such edge stands for the run of true edges that distances are measured to. So a pad
+//! whose corners were flattened into a hundred edges costs a dozen.
 
 use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
 use crate::geometry::{Arc, Nm, Path, Point, Polygon};
@@ -17,7 +18,8 @@ use super::plane::Spot;
 use super::site::{Form, Rings, Site};
 use super::{BACKGROUND, OUTSIDE, Settings, SiteKind};
 
-/// All sites of a layer. Label 0 is the background and 1 the outside; owners count the same way, nets from 2.
+/// All sites of a layer. Label 0 is the background and 1 the outside; owners count the same way,
+/// nets from 2.
 pub(super) struct Sites {
     pub(super) sites: Vec<Site>,
     pub(super) rings: Rings,
@@ -34,7 +36,8 @@ const OUTSIDE_DEPTH: f32 = -1.0;
 /// points leaves.
 const ROUNDING: f64 = 1_000.0;
 
-/// Edges within this of their chord, in nanometres, are as good as one. Chosen: half of it is what a boundary beside them may be off.
+/// Edges within this of their chord, in nanometres, are as good as one. Chosen: half of it is what
+/// a boundary beside them may be off.
 const STRAIGHT: f64 = 500.0;
 /// The sine of the most by which an arc's edges turn: 5°.
 const SMOOTH: f64 = 0.087;
@@ -111,7 +114,8 @@ impl Sites {
         }
     }
 
-    /// An arc; one whose ends lie at different distances from its centre, as in sloppy files, by its chords.
+    /// An arc; one whose ends lie at different distances from its centre, as in sloppy files, by
+    /// its chords.
     fn add_arc(&mut self, arc: &Arc, radius: f64, owner: u32, flat: bool) {
         if arc.drift() <= ROUNDING {
             return self.push(Form::arc(arc), radius, owner, flat);
@@ -123,7 +127,8 @@ impl Sites {
         }
     }
 
-    /// The paper's approximate core medial axis (§III-D), its copper above it where asked (§III-D.2).
+    /// The paper's approximate core medial axis (§III-D), its copper above it where asked
+    /// (§III-D.2).
     fn add_core(&mut self, feature: &Feature, owner: u32, min_width: bool, tolerance: f64) {
         match core(feature) {
             Some(Axis::Flash(p)) => self.push(Form::Point(p.into()), 0.0, owner, false),
@@ -263,8 +268,9 @@ fn coarse(ring: &[Spot], tolerance: f64) -> Vec<(u32, u32)> {
     runs.into_iter().map(|(first, count)| (number(first), number(count))).collect()
 }
 
-/// Whether so many edges may be drawn as one: they stay within `tolerance` of it and bend all one way, as the edges of an arc do, or leave it next to
-/// nowhere. Beside others a boundary has corners, which two labels must tell of.
+/// Whether so many edges may be drawn as one: they stay within `tolerance` of it and bend all one
+/// way, as the edges of an arc do, or leave it next to nowhere. Beside others a boundary has
+/// corners, which two labels must tell of.
 fn is_chord(ring: &[Spot], first: usize, count: usize, tolerance: f64) -> bool {
     let vertex = |i: usize| ring[(first + i) % ring.len()];
     let (a, b) = (vertex(0), vertex(count));

@@ -1,8 +1,8 @@
 //! Sites: what distances are measured to, exactly.
 //!
-//! The picture says which site owns a pixel; where precisely two sites are equally far is asked here, of the
-//! features themselves. A site's distance is signed: negative inside the copper, so that a boundary pushed a
-//! fraction of a pixel into a net finds its way out.
+//! The picture says which site owns a pixel; where precisely two sites are equally far is asked
+//! here, of the features themselves. A site's distance is signed: negative inside the copper, so
+//! that a boundary pushed a fraction of a pixel into a net finds its way out.
 
 use crate::geometry::{Arc, Turn};
 
@@ -15,7 +15,8 @@ pub(super) enum Form {
     Point(Spot),
     /// A line.
     Line(Spot, Spot),
-    /// A circular arc: counter-clockwise from `from` to `to` round `center`; the whole circle where `whole`.
+    /// A circular arc: counter-clockwise from `from` to `to` round `center`; the whole circle where
+    /// `whole`.
     Arc { center: Spot, radius: f64, from: Spot, to: Spot, whole: bool },
     /// `count` edges of a ring, from vertex `first`: copper lies to the left.
     Chain { ring: u32, first: u32, count: u32 },
@@ -33,8 +34,8 @@ pub(super) struct Site {
     pub(super) radius: f64,
     /// The owner: see [`Sites::OUTSIDE`](super::seed).
     pub(super) owner: u32,
-    /// Whether it is a trace's own copper drawn above the cones (the paper's minimum width, §III-D.2): a boundary
-    /// that meets it runs along its edge.
+    /// Whether it is a trace's own copper drawn above the cones (the paper's minimum width,
+    /// §III-D.2): a boundary that meets it runs along its edge.
     pub(super) flat: bool,
 }
 
@@ -82,8 +83,9 @@ impl Rings {
         &self.vertices[self.starts[at] as usize..self.starts[at + 1] as usize]
     }
 
-    /// The nearest to `p` of `count` edges of `ring` from vertex `first`, going on along the ring as long as it
-    /// gets nearer: the picture's edge stands for a run of short true ones, and its neighbour may be the nearest.
+    /// The nearest to `p` of `count` edges of `ring` from vertex `first`, going on along the ring
+    /// as long as it gets nearer: the picture's edge stands for a run of short true ones, and its
+    /// neighbour may be the nearest.
     fn nearest_edge(&self, ring: u32, first: u32, count: u32, p: Spot) -> usize {
         let vertices = self.ring(ring);
         let n = vertices.len();
@@ -174,8 +176,8 @@ impl Site {
         Reach { distance: bare.distance - self.radius, away: bare.away }
     }
 
-    /// The part of a ring's run that is nearest to `p`: twice the number of a corner, or of the corner before an edge and one more. Other sites have one
-    /// part.
+    /// The part of a ring's run that is nearest to `p`: twice the number of a corner, or of the
+    /// corner before an edge and one more. Other sites have one part.
     pub(super) fn part(&self, rings: &Rings, p: Spot) -> usize {
         let Form::Chain { ring, first, count } = self.form else { return 0 };
         let (edge, vertices) = (rings.nearest_edge(ring, first, count, p), rings.ring(ring));

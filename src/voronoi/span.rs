@@ -8,30 +8,35 @@
 //!   a           b   for, and finding them is what costs.
 //! ```
 //!
-//! The clearance along the curve is the cubic that has the vertices' clearances and rises: along a parabola, exact again.
+//! The clearance along the curve is the cubic that has the vertices' clearances and rises: along a
+//! parabola, exact again.
 //!
-//! Where a boundary has a corner, two vertices lie in one place, each with its own course. Where nothing is known of the way between two
-//! places, it is their chord.
+//! Where a boundary has a corner, two vertices lie in one place, each with its own course. Where
+//! nothing is known of the way between two places, it is their chord.
 
 use super::plane::Spot;
 
-/// How far chords may leave a curve, in nanometres. Chosen: less than a tenth of the default fitting tolerance, so that fitting has the rest.
+/// How far chords may leave a curve, in nanometres. Chosen: less than a tenth of the default
+/// fitting tolerance, so that fitting has the rest.
 pub(super) const CHORD: f64 = 150.0;
-/// How far the true boundary may leave the curve between two vertices where it is probed, in nanometres. Chosen: what remains of it between the
-/// probe, which becomes a vertex, and its neighbours is a sixteenth of that.
+/// How far the true boundary may leave the curve between two vertices where it is probed, in
+/// nanometres. Chosen: what remains of it between the probe, which becomes a vertex, and its
+/// neighbours is a sixteenth of that.
 const BEND: f64 = 200.0;
 /// The same for the clearance.
 const CLEARANCE_BEND: f64 = 1_000.0;
-/// A step along a curve, as a part of it, that is not worth another. Chosen: a thousandth of a nanometre on curves of a millimetre.
+/// A step along a curve, as a part of it, that is not worth another. Chosen: a thousandth of a
+/// nanometre on curves of a millimetre.
 const FOUND: f64 = 1e-9;
-/// How many times longer one tangent of a curve may be than the other. Derived: where it is less, a corner that a probe misses is off by less than
-/// [`BEND`].
+/// How many times longer one tangent of a curve may be than the other. Derived: where it is less, a
+/// corner that a probe misses is off by less than [`BEND`].
 const UNEVEN: f64 = 3.0;
 /// How far the clearance may leave its chord between two samples, in nanometres.
 const CLEARANCE_CHORD: f64 = 1_000.0;
 /// Where the slope of an equation is less, it leads nowhere, and says nothing of a course.
 pub(super) const LEVEL: f64 = 1e-3;
-/// A vertex that a curve passes by so closely need not be kept, in nanometres. Chosen: a tenth of what probes find good enough.
+/// A vertex that a curve passes by so closely need not be kept, in nanometres. Chosen: a tenth of
+/// what probes find good enough.
 const PASSED: f64 = 20.0;
 /// The same for the clearance.
 const PASSED_CLEARANCE: f64 = 100.0;
@@ -40,7 +45,8 @@ const MOST_PASSED: usize = 12;
 /// A curve is cut into so many chords at most. Chosen: one of a metre needs fewer.
 const MOST_CHORDS: u32 = 4096;
 
-/// A point of a boundary. Its place has all digits; what is interpolated from has enough of them to be a thing of 32 bytes.
+/// A point of a boundary. Its place has all digits; what is interpolated from has enough of them to
+/// be a thing of 32 bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Vertex {
     pub(super) at: Spot,
@@ -52,12 +58,14 @@ pub(super) struct Vertex {
 const _: () = assert!(size_of::<Vertex>() == 32, "boundaries are kept as vertices until they are whole");
 
 impl Vertex {
-    /// A point `clearance` nanometres from the nearest copper, where the boundary has no known course.
+    /// A point `clearance` nanometres from the nearest copper, where the boundary has no known
+    /// course.
     pub(super) const fn new(at: Spot, clearance: f64) -> Self {
         Self { at, clearance: short(clearance), along: [0.0; 2], rise: 0.0 }
     }
 
-    /// The same on the course across which `slope` points, where `away` leads straight away from the copper; on none if `slope` is nothing.
+    /// The same on the course across which `slope` points, where `away` leads straight away from
+    /// the copper; on none if `slope` is nothing.
     pub(super) fn across(at: Spot, clearance: f64, slope: Spot, away: Spot) -> Self {
         let steepness = slope.length();
         if steepness < LEVEL {
@@ -78,13 +86,15 @@ impl Vertex {
         [self, to].map(|vertex| Self::new(vertex.at, vertex.clearance()))
     }
 
-    /// Whether it lies between two others. One that ran off along the boundary would fold the path back on itself.
+    /// Whether it lies between two others. One that ran off along the boundary would fold the path
+    /// back on itself.
     pub(super) fn is_between(self, from: Self, to: Self) -> bool {
         let way = to.at - from.at;
         (self.at - from.at).dot(way) > 0.0 && (to.at - self.at).dot(way) > 0.0
     }
 
-    /// How far `p` is from the farther of the two places that the vertex is nearest to, on either side of its course.
+    /// How far `p` is from the farther of the two places that the vertex is nearest to, on either
+    /// side of its course.
     fn reaches(self, p: Spot) -> f64 {
         let (way, along, clearance, rise) =
             (p - self.at, self.along(), self.clearance(), f64::from(self.rise));
@@ -130,7 +140,8 @@ pub(super) struct Span {
 }
 
 impl Span {
-    /// The curve between two vertices; their chord where their courses do not lead from the one to the other.
+    /// The curve between two vertices; their chord where their courses do not lead from the one to
+    /// the other.
     pub(super) fn new(from: Vertex, to: Vertex) -> Self {
         let control = control(from, to).unwrap_or_else(|| from.at.midpoint(to.at));
         Self { from, to, control }
@@ -167,10 +178,12 @@ impl Span {
         s * s * ((1.0 + 2.0 * t) * a + t * rise) + t * t * ((1.0 + 2.0 * s) * b - s * fall)
     }
 
-    /// Whether a point of the true boundary, somewhere half way, lies on the curve and runs along it, with the curve's clearance.
+    /// Whether a point of the true boundary, somewhere half way, lies on the curve and runs along
+    /// it, with the curve's clearance.
     ///
-    /// A boundary that bends one way and then the other may cross the curve half way; then it does so at an angle. A cubic that
-    /// crosses at an angle whose sine is s leaves a curve of length L by 0.19 s L.
+    /// A boundary that bends one way and then the other may cross the curve half way; then it does
+    /// so at an angle. A cubic that crosses at an angle whose sine is s leaves a curve of length L
+    /// by 0.19 s L.
     pub(super) fn holds(&self, probe: Vertex) -> bool {
         self.is_near(probe, BEND, CLEARANCE_BEND)
     }
@@ -184,7 +197,8 @@ impl Span {
             && (probe.clearance() - self.clearance(t)).abs() <= clearance
     }
 
-    /// Whether the curve bends all along rather than at one end, where the boundary may have a corner that a probe half way does not see.
+    /// Whether the curve bends all along rather than at one end, where the boundary may have a
+    /// corner that a probe half way does not see.
     fn is_even(&self) -> bool {
         let (before, after) = ((self.control - self.from.at).length(), (self.to.at - self.control).length());
         before.max(after) <= UNEVEN * before.min(after)
@@ -201,16 +215,18 @@ impl Span {
         (self.to.at - self.from.at).length()
     }
 
-    /// Whether its ends tell how far the middle is from both its regions, within twice `most` nanometres: no farther than their nearest places of the
-    /// ends, and no nearer than what lies outside the discs round the ends, which are empty. Nothing can then come nearer to the curve than it
-    /// knows by more than `most`.
+    /// Whether its ends tell how far the middle is from both its regions, within twice `most`
+    /// nanometres: no farther than their nearest places of the ends, and no nearer than what lies
+    /// outside the discs round the ends, which are empty. Nothing can then come nearer to the curve
+    /// than it knows by more than `most`.
     pub(super) fn is_known_within(&self, most: f64) -> bool {
         if !self.from.has_course() || !self.to.has_course() {
             return false;
         }
         let (middle, length) = (self.place(0.5), self.length());
         let (a, b) = (self.from.clearance(), self.to.clearance());
-        // The square of a median: what is as far from both ends is nearest to the middle on the chord's perpendicular.
+        // The square of a median: what is as far from both ends is nearest to the middle on the
+        // chord's perpendicular.
         let nearest = f64::midpoint(a * a, b * b) - length * length / 4.0;
         let farthest =
             [self.from, self.to].map(|end| end.reaches(middle)).into_iter().fold(f64::INFINITY, f64::min);
@@ -274,7 +290,8 @@ fn control(from: Vertex, to: Vertex) -> Option<Spot> {
     (before.dot(chord) >= 0.0 && after.dot(chord) >= 0.0 && before.dot(after) >= 0.0).then_some(control)
 }
 
-/// Takes out the vertices that the curve between their neighbours passes through anyway: where tiles met, for the most part.
+/// Takes out the vertices that the curve between their neighbours passes through anyway: where
+/// tiles met, for the most part.
 pub(super) fn thin(vertices: &mut Vec<Vertex>) {
     let (mut kept, mut last) = (0, 0);
     for next in 2..vertices.len() {
@@ -317,7 +334,8 @@ pub(super) fn samples(vertices: &[Vertex]) -> Vec<Sample> {
 mod tests {
     use super::*;
 
-    /// A vertex of the parabola between the point (0, f) and the line y = -f, at x: y = x² / 4f, as far from both as y + f.
+    /// A vertex of the parabola between the point (0, f) and the line y = -f, at x: y = x² / 4f, as
+    /// far from both as y + f.
     fn on_parabola(x: f64, f: f64) -> Vertex {
         let slope = x / (2.0 * f);
         let length = (1.0 + slope * slope).sqrt();

@@ -10,8 +10,8 @@
 //!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
 //! ```
 //!
-//! Beside the last pass copper may stay; but where only a thin strip does between that and another cut, it would come off sooner or later. So it is
-//! cut off along the edge, too.
+//! Beside the last pass copper may stay; but where only a thin strip does between that and another
+//! cut, it would come off sooner or later. So it is cut off along the edge, too.
 
 use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndexBuilder;
@@ -28,8 +28,8 @@ use super::span::Vertex;
 use super::stitch::Line;
 use super::{Boundaries, Boundary, OUTSIDE};
 
-/// What is moved out of a pass lies so much deeper in what the next pass clears than the edge of that, in nanometres. Chosen: more than fitting
-/// moves either.
+/// What is moved out of a pass lies so much deeper in what the next pass clears than the edge of
+/// that, in nanometres. Chosen: more than fitting moves either.
 const SURE: f64 = 3_000.0;
 /// How far chords may leave what was moved out.
 const CHORD: Nm = Nm::new(500);
@@ -39,12 +39,14 @@ const STEP: f64 = 20_000.0;
 const STRAYS: f64 = 200.0;
 /// How often the circle round the middle shrinks at most. Chosen: three times is usual.
 const SHRINKINGS: usize = 12;
-/// A strip beside the last pass that is thinner than this is cut off, in nanometres, and no less long than that: where it is shorter its ends hold
-/// it. Chosen: the first as for what `verify` finds too thin, the second half as long, for that adds up strips.
+/// A strip beside the last pass that is thinner than this is cut off, in nanometres, and no less
+/// long than that: where it is shorter its ends hold it. Chosen: the first as for what `verify`
+/// finds too thin, the second half as long, for that adds up strips.
 const THIN: f64 = 50_000.0;
 const LONG: f64 = 250_000.0;
-/// A speck that is shorter, in nanometres, is a crumb, which takes longer to clear than it is worth. Chosen: on random boards the lifts became two and
-/// a half times as many where every crumb was cleared, and an eighth more with this.
+/// A speck that is shorter, in nanometres, is a crumb, which takes longer to clear than it is
+/// worth. Chosen: on random boards the lifts became two and a half times as many where every crumb
+/// was cleared, and an eighth more with this.
 const CRUMB: f64 = 50_000.0;
 /// The middle seen from both sides is the same within this, in nanometres.
 const AGAIN: f64 = 5_000.0;
@@ -63,13 +65,14 @@ pub(super) struct Specks<'a> {
 }
 
 impl Specks<'_> {
-    /// Whether there can be specks between passes: there is nothing between them where the next begins to clear before one ends.
+    /// Whether there can be specks between passes: there is nothing between them where the next
+    /// begins to clear before one ends.
     pub(super) fn are_possible(&self) -> bool {
         self.step > self.way()
     }
 
-    /// What clears the specks beside `inner` passes and the strips beside the `last` ones, where `cuts` are what may have cleared there, and wider
-    /// tools have cut `before`.
+    /// What clears the specks beside `inner` passes and the strips beside the `last` ones, where
+    /// `cuts` are what may have cleared there, and wider tools have cut `before`.
     pub(super) fn lines<'b>(
         &self,
         inner: Vec<&Boundary>,
@@ -124,7 +127,8 @@ impl Specks<'_> {
         (line.vertices.len() > 1).then_some(line)
     }
 
-    /// The middles of the specks of which this is an edge; the edge itself where the middle is but a point.
+    /// The middles of the specks of which this is an edge; the edge itself where the middle is but
+    /// a point.
     fn middles(&self, edge: &Line) -> Vec<Line> {
         let places: Vec<Option<[Vertex; 2]>> = steps(edge, STEP).map(|(at, _)| self.middle(at)).collect();
         let vertices = |places: &[Option<[Vertex; 2]>]| {
@@ -150,15 +154,17 @@ impl Specks<'_> {
         vertices.filter(|vertices| length(vertices) >= LONG).map(|vertices| part(edge, vertices)).collect()
     }
 
-    /// How far copper is from a place; none where nothing is to be cut: off the board, or near copper.
+    /// How far copper is from a place; none where nothing is to be cut: off the board, or near
+    /// copper.
     fn room(&self, at: Spot) -> Option<Reach> {
         let reach = self.near.reach(self.sites, at, |_| true);
         (reach.distance >= self.nearest && self.border.distance(at) <= 0.0).then_some(reach)
     }
 
-    /// A place on the edge of a speck, and the middle beside it: as far straight away from the nearest copper as no other comes nearer, and no farther
-    /// than where the next pass would run. There a circle that touches the nearest copper touches another; one that is too large shrinks until it
-    /// goes through the place on that other copper that lies deepest in it.
+    /// A place on the edge of a speck, and the middle beside it: as far straight away from the
+    /// nearest copper as no other comes nearer, and no farther than where the next pass would run.
+    /// There a circle that touches the nearest copper touches another; one that is too large
+    /// shrinks until it goes through the place on that other copper that lies deepest in it.
     fn middle(&self, at: Spot) -> Option<[Vertex; 2]> {
         let Reach { distance, away } = self.room(at)?;
         let mut way = (self.step - self.way()).max(0.0);
@@ -176,7 +182,8 @@ impl Specks<'_> {
     }
 }
 
-/// Places along a line, in steps of at most so many nanometres, each with the direction in which one comes there.
+/// Places along a line, in steps of at most so many nanometres, each with the direction in which
+/// one comes there.
 fn steps(line: &Line, step: f64) -> impl Iterator<Item = (Spot, Spot)> {
     let ends = line.vertices.windows(2).map(|ends| (ends[0].at, ends[1].at - ends[0].at));
     let ways = ends.filter(|(_, way)| way.length() > 0.0);
@@ -249,7 +256,8 @@ fn once(lines: Vec<Line>) -> Vec<Line> {
     walked.into_iter().flat_map(parts).collect()
 }
 
-/// The path `right` nanometres to the right of another: corners are joined straight, and arcs that shrink to nothing left out.
+/// The path `right` nanometres to the right of another: corners are joined straight, and arcs that
+/// shrink to nothing left out.
 fn beside(path: &Path, right: f64) -> Option<Path> {
     let mut moved: Option<Path> = None;
     for (start, step) in path.steps().filter_map(|(from, segment)| step_beside(from, segment, right)) {

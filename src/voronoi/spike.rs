@@ -7,7 +7,8 @@
 //!   ▓▓│  ┌────── far    just so long that nothing stays.
 //! ```
 //!
-//! In a narrow wedge the picture shows a corner cut off, where it becomes thinner than a pixel: what turns within a quarter of a kerf is one corner.
+//! In a narrow wedge the picture shows a corner cut off, where it becomes thinner than a pixel:
+//! what turns within a quarter of a kerf is one corner.
 
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 
@@ -63,7 +64,8 @@ impl Spikes<'_> {
         (pass.path, pass.clearance) = (path, clearance);
     }
 
-    /// The corners of a way: runs of legs of which all but the first and the last are short, as their numbers.
+    /// The corners of a way: runs of legs of which all but the first and the last are short, as
+    /// their numbers.
     fn corners(&self, legs: &[Leg], is_closed: bool) -> Vec<Vec<usize>> {
         let is_long = |&i: &usize| (legs[i].to - legs[i].from).length() >= self.kerf / 4.0;
         let Some(first) = (0..legs.len()).find(is_long) else { return Vec::new() };
@@ -79,8 +81,8 @@ impl Spikes<'_> {
         corners
     }
 
-    /// The tips that a corner needs, each with the leg after which it is cut: one, or one for each bend where that would pierce the wall at the
-    /// narrow end of a wedge.
+    /// The tips that a corner needs, each with the leg after which it is cut: one, or one for each
+    /// bend where that would pierce the wall at the narrow end of a wedge.
     fn tips(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Vec<(usize, Point)> {
         let tip = |bends: &[usize]| self.tip(legs, bends, copper_on_left);
         let is_clear = |&(last, tip): &(usize, Point)| self.is_clear(legs[last].to, tip.into());
@@ -105,7 +107,8 @@ impl Spikes<'_> {
         }
     }
 
-    /// The tip that a corner needs, and after which leg it is cut; none where it needs none, or is none of an inner corner.
+    /// The tip that a corner needs, and after which leg it is cut; none where it needs none, or is
+    /// none of an inner corner.
     fn tip(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Option<(usize, Point)> {
         let (before, after) = (&legs[*corner.first()?], &legs[*corner.last()?]);
         let turn = before.ends.cross(after.begins);

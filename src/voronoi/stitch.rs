@@ -1,7 +1,7 @@
 //! Pieces of tiles joined into the edges of the planar graph of boundaries, while the tiles come.
 //!
-//! A chain is a row of pieces that hang together. It is whole when both its ends are nodes, or when it closes; it then becomes a
-//! [`Line`], so that each vertex is kept once.
+//! A chain is a row of pieces that hang together. It is whole when both its ends are nodes, or when
+//! it closes; it then becomes a [`Line`], so that each vertex is kept once.
 
 use std::collections::VecDeque;
 
@@ -29,7 +29,8 @@ impl Line {
     }
 }
 
-/// The order of lines: those between nodes before loops, each by the first of its pieces (at its nodes, or of all).
+/// The order of lines: those between nodes before loops, each by the first of its pieces (at its
+/// nodes, or of all).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Rank {
     is_loop: bool,
@@ -115,7 +116,8 @@ impl Stitcher {
         self.unplaced = self.unplaced.join(traced.unplaced);
     }
 
-    /// The ends of chains that nothing continues although they are no nodes: none, unless two tiles disagree on what lies between them.
+    /// The ends of chains that nothing continues although they are no nodes: none, unless two tiles
+    /// disagree on what lies between them.
     pub(super) fn torn(&self) -> Unplaced {
         let mut torn = Unplaced::default();
         for chain in self.chains.iter().filter(|chain| !chain.links.is_empty()) {
@@ -200,7 +202,8 @@ impl Stitcher {
         self.emit(&chain, false, ends);
     }
 
-    /// Lets go of a chain that has closed. It begins with the piece that came first, in that piece's direction.
+    /// Lets go of a chain that has closed. It begins with the piece that came first, in that
+    /// piece's direction.
     fn finish_loop(&mut self, chain: usize) {
         let mut chain = self.release(chain);
         let first = |chain: &Chain| {

@@ -1,7 +1,7 @@
 //! The picture swept tile by tile: drawn, traced and placed on the spot, joined as the tiles come.
 //!
-//! Boundaries between regions are one set of lines; level sets of the distance are one for each level, all from the same
-//! picture, and each only in the tiles that it crosses.
+//! Boundaries between regions are one set of lines; level sets of the distance are one for each
+//! level, all from the same picture, and each only in the tiles that it crosses.
 
 use std::ops::Range;
 
@@ -15,8 +15,8 @@ use super::trace::{self, APRON, Course, Pixels, Traced};
 use super::vicinity::Vicinity;
 use super::{BACKGROUND, Diagram, OUTSIDE};
 
-/// Pixels along a side of a tile. Measured: with 32, an eighth less time than with 64 or 16; smaller ones hug the boundaries
-/// closer, and pay more for their aprons.
+/// Pixels along a side of a tile. Measured: with 32, an eighth less time than with 64 or 16;
+/// smaller ones hug the boundaries closer, and pay more for their aprons.
 const TILE: u32 = 32;
 
 impl Diagram {
@@ -34,7 +34,8 @@ impl Diagram {
         stitcher
     }
 
-    /// For each of `levels`, which ascend, the lines between what lies within it of copper and what lies beyond.
+    /// For each of `levels`, which ascend, the lines between what lies within it of copper and what
+    /// lies beyond.
     pub(super) fn trace_levels(&self, scene: &Scene, levels: &[Nm]) -> Vec<Stitcher> {
         let depths: Vec<f32> = levels.iter().map(|&level| self.grid.pixels(level)).collect();
         let courses: Vec<Course> = levels.iter().map(|&level| self.course(Some(level))).collect();
@@ -56,7 +57,8 @@ impl Diagram {
 
     /// What places the points of one tile.
     fn placer(&self) -> Placer<'_> {
-        // So far around, the next points of a boundary find their neighbours known. Measured: an eighth of a tile is less work than half of one.
+        // So far around, the next points of a boundary find their neighbours known. Measured: an
+        // eighth of a tile is less work than half of one.
         let spare = self.grid.pitch().to_f64() * f64::from(TILE / 8);
         Placer {
             sites: &self.sites,

@@ -7,9 +7,10 @@
 //!    ──────╱┄┄┄┄┄  B     B
 //! ```
 //!
-//! The true node is found by following the boundary of A and B for as long as C is nearer than both, and from there
-//! both borders of C are followed back to where they were seen. Distances are asked of all sites, through an index: those seen round the
-//! node need not be the nearest at the tip.
+//! The true node is found by following the boundary of A and B for as long as C is nearer than
+//! both, and from there both borders of C are followed back to where they were seen. Distances are
+//! asked of all sites, through an index: those seen round the node need not be the nearest at the
+//! tip.
 
 use std::collections::BTreeMap;
 
@@ -24,15 +25,18 @@ use super::stitch::Line;
 use super::trace::Corner;
 use super::{BACKGROUND, OUTSIDE};
 
-/// A third region must be nearer by more than this to be one, in nanometres: what placing may be off.
+/// A third region must be nearer by more than this to be one, in nanometres: what placing may be
+/// off.
 pub(super) const NEARER: f64 = 2.0;
 /// How exactly points are placed, and at worst, in nanometres of distance difference.
 pub(super) const SETTLED: f64 = 0.05;
 pub(super) const ACCEPTED: f64 = 5.0;
 pub(super) const STEPS: usize = 16;
-/// A node is not where it belongs if distances differ by more than this, in nanometres. Chosen: a twentieth of the default fitting tolerance.
+/// A node is not where it belongs if distances differ by more than this, in nanometres. Chosen: a
+/// twentieth of the default fitting tolerance.
 pub(super) const MISPLACED: f64 = 100.0;
-/// A chord from which two regions differ by more than this in their distance is none of their boundary, in nanometres.
+/// A chord from which two regions differ by more than this in their distance is none of their
+/// boundary, in nanometres.
 const STRAYS: f64 = 4_000.0;
 /// How often the way to a tip is halved at most: to a nanometre, from a metre.
 const BISECTIONS: usize = 30;
@@ -58,7 +62,8 @@ pub(super) struct End {
 }
 
 impl Tips<'_> {
-    /// Extends lines to the true places of their open nodes; returns the nodes that are not where their regions are equally far.
+    /// Extends lines to the true places of their open nodes; returns the nodes that are not where
+    /// their regions are equally far.
     pub(super) fn extend(&self, lines: &mut Vec<Line>) -> Unplaced {
         self.part(lines);
         self.take_out_bridges(lines);
@@ -75,8 +80,8 @@ impl Tips<'_> {
         self.look_again(lines);
     }
 
-    /// Leads the lines round two nets to where both are as far as the level. There may be several such places; that one belongs to the lines
-    /// to which they come without meeting anything.
+    /// Leads the lines round two nets to where both are as far as the level. There may be several
+    /// such places; that one belongs to the lines to which they come without meeting anything.
     fn end_of_level(&self, lines: &mut [Line], ends: &[End]) {
         let &[BACKGROUND, a, b] = owners_at(lines, ends).as_slice() else { return };
         let Some(place) = self.equally_far([a, b, BACKGROUND], end_vertex(lines, ends[0]).at) else { return };
@@ -121,7 +126,8 @@ impl Tips<'_> {
             })
     }
 
-    /// Moves the node at which three lines end to its place, if that can be found; those at the border are left.
+    /// Moves the node at which three lines end to its place, if that can be found; those at the
+    /// border are left.
     fn node(&self, lines: &mut [Line], ends: &[End]) {
         if owners_at(lines, ends).contains(&OUTSIDE) {
             return;
@@ -174,7 +180,8 @@ impl Tips<'_> {
         (1..vertices.len()).find(|&i| !self.is_inside(pair, third, vertices[i].at))
     }
 
-    /// The line from `tip` to the end of `vertices`, along the boundary of `pair`, without what lies in the region of `third`.
+    /// The line from `tip` to the end of `vertices`, along the boundary of `pair`, without what
+    /// lies in the region of `third`.
     fn led_to(&self, vertices: &[Vertex], tip: Vertex, pair: (u32, u32), third: u32) -> Option<Vec<Vertex>> {
         let clear = self.first_clear(vertices, pair, third).unwrap_or(vertices.len() - 1);
         let tip = self.on_course(pair, tip);
@@ -226,7 +233,8 @@ impl Tips<'_> {
             return Reach { distance: self.level, away: Spot::default() };
         }
         let outside = self.near.reach_of(self.sites, p, owner);
-        // A limit curve that is sought inside a polygon may seem to be found there, beside something else of the same net.
+        // A limit curve that is sought inside a polygon may seem to be found there, beside
+        // something else of the same net.
         let inside = self.insides.as_ref().and_then(|insides| insides.reach(self.sites, p, owner));
         inside.unwrap_or(outside)
     }
@@ -271,7 +279,8 @@ pub(super) fn open_nodes(lines: &[Line]) -> Nodes {
     nodes(lines, |corner| corner.open)
 }
 
-/// The region at a node of three lines and three owners that is not beside `line`; none where that is the outside.
+/// The region at a node of three lines and three owners that is not beside `line`; none where that
+/// is the outside.
 pub(super) fn third_at(lines: &[Line], ends: &[End], line: &Line) -> Option<u32> {
     let owners = owners_at(lines, ends);
     let third = owners.iter().copied().find(|&owner| owner != line.left && owner != line.right);

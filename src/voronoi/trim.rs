@@ -1,14 +1,16 @@
 //! Lines between their nodes, and no farther.
 //!
-//! Samples near a node may have been placed past it, along the continuation of the boundary that another region or the outside cuts off;
-//! going there and back would cut into that region. And a node that was moved since has left a gap.
+//! Samples near a node may have been placed past it, along the continuation of the boundary that
+//! another region or the outside cuts off; going there and back would cut into that region. And a
+//! node that was moved since has left a gap.
 
 use super::span::Vertex;
 use super::stitch::Line;
 use super::tip::{HALVINGS, NEARER, Tips};
 
 impl Tips<'_> {
-    /// Takes out what lines have beyond the nodes at their ends, where another region or the outside begins.
+    /// Takes out what lines have beyond the nodes at their ends, where another region or the
+    /// outside begins.
     pub(super) fn trim(&self, lines: &mut [Line]) {
         let corners = lines.iter().filter(|line| line.is_border()).filter_map(|line| line.ends);
         let mut border: Vec<_> = corners.flat_map(|(from, to)| [from.key(), to.key()]).collect();
@@ -31,7 +33,8 @@ impl Tips<'_> {
         self.lead_on(line, tail, node, onset);
     }
 
-    /// The way on which one end of a line comes to begin at a node; none where it does not follow the boundary of the line's regions.
+    /// The way on which one end of a line comes to begin at a node; none where it does not follow
+    /// the boundary of the line's regions.
     pub(super) fn way_to(&self, line: &Line, tail: bool, node: Vertex) -> Option<Way> {
         let onset = self.onset(line, tail, false);
         let (vertices, follows) = self.follow((line.left, line.right), node, vertex(line, tail, onset));
@@ -52,7 +55,8 @@ impl Tips<'_> {
         (vertices, follows)
     }
 
-    /// The first vertex after the node at one end of a line that lies between its two regions; the other end, where none does.
+    /// The first vertex after the node at one end of a line that lies between its two regions; the
+    /// other end, where none does.
     fn onset(&self, line: &Line, tail: bool, at_border: bool) -> usize {
         let pair = (line.left, line.right);
         let is_beyond = |vertex: Vertex| {
@@ -62,7 +66,8 @@ impl Tips<'_> {
         (1..last).find(|&i| !is_beyond(vertex(line, tail, i))).unwrap_or(last)
     }
 
-    /// Puts the way from `node` to vertex `onset`, counted from one end of a line, in place of what lies there.
+    /// Puts the way from `node` to vertex `onset`, counted from one end of a line, in place of what
+    /// lies there.
     fn lead_on(&self, line: &mut Line, tail: bool, node: Vertex, onset: usize) {
         let vertices = self.between((line.left, line.right), node, vertex(line, tail, onset));
         Way { onset, vertices }.put(line, tail);

@@ -1,4 +1,5 @@
-//! The sites of two owners about a place: a boundary asks for them at every step, and they are sought once for many.
+//! The sites of two owners about a place: a boundary asks for them at every step, and they are
+//! sought once for many.
 
 use std::cell::RefCell;
 
@@ -14,7 +15,8 @@ pub(super) struct Vicinity<'a> {
     spare: f64,
 }
 
-/// The entries of the index that belong to either of two owners and come within a disc, in the index's order.
+/// The entries of the index that belong to either of two owners and come within a disc, in the
+/// index's order.
 #[derive(Default)]
 struct Known {
     owners: [u32; 2],
@@ -35,8 +37,8 @@ impl<'a> Vicinity<'a> {
         Self { near, known: RefCell::default(), spare }
     }
 
-    /// The site that is nearer to `p` than `bound`, in nanometres, among those of two owners whose labels are accepted: the nearest such. `p`
-    /// lies on no copper.
+    /// The site that is nearer to `p` than `bound`, in nanometres, among those of two owners whose
+    /// labels are accepted: the nearest such. `p` lies on no copper.
     pub(super) fn nearer(
         &self,
         sites: &Sites,

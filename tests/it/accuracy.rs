@@ -1,8 +1,9 @@
-//! How far cuts are from the true bisector on every real board, judged by distances from an index of the tests' own
-//! (`oracle::field`), as `docs/accuracy.md` has it.
+//! How far cuts are from the true bisector on every real board, judged by distances from an index
+//! of the tests' own (`oracle::field`), as `docs/accuracy.md` has it.
 //!
-//! Places are looked at every 50 µm, three in each segment at least. Where the true bisector is, is found by walking from the
-//! cut up or down the slope of the difference of the two distances until that is less than a nanometre.
+//! Places are looked at every 50 µm, three in each segment at least. Where the true bisector is, is
+//! found by walking from the cut up or down the slope of the difference of the two distances until
+//! that is less than a nanometre.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -88,7 +89,8 @@ fn slope(one: Reach, other: Reach) -> (Spot, f64) {
     (slope, (slope[0] * slope[0] + slope[1] * slope[1]).sqrt())
 }
 
-/// How far from `at` two nets are equally far, straight up or down the slope of the difference: by the rule of false position.
+/// How far from `at` two nets are equally far, straight up or down the slope of the difference: by
+/// the rule of false position.
 fn to_bisector(field: &Field, at: Spot, pair: [NetId; 2], [left, right]: [Reach; 2]) -> f64 {
     let difference = left.distance - right.distance;
     let (slope, steepness) = slope(left, right);
@@ -229,8 +231,9 @@ fn at_most(micrometres: f64) -> f64 {
     steps.into_iter().find(|&step| micrometres <= step).unwrap_or(f64::INFINITY)
 }
 
-/// Layers with the length of all boundaries between their nets, in millimetres, by Boost's exact segment diagram of the copper's edges (64 corners to a
-/// circle, chords within a micrometre), up to a frame two millimetres round the copper.
+/// Layers with the length of all boundaries between their nets, in millimetres, by Boost's exact
+/// segment diagram of the copper's edges (64 corners to a circle, chords within a micrometre), up
+/// to a frame two millimetres round the copper.
 const EXACT: &[(&str, f64)] = &[
     ("gerbv_protel_se_sg front", 6173.3),
     ("p2g_project_controller back", 334.17),

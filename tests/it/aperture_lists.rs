@@ -13,7 +13,8 @@ fn board(paths: &[PathBuf]) -> Result<Loaded, Error> {
     load(paths, &Selection::default())
 }
 
-/// The board drawn by every fixture: a trace of 10 mils and an inch, with a pad of 60 × 75 mils at either end.
+/// The board drawn by every fixture: a trace of 10 mils and an inch, with a pad of 60 × 75 mils at
+/// either end.
 #[track_caller]
 fn is_drawn(loaded: &Loaded, what: &str) {
     let front = loaded.board.front.as_ref().unwrap_or_else(|| panic!("{what}: no copper"));

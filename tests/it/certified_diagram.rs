@@ -1,5 +1,5 @@
-//! The certified diagram beside brute force: random copper at free places, and on coarse grids where equal distances, tangencies and
-//! coincident edges are the rule.
+//! The certified diagram beside brute force: random copper at free places, and on coarse grids
+//! where equal distances, tangencies and coincident edges are the rule.
 
 use voromill::board::{Attributes, Axis, Copper, Feature, Shape, Side};
 use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
@@ -106,7 +106,8 @@ fn check(name: &str, copper: &Copper, nets: &Nets, diagram: &Diagram) {
     }
 }
 
-/// Wherever a way from somewhere to somewhere goes from one net's region into another's, there is an edge.
+/// Wherever a way from somewhere to somewhere goes from one net's region into another's, there is
+/// an edge.
 fn check_complete(name: &str, copper: &Copper, nets: &Nets, diagram: &Diagram, random: &mut Random) {
     let curves: Vec<Vec<[f64; 2]>> = diagram
         .edges()
@@ -139,7 +140,8 @@ fn check_complete(name: &str, copper: &Copper, nets: &Nets, diagram: &Diagram, r
     }
 }
 
-/// A planar graph has as many faces as edges beyond the vertices, and one more for each piece: here faces are regions of nets.
+/// A planar graph has as many faces as edges beyond the vertices, and one more for each piece: here
+/// faces are regions of nets.
 fn check_euler(name: &str, nets: &Nets, diagram: &Diagram) {
     // What leaves the window ends at one place beyond it.
     let (n, mut degree) = (diagram.vertices().len(), vec![0; diagram.vertices().len()]);

@@ -36,14 +36,15 @@ pub(crate) fn listing(folder: &Path) -> Vec<String> {
     names
 }
 
-/// Asserts that the program fails with one short message that contains `words`, and leaves nothing in `folder` but
-/// `left`.
+/// Asserts that the program fails with one short message that contains `words`, and leaves nothing
+/// in `folder` but `left`.
 fn fails(folder: &TempDir, arguments: &[&str], words: &[&str], left: &[&str]) {
     let message = refused(folder, arguments, words, left);
     assert!(message.lines().count() <= 10, "{arguments:?} is short: {message}");
 }
 
-/// The message with which the program fails; it contains `words`, and nothing is left in `folder` but `left`.
+/// The message with which the program fails; it contains `words`, and nothing is left in `folder`
+/// but `left`.
 fn refused(folder: &TempDir, arguments: &[&str], words: &[&str], left: &[&str]) -> String {
     let output = voromill(folder.path(), arguments);
     let message = stderr(&output);
@@ -352,7 +353,8 @@ fn nonsense_for_input_ends_in_a_message_and_no_file() {
     write("truncated.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%AMROUND*\n1,1,0.5,");
     write("bare-F_Cu.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nM02*\n");
     write("file", b"");
-    // Copper was read, and then the file ends in the middle of a command: nobody knows what was to follow.
+    // Copper was read, and then the file ends in the middle of a command: nobody knows what was to
+    // follow.
     write("cut-off-F_Cu.gbr", b"%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.5*%\nD10*\nX1000000Y1000000D03*\nX30000");
     let left = ["bare-F_Cu.gbr", "cut-off-F_Cu.gbr", "empty.gbr", "file", "picture.gbr", "truncated.gbr"];
     fails(&out, &["mill", "missing.gbr", "-o", "out"], &["missing.gbr"], &left);

@@ -1,8 +1,9 @@
-//! Damaged texts beside the layers of a board: job files, settings, millprojects, maps of heights and programs, with
-//! bytes changed, cut out and said twice; and damaged boards from their bytes to the verdict on their programs.
+//! Damaged texts beside the layers of a board: job files, settings, millprojects, maps of heights
+//! and programs, with bytes changed, cut out and said twice; and damaged boards from their bytes to
+//! the verdict on their programs.
 //!
-//! `tests/fuzz` has the same as targets of a fuzzer, which looks for what these do not reach. `PROPTEST_CASES=20000`
-//! looks longer.
+//! `tests/fuzz` has the same as targets of a fuzzer, which looks for what these do not reach.
+//! `PROPTEST_CASES=20000` looks longer.
 
 use std::fs;
 use std::path::{Path, PathBuf};

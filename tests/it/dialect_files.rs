@@ -1,4 +1,5 @@
-//! Dialects of one's own, a file for each tool, and gaps that must not be too narrow, as the command line has them.
+//! Dialects of one's own, a file for each tool, and gaps that must not be too narrow, as the
+//! command line has them.
 
 use std::fs;
 use std::path::Path;

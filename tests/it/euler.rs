@@ -1,8 +1,11 @@
-//! Euler's formula on every real board: no boundary is lost or doubled, and every region's border closes.
+//! Euler's formula on every real board: no boundary is lost or doubled, and every region's border
+//! closes.
 //!
-//! Each boundary is walked along on both hands. Where it ends, the walk goes on along the boundary that has the same region on that hand; it must come back to
-//! where it began, and how many such walks there are is how many borders. A connected part of the graph that lies in the plane has `nodes − boundaries + borders
-//! = 2`: with a boundary too few a walk has nowhere to go, and with one too many the sum is wrong.
+//! Each boundary is walked along on both hands. Where it ends, the walk goes on along the boundary
+//! that has the same region on that hand; it must come back to where it began, and how many such
+//! walks there are is how many borders. A connected part of the graph that lies in the plane has
+//! `nodes − boundaries + borders = 2`: with a boundary too few a walk has nowhere to go, and with
+//! one too many the sum is wrong.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -39,7 +42,8 @@ fn direction(edge: &Boundary, backwards: bool) -> f64 {
     libm::atan2(by - ay, bx - ax)
 }
 
-/// The walk that goes on where one ends: the next one clockwise of those that have the same region on their left.
+/// The walk that goes on where one ends: the next one clockwise of those that have the same region
+/// on their left.
 fn onward(found: &Boundaries, leaving: &BTreeMap<u32, Vec<Walk>>, walk: Walk) -> Option<Walk> {
     let edge = &found.edges[walk.0];
     let Some(node) = end(edge, walk.1) else { return Some(walk) };

@@ -150,7 +150,8 @@ fn curve(
     Some(parabola(point, line, from, to))
 }
 
-/// Points equally far from `focus` and a line, between two of them, so close together that chords are within some nanometres.
+/// Points equally far from `focus` and a line, between two of them, so close together that chords
+/// are within some nanometres.
 fn parabola(focus: Spot, [a, b]: [Spot; 2], from: Spot, to: Spot) -> Vec<Spot> {
     let way = [b[0] - a[0], b[1] - a[1]];
     let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
@@ -188,7 +189,8 @@ fn ours(copper: &Copper, nets: &Nets, settings: &Settings) -> Curves {
     curves
 }
 
-/// How far the curves of one are from those of the other between the same nets, at most, with the place.
+/// How far the curves of one are from those of the other between the same nets, at most, with the
+/// place.
 fn farthest(one: &Curves, other: &Curves) -> (f64, Spot) {
     let mut farthest = (0.0, [0.0; 2]);
     for (nets, curves) in one {

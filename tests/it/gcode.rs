@@ -1,5 +1,5 @@
-//! What is written is what was planned: every dialect's text is read back by the reader, which shares no code with
-//! the writer, and compared motion by motion.
+//! What is written is what was planned: every dialect's text is read back by the reader, which
+//! shares no code with the writer, and compared motion by motion.
 
 use proptest::prelude::*;
 use voromill::gcode::dialect::{ALL, Arcs};
@@ -230,7 +230,8 @@ proptest! {
             let listing = read(&text).map_err(|error| TestCaseError::fail(format!("{}: {error}\n{text}", dialect.name)))?;
             assert_passes_all(&listing, &program, dialect);
             assert_safe(&listing, program.safe, &dialect.name);
-            // A lost or doubled turn would show here; rounding moves each end by a micrometre at most.
+            // A lost or doubled turn would show here; rounding moves each end by a micrometre at
+            // most.
             let (cut, allowed) = (cut_length(&listing) / 3.0, 4_000.0 * f64::from(u32::try_from(steps.len()).expect("a few")));
             prop_assert!((cut - length).abs() <= allowed, "{}: {} nm cut, {} planned\n{}", dialect.name, cut, length, text);
             if dialect.arcs == Arcs::Lines {

@@ -132,7 +132,8 @@ impl Picture {
         dark != 0 && dark != around.count()
     }
 
-    /// The pixels in which `other` differs, and how many of them are more than a pixel from an edge.
+    /// The pixels in which `other` differs, and how many of them are more than a pixel from an
+    /// edge.
     fn compare(&self, other: &Self) -> (usize, usize) {
         assert_eq!((self.width, self.height), (other.width, other.height), "the same window");
         let differ = (0..self.pixels.len()).filter(|&i| self.pixels[i] != other.pixels[i]);
@@ -146,10 +147,11 @@ const MISMATCH: f64 = 0.0006;
 
 /// Where more pixels lie beyond an edge of the other picture, how many, and why.
 ///
-/// The arcs of `gerbv_protel_se_sg`, in steps of a thousandth of an inch, have radii at their ends that differ by up to that;
-/// which one holds is not specified (§4.7.2). The other program takes the first, this one goes over evenly from the
-/// first to the second, so that both ends are met. In `kicad_custom_pads` two edges of an outline primitive (§4.5.1) meet at
-/// an acute angle; the two pixels lie in the wedge between them, 6 µm outside, where the winding number is zero.
+/// The arcs of `gerbv_protel_se_sg`, in steps of a thousandth of an inch, have radii at their ends
+/// that differ by up to that; which one holds is not specified (§4.7.2). The other program takes
+/// the first, this one goes over evenly from the first to the second, so that both ends are met. In
+/// `kicad_custom_pads` two edges of an outline primitive (§4.5.1) meet at an acute angle; the two
+/// pixels lie in the wedge between them, 6 µm outside, where the winding number is zero.
 const BEYOND: &[(&str, usize)] =
     &[("gerbv_protel_se_sg/front", 4), ("gerbv_protel_se_sg/back", 6), ("kicad_custom_pads/front", 2)];
 

@@ -1,4 +1,5 @@
-//! One fixture a Gerber construct: the area it covers, known from geometry, in how many pieces, and what is said of it.
+//! One fixture a Gerber construct: the area it covers, known from geometry, in how many pieces, and
+//! what is said of it.
 
 use std::f64::consts::{FRAC_PI_4 as DISC, PI};
 use std::fs;

@@ -1,4 +1,5 @@
-//! Damaged Gerber files: whatever the bytes, an image that keeps its promises or an error; never a panic, never a hang.
+//! Damaged Gerber files: whatever the bytes, an image that keeps its promises or an error; never a
+//! panic, never a hang.
 
 use std::fs;
 use std::path::Path;

@@ -1,5 +1,6 @@
-//! Pictures for `tests/gl_parity.py`, which draws the same with an OpenGL and compares. Calling one from here would take
-//! `unsafe`, which this crate forbids; so the comparison lives on the other side.
+//! Pictures for `tests/gl_parity.py`, which draws the same with an OpenGL and compares. Calling one
+//! from here would take `unsafe`, which this crate forbids; so the comparison lives on the other
+//! side.
 
 use std::path::{Path, PathBuf};
 
@@ -75,7 +76,8 @@ fn an_opengl_gets_the_same_boards_to_draw() {
     }
 }
 
-/// The features of a side about 1000 pixels wide; a line `label` or `also` and x, y of all corners for each contour.
+/// The features of a side about 1000 pixels wide; a line `label` or `also` and x, y of all corners
+/// for each contour.
 fn board_scene(copper: &Copper) -> (Scene, String) {
     let bounds = copper.bounds().expect("some copper");
     let widest = bounds.width().max(bounds.height()).get();
@@ -98,7 +100,8 @@ fn board_scene(copper: &Copper) -> (Scene, String) {
 
 type Triangles = Vec<(Label, [PixelPoint; 3], [f32; 3])>;
 
-/// Flat triangles and convex polygons, the latter for an OpenGL as fans, each at a depth of its own.
+/// Flat triangles and convex polygons, the latter for an OpenGL as fans, each at a depth of its
+/// own.
 fn flat_scene(random: &mut Random) -> (&'static str, Primitives, Triangles) {
     let (mut primitives, mut triangles) = (Primitives::new(), Triangles::new());
     // Half of the points on samples and corners of pixels, where the fill rule decides.
@@ -112,7 +115,8 @@ fn flat_scene(random: &mut Random) -> (&'static str, Primitives, Triangles) {
         if number % 3 == 0 {
             let (x, y) = (coordinate(random), coordinate(random));
             let radius = 1024 + random.below(8000);
-            // The corners of a diamond, a square or an octagon: convex, and many of their edges are axis-parallel.
+            // The corners of a diamond, a square or an octagon: convex, and many of their edges are
+            // axis-parallel.
             let k = radius * 5 / 12;
             let ring = [
                 (radius, k),

@@ -218,7 +218,8 @@ fn of_two_tools_the_wide_one_cuts_where_it_fits() {
         sections.iter().map(|section| (section.tool.name.as_str(), section.tool.number)).collect();
     assert_eq!(tools, [("wide", 9), ("endmill:0.2mm", 1)], "the wide one first");
     let (alone, shared) = (cut_mm(&one, Part::Back), cut_mm(&two, Part::Back));
-    // Where a lift would take longer, one tool goes over a boundary again; which ones, depends on what it has to cut.
+    // Where a lift would take longer, one tool goes over a boundary again; which ones, depends on
+    // what it has to cut.
     let once = two.layers[0].boundary_length().to_mm();
     assert!(alone >= once - 0.01 && shared >= once - 0.01, "{alone} and {shared} mm of {once} mm");
     // Short ends beside the other tool's are cut there and back rather than left by a lift.

@@ -26,7 +26,8 @@ fn json(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).expect("readable")).expect("JSON")
 }
 
-/// The board in a folder; where nothing but `meta.json` tells which side a layer is, as that has it.
+/// The board in a folder; where nothing but `meta.json` tells which side a layer is, as that has
+/// it.
 fn board(path: &Path) -> Loaded {
     let loaded = load(&[path.to_owned()], &Selection::default()).or_else(|error| {
         if !error.to_string().contains("which side") {

@@ -1,4 +1,5 @@
-//! Programs of earlier runs and other revisions: what a run leaves in its folder, and what programs say of their files.
+//! Programs of earlier runs and other revisions: what a run leaves in its folder, and what programs
+//! say of their files.
 
 use std::fs;
 use std::path::Path;
@@ -49,7 +50,8 @@ fn what_a_run_does_not_write_again_goes_unless_somebody_changed_it() {
     names.push("blinker.json");
     names.sort_unstable();
     assert_eq!(names, listing(&out), "the report lists every other file");
-    // The next revision has no outline any more; the picture was painted on, and a program is somebody's.
+    // The next revision has no outline any more; the picture was painted on, and a program is
+    // somebody's.
     fs::write(out.join("blinker-back.svg"), "painted on").expect("written");
     fs::write(out.join("old-front.ngc"), "G21\n").expect("written");
     fs::write(out.join("notes.txt"), "mine").expect("written");
@@ -125,7 +127,8 @@ fn verify_says_that_a_program_was_made_from_another_revision() {
     };
     let (code, said) = verify();
     assert_eq!(code, Some(0), "its own files: {said}");
-    // The outline has nothing to do with the holes, and the program is of another revision all the same.
+    // The outline has nothing to do with the holes, and the program is of another revision all the
+    // same.
     fs::remove_file(folder.path().join("board/blinker-Edge_Cuts.gbr")).expect("removed");
     let (code, said) = verify();
     assert!(code == Some(1) && said.contains("[revision]"), "a file is missing: {said}");
@@ -172,7 +175,8 @@ fn an_interrupted_run_leaves_nothing_half_written() {
             let done = Command::new(command).args(argument.split(' ')).current_dir(&out).status();
             assert!(done.expect("it runs").success(), "{command} {argument}");
         };
-        // Nobody reads the pipe, so the program waits for a reader, with all other files written and none renamed.
+        // Nobody reads the pipe, so the program waits for a reader, with all other files written
+        // and none renamed.
         shell("mkfifo", "blinker-drill.ngc");
         let arguments =
             ["mill", "board", "-o", "out", "--no-verify", "--no-html", "--quiet", "--dialect", "linuxcnc"];

@@ -14,7 +14,8 @@ use voromill::job::{self, Options, Settings};
 
 use crate::cli::{stderr, stdout, voromill};
 
-/// A grid of touches every `step` millimetres from (−5, −5), as high as `height` says of millimetres.
+/// A grid of touches every `step` millimetres from (−5, −5), as high as `height` says of
+/// millimetres.
 fn map(size: u32, step: f64, height: impl Fn(f64, f64) -> f64) -> HeightMap {
     let place = |index: u32| f64::from(index) * step - 5.0;
     let points: Vec<[f64; 3]> = (0..size * size)

@@ -1,4 +1,5 @@
-//! Machines: what their profiles change in programs, times and warnings, and how people come by them.
+//! Machines: what their profiles change in programs, times and warnings, and how people come by
+//! them.
 
 use std::fs;
 

@@ -16,6 +16,7 @@ mod gerber;
 mod gerber_constructs;
 mod gerber_damage;
 mod gl_parity;
+mod house;
 mod job;
 mod layering;
 mod layers;

@@ -350,7 +350,8 @@ enum Fate {
     WithoutFiles,
 }
 
-/// The projects of pcb2gcode and of users, which are not part of the repository: `VOROMILL_ARTWORK` names their folder.
+/// The projects of pcb2gcode and of users, which are not part of the repository: `VOROMILL_ARTWORK`
+/// names their folder.
 #[test]
 fn every_project_of_the_corpus_is_taken_over_or_refused_with_the_line() {
     let artwork = std::env::var_os("VOROMILL_ARTWORK")

@@ -1,4 +1,5 @@
-//! Loops round some nets, boundaries midway between the others, against flooding and brute-force distances.
+//! Loops round some nets, boundaries midway between the others, against flooding and brute-force
+//! distances.
 
 use std::collections::BTreeMap;
 
@@ -59,7 +60,8 @@ fn cuts(found: &Boundaries) -> Vec<Vec<Point>> {
     cut.map(|edge| edge.path.flatten(Nm::from_um(1))).collect()
 }
 
-/// How far a fitted cut may be off at worst, in nanometres: in the inner corner of two offset curves.
+/// How far a fitted cut may be off at worst, in nanometres: in the inner corner of two offset
+/// curves.
 const OFF: f64 = 5_000.0;
 
 /// A pixel of the flood, and how wide it takes cuts to be: a little less than the cutter is.

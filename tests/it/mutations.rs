@@ -1,8 +1,9 @@
-//! Damage to real boards: files cut off, bytes flipped, files emptied and swapped. Whatever becomes of a board, it never
-//! has more or fewer layers of copper or drill files than before without a word.
+//! Damage to real boards: files cut off, bytes flipped, files emptied and swapped. Whatever becomes
+//! of a board, it never has more or fewer layers of copper or drill files than before without a
+//! word.
 //!
-//! `VOROMILL_MUTATIONS` says how many cuts and flips there are for each file (one unless told); emptied is each file,
-//! swapped each pair. The same numbers give the same damage. With 25:
+//! `VOROMILL_MUTATIONS` says how many cuts and flips there are for each file (one unless told);
+//! emptied is each file, swapped each pair. The same numbers give the same damage. With 25:
 //!
 //! ```sh
 //! VOROMILL_MUTATIONS=25 cargo test --test it no_damage_changes -- --nocapture
@@ -96,7 +97,8 @@ impl Damage {
     }
 }
 
-/// Numbers that look random and are the same every time (SplitMix64, G. Steele and others, OOPSLA 2014).
+/// Numbers that look random and are the same every time (SplitMix64, G. Steele and others, OOPSLA
+/// 2014).
 struct Random(u64);
 
 impl Random {
@@ -109,7 +111,8 @@ impl Random {
     }
 }
 
-/// The boards that are read as they are (one must be told its side); what lies beside their files for the tests is no part of them.
+/// The boards that are read as they are (one must be told its side); what lies beside their files
+/// for the tests is no part of them.
 fn subjects() -> Vec<Subject> {
     let folders = boards().into_iter().flatten();
     folders

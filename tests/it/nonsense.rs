@@ -1,4 +1,5 @@
-//! What is no board: each of these once came from somebody, and each is told what it is and what to do.
+//! What is no board: each of these once came from somebody, and each is told what it is and what to
+//! do.
 
 use std::fs;
 use std::path::PathBuf;
@@ -44,7 +45,8 @@ fn an_encrypted_archive_is_called_one() {
     zip.start_file("top.gbr", zip::write::SimpleFileOptions::default()).expect("an entry");
     std::io::Write::write_all(&mut zip, b"%MOMM*%\nM02*\n").expect("written");
     let mut bytes = zip.finish().expect("finished").into_inner();
-    // The lowest bit of an entry's flags says that it is encrypted, in its own header and in the directory.
+    // The lowest bit of an entry's flags says that it is encrypted, in its own header and in the
+    // directory.
     for (mark, flags) in [(b"PK\x03\x04", 6), (b"PK\x01\x02", 8)] {
         let at = bytes.windows(4).position(|window| window == mark).expect("a header");
         bytes[at + flags] |= 1;

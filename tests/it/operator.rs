@@ -1,5 +1,5 @@
-//! What a person at the machine gets: a header that tells what to mount, a tool that stands high before a hand reaches in, files that can be run one after
-//! another on Grbl.
+//! What a person at the machine gets: a header that tells what to mount, a tool that stands high
+//! before a hand reaches in, files that can be run one after another on Grbl.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -273,7 +273,8 @@ fn loops_go_round_what_is_kept_as_they_are_asked_to() {
     }
 }
 
-/// Grbl 1.1 as far as a person sees it (protocol.c, system.c, gcode.c): what it takes in which state, where the tip of the tool is above the copper.
+/// Grbl 1.1 as far as a person sees it (protocol.c, system.c, gcode.c): what it takes in which
+/// state, where the tip of the tool is above the copper.
 struct Grbl {
     state: State,
     /// Of the spindle's nose above the copper, in nanometres.

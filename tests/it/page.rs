@@ -1,4 +1,5 @@
-//! The page: what it holds, and that a browser can read it. What it does in a browser is tested by `tests/browser`.
+//! The page: what it holds, and that a browser can read it. What it does in a browser is tested by
+//! `tests/browser`.
 
 use std::path::Path;
 

@@ -1,4 +1,5 @@
-//! The paper's Table V, from its own boards: against the logs of its program, and as `docs/table-v.md` has it.
+//! The paper's Table V, from its own boards: against the logs of its program, and as
+//! `docs/table-v.md` has it.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -99,7 +100,8 @@ fn apart(rect: Rect, log: [f64; 4]) -> f64 {
     [min.0 - log[0], min.1 - log[1], max.0 - log[2], max.1 - log[3]].into_iter().map(f64::abs).sum()
 }
 
-/// Nets whose regions are off by more than two parts in a hundred: dataset and how many, of how many; `docs/table-v.md` says why.
+/// Nets whose regions are off by more than two parts in a hundred: dataset and how many, of how
+/// many; `docs/table-v.md` says why.
 const AREAS_OFF: &[(usize, usize)] = &[(1, 1), (2, 9), (4, 1), (5, 1), (6, 2)];
 
 #[test]

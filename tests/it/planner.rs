@@ -1,7 +1,9 @@
-//! The time that a program takes, held against a machine that is driven through it in small steps of time.
+//! The time that a program takes, held against a machine that is driven through it in small steps
+//! of time.
 //!
-//! The driver shares nothing with the planner but Grbl's rule for corners: twenty thousand times a second it looks how fast it may be, so that it can still
-//! slow down for every corner that it knows of and stop at the end of what the buffer holds.
+//! The driver shares nothing with the planner but Grbl's rule for corners: twenty thousand times a
+//! second it looks how fast it may be, so that it can still slow down for every corner that it
+//! knows of and stop at the end of what the buffer holds.
 
 use std::path::{Path, PathBuf};
 
@@ -85,7 +87,8 @@ impl Driver {
         let (mut seconds, mut speed) = (0.0, 0.0_f64);
         for (index, leg) in legs.iter().enumerate() {
             let (mut gone, length, most) = (0.0, leg.length(), self.speed(leg));
-            // How fast it may be at the end of this leg: each corner ahead asks for its own, and the end of what is known for none.
+            // How fast it may be at the end of this leg: each corner ahead asks for its own, and
+            // the end of what is known for none.
             let last = (index + self.knows - 1).min(legs.len() - 1);
             let mut at_end = f64::MAX;
             for ahead in index..=last {
@@ -122,7 +125,8 @@ fn per_second(feed: Feed) -> f64 {
     feed.nm_per_second() / 1e6
 }
 
-/// The moves of a program as straight ways, in stretches from a stop to a stop, and the seconds that it waits.
+/// The moves of a program as straight ways, in stretches from a stop to a stop, and the seconds
+/// that it waits.
 fn stretches(program: &Program, machine: &Machine) -> (Vec<Vec<Leg>>, f64) {
     let mut at = Position { z: program.safe, ..Position::default() };
     let (mut all, mut waits): (Vec<Vec<Leg>>, f64) = (Vec::new(), 0.0);

@@ -1,4 +1,5 @@
-//! Whole programs of whole boards: what every dialect's text makes the machine do is what was planned, to the last digit.
+//! Whole programs of whole boards: what every dialect's text makes the machine do is what was
+//! planned, to the last digit.
 
 use std::path::{Path, PathBuf};
 

@@ -1,4 +1,5 @@
-//! The raster engine against brute force, and its law: nothing but the scene decides a bit of the picture.
+//! The raster engine against brute force, and its law: nothing but the scene decides a bit of the
+//! picture.
 
 use proptest::prelude::*;
 use voromill::raster::blend::{Window, mix, render_overdraw, render_translucent};
@@ -241,8 +242,8 @@ proptest! {
 
 #[test]
 fn no_mixed_component_is_likelier_than_one_in_128() {
-    // Lemma 3 of the paper, by running through every value of every layer: the sums of k layers and how many of the
-    // 256^k choices give them, a layer at a time.
+    // Lemma 3 of the paper, by running through every value of every layer: the sums of k layers and
+    // how many of the 256^k choices give them, a layer at a time.
     let share = |component: u8, layer: u32| {
         let black = std::iter::repeat_n([0; 3], layer as usize - 1);
         usize::from(mix(black.chain([[component; 3]]))[0])
@@ -288,7 +289,8 @@ fn the_golden_scenes_have_the_recorded_bits() {
     });
 }
 
-/// SplitMix64 on whole numbers below a limit: the same scenes everywhere, whatever the test library draws.
+/// SplitMix64 on whole numbers below a limit: the same scenes everywhere, whatever the test library
+/// draws.
 pub(crate) struct Random(pub u64);
 
 impl Random {

@@ -1,7 +1,8 @@
 //! The same board at four resolutions: paths are the same wherever the same features are seen.
 //!
-//! What a picture sees of a boundary is which two regions it parts and which others it meets at its ends. Boundaries of two pictures of which
-//! all that is the same, as often in the one as in the other, must be the same curves.
+//! What a picture sees of a boundary is which two regions it parts and which others it meets at its
+//! ends. Boundaries of two pictures of which all that is the same, as often in the one as in the
+//! other, must be the same curves.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -48,9 +49,11 @@ fn curves(found: &Boundaries) -> BTreeMap<Seen, Vec<Vec<Spot>>> {
     curves
 }
 
-/// How far the curves of two pictures are apart where both see the same, with the place; and how much of the length that is.
+/// How far the curves of two pictures are apart where both see the same, with the place; and how
+/// much of the length that is.
 ///
-/// Within a pixel of the border nothing is compared: a boundary that runs along it leaves the board where a picture sees it so.
+/// Within a pixel of the border nothing is compared: a boundary that runs along it leaves the board
+/// where a picture sees it so.
 fn compare(coarse: &Boundaries, fine: &Boundaries, pitch: i64) -> (f64, Spot, f64) {
     let border = coarse.edges.iter().filter(|edge| edge.is_border()).map(points).collect::<Vec<_>>();
     let pixel = Nm::new(pitch).to_f64();

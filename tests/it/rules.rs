@@ -1,8 +1,11 @@
-//! What controllers take, as tables: each program in each dialect is held against the rules that the firmwares' own sources give.
+//! What controllers take, as tables: each program in each dialect is held against the rules that
+//! the firmwares' own sources give.
 //!
-//! The tables and the tokens here share nothing with the writer or the reader: who looked into a firmware writes down what it bears. A rule says
-//! where it is from: Grbl 1.1h (gcode.c, protocol.c, serial.c), grblHAL, FluidNC, LinuxCNC 2.9 (interp_arc.cc, manual), Smoothieware
-//! (GcodeDispatch.cpp, Robot.cpp), TinyG (gcode_parser.c, plan_arc.c), g2core, RepRapFirmware 3.5, Marlin 2, Klipper (gcode.py), Mach (manual).
+//! The tables and the tokens here share nothing with the writer or the reader: who looked into a
+//! firmware writes down what it bears. A rule says where it is from: Grbl 1.1h (gcode.c,
+//! protocol.c, serial.c), grblHAL, FluidNC, LinuxCNC 2.9 (interp_arc.cc, manual), Smoothieware
+//! (GcodeDispatch.cpp, Robot.cpp), TinyG (gcode_parser.c, plan_arc.c), g2core, RepRapFirmware 3.5,
+//! Marlin 2, Klipper (gcode.py), Mach (manual).
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -675,7 +678,8 @@ fn settings(dialect: &str, more: &str) -> Settings {
     Settings::resolve(options.expect("settings")).expect("settings that make sense")
 }
 
-/// A board's programs as every controller gets them; it is planned once for those that change tools and once for those with a file for each.
+/// A board's programs as every controller gets them; it is planned once for those that change tools
+/// and once for those with a file for each.
 fn cases(folder: &Path, more: &str) -> Vec<Case> {
     let jobs = [Change::Files, Change::M6].map(|change| {
         let of = TABLE.iter().find(|rules| rules.change == change).expect("such a dialect");

@@ -1,6 +1,6 @@
-//! What becomes of the fixture boards, word for word: programs under `snapshots/gcode`, reports under
-//! `snapshots/report`. `INSTA_UPDATE=always cargo test --test it snapshot` writes them anew; a reviewer reads the
-//! difference.
+//! What becomes of the fixture boards, word for word: programs under `snapshots/gcode`, reports
+//! under `snapshots/report`. `INSTA_UPDATE=always cargo test --test it snapshot` writes them anew;
+//! a reviewer reads the difference.
 
 use std::path::Path;
 

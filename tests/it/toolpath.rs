@@ -64,8 +64,8 @@ fn name(owner: Owner) -> String {
     }
 }
 
-/// What every section must keep: it begins and ends at the safe height, rapids are level there or straight up or down through air,
-/// and only feeds go sideways below.
+/// What every section must keep: it begins and ends at the safe height, rapids are level there or
+/// straight up or down through air, and only feeds go sideways below.
 fn assert_safe(section: &Section, heights: Heights) {
     let mut here: Option<Position> = None;
     for step in &section.moves {
@@ -337,7 +337,8 @@ fn a_slot_without_a_mill_is_a_chain_of_holes_with_low_ridges() {
     for pair in deep.windows(2) {
         let half = (pair[1] - pair[0]).to_f64() / 2.0;
         let ridge = 500_000.0 - (500_000.0_f64 * 500_000.0 - half * half).sqrt();
-        // A quarter of the drill apart, which leaves more than half a thousandth of an inch from 0.8 mm on.
+        // A quarter of the drill apart, which leaves more than half a thousandth of an inch from
+        // 0.8 mm on.
         assert!(ridge <= 16_000.0, "a ridge of {ridge} nm");
         assert!(half <= 125_000.0 && half > 100_000.0, "{half} nm");
     }

@@ -1,4 +1,5 @@
-//! Which features conduct: exact contact against rational arithmetic, coincidence, names, holes, gaps.
+//! Which features conduct: exact contact against rational arithmetic, coincidence, names, holes,
+//! gaps.
 
 use std::fs;
 use std::path::{Path as FilePath, PathBuf};
@@ -147,8 +148,8 @@ fn touching_counts_and_a_gap_of_one_nanometre_does_not() {
     }
 }
 
-/// The squared distance of two segments as a fraction: the least value of a convex quadratic over a square, where its
-/// gradient vanishes or on one of the four sides.
+/// The squared distance of two segments as a fraction: the least value of a convex quadratic over a
+/// square, where its gradient vanishes or on one of the four sides.
 fn squared_distance(s: (Point, Point), t: (Point, Point)) -> (i128, i128) {
     let wide = |v: voromill::geometry::Vector| (i128::from(v.x.get()), i128::from(v.y.get()));
     let dot = |a: (i128, i128), b: (i128, i128)| a.0 * b.0 + a.1 * b.1;
@@ -190,7 +191,8 @@ fn edges(shape: &Shape) -> (Vec<(Point, Point)>, i64) {
     }
 }
 
-/// The oracle: every edge against every edge, in rational numbers, and every corner against every area.
+/// The oracle: every edge against every edge, in rational numbers, and every corner against every
+/// area.
 fn touch_slowly(a: &Shape, b: &Shape) -> bool {
     let ((edges_a, r), (edges_b, q)) = (edges(a), edges(b));
     let reach = i128::from(r + q);
@@ -333,7 +335,8 @@ fn any_arc() -> impl Strategy<Value = Shape> {
         .prop_map(|(start, end, by, radius)| arc(ON_CIRCLE[start], ON_CIRCLE[end], by, radius))
 }
 
-/// The distance of an arc's copper from another shape's, negative where they overlap, to a hundredth of a nanometre.
+/// The distance of an arc's copper from another shape's, negative where they overlap, to a
+/// hundredth of a nanometre.
 #[expect(clippy::cast_precision_loss, reason = "small numbers")]
 fn distance_by_steps(shape: &Shape, other: &Shape) -> f64 {
     let Shape::Arc { arc, radius } = shape else { panic!("an arc") };
@@ -525,7 +528,8 @@ fn layer(file: &FilePath, side: Side) -> Copper {
     Copper { side, features, attributes: image.attributes }
 }
 
-/// Every copper layer of every real board that says what its islands are: (board and side, copper, truth).
+/// Every copper layer of every real board that says what its islands are: (board and side, copper,
+/// truth).
 fn layers() -> Vec<(String, Copper, Value)> {
     let mut found = Vec::new();
     let Some(folder) = boards() else { return found };
@@ -592,8 +596,8 @@ fn net_at(copper: &Copper, nets: &Nets, point: Point) -> Option<NetId> {
         .map(|(index, _)| nets.of(index))
 }
 
-/// The boards of the paper's Table V that are to be had: data set, layer, and the nets after Algorithm 1 and after
-/// Algorithm 2 in the logs of the original program.
+/// The boards of the paper's Table V that are to be had: data set, layer, and the nets after
+/// Algorithm 1 and after Algorithm 2 in the logs of the original program.
 const TABLE_V: [(u32, &str, usize, usize); 5] = [
     (1, "visolate_eaglecad1 front", 102, 86),
     (2, "visolate_dan front", 164, 83),
@@ -669,7 +673,8 @@ proptest! {
         let copper = scale_copper(&copper, 1000);
         let traces = topology::recover(&copper, Method::Coincidence);
         let found = topology::translucency(&copper, &traces, sampling).expect("a coarse grid");
-        // With the radius of a disc of a pixel and a half taken off, what still touches overlapped by that disc.
+        // With the radius of a disc of a pixel and a half taken off, what still touches overlapped
+        // by that disc.
         let shrunk = shrink(&copper, 75_000);
         let sure = topology::recover(&shrunk, Method::Contact);
         for net in sure.nets() {

@@ -1,5 +1,5 @@
-//! Every file of a folder or an archive is accounted for: what is meant as a layer and cannot be read is an error that
-//! names it and how to leave it aside.
+//! Every file of a folder or an archive is accounted for: what is meant as a layer and cannot be
+//! read is an error that names it and how to leave it aside.
 
 use std::fs;
 use std::path::PathBuf;
@@ -18,7 +18,8 @@ fn board() -> Folder {
     ])
 }
 
-/// What is said of the board with `name` written anew; the message must tell how to leave it aside, and that must do.
+/// What is said of the board with `name` written anew; the message must tell how to leave it aside,
+/// and that must do.
 fn refused(name: &str, bytes: &[u8]) -> String {
     let folder = board();
     fs::write(folder.path(name), bytes).expect("written");

@@ -52,7 +52,8 @@ fn loops_of_straight_lines_isolate() {
 
 #[test]
 fn what_a_v_bit_leaves_at_the_bottom_of_the_copper_joins() {
-    // Round the left pad, and short of closing the loop: at the surface the round ends overlap, at the bottom of the copper they do not.
+    // Round the left pad, and short of closing the loop: at the surface the round ends overlap, at
+    // the bottom of the copper they do not.
     let around = |gap: &str| {
         format!(
             "(a loop)\nG21 G90 G94\nM3 S10000\nG0 Z2\nG0 X0.85 Y2\nG1 Z-0.1 F60\nG1 X0.85 Y0.85 F120\nX3.15\nY3.15\nX0.85\n\
@@ -94,7 +95,8 @@ fn half_a_circle_leaves_a_bridge() {
 #[test]
 fn a_cut_through_a_pad_is_a_gouge_with_its_depth() {
     let board = load(&["verify/pads-F_Cu.gbr"]).board;
-    // The kerf reaches 0.1 mm beyond its middle, which runs 0.95 mm from the middle of a pad of 1 mm.
+    // The kerf reaches 0.1 mm beyond its middle, which runs 0.95 mm from the middle of a pad of 1
+    // mm.
     let near = text("verify/loops.nc").replace("X3.1500", "X2.9500");
     let report = judge(&board, foreign("loops.nc", near, "endmill:0.2mm", FRONT));
     assert_eq!(names(&report, Severity::Info), ["gouge"], "{:?}", report.findings);
@@ -139,7 +141,8 @@ fn also(way: &str) -> String {
 #[test]
 fn a_gouge_through_the_middle_of_a_pad_has_its_true_depth() {
     let board = load(&["verify/pads-F_Cu.gbr"]).board;
-    // Into the middle of a pad of 1 mm and back: 1 mm and half the kerf, far beyond what a kerf reaches.
+    // Into the middle of a pad of 1 mm and back: 1 mm and half the kerf, far beyond what a kerf
+    // reaches.
     let deep = also("G00 X2 Y0.85\nG01 Z-0.1000\nG01 X2 Y2\n");
     let report = judge(&board, foreign("loops.nc", deep, "endmill:0.2mm", FRONT));
     let gouge = report.findings.iter().find(|finding| finding.name == "gouge").expect("a gouge");
@@ -156,7 +159,8 @@ fn a_part_thinner_than_a_pixel_is_cut_off_all_the_same() {
         let loops = across.replace("X3.1500", "X3.0750").replace("X3.8500", "X3.9250");
         names(&judge(&board, foreign("loops.nc", loops, "endmill:0.2mm", FRONT)), Severity::Error)
     };
-    // The second loop ends 25 µm within the pad's edge at x = 3, and the cut beside it leaves 35 µm, then all but nothing.
+    // The second loop ends 25 µm within the pad's edge at x = 3, and the cut beside it leaves 35
+    // µm, then all but nothing.
     assert!(judged("2.84").contains(&"open"), "35 µm: {:?}", judged("2.84"));
     assert!(!judged("2.87").contains(&"open"), "5 µm are a crumb: {:?}", judged("2.87"));
 }
@@ -250,7 +254,8 @@ fn a_board_that_nothing_holds_is_told() {
     assert_eq!(judged("X6\nG0 Z2\nX3\nG1 Z-1.8\n"), [""; 0], "held by a tab");
 }
 
-/// A straight cut between the pads of 2 mm, whose gap is 1 mm, and what is said of copper that it takes.
+/// A straight cut between the pads of 2 mm, whose gap is 1 mm, and what is said of copper that it
+/// takes.
 fn gouges(way: &str, tool: &str, settings: &Settings) -> Vec<Finding> {
     let board = load(&["verify/pads-F_Cu.gbr"]).board;
     let text = format!("G21 G90 G94 F100\nM3 S10000\nG0 Z2\n{way}G0 Z2\nM5\nM2\n");
@@ -311,7 +316,8 @@ fn what_is_less_than_a_micrometre_is_counted_and_not_listed() {
 #[test]
 fn a_net_whose_end_is_cut_off_has_no_width_of_nothing() {
     let board = load(&["verify/seven-F_Cu.gbr", "verify/seven-Edge_Cuts.gbr"]).board;
-    // Over the free end of a trace of 0.3 mm that lies at y = 6: all of its width goes, from one side.
+    // Over the free end of a trace of 0.3 mm that lies at y = 6: all of its width goes, from one
+    // side.
     let end = "G21 G90 G94 F100\nM3 S10000\nG0 Z2\nG0 X8.4 Y6.2\nG1 Z-0.1\nG1 X8.9\nG0 Z2\nM5\nM2\n";
     let report = judge(&board, foreign("end.nc", end.to_owned(), "endmill:1mm", FRONT));
     let narrow: Vec<_> = report.findings.iter().filter(|finding| finding.name == "minimum-width").collect();

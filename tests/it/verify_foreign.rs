@@ -142,7 +142,8 @@ fn what_is_not_cut_any_more_is_found_with_place_and_area() {
 #[test]
 fn a_loop_that_moved_is_cut_in_one_place_and_left_in_another() {
     let loops = program("loops.nc", "endmill:0.2mm", Side::Front);
-    // A side of a loop moved by half the kerf: the strip left and the strip cut lie on either side of what both cut.
+    // A side of a loop moved by half the kerf: the strip left and the strip cut lie on either side
+    // of what both cut.
     let text = loops.text.replace("X3.1500", "X3.2500");
     let moved = diff(&loops, &Program { text, ..loops.clone() }, Nm::from_um(5), &Settings::default());
     let moved = moved.expect("compared");

@@ -1,4 +1,5 @@
-//! Programs of ours, spoilt in one place: what is wrong is found and named, and nothing where nothing is wrong.
+//! Programs of ours, spoilt in one place: what is wrong is found and named, and nothing where
+//! nothing is wrong.
 
 use std::path::Path;
 
@@ -249,7 +250,8 @@ fn from_segment(p: Point, a: Point, b: Point) -> f64 {
     (dx * dx + dy * dy).sqrt()
 }
 
-/// What is wrong with the judgement of a spoilt program; nothing where the fault was found and named.
+/// What is wrong with the judgement of a spoilt program; nothing where the fault was found and
+/// named.
 fn missed(milled: &Milled, round: usize) -> Option<String> {
     let fault = FAULTS[round % FAULTS.len()];
     let mut dice = Dice(2005 + u64::try_from(round).expect("small"));

@@ -1,4 +1,5 @@
-//! Cutouts and holes, spoilt in one place: what is wrong is found under its name, and nothing where nothing is wrong.
+//! Cutouts and holes, spoilt in one place: what is wrong is found under its name, and nothing where
+//! nothing is wrong.
 
 use std::path::Path;
 use std::sync::LazyLock;

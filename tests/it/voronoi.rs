@@ -36,8 +36,9 @@ fn boundaries(copper: &Copper, settings: &Settings) -> (Nets, Boundaries) {
     (nets, boundaries)
 }
 
-/// How far a point of a boundary is from the true one, in nanometres: the difference of its two distances, or of the nearer of them and a
-/// third net that is nearer still, by how fast that difference changes there.
+/// How far a point of a boundary is from the true one, in nanometres: the difference of its two
+/// distances, or of the nearer of them and a third net that is nearer still, by how fast that
+/// difference changes there.
 fn off_center(
     copper: &Copper,
     nets: &Nets,
@@ -220,7 +221,8 @@ fn the_resolution_does_not_move_the_cut() {
 #[test]
 fn two_nodes_that_pixels_see_as_one_are_two() {
     for off in [15, 25, 35, 45, 60, 80] {
-        // A square's corners would all be equally far from its middle; with one of them moved out, two nodes lie up to 60 µm apart.
+        // A square's corners would all be equally far from its middle; with one of them moved out,
+        // two nodes lie up to 60 µm apart.
         let shapes = [disc(0, 0, 400), disc(6000 + off, off, 400), disc(6000, 6000, 400), disc(0, 6000, 400)];
         let copper = layer(shapes);
         for pitch in [101_600, 50_800, 31_000, 25_400] {
@@ -264,7 +266,8 @@ fn an_offset_curve_keeps_its_distance_in_concave_corners() {
     }
 }
 
-/// How far the points of one graph are from another's paths between the same regions, at most, in nanometres.
+/// How far the points of one graph are from another's paths between the same regions, at most, in
+/// nanometres.
 fn apart(one: &Boundaries, other: &Boundaries) -> f64 {
     let mut farthest: f64 = 0.0;
     for edge in one.edges.iter().filter(|edge| !edge.is_border()) {
@@ -383,7 +386,8 @@ fn nothing_stays_between_the_corners_of_passes() {
 
 #[test]
 fn the_middle_of_a_gap_too_narrow_for_the_next_pass_is_cleared_by_one_cut() {
-    // In a block of one net: a slot, a wedge with every width from 0.36 to 0.72 mm, and a round hole.
+    // In a block of one net: a slot, a wedge with every width from 0.36 to 0.72 mm, and a round
+    // hole.
     let block = [(-500, -500), (5000, -500), (5000, 4500), (-500, 4500)];
     let slot = [(0, 0), (4000, 0), (4000, 480), (0, 480)];
     let wedge = [(0, 1000), (4000, 1000), (4000, 1720), (0, 1360)];
@@ -473,7 +477,8 @@ fn loops_that_touch_in_pixels_alone_are_parted() {
     assert!(!stdout(&done).contains("boundary-not-placed"), "all is placed:\n{}", stdout(&done));
 }
 
-/// Passes of 200 µm that share so many micrometres keep off the copper and clear these places, as far as they lie within this width of it.
+/// Passes of 200 µm that share so many micrometres keep off the copper and clear these places, as
+/// far as they lie within this width of it.
 fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterator<Item = (f64, f64)>) {
     let nets = topology::recover(copper, Method::Contact);
     let diagram = Diagram::new(copper, &nets, None, &Settings::default()).expect("a diagram");
@@ -536,7 +541,8 @@ fn core_sites_keep_every_net_whole_and_know_the_clearance() {
                 assert!(!edge.left.eq(&edge.right), "two regions");
             }
         }
-        // Midway between the axes would be 450 µm up, inside the wide trace: the boundary runs along its edge, or so far from it.
+        // Midway between the axes would be 450 µm up, inside the wide trace: the boundary runs
+        // along its edge, or so far from it.
         let inner = found.edges.iter().filter(|edge| !edge.is_border());
         let middle = inner.flat_map(|edge| edge.path.flatten(Nm::new(100)));
         let lowest =
@@ -567,12 +573,14 @@ fn shape() -> impl Strategy<Value = Shape> {
     ]
 }
 
-/// The cells that a flood from copper goes through, where cuts are as wide as a cell and a half; their side in nanometres is `CELL`.
+/// The cells that a flood from copper goes through, where cuts are as wide as a cell and a half;
+/// their side in nanometres is `CELL`.
 struct Flood {
     columns: i64,
     rows: i64,
     origin: Point,
-    /// The net whose copper a cell's centre lies on, counted from 1; [`Flood::CUT`] where a cut passes.
+    /// The net whose copper a cell's centre lies on, counted from 1; [`Flood::CUT`] where a cut
+    /// passes.
     cells: Vec<u32>,
 }
 
@@ -665,7 +673,8 @@ fn what_is_merged_leaves_no_nets_joined() {
     assert!(merged.get() > 0, "something was merged in some scene");
 }
 
-/// Random scenes whose gaps are wide enough to be seen, the same on every run: a failure is met by whoever caused it.
+/// Random scenes whose gaps are wide enough to be seen, the same on every run: a failure is met by
+/// whoever caused it.
 fn in_random_scenes(seed: u64, cases: u32, holds: impl Fn(&Copper, &Nets) -> Result<(), TestCaseError>) {
     let config = ProptestConfig {
         cases,

@@ -1,4 +1,5 @@
-//! Warnings about files: where, what stands there, what was expected, what to do; for a person and for a program.
+//! Warnings about files: where, what stands there, what was expected, what to do; for a person and
+//! for a program.
 
 use std::fs;
 use std::path::{Path, PathBuf};

@@ -1,3 +1,5 @@
+//! How far a machine may round corners off: the tolerance of G64, where a dialect has one.
+
 use std::fmt;
 use std::str::FromStr;
 

@@ -53,11 +53,13 @@ struct Keys {
 }
 
 impl Dialect {
-    /// A dialect described in TOML: `name`, the `base` that it is like, and the fields of [`Dialect`] that differ.
+    /// A dialect described in TOML: `name`, the `base` that it is like, and the fields of
+    /// [`Dialect`] that differ.
     ///
     /// # Errors
     ///
-    /// [`DialectError`] for what is not TOML, an unknown key or base, and values that make no sense.
+    /// [`DialectError`] for what is not TOML, an unknown key or base, and values that make no
+    /// sense.
     ///
     /// # Examples
     ///

@@ -1,9 +1,11 @@
 //! Grbl 1.1 and what grew out of it.
 //!
-//! They take no canned cycles (grblHAL does), no G64 and no `%` worth writing; a line of Grbl has at most 79 characters once blanks and comments are gone; `?`, `!`, `~` and bytes from
-//! 0x80 act at once, even in a comment. At an M0 within a file Grbl holds and answers nothing: no jog, no G10, so that a new drill cannot be
-//! touched off, and each tool has a file of its own. M6 is error 20 there, and only written to the log by FluidNC; grblHAL waits at it, and
-//! lets the operator jog and set zero (protocol.c of each, system.c and gcode.c of Grbl 1.1h, `$341` of grblHAL).
+//! They take no canned cycles (grblHAL does), no G64 and no `%` worth writing; a line of Grbl has
+//! at most 79 characters once blanks and comments are gone; `?`, `!`, `~` and bytes from 0x80 act
+//! at once, even in a comment. At an M0 within a file Grbl holds and answers nothing: no jog, no
+//! G10, so that a new drill cannot be touched off, and each tool has a file of its own. M6 is error
+//! 20 there, and only written to the log by FluidNC; grblHAL waits at it, and lets the operator jog
+//! and set zero (protocol.c of each, system.c and gcode.c of Grbl 1.1h, `$341` of grblHAL).
 
 use std::borrow::Cow::Borrowed;
 

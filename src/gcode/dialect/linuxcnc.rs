@@ -1,3 +1,5 @@
+//! LinuxCNC as data.
+
 use std::borrow::Cow::Borrowed;
 
 use crate::geometry::Nm;
@@ -7,7 +9,8 @@ use super::{
     ToolChange, Touches,
 };
 
-/// LinuxCNC. G64 with a tolerance lets it blend corners by at most 5 µm, instead of stopping at each or rounding without bound.
+/// LinuxCNC. G64 with a tolerance lets it blend corners by at most 5 µm, instead of stopping at
+/// each or rounding without bound.
 pub(super) const LINUXCNC: Dialect = Dialect {
     name: Borrowed("linuxcnc"),
     about: Borrowed("LinuxCNC 2.8 and later"),

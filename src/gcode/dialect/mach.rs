@@ -7,8 +7,9 @@ use super::{
     ToolChange, Touches,
 };
 
-/// Mach3. G91.1 because its own default for centres is a setting; G64 without a tolerance, which it does not know, would
-/// round corners by the feed, so it runs in exact stop. M30 rewinds; no file is lost by it. Whether G4 counts seconds is a setting too.
+/// Mach3. G91.1 because its own default for centres is a setting; G64 without a tolerance, which it
+/// does not know, would round corners by the feed, so it runs in exact stop. M30 rewinds; no file
+/// is lost by it. Whether G4 counts seconds is a setting too.
 pub(super) const MACH3: Dialect = Dialect {
     name: Borrowed("mach3"),
     about: Borrowed("Mach3"),

@@ -56,7 +56,8 @@ pub struct Dialect {
     pub line_numbers: LineNumbers,
     /// The most characters in a line.
     pub longest_line: usize,
-    /// How far corners may be rounded off, as programs say it (G64 P); none where the controller knows no word for it.
+    /// How far corners may be rounded off, as programs say it (G64 P); none where the controller
+    /// knows no word for it.
     pub blend: Option<Blend>,
     /// The lines before everything else.
     pub start: Cow<'static, [Text]>,
@@ -92,10 +93,12 @@ impl OwnCode {
 /// What small spindles need. Chosen.
 const SPIN_UP: u32 = 3000;
 
-/// The speeds of rapids, level and straight up or down, where programs must say them. Chosen: what the small engravers are sold with.
+/// The speeds of rapids, level and straight up or down, where programs must say them. Chosen: what
+/// the small engravers are sold with.
 const RAPID: [Feed; 2] = [Feed::from_mm_per_min(1500), Feed::from_mm_per_min(600)];
 
-/// Files alone: nothing makes the machine wait for a person within a program, or what does lets nobody set zero.
+/// Files alone: nothing makes the machine wait for a person within a program, or what does lets
+/// nobody set zero.
 const FILES: Cow<'static, [ToolChange]> = Cow::Borrowed(&[ToolChange::Files]);
 
 /// How arcs are written.
@@ -171,7 +174,8 @@ pub enum Dwell {
 pub enum ToolChange {
     /// `T2 M6`: the machine, or its dialogue, does it.
     M6,
-    /// `M0`, or what the dialect has for it, after a comment that says what to fit: the program waits.
+    /// `M0`, or what the dialect has for it, after a comment that says what to fit: the program
+    /// waits.
     Pause,
     /// `M0` with the text behind it, which the machine shows.
     PauseWithText,

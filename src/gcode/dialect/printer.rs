@@ -1,9 +1,11 @@
 //! Firmwares of printers that carry a spindle: Marlin, RepRapFirmware and Klipper.
 //!
-//! They share one feed between G0 and G1, so every rapid says its own and the cut after it repeats its. A comment begins with a semicolon.
-//! Marlin and Klipper read one command a line, make arcs of chords of a millimetre (unless they are set otherwise), so they get lines, and know no M2;
-//! M400 waits until everything queued has been done. In Marlin and RepRapFirmware M30 deletes a file. M0 ends a job in RepRapFirmware and is unknown to
-//! Klipper, so that each tool has a file of its own; in Marlin it waits, but only for a button.
+//! They share one feed between G0 and G1, so every rapid says its own and the cut after it repeats
+//! its. A comment begins with a semicolon. Marlin and Klipper read one command a line, make arcs of
+//! chords of a millimetre (unless they are set otherwise), so they get lines, and know no M2; M400
+//! waits until everything queued has been done. In Marlin and RepRapFirmware M30 deletes a file. M0
+//! ends a job in RepRapFirmware and is unknown to Klipper, so that each tool has a file of its own;
+//! in Marlin it waits, but only for a button.
 
 use std::borrow::Cow::Borrowed;
 

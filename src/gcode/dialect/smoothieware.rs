@@ -1,3 +1,5 @@
+//! Smoothieware as data.
+
 use std::borrow::Cow::Borrowed;
 
 use super::{
@@ -5,9 +7,11 @@ use super::{
     ToolChange, Touches,
 };
 
-/// Smoothieware. Its G4 takes P in seconds or milliseconds by a setting, S always in seconds; its arcs cut corners by
-/// another setting, so arcs are written as lines. G0 has a feed of its own, 100 mm/min until a G0 says another. It answers M0, M1 and M6 with ok and goes on, with
-/// the drill that is in: a tool has a file of its own, and who wants a program to wait gets M600, which suspends it until M601.
+/// Smoothieware. Its G4 takes P in seconds or milliseconds by a setting, S always in seconds; its
+/// arcs cut corners by another setting, so arcs are written as lines. G0 has a feed of its own, 100
+/// mm/min until a G0 says another. It answers M0, M1 and M6 with ok and goes on, with the drill
+/// that is in: a tool has a file of its own, and who wants a program to wait gets M600, which
+/// suspends it until M601.
 pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     name: Borrowed("smoothieware"),
     about: Borrowed("Smoothieware, its CNC build"),

@@ -1,6 +1,7 @@
 //! TinyG and its successor g2core.
 //!
-//! Neither holds at M0 or M6: a tool has a file of its own. G64 is their continuous mode, which keeps within the junction tolerance that is set there.
+//! Neither holds at M0 or M6: a tool has a file of its own. G64 is their continuous mode, which
+//! keeps within the junction tolerance that is set there.
 
 use std::borrow::Cow::Borrowed;
 
@@ -9,7 +10,8 @@ use super::{
     ToolChange, Touches,
 };
 
-/// TinyG. It refuses an arc whose radii differ by a thousandth, and only then asks by how much (plan_arc.c), so it gets a decimal more.
+/// TinyG. It refuses an arc whose radii differ by a thousandth, and only then asks by how much
+/// (plan_arc.c), so it gets a decimal more.
 pub(super) const TINYG: Dialect = Dialect {
     name: Borrowed("tinyg"),
     about: Borrowed("TinyG"),

@@ -1,3 +1,8 @@
+//! Rewrites a program so that its cuts follow a height map, whoever wrote it.
+//!
+//! Only the z of cutting moves changes; all else stays as it was, so that a diff shows nothing but
+//! that.
+
 use std::fmt::Write as _;
 
 use super::words::{Pointer, Word, words};
@@ -12,17 +17,21 @@ use super::modal::{Modal, arc_word};
 /// How a program is bent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Levelling {
-    /// How far the tool may leave its depth below the surface between the points where the program is split.
+    /// How far the tool may leave its depth below the surface between the points where the program
+    /// is split.
     pub tolerance: Nm,
-    /// How far outside the touched area the program may cut; the surface is taken to go on level there.
+    /// How far outside the touched area the program may cut; the surface is taken to go on level
+    /// there.
     pub margin: Nm,
-    /// The height from which on nothing is bent; none for the height of the program's lowest level rapid.
+    /// The height from which on nothing is bent; none for the height of the program's lowest level
+    /// rapid.
     pub safe: Option<Nm>,
     /// What the program says of it, in a comment before its first word.
     pub note: String,
 }
 
-/// 5 µm is a twentieth of a common depth; 2 mm is where a cutter goes that cuts the board out. Both chosen.
+/// 5 µm is a twentieth of a common depth; 2 mm is where a cutter goes that cuts the board out. Both
+/// chosen.
 impl Default for Levelling {
     fn default() -> Self {
         Self { tolerance: Nm::from_um(5), margin: Nm::from_mm(2), safe: None, note: String::new() }
@@ -48,8 +57,8 @@ pub struct Levelled {
 ///
 /// # Errors
 ///
-/// [`LevelError`] for a program that cannot be followed, that cuts outside the touched area, that goes down before it says where, or
-/// that travels lower than the surface is high.
+/// [`LevelError`] for a program that cannot be followed, that cuts outside the touched area, that
+/// goes down before it says where, or that travels lower than the surface is high.
 pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Levelled, LevelError> {
     let listing = read(text)?;
     if let Some((line, what)) = listing.indirect {
@@ -218,7 +227,8 @@ impl<'a> Bender<'a> {
         }
     }
 
-    /// The lines of a motion that is split: the first is the old one with other coordinates, the rest are new.
+    /// The lines of a motion that is split: the first is the old one with other coordinates, the
+    /// rest are new.
     fn pieces(&mut self, source: &str, words: &[Word<'_>], motion: &Motion, ends: &[Place]) {
         let stops = |word: &&Word<'_>| {
             word.letter == 'M' && matches!(word.number.times(1), Some(0 | 1 | 2 | 30 | 60))

@@ -45,11 +45,12 @@ impl Course {
         }
     }
 
-    /// The fractions at which it must be split so that, going evenly up or down between them, it is nowhere more than `tolerance` above or
-    /// below a constant depth; ends with 1.
+    /// The fractions at which it must be split so that, going evenly up or down between them, it is
+    /// nowhere more than `tolerance` above or below a constant depth; ends with 1.
     ///
-    /// The surface is looked at so often that it cannot leave its chords by a fifth of the tolerance between two looks: it rises by `slope`
-    /// at most. What is left of the tolerance is for the pieces (Douglas and Peucker).
+    /// The surface is looked at so often that it cannot leave its chords by a fifth of the
+    /// tolerance between two looks: it rises by `slope` at most. What is left of the tolerance is
+    /// for the pieces (Douglas and Peucker).
     pub(super) fn splits(&self, map: &HeightMap, slope: f64, tolerance: Nm) -> Vec<f64> {
         let tolerance = tolerance.to_f64();
         let looks = count(self.length() * slope * 5.0 / tolerance);
@@ -78,7 +79,8 @@ fn ratio(part: usize, whole: usize) -> f64 {
     part as f64 / whole as f64
 }
 
-/// The indices of the values that are to be kept, so that straight lines between them stay within `tolerance` of all; without the first.
+/// The indices of the values that are to be kept, so that straight lines between them stay within
+/// `tolerance` of all; without the first.
 fn simplify(values: &[f64], tolerance: f64) -> Vec<usize> {
     let mut kept = Vec::new();
     let mut open = vec![(0, values.len() - 1)];

@@ -1,3 +1,5 @@
+//! Why a text is no height map, and why a program cannot be levelled by one.
+
 use crate::geometry::Nm;
 use crate::geometry::Point;
 

@@ -1,3 +1,5 @@
+//! The height of a surface, probed in a grid and bilinear in between.
+
 use crate::geometry::{Nm, Point, Rect};
 
 use super::error::MapError;
@@ -14,8 +16,8 @@ use super::format::Touch;
 ///
 /// # Guarantees
 ///
-/// At least two columns and two rows, each further than the one before; no two neighbouring crossings
-/// are steeper than 1 in 4.
+/// At least two columns and two rows, each further than the one before; no two neighbouring
+/// crossings are steeper than 1 in 4.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HeightMap {
     /// In nanometres, as all that follows.
@@ -25,15 +27,19 @@ pub struct HeightMap {
     heights: Vec<f64>,
 }
 
-/// Coordinates this near are those of one line of the grid: what a machine rounds to its steps. Chosen.
+/// Coordinates this near are those of one line of the grid: what a machine rounds to its steps.
+/// Chosen.
 const SAME: f64 = 50_000.0;
-/// Touches of one place this near agree, in nanometres. Chosen: a quick touch and the slow one after it differ by less.
+/// Touches of one place this near agree, in nanometres. Chosen: a quick touch and the slow one
+/// after it differ by less.
 const AGREE: f64 = 50_000.0;
-/// The steepest surface. Chosen: a sheet on a bed rises by a hundredth; a quarter is inches for millimetres, or a probe that slipped.
+/// The steepest surface. Chosen: a sheet on a bed rises by a hundredth; a quarter is inches for
+/// millimetres, or a probe that slipped.
 const STEEPEST: f64 = 0.25;
 
 impl HeightMap {
-    /// The surface through touched points in nanometres, in any order; of several touches of one place that agree the last holds.
+    /// The surface through touched points in nanometres, in any order; of several touches of one
+    /// place that agree the last holds.
     ///
     /// # Errors
     ///
@@ -128,7 +134,8 @@ impl HeightMap {
         Nm::from_f64(self.height(x, y))
     }
 
-    /// How much it rises at most for each unit of way: within a cell each slope lies between those of two edges.
+    /// How much it rises at most for each unit of way: within a cell each slope lies between those
+    /// of two edges.
     pub(super) fn slope(&self) -> f64 {
         let (mut x, mut y) = (0.0_f64, 0.0_f64);
         for (a, b, run) in self.edges() {

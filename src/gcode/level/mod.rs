@@ -1,10 +1,12 @@
 //! Bending a program to the surface that the machine really has.
 //!
-//! A sheet of copper lies a tenth of a millimetre higher here than there, as much as a cut is deep; so machinists touch it in a grid of
-//! points before they cut. [`level()`] takes the [`HeightMap`] of those touches and anybody's program, and adds the
-//! height of the surface to every z below the height for travel. Between the points the surface is bilinear, as bCNC and OpenCNCPilot have
-//! it, so a straight cut follows it on short straight pieces, and an arc on short helices: as few as keep the tool within a given
-//! height of the surface. Whatever does not cut stays as it is, to the letter: comments, tool changes, feeds, rapids above the board.
+//! A sheet of copper lies a tenth of a millimetre higher here than there, as much as a cut is deep;
+//! so machinists touch it in a grid of points before they cut. [`level()`] takes the [`HeightMap`]
+//! of those touches and anybody's program, and adds the height of the surface to every z below the
+//! height for travel. Between the points the surface is bilinear, as bCNC and OpenCNCPilot have it,
+//! so a straight cut follows it on short straight pieces, and an arc on short helices: as few as
+//! keep the tool within a given height of the surface. Whatever does not cut stays as it is, to the
+//! letter: comments, tool changes, feeds, rapids above the board.
 //!
 //! ```text
 //!   z ┄┄┄┄┄┄┄╮ safe: untouched    ╭┄┄┄
@@ -14,9 +16,10 @@
 //!                   ╰───╯
 //! ```
 //!
-//! Tried and left: splitting at every line of the grid and evenly between them is what others do, and made programs three to
-//! ten times as long; splitting where the surface leaves the chord by more than the tolerance (Douglas and Peucker's way) makes a
-//! program on a gently bent sheet a tenth longer.
+//! Tried and left: splitting at every line of the grid and evenly between them is what others do,
+//! and made programs three to ten times as long; splitting where the surface leaves the chord by
+//! more than the tolerance (Douglas and Peucker's way) makes a program on a gently bent sheet a
+//! tenth longer.
 
 mod bend;
 mod course;

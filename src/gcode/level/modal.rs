@@ -1,3 +1,5 @@
+//! The modal state that levelling has to know: units, distance mode, motion, plane.
+
 use super::words::Word;
 use crate::geometry::Turn;
 
@@ -39,8 +41,8 @@ impl Modal {
         }
     }
 
-    /// Decimals that tell a tenth of a micrometre, a quarter in inches: no less than the usual, so that the ends of short arcs
-    /// are as far from their centre as controllers ask.
+    /// Decimals that tell a tenth of a micrometre, a quarter in inches: no less than the usual, so
+    /// that the ends of short arcs are as far from their centre as controllers ask.
     pub(super) const fn decimals(self) -> usize {
         if self.unit == 1_000_000 { 4 } else { 5 }
     }

@@ -1,8 +1,10 @@
-//! Touches that no sheet has: a chip under the probe, a wire that slipped, a line of the log that was lost.
+//! Touches that no sheet has: a chip under the probe, a wire that slipped, a line of the log that
+//! was lost.
 //!
-//! A sheet is smooth, so a place lies near the plane through its neighbours; how near, the rest of the map says. A touch that lies farther
-//! off than that is named, one at a time, the one without which its neighbourhood becomes smoothest first: it spoils the planes
-//! of its neighbours too, and they are judged again without it.
+//! A sheet is smooth, so a place lies near the plane through its neighbours; how near, the rest of
+//! the map says. A touch that lies farther off than that is named, one at a time, the one without
+//! which its neighbourhood becomes smoothest first: it spoils the planes of its neighbours too, and
+//! they are judged again without it.
 //!
 //! ```text
 //!   ·   ·   ·   ·        off = height − plane through the up to eight neighbours
@@ -30,7 +32,8 @@ pub struct Outlier {
 
 /// What is never called an outlier, in nanometres. Chosen: half of the depth of a usual cut.
 const LEAST: f64 = 50_000.0;
-/// How often the median of the others. Chosen: of a normal scatter the farthest of a hundred is 4.5 medians off, and at a corner twice that.
+/// How often the median of the others. Chosen: of a normal scatter the farthest of a hundred is 4.5
+/// medians off, and at a corner twice that.
 const TIMES: f64 = 12.0;
 /// With fewer touches there is no telling.
 const FEWEST: usize = 9;
@@ -97,7 +100,8 @@ impl HeightMap {
         .filter(move |&other| other != at)
     }
 
-    /// How far a crossing lies above the plane that fits its neighbours best; none where they make no plane.
+    /// How far a crossing lies above the plane that fits its neighbours best; none where they make
+    /// no plane.
     #[expect(clippy::cast_precision_loss, reason = "at most eight")]
     fn off_plane(&self, at: usize, left_out: &[bool]) -> Option<f64> {
         if left_out[at] {
@@ -140,7 +144,8 @@ fn median(mut values: Vec<f64>) -> f64 {
 mod tests {
     use super::*;
 
-    /// A bowed and tilted sheet, touched every 10 mm with a scatter of a few micrometres, and some places lower.
+    /// A bowed and tilted sheet, touched every 10 mm with a scatter of a few micrometres, and some
+    /// places lower.
     fn sheet(columns: u32, rows: u32, wrong: &[(u32, u32, f64)]) -> HeightMap {
         let touch = |at: u32| {
             let (i, j) = (at % columns, at / columns);

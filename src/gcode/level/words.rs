@@ -10,7 +10,8 @@ pub(super) struct Number {
 }
 
 impl Number {
-    /// The number of `unit`s it stands for, in whole ones, halves away from zero; none beyond an `i64`.
+    /// The number of `unit`s it stands for, in whole ones, halves away from zero; none beyond an
+    /// `i64`.
     pub(super) fn times(self, unit: i64) -> Option<i64> {
         let scale = 10_i128.pow(self.decimals);
         let scaled = i128::from(self.mantissa) * i128::from(unit);
@@ -28,7 +29,8 @@ pub(super) struct Word<'a> {
     pub(super) text: &'a str,
 }
 
-/// How many characters of an offending text an error shows. Chosen: more than any word, less than a line of a terminal.
+/// How many characters of an offending text an error shows. Chosen: more than any word, less than a
+/// line of a terminal.
 const SHOWN: usize = 40;
 
 /// Makes errors that point into a line.
@@ -87,7 +89,8 @@ pub(super) fn words<'a>(pointer: Pointer<'a>) -> Result<Vec<Word<'a>>, ReadError
     Ok(words)
 }
 
-/// Whether what follows the words so far is a text for the operator (Marlin's `M0 insert the drill`).
+/// Whether what follows the words so far is a text for the operator (Marlin's
+/// `M0 insert the drill`).
 fn shows_text(words: &[Word<'_>]) -> bool {
     words.last().is_some_and(|word| {
         word.letter == 'M' && word.number.decimals == 0 && matches!(word.number.mantissa, 0 | 1 | 117)
@@ -106,7 +109,8 @@ fn reason(bytes: &[u8], at: usize) -> &'static str {
     }
 }
 
-/// The number after the letter at `at`, and where it ends. Blanks within are ignored, as the controllers do.
+/// The number after the letter at `at`, and where it ends. Blanks within are ignored, as the
+/// controllers do.
 fn word(source: &str, at: usize) -> Option<(Number, usize)> {
     let bytes = source.as_bytes();
     let (mut end, mut negative, mut signed, mut digits, mut mantissa) = (at + 1, false, false, 0_u32, 0_i64);

@@ -1,4 +1,5 @@
-//! G-code of a user's own within a program that voromill wrote: it may go to places of the machine, or turn on what nobody knows, so it is passed over.
+//! G-code of a user's own within a program that voromill wrote: it may go to places of the machine,
+//! or turn on what nobody knows, so it is passed over.
 
 use std::borrow::Cow;
 
@@ -8,7 +9,8 @@ const ENDS: &str = "own G-code ends";
 
 /// `text` with the user's own G-code as empty lines, so that all others keep their numbers.
 ///
-/// The program says after it what is in force and where it goes, so nothing that follows depends on it.
+/// The program says after it what is in force and where it goes, so nothing that follows depends on
+/// it.
 #[must_use]
 pub fn without_own_code(text: &str) -> Cow<'_, str> {
     if !text.lines().any(|line| is(line, BEGINS)) {

@@ -1,3 +1,5 @@
+//! The words of one line of a drill program, sorted by what they do.
+
 use super::lex::Word;
 use crate::geometry::Turn;
 
@@ -32,8 +34,9 @@ impl Cycle {
 
 /// The words of a line, sorted by what they do.
 ///
-/// A tool that stands behind coordinates (`X2876Y1842T1`) is changed before they are drilled, as the machines do; so
-/// the order of the words matters only for `G84` and `G85`, which part a place from what is done there.
+/// A tool that stands behind coordinates (`X2876Y1842T1`) is changed before they are drilled, as
+/// the machines do; so the order of the words matters only for `G84` and `G85`, which part a place
+/// from what is done there.
 #[derive(Debug, Default)]
 pub(super) struct Block<'a> {
     pub(super) tool: Option<&'a Word>,

@@ -1,9 +1,10 @@
 //! What the header and the comments of a drill file declare.
 //!
-//! Half of it stands in comments, each program its own way: `;FILE_FORMAT=2:4` (Altium, EasyEDA, Eagle),
-//! `;FORMAT={3:3/ absolute / metric / suppress leading zeros}` and `; #@! TF.FileFunction,…` (KiCad),
-//! `;TYPE=NON_PLATED` (Altium, EasyEDA), `;Holesize 1. = 24.0 … PLATED MILS` and `;T01 Holesize 1. = 24.0 …`
-//! (OrCAD and Allegro, whose tools have no `C`).
+//! Half of it stands in comments, each program its own way: `;FILE_FORMAT=2:4` (Altium, EasyEDA,
+//! Eagle), `;FORMAT={3:3/ absolute / metric / suppress leading zeros}` and
+//! `; #@! TF.FileFunction,…` (KiCad), `;TYPE=NON_PLATED` (Altium, EasyEDA),
+//! `;Holesize 1. = 24.0 … PLATED MILS` and `;T01 Holesize 1. = 24.0 …` (OrCAD and Allegro, whose
+//! tools have no `C`).
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -112,8 +113,9 @@ impl Declared {
         }
     }
 
-    /// `HOLESIZE 1. = 24.000000 TOLERANCE = … PLATED MILS QUANTITY = 12`, `HOLESIZE 1 = 0.0120 INCH`; of the tool that stands before
-    /// it, or else of the one that it counts.
+    /// `HOLESIZE 1. = 24.000000 TOLERANCE = … PLATED MILS QUANTITY = 12`,
+    /// `HOLESIZE 1 = 0.0120 INCH`; of the tool that stands before it, or else of the one that it
+    /// counts.
     fn hole_size(&mut self, tool: Option<u32>, text: &str) {
         let mut words = text.split_whitespace().skip(1);
         let counted = words.next().and_then(|word| word.trim_end_matches('.').parse::<u32>().ok());
@@ -132,7 +134,8 @@ impl Declared {
     }
 }
 
-/// A line of a table of tools: the tool that it names first, if it does, and what begins with `HOLESIZE`.
+/// A line of a table of tools: the tool that it names first, if it does, and what begins with
+/// `HOLESIZE`.
 fn hole_table(text: &str) -> Option<(Option<u32>, &str)> {
     let (head, rest) = text.split_at_checked(text.find("HOLESIZE")?)?;
     let head = head.trim();

@@ -1,8 +1,9 @@
 //! How digits become lengths.
 //!
-//! A coordinate such as `X0152` has no decimal point: units, the number of digits before and after the point, and
-//! which zeros were left out decide together where the hole is. The words are a trap: Excellon's `LZ` says that
-//! *leading* zeros are *kept* (so trailing ones are left out), the opposite of Gerber's `L`.
+//! A coordinate such as `X0152` has no decimal point: units, the number of digits before and after
+//! the point, and which zeros were left out decide together where the hole is. The words are a
+//! trap: Excellon's `LZ` says that *leading* zeros are *kept* (so trailing ones are left out), the
+//! opposite of Gerber's `L`.
 
 use std::fmt;
 
@@ -34,7 +35,8 @@ impl Units {
         }
     }
 
-    /// Digits before and after the point where the file does not say: the formats of the Excellon CNC-7 manual.
+    /// Digits before and after the point where the file does not say: the formats of the Excellon
+    /// CNC-7 manual.
     pub(super) const fn default_digits(self) -> Digits {
         match self {
             Self::Inch => Digits { whole: 2, decimals: 4 },
@@ -82,8 +84,8 @@ impl NumberFormat {
         scaled(number, point - i32::from(number.beyond), self.units)
     }
 
-    /// The diameter that `number` means. One without a point is whole millimetres where that makes a drill, else
-    /// micrometres; mils where the unit is the inch.
+    /// The diameter that `number` means. One without a point is whole millimetres where that makes
+    /// a drill, else micrometres; mils where the unit is the inch.
     pub(super) fn diameter(self, number: Number) -> Option<Nm> {
         let point = match (number.decimals, self.units) {
             (Some(decimals), _) => i32::from(decimals),
@@ -97,7 +99,8 @@ impl NumberFormat {
 /// `digits` × 10^−`point` units in nanometres, rounded half away from zero.
 fn scaled(number: Number, point: i32, units: Units) -> Option<Nm> {
     let value = i128::from(number.digits) * units.nm();
-    // 18 digits in inches are below 10²⁶ nanometres: of what has more decimals than that nothing is left.
+    // 18 digits in inches are below 10²⁶ nanometres: of what has more decimals than that nothing is
+    // left.
     let power =
         10_i128.checked_pow(if point < 0 { point.unsigned_abs() } else { point.unsigned_abs().min(37) })?;
     let nm = if point < 0 { value.checked_mul(power)? } else { (value + power / 2) / power };

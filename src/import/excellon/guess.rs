@@ -1,8 +1,9 @@
 //! Which number format a file means that does not say.
 //!
-//! Drill files of thirty years name their units, their zeros and their digits in any combination, or not at all. Each
-//! reading that the file allows is tried, and the one that puts most holes on pads (and next, inside the copper)
-//! wins; among equals the formats of the Excellon manual come first.
+//! Drill files of thirty years name their units, their zeros and their digits in any combination,
+//! or not at all. Each reading that the file allows is tried, and the one that puts most holes on
+//! pads (and next, inside the copper) wins; among equals the formats of the Excellon manual come
+//! first.
 
 use std::collections::BTreeSet;
 
@@ -21,9 +22,11 @@ pub struct Context {
     bounds: Option<Rect>,
 }
 
-/// The cell that a pad fills: a hole in it or in one beside it counts as its hole, so within 0.1 mm always.
+/// The cell that a pad fills: a hole in it or in one beside it counts as its hole, so within 0.1 mm
+/// always.
 ///
-/// Chosen: above the 25 µm that rounding both to mils may part them, below the distance of any two pads.
+/// Chosen: above the 25 µm that rounding both to mils may part them, below the distance of any two
+/// pads.
 const NEAR: i64 = 100_000;
 
 impl Context {
@@ -68,7 +71,8 @@ pub(super) struct Score {
 }
 
 impl Score {
-    /// The figure to compare: a hole on a pad counts twice, as chance puts many inside but few on pads.
+    /// The figure to compare: a hole on a pad counts twice, as chance puts many inside but few on
+    /// pads.
     pub(super) const fn points(self) -> usize {
         2 * self.on_pads + self.inside
     }
@@ -91,7 +95,8 @@ pub(super) fn all(lines: &[Line]) -> Vec<NumberFormat> {
     candidates(&Declared::default(), lines)
 }
 
-/// The readings that a file allows, the likeliest first. One alone where it says all, or writes every point.
+/// The readings that a file allows, the likeliest first. One alone where it says all, or writes
+/// every point.
 pub(super) fn candidates(declared: &Declared, lines: &[Line]) -> Vec<NumberFormat> {
     let units = declared.units.as_ref().map_or_else(|| likely_units(lines), |(units, _)| vec![*units]);
     let open = has_bare_coordinates(lines);
@@ -126,7 +131,8 @@ fn usual_digits(units: Units) -> Vec<Digits> {
     usual.iter().map(|&(whole, decimals)| Digits { whole, decimals }).collect()
 }
 
-/// The units by the sizes of the tools: no board has all its holes below 0.3 mm, nor one of 7 mm that is an inch wide.
+/// The units by the sizes of the tools: no board has all its holes below 0.3 mm, nor one of 7 mm
+/// that is an inch wide.
 fn likely_units(lines: &[Line]) -> Vec<Units> {
     let sizes = || words(lines).filter(|word| word.letter == b'C').filter_map(|word| value(word.number));
     let largest = sizes().fold(0.0_f64, f64::max);

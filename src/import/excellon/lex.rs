@@ -4,18 +4,21 @@ use std::ops::Range;
 
 use crate::import::error::Error;
 
-/// The text of a number, not yet a length: that takes units and, without a decimal point, a number format.
+/// The text of a number, not yet a length: that takes units and, without a decimal point, a number
+/// format.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Number {
     /// Whether a minus stands before it.
     pub(super) negative: bool,
-    /// The first 18 digits, zeros before the first of them left aside, as one integer, the point left out.
+    /// The first 18 digits, zeros before the first of them left aside, as one integer, the point
+    /// left out.
     pub(super) digits: u64,
     /// How many digits there are, leading zeros counted.
     pub(super) count: u8,
     /// How many of `digits` stand after the point; none without a point.
     pub(super) decimals: Option<u8>,
-    /// How many digits before the point `digits` does not hold; those after it that it does not hold are below any rounding.
+    /// How many digits before the point `digits` does not hold; those after it that it does not
+    /// hold are below any rounding.
     pub(super) beyond: u8,
 }
 
@@ -45,7 +48,8 @@ pub(super) enum Kind {
     Comment(String),
     /// `%`: the end of the header, or the start of the program.
     Percent,
-    /// A header command that is a word: `INCH,TZ`, `M71,LZ`, `FMAT,2`; in upper case, split at the commas.
+    /// A header command that is a word: `INCH,TZ`, `M71,LZ`, `FMAT,2`; in upper case, split at the
+    /// commas.
     Keyword(Vec<String>),
     /// Letters with numbers.
     Words(Vec<Word>),
@@ -64,8 +68,8 @@ pub(super) struct Line {
     pub(super) kind: Kind,
 }
 
-/// The most lines that a file may have. Chosen above [`MOST_HOLES`](super::machine::MOST_HOLES), and below a gigabyte of
-/// memory.
+/// The most lines that a file may have. Chosen above [`MOST_HOLES`](super::machine::MOST_HOLES),
+/// and below a gigabyte of memory.
 const MOST_LINES: usize = 3_000_000;
 
 /// The lines of a file that say something, in order.
@@ -98,7 +102,8 @@ fn line_places(bytes: &[u8]) -> impl Iterator<Item = Range<usize>> {
     })
 }
 
-/// Messages for the operator, whose text is free: `M47,CHANGE BIT`, `M97,` and `M98,` (text to be drilled).
+/// Messages for the operator, whose text is free: `M47,CHANGE BIT`, `M97,` and `M98,` (text to be
+/// drilled).
 const MESSAGES: [&str; 4] = ["M45", "M47", "M97", "M98"];
 
 struct Lexer<'a> {
@@ -109,7 +114,8 @@ struct Lexer<'a> {
 }
 
 impl Lexer<'_> {
-    /// Reads the whole line into at most two lines: what stands before a semicolon, and the comment after it.
+    /// Reads the whole line into at most two lines: what stands before a semicolon, and the comment
+    /// after it.
     fn line(mut self, number: u32, found: &mut Vec<Line>) -> Result<(), Error> {
         self.skip_blanks();
         let place = self.at..self.end;
@@ -129,7 +135,8 @@ impl Lexer<'_> {
     }
 
     fn code(&mut self) -> Result<Option<Kind>, Error> {
-        // An optional block (`/`) is drilled: leaving it out is the operator's choice, made at the machine.
+        // An optional block (`/`) is drilled: leaving it out is the operator's choice, made at the
+        // machine.
         while matches!(self.peek(), Some(b'/')) {
             self.at += 1;
             self.skip_blanks();
@@ -229,7 +236,8 @@ fn broken_tool(line: &[u8]) -> Option<u32> {
     text(&rest[..digits]).parse().ok().filter(|_| is_definition)
 }
 
-/// Whether a line is a header command or a message and not letters with numbers: `INCH,TZ`, `M71,LZ`, `R,T`, `M47…`.
+/// Whether a line is a header command or a message and not letters with numbers: `INCH,TZ`,
+/// `M71,LZ`, `R,T`, `M47…`.
 fn is_keyword(line: &str) -> bool {
     let bytes = line.as_bytes();
     let two_letters = bytes.len() >= 2 && bytes[..2].iter().all(u8::is_ascii_alphabetic);

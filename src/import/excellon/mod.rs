@@ -1,8 +1,9 @@
 //! Excellon drill files, versions 1 and 2, as thirty years of programs wrote them.
 //!
-//! There is no standard that all of them follow: the manual of the Excellon CNC-7 machines (header `M48` to `%`,
-//! tools `T1C0.8`, holes `X…Y…`, slots `G85`, routing `G00`/`M15`/`G01`/`M16`) is a common ground, but files leave out
-//! the header, the units, the zeros or the number of digits. So reading goes in four steps:
+//! There is no standard that all of them follow: the manual of the Excellon CNC-7 machines (header
+//! `M48` to `%`, tools `T1C0.8`, holes `X…Y…`, slots `G85`, routing `G00`/`M15`/`G01`/`M16`) is a
+//! common ground, but files leave out the header, the units, the zeros or the number of digits. So
+//! reading goes in four steps:
 //!
 //! ```text
 //!  bytes ─ lex ─▶ lines ─ declared ─▶ what the file says ─ guess ─▶ number formats ─ machine ─▶ holes
@@ -10,9 +11,10 @@
 //!                                                            └─ how many lie on pads? ─┘
 //! ```
 //!
-//! Only where the file leaves a choice is it run more than once, and a choice that is not the manual's default is
-//! reported with its reason. What cannot be read for certain, such as a square package (`G82`), is an error: a drill in
-//! the wrong place ruins the board. `docs/excellon.md` lists every construct with the fixture that shows it.
+//! Only where the file leaves a choice is it run more than once, and a choice that is not the
+//! manual's default is reported with its reason. What cannot be read for certain, such as a square
+//! package (`G82`), is an error: a drill in the wrong place ruins the board. `docs/excellon.md`
+//! lists every construct with the fixture that shows it.
 
 mod block;
 mod declared;
@@ -48,13 +50,13 @@ pub struct Drilling {
     pub warnings: Vec<Warning>,
 }
 
-/// Reads the drill file `name` with content `bytes`. `context` is what is known of the copper: it decides between
-/// number formats where the file does not name its own.
+/// Reads the drill file `name` with content `bytes`. `context` is what is known of the copper: it
+/// decides between number formats where the file does not name its own.
 ///
 /// # Errors
 ///
-/// A file that is no Excellon, a command that cannot be read for certain, a tool without a diameter, a coordinate
-/// beyond a metre, more holes than any board has.
+/// A file that is no Excellon, a command that cannot be read for certain, a tool without a
+/// diameter, a coordinate beyond a metre, more holes than any board has.
 pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Error> {
     refuse_others(name, bytes)?;
     let mut lines = lex::lines(name, bytes)?;
@@ -117,7 +119,8 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     tells.into_iter().next().unwrap_or(false)
 }
 
-/// Whether the first line that says something could stand in a drill file, and not in G-code, which has Z.
+/// Whether the first line that says something could stand in a drill file, and not in G-code, which
+/// has Z.
 fn begins_as_drill(line: &str) -> bool {
     if ["M48", "INCH", "METRIC"].iter().any(|head| line.starts_with(head)) {
         return true;
@@ -138,8 +141,8 @@ fn begins_as_drill(line: &str) -> bool {
     words > 0 && rest.is_empty() && line.starts_with(['T', 'X', 'Y', 'G'])
 }
 
-/// Whether the file ends in the middle of a line: one without its end, in a file without its end. A coordinate that
-/// lost its last digits is a hole elsewhere.
+/// Whether the file ends in the middle of a line: one without its end, in a file without its end. A
+/// coordinate that lost its last digits is a hole elsewhere.
 fn cut_off(declared: &Declared, bytes: &[u8]) -> bool {
     let last = bytes.iter().rev().take_while(|b| !matches!(b, b'\n' | b'\r'));
     !declared.ended && last.clone().any(|b| matches!(b, b'X' | b'Y' | b'x' | b'y'))
@@ -193,7 +196,8 @@ pub(super) fn plating_by_function(function: &str) -> Plating {
 
 /// A drill wider than any drill is a unit taken for another.
 fn warn_of_size(run: &Run, warnings: &mut Warnings<'_>) {
-    /// Chosen: mounting holes end at 7 mm; an inch taken for a millimetre makes a 0.4 mm drill wider than this.
+    /// Chosen: mounting holes end at 7 mm; an inch taken for a millimetre makes a 0.4 mm drill
+    /// wider than this.
     const WIDEST: Nm = Nm::from_mm(10);
     let used = |tool: u32| run.holes.iter().any(|hole| hole.tool == tool && !hole.is_slot());
     for (number, tool) in run.tools.iter().filter(|(number, tool)| tool.diameter > WIDEST && used(**number)) {
@@ -253,8 +257,9 @@ impl Reading {
         Ok(if context.is_empty() || !score.is_off() { allowed } else { allowed.or_any(file, context) })
     }
 
-    /// This reading, under which most holes lie beside the board; or the one, if there is one, that all speaks for but what the file
-    /// declares: every hole lies on the board, most of them on pads, and drills are as wide as drills are.
+    /// This reading, under which most holes lie beside the board; or the one, if there is one, that
+    /// all speaks for but what the file declares: every hole lies on the board, most of them on
+    /// pads, and drills are as wide as drills are.
     fn or_any(self, file: File<'_>, context: &Context) -> Self {
         /// Chosen: two holes may lie on pads by chance.
         const LEAST: usize = 3;

@@ -22,7 +22,8 @@ pub(super) enum Center {
     Radius(Nm),
 }
 
-/// The arc from `from` to `to`; none where a radius is given for a full circle, or a way of no length.
+/// The arc from `from` to `to`; none where a radius is given for a full circle, or a way of no
+/// length.
 pub(super) fn arc(from: Point, to: Point, turn: Turn, center: Center) -> Option<Segment> {
     let center = match center {
         Center::Offset(way) => by_offset(from, to, way),
@@ -32,8 +33,8 @@ pub(super) fn arc(from: Point, to: Point, turn: Turn, center: Center) -> Option<
     (center != from).then_some(Segment::Arc { to, center, turn })
 }
 
-/// The centre that `I` and `J` lead to. The manual counts them from the centre to the start, most programs the other
-/// way: the one holds that is as far from the end as from the start.
+/// The centre that `I` and `J` lead to. The manual counts them from the centre to the start, most
+/// programs the other way: the one holds that is as far from the end as from the start.
 fn by_offset(from: Point, to: Point, way: Vector) -> Point {
     let mismatch = |center: Point| (center.distance(from) - center.distance(to)).abs();
     let (ahead, behind) = (from + way, from - way);

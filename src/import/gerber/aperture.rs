@@ -1,4 +1,5 @@
-//! Apertures (AD, specification §4.3 and §4.4) and the form each takes under the transformation in force.
+//! Apertures (AD, specification §4.3 and §4.4) and the form each takes under the transformation in
+//! force.
 
 use std::f64::consts::PI;
 use std::sync::Arc as Shared;
@@ -152,7 +153,8 @@ impl Template {
         }
     }
 
-    /// What it takes to make its form, in vertices: each change of exposure goes over all that came before.
+    /// What it takes to make its form, in vertices: each change of exposure goes over all that came
+    /// before.
     pub(super) fn effort(&self, linear: Linear) -> u64 {
         let Self::Macro { primitives, .. } = self else { return 0 };
         let outlines: Vec<_> = primitives.iter().flat_map(|p| p.figure.outlines(linear)).collect();

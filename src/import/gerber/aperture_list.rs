@@ -1,8 +1,9 @@
 //! Aperture lists: what a plotter's wheel holds, in a file beside an RS-274-D Gerber file.
 //!
-//! There is no standard. Every program printed a table for a person at the plotter, so the table is read as that person
-//! reads it: a line that has a D code, a word for a shape and one to three sizes is an aperture, whatever stands around
-//! them; all else is prose, in which units and the number format are looked for.
+//! There is no standard. Every program printed a table for a person at the plotter, so the table is
+//! read as that person reads it: a line that has a D code, a word for a shape and one to three
+//! sizes is an aperture, whatever stands around them; all else is prose, in which units and the
+//! number format are looked for.
 //!
 //! ```text
 //!  D10   ROUNDED      12.000  12.000  0.000  LINE      Protel: x, y, hole; mils
@@ -11,8 +12,9 @@
 //!  D13   Oval  1.5mm 0.9mm  Flash                      anybody's
 //! ```
 //!
-//! What such a line leaves open (a thermal without its gap, a circle with two sizes, an aperture given twice and
-//! differently) is kept as a reason, and is an error only where the Gerber file draws with it.
+//! What such a line leaves open (a thermal without its gap, a circle with two sizes, an aperture
+//! given twice and differently) is kept as a reason, and is an error only where the Gerber file
+//! draws with it.
 
 mod prose;
 mod row;
@@ -51,7 +53,8 @@ pub(super) enum Entry {
     Unclear { line: u32, reason: String },
 }
 
-/// The largest list that is looked at: a wheel has 24 apertures, the longest list of a program some thousand.
+/// The largest list that is looked at: a wheel has 24 apertures, the longest list of a program some
+/// thousand.
 const MOST_BYTES: usize = 1 << 20;
 
 impl ApertureList {

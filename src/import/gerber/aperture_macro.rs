@@ -1,4 +1,5 @@
-//! Aperture macros (AM, specification §4.5): a definition is kept as text and evaluated for each aperture made of it.
+//! Aperture macros (AM, specification §4.5): a definition is kept as text and evaluated for each
+//! aperture made of it.
 
 use std::f64::consts::PI;
 use std::ops::Range;
@@ -8,8 +9,8 @@ use super::figure::{Figure, Primitive, arc};
 use super::lex::{Block, Number, is_blank};
 use super::state::{Linear, Unit};
 
-/// The most vertices of a regular polygon, and the most rings of a moiré. The specification allows 12 vertices; tools
-/// have been seen to draw circles with a hundred.
+/// The most vertices of a regular polygon, and the most rings of a moiré. The specification allows
+/// 12 vertices; tools have been seen to draw circles with a hundred.
 pub(super) const VERTICES: u32 = 1000;
 
 /// A macro as the file defines it.

@@ -1,4 +1,5 @@
-//! Attributes (TF, TA, TO, TD; specification §5), also those that KiCad writes into comments for readers of old.
+//! Attributes (TF, TA, TO, TD; specification §5), also those that KiCad writes into comments for
+//! readers of old.
 
 use std::borrow::Cow;
 

@@ -166,7 +166,8 @@ impl Canvas {
         if objects.is_empty() {
             return Ok(true);
         }
-        // Copies in one place are one, whatever their polarity: what is drawn last there is what one copy draws last.
+        // Copies in one place are one, whatever their polarity: what is drawn last there is what
+        // one copy draws last.
         let distinct = |copies: u32, step: Nm| if step == Nm::ZERO { 1 } else { i64::from(copies) };
         for i in 0..distinct(copies.0, step.x) {
             for j in 0..distinct(copies.1, step.y) {

@@ -24,7 +24,8 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// As the specification has it, and where the file says nothing, as programs have written for thirty years.
+    /// As the specification has it, and where the file says nothing, as programs have written for
+    /// thirty years.
     pub(super) const USUAL: Self =
         Self { unit: None, single: Quadrants::Single, multi: Quadrants::Multi, undeclared: Quadrants::Multi };
 
@@ -38,7 +39,8 @@ impl Reading {
 }
 
 impl<'a> Reader<'a> {
-    /// The arc from `from` to `to`; none where it is no longer than a point or has no radius, and so is a line.
+    /// The arc from `from` to `to`; none where it is no longer than a point or has no radius, and
+    /// so is a line.
     pub(super) fn arc(
         &mut self,
         from: Point,
@@ -98,7 +100,8 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// How what has been read so far asks for the file to be read: the radii of its arcs, and how large the board is that it draws.
+    /// How what has been read so far asks for the file to be read: the radii of its arcs, and how
+    /// large the board is that it draws.
     pub(super) fn reading_by_evidence(&self) -> Reading {
         let [single, multi, undeclared] = &self.radii;
         let declared = |mode| match mode {

@@ -44,7 +44,8 @@ impl<'a> Reader<'a> {
 
     pub(super) fn g_code(&mut self, number: Number, place: &Range<usize>) -> Result<(), Error> {
         match number.to_integer() {
-            // G54 selects an aperture and G55 announces a flash: the D code says as much. G00 moves as D02 does.
+            // G54 selects an aperture and G55 announces a flash: the D code says as much. G00 moves
+            // as D02 does.
             Some(0 | 54 | 55) => {}
             Some(1) => self.interpolation = Interpolation::Linear,
             Some(2) => self.interpolation = Interpolation::Circular(Turn::Clockwise),

@@ -169,7 +169,8 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// `AMDONUT*1,1,$1,0,0*1,0,$2,0,0*%`: the name is this block, the statements are those up to the `%`.
+    /// `AMDONUT*1,1,$1,0,0*1,0,$2,0,0*%`: the name is this block, the statements are those up to
+    /// the `%`.
     pub(super) fn define_macro(&mut self, block: Block<'a>) -> Result<(), Error> {
         let name = block.text[2..].trim_ascii();
         let mut body = Vec::new();

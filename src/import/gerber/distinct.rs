@@ -1,8 +1,8 @@
 //! Copper drawn more than once in one place.
 //!
-//! A file may draw the same thing in the same place any number of times, and all that comes after looks at pairs of features that
-//! overlap: ten thousand equal flashes are a hundred million pairs. What is drawn again adds nothing, so it goes here, where a look at
-//! a table tells.
+//! A file may draw the same thing in the same place any number of times, and all that comes after
+//! looks at pairs of features that overlap: ten thousand equal flashes are a hundred million pairs.
+//! What is drawn again adds nothing, so it goes here, where a look at a table tells.
 
 use std::hash::{Hash, Hasher};
 
@@ -10,7 +10,8 @@ use rustc_hash::{FxHashMap, FxHasher};
 
 use super::canvas::Object;
 
-/// `objects` without those that one before them has drawn already, with nothing of the other polarity between the two.
+/// `objects` without those that one before them has drawn already, with nothing of the other
+/// polarity between the two.
 pub(super) fn distinct(objects: Vec<Object>) -> Vec<Object> {
     let mut kept: Vec<Object> = Vec::with_capacity(objects.len());
     let mut drawn: FxHashMap<u64, usize> = FxHashMap::default();

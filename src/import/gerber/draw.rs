@@ -18,8 +18,8 @@ pub(super) fn flash(form: &Form, at: Point) -> Vec<Shape> {
     }
 }
 
-/// The copper of `form` drawn along a line: exact for circles and convex apertures such as rectangles, the hull of both
-/// ends for others (the specification allows circles alone).
+/// The copper of `form` drawn along a line: exact for circles and convex apertures such as
+/// rectangles, the hull of both ends for others (the specification allows circles alone).
 pub(super) fn line(form: &Form, from: Point, to: Point) -> Vec<Shape> {
     match form {
         Form::Disc(radius) => vec![stroke(from, to, *radius)],
@@ -47,8 +47,8 @@ pub(super) fn along(form: &Form, arc: Arc) -> Vec<Shape> {
     }
 }
 
-/// About how many vertices drawing `form` along `arc` takes in: each step overlaps as many others as the aperture is
-/// steps long.
+/// About how many vertices drawing `form` along `arc` takes in: each step overlaps as many others
+/// as the aperture is steps long.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,

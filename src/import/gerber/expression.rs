@@ -1,4 +1,5 @@
-//! The arithmetic of aperture macros (specification §4.5.4): `+ - x /`, brackets, signs, `$n` and decimals.
+//! The arithmetic of aperture macros (specification §4.5.4): `+ - x /`, brackets, signs, `$n` and
+//! decimals.
 
 use super::lex::{Number, is_blank};
 

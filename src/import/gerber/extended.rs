@@ -42,7 +42,8 @@ impl<'a> Reader<'a> {
             b"AS" | b"MI" | b"OF" | b"SF" | b"IR" => self.place_statement(code, rest, place),
             // Names, of the image and of what follows; the plotter's film.
             b"IN" | b"LN" | b"PF" => Ok(()),
-            // The code of the file's characters, which is ASCII if it can be read at all; and what says nothing but the default.
+            // The code of the file's characters, which is ASCII if it can be read at all; and what
+            // says nothing but the default.
             b"IC" if rest.eq_ignore_ascii_case(b"AS") => Ok(()),
             b"IO" | b"RO" if rest.iter().all(|b| b"AB0.+-".contains(b) || is_blank(*b)) => Ok(()),
             b"IJ" if rest.iter().all(|b| b"ABL".contains(b) || is_blank(*b)) => Ok(()),

@@ -127,7 +127,8 @@ impl Figure {
     }
 }
 
-/// The area that `primitives` leave when drawn in order through `linear`: one polygon a connected piece.
+/// The area that `primitives` leave when drawn in order through `linear`: one polygon a connected
+/// piece.
 pub(super) fn area(primitives: &[Primitive], linear: Linear) -> Vec<Polygon> {
     let mut image: Vec<Vec<Point>> = Vec::new();
     for run in primitives.chunk_by(|a, b| a.exposed == b.exposed) {
@@ -144,8 +145,8 @@ pub(super) fn area(primitives: &[Primitive], linear: Linear) -> Vec<Polygon> {
     polarity::clean(&image)
 }
 
-/// The vertices of an arc within [`FLATTEN`] of it, the start but not the end; a quarter circle is met exactly, so that
-/// tangent edges touch.
+/// The vertices of an arc within [`FLATTEN`] of it, the start but not the end; a quarter circle is
+/// met exactly, so that tangent edges touch.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
 pub(super) fn arc((x, y): Place, radius: f64, start: f64, sweep: f64) -> impl Iterator<Item = Place> {
     let ratio = (FLATTEN.to_f64() / radius.max(1.0)).min(0.25);

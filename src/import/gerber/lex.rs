@@ -1,9 +1,9 @@
 //! Bytes → blocks → words.
 //!
-//! A Gerber file is a stream of blocks that end with `*`; line ends mean nothing (specification §3.2). The `%`
-//! that brackets extended commands is not needed to tell them from the rest: they begin with two letters, all other
-//! blocks with a letter and a number. So a `%` too many or too few cannot turn the meaning of what follows, and is only
-//! looked at where an aperture macro ends.
+//! A Gerber file is a stream of blocks that end with `*`; line ends mean nothing (specification
+//! §3.2). The `%` that brackets extended commands is not needed to tell them from the rest: they
+//! begin with two letters, all other blocks with a letter and a number. So a `%` too many or too
+//! few cannot turn the meaning of what follows, and is only looked at where an aperture macro ends.
 
 use std::ops::Range;
 
@@ -118,8 +118,8 @@ pub(super) struct Number {
     pub(super) digits: u32,
     /// How many of the mantissa's stand after the point; none without a point.
     pub(super) decimals: Option<u32>,
-    /// How many digits before the point the mantissa does not hold. Those after the point that it does not hold are below any
-    /// rounding.
+    /// How many digits before the point the mantissa does not hold. Those after the point that it
+    /// does not hold are below any rounding.
     pub(super) beyond: u32,
 }
 
@@ -127,7 +127,8 @@ pub(super) struct Number {
 const FULL: i64 = 10_i64.pow(17);
 
 impl Number {
-    /// Reads a number at the start of `text`: the number and how many bytes it takes. None where there is none.
+    /// Reads a number at the start of `text`: the number and how many bytes it takes. None where
+    /// there is none.
     ///
     /// White space within it is skipped, for files cut into lines of fixed length.
     pub(super) fn read(text: &[u8]) -> Option<(Self, usize)> {

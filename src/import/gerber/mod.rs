@@ -6,17 +6,20 @@
 //!                            └─ aperture, aperture_macro ┘ draw, region
 //! ```
 //!
-//! The reader is one state machine over several files: `codes`, `operation`, `circular` (with `radii`), `contour` and `selected` carry
-//! out the blocks of words, `extended` tells the commands between `%` apart, which `numbers`, `definition`, `copies`
-//! and `transformation` carry out, and `finish` ends it, with `distinct`.
+//! The reader is one state machine over several files: `codes`, `operation`, `circular` (with
+//! `radii`), `contour` and `selected` carry out the blocks of words, `extended` tells the commands
+//! between `%` apart, which `numbers`, `definition`, `copies` and `transformation` carry out, and
+//! `finish` ends it, with `distinct`.
 //!
-//! Written for files in the wild, with the specification (Ucamco, revision 2023.08) deciding where they disagree. Three
-//! choices make it both quick and forgiving. Blocks are cut at `*`, never at line ends, because some tools write a file
-//! on one line. A command is told by its first two characters, not by the `%` around it. And numbers go from digits to
-//! whole nanometres without a float between.
+//! Written for files in the wild, with the specification (Ucamco, revision 2023.08) deciding where
+//! they disagree. Three choices make it both quick and forgiving. Blocks are cut at `*`, never at
+//! line ends, because some tools write a file on one line. A command is told by its first two
+//! characters, not by the `%` around it. And numbers go from digits to whole nanometres without a
+//! float between.
 //!
-//! What is sloppy but clear is repaired with a warning; what would cut other copper than was meant is an error: an
-//! aperture that is not defined, units that contradict each other, a number that is none.
+//! What is sloppy but clear is repaired with a warning; what would cut other copper than was meant
+//! is an error: an aperture that is not defined, units that contradict each other, a number that is
+//! none.
 
 mod aperture;
 mod aperture_list;
@@ -60,8 +63,8 @@ pub struct Options {
 }
 
 impl Default for Options {
-    /// Two million features and five million vertices: chosen to stay well below a gigabyte of memory, an order of
-    /// magnitude above the largest panel seen.
+    /// Two million features and five million vertices: chosen to stay well below a gigabyte of
+    /// memory, an order of magnitude above the largest panel seen.
     fn default() -> Self {
         Self { features: 2_000_000, vertices: 5_000_000 }
     }
@@ -70,10 +73,11 @@ impl Default for Options {
 /// A Gerber file, resolved.
 #[derive(Clone, Debug)]
 pub struct Image {
-    /// The copper (or silk, mask, outline …) in file order; polarity, blocks and repeats are resolved.
+    /// The copper (or silk, mask, outline …) in file order; polarity, blocks and repeats are
+    /// resolved.
     ///
-    /// An aperture of no size leaves features of radius zero: an outline is often drawn so. On a copper layer they
-    /// have no area, and the caller leaves them out.
+    /// An aperture of no size leaves features of radius zero: an outline is often drawn so. On a
+    /// copper layer they have no area, and the caller leaves them out.
     pub features: Vec<Feature>,
     /// The attribute sets that features refer to; the first is empty.
     pub attributes: Vec<Attributes>,
@@ -103,7 +107,8 @@ pub fn read_beside(name: &str, bytes: &[u8], list: &ApertureList, options: &Opti
     reader::read(name, bytes, Some(list), options)
 }
 
-/// Whether a Gerber file defines no aperture of its own (RS-274-D), though it may yet draw regions alone.
+/// Whether a Gerber file defines no aperture of its own (RS-274-D), though it may yet draw regions
+/// alone.
 #[must_use]
 pub fn lacks_apertures(bytes: &[u8]) -> bool {
     !bytes.windows(3).any(|window| window == b"ADD" || window == b"ABD")

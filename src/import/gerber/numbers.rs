@@ -1,4 +1,5 @@
-//! How numbers are written: format and unit (FS, MO; specification §4.2), also where they come late or never.
+//! How numbers are written: format and unit (FS, MO; specification §4.2), also where they come late
+//! or never.
 
 use std::ops::Range;
 
@@ -11,7 +12,8 @@ use crate::geometry::Nm;
 use crate::import::flaw;
 
 impl<'a> Reader<'a> {
-    /// The number format. Where none has been given yet, the file is searched for one that comes late.
+    /// The number format. Where none has been given yet, the file is searched for one that comes
+    /// late.
     pub(super) fn format(&mut self, place: &Range<usize>) -> Result<Format, Error> {
         if let Some(format) = self.format {
             return Ok(format);
@@ -89,8 +91,8 @@ impl<'a> Reader<'a> {
         Ok(unit)
     }
 
-    /// Whether what is drawn so far, its unit a guess, is wider than a board in inches, or lies beyond what is handled: then it is in
-    /// millimetres.
+    /// Whether what is drawn so far, its unit a guess, is wider than a board in inches, or lies
+    /// beyond what is handled: then it is in millimetres.
     pub(super) fn is_too_wide(&self) -> bool {
         /// Chosen: the largest panels are 610 mm long.
         const WIDEST: Nm = Nm::from_mm(620);

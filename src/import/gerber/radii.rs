@@ -1,8 +1,9 @@
 //! What the radii of a file's arcs say of how their centres are given.
 //!
-//! An arc's two ends are equally far from its centre. Under G75 the centre is where the offset leads; under G74 it is one of four
-//! places, none of which may lie more than a quarter away. So an arc longer than a quarter, or one whose offset has a sign,
-//! fits G75 alone, and most arcs of a file that means G74 fit G74 alone. Each arc that fits one of the two alone is a witness.
+//! An arc's two ends are equally far from its centre. Under G75 the centre is where the offset
+//! leads; under G74 it is one of four places, none of which may lie more than a quarter away. So an
+//! arc longer than a quarter, or one whose offset has a sign, fits G75 alone, and most arcs of a
+//! file that means G74 fit G74 alone. Each arc that fits one of the two alone is a witness.
 
 use std::ops::Range;
 
@@ -10,11 +11,11 @@ use crate::geometry::{Arc, Point, Turn, Vector};
 
 use super::reader::Quadrants;
 
-/// How far the two radii of an arc may differ and still be one, in nanometres. Chosen: twice the step of the coarsest usual format,
-/// 2.3 inches.
+/// How far the two radii of an arc may differ and still be one, in nanometres. Chosen: twice the
+/// step of the coarsest usual format, 2.3 inches.
 pub(super) const COARSE: f64 = 50_800.0;
-/// The same for short arcs, on which a wrong centre is hardly off: asked only where no arc tells by [`COARSE`]. Chosen: what
-/// rounding to four decimals of an inch leaves.
+/// The same for short arcs, on which a wrong centre is hardly off: asked only where no arc tells by
+/// [`COARSE`]. Chosen: what rounding to four decimals of an inch leaves.
 const FINE: f64 = 8_000.0;
 
 /// The arcs of a file that are given in one way, and what their radii tell.
@@ -111,7 +112,8 @@ impl Radii {
         }
     }
 
-    /// The other mode, where all arcs given as `declared` fit it and not all of them fit what is declared.
+    /// The other mode, where all arcs given as `declared` fit it and not all of them fit what is
+    /// declared.
     pub(super) fn refutes(&self, declared: Quadrants) -> Option<(Quadrants, u32)> {
         let Witnesses { single, multi } = &self.coarse;
         let (own, other, mode) = match declared {
@@ -127,8 +129,9 @@ fn misfit(from: Point, to: Point, center: Point) -> f64 {
     (center.distance(from) - center.distance(to)).abs()
 }
 
-/// The centre of an arc of at most a quarter whose offsets carry no sign: of the four places it may be at, the one that
-/// both ends are equally far from (specification §8.1.10, G74); none where each would make it longer.
+/// The centre of an arc of at most a quarter whose offsets carry no sign: of the four places it may
+/// be at, the one that both ends are equally far from (specification §8.1.10, G74); none where each
+/// would make it longer.
 pub(super) fn single_quadrant(from: Point, to: Point, offset: Vector, turn: Turn) -> Option<Point> {
     /// A quarter, and a little for rounded coordinates.
     const QUARTER: f64 = std::f64::consts::FRAC_PI_2 * 1.02;

@@ -293,7 +293,8 @@ impl<'a> Reader<'a> {
     pub(super) fn words(&mut self, text: &'a [u8], block: &Block<'a>) -> Result<(), Error> {
         let mut words = Words::default();
         let (mut at, mut drawn) = (0, false);
-        // Whether an operation has come after its coordinates: more of them begin another, without a `*` between.
+        // Whether an operation has come after its coordinates: more of them begin another, without
+        // a `*` between.
         let mut complete = false;
         while let Some(&letter) = text.get(at) {
             if is_blank(letter) {
@@ -381,7 +382,8 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// What G04 says; none for another word. Not read as a number, because a comment may begin with digits.
+/// What G04 says; none for another word. Not read as a number, because a comment may begin with
+/// digits.
 fn comment(text: &[u8]) -> Option<&[u8]> {
     let rest = text.strip_prefix(b"G04").or_else(|| text.strip_prefix(b"G4"))?;
     (!rest.first().is_some_and(u8::is_ascii_digit)).then_some(rest)

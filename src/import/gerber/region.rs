@@ -50,8 +50,8 @@ impl Region {
 
     /// Ends the contour; none where none had begun.
     ///
-    /// Cut-ins are resolved here: they become holes. A contour that touches or crosses itself, which the specification
-    /// forbids, fills what it winds round.
+    /// Cut-ins are resolved here: they become holes. A contour that touches or crosses itself,
+    /// which the specification forbids, fills what it winds round.
     pub(super) fn finish(&mut self) -> Option<Contour> {
         let mut points = std::mem::take(&mut self.points);
         let (first, last) = (*points.first()?, *points.last()?);

@@ -82,7 +82,8 @@ impl<'a> Reader<'a> {
         )
     }
 
-    /// The transformation of apertures in force: mirrored, then rotated, then scaled (specification §4.9).
+    /// The transformation of apertures in force: mirrored, then rotated, then scaled (specification
+    /// §4.9).
     pub(super) fn linear(&self) -> Linear {
         let sign = |mirror: bool| if mirror { -1.0 } else { 1.0 };
         let mirror = Linear::stretch(sign(self.mirror.0), sign(self.mirror.1));

@@ -104,7 +104,8 @@ fn scaled(mantissa: i64, unit: i64, decimals: u32) -> Option<Nm> {
     if let Some(power) = 10_i64.checked_pow(decimals).filter(|power| unit % power == 0) {
         return Nm::try_new(mantissa.checked_mul(unit / power)?).ok();
     }
-    // 18 digits in inches are below 10²⁶ nanometres: of what has more decimals than that nothing is left.
+    // 18 digits in inches are below 10²⁶ nanometres: of what has more decimals than that nothing is
+    // left.
     let (product, power) = (i128::from(mantissa) * i128::from(unit), 10_i128.pow(decimals.min(37)));
     let half = if product < 0 { -power / 2 } else { power / 2 };
     i64::try_from((product + half) / power).ok().and_then(|nm| Nm::try_new(nm).ok())
@@ -179,7 +180,8 @@ impl Linear {
 
 /// What the deprecated commands AS, MI, SF, OF and IR do to coordinates (specification §8).
 ///
-/// Axis select, mirror and scale act on coordinates and not on apertures; image rotation turns both.
+/// Axis select, mirror and scale act on coordinates and not on apertures; image rotation turns
+/// both.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Placement {
     /// IR.

@@ -1,4 +1,5 @@
-//! Polarity and transformations of what follows, and of the whole image (LP, LM, LR, LS; of old IP, AS, IR, MI, OF, SF).
+//! Polarity and transformations of what follows, and of the whole image (LP, LM, LR, LS; of old IP,
+//! AS, IR, MI, OF, SF).
 
 use std::ops::Range;
 

@@ -1,3 +1,5 @@
+//! A line or arc drawn on the outline layer, and where two of them meet.
+
 use std::collections::BTreeSet;
 
 use crate::geometry::{Arc, Nm, Point, Rect, Segment, Turn, Vector};
@@ -61,7 +63,8 @@ impl Edge {
         if turn == Turn::CounterClockwise { out } else { -out }
     }
 
-    /// How it bends, positive to the left, per nanometre: tells edges apart that leave in the same direction.
+    /// How it bends, positive to the left, per nanometre: tells edges apart that leave in the same
+    /// direction.
     pub(super) fn bend(&self) -> f64 {
         match self.round {
             None => 0.0,
@@ -153,8 +156,8 @@ fn circles(a: Point, r: f64, b: Point, s: f64) -> Vec<Point> {
     vec![place(height), place(-height)]
 }
 
-/// How far beside an edge, in nanometres, a point may lie and still be on it: what rounding does to places on slanted
-/// lines, with a margin.
+/// How far beside an edge, in nanometres, a point may lie and still be on it: what rounding does to
+/// places on slanted lines, with a margin.
 const ON: f64 = 1_500.0;
 
 #[expect(clippy::cast_precision_loss, reason = "compared with tolerances far above the rounding")]
@@ -180,7 +183,8 @@ pub(super) fn drop_doubles(edges: &mut Vec<Edge>) {
 /// The most edges that are looked at for crossings; drawings of more are taken as they are.
 const MOST: usize = 20_000;
 
-/// Parts edges where another one ends on them or crosses them; lines that lie on each other become the same.
+/// Parts edges where another one ends on them or crosses them; lines that lie on each other become
+/// the same.
 pub(super) fn part_where_they_meet(edges: Vec<Edge>) -> Vec<Edge> {
     if edges.len() > MOST {
         return edges;

@@ -1,8 +1,8 @@
 //! The outermost boundary of each connected drawing.
 //!
-//! Every edge is walked both ways, always keeping the face on the left: at a corner the walk goes on with the edge
-//! that turns most to the right. Each face comes out once; bounded ones run counter-clockwise, the face around a
-//! drawing clockwise. The latter is its contour.
+//! Every edge is walked both ways, always keeping the face on the left: at a corner the walk goes
+//! on with the edge that turns most to the right. Each face comes out once; bounded ones run
+//! counter-clockwise, the face around a drawing clockwise. The latter is its contour.
 
 use std::collections::BTreeMap;
 
@@ -50,7 +50,8 @@ fn face_from(
     while !walked[at] {
         walked[at] = true;
         face.segments.push(walks[at].segment());
-        // The way back stands in the order of directions; the one before it, clockwise, goes on round this face.
+        // The way back stands in the order of directions; the one before it, clockwise, goes on
+        // round this face.
         let around = &leaving[&walks[at].to];
         let back = at ^ 1;
         let place = around.iter().position(|&walk| walk == back).unwrap_or(0);

@@ -8,7 +8,8 @@ use super::edge::Edge;
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
 
-/// What an end that lies this near to another is not even worth mentioning: the rounding of a file's last digit.
+/// What an end that lies this near to another is not even worth mentioning: the rounding of a
+/// file's last digit.
 const ROUNDING: Nm = Nm::from_um(3);
 
 /// What ends at a point.
@@ -40,7 +41,8 @@ enum Limit {
 }
 
 impl Limit {
-    /// What strokes of `edges` reach; nothing where there are so many ends that looking at all that are near would take long.
+    /// What strokes of `edges` reach; nothing where there are so many ends that looking at all that
+    /// are near would take long.
     fn touch(edges: &[Edge]) -> Self {
         /// Chosen: with all ends in one place, a second.
         const MOST: usize = 10_000;
@@ -71,8 +73,9 @@ impl Limit {
     }
 }
 
-/// Joins each loose end to the nearest other loose one that its stroke touches, and then moves such as are left onto the nearest
-/// within `gap`: loose ends first, so that pairs find each other. What touches a corner that is closed already closes nothing.
+/// Joins each loose end to the nearest other loose one that its stroke touches, and then moves such
+/// as are left onto the nearest within `gap`: loose ends first, so that pairs find each other. What
+/// touches a corner that is closed already closes nothing.
 pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) {
     let (mut closed, mut widest) = (0_u32, None::<(f64, Point)>);
     let rounds = [(false, true), (true, true), (true, false)];
@@ -92,7 +95,8 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
                 }
             }
         }
-        // What is wider is bridged by the line between the ends, which the strokes cover; ends do not go so far.
+        // What is wider is bridged by the line between the ends, which the strokes cover; ends do
+        // not go so far.
         moves.retain(|&(width, ..)| width <= gap.to_f64());
         let moved: BTreeMap<Point, Point> = moves.into_iter().map(|(_, from, to)| (from, to)).collect();
         for edge in edges.iter_mut() {
@@ -108,11 +112,13 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
     }
 }
 
-/// Pairs of points within `limit`, the nearest first, none in two pairs: (distance, loose end, what it goes to).
+/// Pairs of points within `limit`, the nearest first, none in two pairs: (distance, loose end, what
+/// it goes to).
 ///
-/// The reach grows fourfold from one round to the next, and who has found a partner is out. So however many ends lie
-/// in one place, few of them are left to be looked at together, and the work grows with their number alone. That the
-/// nearest come first makes it the same as sorting all pairs at once.
+/// The reach grows fourfold from one round to the next, and who has found a partner is out. So
+/// however many ends lie in one place, few of them are left to be looked at together, and the work
+/// grows with their number alone. That the nearest come first makes it the same as sorting all
+/// pairs at once.
 fn nearest_pairs(edges: &[Edge], limit: &Limit, loose_only: bool) -> Vec<(f64, Point, Point)> {
     let mut free = ends(edges);
     free.retain(|_, end| end.count == 1 || !loose_only);
@@ -155,8 +161,8 @@ fn pairs_within(
     pairs
 }
 
-/// Whether `p`, at which `edge` alone ends, may be moved to `q`. The two ends of one edge may not, unless it is a
-/// circle drawn not quite to its start.
+/// Whether `p`, at which `edge` alone ends, may be moved to `q`. The two ends of one edge may not,
+/// unless it is a circle drawn not quite to its start.
 fn may_meet(edge: &Edge, p: Point, q: Point, distance: f64) -> bool {
     let other = if edge.from == p { edge.to } else { edge.from };
     other != q || edge.length() > 2.0 * distance
@@ -175,7 +181,8 @@ impl Cells {
         Self { size, points }
     }
 
-    /// The points in the cell of `p` and the eight around it: all within the size of a cell, and some farther off.
+    /// The points in the cell of `p` and the eight around it: all within the size of a cell, and
+    /// some farther off.
     fn around(&self, p: Point) -> impl Iterator<Item = Point> {
         let (x, y) = cell(p, self.size);
         (x - 1..=x + 1).flat_map(move |x| {
@@ -220,7 +227,8 @@ pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loos
     Some(Loose { length, bounds, place })
 }
 
-/// Which edges lead nowhere: those with a loose end, and those whose end is loose without them, one after the other.
+/// Which edges lead nowhere: those with a loose end, and those whose end is loose without them, one
+/// after the other.
 fn dead_ends(edges: &[Edge]) -> Vec<bool> {
     let mut meeting: BTreeMap<Point, Vec<usize>> = BTreeMap::new();
     for (index, edge) in edges.iter().enumerate() {

@@ -1,14 +1,16 @@
 //! The profile layer → the board's edge: loose lines and arcs joined into closed contours.
 //!
-//! The layer is a drawing. Its lines may have any width (their middle is the edge), come in any order and direction,
-//! be drawn twice, cross, end short of each other, or carry a title block beside. What counts is what they enclose:
+//! The layer is a drawing. Its lines may have any width (their middle is the edge), come in any
+//! order and direction, be drawn twice, cross, end short of each other, or carry a title block
+//! beside. What counts is what they enclose:
 //!
 //! ```text
 //!  edges ─ heal ─▶ gaps closed ─ edge ─▶ parted where they meet ─ heal ─▶ dead ends off ─ faces, nest ─▶ contours
 //! ```
 //!
-//! Of every connected drawing the outermost boundary is a contour. What lies inside it without touching it is a
-//! contour of its own, a cut-out; what lies inside and touches it is left out with a warning.
+//! Of every connected drawing the outermost boundary is a contour. What lies inside it without
+//! touching it is a contour of its own, a cut-out; what lies inside and touches it is left out with
+//! a warning.
 
 mod edge;
 mod faces;
@@ -25,8 +27,8 @@ use edge::Edge;
 
 /// How far apart two ends may lie and still be taken for one corner.
 ///
-/// Chosen: programs that flatten arcs or round twice leave up to 0.1 mm between lines; a slot narrower than that
-/// cannot be milled.
+/// Chosen: programs that flatten arcs or round twice leave up to 0.1 mm between lines; a slot
+/// narrower than that cannot be milled.
 pub const GAP: Nm = Nm::from_um(100);
 
 /// What a profile layer was found to be.
@@ -38,8 +40,8 @@ pub struct Joined {
     pub warnings: Vec<Warning>,
 }
 
-/// Joins the axes of `features`, read from the file `file` with content `bytes`, into contours; ends meet whose strokes touch, and
-/// then such as are up to `gap` apart.
+/// Joins the axes of `features`, read from the file `file` with content `bytes`, into contours;
+/// ends meet whose strokes touch, and then such as are up to `gap` apart.
 #[must_use]
 pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
     let mut notes = Notes { file, bytes, lines: BTreeMap::new(), warnings: Vec::new() };
@@ -97,7 +99,8 @@ impl Notes<'_> {
         self.lines.entry(at).or_insert(line);
     }
 
-    /// `at`, with the line that drew it; a point that crossing lines made is on the line of one beside it.
+    /// `at`, with the line that drew it; a point that crossing lines made is on the line of one
+    /// beside it.
     fn place(&self, at: Point) -> Option<(Point, u32)> {
         let drawn = self.lines.range(at..).next().or_else(|| self.lines.last_key_value());
         drawn.map(|(_, &line)| (at, line))

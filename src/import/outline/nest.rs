@@ -5,11 +5,12 @@ use crate::board::FLATTEN;
 use crate::geometry::{Path, Polygon};
 use crate::import::flaw;
 
-/// The smallest area of a contour, in mm²: below lie letters' eyes and doubled lines, which nothing is cut along.
+/// The smallest area of a contour, in mm²: below lie letters' eyes and doubled lines, which nothing
+/// is cut along.
 const SMALLEST: f64 = 0.05;
 
-/// Of the largest board's area, what a board beside it has at least. Chosen: letters of a title block stay below, and
-/// no panel mixes boards of such different sizes.
+/// Of the largest board's area, what a board beside it has at least. Chosen: letters of a title
+/// block stay below, and no panel mixes boards of such different sizes.
 const SHARE: f64 = 0.02;
 
 /// The most contours that are compared with each other; a layer of more is taken as it is.

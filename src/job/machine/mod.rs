@@ -1,4 +1,5 @@
-//! Machines as people describe them: ready profiles, `[machine]` tables, and what a controller says of itself.
+//! Machines as people describe them: ready profiles, `[machine]` tables, and what a controller says
+//! of itself.
 
 mod dump;
 mod per_axis;

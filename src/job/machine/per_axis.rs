@@ -1,3 +1,5 @@
+//! A figure for each axis, written once for all or three times.
+
 use std::fmt;
 use std::str::FromStr;
 

@@ -1,3 +1,5 @@
+//! A machine's profile: what it can do, as a person or a ready table says it.
+
 use std::fmt;
 use std::str::FromStr;
 

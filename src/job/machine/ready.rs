@@ -1,6 +1,7 @@
 //! The profiles that are built in, each as the TOML that `voromill machine show` prints.
 //!
-//! Typical figures, not measured ones: machines of one name differ, and people change their settings.
+//! Typical figures, not measured ones: machines of one name differ, and people change their
+//! settings.
 
 /// Name and text of each.
 pub const READY: &[(&str, &str)] = &[

@@ -1,3 +1,5 @@
+//! A pcb2gcode project as options of ours, while its lines are read.
+
 use std::path::PathBuf;
 
 use crate::board::{SourceSpan, Warning};
@@ -190,7 +192,8 @@ impl<'a> Draft<'a> {
             "extra-passes" => isolating.extra_passes = Some((entry.count()?, *entry)),
             "milling-overlap" => isolating.overlap = Some((entry.overlap(units)?, *entry)),
             "offset" => isolating.offset = Some((entry.length(units)?, *entry)),
-            // Climb or conventional is said of the passes beside copper alone, so it matters with copper only.
+            // Climb or conventional is said of the passes beside copper alone, so it matters with
+            // copper only.
             "mill-feed-direction" => match entry.value {
                 "any" => {}
                 "climb" | "conventional" | "clockwise" | "counterclockwise" | "anticlockwise" => {
@@ -286,7 +289,8 @@ impl<'a> Draft<'a> {
             "spinup-time" => {
                 options.spin_up = Some(entry.wait()?).filter(|&Wait { milliseconds }| milliseconds > 1)
             }
-            // Corners are rounded by no more than this where it is said, and as the machine is set where it is not to be.
+            // Corners are rounded by no more than this where it is said, and as the machine is set
+            // where it is not to be.
             "g64" | "tolerance" => {
                 let most = entry.positive(units)?;
                 if options.blend != Some(Blend::Machine) {
@@ -298,7 +302,8 @@ impl<'a> Draft<'a> {
             "nom6" => self.nom6 = entry.flag()?.then_some(*entry),
             "zero-start" if entry.flag()? => options.origin = Some(Origin::LowerLeft),
             "zero-start" => options.origin = Some(Origin::Keep),
-            // Its back is mirrored about an absolute line, zero unless `mirror-axis` says otherwise.
+            // Its back is mirrored about an absolute line, zero unless `mirror-axis` says
+            // otherwise.
             "mirror-absolute" if entry.flag()? => {
                 options.mirror_axis = options.mirror_axis.or(Some(Length(Nm::ZERO)));
             }
@@ -356,7 +361,8 @@ impl<'a> Draft<'a> {
         Ok(None)
     }
 
-    /// `0.8mm:-0.1mm:+0.05mm, 1mm`: diameters, each with how far a hole may be from it, which is as far as can be where that is not said.
+    /// `0.8mm:-0.1mm:+0.05mm, 1mm`: diameters, each with how far a hole may be from it, which is as
+    /// far as can be where that is not said.
     fn drills(&mut self, entry: &Entry<'a>) -> Result<(), Wrong> {
         let options = &mut self.made.options;
         let mut drills = options.drills.take().map_or_else(Vec::new, |Drills(drills)| drills);

@@ -1,4 +1,5 @@
-//! What pcb2gcode knows and voromill does another way, or not at all: each option with the reason that a person is told.
+//! What pcb2gcode knows and voromill does another way, or not at all: each option with the reason
+//! that a person is told.
 
 use super::value::Entry;
 
@@ -57,7 +58,8 @@ const LEFT: &[(&str, Idle, &str)] = &[
     ("vectorial", Idle::Set, "copper is always exact"),
 ];
 
-/// Why the option of this line is not taken over; an empty reason where the line asks for nothing, none for what is no such option.
+/// Why the option of this line is not taken over; an empty reason where the line asks for nothing,
+/// none for what is no such option.
 pub(super) fn reason(entry: &Entry<'_>) -> Option<&'static str> {
     let (_, idle, reason) = LEFT.iter().find(|(name, ..)| *name == entry.name)?;
     let asks_nothing = match idle {

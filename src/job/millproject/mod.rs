@@ -1,12 +1,16 @@
-//! pcb2gcode's `millproject` files: what has a counterpart becomes [`Options`], the rest is listed by name.
+//! pcb2gcode's `millproject` files: what has a counterpart becomes [`Options`], the rest is listed
+//! by name.
 //!
-//! A file holds `option = value` lines, `#` begins a comment. Bare numbers are inches and inches a minute, or millimetres with
-//! `metric = true`; a number may carry its unit (pcb2gcode 2.5, its `--help`). What the file does not say means what pcb2gcode means by it where a
-//! board would come out otherwise (outlines instead of Voronoi regions, the back up for a board with copper there alone, speeds halved for the
-//! plunge, half a cutter of overlap); else it is as if there were no file.
+//! A file holds `option = value` lines, `#` begins a comment. Bare numbers are inches and inches a
+//! minute, or millimetres with `metric = true`; a number may carry its unit (pcb2gcode 2.5, its
+//! `--help`). What the file does not say means what pcb2gcode means by it where a board would come
+//! out otherwise (outlines instead of Voronoi regions, the back up for a board with copper there
+//! alone, speeds halved for the plunge, half a cutter of overlap); else it is as if there were no
+//! file.
 //!
-//! A value that has no counterpart and without which the board would be another one (`invert-gerbers`, a depth above the surface) is an
-//! error with its line, unless the board has nothing that it matters to. The rest is told of and left.
+//! A value that has no counterpart and without which the board would be another one
+//! (`invert-gerbers`, a depth above the surface) is an error with its line, unless the board has
+//! nothing that it matters to. The rest is told of and left.
 
 mod draft;
 mod left;
@@ -65,7 +69,8 @@ impl MillProject {
     ///
     /// # Errors
     ///
-    /// [`Error::Settings`] with the line, for what is no `option = value`, an option that pcb2gcode does not have, or a value that is none.
+    /// [`Error::Settings`] with the line, for what is no `option = value`, an option that pcb2gcode
+    /// does not have, or a value that is none.
     pub fn read(file: &str, text: &str) -> Result<Self, Error> {
         let entries =
             value::entries(text).collect::<Result<Vec<_>, _>>().map_err(|wrong| wrong.into_error(file))?;
@@ -89,7 +94,8 @@ impl MillProject {
         Ok(made)
     }
 
-    /// An error of settings that this project said, with its line; as it is where the project did not say the setting.
+    /// An error of settings that this project said, with its line; as it is where the project did
+    /// not say the setting.
     #[must_use]
     pub fn explain(&self, error: Error) -> Error {
         let Error::Value { key, problem } = &error else { return error };

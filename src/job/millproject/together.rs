@@ -1,4 +1,5 @@
-//! What the lines of a project mean together: mills and how wide they clear, the cutter and its bridges, drills and what is bored.
+//! What the lines of a project mean together: mills and how wide they clear, the cutter and its
+//! bridges, drills and what is bored.
 
 use crate::gcode::dialect::ToolChange;
 use crate::geometry::Nm;
@@ -59,7 +60,8 @@ impl Draft<'_> {
         first.min_by_key(Wrong::line).map_or(Ok(()), Err)
     }
 
-    /// Whether there is copper on the back alone, so that whoever mills it has the back up for the rest too.
+    /// Whether there is copper on the back alone, so that whoever mills it has the back up for the
+    /// rest too.
     fn is_back_alone(&self) -> bool {
         self.made.files.back.is_some() && self.made.files.front.is_none()
     }
@@ -116,7 +118,8 @@ impl Draft<'_> {
         }
     }
 
-    /// Midway between nets, or round each; `offset` keeps cuts from copper, as far as the middle of the gap allows.
+    /// Midway between nets, or round each; `offset` keeps cuts from copper, as far as the middle of
+    /// the gap allows.
     fn strategy(&mut self, mills: &[Nm]) {
         let is_voronoi = self.isolating.voronoi == Some(true);
         self.made.options.strategy = Some(if is_voronoi { Strategy::Voronoi } else { Strategy::Outline });
@@ -136,7 +139,8 @@ impl Draft<'_> {
             return self.leave(&entry, "wide gaps are cleared from the copper outwards");
         }
         let options = &mut self.made.options;
-        // The middle of its cut is half a mill and the offset from copper, or midway where that is nearer: so far a net reaches.
+        // The middle of its cut is half a mill and the offset from copper, or midway where that is
+        // nearer: so far a net reaches.
         let mill = mills.first().copied().unwrap_or(Nm::ZERO);
         options.strategy = Some(Strategy::Voronoi);
         options.limit = Some(Length(mill / 2 + offset));

@@ -1,3 +1,5 @@
+//! The values of a pcb2gcode project: numbers with its units, lists, flags.
+
 use crate::geometry::{Nm, nanometres};
 use crate::job::Error;
 use crate::job::overlap::Overlap;
@@ -68,7 +70,8 @@ impl Entry<'_> {
         length(self.value, units).ok_or_else(|| self.wrong("a length, such as 0.2mm or a bare number"))
     }
 
-    /// What stands between commas, or between blanks where those do not part a number from its unit.
+    /// What stands between commas, or between blanks where those do not part a number from its
+    /// unit.
     pub(super) fn parts(&self) -> Vec<&str> {
         let is_unit = |part: &str| part.starts_with(|c: char| c.is_ascii_alphabetic());
         let between = |part: &str| part.split_whitespace().any(is_unit);
@@ -147,10 +150,12 @@ impl Entry<'_> {
     }
 }
 
-/// Wider than any board. Chosen: pcb2gcode's users write metres where they mean that all is to be cleared.
+/// Wider than any board. Chosen: pcb2gcode's users write metres where they mean that all is to be
+/// cleared.
 const ANY_BOARD: Nm = Nm::from_mm(1000);
 
-/// A quantity and the time that it is counted in, a minute where none is said: `200mm/s`, `30 rotations per second`.
+/// A quantity and the time that it is counted in, a minute where none is said: `200mm/s`,
+/// `30 rotations per second`.
 fn per(text: &str) -> (&str, &str) {
     let parts = text.split_once('/').or_else(|| text.split_once(" per "));
     let (quantity, time) = parts.unwrap_or((text, "min"));

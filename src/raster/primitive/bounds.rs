@@ -1,6 +1,9 @@
+//! Boxes around primitives, in pixels.
+
 use super::stroke::SLACK;
 
-/// Where primitives may have fragments, and how near: a box around their curves or areas, in pixels.
+/// Where primitives may have fragments, and how near: a box around their curves or areas, in
+/// pixels.
 #[derive(Clone, Copy, Debug)]
 pub(in super::super) struct Bounds {
     low: (f32, f32),

@@ -1,3 +1,5 @@
+//! The distance to a point, as a surface.
+
 use pulp::Simd;
 
 use super::super::PixelPoint;

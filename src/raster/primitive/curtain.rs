@@ -1,3 +1,5 @@
+//! The distance to a segment, as a surface.
+
 use pulp::Simd;
 
 use super::super::canvas::{Field, Slope};
@@ -17,7 +19,8 @@ pub(in super::super) struct Curtain {
     caps: Caps,
     sides: Sides,
     pub stroke: Stroke,
-    /// Where it starts, and the way from end to end, in steps; one over its squared length (0 for a point).
+    /// Where it starts, and the way from end to end, in steps; one over its squared length (0 for a
+    /// point).
     start: (f32, f32),
     way: (f32, f32),
     inverse: f32,
@@ -97,8 +100,8 @@ impl Field for Curtain {
         }
     }
 
-    /// With w the way from the start to the sample and u the way along the segment, the nearest point lies at
-    /// t = clamp(w·u / u·u, 0, 1), and the distance is |w − t u|.
+    /// With w the way from the start to the sample and u the way along the segment, the nearest
+    /// point lies at t = clamp(w·u / u·u, 0, 1), and the distance is |w − t u|.
     #[inline(always)]
     fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
         let (ex, ey) = row.away(x);
@@ -137,7 +140,8 @@ impl<S: Simd> CurtainRow<S> {
     }
 }
 
-/// A curtain that does not cover everything: the same depth, and how far a place lies outside of its region.
+/// A curtain that does not cover everything: the same depth, and how far a place lies outside of
+/// its region.
 struct Hung(Curtain);
 
 #[derive(Clone, Copy)]

@@ -41,8 +41,8 @@ pub(super) enum Shape {
     Ring(Ring),
 }
 
-/// How deep a primitive lies in a cell: no fragment of it is nearer than `near`, and where it covers the whole
-/// cell none is deeper than `far`, else that is infinite.
+/// How deep a primitive lies in a cell: no fragment of it is nearer than `near`, and where it
+/// covers the whole cell none is deeper than `far`, else that is infinite.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach {
     pub near: f64,
@@ -73,7 +73,8 @@ impl Shape {
         }
     }
 
-    /// How deep it lies in `cell`, where there is no formula for many; none where it has no fragment there.
+    /// How deep it lies in `cell`, where there is no formula for many; none where it has no
+    /// fragment there.
     pub(super) fn reach(&self, cell: Cell) -> Option<Reach> {
         match self {
             Self::Triangle(triangle) => triangle.reach(cell),
@@ -81,7 +82,8 @@ impl Shape {
         }
     }
 
-    /// Has the mosaic sample it in `rows` rows of pieces; false where it has no formula for many pieces at once.
+    /// Has the mosaic sample it in `rows` rows of pieces; false where it has no formula for many
+    /// pieces at once.
     pub(super) fn weigh(&self, mosaic: &mut Mosaic, rows: usize) -> bool {
         match self {
             Self::Cone(cone) => mosaic.sample(cone, cone.stroke.offset, 0.0, cone.stroke.limit, rows),
@@ -92,8 +94,8 @@ impl Shape {
         true
     }
 
-    /// Draws it on the block of `canvas`, of which it covers what `cover` says; `first` where nothing is drawn there yet and it
-    /// covers all. Polygons are drawn by their [`Part`]s instead.
+    /// Draws it on the block of `canvas`, of which it covers what `cover` says; `first` where
+    /// nothing is drawn there yet and it covers all. Polygons are drawn by their [`Part`]s instead.
     pub(super) fn draw(&self, label: Label, cover: Cover, first: bool, canvas: &mut Canvas) {
         match self {
             Self::Cone(cone) => lay(cone, label, cover, first, cone.stroke, &Convex([]), canvas),
@@ -120,7 +122,8 @@ impl Shape {
         }
     }
 
-    /// Its depth at a pixel, the very number that drawing gives it; none where it has no fragment there.
+    /// Its depth at a pixel, the very number that drawing gives it; none where it has no fragment
+    /// there.
     pub(super) fn fragment(&self, column: i32, row: i32) -> Option<f32> {
         let depth = match self {
             Self::Polygon(polygon) => return polygon.fragment(column, row),
@@ -142,7 +145,8 @@ impl Shape {
         }
     }
 
-    /// Whether it may be drawn first on a block that has not been cleared, where it covers all of it.
+    /// Whether it may be drawn first on a block that has not been cleared, where it covers all of
+    /// it.
     pub(super) const fn fills(&self) -> bool {
         matches!(self, Self::Cone(_) | Self::Curtain(_))
     }

@@ -1,3 +1,5 @@
+//! Flat areas inside contours, by winding number, pixel-exact as OpenGL fills them.
+
 use std::ops::Range;
 
 use pulp::Simd;
@@ -13,12 +15,13 @@ use super::Bounds;
 
 /// A flat area inside contours.
 ///
-/// A cell knows it by the edges that touch the cell and by how often the contours wind round the cell's top left
-/// sample; from there every other sample of the cell is reached without leaving it, down the left column and then
-/// along the row, counting edges crossed. So no edge outside the cell is ever looked at.
+/// A cell knows it by the edges that touch the cell and by how often the contours wind round the
+/// cell's top left sample; from there every other sample of the cell is reached without leaving it,
+/// down the left column and then along the row, counting edges crossed. So no edge outside the cell
+/// is ever looked at.
 ///
-/// A sample counts as moved by (ε, ε²): right by next to nothing, down by still less. Then it lies on no edge, and
-/// left and top edges keep the samples on them, right and bottom edges do not.
+/// A sample counts as moved by (ε, ε²): right by next to nothing, down by still less. Then it lies
+/// on no edge, and left and top edges keep the samples on them, right and bottom edges do not.
 #[derive(Clone, Debug)]
 pub(in super::super) struct Polygon {
     edges: Vec<Edge>,
@@ -44,7 +47,8 @@ struct Edge {
 }
 
 impl Edge {
-    /// On which side of the edge's line the sample at (`x`, `y`) lies: whether clockwise of its direction.
+    /// On which side of the edge's line the sample at (`x`, `y`) lies: whether clockwise of its
+    /// direction.
     fn clockwise(&self, x: i32, y: i32) -> bool {
         let (ux, uy) =
             (i64::from(self.to.0) - i64::from(self.from.0), i64::from(self.to.1) - i64::from(self.from.1));
@@ -89,10 +93,12 @@ impl Edge {
         clockwise != 0 && clockwise != corners.len()
     }
 
-    /// The first of `columns` whose sample at row `y` lies to the right of the edge, which spans the row.
+    /// The first of `columns` whose sample at row `y` lies to the right of the edge, which spans
+    /// the row.
     fn first_right(&self, y: i32, columns: Range<i32>) -> i32 {
         let (top, bottom) = if self.from.1 < self.to.1 { (self.from, self.to) } else { (self.to, self.from) };
-        // x ≥ top.x + (bottom.x − top.x) (y − top.y) / (bottom.y − top.y), multiplied out and rounded up.
+        // x ≥ top.x + (bottom.x − top.x) (y − top.y) / (bottom.y − top.y), multiplied out and
+        // rounded up.
         let (ux, uy) = (i64::from(bottom.0) - i64::from(top.0), i64::from(bottom.1) - i64::from(top.1));
         let along = ux * (i64::from(y) - i64::from(top.1));
         let before = i64::from(top.0) - i64::from(sample(0));
@@ -147,7 +153,8 @@ impl Polygon {
     /// How often it winds round the sample at (`x`, `y`), from all its edges.
     pub(in super::super) fn winding(&self, x: i32, y: i32) -> i32 {
         let row = self.edges.iter().filter(|edge| edge.spans_row(y));
-        // Seen from far to the left, a downward edge (to.y > from.y) is crossed where the sample is not clockwise.
+        // Seen from far to the left, a downward edge (to.y > from.y) is crossed where the sample is
+        // not clockwise.
         row.map(|edge| {
             let far_left_is_clockwise = edge.from.1 < edge.to.1;
             i32::from(far_left_is_clockwise) - i32::from(edge.clockwise(x, y))
@@ -155,8 +162,8 @@ impl Polygon {
         .sum()
     }
 
-    /// Gives each piece that `cuts` makes of `around` its part of `part`; `covered` gets row and column of those it
-    /// covers entirely.
+    /// Gives each piece that `cuts` makes of `around` its part of `part`; `covered` gets row and
+    /// column of those it covers entirely.
     pub(in super::super) fn split(
         &self,
         part: &Part,
@@ -235,7 +242,8 @@ impl Polygon {
         }
     }
 
-    /// By how much the winding number changes at each sample of a row of `cell`, from 0 before the first.
+    /// By how much the winding number changes at each sample of a row of `cell`, from 0 before the
+    /// first.
     fn changes(&self, winding: i32, edges: &[u32], cell: Cell, y: i32) -> [i32; SIDE as usize + 1] {
         let mut changes = [0; SIDE as usize + 1];
         let first = cell.first();

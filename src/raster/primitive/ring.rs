@@ -1,3 +1,5 @@
+//! The distance to a circular arc, as a surface.
+
 use std::ops::Range;
 
 use pulp::Simd;
@@ -25,7 +27,8 @@ pub(in super::super) struct Ring {
     radius: f32,
 }
 
-/// The sector between two rays, decided in integers: convex up to half a turn, else what a convex one leaves.
+/// The sector between two rays, decided in integers: convex up to half a turn, else what a convex
+/// one leaves.
 enum Sector {
     All,
     Convex(Convex<2>),
@@ -128,7 +131,8 @@ enum Piece {
 }
 
 impl Piece {
-    /// The piece of the columns `all`, of which the region holds `within`. Where it holds none, all lie before it.
+    /// The piece of the columns `all`, of which the region holds `within`. Where it holds none, all
+    /// lie before it.
     fn of(self, all: &Range<i32>, within: &Range<i32>) -> Range<i32> {
         match self {
             Self::Within => within.clone(),
@@ -140,7 +144,8 @@ impl Piece {
     }
 }
 
-/// What is known of a surface that bends both ways: how deep it lies, and that it is no steeper than 1.
+/// What is known of a surface that bends both ways: how deep it lies, and that it is no steeper
+/// than 1.
 #[inline(always)]
 fn flat_slope<S: Simd>(near: Lanes<S>, far: Lanes<S>) -> Slope<S> {
     let unknown = near.all(f32::INFINITY);
@@ -174,7 +179,8 @@ impl Field for Strip {
     }
 }
 
-/// The round ends of an arc: the distance to the nearer of those there are, infinite where there are none.
+/// The round ends of an arc: the distance to the nearer of those there are, infinite where there
+/// are none.
 struct Ends(Ring);
 
 impl Field for Ends {
@@ -204,17 +210,20 @@ impl Field for Ends {
     }
 }
 
-/// Strip and ends together, as far as a piece of a mosaic can tell which of them a sample belongs to.
+/// Strip and ends together, as far as a piece of a mosaic can tell which of them a sample belongs
+/// to.
 struct Weighed(Ring);
 
 #[derive(Clone, Copy)]
 struct WeighedRow<S: Simd> {
     strip: <Strip as Field>::Row<S>,
     ends: <Ends as Field>::Row<S>,
-    /// The unit ways to start and end, a pixel, and the row's part of their cross products with the way to a sample.
+    /// The unit ways to start and end, a pixel, and the row's part of their cross products with the
+    /// way to a sample.
     start: (Lanes<S>, Lanes<S>),
     end: (Lanes<S>, Lanes<S>),
-    /// Whether the sector is at most half a turn (all lanes alike), and −∞ where it is the whole circle.
+    /// Whether the sector is at most half a turn (all lanes alike), and −∞ where it is the whole
+    /// circle.
     convex: Lanes<S>,
     closed: Lanes<S>,
     /// 0 where there is no round end, else −∞.

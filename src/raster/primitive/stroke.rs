@@ -1,3 +1,5 @@
+//! How a distance becomes a depth: the half-width and the limit of a surface.
+
 use pulp::Simd;
 
 use super::super::canvas::Slope;
@@ -13,8 +15,8 @@ pub(in super::super) struct Stroke {
 
 /// How far, relative to the lengths that enter it, a computed distance may lie from the true one.
 ///
-/// A fragment is off by a few roundings of 2⁻²⁴ each (see the module's doc); bounds of cells are kept 32 such
-/// roundings wide of the truth.
+/// A fragment is off by a few roundings of 2⁻²⁴ each (see the module's doc); bounds of cells are
+/// kept 32 such roundings wide of the truth.
 pub(in super::super) const SLACK: f32 = 1.0 / 524_288.0;
 
 /// Pixels in a step; a power of two, so that multiplying by it is exact.
@@ -53,8 +55,9 @@ impl<S: Simd> StrokeLanes<S> {
         (distance * self.pixel - self.offset).max(self.zero)
     }
 
-    /// How the distance to a point lies, `ex` and `ey` steps away. As the nearest point of a convex curve it stands for
-    /// the curve: the curve is nowhere nearer than the line across the way to it, nowhere farther than that point.
+    /// How the distance to a point lies, `ex` and `ey` steps away. As the nearest point of a convex
+    /// curve it stands for the curve: the curve is nowhere nearer than the line across the way to
+    /// it, nowhere farther than that point.
     #[inline(always)]
     pub(super) fn slope(self, ex: Lanes<S>, ey: Lanes<S>) -> Slope<S> {
         let distance = (ex * ex + ey * ey).sqrt() * self.pixel;

@@ -1,3 +1,5 @@
+//! Triangles by OpenGL's rules: what tessellated cones and curtains are made of.
+
 use super::super::canvas::{Canvas, count, put};
 use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
@@ -36,7 +38,8 @@ impl Triangle {
         if area == 0 {
             return None;
         }
-        // The plane comes from the corners in a fixed order, whichever way round the caller named them.
+        // The plane comes from the corners in a fixed order, whichever way round the caller named
+        // them.
         let slope = slope(u, v, area, depths);
         let depth = f64::from(depths[0]);
         let range =

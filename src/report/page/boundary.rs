@@ -9,9 +9,10 @@ use crate::report::ink::{Ink, place, um};
 
 /// A line between two regions: the owner on its left, the owner on its right, and its way.
 ///
-/// An owner is a net's number, -1 beyond the edge, -2 where nobody owns the board. The way begins with the start and the distance
-/// to copper there (`s x y clearance`); then come lines (`l dx dy`) and arcs (`a dx dy i j` against the clock, `c` with it, the centre
-/// from the start), each with how much the clearance grows.
+/// An owner is a net's number, -1 beyond the edge, -2 where nobody owns the board. The way begins
+/// with the start and the distance to copper there (`s x y clearance`); then come lines (`l dx dy`)
+/// and arcs (`a dx dy i j` against the clock, `c` with it, the centre from the start), each with
+/// how much the clearance grows.
 #[derive(Clone, Debug, Serialize)]
 pub struct Edge(pub i64, pub i64, pub String);
 

@@ -10,7 +10,8 @@ use crate::topology::{Net, Nets};
 
 use crate::report::ink::{Ink, pen, place, um};
 
-/// Features that one path holds at most. Chosen: few paths to draw, and small ones to leave out where they are not seen.
+/// Features that one path holds at most. Chosen: few paths to draw, and small ones to leave out
+/// where they are not seen.
 const MOST: usize = 256;
 
 /// The copper of a net.
@@ -22,7 +23,8 @@ pub struct NetDrawing {
     pub paths: Vec<CopperPath>,
 }
 
-/// Some features drawn with one pen: its width (zero for areas), left, bottom, right and top of what it draws, and an SVG path.
+/// Some features drawn with one pen: its width (zero for areas), left, bottom, right and top of
+/// what it draws, and an SVG path.
 #[derive(Clone, Debug, Serialize)]
 pub struct CopperPath(pub i64, pub [i64; 4], pub String);
 

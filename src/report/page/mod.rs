@@ -1,11 +1,14 @@
-//! The page: `NAME.html`, one file with everything in it that a person wants to look at before milling.
+//! The page: `NAME.html`, one file with everything in it that a person wants to look at before
+//! milling.
 //!
-//! It asks nothing of the network: style, program and data are within. The data are vectors, whole micrometres written as
-//! differences, so a board takes about as much room as its Gerber files; the browser draws them at any scale. What the tool does is read
-//! back from the text of the programs, so the page shows what the machine will do, not what was planned.
+//! It asks nothing of the network: style, program and data are within. The data are vectors, whole
+//! micrometres written as differences, so a board takes about as much room as its Gerber files; the
+//! browser draws them at any scale. What the tool does is read back from the text of the programs,
+//! so the page shows what the machine will do, not what was planned.
 //!
-//! The page's own style and program lie in `src/report/html`, in the order of the array `SCRIPTS`; the drawing's
-//! shape is [`Drawing`], and beside it stands the report, [`Document`], as it is in `NAME.json`.
+//! The page's own style and program lie in `src/report/html`, in the order of the array `SCRIPTS`;
+//! the drawing's shape is [`Drawing`], and beside it stands the report, [`Document`], as it is in
+//! `NAME.json`.
 
 mod boundary;
 mod copper;
@@ -35,7 +38,8 @@ pub struct Page<'a> {
     pub drawing: Drawing,
 }
 
-/// A board and what is done to it, in whole micrometres, x to the right and y up, both sides seen from the front.
+/// A board and what is done to it, in whole micrometres, x to the right and y up, both sides seen
+/// from the front.
 #[derive(Clone, Debug, Serialize)]
 pub struct Drawing {
     /// Left, bottom, right and top.

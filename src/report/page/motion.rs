@@ -60,13 +60,15 @@ pub struct ProgramDrawing {
     pub rapid: f64,
     /// Its tools.
     pub tools: Vec<ToolUse>,
-    /// The cutters in the order in which they come: width at the tip, and how much wider for each unit of depth.
+    /// The cutters in the order in which they come: width at the tip, and how much wider for each
+    /// unit of depth.
     pub cutters: Vec<(i64, f64)>,
     /// Its motions.
     ///
-    /// `s x y z` is where it begins; `r dx dy` a rapid, `f dx dy` a feed, `a dx dy i j` an arc against the clock and `c` with it,
-    /// the centre from the start. What holds from the next motion on: `z height`, `v feed` in mm/min, `t cutter`. `n lines` is how many
-    /// lines of text lie between the next motion and the one before, where that is not one.
+    /// `s x y z` is where it begins; `r dx dy` a rapid, `f dx dy` a feed, `a dx dy i j` an arc
+    /// against the clock and `c` with it, the centre from the start. What holds from the next
+    /// motion on: `z height`, `v feed` in mm/min, `t cutter`. `n lines` is how many lines of text
+    /// lie between the next motion and the one before, where that is not one.
     pub motions: String,
 }
 
@@ -97,7 +99,8 @@ fn widening(cutter: &Cutter) -> f64 {
     (wider * 1000.0).round() / 1000.0
 }
 
-/// The cutters that the comments of a program name, each with the line from which it is in the spindle.
+/// The cutters that the comments of a program name, each with the line from which it is in the
+/// spindle.
 fn cutters(text: &str) -> Vec<(u32, Cutter)> {
     let named = |line: &str| {
         let (_, tool) = line.split_once("tool ")?;

@@ -1,10 +1,12 @@
-//! The shortest order of a few stretches: all are tried, but for those that begin with a way already too long.
+//! The shortest order of a few stretches: all are tried, but for those that begin with a way
+//! already too long.
 
 use crate::geometry::Point;
 
 use super::Leg;
 
-/// So many stretches at most are worth trying all orders of. Chosen: 6 have 46 080, of which few are followed to their end.
+/// So many stretches at most are worth trying all orders of. Chosen: 6 have 46 080, of which few
+/// are followed to their end.
 pub(super) const FEW: usize = 6;
 
 /// The shortest order.

@@ -1,10 +1,11 @@
 //! The order of the trails: less travel through the air.
 //!
-//! Trails between which the tool is lifted are the cities of a travelling salesman who enters each at one end and
-//! leaves at the other (a closed one anywhere). Nearest-next starts; exchanges of two and three links over
-//! neighbour lists (2-opt, Or-opt and 3-opt moves in one) improve it; then small double bridges, seeded, shake it where
-//! it is kept if the repaired tour is shorter, until many in a row were in vain. Of a few trails all orders are tried. Everything is bounded by counts, never by a clock, so the order
-//! depends on the trails alone.
+//! Trails between which the tool is lifted are the cities of a travelling salesman who enters each
+//! at one end and leaves at the other (a closed one anywhere). Nearest-next starts; exchanges of
+//! two and three links over neighbour lists (2-opt, Or-opt and 3-opt moves in one) improve it; then
+//! small double bridges, seeded, shake it where it is kept if the repaired tour is shorter, until
+//! many in a row were in vain. Of a few trails all orders are tried. Everything is bounded by
+//! counts, never by a clock, so the order depends on the trails alone.
 
 mod few;
 mod neighbours;
@@ -56,12 +57,14 @@ pub(super) struct Leg {
     pub entry: Option<usize>,
 }
 
-/// Beside cuts so many times as long, the way between them is worth no long search. Measured: a long one takes as long as all the rest of a wide isolation
-/// together, and shortens its way by a fifth, which is 0.2 % of the time on the machine.
+/// Beside cuts so many times as long, the way between them is worth no long search. Measured: a
+/// long one takes as long as all the rest of a wide isolation together, and shortens its way by a
+/// fifth, which is 0.2 % of the time on the machine.
 const CUT_A_WAY: f64 = 10.0;
 
-/// Every stretch once; the first is sought from `start`. Improving never makes the way longer; it goes on less long where the way is next to
-/// nothing beside the `cut` nanometres of the stretches themselves.
+/// Every stretch once; the first is sought from `start`. Improving never makes the way longer; it
+/// goes on less long where the way is next to nothing beside the `cut` nanometres of the stretches
+/// themselves.
 pub(super) fn arrange(stretches: &[Stretch], start: Point, order: Order, cut: f64) -> Vec<Leg> {
     let ends: Vec<[Point; 2]> = stretches.iter().map(|stretch| [stretch.from, stretch.to]).collect();
     let mut greedy = nearest_next(&ends, start);
@@ -71,7 +74,8 @@ pub(super) fn arrange(stretches: &[Stretch], start: Point, order: Order, cut: f6
     improved.filter(|_| shortest.is_some_and(|shortest| shortest <= first)).unwrap_or(greedy)
 }
 
-/// Improves an order, chooses where closed stretches are entered, and improves it once more; the length of the way.
+/// Improves an order, chooses where closed stretches are entered, and improves it once more; the
+/// length of the way.
 fn improve_all(
     legs: &mut Vec<Leg>,
     stretches: &[Stretch],
@@ -111,7 +115,8 @@ fn nearest_next(ends: &[[Point; 2]], start: Point) -> Vec<Leg> {
     legs
 }
 
-/// Begins each closed stretch where the way to it and on from it is shortest; the length of the whole way.
+/// Begins each closed stretch where the way to it and on from it is shortest; the length of the
+/// whole way.
 fn enter_well(legs: &mut [Leg], stretches: &[Stretch], ends: &mut [[Point; 2]], start: Point) -> f64 {
     let (mut before, mut length) = (start, 0.0);
     for index in 0..legs.len() {
@@ -219,8 +224,8 @@ mod tests {
         way / (f64::from(count).sqrt() * 1e8)
     }
 
-    /// Johnson and McGeoch (The Traveling Salesman Problem: A Case Study, 1997, §2) give the optimum as 0.7313 for
-    /// 1000 points and 0.7168 for 10 000.
+    /// Johnson and McGeoch (The Traveling Salesman Problem: A Case Study, 1997, §2) give the
+    /// optimum as 0.7313 for 1000 points and 0.7168 for 10 000.
     #[test]
     fn a_thousand_holes_are_within_five_percent_of_the_best_order() {
         let ratio = strewn(1000);

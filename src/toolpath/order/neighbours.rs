@@ -20,7 +20,8 @@ impl<'a> Buckets<'a> {
             Rect::around(points.iter().copied()).unwrap_or(Rect::new(Point::default(), Point::default()));
         let (width, height) = (bounds.width().get() + 1, bounds.height().get() + 1);
         let share = (width.max(height) / i64::try_from(points.len().max(1)).unwrap_or(i64::MAX)).max(1);
-        // Two points a bucket if they lie evenly; a long thin board gets buckets that are not too many either.
+        // Two points a bucket if they lie evenly; a long thin board gets buckets that are not too
+        // many either.
         let side = (width / 2 * height / i64::try_from(points.len().max(1)).unwrap_or(i64::MAX) * 4)
             .isqrt()
             .max(share);
@@ -60,7 +61,8 @@ impl<'a> Buckets<'a> {
         self.nearest_few(to, 1, |_| true).first().map(|&(_, index)| index as usize)
     }
 
-    /// The `count` nearest points that `wanted` lets pass, each with its squared distance, nearest first.
+    /// The `count` nearest points that `wanted` lets pass, each with its squared distance, nearest
+    /// first.
     pub(super) fn nearest_few(
         &self,
         to: Point,

@@ -1,4 +1,5 @@
-//! Local search: moves of two and three links over neighbour lists until none helps, then small double bridges.
+//! Local search: moves of two and three links over neighbour lists until none helps, then small
+//! double bridges.
 
 use std::cmp::Ordering;
 use std::collections::VecDeque;
@@ -11,20 +12,25 @@ use super::step::Step;
 use super::tour::{End, Tour};
 use super::{Effort, Leg};
 
-/// How many near stretches an end looks at, and how many of their ends: both ends of a hole lie at one place, those of a trail hardly ever.
-/// Measured: with six or eight stretches ten thousand trails take as long and come out no shorter.
+/// How many near stretches an end looks at, and how many of their ends: both ends of a hole lie at
+/// one place, those of a trail hardly ever. Measured: with six or eight stretches ten thousand
+/// trails take as long and come out no shorter.
 const NEAR: usize = 7;
 const NEAR_ENDS: usize = 12;
 /// Gains below a picometre are rounding.
 const LEAST: f64 = 1e-3;
-/// How far two of the three cuts of a double bridge may lie apart. Measured: 30 leave a tenth of a percent, 10 half a percent.
+/// How far two of the three cuts of a double bridge may lie apart. Measured: 30 leave a tenth of a
+/// percent, 10 half a percent.
 const BRIDGE: u64 = 50;
-/// Double bridges for each stretch. Measured: three times as many shorten the way through a thousand by a quarter of a percent.
+/// Double bridges for each stretch. Measured: three times as many shorten the way through a
+/// thousand by a quarter of a percent.
 const SHAKES_EACH: usize = 60;
-/// How many ends are looked at in the end, beyond which nothing is shaken: ten thousand stretches are in order within two seconds.
+/// How many ends are looked at in the end, beyond which nothing is shaken: ten thousand stretches
+/// are in order within two seconds.
 const MOST_LOOKS: u64 = 3_000_000;
-/// After how many double bridges in vain, for each stretch and for all, the order is taken for as good as it gets.
-/// Measured: of a hundred stretches longer trials shorten the way by a tenth of a percent.
+/// After how many double bridges in vain, for each stretch and for all, the order is taken for as
+/// good as it gets. Measured: of a hundred stretches longer trials shorten the way by a tenth of a
+/// percent.
 const IDLE_EACH: usize = 12;
 const IDLE: usize = 100;
 
@@ -52,12 +58,13 @@ fn end(stretch: usize) -> End {
 /// A near end, and how far it is.
 pub(super) type Near = (End, f64);
 
-/// A tour that also passes home: an extra stretch that is left at the start and entered for nothing, which makes
-/// the open way a closed tour.
+/// A tour that also passes home: an extra stretch that is left at the start and entered for
+/// nothing, which makes the open way a closed tour.
 pub(super) struct Search {
     points: Vec<(f64, f64)>,
     home: End,
-    /// `width` near ends of each end, nearest first; where there are fewer, the rest are infinitely far.
+    /// `width` near ends of each end, nearest first; where there are fewer, the rest are infinitely
+    /// far.
     near: Vec<Near>,
     width: usize,
     /// Of few stretches, home sees more ends than the others do, who leave out their own.
@@ -131,8 +138,8 @@ impl Search {
         }
     }
 
-    /// Double bridges at random places, each kept only if the tour, settled again, is not longer; until `idle` in a row gained nothing
-    /// or enough has been looked at.
+    /// Double bridges at random places, each kept only if the tour, settled again, is not longer;
+    /// until `idle` in a row gained nothing or enough has been looked at.
     fn shake(&mut self, times: usize, idle: usize) {
         let count = u64::from(self.tour.count());
         if count < 4 {
@@ -160,7 +167,8 @@ impl Search {
         }
     }
 
-    /// Swaps the two runs of stretches between three ways out: a–b … c–d … e–f becomes a–d … e–b … c–f.
+    /// Swaps the two runs of stretches between three ways out: a–b … c–d … e–f becomes a–d … e–b …
+    /// c–f.
     fn bridge(&mut self, [a, c, e]: [End; 3]) {
         let [b, d, f] = [a, c, e].map(|out| self.tour.partner(out));
         let before = self.link(a) + self.link(c) + self.link(e);

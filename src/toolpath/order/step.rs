@@ -1,8 +1,10 @@
-//! A step of the local search: two or three links through the air exchanged, found without touching the tour.
+//! A step of the local search: two or three links through the air exchanged, found without touching
+//! the tour.
 //!
-//! Every end has one link, so a step is told by which link it begins with and which near ends it goes on to: 1–2 is unlinked, 2 linked to a near
-//! 3, whose link 3–4 is cut in turn, and 4 linked to 1, or to a near 5, whose partner 6 is linked to 1. Which of these
-//! give a tour depends on how the ends lie, in the tour's direction or against it:
+//! Every end has one link, so a step is told by which link it begins with and which near ends it
+//! goes on to: 1–2 is unlinked, 2 linked to a near 3, whose link 3–4 is cut in turn, and 4 linked
+//! to 1, or to a near 5, whose partner 6 is linked to 1. Which of these give a tour depends on how
+//! the ends lie, in the tour's direction or against it:
 //!
 //! ```text
 //!   Pair    1–2 … 4–3              3 lies as 2 does: what is between is turned round
@@ -11,7 +13,8 @@
 //!   Swap    1–2 … 5–6 … 3–4        or change places
 //! ```
 //!
-//! (Lin and Kernighan's search of 1973, three links deep; the array of the tour is reversed only for what is taken.)
+//! (Lin and Kernighan's search of 1973, three links deep; the array of the tour is reversed only
+//! for what is taken.)
 
 use super::search::Search;
 use super::tour::{End, Tour};
@@ -65,7 +68,8 @@ impl Step {
         (best.gain > least).then_some(best)
     }
 
-    /// Becomes a step of three links that begins with these four ends, if one gains more; `open` is what is gained before the tour is closed again.
+    /// Becomes a step of three links that begins with these four ends, if one gains more; `open` is
+    /// what is gained before the tour is closed again.
     fn deepen(&mut self, search: &Search, [t1, t2, t3, t4]: [End; 4], open: f64) {
         let near = search.near(t4);
         for &(t5, length) in &near[..BREADTH.min(near.len())] {
@@ -114,7 +118,8 @@ impl Step {
 }
 
 impl Kind {
-    /// What three links make whose ends from the second to the fifth are these; none where no tour would be left.
+    /// What three links make whose ends from the second to the fifth are these; none where no tour
+    /// would be left.
     fn of(tour: &Tour, [t2, t3, t4, t5]: [End; 4]) -> Option<Self> {
         let along = tour.is_entry(t2);
         let same = tour.is_entry(t5) == along;

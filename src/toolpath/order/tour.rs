@@ -1,7 +1,8 @@
 //! A closed tour through stretches, kept as an array, changed by exchanges that can be taken back.
 //!
-//! Stretch k has the ends 2k and 2k + 1; the tour lists for each the end by which it is entered, and leaves it by
-//! the other (`end ^ 1`). Every end has one partner, the end linked to it through the air:
+//! Stretch k has the ends 2k and 2k + 1; the tour lists for each the end by which it is entered,
+//! and leaves it by the other (`end ^ 1`). Every end has one partner, the end linked to it through
+//! the air:
 //!
 //! ```text
 //!    ──in══out──▶──in══out──▶──        out and the next in are partners
@@ -19,7 +20,8 @@ pub(super) struct Tour {
     log: Vec<Exchange>,
 }
 
-/// Two links exchanged, a–b and c–d for a–c and b–d, and the first and last place of what was reversed for it.
+/// Two links exchanged, a–b and c–d for a–c and b–d, and the first and last place of what was
+/// reversed for it.
 #[derive(Clone, Copy)]
 struct Exchange {
     ends: [End; 4],
@@ -69,14 +71,15 @@ impl Tour {
         self.partners[end as usize]
     }
 
-    /// Whether the tour, from the stretch of `first` on, comes to that of `end` no later than to that of `last`.
+    /// Whether the tour, from the stretch of `first` on, comes to that of `end` no later than to
+    /// that of `last`.
     pub(super) fn is_between(&self, first: End, end: End, last: End) -> bool {
         let [first, end, last] = [first, end, last].map(|end| self.place(end));
         if first <= last { first <= end && end <= last } else { first <= end || end <= last }
     }
 
-    /// Unlinks a from b and c from d, and links a to c and b to d. The pairs must be partners, and a must be an
-    /// entry just where c is one.
+    /// Unlinks a from b and c from d, and links a to c and b to d. The pairs must be partners, and
+    /// a must be an entry just where c is one.
     pub(super) fn exchange(&mut self, a: End, b: End, c: End, d: End) {
         let (first, last) = if self.is_entry(a) { (b, d) } else { (a, c) };
         let after = |place: u32| if place + 1 == self.count() { 0 } else { place + 1 };
@@ -91,8 +94,9 @@ impl Tour {
         self.partners[b as usize] = a;
     }
 
-    /// Reverses the places from `first` through `last`, round the end if need be, or the rest, which gives
-    /// the same tour walked the other way, if that is shorter; which places these were, if any.
+    /// Reverses the places from `first` through `last`, round the end if need be, or the rest,
+    /// which gives the same tour walked the other way, if that is shorter; which places these were,
+    /// if any.
     fn reverse(&mut self, first: u32, last: u32) -> Option<(u32, u32)> {
         let count = self.count();
         let inner = (last + count - first) % count + 1;

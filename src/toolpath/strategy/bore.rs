@@ -1,8 +1,9 @@
 //! Boring: holes and slots wider than the end mill, milled out along their wall.
 //!
-//! A hole is a helix down to the bottom and a full turn there; what is wider than two cutters is cleared from the middle outwards. Along the
-//! wall one more turn follows at the bottom, the spring pass, which takes what the cutter left by giving way. A slot is the same round
-//! its whole length: an obround, deeper with every lap.
+//! A hole is a helix down to the bottom and a full turn there; what is wider than two cutters is
+//! cleared from the middle outwards. Along the wall one more turn follows at the bottom, the spring
+//! pass, which takes what the cutter left by giving way. A slot is the same round its whole length:
+//! an obround, deeper with every lap.
 //!
 //! ```text
 //!     ╭───────────────╮      the cutter's middle runs (width − cutter) / 2
@@ -49,13 +50,15 @@ pub(super) fn bore(
     Section { tool: mill.clone(), label, moves: head.finish() }
 }
 
-/// How far from the axis the cutter's middle runs, from the inside out: as few laps as leave no core.
+/// How far from the axis the cutter's middle runs, from the inside out: as few laps as leave no
+/// core.
 fn reaches(width: Nm, cutter: Nm) -> Vec<Nm> {
     let last = (width - cutter).max(Nm::ZERO) / 2;
     if last <= cutter / 2 {
         return vec![last];
     }
-    // The first lap crosses the axis, and laps a little less than a cutter apart clear everything between them.
+    // The first lap crosses the axis, and laps a little less than a cutter apart clear everything
+    // between them.
     let first = cutter * 9 / 20;
     let apart = (cutter.get() * 9 / 10).max(1);
     let gaps = ((last - first).get() + apart - 1) / apart;

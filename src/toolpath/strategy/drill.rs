@@ -16,9 +16,11 @@ pub struct Drilling<'a> {
     pub drills: &'a [Tool],
     /// How far a hole may become larger or smaller than the files say.
     pub tolerance: Nm,
-    /// The end mill that bores holes for which no drill is at hand and mills slots; none chain-drills slots.
+    /// The end mill that bores holes for which no drill is at hand and mills slots; none
+    /// chain-drills slots.
     pub mill: Option<&'a Tool>,
-    /// The diameter from which on holes are bored whatever drills are at hand; none where drills go before.
+    /// The diameter from which on holes are bored whatever drills are at hand; none where drills go
+    /// before.
     pub bored_from: Option<Nm>,
     /// How high and how deep; the step is the peck.
     pub heights: Heights,
@@ -36,13 +38,14 @@ pub struct Drilling<'a> {
     pub point: Angle,
 }
 
-/// The thickest drill that is taken to be at hand unasked, where a mill can bore instead. Chosen: the shank of drills for boards has 3.175 mm,
-/// and M3 wants 3.2 mm.
+/// The thickest drill that is taken to be at hand unasked, where a mill can bore instead. Chosen:
+/// the shank of drills for boards has 3.175 mm, and M3 wants 3.2 mm.
 const THICKEST: Nm = Nm::from_um(3200);
 
 /// Drills all holes: a section for each drill, thin ones first, then one for what is bored.
 ///
-/// Tools keep their numbers; drills that are only taken to be at hand all have 1, and who knows all tools of a job numbers them.
+/// Tools keep their numbers; drills that are only taken to be at hand all have 1, and who knows all
+/// tools of a job numbers them.
 ///
 /// Warned about: `no-drill-for-hole` where neither a drill nor the mill fits.
 pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warning>) {
@@ -134,8 +137,8 @@ fn plunge(head: &mut Head, point: Point, heights: Heights, dwell: u32) {
     }
 }
 
-/// The order of so many holes in a row in which the drill always has material, or none, on both sides: the ends first, then the middles
-/// between, again and again.
+/// The order of so many holes in a row in which the drill always has material, or none, on both
+/// sides: the ends first, then the middles between, again and again.
 fn halved(count: usize) -> Vec<usize> {
     let last = count.saturating_sub(1);
     let mut order = if last == 0 { vec![0] } else { vec![0, last] };
@@ -150,8 +153,9 @@ fn halved(count: usize) -> Vec<usize> {
     order
 }
 
-/// The holes that make a slot: so close that the scallops between them stay below [`SCALLOP`], but no closer than a quarter of the drill,
-/// as a drill that has nothing to bite on slips into the hole beside it.
+/// The holes that make a slot: so close that the scallops between them stay below [`SCALLOP`], but
+/// no closer than a quarter of the drill, as a drill that has nothing to bite on slips into the
+/// hole beside it.
 fn chain(path: &Path, diameter: Nm) -> Vec<Point> {
     let mut points = vec![path.start];
     let pitch = {
@@ -165,7 +169,8 @@ fn chain(path: &Path, diameter: Nm) -> Vec<Point> {
     points
 }
 
-/// How high the ridges between the holes of a slot may stand: half a thousandth of an inch, as the drill makers say.
+/// How high the ridges between the holes of a slot may stand: half a thousandth of an inch, as the
+/// drill makers say.
 const SCALLOP: Nm = Nm::new(12_700);
 
 /// Points along a segment at most `pitch` apart, without the start and with the end.

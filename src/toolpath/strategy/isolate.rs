@@ -49,7 +49,8 @@ pub struct Isolation<'a> {
     pub machine: &'a Machine,
     /// What is done where the kerf does not fit.
     pub narrow: Narrow,
-    /// The least depth to which a V-bit may rise so that its kerf fits the gap; none keeps the full depth.
+    /// The least depth to which a V-bit may rise so that its kerf fits the gap; none keeps the full
+    /// depth.
     pub adaptive: Option<Nm>,
     /// Which way round copper a loop goes that has copper on one side alone; none for either.
     pub direction: Option<Direction>,
@@ -57,8 +58,9 @@ pub struct Isolation<'a> {
 
 /// Cuts every boundary that `role` says to cut, once, and the closed `laps` (the frame) beside.
 ///
-/// `name` says what people call an owner, for the warnings: one `gap-narrower-than-tool` per boundary whose clearance
-/// falls below half the kerf, that of the least depth where the tool may rise, at its narrowest place, in board coordinates.
+/// `name` says what people call an owner, for the warnings: one `gap-narrower-than-tool` per
+/// boundary whose clearance falls below half the kerf, that of the least depth where the tool may
+/// rise, at its narrowest place, in board coordinates.
 pub fn isolate(
     label: impl Into<String>,
     boundaries: &Boundaries,
@@ -101,7 +103,8 @@ struct Way<'a> {
     path: Path,
     clearance: Cow<'a, [Nm]>,
     link: Link,
-    /// Whether copper lies on its left, or else on its right; none where it lies on both sides or on none.
+    /// Whether copper lies on its left, or else on its right; none where it lies on both sides or
+    /// on none.
     left: Option<bool>,
 }
 
@@ -195,18 +198,21 @@ fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move>
     head.finish()
 }
 
-/// Whether the tool may stay down from the end of a trail, with its clearance, to the beginning of the next: where that is no farther than its
-/// kerf, so that nothing is cut but what its two grooves nearly meet in, and no copper is within its reach on the way.
+/// Whether the tool may stay down from the end of a trail, with its clearance, to the beginning of
+/// the next: where that is no farther than its kerf, so that nothing is cut but what its two
+/// grooves nearly meet in, and no copper is within its reach on the way.
 fn hops(before: (Point, Nm), next: &Line, settings: &Isolation<'_>) -> bool {
     let kerf = settings.tool.width_at(settings.heights.cut);
     let Some(clearance) = next.clearance[0] else { return false };
     let hop = Nm::from_f64(before.0.distance(next.path.start));
-    // Any point of the way is at most the rest of it nearer to copper than the one end, and than the other.
+    // Any point of the way is at most the rest of it nearer to copper than the one end, and than
+    // the other.
     let nearest = (before.1 + clearance - hop) / 2;
     settings.heights.step.is_none() && hop <= kerf && nearest >= kerf / 2
 }
 
-/// One trail in all its passes: there at the first depth, and where it is open back at the next, without a lift.
+/// One trail in all its passes: there at the first depth, and where it is open back at the next,
+/// without a lift.
 fn cut_line(head: &mut Head, line: &mut Line, settings: &Isolation<'_>) {
     for (pass, depth) in settings.heights.passes().enumerate() {
         if pass > 0 && !line.path.is_closed() {
@@ -229,7 +235,8 @@ struct Line {
 }
 
 impl Line {
-    /// Whether a closed one must be turned round for the direction that is asked for; none where either will do.
+    /// Whether a closed one must be turned round for the direction that is asked for; none where
+    /// either will do.
     fn reverses(&self, settings: &Isolation<'_>) -> Option<bool> {
         let left = self.left.filter(|_| self.path.is_closed())?;
         Some(settings.direction?.reverses(left, settings.placement.mirror.is_some()))
@@ -297,15 +304,18 @@ impl Line {
     }
 }
 
-/// How much of a lift's time a second cut may take that saves it. Measured: from 0.6 to 1 boards take the same time within half a percent; with less,
-/// less is cut twice and the tool lasts longer, and with 0.7 none of the nine boards in docs/millproject.md is cut longer than by pcb2gcode.
+/// How much of a lift's time a second cut may take that saves it. Measured: from 0.6 to 1 boards
+/// take the same time within half a percent; with less, less is cut twice and the tool lasts
+/// longer, and with 0.7 none of the nine boards in docs/millproject.md is cut longer than by
+/// pcb2gcode.
 const WORTH: f64 = 0.7;
 
-/// The way over which the next trail is expected, for what a lift costs. Chosen: the middle of what boards show.
+/// The way over which the next trail is expected, for what a lift costs. Chosen: the middle of what
+/// boards show.
 const EXPECTED_HOP: Nm = Nm::from_mm(5);
 
-/// What a lift costs: up, over, down to the approach height, the plunge, and each time from a standstill to a
-/// standstill.
+/// What a lift costs: up, over, down to the approach height, the plunge, and each time from a
+/// standstill to a standstill.
 fn lift_seconds(settings: &Isolation<'_>) -> f64 {
     let Heights { safe, approach, cut, .. } = settings.heights;
     let Isolation { machine, tool, .. } = settings;

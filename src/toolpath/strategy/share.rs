@@ -1,8 +1,9 @@
 //! Rest machining: what of the boundaries each of several tools cuts.
 //!
-//! Every stretch goes to the first tool whose kerf fits between the copper on both sides, and the last takes what is left. A stretch
-//! fits or not from vertex to vertex: between two of them the gap is never narrower than at the narrower end. What a wide tool would cut in
-//! a piece hardly longer than its kerf is left to a finer one: it would only be a hole, and cost a lift.
+//! Every stretch goes to the first tool whose kerf fits between the copper on both sides, and the
+//! last takes what is left. A stretch fits or not from vertex to vertex: between two of them the
+//! gap is never narrower than at the narrower end. What a wide tool would cut in a piece hardly
+//! longer than its kerf is left to a finer one: it would only be a hole, and cost a lift.
 //!
 //! ```text
 //!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
@@ -17,8 +18,8 @@ use crate::voronoi::{Boundaries, Boundary, NodeId};
 /// How long what a tool cuts in one piece must be, as a multiple of its kerf. Chosen.
 const LEAST: f64 = 3.0;
 
-/// The part of `boundaries` that each tool cuts, by their kerfs, the widest first. All parts have the same nodes, some of them new, where one
-/// tool takes over from another.
+/// The part of `boundaries` that each tool cuts, by their kerfs, the widest first. All parts have
+/// the same nodes, some of them new, where one tool takes over from another.
 #[must_use]
 pub fn share(boundaries: &Boundaries, kerfs: &[Nm]) -> Vec<Boundaries> {
     let mut nodes = boundaries.nodes.clone();
@@ -36,7 +37,8 @@ pub fn share(boundaries: &Boundaries, kerfs: &[Nm]) -> Vec<Boundaries> {
     (0..kerfs.len()).map(of).collect()
 }
 
-/// How much a kerf may be wider than the gap and still fit, so that what was laid out for a kerf is not lost to rounding.
+/// How much a kerf may be wider than the gap and still fit, so that what was laid out for a kerf is
+/// not lost to rounding.
 pub(super) const SLACK: Nm = Nm::from_um(1);
 
 /// The first tool that fits a gap of twice `clearance`; the last if none does.
@@ -44,7 +46,8 @@ fn fitting(clearance: Nm, kerfs: &[Nm]) -> usize {
     kerfs.iter().position(|&kerf| kerf <= clearance * 2 + SLACK).unwrap_or(kerfs.len().saturating_sub(1))
 }
 
-/// Adds the stretches of `edge` to `parts`, each with its tool, and the places between them to `nodes`.
+/// Adds the stretches of `edge` to `parts`, each with its tool, and the places between them to
+/// `nodes`.
 fn split(edge: &Boundary, kerfs: &[Nm], nodes: &mut Vec<Point>, parts: &mut Vec<(usize, Boundary)>) {
     let tools: Vec<usize> =
         edge.clearance.windows(2).map(|ends| fitting(ends[0].min(ends[1]), kerfs)).collect();

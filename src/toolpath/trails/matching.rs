@@ -1,8 +1,8 @@
 //! Which odd nodes are joined by a second cut: a matching in which staying alone costs half a lift.
 //!
-//! Nearest pairs first, then alternating chains: a pair is taken apart, one of the two joins a near node, whose partner is loose in turn,
-//! and so on a few steps; whatever makes the sum smaller is kept. (Edmonds' exact algorithm would be several hundred
-//! lines for the last percent.)
+//! Nearest pairs first, then alternating chains: a pair is taken apart, one of the two joins a near
+//! node, whose partner is loose in turn, and so on a few steps; whatever makes the sum smaller is
+//! kept. (Edmonds' exact algorithm would be several hundred lines for the last percent.)
 
 /// Two nodes that may be joined, the smaller first, and what joining them costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +19,8 @@ const BUDGET: usize = 1000;
 /// Gains below this are rounding.
 const LEAST: f64 = 1e-9;
 
-/// The indices of the candidates that are joined, each node at most once, with a small sum of their costs and of
-/// `alone` for every node left over.
+/// The indices of the candidates that are joined, each node at most once, with a small sum of their
+/// costs and of `alone` for every node left over.
 pub(super) fn join(nodes: usize, candidates: &[Candidate], alone: f64) -> Vec<usize> {
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     let key = |index: usize| candidates[index];
@@ -74,7 +74,8 @@ impl Matching<'_> {
         if a == node { b } else { a }
     }
 
-    /// Frees `node` and its partner and looks for a chain that gains; the nodes that are joined otherwise than before.
+    /// Frees `node` and its partner and looks for a chain that gains; the nodes that are joined
+    /// otherwise than before.
     fn improve(&mut self, node: usize) -> Vec<usize> {
         let (loose, first, gain) = match self.joined[node] {
             // Alone: it is the loose end itself, and nothing waits for the chain to come back.
@@ -132,7 +133,8 @@ impl Matching<'_> {
         cheap.find(|way| way.to == b).map(|way| way.candidate)
     }
 
-    /// Takes apart whatever the chain's nodes were in, and joins them along it; all that were touched.
+    /// Takes apart whatever the chain's nodes were in, and joins them along it; all that were
+    /// touched.
     fn apply(&mut self, first: Option<usize>, chain: &[usize]) -> Vec<usize> {
         let ends = chain.iter().flat_map(|&candidate| {
             let (a, b) = self.candidates[candidate].nodes;

@@ -1,8 +1,9 @@
 //! The boundary graph walked in few trails: what is cut in one go without a lift.
 //!
-//! A trail passes each edge once. A connected graph with 2k nodes of odd degree needs k trails (Euler); cutting an edge a second
-//! time makes the two odd nodes at its ends even and saves a trail, so odd nodes are paired along shortest
-//! ways wherever that saves time (the Chinese postman's problem with an escape).
+//! A trail passes each edge once. A connected graph with 2k nodes of odd degree needs k trails
+//! (Euler); cutting an edge a second time makes the two odd nodes at its ends even and saves a
+//! trail, so odd nodes are paired along shortest ways wherever that saves time (the Chinese
+//! postman's problem with an escape).
 
 mod matching;
 
@@ -33,8 +34,9 @@ pub(super) struct Step {
     pub backwards: bool,
 }
 
-/// The trails, in a fixed order, that together pass every link that must be cut. A link is passed twice, or one
-/// passed that need not be, where that takes less than `lift` seconds and saves a lift.
+/// The trails, in a fixed order, that together pass every link that must be cut. A link is passed
+/// twice, or one passed that need not be, where that takes less than `lift` seconds and saves a
+/// lift.
 pub(super) fn walk(nodes: usize, links: &[Link], lift: f64) -> Vec<Vec<Step>> {
     let mut trails: Vec<Vec<Step>> = Vec::new();
     let mut passes: Vec<Pass> = Vec::new();
@@ -71,8 +73,9 @@ fn odd(nodes: usize, passes: &[Pass]) -> Vec<bool> {
     odd
 }
 
-/// The links to be passed once more: odd nodes are joined in pairs where the way between takes less than `lift`.
-/// Where two such ways share a link, passing it neither time joins the same four nodes for less.
+/// The links to be passed once more: odd nodes are joined in pairs where the way between takes less
+/// than `lift`. Where two such ways share a link, passing it neither time joins the same four nodes
+/// for less.
 fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> Vec<usize> {
     let odd = odd(nodes, passes);
     let graph = Adjacency::new(nodes, links.iter().map(|link| link.ends));
@@ -96,7 +99,8 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> Vec<usize>
     (0..links.len()).filter(|&link| again[link]).collect()
 }
 
-/// Takes back the dearest join of each part whose odd nodes are all joined: with the last two left, it is still one trail.
+/// Takes back the dearest join of each part whose odd nodes are all joined: with the last two left,
+/// it is still one trail.
 ///
 /// A way over links that must be cut anyway can be taken back without the part falling apart.
 fn spare(nodes: usize, links: &[Link], odd: &[bool], chosen: &[&Pair], again: &mut [bool]) {
@@ -135,7 +139,8 @@ struct Pair {
     way: Vec<usize>,
 }
 
-/// What a search knows of the nodes it reached: how far they are, and by which link from which node.
+/// What a search knows of the nodes it reached: how far they are, and by which link from which
+/// node.
 type Reached = FxHashMap<usize, (f64, Option<(usize, usize)>)>;
 
 /// Seconds as a key that sorts: the bits of a non-negative float sort as the float does.

@@ -1,3 +1,5 @@
+//! Contact with an area: does anything touch a polygon's inside or edge, decided in integers.
+
 use std::ops::ControlFlow;
 
 use crate::geometry::{Nm, Orientation, Point, Polygon, Rect, orientation};
@@ -9,8 +11,8 @@ use super::nearest::{self, Way};
 
 /// From how many edges on they are indexed.
 ///
-/// Chosen: a pad is asked about its few neighbours only, and looking at all of its edges takes no longer than filling
-/// an index; a plane is asked about everything in its clearings.
+/// Chosen: a pad is asked about its few neighbours only, and looking at all of its edges takes no
+/// longer than filling an index; a plane is asked about everything in its clearings.
 const INDEX_FROM: usize = 256;
 
 /// A polygon with its edges by place.
@@ -69,7 +71,8 @@ impl Area {
         index.visit(window, stack, visit).is_break()
     }
 
-    /// Whether `p` lies inside or on an edge, by the non-zero rule: counts the edges that a ray to the right crosses.
+    /// Whether `p` lies inside or on an edge, by the non-zero rule: counts the edges that a ray to
+    /// the right crosses.
     pub(in crate::topology) fn contains(&self, p: Point, scratch: &mut Scratch) -> bool {
         if !self.bounds.contains(p) {
             return false;
@@ -98,7 +101,8 @@ impl Area {
             || many.contours.iter().any(|&p| few.contains(p, scratch))
     }
 
-    /// The shortest way from an edge of the area to the core of `other`, if that is within `limit` of its copper.
+    /// The shortest way from an edge of the area to the core of `other`, if that is within `limit`
+    /// of its copper.
     pub(super) fn way_to(&self, other: &Body, limit: Nm, scratch: &mut Scratch) -> Option<Way> {
         let Scratch { edges, facing } = scratch;
         let mut best: Option<Way> = None;

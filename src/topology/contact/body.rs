@@ -1,3 +1,5 @@
+//! A shape made ready for contact: a core, and how far the copper reaches round it.
+
 use crate::board::Shape;
 use crate::geometry::{Nm, Point, Rect};
 
@@ -30,8 +32,9 @@ enum Line {
     Arc(Sector),
 }
 
-/// Radii at the ends of an arc that differ by more than this, in nanometres, are no circle: the wedge between the two would be found that
-/// much too early. Chosen: what rounding in a program makes of them.
+/// Radii at the ends of an arc that differ by more than this, in nanometres, are no circle: the
+/// wedge between the two would be found that much too early. Chosen: what rounding in a program
+/// makes of them.
 const ROUND: f64 = 2_000.0;
 /// How far chords may leave such a spiral. Chosen: far below what is tolerated.
 const CHORD: Nm = Nm::new(200);
@@ -62,7 +65,8 @@ impl Body {
         self.bounds
     }
 
-    /// Whether the two share at least a point. Exact but for the insides of two arcs (see [`near`]).
+    /// Whether the two share at least a point. Exact but for the insides of two arcs (see
+    /// [`near`]).
     pub(in crate::topology) fn touches(&self, other: &Self, scratch: &mut Scratch) -> bool {
         if !self.bounds.touches(other.bounds) {
             return false;
@@ -131,7 +135,8 @@ impl Body {
         }
     }
 
-    /// The shortest way between the cores; for areas, among the edges within `limit` of the other's copper.
+    /// The shortest way between the cores; for areas, among the edges within `limit` of the other's
+    /// copper.
     fn way(&self, other: &Self, limit: Nm, scratch: &mut Scratch) -> Option<Way> {
         match (&self.core, &other.core) {
             (Core::Line(a), Core::Line(b)) => Some(a.way_to(b)),

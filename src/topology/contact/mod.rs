@@ -1,7 +1,8 @@
 //! The exact method: features whose copper touches conduct, decided in integers.
 //!
-//! Candidates come from an R-tree over the features' rectangles, so the time is near-linear; a pair that is joined
-//! already, by coincidence or through others, is not looked at. Touching counts, a gap of 1 nm does not.
+//! Candidates come from an R-tree over the features' rectangles, so the time is near-linear; a pair
+//! that is joined already, by coincidence or through others, is not looked at. Touching counts, a
+//! gap of 1 nm does not.
 
 mod area;
 mod body;
@@ -23,7 +24,8 @@ pub(super) use body::{Body, Narrowest};
 
 /// How many features one worker takes at least.
 ///
-/// Chosen: they take about a millisecond, against which handing them out and merging the sets is little.
+/// Chosen: they take about a millisecond, against which handing them out and merging the sets is
+/// little.
 const SHARE: usize = 2048;
 
 /// All features prepared and by place.
@@ -46,8 +48,8 @@ impl Bodies {
 
     /// `sets` with every two features joined that touch.
     ///
-    /// Each worker joins on its own and the partitions are merged; how the work is shared cannot change the result,
-    /// which is the finest partition that has all touching pairs together.
+    /// Each worker joins on its own and the partitions are merged; how the work is shared cannot
+    /// change the result, which is the finest partition that has all touching pairs together.
     pub(super) fn join(&self, sets: &DisjointSets) -> DisjointSets {
         let worker = || (sets.clone(), Vec::new(), Scratch::default());
         let shares = self.index.order().par_iter().with_min_len(SHARE);

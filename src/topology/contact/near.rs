@@ -1,18 +1,19 @@
 //! Exact answers to "is this within that of the other", for points, segments and arcs.
 //!
-//! A disc is a point, a stroke a segment, a drawn arc an arc, each with a radius round it; so two features touch
-//! exactly if their cores are within the sum of the radii (closed: at the sum they touch). Every comparison is made in
-//! integers, squared until the roots are gone:
+//! A disc is a point, a stroke a segment, a drawn arc an arc, each with a radius round it; so two
+//! features touch exactly if their cores are within the sum of the radii (closed: at the sum they
+//! touch). Every comparison is made in integers, squared until the roots are gone:
 //!
 //! ```text
 //! √d ≤ √m + R   ⟺   x ≤ 0 or x² ≤ 4 R² m     with x = d − m − R²
 //! ```
 //!
-//! Coordinates span 31 bits, squares 63, products of squares 126: `u128` holds them, and a 256-bit product
-//! ([`u128::carrying_mul`]) the one comparison that is squared twice.
+//! Coordinates span 31 bits, squares 63, products of squares 126: `u128` holds them, and a 256-bit
+//! product ([`u128::carrying_mul`]) the one comparison that is squared twice.
 //!
-//! The exception is where the insides (not the ends) of two arcs meet: that takes sums of three roots, compared in
-//! floats that are wrong by less than 10⁻³ nm, in favour of contact. See [`arcs`].
+//! The exception is where the insides (not the ends) of two arcs meet: that takes sums of three
+//! roots, compared in floats that are wrong by less than 10⁻³ nm, in favour of contact. See
+//! [`arcs`].
 
 use crate::geometry::{Orientation, Point, Vector, orientation};
 
@@ -108,9 +109,9 @@ enum Beside {
 
 /// Whether the segment from `a` to `b` and an arc are within `reach`.
 ///
-/// An arc of at most half a circle spans a convex wedge, in which a segment has one piece. If no end of either is near
-/// the other, the piece reaches the thick arc only if it has points on both sides of it, or if the foot of the centre
-/// on it lies in it.
+/// An arc of at most half a circle spans a convex wedge, in which a segment has one piece. If no
+/// end of either is near the other, the piece reaches the thick arc only if it has points on both
+/// sides of it, or if the foot of the centre on it lies in it.
 pub(super) fn segment_arc((a, b): (Point, Point), arc: &Sector, reach: i64) -> bool {
     if arc.is_wide() {
         return arc.halves().iter().any(|half| segment_arc((a, b), half, reach));
@@ -139,7 +140,8 @@ fn end_beside(way: Vector, arc: &Sector) -> Option<Beside> {
     arc.holds(way).then(|| beside(way.length_squared() < arc.inner))
 }
 
-/// On which side of the circle a segment crosses the ray from the centre (the origin) through `end`, a point of it.
+/// On which side of the circle a segment crosses the ray from the centre (the origin) through
+/// `end`, a point of it.
 fn ray_beside(a: Vector, along: Vector, end: Vector) -> Option<Beside> {
     let b = a + along;
     let sides = (end.cross(a).signum(), end.cross(b).signum());
@@ -155,8 +157,8 @@ fn ray_beside(a: Vector, along: Vector, end: Vector) -> Option<Beside> {
 /// The foot of the centre on a segment is within reach of the arc.
 struct Touches;
 
-/// On which side of the circle the foot of the centre (the origin) on a segment lies; none where it is not on the
-/// segment or not in the wedge.
+/// On which side of the circle the foot of the centre (the origin) on a segment lies; none where it
+/// is not on the segment or not in the wedge.
 fn foot_beside(a: Vector, along: Vector, arc: &Sector, reach: i64) -> Result<Option<Beside>, Touches> {
     let squared = along.length_squared();
     let foot = -a.dot(along);
@@ -184,8 +186,8 @@ const fn beside(inside: bool) -> Beside {
 
 /// Whether two arcs are within `reach`.
 ///
-/// Exact where an end of either is the nearest; where two insides are, they are nearest on the line of the centres or
-/// cross, and that is decided with [`SLACK`] in favour of contact.
+/// Exact where an end of either is the nearest; where two insides are, they are nearest on the line
+/// of the centres or cross, and that is decided with [`SLACK`] in favour of contact.
 pub(super) fn arcs(s: &Sector, t: &Sector, reach: i64) -> bool {
     point_arc(s.start, t, reach)
         || point_arc(s.end, t, reach)
@@ -197,12 +199,12 @@ pub(super) fn arcs(s: &Sector, t: &Sector, reach: i64) -> bool {
 
 /// How much nearer than they are two arcs may be taken to be, in nanometres.
 ///
-/// Derived: each of the distance of the centres and the two radii is a correctly rounded root below 2³² nm, wrong by
-/// at most 2⁻²¹ nm, and three operations follow.
+/// Derived: each of the distance of the centres and the two radii is a correctly rounded root below
+/// 2³² nm, wrong by at most 2⁻²¹ nm, and three operations follow.
 const SLACK: f64 = 1e-5;
 
-/// Whether the arcs are within `reach` along the line through their centres. Concentric arcs never are: an end of
-/// one is as near to the other as its inside.
+/// Whether the arcs are within `reach` along the line through their centres. Concentric arcs never
+/// are: an end of one is as near to the other as its inside.
 #[expect(clippy::cast_precision_loss, reason = "the rounding is within SLACK")]
 fn on_the_line_of_centers(s: &Sector, t: &Sector, reach: i64) -> bool {
     let way = t.center - s.center;
@@ -217,9 +219,9 @@ fn on_the_line_of_centers(s: &Sector, t: &Sector, reach: i64) -> bool {
     })
 }
 
-/// How far beyond the arm of a wedge a common point of two circles may lie to count as inside, in nanometres. Chosen:
-/// the point of two circles that cross at a fair angle is wrong by less, however large they are; circles that almost
-/// touch are found on the line of their centres.
+/// How far beyond the arm of a wedge a common point of two circles may lie to count as inside, in
+/// nanometres. Chosen: the point of two circles that cross at a fair angle is wrong by less,
+/// however large they are; circles that almost touch are found on the line of their centres.
 const ASIDE: f64 = 1e-3;
 
 /// Whether the arcs cross: a common point of their circles lies in both wedges.
@@ -231,7 +233,8 @@ fn crossing(s: &Sector, t: &Sector) -> bool {
         return false;
     }
     let (apart, radius) = (squared as f64, s.outer as f64);
-    // The common points lie `along` of the way to the other centre and `aside` of it at right angles.
+    // The common points lie `along` of the way to the other centre and `aside` of it at right
+    // angles.
     let along = (i128::from(squared) + i128::from(s.outer) - i128::from(t.outer)) as f64 / (2.0 * apart);
     let aside = radius / apart - along * along;
     if aside < 0.0 {

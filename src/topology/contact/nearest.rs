@@ -1,4 +1,5 @@
-//! How near two cores come, and where, in floats: for people to read, never to decide what conducts.
+//! How near two cores come, and where, in floats: for people to read, never to decide what
+//! conducts.
 
 use crate::geometry::{Point, Vector};
 

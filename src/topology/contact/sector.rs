@@ -1,11 +1,14 @@
+//! Contact with an arc: the wedge between two circles, decided in integers.
+
 use crate::geometry::{Arc, Point, Turn, Vector};
 
 /// An arc as contact sees it: the points of a wedge between two circles.
 ///
-/// An [`Arc`]'s ends are rounded to nanometres, so its two radii differ by up to 1.5 nm, and in sloppy files by more.
-/// In between the radius goes evenly from one to the other; the wedge between both circles holds that curve, and where
-/// the radii agree it is that curve. So contact with an arc is exact if both radii are equal, and else never missed and
-/// found early by at most their difference. Where that is a matter of micrometres the arc is an area of chords instead.
+/// An [`Arc`]'s ends are rounded to nanometres, so its two radii differ by up to 1.5 nm, and in
+/// sloppy files by more. In between the radius goes evenly from one to the other; the wedge between
+/// both circles holds that curve, and where the radii agree it is that curve. So contact with an
+/// arc is exact if both radii are equal, and else never missed and found early by at most their
+/// difference. Where that is a matter of micrometres the arc is an area of chords instead.
 ///
 /// # Guarantees
 ///
@@ -38,7 +41,8 @@ impl Sector {
         (self.start - self.center, self.end - self.center)
     }
 
-    /// Whether the wedge holds the direction `way` from the centre, its arms included; the centre itself is held.
+    /// Whether the wedge holds the direction `way` from the centre, its arms included; the centre
+    /// itself is held.
     ///
     /// ```text
     ///        e         up to half a circle: left of s and right of e

@@ -7,7 +7,8 @@ use crate::raster::blend::mix;
 /// A colour of 8 bits a component: red, green, blue.
 pub type Colour = [u8; 3];
 
-/// The splitmix64 generator (Steele, Lea, Flood 2014): 64 good bits from a counter, so a seed is one number.
+/// The splitmix64 generator (Steele, Lea, Flood 2014): 64 good bits from a counter, so a seed is
+/// one number.
 #[derive(Clone, Debug)]
 pub(super) struct Random(u64);
 
@@ -26,8 +27,8 @@ impl Random {
 
     /// Any colour other than black whose half is not among those `seen`, and enters its half there.
     ///
-    /// The paper asks for unique colours; of 2²⁴ only 2²¹ differ once halved, so it is the halves that must. Past a
-    /// million traces they would run out, and repeat.
+    /// The paper asks for unique colours; of 2²⁴ only 2²¹ differ once halved, so it is the halves
+    /// that must. Past a million traces they would run out, and repeat.
     pub(super) fn colour(&mut self, seen: &mut Colours) -> Colour {
         for _ in 0..64 {
             let [red, green, blue, ..] = self.next().to_le_bytes();
@@ -66,7 +67,8 @@ fn index([red, green, blue]: Colour) -> usize {
     usize::from(red) << 16 | usize::from(green) << 8 | usize::from(blue)
 }
 
-/// How likely the algorithm is to miss an overlap because two mixes look alike, as the paper estimates it.
+/// How likely the algorithm is to miss an overlap because two mixes look alike, as the paper
+/// estimates it.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Odds {
     /// P_bc: that some mix has the colour of a single trace.

@@ -1,18 +1,20 @@
-//! Algorithm 2 of the paper, TOPOLOGY-FROM-TRANSLUCENCY (§III-A.2): traces drawn as translucent sheets show a mixed
-//! colour where they overlap.
+//! Algorithm 2 of the paper, TOPOLOGY-FROM-TRANSLUCENCY (§III-A.2): traces drawn as translucent
+//! sheets show a mixed colour where they overlap.
 //!
-//! Every trace that Algorithm 1 left gets a random colour; the picture is scanned for colours not seen before; where
-//! one turns up, a pick lists the traces stacked there, which become one. What was merged is drawn anew at once, and
-//! the colour enters the set of those seen, so an overlap of a thousand pixels costs one pick. It is a Monte Carlo
-//! algorithm: an overlap is missed if its colour was seen before by chance ([`Odds`]), or if no pixel's centre lies in
-//! it.
+//! Every trace that Algorithm 1 left gets a random colour; the picture is scanned for colours not
+//! seen before; where one turns up, a pick lists the traces stacked there, which become one. What
+//! was merged is drawn anew at once, and the colour enters the set of those seen, so an overlap of
+//! a thousand pixels costs one pick. It is a Monte Carlo algorithm: an overlap is missed if its
+//! colour was seen before by chance ([`Odds`]), or if no pixel's centre lies in it.
 //!
-//! Three things differ from the paper. The picture is drawn tile by tile, and only tiles that hold several traces
-//! are, so memory does not grow with the board; the raster draws each trace once, and a pixel's mix is worked out when
-//! the scan comes to it, from the traces as merged by then, which is what drawing all anew would show. A pick counts only where the exact copper of both traces holds the pixel's centre, so Theorem 4 (no overlap is
-//! reported where none is) holds to the nanometre, not to the rounding of the picture. And beyond seven sheets, where
-//! the paper's footnote 5 gives up because a colour has eight bits, merging and drawing anew leaves ever fewer sheets,
-//! so the depth costs picks, not overlaps; [`Translucency::deepest`] says how deep it was.
+//! Three things differ from the paper. The picture is drawn tile by tile, and only tiles that hold
+//! several traces are, so memory does not grow with the board; the raster draws each trace once,
+//! and a pixel's mix is worked out when the scan comes to it, from the traces as merged by then,
+//! which is what drawing all anew would show. A pick counts only where the exact copper of both
+//! traces holds the pixel's centre, so Theorem 4 (no overlap is reported where none is) holds to
+//! the nanometre, not to the rounding of the picture. And beyond seven sheets, where the paper's
+//! footnote 5 gives up because a colour has eight bits, merging and drawing anew leaves ever fewer
+//! sheets, so the depth costs picks, not overlaps; [`Translucency::deepest`] says how deep it was.
 
 mod colour;
 mod sheets;
@@ -64,15 +66,16 @@ pub struct Translucency {
     pub colours: Vec<Colour>,
     /// The overlaps found, in the order of the scan.
     pub overlaps: Vec<Overlap>,
-    /// The most traces, before merging, that lie on one pixel. Beyond 7, the paper's own version may fail.
+    /// The most traces, before merging, that lie on one pixel. Beyond 7, the paper's own version
+    /// may fail.
     pub deepest: usize,
     /// How likely it was that an overlap was missed by a confusion of colours.
     pub odds: Odds,
 }
 
 impl Translucency {
-    /// The paper's picture: every trace as it was before merging, 50 % translucent, in its colour; row by row from the
-    /// top. `traces` are those that [`translucency`] was given.
+    /// The paper's picture: every trace as it was before merging, 50 % translucent, in its colour;
+    /// row by row from the top. `traces` are those that [`translucency`] was given.
     #[must_use]
     pub fn picture(&self, copper: &Copper, traces: &Nets, grid: &Grid) -> Vec<Colour> {
         let mut scene = Scene::new(grid.width(), grid.height());
@@ -91,7 +94,8 @@ impl Translucency {
 pub struct Overlap {
     /// The centre of the pixel.
     pub at: Point,
-    /// The traces stacked there, the top one first, as numbered before merging (of those merged already, the first).
+    /// The traces stacked there, the top one first, as numbered before merging (of those merged
+    /// already, the first).
     pub traces: Vec<NetId>,
     /// The colour it had.
     pub colour: Colour,
@@ -184,7 +188,8 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Scans a tile. A pixel's colour is that of the traces as merged so far; it is looked at until it is no longer new.
+    /// Scans a tile. A pixel's colour is that of the traces as merged so far; it is looked at until
+    /// it is no longer new.
     fn tile(&mut self, tile: &Grid, sheets: &Sheets) {
         for ((column, row), mut stack) in sheets.stacks() {
             self.deepest = self.deepest.max(stack.len());

@@ -1,3 +1,5 @@
+//! The pixels of a tile that several traces cover, and the mixed colours that they show.
+
 use std::collections::BTreeMap;
 
 use crate::board::{Copper, Shape};
@@ -8,9 +10,9 @@ use crate::topology::{Nets, surface};
 
 /// The pixels of a tile that several traces cover.
 ///
-/// Each trace is drawn on a sheet of its own; the sheets lie on each other by number, the smallest nearest to the eye.
-/// A pixel's colour is mixed when the scan comes to it, from what has been merged by then, so nothing need be drawn
-/// twice.
+/// Each trace is drawn on a sheet of its own; the sheets lie on each other by number, the smallest
+/// nearest to the eye. A pixel's colour is mixed when the scan comes to it, from what has been
+/// merged by then, so nothing need be drawn twice.
 #[derive(Debug)]
 pub(super) struct Sheets {
     /// Pixel and trace, ascending.

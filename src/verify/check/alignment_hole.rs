@@ -1,15 +1,17 @@
 //! # What it checks
 //!
-//! The holes for turning the board over lie beside it, there are at least two of them, and they go far enough below the board at their
-//! full diameter that pins stand in what lies under it.
+//! The holes for turning the board over lie beside it, there are at least two of them, and they go
+//! far enough below the board at their full diameter that pins stand in what lies under it.
 //!
 //! # Why
 //!
-//! A pin that falls over holds nothing, and a board that is turned over on it has its back beside its front.
+//! A pin that falls over holds nothing, and a board that is turned over on it has its back beside
+//! its front.
 //!
 //! # What it can miss
 //!
-//! How thick what lies under the board is, and whether the holes lie on the line about which the board is turned over.
+//! How thick what lies under the board is, and whether the holes lie on the line about which the
+//! board is turned over.
 
 use super::{Check, Run, Severity};
 use crate::board::{Board, FLATTEN};

@@ -1,12 +1,12 @@
 //! # What it checks
 //!
-//! What cuts the board out stays outside the outline: the cutter's side reaches no further into the board than tolerated. What lies
-//! within a hole of the board may be cut.
+//! What cuts the board out stays outside the outline: the cutter's side reaches no further into the
+//! board than tolerated. What lies within a hole of the board may be cut.
 //!
 //! # Why
 //!
-//! A board that was cut too small does not fit its case, and copper beside its edge is gone. A contour on the wrong side of the
-//! outline, for another cutter, or moved, is found so.
+//! A board that was cut too small does not fit its case, and copper beside its edge is gone. A
+//! contour on the wrong side of the outline, for another cutter, or moved, is found so.
 //!
 //! # What it can miss
 //!

@@ -1,17 +1,18 @@
 //! # What it checks
 //!
-//! Along every contour of the outline the board ends where it should: it is cut through just beyond the edge, all the way round but for
-//! tabs. Stretches that are not cut, or cut too far out, are told with their length and how much is left.
+//! Along every contour of the outline the board ends where it should: it is cut through just beyond
+//! the edge, all the way round but for tabs. Stretches that are not cut, or cut too far out, are
+//! told with their length and how much is left.
 //!
 //! # Why
 //!
-//! What is left must be sawn and filed off, or the board stays in its stock. A contour that was not closed, made for another cutter,
-//! moved, or left out, is found so.
+//! What is left must be sawn and filed off, or the board stays in its stock. A contour that was not
+//! closed, made for another cutter, moved, or left out, is found so.
 //!
 //! # What it can miss
 //!
-//! In programs that do not say how wide their tabs are, stretches up to 10 mm may be tabs. Inner corners keep the round that the
-//! cutter leaves.
+//! In programs that do not say how wide their tabs are, stretches up to 10 mm may be tabs. Inner
+//! corners keep the round that the cutter leaves.
 
 use super::{Check, Run, Severity};
 use crate::board::Board;

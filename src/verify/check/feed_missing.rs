@@ -4,7 +4,8 @@
 //!
 //! # Why
 //!
-//! Controllers stop there with an error, the tool in the board; or go on at whatever feed came last.
+//! Controllers stop there with an error, the tool in the board; or go on at whatever feed came
+//! last.
 //!
 //! # What it can miss
 //!

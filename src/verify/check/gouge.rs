@@ -1,14 +1,15 @@
 //! # What it checks
 //!
-//! How far the cutter reaches into the copper of the design, measured on the exact shapes: half the kerf less the
-//! distance from the cutter's way to the copper, or where the way goes through copper, half the kerf and the
-//! distance to its edge. How bad that is follows from what it costs, not from its cause: it is an error where the
-//! cutter's middle goes through copper, where less than a stated part of the net's width is left, or where it is
-//! deeper than stated; else a warning. That the design's gap is narrower than the kerf explains it.
+//! How far the cutter reaches into the copper of the design, measured on the exact shapes: half the
+//! kerf less the distance from the cutter's way to the copper, or where the way goes through
+//! copper, half the kerf and the distance to its edge. How bad that is follows from what it costs,
+//! not from its cause: it is an error where the cutter's middle goes through copper, where less
+//! than a stated part of the net's width is left, or where it is deeper than stated; else a
+//! warning. That the design's gap is narrower than the kerf explains it.
 //!
-//! One place is one finding, of all nets that lose copper there. Shallow ones of one cause are one finding of a
-//! side, at the deepest, with the other places beside it; what is less than a micrometre or a hundredth of the
-//! kerf is only counted.
+//! One place is one finding, of all nets that lose copper there. Shallow ones of one cause are one
+//! finding of a side, at the deepest, with the other places beside it; what is less than a
+//! micrometre or a hundredth of the kerf is only counted.
 //!
 //! # Why
 //!
@@ -16,8 +17,8 @@
 //!
 //! # What it can miss
 //!
-//! Less than the tolerance. What the tool takes when it bends or runs out. The width is looked at straight across,
-//! no farther than 0.6 mm.
+//! Less than the tolerance. What the tool takes when it bends or runs out. The width is looked at
+//! straight across, no farther than 0.6 mm.
 
 use rayon::prelude::*;
 
@@ -190,10 +191,12 @@ fn around(sheet: &Sheet<'_>, hits: &[Hit]) -> Option<Rect> {
     through.map(|hit| sheet.cuts[hit.cut].swept.shape.bounds()).reduce(Rect::union)
 }
 
-/// How far copper is looked at around cuts, at first. Chosen: few cuts go through copper wider than twice that.
+/// How far copper is looked at around cuts, at first. Chosen: few cuts go through copper wider than
+/// twice that.
 const NEARBY: Nm = Nm::from_mm(1);
 
-/// The same as [`inside`] by the copper near these cuts: what is cut off there is no edge, but none of it is nearer than `reach`.
+/// The same as [`inside`] by the copper near these cuts: what is cut off there is no edge, but none
+/// of it is nearer than `reach`.
 fn nearby(sheet: &Sheet<'_>, around: Rect, hits: &[Hit], deepest: Hit) -> Hit {
     let mut reach = NEARBY;
     loop {

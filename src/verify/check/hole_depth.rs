@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! Every hole goes through the board at its full diameter: the point of a drill (118° unless its tool says another angle) does not
-//! count.
+//! Every hole goes through the board at its full diameter: the point of a drill (118° unless its
+//! tool says another angle) does not count.
 //!
 //! # Why
 //!
@@ -23,7 +23,8 @@ pub(super) const CHECK: Check =
 
 const NAME: &str = "hole-depth";
 
-/// A wall that is so much less deep at its full width is still a hole. Chosen: a sixteenth of the usual board.
+/// A wall that is so much less deep at its full width is still a hole. Chosen: a sixteenth of the
+/// usual board.
 const SLIGHT: Nm = Nm::from_um(100);
 
 fn check(bores: &Bores<'_>, _: &Board, settings: &Settings) -> Vec<Finding> {

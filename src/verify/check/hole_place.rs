@@ -4,7 +4,8 @@
 //!
 //! # Why
 //!
-//! A lead does not fit, or the hole breaks out of its pad. A program that is moved, turned or scaled against its board is found so.
+//! A lead does not fit, or the hole breaks out of its pad. A program that is moved, turned or
+//! scaled against its board is found so.
 //!
 //! # What it can miss
 //!

@@ -1,7 +1,8 @@
 //! # What it checks
 //!
-//! How wide what is left of a net is at its narrowest, against the design: at every place where a cut reaches into it, straight
-//! across. Told where less than a stated part is left (`Settings::keep`).
+//! How wide what is left of a net is at its narrowest, against the design: at every place where a
+//! cut reaches into it, straight across. Told where less than a stated part is left
+//! (`Settings::keep`).
 //!
 //! # Why
 //!
@@ -9,7 +10,9 @@
 //!
 //! # What it can miss
 //!
-//! It looks straight across at the deepest place of each cut, no farther than 0.6 mm: what was wider than that is not narrow. Where the cutter's middle goes through a net, or takes an end or a corner of it, `gouge` and `open` tell of it.
+//! It looks straight across at the deepest place of each cut, no farther than 0.6 mm: what was
+//! wider than that is not narrow. Where the cutter's middle goes through a net, or takes an end or
+//! a corner of it, `gouge` and `open` tell of it.
 
 use std::collections::BTreeMap;
 

@@ -186,7 +186,8 @@ struct Wrong {
     size: Option<Nm>,
 }
 
-/// The findings of a check of single motions: one for each stretch of lines that are wrong one after another, as large as the largest.
+/// The findings of a check of single motions: one for each stretch of lines that are wrong one
+/// after another, as large as the largest.
 fn each_stretch(
     program: &Machining,
     name: &'static str,
@@ -221,7 +222,8 @@ fn area(pixels: usize, pitch: Nm) -> f64 {
     pixels as f64 * pitch.to_mm() * pitch.to_mm()
 }
 
-/// The middles of `count` equal parts of a way, each with the part's length in nanometres; nothing where it only goes down.
+/// The middles of `count` equal parts of a way, each with the part's length in nanometres; nothing
+/// where it only goes down.
 pub(super) fn along(way: &Shape, count: u32) -> Vec<(Point, f64)> {
     let spread = |length: f64, at: &dyn Fn(f64) -> (f64, f64)| {
         let parts = (0..count).map(|i| at((f64::from(i) + 0.5) / f64::from(count)));

@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! Every net that a cut reaches into is left in one connected piece. Crumbs do not count. Which nets a cut may part, and what is left
-//! of them, is asked of the exact shapes.
+//! Every net that a cut reaches into is left in one connected piece. Crumbs do not count. Which
+//! nets a cut may part, and what is left of them, is asked of the exact shapes.
 //!
 //! # Why
 //!
@@ -9,8 +9,8 @@
 //!
 //! # What it can miss
 //!
-//! A net cut in two whose parts stay joined through clad beside it: those conduct, and count as one. A hair of copper that
-//! holds two parts together counts too; `minimum-width` tells of it.
+//! A net cut in two whose parts stay joined through clad beside it: those conduct, and count as
+//! one. A hair of copper that holds two parts together counts too; `minimum-width` tells of it.
 
 use super::{Check, Run, Severity};
 use crate::board::Shape;
@@ -49,7 +49,8 @@ fn open(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
     })
 }
 
-/// Where two groups of parts are nearest to each other: the middle between them, and how far in nanometres.
+/// Where two groups of parts are nearest to each other: the middle between them, and how far in
+/// nanometres.
 fn between(sheet: &Sheet<'_>, one: &[&Remnant], other: &[&Remnant]) -> (Point, Option<f64>) {
     let shape = |part: &&Remnant| Shape::Polygon(part.polygon.clone());
     let near = Proximity::of(&one.iter().map(shape).collect::<Vec<_>>());

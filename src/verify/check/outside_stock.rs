@@ -4,7 +4,8 @@
 //!
 //! # Why
 //!
-//! There are clamps, the table, the end of the axis; and a program laid elsewhere than its board is found so.
+//! There are clamps, the table, the end of the axis; and a program laid elsewhere than its board is
+//! found so.
 //!
 //! # What it can miss
 //!

@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! The program fits the machine: in no axis do its motions, arcs included, span more than the machine can travel, where somebody has
-//! said how much that is.
+//! The program fits the machine: in no axis do its motions, arcs included, span more than the
+//! machine can travel, where somebody has said how much that is.
 //!
 //! # Why
 //!
@@ -9,8 +9,8 @@
 //!
 //! # What it can miss
 //!
-//! Where on the table zero lies: a program that fits may still begin too near to an end. Motions to places that the program does
-//! not give are refused by the reader.
+//! Where on the table zero lies: a program that fits may still begin too near to an end. Motions to
+//! places that the program does not give are refused by the reader.
 
 use super::{Check, Run, Severity};
 use crate::gcode::read::{Motion, Way};

@@ -1,11 +1,12 @@
 //! # What it checks
 //!
-//! In a folder of programs there is one for each side that has copper, one that drills where the board has holes, and one that cuts it
-//! out where it has an outline.
+//! In a folder of programs there is one for each side that has copper, one that drills where the
+//! board has holes, and one that cuts it out where it has an outline.
 //!
 //! # Why
 //!
-//! A program that was not written, or not copied to the machine, is missed when the board is off the table.
+//! A program that was not written, or not copied to the machine, is missed when the board is off
+//! the table.
 //!
 //! # What it can miss
 //!

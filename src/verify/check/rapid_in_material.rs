@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! No rapid goes sideways below the surface, or down into it. One that goes sideways less than the clearance above the
-//! surface is a warning.
+//! No rapid goes sideways below the surface, or down into it. One that goes sideways less than the
+//! clearance above the surface is a warning.
 //!
 //! # Why
 //!

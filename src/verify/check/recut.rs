@@ -1,11 +1,12 @@
 //! # What it checks
 //!
-//! How much of the way of the cutter lies where it has cut before, at least as deep: within a quarter of the kerf beside an earlier
-//! way. Told where it is more than a quarter.
+//! How much of the way of the cutter lies where it has cut before, at least as deep: within a
+//! quarter of the kerf beside an earlier way. Told where it is more than a quarter.
 //!
 //! # Why
 //!
-//! It takes time, and a groove cut twice is wider than one cut once. Some is wise: cutting a short piece again is quicker than a lift.
+//! It takes time, and a groove cut twice is wider than one cut once. Some is wise: cutting a short
+//! piece again is quicker than a lift.
 //!
 //! # What it can miss
 //!
@@ -22,11 +23,13 @@ pub(super) const CHECK: Check =
 
 const NAME: &str = "recut";
 
-/// The share that is told. Chosen: lifts that are saved by cutting again cost up to a sixth on the boards that were tried.
+/// The share that is told. Chosen: lifts that are saved by cutting again cost up to a sixth on the
+/// boards that were tried.
 const SHARE: f64 = 0.25;
 /// How much deeper a second cut in the same place is a pass of its own.
 const PASS: Nm = Nm::from_um(5);
-/// How near to the end of an earlier way a point is no longer on it, in nanometres: ways that follow one another share an end.
+/// How near to the end of an earlier way a point is no longer on it, in nanometres: ways that
+/// follow one another share an end.
 const END: f64 = 1_000.0;
 
 fn check(sheet: &Sheet<'_>) -> Vec<Finding> {

@@ -1,18 +1,21 @@
 //! # What it checks
 //!
-//! A program that says what it was made from (`from FILE design HASH` in its comments) was made from the files that it is judged by.
+//! A program that says what it was made from (`from FILE design HASH` in its comments) was made
+//! from the files that it is judged by.
 //!
 //! # Why
 //!
-//! A drill program of the revision before fits the copper almost everywhere. What differs may be found by other checks, as a
-//! short or a missing hole; this one says why, and that the program is to be made again.
+//! A drill program of the revision before fits the copper almost everywhere. What differs may be
+//! found by other checks, as a short or a missing hole; this one says why, and that the program is
+//! to be made again.
 //!
-//! It is a warning: a program says all files of its board, and a change in one of them need not change what this program does.
+//! It is a warning: a program says all files of its board, and a change in one of them need not
+//! change what this program does.
 //!
 //! # What it can miss
 //!
-//! Programs of others say nothing of their files. The hash is of what this version of voromill reads; another one
-//! may read curves otherwise, and then all programs are of another revision.
+//! Programs of others say nothing of their files. The hash is of what this version of voromill
+//! reads; another one may read curves otherwise, and then all programs are of another revision.
 
 use super::{Check, Run, Severity};
 use crate::verify::report::Finding;

@@ -1,8 +1,8 @@
 //! # What it checks
 //!
-//! No connected piece of what is left holds considerable parts of two nets; where the picture leaves a doubt, the exact shapes
-//! decide. For every two that are joined: the bridge's narrowest place and its width, from face to face of the exact
-//! cuts on both sides of it.
+//! No connected piece of what is left holds considerable parts of two nets; where the picture
+//! leaves a doubt, the exact shapes decide. For every two that are joined: the bridge's narrowest
+//! place and its width, from face to face of the exact cuts on both sides of it.
 //!
 //! # Why
 //!
@@ -10,8 +10,9 @@
 //!
 //! # What it can miss
 //!
-//! Copper that is smeared across a groove. Of a bridge in a tangle of thin strips, or within three pixels of a place where the cuts of
-//! the same two nets only just meet, the place and the width; not that there is one.
+//! Copper that is smeared across a groove. Of a bridge in a tangle of thin strips, or within three
+//! pixels of a place where the cuts of the same two nets only just meet, the place and the width;
+//! not that there is one.
 
 use std::collections::BTreeMap;
 
@@ -50,7 +51,8 @@ fn shorts(sheet: &Sheet<'_>, joined: &Joined) -> Vec<Finding> {
             .into_iter()
             .partition(|bridge| bridge.width.is_none_or(|width| width > Nm::ZERO));
         found = real;
-        // What is closed by far says that no better way is left; what is only just closed, that the next best may be open.
+        // What is closed by far says that no better way is left; what is only just closed, that the
+        // next best may be open.
         let just = closed.iter().filter(|bridge| bridge.width > Some(basin.grid.pitch() * -3));
         let before = plugs.len();
         plugs.extend(just.map(|bridge| bridge.place));
@@ -62,8 +64,8 @@ fn shorts(sheet: &Sheet<'_>, joined: &Joined) -> Vec<Finding> {
     found.iter().map(|bridge| finding(sheet, bridge, nets.len())).collect()
 }
 
-/// Adds what joins the nets that no bridge was found for: their copper is in one piece, though the picture is too coarse to
-/// show by what.
+/// Adds what joins the nets that no bridge was found for: their copper is in one piece, though the
+/// picture is too coarse to show by what.
 fn unseen(sheet: &Sheet<'_>, nets: &[NetId], found: &mut Vec<Bridge>) {
     let mut joined = vec![nets[0]];
     loop {
@@ -139,7 +141,8 @@ fn bridges(sheet: &Sheet<'_>, basin: &Basin, nets: &[NetId], plugs: &[Point]) ->
     bridges
 }
 
-/// A net is one part to begin with, wherever its pixels are: what joins it to itself is not looked for. By root, the nets.
+/// A net is one part to begin with, wherever its pixels are: what joins it to itself is not looked
+/// for. By root, the nets.
 fn seeded(basin: &Basin, nets: &[NetId]) -> (Water, BTreeMap<u32, Vec<NetId>>) {
     let mut water = Water::new(basin.labels.len());
     let mut first: BTreeMap<u32, u32> = BTreeMap::new();

@@ -1,7 +1,8 @@
 //! # What it checks
 //!
-//! No strip of clad between two cuts, or between a cut and the board's edge, is thinner than given, along half a millimetre. Copper of nets is not clad: how thin
-//! that is the design says, and `minimum-width`.
+//! No strip of clad between two cuts, or between a cut and the board's edge, is thinner than given,
+//! along half a millimetre. Copper of nets is not clad: how thin that is the design says, and
+//! `minimum-width`.
 //!
 //! # Why
 //!
@@ -61,7 +62,8 @@ fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
 /// The thin places between a cut and those before it, or the board's edge.
 fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
     let near = sheet.walls.beside(cut, sliver, |other| other < cut || other >= sheet.cuts.len());
-    // Of ways that follow one another one touches the other: what is between the first and the third is no strip.
+    // Of ways that follow one another one touches the other: what is between the first and the
+    // third is no strip.
     let apart = near.into_iter().filter(|(_, neck)| neck.width > FAINT);
     let is_clad = |neck: &Neck| {
         let spot = Shape::Disc { center: neck.at, radius: Nm::ZERO };
@@ -77,7 +79,8 @@ fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
     strips.map(|(other, neck)| Thin { cut, neck, length: length(sheet, cut, other, sliver) }).collect()
 }
 
-/// The middle of what is left between a cut and the edge: the middle between the edge and the cutter's way lies in the kerf.
+/// The middle of what is left between a cut and the edge: the middle between the edge and the
+/// cutter's way lies in the kerf.
 fn at_edge(sheet: &Sheet<'_>, cut: usize, edge: usize, neck: Neck, sliver: Nm) -> Option<Neck> {
     let reach = sheet.cuts[cut].swept.half() + sliver;
     let foot = sheet.walls.around_of(neck.at, reach, |wall| wall == edge).first()?.foot;

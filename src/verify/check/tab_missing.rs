@@ -1,7 +1,8 @@
 //! # What it checks
 //!
-//! What is cut out is held until the last: with everything cut, every board hangs together with the stock round it through at least one
-//! tab. Where the program says how many tabs it was asked for, fewer are told too.
+//! What is cut out is held until the last: with everything cut, every board hangs together with the
+//! stock round it through at least one tab. Where the program says how many tabs it was asked for,
+//! fewer are told too.
 //!
 //! # Why
 //!
@@ -9,7 +10,8 @@
 //!
 //! # What it can miss
 //!
-//! Boards held by tape, which need none (ask for `--tabs 0`). Whether tabs are strong enough is for `tab-thin` to say.
+//! Boards held by tape, which need none (ask for `--tabs 0`). Whether tabs are strong enough is for
+//! `tab-thin` to say.
 
 use super::{Check, Run, Severity};
 use crate::board::{Board, Shape};

@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! Every tab is at least half as wide as was asked for, or half a millimetre where nobody said how wide, and a fifth of a millimetre
-//! thick.
+//! Every tab is at least half as wide as was asked for, or half a millimetre where nobody said how
+//! wide, and a fifth of a millimetre thick.
 //!
 //! # Why
 //!

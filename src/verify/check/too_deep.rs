@@ -1,11 +1,13 @@
 //! # What it checks
 //!
-//! No isolating cut goes through half the board, or more than twice as deep as most of the program does.
+//! No isolating cut goes through half the board, or more than twice as deep as most of the program
+//! does.
 //!
 //! # Why
 //!
-//! Copper is a few hundredths of a millimetre thick. A cut far deeper breaks a fine cutter, and a V-bit's groove is wider the deeper it
-//! goes. It comes of a surface that was measured wrong, a slipped decimal point, a tool that was not set to zero.
+//! Copper is a few hundredths of a millimetre thick. A cut far deeper breaks a fine cutter, and a
+//! V-bit's groove is wider the deeper it goes. It comes of a surface that was measured wrong, a
+//! slipped decimal point, a tool that was not set to zero.
 //!
 //! # What it can miss
 //!

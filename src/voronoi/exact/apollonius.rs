@@ -1,8 +1,9 @@
 //! The problem of Apollonius: the points equally far from three forms. Every event is one.
 //!
-//! With the distance s as a third unknown a line is a plane, n · p − s = h, and a circle a cone, |p − c| = q ± s. The
-//! difference of two cones is a plane again, so two linear equations leave a line in space; it meets the cone that is left twice.
-//! Newton's method then takes the residue of the distances to rounding.
+//! With the distance s as a third unknown a line is a plane, n · p − s = h, and a circle a cone, |p
+//! − c| = q ± s. The difference of two cones is a plane again, so two linear equations leave a line
+//! in space; it meets the cone that is left twice. Newton's method then takes the residue of the
+//! distances to rounding.
 
 use super::form::{Form, clockwise};
 use crate::voronoi::plane::Spot;

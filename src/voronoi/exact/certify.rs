@@ -1,4 +1,5 @@
-//! Certificates: the empty circle of a vertex, the empty strip of an edge, asked of all generators anew.
+//! Certificates: the empty circle of a vertex, the empty strip of an edge, asked of all generators
+//! anew.
 
 use super::form::Place;
 use super::vertex::TIE;
@@ -11,13 +12,15 @@ use crate::voronoi::plane::Spot;
 pub struct Violation {
     /// Where.
     pub at: Point,
-    /// By how much a generator is nearer than those that should be nearest, or these differ, in nanometres.
+    /// By how much a generator is nearer than those that should be nearest, or these differ, in
+    /// nanometres.
     pub by: f64,
 }
 
 impl Diagram {
-    /// Points along an edge from its beginning to its end, with the distance to copper: chords stay within `tolerance` nanometres of it, but none is
-    /// shorter than an eighth of a millionth of a turn.
+    /// Points along an edge from its beginning to its end, with the distance to copper: chords stay
+    /// within `tolerance` nanometres of it, but none is shorter than an eighth of a millionth of a
+    /// turn.
     #[must_use]
     pub fn course(&self, edge: &Edge, tolerance: f64) -> Vec<((f64, f64), f64)> {
         let [from, to] = [edge.from, edge.to].map(|i| &self.vertices[i as usize]);
@@ -70,7 +73,8 @@ impl Diagram {
         }
     }
 
-    /// Checks every vertex and, at places at most `spacing` nanometres apart, every edge against all generators.
+    /// Checks every vertex and, at places at most `spacing` nanometres apart, every edge against
+    /// all generators.
     #[must_use]
     pub fn certify(&self, spacing: f64) -> Vec<Violation> {
         let mut violations = Vec::new();

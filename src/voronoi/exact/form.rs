@@ -1,4 +1,5 @@
-//! Forms: what a generator is near its foot point, a line or a circle, and where along it feet may lie.
+//! Forms: what a generator is near its foot point, a line or a circle, and where along it feet may
+//! lie.
 //!
 //! ```text
 //!      ▲ normal (free space)              ╭──╮  full: free space outside       ╲      ╱  hollow: free
@@ -7,16 +8,19 @@
 //!  ▓▓▓▓▓▓▓▓▓  d = n · (p − from)
 //! ```
 //!
-//! Every distance has one of these three expressions, and the *slab* (of a line) or the *sector* (of a circle) says which points
-//! have their foot on it. A straight bisector, a parabola, a hyperbola and an ellipse are all one closed expression: from the foot on
-//! one form along its normal, the place where the other is equally far solves a linear equation ([`Form::meet`]).
+//! Every distance has one of these three expressions, and the *slab* (of a line) or the *sector*
+//! (of a circle) says which points have their foot on it. A straight bisector, a parabola, a
+//! hyperbola and an ellipse are all one closed expression: from the foot on one form along its
+//! normal, the place where the other is equally far solves a linear equation ([`Form::meet`]).
 
 use crate::voronoi::plane::Spot;
 
-/// A foot may lie so far beyond the end of a slab and count, in nanometres: far more than rounding, far less than any real length.
+/// A foot may lie so far beyond the end of a slab and count, in nanometres: far more than rounding,
+/// far less than any real length.
 pub(super) const SLAB: f64 = 0.01;
 
-/// Nothing on a board is so far away, in nanometres: bisectors end here that rounding has turned from parallel ones.
+/// Nothing on a board is so far away, in nanometres: bisectors end here that rounding has turned
+/// from parallel ones.
 const FAR: f64 = 1e11;
 
 /// A line or a circle, one side of which is free.
@@ -24,7 +28,8 @@ const FAR: f64 = 1e11;
 pub(super) enum Form {
     /// A straight edge; copper lies on its left.
     Line { from: Spot, along: Spot, length: f64 },
-    /// A circle or an arc of it: counter-clockwise from the first unit vector of `sector` to the second.
+    /// A circle or an arc of it: counter-clockwise from the first unit vector of `sector` to the
+    /// second.
     Circle { center: Spot, radius: f64, hollow: bool, sector: Option<[Spot; 2]> },
 }
 
@@ -48,7 +53,8 @@ pub(super) fn unit(v: Spot) -> Spot {
     if length > 0.0 { Spot::new(v.x / length, v.y / length) } else { Spot::default() }
 }
 
-/// A number in 0..4 that grows with the angle from `from` to `to`, counter-clockwise; exact for small angles.
+/// A number in 0..4 that grows with the angle from `from` to `to`, counter-clockwise; exact for
+/// small angles.
 pub(super) fn turn(from: Spot, to: Spot) -> f64 {
     let (x, y) = (from.dot(to), from.cross(to));
     let t = y / (x.abs() + y.abs());
@@ -109,7 +115,8 @@ impl Form {
         }
     }
 
-    /// How far the foot of `p` lies from the start and from the end, inwards; the radius of an arc where it is not near them.
+    /// How far the foot of `p` lies from the start and from the end, inwards; the radius of an arc
+    /// where it is not near them.
     pub(super) fn slacks(&self, p: Spot) -> [f64; 2] {
         match *self {
             Self::Line { from, along, length } => {
@@ -130,7 +137,8 @@ impl Form {
         self.distance(p) >= -tie && self.slack(p) >= -SLAB
     }
 
-    /// Whether `p` is the centre of a hollow circle, from which every place of it is equally far; then the directions of its ends, if it has any.
+    /// Whether `p` is the centre of a hollow circle, from which every place of it is equally far;
+    /// then the directions of its ends, if it has any.
     pub(super) fn around(&self, p: Spot) -> Option<Option<[Spot; 2]>> {
         match *self {
             Self::Circle { center, hollow: true, sector, .. } => {
@@ -160,9 +168,11 @@ impl Form {
         }
     }
 
-    /// The distance from `foot` along `normal` at which this form is equally far; none where it never is.
+    /// The distance from `foot` along `normal` at which this form is equally far; none where it
+    /// never is.
     ///
-    /// A distance grows by at most 1 a unit of way and the distance to the foot by exactly 1, so there is one such place at most.
+    /// A distance grows by at most 1 a unit of way and the distance to the foot by exactly 1, so
+    /// there is one such place at most.
     pub(super) fn meet(&self, foot: Spot, normal: Spot) -> Option<f64> {
         let (gap, closing) = match *self {
             Self::Line { from, along, .. } => {
@@ -191,7 +201,8 @@ impl Form {
         reaches.then_some(s)
     }
 
-    /// Moves a place by so many nanometres, seen at the distance `out` from the centre of a circle; there by an eighth of a turn at most.
+    /// Moves a place by so many nanometres, seen at the distance `out` from the centre of a circle;
+    /// there by an eighth of a turn at most.
     pub(super) fn advance(&self, place: Place, way: f64, out: f64) -> Place {
         match place {
             Place::Along(t) => Place::Along(t + way),
@@ -204,7 +215,8 @@ impl Form {
         }
     }
 
-    /// How far it is from one place to another in the sense of travel; on a circle in 0..4 quarters, nearly.
+    /// How far it is from one place to another in the sense of travel; on a circle in 0..4
+    /// quarters, nearly.
     pub(super) fn progress(&self, from: Place, to: Place, sense: f64) -> f64 {
         match (from, to) {
             (Place::Along(a), Place::Along(b)) => (b - a) * sense,

@@ -1,4 +1,5 @@
-//! Generators: the one-sided edges that distances are measured to, each with an owner, and what they hang together with.
+//! Generators: the one-sided edges that distances are measured to, each with an owner, and what
+//! they hang together with.
 //!
 //! ```text
 //!          end disc ──╮                             A stroke is two lines and a disc round either end, a polygon its
@@ -7,12 +8,14 @@
 //!        ╰──────────────╯ line        corner ●
 //! ```
 //!
-//! Lines and arcs count where the foot lies on them. A disc counts everywhere: it lies within the copper, so its distance is never too
-//! small, and no gap is left at an end. Where a line or an arc hands over to the disc at its end the two have the same foot and the same
-//! normal; such *joined* generators have no bisector. Every generator knows its *breaks*, the places where another one that lies on it ends,
-//! so that a walk stops at the same places from either side.
+//! Lines and arcs count where the foot lies on them. A disc counts everywhere: it lies within the
+//! copper, so its distance is never too small, and no gap is left at an end. Where a line or an arc
+//! hands over to the disc at its end the two have the same foot and the same normal; such *joined*
+//! generators have no bisector. Every generator knows its *breaks*, the places where another one
+//! that lies on it ends, so that a walk stops at the same places from either side.
 //!
-//! What is the same from two features is one generator. Buried edges need not be found: from outside all copper they are never nearest.
+//! What is the same from two features is one generator. Buried edges need not be found: from
+//! outside all copper they are never nearest.
 
 use rustc_hash::{FxHashMap, FxHashSet};
 use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
@@ -27,7 +30,8 @@ use super::vertex::TIE;
 /// No generator.
 const NONE: u32 = u32::MAX;
 
-/// Arcs of which the two radii differ by more, in nanometres, are cut into chords: rounding three points leaves less.
+/// Arcs of which the two radii differ by more, in nanometres, are cut into chords: rounding three
+/// points leaves less.
 const DRIFT: f64 = 1_000.0;
 
 /// So far from a foot its normal is looked at, in nanometres. Chosen.
@@ -270,8 +274,8 @@ impl Index {
         index
     }
 
-    /// The places on generators where a line or an arc ends with the same foot and normal. A disc on its own has two all the same, so that
-    /// no loop round it is without a vertex.
+    /// The places on generators where a line or an arc ends with the same foot and normal. A disc
+    /// on its own has two all the same, so that no loop round it is without a vertex.
     fn find_breaks(&self, generators: &Generators) -> Vec<(u32, Place)> {
         let mut found: Vec<(u32, Place)> = Vec::new();
         let mut counts = vec![0_u32; generators.len()];

@@ -1,7 +1,7 @@
 //! The graph: walks from seeds until every edge of every vertex that was met has been followed.
 //!
-//! A vertex is known by its place; what arrives there continues in the slot that looks back. So each edge is walked once, and two ends that
-//! do not find each other are a fault with a place.
+//! A vertex is known by its place; what arrives there continues in the slot that looks back. So
+//! each edge is walked once, and two ends that do not find each other are a fault with a place.
 
 use rustc_hash::FxHashMap;
 
@@ -22,7 +22,8 @@ pub(super) struct Growth {
     faults: Vec<Spot>,
 }
 
-/// How often an event is corrected that the certificate contradicts. Chosen: more than was ever seen.
+/// How often an event is corrected that the certificate contradicts. Chosen: more than was ever
+/// seen.
 const RETRIES: usize = 8;
 
 /// Places nearer to each other are one, in nanometres: twice what ties may leave.

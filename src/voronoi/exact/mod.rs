@@ -1,4 +1,5 @@
-//! One certified Voronoi diagram of points, segments and arcs: exact vertices, conic edges, and a certificate for each.
+//! One certified Voronoi diagram of points, segments and arcs: exact vertices, conic edges, and a
+//! certificate for each.
 //!
 //! ```text
 //!  ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓             A *generator* is a piece of the edge of copper, with an owner. The *cell* of a generator is what is
@@ -10,34 +11,44 @@
 //!
 //! # How it is found
 //!
-//! 1. [`Generators`] are the one-sided edges of the copper, each alike but for its [form](form): lines and circles.
-//! 2. *Seeds* are provable places on the graph: one ray for each owner and the sides of the window (`seed`).
-//! 3. From each, the [walk](walk) follows the bisector to the first event: the end of a generator, or a third one that enters the
-//!    empty circle. All events are one equation, the problem of [Apollonius](apollonius).
-//! 4. At an event all generators within a [tie](vertex) of the circle are sorted by the direction of their feet; an edge leaves between each two
-//!    neighbours with different owners. Four and more, the rule on a grid, are nothing special.
-//! 5. The [graph] grows until nothing is open. An edge must arrive where one leaves; if not, the place is one of [`Diagram::faults`].
+//! 1. [`Generators`] are the one-sided edges of the copper, each alike but for its [form](form):
+//!    lines and circles.
+//! 2. *Seeds* are provable places on the graph: one ray for each owner and the sides of the window
+//!    (`seed`).
+//! 3. From each, the [walk](walk) follows the bisector to the first event: the end of a generator,
+//!    or a third one that enters the empty circle. All events are one equation, the problem of
+//!    [Apollonius](apollonius).
+//! 4. At an event all generators within a [tie](vertex) of the circle are sorted by the direction
+//!    of their feet; an edge leaves between each two neighbours with different owners. Four and
+//!    more, the rule on a grid, are nothing special.
+//! 5. The [graph] grows until nothing is open. An edge must arrive where one leaves; if not, the
+//!    place is one of [`Diagram::faults`].
 //! 6. [`Diagram::certify`] asks all generators anew whether each circle is empty.
 //!
 //! # What it guarantees
 //!
-//! Vertices and edges depend on the generators alone: they are solved from the lowest tied generators whatever the walk came from, and sorted by
-//! place at the end. Only `+ − × ÷ √` are used. With [`Kind::Owners`] the graph is complete if every owner's copper is connected.
+//! Vertices and edges depend on the generators alone: they are solved from the lowest tied
+//! generators whatever the walk came from, and sorted by place at the end. Only `+ − × ÷ √` are
+//! used. With [`Kind::Owners`] the graph is complete if every owner's copper is connected.
 //!
-//! With [`Kind::MedialAxis`] nothing is proven yet: around copper what one owner encloses is not found, for no ray leads there, and of 120 random
-//! scenes five had a fault, in notches and beside arcs. [`Space::Within`] has no tests. Copper of different owners must not touch.
+//! With [`Kind::MedialAxis`] nothing is proven yet: around copper what one owner encloses is not
+//! found, for no ray leads there, and of 120 random scenes five had a fault, in notches and beside
+//! arcs. [`Space::Within`] has no tests. Copper of different owners must not touch.
 //!
 //! # What it is not yet
 //!
-//! The program does not use it yet: its boundaries still come from [`Diagram`](super::Diagram), which traces a picture. Here the picture is not asked
-//! for seeds, borders and core axes are not known, and offsets are not drawn.
+//! The program does not use it yet: its boundaries still come from [`Diagram`](super::Diagram),
+//! which traces a picture. Here the picture is not asked for seeds, borders and core axes are not
+//! known, and offsets are not drawn.
 //!
 //! # Sources
 //!
-//! M. Held, *On the Computational Geometry of Pocket Machining*, LNCS 500, Springer 1991 (wavefronts and bisectors as conics by clearance).
-//! A. Okabe, B. Boots, K. Sugihara, S. N. Chiu, *Spatial Tessellations*, 2nd ed., Wiley 2000, ch. 3 (line and area Voronoi diagrams).
-//! K. E. Hoff et al., *Fast Computation of Generalized Voronoi Diagrams Using Graphics Hardware*, SIGGRAPH 1999 (cells as lower envelopes of
-//! distance surfaces). Apollonius of Perga, *Tangencies*, after Pappus (circles that touch three given ones).
+//! M. Held, *On the Computational Geometry of Pocket Machining*, LNCS 500, Springer 1991
+//! (wavefronts and bisectors as conics by clearance). A. Okabe, B. Boots, K. Sugihara, S. N. Chiu,
+//! *Spatial Tessellations*, 2nd ed., Wiley 2000, ch. 3 (line and area Voronoi diagrams). K. E. Hoff
+//! et al., *Fast Computation of Generalized Voronoi Diagrams Using Graphics Hardware*, SIGGRAPH
+//! 1999 (cells as lower envelopes of distance surfaces). Apollonius of Perga, *Tangencies*, after
+//! Pappus (circles that touch three given ones).
 
 mod apollonius;
 mod certify;
@@ -145,7 +156,8 @@ impl Diagram {
         &self.edges
     }
 
-    /// Where an edge could not be followed to its end, or ended where no other begins: none, unless the program is at fault.
+    /// Where an edge could not be followed to its end, or ended where no other begins: none, unless
+    /// the program is at fault.
     #[must_use]
     pub fn faults(&self) -> &[Point] {
         &self.faults

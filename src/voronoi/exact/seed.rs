@@ -8,8 +8,8 @@
 //!   ╚═════════════════════════════════╝     bisector of the nearest generator and its mirror image, and what enters there is met.
 //! ```
 //!
-//! The medial axis of one connected part of the free space is connected; a generator of which no edge is known yet is therefore
-//! in a part of its own, and its own normal is the ray.
+//! The medial axis of one connected part of the free space is connected; a generator of which no
+//! edge is known yet is therefore in a part of its own, and its own normal is the ray.
 
 use super::form::{Form, Place, turn};
 use super::graph::Growth;
@@ -58,7 +58,8 @@ impl Diagram {
         found.into_values().map(|(_, i, foot)| (i, foot)).collect()
     }
 
-    /// Follows the normal of a generator to where another is equally near, and plants what begins there.
+    /// Follows the normal of a generator to where another is equally near, and plants what begins
+    /// there.
     fn shoot(&self, growth: &mut Growth, generator: u32, foot: Spot, normal: Spot) {
         let [left, bottom, right, top] = self.window;
         let farthest = (right - left) + (top - bottom);
@@ -89,11 +90,13 @@ impl Diagram {
         }
     }
 
-    /// Begins at a place where two generators are equally near: there, if it is a vertex, else at the next one.
+    /// Begins at a place where two generators are equally near: there, if it is a vertex, else at
+    /// the next one.
     fn plant(&self, growth: &mut Growth, at: Spot, clearance: f64, [a, b]: [u32; 2]) {
         let Some(junction) = self.junction(at, clearance, [a, b, b]) else { return };
         match junction.slots[..] {
-            // An edge passes here, also where others touch the circle and do not enter: it is no vertex.
+            // An edge passes here, also where others touch the circle and do not enter: it is no
+            // vertex.
             [one, other] if (one.left, one.right) == (other.right, other.left) => {
                 self.plant_pair(growth, &self.pair(one.left, one.right), at);
             }

@@ -1,4 +1,5 @@
-//! A vertex: all generators that are equally far from a place, in the order of the directions of their feet, and what leaves between them.
+//! A vertex: all generators that are equally far from a place, in the order of the directions of
+//! their feet, and what leaves between them.
 //!
 //! ```text
 //!            foot 2
@@ -13,10 +14,12 @@ use super::form::{SLAB, clockwise, turn};
 use super::{Diagram, Kind, apollonius};
 use crate::voronoi::plane::Spot;
 
-/// Distances that differ by less are equal, in nanometres. Chosen: rounding is a millionth of it, and whole nanometres rarely come so close.
+/// Distances that differ by less are equal, in nanometres. Chosen: rounding is a millionth of it,
+/// and whole nanometres rarely come so close.
 pub(super) const TIE: f64 = 0.02;
 
-/// A place so near to the end of a slab is taken for it where all that is tied stays so, in nanometres. Chosen.
+/// A place so near to the end of a slab is taken for it where all that is tied stays so, in
+/// nanometres. Chosen.
 const SNAP: f64 = 1.0;
 
 /// Feet nearer to each other than this have one direction, beside what a tie may turn them by.
@@ -65,7 +68,8 @@ impl Diagram {
         found
     }
 
-    /// What is tied near `p`, which `third` generators at about `clearance` have led to; none where something is nearer.
+    /// What is tied near `p`, which `third` generators at about `clearance` have led to; none where
+    /// something is nearer.
     pub(super) fn junction(&self, p: Spot, clearance: f64, led: [u32; 3]) -> Option<Junction> {
         let near = self.within(p, clearance + 8.0 * TIE);
         let least = near.iter().map(|&(_, d)| d).fold(f64::INFINITY, f64::min);
@@ -86,7 +90,8 @@ impl Diagram {
         Some(Junction { at, clearance, tied: generators, slots })
     }
 
-    /// The generators among some that are `clearance` far from `p`, by the direction of their feet, in groups of one direction.
+    /// The generators among some that are `clearance` far from `p`, by the direction of their feet,
+    /// in groups of one direction.
     fn tied(&self, p: Spot, clearance: f64, among: impl Iterator<Item = u32>, slab: f64) -> Vec<Tied> {
         let mut tied: Vec<Tied> = Vec::new();
         for generator in among {

@@ -8,8 +8,9 @@
 //!     b ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
 //! ```
 //!
-//! Along a bisector the feet on both generators move in one sense only (see [`Form::meet`](super::form::Form::meet)), so the place of the foot on
-//! one of them orders all events.
+//! Along a bisector the feet on both generators move in one sense only (see
+//! [`Form::meet`](super::form::Form::meet)), so the place of the foot on one of them orders all
+//! events.
 
 use super::apollonius;
 use super::form::{Form, Place, SLAB, clockwise, unit};
@@ -17,17 +18,20 @@ use super::vertex::TIE;
 use super::{Diagram, NOBODY};
 use crate::voronoi::plane::Spot;
 
-/// A step is so many clearances long, and no shorter than this, in nanometres. Measured: see the module's table.
+/// A step is so many clearances long, and no shorter than this, in nanometres. Measured: see the
+/// module's table.
 const STRIDE: f64 = 2.0;
 const LEAST: f64 = 20_000.0;
 
-/// What comes nearer by less than this a unit of way only touches; if it enters after all, the end of the step shows it. Rounding is less.
+/// What comes nearer by less than this a unit of way only touches; if it enters after all, the end
+/// of the step shows it. Rounding is less.
 const FLAT: f64 = 1e-6;
 
 /// Who cannot step so far has come to where two generators touch, in nanometres.
 const SHORTEST: f64 = 1e-4;
 
-/// What a flat touch may be seen off its place, in nanometres: the root of a tie times the largest radius.
+/// What a flat touch may be seen off its place, in nanometres: the root of a tie times the largest
+/// radius.
 const NEAR: f64 = 2_000.0;
 
 /// Steps in an edge at most, chosen far above need: a fault rather than a hang.
@@ -44,7 +48,8 @@ pub(super) struct Pair {
 /// How an edge ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Event {
-    /// At a place, where a third generator enters or one of the two ends (then `third` is one of them).
+    /// At a place, where a third generator enters or one of the two ends (then `third` is one of
+    /// them).
     Junction { at: Spot, clearance: f64, third: u32, way: Spot },
     /// Where the window ends.
     Window { at: Spot, clearance: f64, way: Spot },
@@ -261,7 +266,8 @@ impl Diagram {
         let (form, sense) = (&pair.forms[main], pair.sense(main));
         let middle = here.at.midpoint(next.at);
         let half = (next.at - here.at).length() / 2.0;
-        // The arc strays from its chord by no more than half of it, for it turns by less than a quarter.
+        // The arc strays from its chord by no more than half of it, for it turns by less than a
+        // quarter.
         let reach = form.distance(middle).max(0.0).max(here.clearance).max(next.clearance);
         let room = reach + half + TIE;
         let look = [
@@ -349,7 +355,8 @@ impl Diagram {
     }
 }
 
-/// The place near `p` where an end of a line or an arc begins to touch one of two generators from within.
+/// The place near `p` where an end of a line or an arc begins to touch one of two generators from
+/// within.
 fn touch(pair: &Pair, other: &Form, p: Spot) -> Option<(Spot, f64)> {
     let slacks = other.slacks(p);
     let end = usize::from(slacks[1].abs() < slacks[0].abs());

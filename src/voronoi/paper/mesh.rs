@@ -1,4 +1,5 @@
-//! What the paper gave to its GPU: 16 corners to a circle, and the core axes as triangles that slope away from the viewer (§III-D).
+//! What the paper gave to its GPU: 16 corners to a circle, and the core axes as triangles that
+//! slope away from the viewer (§III-D).
 //!
 //! ```text
 //!        ╲  fan ╱                 beside every stroke a quad on either hand, sloping at 45°; where strokes turn away from each
@@ -7,8 +8,9 @@
 //!     ══════╲
 //! ```
 //!
-//! Where a stroke was drawn twice, the program paired it with its double and left both without fans at their common ends. That costs one
-//! net of dataset 6 a ninth of its region, so it is done here, too.
+//! Where a stroke was drawn twice, the program paired it with its double and left both without fans
+//! at their common ends. That costs one net of dataset 6 a ninth of its region, so it is done here,
+//! too.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;

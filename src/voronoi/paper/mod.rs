@@ -1,7 +1,8 @@
 //! The paper's own way, for its own numbers (§III-B to IV, Table V).
 //!
-//! voromill cuts along exact boundaries; the paper cut along the staircase of a picture, made simpler. To hold the one against
-//! the other on a board, this module does what the authors' program did, as its published logs and behaviour show it:
+//! voromill cuts along exact boundaries; the paper cut along the staircase of a picture, made
+//! simpler. To hold the one against the other on a board, this module does what the authors'
+//! program did, as its published logs and behaviour show it:
 //!
 //! ```text
 //!  outline: flat copper, one label a net ─────────────────╮
@@ -10,9 +11,10 @@
 //!  widths:  each without the frame: pixels of a net ÷ the length of its strokes
 //! ```
 //!
-//! Circles have 16 corners, cones and fans 16 sides, so regions lie off the true ones by up to 1.9 % of the distance. What cannot be
-//! had again are the random depths and colours that decided where two nets tie; the logs of two runs of the same program differ by 0.3 %
-//! for that reason. Figures agree with the logs to a few parts in a thousand; `docs/table-v.md` has them side by side.
+//! Circles have 16 corners, cones and fans 16 sides, so regions lie off the true ones by up to 1.9
+//! % of the distance. What cannot be had again are the random depths and colours that decided where
+//! two nets tie; the logs of two runs of the same program differ by 0.3 % for that reason. Figures
+//! agree with the logs to a few parts in a thousand; `docs/table-v.md` has them side by side.
 
 mod mesh;
 mod paths;
@@ -37,7 +39,8 @@ pub struct Toolpaths {
     pub paths: usize,
     /// The length of the staircase between pixels, in nanometres.
     pub raw: f64,
-    /// The length of the same with as few straight segments as stay within half a pixel, in nanometres.
+    /// The length of the same with as few straight segments as stay within half a pixel, in
+    /// nanometres.
     pub simplified: f64,
     /// How many segments those are.
     pub segments: usize,
@@ -93,13 +96,15 @@ impl<'a> Paper<'a> {
         self.areas(&self.mesh.outline())
     }
 
-    /// The area of each net's Voronoi region in square nanometres, by net: its pixels, to the edge of the picture.
+    /// The area of each net's Voronoi region in square nanometres, by net: its pixels, to the edge
+    /// of the picture.
     #[must_use]
     pub fn region_areas(&self) -> Vec<f64> {
         self.areas(&self.mesh.voronoi(None))
     }
 
-    /// The length of each net's strokes in nanometres, by net; zero where it has none. What clear polarity cut into pieces counts once.
+    /// The length of each net's strokes in nanometres, by net; zero where it has none. What clear
+    /// polarity cut into pieces counts once.
     #[must_use]
     pub fn stroke_lengths(&self) -> Vec<f64> {
         let Mesh { copper, nets, .. } = &self.mesh;
@@ -137,9 +142,10 @@ impl<'a> Paper<'a> {
     }
 }
 
-/// What the picture shows: whole pixels, one more all round than the copper needs. The copper lies in the middle of its columns and just
-/// below its first row: then both upright sides of the frame that dataset 1 has for a stroke, half a pixel wide, are seen, and neither of the level
-/// ones, as in the log.
+/// What the picture shows: whole pixels, one more all round than the copper needs. The copper lies
+/// in the middle of its columns and just below its first row: then both upright sides of the frame
+/// that dataset 1 has for a stroke, half a pixel wide, are seen, and neither of the level ones, as
+/// in the log.
 fn picture(board: Rect) -> Rect {
     let beyond = |extent: Nm| {
         let pixels = extent.get().div_euclid(PITCH.get()) + i64::from(extent.get() % PITCH.get() != 0) + 2;
@@ -150,7 +156,8 @@ fn picture(board: Rect) -> Rect {
     Rect::new(max - Vector::new(board.width() + x, board.height() + y), max)
 }
 
-/// The mean over nets of area by stroke length, both by net, where both are more than zero (the paper's footnote 12).
+/// The mean over nets of area by stroke length, both by net, where both are more than zero (the
+/// paper's footnote 12).
 #[must_use]
 pub fn mean_width(areas: &[f64], stroke_lengths: &[f64]) -> f64 {
     let (sum, count) = areas

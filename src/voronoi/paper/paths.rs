@@ -1,8 +1,9 @@
 //! Algorithm 3's paths: borders between differently labelled pixels, from corner to corner.
 //!
-//! A path begins at the first corner, row by row, that has borders left, and runs both ways from there: straight on where it can, round a corner
-//! where there is but one, and it ends where it meets another from the side. So at a corner of four borders two paths cross,
-//! and at one of three the bar of the T runs on. Every border belongs to one path.
+//! A path begins at the first corner, row by row, that has borders left, and runs both ways from
+//! there: straight on where it can, round a corner where there is but one, and it ends where it
+//! meets another from the side. So at a corner of four borders two paths cross, and at one of three
+//! the bar of the T runs on. Every border belongs to one path.
 
 use std::collections::VecDeque;
 

@@ -1,9 +1,11 @@
 //! A staircase as the fewest straight segments, in the manner of Potrace (the paper's reference 9).
 //!
-//! From a corner, look at each next corner of the path through a window of a pixel round it. As long as one line of sight passes all the windows,
-//! a segment may run from the first corner to the last one. Of all ways to walk the path in such segments, one with the fewest is taken, and of
-//! those the one that hugs the corners best: the least sum of each segment's length times the root mean square distance of its corners.
-//! The ends of a path stay; what lies between may be left out even where another path ends, which then hangs loose.
+//! From a corner, look at each next corner of the path through a window of a pixel round it. As
+//! long as one line of sight passes all the windows, a segment may run from the first corner to the
+//! last one. Of all ways to walk the path in such segments, one with the fewest is taken, and of
+//! those the one that hugs the corners best: the least sum of each segment's length times the root
+//! mean square distance of its corners. The ends of a path stay; what lies between may be left out
+//! even where another path ends, which then hangs loose.
 
 use super::paths::Corner;
 
@@ -64,7 +66,8 @@ const fn cross(a: Vector, b: Vector) -> i64 {
     a.0 * b.1 - a.1 * b.0
 }
 
-/// The directions between two others, less than half a turn: from `low` counter-clockwise to `high`.
+/// The directions between two others, less than half a turn: from `low` counter-clockwise to
+/// `high`.
 #[derive(Clone, Copy)]
 struct Sector {
     low: Vector,
@@ -72,7 +75,8 @@ struct Sector {
 }
 
 impl Sector {
-    /// The directions in which the square of a pixel round a corner is seen from the origin; none where it surrounds it.
+    /// The directions in which the square of a pixel round a corner is seen from the origin; none
+    /// where it surrounds it.
     fn of((x, y): (i32, i32)) -> Option<Self> {
         if x == 0 && y == 0 {
             return None;
@@ -99,7 +103,8 @@ impl Sector {
     }
 }
 
-/// Sums over the first corners of a path, for the mean square distance of any run of them from a chord.
+/// Sums over the first corners of a path, for the mean square distance of any run of them from a
+/// chord.
 struct Sums<'a> {
     path: &'a [Corner],
     /// x, y, x², x y, y² of all corners before.
@@ -124,8 +129,8 @@ impl<'a> Sums<'a> {
         (f64::from(corner.0 - path[0].0), f64::from(corner.1 - path[0].1))
     }
 
-    /// Potrace's penalty of the segment from corner `i` to corner `j`: its length times the root mean square distance of the
-    /// corners from `i` to `j` to the line through its middle.
+    /// Potrace's penalty of the segment from corner `i` to corner `j`: its length times the root
+    /// mean square distance of the corners from `i` to `j` to the line through its middle.
     #[expect(clippy::cast_precision_loss, reason = "paths have few corners")]
     fn penalty(&self, i: usize, j: usize) -> f64 {
         let n = (j - i + 1) as f64;

@@ -1,3 +1,5 @@
+//! The crack between two pixels: the step of a traced boundary.
+
 /// The four ways from a corner, in the order in which they are tried.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Heading {

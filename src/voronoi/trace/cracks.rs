@@ -1,4 +1,5 @@
-//! The cracks of a tile, a bit each: which of its pixels differ in owner from the pixel on their left, and from the one above.
+//! The cracks of a tile, a bit each: which of its pixels differ in owner from the pixel on their
+//! left, and from the one above.
 
 use super::crack::{Crack, Heading};
 use super::pixels::Pixels;
@@ -9,7 +10,8 @@ type Row = u64;
 /// The widest tile whose pixels have a bit each.
 const WIDEST: i32 = 62;
 
-/// The cracks round the pixels of a tile and of one pixel about it, and which of the tile's own are not walked yet.
+/// The cracks round the pixels of a tile and of one pixel about it, and which of the tile's own are
+/// not walked yet.
 pub(super) struct Cracks {
     /// From the row above the tile to the row below it.
     rows: Vec<Pair>,
@@ -107,7 +109,8 @@ fn unequal(one: &[u32], other: &[u32]) -> Row {
     differs.chunks_exact(8).rev().fold(0, |bits, eight| bits << 8 | packed(eight.try_into().expect("eight")))
 }
 
-/// Eight bytes of 0 or 1 as eight bits: the factor moves the i-th to bit 56 + i, and nothing else to where it would count.
+/// Eight bytes of 0 or 1 as eight bits: the factor moves the i-th to bit 56 + i, and nothing else
+/// to where it would count.
 const fn packed(bytes: [u8; 8]) -> u64 {
     u64::from_le_bytes(bytes).wrapping_mul(0x0102_0408_1020_4080) >> 56
 }

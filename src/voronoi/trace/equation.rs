@@ -1,4 +1,5 @@
-//! Which equation a boundary satisfies at a crack or corner, read from the pixels round it; and nodes, which satisfy two.
+//! Which equation a boundary satisfies at a crack or corner, read from the pixels round it; and
+//! nodes, which satisfy two.
 
 use super::Tracer;
 use super::crack::{Crack, Heading};
@@ -32,8 +33,9 @@ impl Tracer<'_> {
         self.spot(f64::from(crack.x + x) / 2.0, f64::from(crack.y + y) / 2.0)
     }
 
-    /// How far beyond the pixels at a boundary of `owners` sites are looked for. Between two nets an index of all sites tells of nearer ones, where
-    /// there is one; it does not tell of polygons that a limit curve may run into.
+    /// How far beyond the pixels at a boundary of `owners` sites are looked for. Between two nets
+    /// an index of all sites tells of nearer ones, where there is one; it does not tell of polygons
+    /// that a limit curve may run into.
     const fn apron(&self, owners: (u32, u32)) -> i32 {
         let bare = owners.0 == BACKGROUND || owners.1 == BACKGROUND;
         if self.placer.near.is_some() && !bare { 0 } else { 1 }
@@ -75,7 +77,8 @@ impl Tracer<'_> {
         candidates
     }
 
-    /// Whether the first candidate is a trace's own copper above the cones, with those that are as it is.
+    /// Whether the first candidate is a trace's own copper above the cones, with those that are as
+    /// it is.
     fn alike(&self, candidates: Candidates) -> (bool, Candidates) {
         let is_flat = |label: u32| self.placer.sites.sites[label as usize].flat;
         let first = candidates.as_slice().first().is_some_and(|&label| is_flat(label));
@@ -92,7 +95,8 @@ impl Tracer<'_> {
         (first, alike)
     }
 
-    /// The place of a piece's end, and whether it is open: the same whichever piece, of whichever tile, asks. `crack` leaves from there.
+    /// The place of a piece's end, and whether it is open: the same whichever piece, of whichever
+    /// tile, asks. `crack` leaves from there.
     pub(super) fn end_vertex(&mut self, at: (i32, i32), crack: Crack) -> (Placed, bool) {
         let spot = self.spot(f64::from(at.0), f64::from(at.1));
         if self.joined(at).is_some() {
@@ -107,7 +111,8 @@ impl Tracer<'_> {
         }
     }
 
-    /// A place between a checkerboard corner and the centre of the pixel that the boundary passes round there.
+    /// A place between a checkerboard corner and the centre of the pixel that the boundary passes
+    /// round there.
     fn beside(&self, at: (i32, i32), crack: Crack) -> Spot {
         let others = [Heading::North, Heading::East, Heading::South, Heading::West]
             .map(|heading| Crack { x: at.0, y: at.1, heading })
@@ -136,8 +141,9 @@ impl Tracer<'_> {
             .map(|(x, y)| (self.pixels.owner(x, y), self.pixels.label(x, y)))
     }
 
-    /// The place where three or more regions meet: equally far from the first three, or on the limit, or on the border. It is open where
-    /// none such is near: a region that ends in a wedge thinner than a pixel is seen to end too early.
+    /// The place where three or more regions meet: equally far from the first three, or on the
+    /// limit, or on the border. It is open where none such is near: a region that ends in a wedge
+    /// thinner than a pixel is seen to end too early.
     fn node(&self, at: (i32, i32), spot: Spot) -> (Vertex, bool) {
         let window = round(at, 2);
         let mut regions = self.around(at).to_vec();
@@ -152,7 +158,8 @@ impl Tracer<'_> {
         let met = match regions.as_slice() {
             [a, b] => self.placer.project(&mut target(*a, *b), spot),
             [a, b, c, ..] => {
-                // Sorted by owner: background and outside come first, so both equations hold with what follows.
+                // Sorted by owner: background and outside come first, so both equations hold with
+                // what follows.
                 let mut first = target(*a, *b);
                 let mut second = match a.0 {
                     BACKGROUND | OUTSIDE if b.0 == OUTSIDE => target(*a, *c),
@@ -160,7 +167,8 @@ impl Tracer<'_> {
                     _ => target(*a, *c),
                 };
                 if matches!((first, second), (Target::At(..), Target::At(..))) && a.0 > OUTSIDE {
-                    // Where the first region ends with its own copper's band, both say no more than that.
+                    // Where the first region ends with its own copper's band, both say no more than
+                    // that.
                     second = target(*b, *c);
                 }
                 let met = self.placer.meet(&mut first, &mut second, spot);

@@ -1,10 +1,12 @@
 //! The borders between differently owned pixels of one tile, placed.
 //!
-//! Between two pixels of different owners runs a *crack*, a unit edge between pixel corners. A corner where two
-//! cracks meet only passes a boundary on; where three or four meet, regions meet, and the corner is a node. At a
-//! checkerboard corner (A B / C A, where B and C may be one), whoever owns the corner itself decides: if it is A, both of its
-//! pixels are joined, and one boundary passes round B, another round C. If not, all four boundaries end there. Where B or C is the outside,
-//! the two pixels are joined: what lies across from the outside does not reach it there.
+//! Between two pixels of different owners runs a *crack*, a unit edge between pixel corners. A
+//! corner where two cracks meet only passes a boundary on; where three or four meet, regions meet,
+//! and the corner is a node. At a checkerboard corner (A B / C A, where B and C may be one),
+//! whoever owns the corner itself decides: if it is A, both of its pixels are joined, and one
+//! boundary passes round B, another round C. If not, all four boundaries end there. Where B or C is
+//! the outside, the two pixels are joined: what lies across from the outside does not reach it
+//! there.
 //!
 //! ```text
 //!     A A │ B          A A │ C          A A ╰ B      a tile owns the left and upper crack of each of its
@@ -14,9 +16,10 @@
 //!     passed on        a node           two passed on
 //! ```
 //!
-//! Each piece is placed as it is traced, on the worker that drew the tile: cracks are sampled, moved to the true
-//! boundary, and again between wherever the true boundary leaves the curve between two vertices (see `span`). A piece of one curve costs
-//! three samples, whatever its length.
+//! Each piece is placed as it is traced, on the worker that drew the tile: cracks are sampled,
+//! moved to the true boundary, and again between wherever the true boundary leaves the curve
+//! between two vertices (see `span`). A piece of one curve costs three samples, whatever its
+//! length.
 
 mod crack;
 mod cracks;
@@ -52,7 +55,8 @@ impl Corner {
     }
 }
 
-/// A stretch of boundary within one tile: `vertices[first..first + len]`, both corners' places included.
+/// A stretch of boundary within one tile: `vertices[first..first + len]`, both corners' places
+/// included.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
     pub(super) from: Corner,
@@ -142,7 +146,8 @@ impl Tracer<'_> {
         self.cracks.degree(at) > 2 && self.joined(at).is_none()
     }
 
-    /// Which pixels round a checkerboard corner are joined, because their owner has the corner, too.
+    /// Which pixels round a checkerboard corner are joined, because their owner has the corner,
+    /// too.
     fn joined(&self, at: (i32, i32)) -> Option<Joined> {
         let (x, y) = at;
         let owner = |x: i32, y: i32| self.pixels.owner(x, y);
@@ -155,7 +160,8 @@ impl Tracer<'_> {
             return None;
         }
         if upper.contains(&OUTSIDE) || lower.contains(&OUTSIDE) {
-            // The region between the two ends before it comes to the border, or reaches it by less than a pixel.
+            // The region between the two ends before it comes to the border, or reaches it by less
+            // than a pixel.
             let alone = if rising.is_none() { falling } else { rising.xor(falling) };
             return alone.filter(|(owner, _)| *owner != OUTSIDE).map(|(_, joined)| joined);
         }
@@ -163,7 +169,8 @@ impl Tracer<'_> {
         [falling, rising].into_iter().flatten().find(|(owner, _)| *owner == here).map(|(_, joined)| joined)
     }
 
-    /// Which of two boundaries leaves a checkerboard corner by this crack: that to the north, or that to the south.
+    /// Which of two boundaries leaves a checkerboard corner by this crack: that to the north, or
+    /// that to the south.
     fn branch(&self, crack: Crack) -> bool {
         match (self.joined((crack.x, crack.y)), crack.heading) {
             (None, _) | (Some(_), Heading::North) => false,

@@ -1,4 +1,7 @@
-/// The pixels of a tile as tracing sees them: who owns each, and by which site, two pixels beyond the tile's border.
+//! The labels of a tile as tracing reads them.
+
+/// The pixels of a tile as tracing sees them: who owns each, and by which site, two pixels beyond
+/// the tile's border.
 pub(in crate::voronoi) struct Pixels<'a> {
     /// Owner of each pixel, row by row, `width + 4` a row.
     pub(in crate::voronoi) owners: &'a [u32],

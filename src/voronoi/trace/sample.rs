@@ -1,7 +1,8 @@
 //! Vertices along a piece: as few as its curves need.
 //!
-//! A piece is halved until a probe half way lies on the curve between the vertices on either side (see [`span`](crate::voronoi::span)). Where these
-//! lie on different curves, the corner where the one goes over into the other is looked for first: it is where two equations hold.
+//! A piece is halved until a probe half way lies on the curve between the vertices on either side
+//! (see [`span`](crate::voronoi::span)). Where these lie on different curves, the corner where the
+//! one goes over into the other is looked for first: it is where two equations hold.
 
 use super::Tracer;
 use super::crack::Crack;
@@ -10,17 +11,20 @@ use crate::voronoi::plane::Spot;
 use crate::voronoi::span::{CHORD, Span, Vertex};
 use crate::voronoi::{BACKGROUND, OUTSIDE};
 
-/// Between two neighbouring cracks the way is halved at most so often: a corner is met within 1/64 of a pixel.
+/// Between two neighbouring cracks the way is halved at most so often: a corner is met within 1/64
+/// of a pixel.
 const HALVINGS: u32 = 6;
-/// A crack so close to a station may be moved past it: beyond a node, along the continuation of the boundary that the third region cuts off. Going
-/// there and back would cut into that region. Chosen: twice the leash.
+/// A crack so close to a station may be moved past it: beyond a node, along the continuation of the
+/// boundary that the third region cuts off. Going there and back would cut into that region.
+/// Chosen: twice the leash.
 const LOOK_AHEAD: usize = 6;
 
 /// A place on a piece with the crack at or about which it lies.
 type Station = (usize, Placed);
 
 impl Tracer<'_> {
-    /// Writes the vertices of a piece: its first corner, what its curves need in between, its last corner. Says whether the corners' places are open.
+    /// Writes the vertices of a piece: its first corner, what its curves need in between, its last
+    /// corner. Says whether the corners' places are open.
     pub(super) fn place(&mut self, cracks: &[Crack], start: (i32, i32), end: (i32, i32)) -> (bool, bool) {
         let last_crack = cracks[cracks.len() - 1].reversed();
         let (first, first_open) = self.end_vertex(start, cracks[0]);
@@ -65,7 +69,8 @@ impl Tracer<'_> {
         self.sample(run, from, (last, start), HALVINGS);
     }
 
-    /// Writes what the way needs between two stations. Between neighbouring cracks it is halved `left` times at most.
+    /// Writes what the way needs between two stations. Between neighbouring cracks it is halved
+    /// `left` times at most.
     fn sample(&mut self, run: &[Crack], from: Station, to: Station, left: u32) {
         self.sample_again(run, from, to, (left, false));
     }
@@ -107,7 +112,8 @@ impl Tracer<'_> {
         self.sample_again(run, (k, probe), (j, to), (left, is_settled));
     }
 
-    /// Whether the pixels between two stations show no other curves than theirs. A pixel inside copper may have the label of any of several sites.
+    /// Whether the pixels between two stations show no other curves than theirs. A pixel inside
+    /// copper may have the label of any of several sites.
     fn is_plain(&self, run: &[Crack], (i, from): Station, (j, to): Station) -> bool {
         let shows = |(left, right): (u32, u32), curve: Curve| match curve {
             Curve::Between(a, b) => (left, right) == (a, b) || (left, right) == (b, a),

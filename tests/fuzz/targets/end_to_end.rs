@@ -1,6 +1,8 @@
-//! Any bytes as a layer, an outline and a drill file, cut at form feeds; milled, and the programs judged.
+//! Any bytes as a layer, an outline and a drill file, cut at form feeds; milled, and the programs
+//! judged.
 //!
-//! Whatever is milled must be followed by the judge: a program of ours that `verify` cannot read is a finding.
+//! Whatever is milled must be followed by the judge: a program of ours that `verify` cannot read is
+//! a finding.
 #![no_main]
 
 use std::path::PathBuf;

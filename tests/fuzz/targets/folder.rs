@@ -1,6 +1,7 @@
 //! A folder of any files with any names: which layer is which.
 //!
-//! The bytes are cut at form feeds; of each piece the first line is a file's name and the rest its content.
+//! The bytes are cut at form feeds; of each piece the first line is a file's name and the rest its
+//! content.
 #![no_main]
 
 use std::path::PathBuf;

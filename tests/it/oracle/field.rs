@@ -1,7 +1,9 @@
-//! Distances to the copper of nets by an index of its own: square cells, each with the edges that reach into it.
+//! Distances to the copper of nets by an index of its own: square cells, each with the edges that
+//! reach into it.
 //!
-//! It shares nothing with the program's index but the features themselves: outlines are taken apart into bars (lines with a
-//! radius), cells are looked at in growing squares round a point, and what lies inside a polygon is told by counting edges.
+//! It shares nothing with the program's index but the features themselves: outlines are taken apart
+//! into bars (lines with a radius), cells are looked at in growing squares round a point, and what
+//! lies inside a polygon is told by counting edges.
 
 use voromill::board::{Copper, Shape};
 use voromill::geometry::{Nm, Point, Polygon, Rect};
@@ -50,7 +52,8 @@ pub(crate) struct Reach {
     pub(crate) away: Spot,
 }
 
-/// How far two nets are from a point, and how far whatever other is nearest: none where that is farther than both.
+/// How far two nets are from a point, and how far whatever other is nearest: none where that is
+/// farther than both.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen {
     pub(crate) two: [Reach; 2],
@@ -158,7 +161,8 @@ impl Field {
         [0, 1].map(|i| whole((p[i] - self.origin[i]) / self.side))
     }
 
-    /// The distances from `p` to two nets, and to the nearest of the others where that comes nearer than the farther of the two.
+    /// The distances from `p` to two nets, and to the nearest of the others where that comes nearer
+    /// than the farther of the two.
     pub(crate) fn see(&self, p: Spot, pair: [NetId; 2]) -> Seen {
         let mut seen = [NOWHERE; 3];
         let [column, row] = self.cell(p);
@@ -226,7 +230,8 @@ impl Area {
         usize::try_from(band.clamp(0, BANDS - 1)).expect("a band")
     }
 
-    /// Whether `p` lies inside, by the non-zero rule: how often the edges to its right wind round it.
+    /// Whether `p` lies inside, by the non-zero rule: how often the edges to its right wind round
+    /// it.
     fn holds(&self, p: Point) -> bool {
         if !self.bounds.contains(p) {
             return false;

@@ -1,4 +1,5 @@
-//! A small board drawn at random, as Gerber text: what copper can look like, in odd places and at odd angles.
+//! A small board drawn at random, as Gerber text: what copper can look like, in odd places and at
+//! odd angles.
 
 use std::fmt::{self, Debug, Formatter, Write};
 
@@ -21,7 +22,8 @@ enum Pad {
     Turned { width: i64, height: i64, degrees: i64 },
 }
 
-/// A part of a trace: straight on, or round a centre on its left (or right, if the radius is negative).
+/// A part of a trace: straight on, or round a centre on its left (or right, if the radius is
+/// negative).
 #[derive(Clone, Copy, Debug)]
 enum Leg {
     Line { length: i64, degrees: i64 },
@@ -209,7 +211,8 @@ impl Drawing {
         let round = round.min((right - left).min(top - bottom) / 2);
         let mut pen = Pen::default();
         pen.take("C,0.1");
-        // Straight to one place, then round a corner to the next, as far as the edge has such parts.
+        // Straight to one place, then round a corner to the next, as far as the edge has such
+        // parts.
         let legs = [
             ((right - round, bottom), (right, bottom + round), (0, round)),
             ((right, top - round), (right - round, top), (-round, 0)),

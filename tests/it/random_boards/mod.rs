@@ -1,7 +1,8 @@
 //! Random boards through the whole of `mill`: the laws that hold whatever the copper looks like.
 //!
-//! The same boards every time. `PROPTEST_CASES=5000` makes it others, so many; `PROPTEST_RNG_SEED=7` beside it the same others again. What was found so and
-//! mended stays in `fixtures/random-boards`.
+//! The same boards every time. `PROPTEST_CASES=5000` makes it others, so many;
+//! `PROPTEST_RNG_SEED=7` beside it the same others again. What was found so and mended stays in
+//! `fixtures/random-boards`.
 
 mod drawing;
 
@@ -99,7 +100,8 @@ fn judge(board: &Board, settings: &str) -> Result<(), String> {
         }
         read(&program.text).map_err(|error| format!("it does not read back: {error}"))?;
     }
-    // Among core axes some nodes keep their pixel's place, and say so; then two may lie on one another, and borders run together.
+    // Among core axes some nodes keep their pixel's place, and say so; then two may lie on one
+    // another, and borders run together.
     let is_core = settings.sites == Sites::Core;
     let faulty = |code: &str| code == "boundary-torn" || (code == "boundary-not-placed" && !is_core);
     if let Some(fault) = job.warnings.iter().find(|warning| faulty(warning.code)) {

@@ -1,7 +1,10 @@
+//! bCNC's `.probe` files.
+
 use super::{Format, Touches, numbers, said, touch};
 use crate::gcode::level::error::MapError;
 
-/// bCNC's `.probe`: `xmin xmax xn`, `ymin ymax yn`, `zmin zmax feed`, then x, y and z of every touch.
+/// bCNC's `.probe`: `xmin xmax xn`, `ymin ymax yn`, `zmin zmax feed`, then x, y and z of every
+/// touch.
 pub(super) const BCNC: Format = Format { name: "bCNC's probe file", recognises, read };
 
 /// The first two lines are ranges with a number of places each.

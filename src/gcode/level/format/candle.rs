@@ -1,11 +1,15 @@
+//! Candle's `.map` files.
+
 use super::{Format, Frame, Touch, Touches, exact, numbers, said};
 use crate::gcode::level::error::MapError;
 
-/// Candle's `.map`: x, y, width and height of the area; how many columns and rows, the lowest and the highest z that it probes; how it
-/// interpolates; then the heights, row by row from the lowest y, all between semicolons.
+/// Candle's `.map`: x, y, width and height of the area; how many columns and rows, the lowest and
+/// the highest z that it probes; how it interpolates; then the heights, row by row from the lowest
+/// y, all between semicolons.
 pub(super) const CANDLE: Format = Format { name: "Candle's height map", recognises, read };
 
-/// The first three lines have four, four and three numbers, the second of them with whole numbers of places.
+/// The first three lines have four, four and three numbers, the second of them with whole numbers
+/// of places.
 fn recognises(text: &str) -> bool {
     let mut lines = said(text).map(|(_, line)| line.contains(';').then(|| numbers(line)).flatten());
     let mut next = || lines.next().flatten().unwrap_or_default();

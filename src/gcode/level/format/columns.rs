@@ -1,8 +1,11 @@
+//! Tables of coordinates: LinuxCNC's probe logs, and others with x, y and z in columns.
+
 use super::{Format, Touches, numbers, said, touch};
 use crate::gcode::level::error::MapError;
 
-/// What LinuxCNC writes between `(PROBEOPEN …)` and `(PROBECLOSE)`: nine coordinates for each touch, x y z a b c u v w, counted from the
-/// work's zero in the unit of the program; and any other table of x, y and z alone (`.xyz` of bCNC and Universal Gcode Sender, Mach's logs).
+/// What LinuxCNC writes between `(PROBEOPEN …)` and `(PROBECLOSE)`: nine coordinates for each
+/// touch, x y z a b c u v w, counted from the work's zero in the unit of the program; and any other
+/// table of x, y and z alone (`.xyz` of bCNC and Universal Gcode Sender, Mach's logs).
 pub(super) const COLUMNS: Format =
     Format { name: "lines of x, y and z, as LinuxCNC logs them", recognises, read };
 

@@ -1,8 +1,11 @@
+//! Logs of senders to Grbl, with its `[PRB:…]` reports.
+
 use super::{Format, Frame, Touch, Touches, numbers};
 use crate::gcode::level::error::MapError;
 
-/// The log of a sender to Grbl: `[PRB:x,y,z:1]` for each touch, from the machine's zero; a status report with `WCO:x,y,z` says
-/// where the work's zero is. So report grblHAL, FluidNC and Smoothieware, and so does Universal Gcode Sender keep them.
+/// The log of a sender to Grbl: `[PRB:x,y,z:1]` for each touch, from the machine's zero; a status
+/// report with `WCO:x,y,z` says where the work's zero is. So report grblHAL, FluidNC and
+/// Smoothieware, and so does Universal Gcode Sender keep them.
 pub(super) const GRBL: Format = Format { name: "a log with Grbl's [PRB:…] lines", recognises, read };
 
 const REPORT: &str = "[PRB:";
@@ -12,7 +15,8 @@ fn recognises(text: &str) -> bool {
     text.contains(REPORT)
 }
 
-/// A probe that went down and touched nothing is dropped: a place that stays untouched is a hole of the grid. The zero of a touch is the one reported last before it, or else the first after it.
+/// A probe that went down and touched nothing is dropped: a place that stays untouched is a hole of
+/// the grid. The zero of a touch is the one reported last before it, or else the first after it.
 fn read(text: &str, frame: &Frame) -> Result<Touches, MapError> {
     let mut zero = text.lines().find_map(zero_in);
     let mut points = Vec::new();

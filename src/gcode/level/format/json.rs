@@ -1,7 +1,10 @@
+//! Logs of senders to TinyG and g2core, with their JSON probe reports.
+
 use super::{Format, Frame, Touch, Touches};
 use crate::gcode::level::error::MapError;
 
-/// The log of a sender to TinyG or g2core: `{"prb":{"e":1,"x":…,"y":…,"z":…}}` for each touch, from the machine's zero.
+/// The log of a sender to TinyG or g2core: `{"prb":{"e":1,"x":…,"y":…,"z":…}}` for each touch, from
+/// the machine's zero.
 pub(super) const JSON: Format = Format { name: "a log with TinyG's {\"prb\":…} lines", recognises, read };
 
 const REPORT: &str = "\"prb\"";
@@ -10,7 +13,8 @@ fn recognises(text: &str) -> bool {
     text.contains(REPORT)
 }
 
-/// A touch that found nothing has `e` 0, and is dropped: a place that stays untouched is a hole of the grid.
+/// A touch that found nothing has `e` 0, and is dropped: a place that stays untouched is a hole of
+/// the grid.
 fn read(text: &str, frame: &Frame) -> Result<Touches, MapError> {
     let mut touches = Vec::new();
     for (line, text) in (1..).zip(text.lines()).filter(|(_, text)| text.contains(REPORT)) {

@@ -1,4 +1,5 @@
-//! The files in which touches come: one file and one constant each, listed in [`FORMATS`], told apart by what is in them.
+//! The files in which touches come: one file and one constant each, listed in [`FORMATS`], told
+//! apart by what is in them.
 
 mod bcnc;
 mod candle;
@@ -17,7 +18,8 @@ use super::height_map::HeightMap;
 pub struct Frame {
     /// The length that its numbers count.
     pub unit: Nm,
-    /// Where the work's zero is in its coordinates; none where they count from there, or where it says so itself.
+    /// Where the work's zero is in its coordinates; none where they count from there, or where it
+    /// says so itself.
     pub zero: Option<[Nm; 3]>,
 }
 
@@ -46,7 +48,8 @@ pub struct Format {
     /// What it is, as a person says it.
     pub name: &'static str,
     recognises: fn(&str) -> bool,
-    /// The touches in its own numbers, those that count from the machine's zero moved to the work's where the file says how.
+    /// The touches in its own numbers, those that count from the machine's zero moved to the work's
+    /// where the file says how.
     read: fn(&str, &Frame) -> Result<Touches, MapError>,
 }
 
@@ -73,7 +76,8 @@ impl HeightMap {
     }
 }
 
-/// The numbers of a line between blanks, commas or semicolons; none where something else is among them.
+/// The numbers of a line between blanks, commas or semicolons; none where something else is among
+/// them.
 fn numbers(line: &str) -> Option<Vec<f64>> {
     let parts = line.split([' ', '\t', ',', ';']).map(str::trim).filter(|part| !part.is_empty());
     let number = |part: &str| {

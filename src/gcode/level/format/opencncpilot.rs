@@ -1,10 +1,13 @@
+//! OpenCNCPilot's `.hmap` files.
+
 use roxmltree::{Document, Node};
 
 use super::{Format, Frame, Touch, Touches, numbers};
 use crate::gcode::level::error::MapError;
 
-/// OpenCNCPilot's `.hmap`: `<heightmap MinX MinY MaxX MaxY SizeX SizeY>` with a `<point X Y>` for each touch, whose X and Y
-/// count columns and rows from 0 and whose text is the height. Places not yet touched are left out.
+/// OpenCNCPilot's `.hmap`: `<heightmap MinX MinY MaxX MaxY SizeX SizeY>` with a `<point X Y>` for
+/// each touch, whose X and Y count columns and rows from 0 and whose text is the height. Places not
+/// yet touched are left out.
 pub(super) const OPENCNCPILOT: Format = Format { name: "OpenCNCPilot's height map", recognises, read };
 
 fn recognises(text: &str) -> bool {

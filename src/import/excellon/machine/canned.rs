@@ -1,4 +1,5 @@
-//! Canned cycles: packages, and circles cut from many holes or by the router (CNC-7 manual, "Canned Cycle Commands").
+//! Canned cycles: packages, and circles cut from many holes or by the router (CNC-7 manual, "Canned
+//! Cycle Commands").
 //!
 //! ```text
 //!  G82: two corners    first o   o   o   o      G83: two holes         o
@@ -28,7 +29,8 @@ pub(super) struct Package {
     first: Option<Point>,
 }
 
-/// How far a corner may lie off the grid of its package. Chosen: two coordinates, each rounded to a thousandth inch.
+/// How far a corner may lie off the grid of its package. Chosen: two coordinates, each rounded to a
+/// thousandth inch.
 const OFF_GRID: Nm = Nm::from_um(51);
 
 impl Machine<'_, '_, '_> {
@@ -168,7 +170,8 @@ impl Machine<'_, '_, '_> {
         Ok(())
     }
 
-    /// `X#Y#G84X#`: holes side by side round a circle, whose diameter is in thousandths of an inch or of a millimetre.
+    /// `X#Y#G84X#`: holes side by side round a circle, whose diameter is in thousandths of an inch
+    /// or of a millimetre.
     fn drilled_circle(&mut self, block: &Block<'_>, line: &Line) -> Result<(), Error> {
         let center = self.target(self.at, block.x, block.y)?;
         let Some((Some(width), _)) = block.beyond else {

@@ -98,7 +98,8 @@ impl Machine<'_, '_, '_> {
                 self.raise()?;
                 self.ended = true;
             }
-            // Without M25 a pattern begins where the program does. M21 to M27 are the codes of format 1.
+            // Without M25 a pattern begins where the program does. M21 to M27 are the codes of
+            // format 1.
             Some(1 | 24) => {
                 self.raise()?;
                 let from = self.pattern.map_or(0, |(from, _)| from);

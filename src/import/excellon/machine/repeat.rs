@@ -21,7 +21,8 @@ impl Machine<'_, '_, '_> {
         Ok(())
     }
 
-    /// `M02X#Y#`: the pattern once more, moved; `R#M02X#Y#`: that many times. `M02` alone ends the repeats.
+    /// `M02X#Y#`: the pattern once more, moved; `R#M02X#Y#`: that many times. `M02` alone ends the
+    /// repeats.
     pub(super) fn step(&mut self, word: &Word, block: &Block<'_>, line: &Line) -> Result<(), Error> {
         if block.x.is_none() && block.y.is_none() && block.repeat.is_none() {
             self.stepped = Vector::default();

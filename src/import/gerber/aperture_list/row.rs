@@ -59,7 +59,8 @@ const SHAPES: &[(&str, Shape)] = &[
     ("CROSS", Shape::Special("a cross")),
 ];
 
-/// The lines that are apertures. Where any has its code with a `D`, all must; else the first number is the code.
+/// The lines that are apertures. Where any has its code with a `D`, all must; else the first number
+/// is the code.
 pub(super) fn rows(text: &[String]) -> Vec<Row> {
     let read = |with_d: bool| -> Vec<Row> {
         (1..).zip(text).filter_map(|(line, text)| row(line, text, with_d)).collect()

@@ -6,11 +6,12 @@ use super::{Draft, FAR, ImportError};
 use crate::geometry::{Nm, nanometres};
 use crate::toolpath::{Acceleration, Feed};
 
-/// The most of `$30` that is taken for a scale of S and not for turns per minute: no spindle for boards turns so slowly, and Grbl is delivered
-/// with 1000.
+/// The most of `$30` that is taken for a scale of S and not for turns per minute: no spindle for
+/// boards turns so slowly, and Grbl is delivered with 1000.
 const SCALE: u32 = 1000;
 
-/// Number and value of a line that says a setting, such as `$110=500.000` or `$110 = 500.000 (x max rate, mm/min)`.
+/// Number and value of a line that says a setting, such as `$110=500.000` or
+/// `$110 = 500.000 (x max rate, mm/min)`.
 pub(super) fn setting(line: &str) -> Option<(u32, &str)> {
     let (number, value) = line.trim().strip_prefix('$')?.split_once('=')?;
     let value = value.split('(').next().unwrap_or_default();

@@ -7,7 +7,8 @@ use std::fmt::Write as _;
 
 use crate::geometry::Nm;
 
-/// The most travel that is written down: farther than any board is long, and within what a length can be.
+/// The most travel that is written down: farther than any board is long, and within what a length
+/// can be.
 const FAR: Nm = Nm::from_mm(1000);
 
 /// Why no profile can be made of a text: the line, where there is one, and what was expected.
@@ -61,12 +62,13 @@ impl Draft {
     }
 }
 
-/// The profile of the machine whose settings these are: Grbl's answer to `$$`, or a LinuxCNC ini file. `name` is what it is called where
-/// the settings do not say.
+/// The profile of the machine whose settings these are: Grbl's answer to `$$`, or a LinuxCNC ini
+/// file. `name` is what it is called where the settings do not say.
 ///
 /// # Errors
 ///
-/// [`ImportError`] for a text that is neither, for values that make no sense, and where speeds or accelerations are missing.
+/// [`ImportError`] for a text that is neither, for values that make no sense, and where speeds or
+/// accelerations are missing.
 pub fn import_machine(name: &str, text: &str) -> Result<String, ImportError> {
     let draft = if text.lines().any(|line| grbl::setting(line).is_some()) {
         grbl::read(name, text)

@@ -1,9 +1,10 @@
 //! Cutout: round the board outside its edge, in passes, with tabs that hold it until the end.
 //!
-//! The way of the cutter's middle is the outline offset by half its width, by exact polygons and in lines and arcs again: outwards round a
-//! board, inwards in a cut-out. Cut-outs go first, while the board is still held all round. Each contour is cut in passes without a lift, the
-//! next one begun by a plunge or down a ramp; below a tab's top the cutter climbs over the tabs, which are spread evenly and kept off
-//! corners, where they would be hard to file away.
+//! The way of the cutter's middle is the outline offset by half its width, by exact polygons and in
+//! lines and arcs again: outwards round a board, inwards in a cut-out. Cut-outs go first, while the
+//! board is still held all round. Each contour is cut in passes without a lift, the next one begun
+//! by a plunge or down a ramp; below a tab's top the cutter climbs over the tabs, which are spread
+//! evenly and kept off corners, where they would be hard to file away.
 
 mod ring;
 mod tabs;
@@ -29,19 +30,23 @@ pub struct Cutout<'a> {
     pub placement: &'a Placement,
     /// What holds the board.
     pub tabs: Tabs<'a>,
-    /// How steeply the cutter goes down along the contour at the beginning of each pass; none for straight down.
+    /// How steeply the cutter goes down along the contour at the beginning of each pass; none for
+    /// straight down.
     pub ramp: Option<Angle>,
     /// Which way round; none for either.
     pub direction: Option<Direction>,
 }
 
-/// How far the cutter's way may leave the offset curve: a fifth of what mills of this kind repeat to. Chosen.
+/// How far the cutter's way may leave the offset curve: a fifth of what mills of this kind repeat
+/// to. Chosen.
 const TOLERANCE: Nm = Nm::from_um(4);
 
-/// Cuts along every contour of `outline`, half the cutter's width outside the board; cut-outs first.
+/// Cuts along every contour of `outline`, half the cutter's width outside the board; cut-outs
+/// first.
 ///
-/// Warned about: `cut-out-narrower-than-tool` where the cutter does not fit into a cut-out, `no-place-for-tabs`
-/// where a contour round a board is too short for them, `tab-off-the-outline` where one is wanted far from any contour.
+/// Warned about: `cut-out-narrower-than-tool` where the cutter does not fit into a cut-out,
+/// `no-place-for-tabs` where a contour round a board is too short for them, `tab-off-the-outline`
+/// where one is wanted far from any contour.
 pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning>) {
     let radius = settings.tool.width_at(settings.heights.cut) / 2;
     let board = outline.polygon(FLATTEN);
@@ -117,7 +122,8 @@ fn wanted(ring: &Ring, settings: &Cutout<'_>) -> u32 {
     }
 }
 
-/// How far from a contour a tab may be asked for, beside half the cutter. Chosen: nobody clicks a place more exactly.
+/// How far from a contour a tab may be asked for, beside half the cutter. Chosen: nobody clicks a
+/// place more exactly.
 const NEAR: Nm = Nm::from_mm(2);
 
 /// Each tab on the contour nearest to where it is wanted.

@@ -1,6 +1,9 @@
+//! A closed path by the distance along it: where tabs begin and end.
+
 use crate::geometry::{Nm, Path, Point, Segment, Vector};
 
-/// Less of a segment, in nanometres, is nothing where both its ends are one point. Chosen: below what programs write.
+/// Less of a segment, in nanometres, is nothing where both its ends are one point. Chosen: below
+/// what programs write.
 const NOTHING: f64 = 1_000.0;
 
 /// A closed way, by the distance along it from its start, in nanometres.
@@ -9,7 +12,8 @@ pub(super) struct Ring {
     path: Path,
     /// The distance at which each segment begins, then the whole length.
     distances: Vec<f64>,
-    /// How far the way has turned, in radians either way, before the corner at each of these distances, and after it.
+    /// How far the way has turned, in radians either way, before the corner at each of these
+    /// distances, and after it.
     turned: Vec<(f64, f64)>,
 }
 
@@ -48,12 +52,14 @@ impl Ring {
         self.distances[..self.path.segments.len()].iter().copied()
     }
 
-    /// How far the way turns, in radians either way, within `reach` before and after the place at `distance`; corners at the very ends count.
+    /// How far the way turns, in radians either way, within `reach` before and after the place at
+    /// `distance`; corners at the very ends count.
     pub(super) fn turn_around(&self, distance: f64, reach: f64) -> f64 {
         self.turned_by(distance + reach, true) - self.turned_by(distance - reach, false)
     }
 
-    /// How far the way has turned at `distance`, which may lie a lap off; a corner just there counts if it is `passed`.
+    /// How far the way has turned at `distance`, which may lie a lap off; a corner just there
+    /// counts if it is `passed`.
     fn turned_by(&self, distance: f64, passed: bool) -> f64 {
         let (length, last) = (self.length(), self.path.segments.len());
         let lap = (distance / length).floor();
@@ -117,7 +123,8 @@ impl Ring {
 
     /// How far `p` is from the ring, and where along it.
     pub(super) fn nearest(&self, p: Point) -> (f64, f64) {
-        /// Places looked at along a segment; the nearest of them is near enough to say where a tab is wanted.
+        /// Places looked at along a segment; the nearest of them is near enough to say where a tab
+        /// is wanted.
         const PLACES: u32 = 64;
         let places = (0..self.path.segments.len()).flat_map(|i| {
             let (begin, end) = (self.distances[i], self.distances[i + 1]);

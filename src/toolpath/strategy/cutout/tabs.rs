@@ -18,7 +18,8 @@ pub struct Tabs<'a> {
 /// Where tabs are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TabPlaces<'a> {
-    /// So many on each contour round a board, evenly spread; fewer on cut-outs whose piece is small.
+    /// So many on each contour round a board, evenly spread; fewer on cut-outs whose piece is
+    /// small.
     Count(u32),
     /// So many that they are no farther apart than this along the way.
     Spacing(Nm),
@@ -26,8 +27,8 @@ pub enum TabPlaces<'a> {
     At(&'a [Point]),
 }
 
-/// How far the way may turn within a tab and half its width to both sides, in radians: at best about 20°; where a contour
-/// has no place for that, more. Chosen.
+/// How far the way may turn within a tab and half its width to both sides, in radians: at best
+/// about 20°; where a contour has no place for that, more. Chosen.
 const STRAIGHT: [f64; 3] = [0.35, 1.0, f64::INFINITY];
 /// How many places along a contour are looked at. Chosen: one for each 0.1 mm of a common board.
 const PLACES: u32 = 2000;
@@ -62,7 +63,8 @@ pub(super) fn spread(ring: &Ring, count: u32, opening: f64) -> Vec<f64> {
     best
 }
 
-/// Of several even spreads moved to the nearest of `places`, the one that has most tabs and is moved least.
+/// Of several even spreads moved to the nearest of `places`, the one that has most tabs and is
+/// moved least.
 fn evenest(places: &[f64], length: f64, count: u32, opening: f64) -> Vec<f64> {
     let share = length / f64::from(count.max(1));
     let mut best: (Vec<f64>, f64) = (Vec::new(), f64::INFINITY);
