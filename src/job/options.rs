@@ -408,7 +408,7 @@ pub struct Options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cutout_side: Option<DrillSide>,
 
-    /// How deep the board is cut out in the end
+    /// How deep the board is cut out in the end [default: 0.1 mm more than it is thick]
     #[arg(
         long,
         value_name = "LENGTH",

@@ -140,6 +140,10 @@ const APPROACH: Nm = Nm::from_um(200);
 /// 3 mm is thick, so that it stands straight.
 const PINS: Nm = Nm::from_mm(3);
 
+/// How far below the board its contour is cut, unasked. Chosen: more than sheets are bent and
+/// zeroes are off, and little of what lies below.
+const BELOW: Nm = Nm::from_um(100);
+
 /// The finest pixel.
 const FINEST: Nm = Nm::from_um(1);
 
@@ -161,7 +165,9 @@ impl Settings {
     /// [`Error::Value`] for the first setting whose value makes no sense.
     pub fn resolve(options: Options) -> Result<Self, Error> {
         let profile = options.machine.as_ref().map(|machine| machine.0.clone());
-        let options = sense::defaults_for(profile.as_ref(), options).or(Options::defaults());
+        let mut options = sense::defaults_for(profile.as_ref(), options).or(Options::defaults());
+        let thickness = positive("thickness", options.thickness)?;
+        options.cutout_depth.get_or_insert(Length(thickness + BELOW));
         let open = "the defaults leave nothing open";
         let workshop = Workshop {
             library: &options.tools,
@@ -195,7 +201,6 @@ impl Settings {
         let machine = profile.map_or_else(Machine::default, |profile| profile.machine());
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
         sense::kerfs(&isolation)?;
-        let thickness = positive("thickness", options.thickness)?;
         let through = thickness + positive("break-through", options.break_through)?;
         let drill_depth = given("drill-depth", options.drill_depth)?;
         let drill_safe = match options.drill_safe_z {
@@ -470,6 +475,13 @@ mod tests {
 
     fn settings(text: &str) -> Result<Settings, Error> {
         Options::from_toml("voromill.toml", text).and_then(Settings::resolve)
+    }
+
+    #[test]
+    fn a_thick_board_is_cut_out_as_deep_as_it_is_thick() {
+        let depth = |text: &str| settings(text).expect("settings that make sense").cutout.cut;
+        assert_eq!(depth("thickness = \"3.2mm\""), Nm::from_um(3300), "as thick, and a little below");
+        assert_eq!(depth("thickness = \"3.2mm\"\ncutout-depth = \"1mm\""), Nm::from_um(1000), "as told");
     }
 
     #[test]

@@ -241,12 +241,13 @@ impl Look<'_> {
         Seen { state, left, depth: depth.unwrap_or(Nm::ZERO) }
     }
 
-    /// Whether the cutter can touch the board here from outside.
+    /// Whether the cutter can touch the board here from outside, with a little room to spare: into
+    /// a hole as wide as itself it does not go.
     fn fits(&self, spot: &Spot) -> bool {
-        let (half, (x, y)) = (self.half.to_f64(), spot.at.to_f64());
-        let center = Point::from_f64(x + spot.out.0 * half, y + spot.out.1 * half);
+        let (room, (x, y)) = (self.half.to_f64() + 2.0 * FIT, spot.at.to_f64());
+        let center = Point::from_f64(x + spot.out.0 * room, y + spot.out.1 * room);
         let place = Shape::Disc { center, radius: Nm::ZERO };
-        least(&self.edge.near(&place, self.half)).is_none_or(|width| width >= half - FIT)
+        least(&self.edge.near(&place, Nm::from_f64(room))).is_none_or(|width| width >= room - FIT)
     }
 }
 

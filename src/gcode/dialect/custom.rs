@@ -230,7 +230,7 @@ mod tests {
     #[test]
     fn mistakes_are_named() {
         let cases = [
-            ("name = 'x'\nbase = 'grlb'", "grbl, linuxcnc"),
+            ("name = 'x'\nbase = 'grlb'", "grbl, grblhal, fluidnc, linuxcnc"),
             ("name = 'x'\nbase = 'grbl'\ndecimal = 3", "decimal"),
             ("name = 'x'\nbase = 'grbl'\ndecimals = 9", "2 to 6"),
             ("base = 'grbl'", "name"),
