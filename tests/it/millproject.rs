@@ -428,10 +428,14 @@ fn fate(path: &Path) -> Fate {
     }
     let bytes: u64 = paths.iter().map(|path| fs::metadata(path).map_or(0, |file| file.len())).sum();
     if bytes <= if cfg!(debug_assertions) { 2_500 } else { 30_000 } {
+        // An outline file that draws nothing is warned of, and nothing is cut out.
+        let has_edge = loaded.board.outline.is_some();
+        let is_empty = loaded.warnings.iter().any(|warning| warning.code == "outline-empty");
+        assert!(has_edge || is_empty || files.outline.is_none(), "{path:?}: no edge, and no word of it");
         let parts = [
             (Part::Front, files.front.is_some()),
             (Part::Back, files.back.is_some()),
-            (Part::Cutout, files.outline.is_some()),
+            (Part::Cutout, has_edge),
         ];
         let job = job::mill(loaded, &settings).unwrap_or_else(|error| panic!("{path:?}: {error}"));
         for (part, _) in parts.into_iter().filter(|(_, is_asked)| *is_asked) {

@@ -7,13 +7,15 @@ use voromill::gcode::dialect::ALL;
 use voromill::gcode::read::{Motion, Way};
 use voromill::gcode::{Dialect, Header, read, write};
 use voromill::geometry::{Arc, Nm, Point};
-use voromill::import::{self, Selection};
+use voromill::import;
 use voromill::job::{self, Job, Options, Settings};
 use voromill::toolpath::{Move, Position, Program};
 
+use crate::real_boards::selection;
+
 /// The job on the files in `folder`.
 fn job(folder: &Path, settings: &str) -> Job {
-    let loaded = import::load(&[folder.to_path_buf()], &Selection::default()).expect("a board");
+    let loaded = import::load(&[folder.to_path_buf()], &selection(folder)).expect("a board");
     let options = Options::from_toml("voromill.toml", settings).expect("settings");
     job::mill(loaded, &Settings::resolve(options).expect("settings that make sense")).expect("a job")
 }

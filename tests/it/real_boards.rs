@@ -1,9 +1,9 @@
 //! The real boards, which are not part of the repository: `VOROMILL_BOARDS` names their folder.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use voromill::board::{Copper, Outline};
-use voromill::import;
+use voromill::import::{self, Selection};
 
 /// A layer of copper with the board's name and side.
 pub(crate) struct Layer {
@@ -16,6 +16,12 @@ pub(crate) struct Layer {
 pub(crate) fn layers(unoptimised: usize) -> impl Iterator<Item = Layer> {
     let is_quick = move |layer: &Layer| !cfg!(debug_assertions) || layer.copper.features.len() <= unoptimised;
     all().into_iter().filter(is_quick)
+}
+
+/// What a person has to say of the board in `folder`: the side of a file whose name tells none.
+pub(crate) fn selection(folder: &Path) -> Selection {
+    let untold = folder.join("example.grb");
+    Selection { front: untold.is_file().then_some(untold), ..Selection::default() }
 }
 
 /// Nothing, with a message, where there are no boards.
@@ -31,7 +37,7 @@ fn all() -> Vec<Layer> {
     folders.sort();
     let mut layers = Vec::new();
     for folder in folders.into_iter().filter(|folder| folder.join("meta.json").is_file()) {
-        let Ok(loaded) = import::survey(std::slice::from_ref(&folder), &import::Selection::default()) else {
+        let Ok(loaded) = import::survey(std::slice::from_ref(&folder), &selection(&folder)) else {
             continue;
         };
         let board = loaded.board;

@@ -12,8 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
 use voromill::gcode::{Dialect, Header, dialect};
-use voromill::import::{self, Selection};
+use voromill::import;
 use voromill::job::{self, Job, Options, Settings, Written};
+
+use crate::real_boards::selection;
 
 /// What a controller takes.
 struct Rules {
@@ -668,7 +670,7 @@ const RULES: &[(u8, Rule)] = &[
 ];
 
 fn mill(folder: &Path, dialect: &str, more: &str) -> (Job, Settings) {
-    let loaded = import::load(&[folder.to_path_buf()], &Selection::default()).expect("a board");
+    let loaded = import::load(&[folder.to_path_buf()], &selection(folder)).expect("a board");
     let settings = settings(dialect, more);
     (job::mill(loaded, &settings).expect("a job"), settings)
 }

@@ -421,7 +421,7 @@ fn a_thin_strip_between_the_last_pass_and_the_boundary_is_cut_off() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/voronoi/strip_beside_the_last_pass.gbr");
     let options = ["--tool", "endmill:0.2mm", "--width", "0.7mm", "-o", "out"];
-    let done = voromill(folder.path(), &[&["mill", file][..], &options].concat());
+    let done = voromill(folder.path(), &[&["mill", file, "--front", file][..], &options].concat());
     assert!(done.status.success(), "{}", stdout(&done));
     assert!(!stdout(&done).contains("strip of copper"), "nothing thin is left:\n{}", stdout(&done));
 }
@@ -452,7 +452,7 @@ fn a_pass_ends_at_the_near_tip_of_a_lens_not_at_the_far_one() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/voronoi/passes_end_in_a_lens.gbr");
     let options = ["--tool", "endmill:0.15mm", "--passes", "3", "-o", "out"];
-    let done = voromill(folder.path(), &[&["mill", file][..], &options].concat());
+    let done = voromill(folder.path(), &[&["mill", file, "--front", file][..], &options].concat());
     assert!(done.status.success(), "copper is cut away:\n{}", stdout(&done));
 }
 
@@ -462,7 +462,7 @@ fn loops_keep_off_the_copper_in_bays_and_holes_of_a_few_pixels() {
     for name in ["bay_beside_a_tip", "hole_of_a_kerf"] {
         let file = format!("{}/fixtures/voronoi/{name}.gbr", env!("CARGO_MANIFEST_DIR"));
         let options = ["--strategy", "outline", "--tool", "endmill:0.15mm", "-o", "out"];
-        let done = voromill(folder.path(), &[&["mill", &file][..], &options].concat());
+        let done = voromill(folder.path(), &[&["mill", &file, "--front", &file][..], &options].concat());
         assert!(done.status.success(), "{name}: copper is cut away:\n{}", stdout(&done));
     }
 }

@@ -164,15 +164,20 @@ pub(super) fn drawing() -> impl Strategy<Value = Drawing> {
     let edge = (0..1_500_000_i64, prop_oneof![Just(0), 0..2_000_000_i64])
         .prop_map(|(margin, round)| Edge { margin, round });
     let optional = (prop::option::weighted(0.3, plane), prop::option::weighted(0.6, edge));
-    let drawn = prop_oneof![2 => Just(Vec::new()), 1 => prop::collection::vec(drawn(), 1..4)];
-    (size, grid, items, optional, drawn).prop_map(|(size, grid, items, (plane, edge), drawn)| Drawing {
+    (size, grid, items, optional).prop_map(|(size, grid, items, (plane, edge))| Drawing {
         size,
         grid,
         items,
         plane,
         edge,
-        drawn,
+        drawn: Vec::new(),
     })
+}
+
+/// Small boards with holes and slots drawn on the outline layer, as some CAD programs do.
+pub(super) fn drawing_with_holes() -> impl Strategy<Value = Drawing> {
+    let drawn = prop::collection::vec(drawn(), 1..4);
+    (drawing(), drawn).prop_map(|(drawing, drawn)| Drawing { drawn, ..drawing })
 }
 
 fn drawn() -> impl Strategy<Value = Drawn> {

@@ -21,7 +21,7 @@ use voromill::job::{self, Job, Options, Settings, Sites};
 use voromill::verify::{Finding, Severity};
 
 use crate::euler;
-use drawing::{Drawing, drawing};
+use drawing::{Drawing, drawing, drawing_with_holes};
 
 /// What cuts them: settings as a settings file gives them.
 const SETTINGS: [&str; 10] = [
@@ -133,6 +133,15 @@ proptest! {
     #[test]
     fn a_random_board_is_isolated_as_it_was_drawn(
         drawing in drawing(),
+        side in prop::sample::select(vec![Side::Front, Side::Back]),
+        settings in prop::sample::select(SETTINGS.to_vec()),
+    ) {
+        judge_drawing(&drawing, side, settings).map_err(TestCaseError::fail)?;
+    }
+
+    #[test]
+    fn a_random_board_with_drawn_holes_is_isolated_as_it_was_drawn(
+        drawing in drawing_with_holes(),
         side in prop::sample::select(vec![Side::Front, Side::Back]),
         settings in prop::sample::select(SETTINGS.to_vec()),
     ) {
