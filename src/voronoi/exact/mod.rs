@@ -11,11 +11,11 @@
 //!
 //! # How it is found
 //!
-//! 1. [`Generators`] are the one-sided edges of the copper, each alike but for its [form](form):
+//! 1. [`Generators`] are the one-sided edges of the copper, each alike but for its [form]:
 //!    lines and circles.
 //! 2. *Seeds* are provable places on the graph: one ray for each owner and the sides of the window
 //!    (`seed`).
-//! 3. From each, the [walk](walk) follows the bisector to the first event: the end of a generator,
+//! 3. From each, the [walk] follows the bisector to the first event: the end of a generator,
 //!    or a third one that enters the empty circle. All events are one equation, the problem of
 //!    [Apollonius](apollonius).
 //! 4. At an event all generators within a [tie](vertex) of the circle are sorted by the direction
