@@ -64,14 +64,39 @@ pub(super) fn function_of(bytes: &[u8]) -> Option<String> {
     Some(value.iter().map(|&b| char::from(b)).collect::<String>().trim().to_owned())
 }
 
-/// The role that a file function names.
+/// File functions of what is not milled (Gerber specification 2024.05 §5.6.3).
+const DOCUMENTATION: &[&str] = &[
+    "ArrayDrawing",
+    "AssemblyDrawing",
+    "Carbonmask",
+    "Component",
+    "Depthrout",
+    "Drawing",
+    "FabricationDrawing",
+    "Glue",
+    "Goldmask",
+    "Heatsinkmask",
+    "Other",
+    "OtherDrawing",
+    "Pads",
+    "Peelablemask",
+    "Silvermask",
+    "Tinmask",
+    "Vcut",
+    "Vcutmap",
+    "Viafill",
+];
+
+/// The role that a file function names; none for one that the specification has not, as a damaged
+/// byte makes it: then the name of the file decides.
 pub(super) fn role_by_function(function: &str) -> Option<Role> {
     let mut fields = function.split(',').map(str::trim);
     Some(match fields.next()? {
         "Copper" => match (fields.next()?, fields.next()) {
             (_, Some("Top")) => Role::Copper(Side::Front),
             (_, Some("Bot")) => Role::Copper(Side::Back),
-            _ => Role::Other("inner copper"),
+            (_, Some("Inr")) => Role::Other("inner copper"),
+            _ => return None,
         },
         "Profile" => Role::Outline,
         "Plated" | "NonPlated" | "MixedPlating" => Role::Drill,
@@ -79,8 +104,8 @@ pub(super) fn role_by_function(function: &str) -> Option<Role> {
         "Paste" => Role::Other("paste"),
         "Legend" => Role::Other("silkscreen"),
         "Drillmap" => Role::Other("drill map"),
-        "" => return None,
-        _ => Role::Other("documentation"),
+        other if DOCUMENTATION.contains(&other) => Role::Other("documentation"),
+        _ => return None,
     })
 }
 
@@ -446,5 +471,9 @@ mod tests {
         assert_eq!(role_by_function("Copper,L2,Inr"), Some(Role::Other("inner copper")), "an inner layer");
         assert_eq!(role_by_function("Profile,NP"), Some(Role::Outline), "the edge");
         assert_eq!(role_by_function("NonPlated,1,2,NPTH"), Some(Role::Drill), "holes");
+        assert_eq!(role_by_function("Vcut,Top"), Some(Role::Other("documentation")), "not milled");
+        for damaged in ["CoppeX,L2,Bot,Mixed", "Copper,L2,BoX,Mixed", "CopperXL2,Bot", ""] {
+            assert_eq!(role_by_function(damaged), None, "{damaged}: the name decides");
+        }
     }
 }
