@@ -147,8 +147,8 @@ type Reached = FxHashMap<usize, (f64, Option<(usize, usize)>)>;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Seconds(u64);
 
-/// How many near odd nodes a search lists. Chosen, and not measured against other numbers: in a ring
-/// of pads, or where traces point at a centre, hundreds lie within the time of a retract.
+/// How many near odd nodes a search lists. Chosen, not measured against other numbers: in a ring of
+/// pads, or where traces point at a centre, hundreds lie within the time of a retract.
 const NEAREST: usize = 12;
 
 /// The nearest odd nodes within `lift` seconds of `from`, by Dijkstra's algorithm.
