@@ -16,6 +16,14 @@ fn joined(body: &str) -> Joined {
     join("edge.gbr", text.as_bytes(), &image.features, GAP)
 }
 
+/// A profile layer of `fixtures/outline`.
+fn fixture(name: &str) -> Joined {
+    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("fixtures/outline").join(name);
+    let bytes = fs::read(path).expect("a fixture");
+    let image = gerber::read(name, &bytes, &gerber::Options::default()).expect("it reads");
+    join(name, &bytes, &image.features, GAP)
+}
+
 /// Lines between the corners, each drawn for itself.
 fn lines(pairs: &[[i64; 4]]) -> String {
     pairs.iter().map(|[a, b, c, d]| format!("X{a}Y{b}D02*\nX{c}Y{d}D01*\n")).collect()
@@ -75,12 +83,6 @@ fn small_gaps_are_closed_and_wide_ones_are_not() {
 
 #[test]
 fn gaps_are_closed_where_the_strokes_touch() {
-    let fixture = |name: &str| {
-        let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("fixtures/outline").join(name);
-        let bytes = fs::read(path).expect("a fixture");
-        let image = gerber::read(name, &bytes, &gerber::Options::default()).expect("it reads");
-        join(name, &bytes, &image.features, GAP)
-    };
     let joined = fixture("strokes_touch.gbr");
     assert_eq!(
         (areas(&joined), codes(&joined)),
@@ -90,6 +92,29 @@ fn gaps_are_closed_where_the_strokes_touch() {
     assert!(joined.warnings[0].message.contains("1 gaps"), "{}", joined.warnings[0].message);
     let joined = fixture("strokes_apart.gbr");
     assert_eq!(codes(&joined), ["outline-loose-lines", "outline-open"], "0.55 mm, drawn as wide");
+}
+
+#[test]
+fn an_end_that_touches_the_middle_of_a_stroke_is_joined_to_it() {
+    let joined = fixture("strokes_tee.gbr");
+    assert_eq!(
+        (areas(&joined), codes(&joined)),
+        (vec![10_000], vec!["outline-loose-lines", "outline-gap"]),
+        "the square, without what is drawn too far"
+    );
+    let message = &joined.warnings[1].message;
+    assert!(message.starts_with("1 ends") && message.ends_with("0.300 mm"), "{message}");
+}
+
+#[test]
+fn an_end_beyond_the_middle_of_a_stroke_adds_nothing_to_the_board() {
+    // The upper side runs over the right one by 0.2 mm, straight or slanted.
+    for over in [[0, 10_000, 10_200, 10_000], [0, 10_000, 10_150, 10_100]] {
+        let sides = [[0, 10_000, 0, 0], [0, 0, 10_000, 0], [10_000, 0, 10_000, 14_000], over];
+        let joined = joined(&format!("%ADD11C,0.5*%\nD11*\n{}", lines(&sides)));
+        let area = areas(&joined);
+        assert!(matches!(area[..], [10_000..=10_050]), "the square: {area:?}");
+    }
 }
 
 #[test]

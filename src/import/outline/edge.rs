@@ -98,6 +98,22 @@ impl Edge {
         }
     }
 
+    /// The point of it nearest to `p`, rounded to a nanometre; none where that is one of its ends.
+    pub(super) fn foot(&self, p: Point) -> Option<Point> {
+        let foot = match self.round {
+            None => {
+                let way = self.to - self.from;
+                along(self, to_float(way.dot(p - self.from)) / to_float(way.length_squared()))?
+            }
+            Some((center, _)) => {
+                let ((x, y), out) = (center.to_f64(), p - center);
+                let scale = center.distance(self.from) / out.length();
+                Point::from_f64(x + out.x.to_f64() * scale, y + out.y.to_f64() * scale)
+            }
+        };
+        self.passes(foot).then_some(foot)
+    }
+
     /// Where the two cross in the middle of both.
     fn crossings(&self, other: &Self) -> Vec<Point> {
         let places = match (self.round, other.round) {

@@ -112,6 +112,65 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
     }
 }
 
+/// An end that was led to the middle of another line: how far, from where, by which line drawn.
+pub(super) type Joint = (f64, Point, u32);
+
+/// Leads each end that is still loose to the nearest stroke whose middle its own touches; where
+/// any is, the edges are to be parted anew.
+///
+/// ```text
+///            ║      what the line lacks to the middle of the other
+///   ━━━━━━━  ║      is not more than half the width of both
+///            ║
+/// ```
+pub(super) fn join_to_middles(edges: &mut Vec<Edge>) -> Vec<Joint> {
+    /// Chosen, as for strokes that touch at their ends.
+    const MOST: usize = 10_000;
+    if edges.len() > MOST {
+        return Vec::new();
+    }
+    let widest = edges.iter().map(|edge| edge.half).max().unwrap_or_default();
+    let (mut joints, mut bridges) = (Vec::new(), Vec::new());
+    for (p, index) in ends(edges).into_iter().filter(|(_, end)| end.count == 1).map(|(p, end)| (p, end.edge))
+    {
+        let end = edges[index];
+        let near = Rect::new(p, p).inflate(end.half + widest);
+        let others = edges.iter().filter(|other| near.touches(other.bounds()));
+        let feet = others.filter_map(|other| {
+            let foot = other.foot(p)?;
+            let distance = p.distance(foot);
+            let touches = distance > 0.0 && distance <= (end.half + other.half).to_f64();
+            (touches && !is_overrun(&end, other, distance)).then_some((distance, foot))
+        });
+        if let Some((distance, foot)) = feet.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))) {
+            bridges.push(Edge::line(p, foot, end.line));
+            joints.push((distance, p, end.line));
+        }
+    }
+    edges.extend(bridges);
+    joints
+}
+
+/// Says of those `joints` that are part of what closes.
+pub(super) fn note_joints(edges: &[Edge], mut joints: Vec<Joint>, notes: &mut Notes<'_>) {
+    joints.retain(|(_, p, _)| edges.iter().any(|edge| edge.from == *p || edge.to == *p));
+    let Some(&(widest, at, line)) = joints.iter().max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
+    let message = format!(
+        "{} ends of the outline that touch the middle of another line are led to it, the farthest by {:.3} mm",
+        joints.len(),
+        Nm::from_f64(widest)
+    );
+    notes.add(&flaw::OUTLINE_GAP, message, Some((at, line)));
+}
+
+/// Whether `end` leaves `other` and is but what a line was drawn too far across it.
+fn is_overrun(end: &Edge, other: &Edge, distance: f64) -> bool {
+    /// Chosen: what leaves at 15 degrees or more is an overrun.
+    const FLAT: f64 = 4.0;
+    let shares = [end.from, end.to].iter().any(|p| [other.from, other.to].contains(p));
+    shares && end.length() < FLAT * distance
+}
+
 /// Pairs of points within `limit`, the nearest first, none in two pairs: (distance, loose end, what
 /// it goes to).
 ///

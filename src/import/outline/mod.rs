@@ -53,7 +53,12 @@ pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
     edge::drop_doubles(&mut edges);
     heal::close_gaps(&mut edges, gap, &mut notes);
     edges = edge::part_where_they_meet(edges);
+    let joints = heal::join_to_middles(&mut edges);
+    if !joints.is_empty() {
+        edges = edge::part_where_they_meet(edges);
+    }
     let loose = heal::prune(&mut edges, &mut notes);
+    heal::note_joints(&edges, joints, &mut notes);
     contours.extend(faces::outermost(&edges, &mut notes));
     contours.sort_by_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
     contours.dedup();
