@@ -6,10 +6,9 @@ use std::path::{Path, PathBuf};
 use super::archive::{Found, Gathered, name_of, read_file};
 use super::error::{self, Error, find, locate};
 use super::jobfile::Job;
-use super::layers::{self, Kind, Role};
+use super::layers::{self, Function, Kind, Role};
 use super::load::{Selection, describe};
-use super::unusable::quoted;
-use super::{naming, settle};
+use super::{contradiction, naming, settle};
 use crate::board::{Side, Warning};
 use crate::import::flaw;
 
@@ -71,7 +70,8 @@ pub(super) fn assign(
     assigned.warnings.extend(gathered.refuse_unusable(&job, selection)?);
     let mut roles = witness(gathered, &job);
     choose_by_hand(gathered, selection, &mut roles, &mut assigned);
-    refuse_contradictions(gathered, &roles, selection)?;
+    contradiction::refuse(gathered, &roles, selection)?;
+    assigned.warnings.extend(contradiction::disputed(gathered, &roles));
     assigned.guessed = settle::groups(&mut roles);
     assigned.front = assigned.front.or(settle::only(
         &roles,
@@ -114,6 +114,8 @@ pub(super) fn assign(
 pub(super) struct Vote {
     pub(super) file: usize,
     pub(super) role: Option<Role>,
+    /// The side that the witness tells, of a layer of any kind.
+    pub(super) side: Option<Side>,
     pub(super) witness: Witness,
 }
 
@@ -145,66 +147,6 @@ fn refuse_unknown(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
     ))
 }
 
-/// A file whose name says drill and whose content says layer, or the other way round, or one named
-/// for one side that calls itself the other: one of the two is wrong, and guessing cuts the wrong
-/// thing.
-fn refuse_contradictions(gathered: &Gathered, votes: &[Vote], selection: &Selection) -> Result<(), Error> {
-    refuse_other_side(gathered, votes)?;
-    let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
-    let shared = layers::shared_start(&names);
-    for vote in votes {
-        let file = &gathered.files[vote.file];
-        let by_words = || layers::role_by_name(&file.name, shared);
-        // Words count where the extension says layer and the content does not.
-        let is_odd = file.kind == Kind::Excellon && layers::is_gerber_by_extension(&file.name);
-        let named = layers::role_by_sure_name(&file.name).or_else(|| by_words().filter(|_| is_odd));
-        let skip = format!("or leave it aside: --skip {}", quoted(&file.name));
-        let (what, hint) = match (named, file.kind, vote.role) {
-            (Some(Role::Drill), Kind::Gerber, Some(Role::Copper(_))) if vote.witness == Witness::Function => {
-                (
-                    "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)",
-                    "export the drill file again, or say with --front or --back that this is copper"
-                        .to_owned(),
-                )
-            }
-            (Some(Role::Drill), Kind::Gerber, Some(Role::Other("drill drawing")))
-                if selection.drill.is_empty() =>
-            {
-                let what = "named like a drill file, but it is a Gerber file that does not say what it draws";
-                (what, format!("export the drill file again as Excellon, {skip}"))
-            }
-            (Some(Role::Copper(_) | Role::Outline | Role::Group(_)), Kind::Excellon, Some(Role::Drill))
-                if selection.drill.is_empty() =>
-            {
-                let what = "named like a layer, but it is an Excellon drill file";
-                (what, format!("export the layer again, say with --drill that it has holes, {skip}"))
-            }
-            _ => continue,
-        };
-        return Err(Error::content(&file.shown, what, hint));
-    }
-    Ok(())
-}
-
-/// A file named for one side that calls itself the other.
-fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
-    let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
-    let shared = layers::shared_start(&names);
-    for vote in votes.iter().filter(|vote| vote.witness > Witness::Name) {
-        let file = &gathered.files[vote.file];
-        let Some(Role::Copper(side)) = vote.role else { continue };
-        if let Some(Role::Copper(named)) = layers::role_by_name(&file.name, shared)
-            && named != side
-        {
-            let witness = if vote.witness == Witness::Job { "the job file" } else { "its .FileFunction" };
-            let what = format!("named like the {named} copper, but {witness} calls it the {side}");
-            let hint = format!("say which it is: --front {0} or --back {0}", file.name);
-            return Err(Error::content(&file.shown, what, hint));
-        }
-    }
-    Ok(())
-}
-
 fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
     let mut merged = Job::default();
     for (name, bytes) in &gathered.jobs {
@@ -223,8 +165,8 @@ fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
             }
         }
     }
-    let missing = |(file, role): &&(String, Role)| {
-        !matches!(role, Role::Other(_)) && !gathered.files.iter().any(|found| found.name == *file)
+    let missing = |(file, function): &&(String, Function)| {
+        !matches!(function.role, Role::Other(_)) && !gathered.files.iter().any(|found| found.name == *file)
     };
     for (file, _) in merged.files.iter().filter(missing) {
         let message = format!("the job file lists {file}, which is not among the files");
@@ -244,17 +186,19 @@ fn witness(gathered: &Gathered, job: &Job) -> Vec<Vote> {
     let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
     let shared = layers::shared_start(&names);
     let vote = |(index, file): (usize, &Found)| {
-        let by_job = job.role_of(&file.name).map(|role| (role, Witness::Job));
-        let by_function = || {
-            let role = layers::role_by_function(&layers::function_of(&file.bytes)?)?;
-            Some((role, Witness::Function))
+        let by_job = job.function_of(&file.name).map(|function| (function, Witness::Job));
+        let by_function = || Some((Function::read(&layers::function_of(&file.bytes)?)?, Witness::Function));
+        let by_name = || {
+            let role = layers::role_by_name(&file.name, shared)?;
+            Some((Function { role, side: None }, Witness::Name))
         };
-        let by_name = || layers::role_by_name(&file.name, shared).map(|role| (role, Witness::Name));
         let told = by_job.or_else(by_function).or_else(by_name);
-        let told = told.map(|(role, witness)| (by_content(role, witness, file.kind), witness));
+        let side = told.and_then(|(function, _)| function.side);
+        let told =
+            told.map(|(Function { role, .. }, witness)| (by_content(role, witness, file.kind), witness));
         let told = told.or_else(|| (file.kind == Kind::Excellon).then_some((Role::Drill, Witness::Name)));
         let (role, witness) = told.map_or((None, Witness::Name), |(role, witness)| (Some(role), witness));
-        Vote { file: index, role, witness }
+        Vote { file: index, role, side, witness }
     };
     gathered.files.iter().enumerate().map(vote).collect()
 }

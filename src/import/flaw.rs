@@ -414,6 +414,13 @@ pub(in crate::import) const SIDE_ASSUMED: Flaw = Flaw::new(
     "name it with --front FILE or --back FILE",
 );
 
+/// A layer of any kind, of which name and file function say different things.
+pub(in crate::import) const LAYER_DISPUTED: Flaw = Flaw::new(
+    "layer-disputed",
+    "a name and a file function that say the same",
+    "rename it, say with --front, --back or --outline FILE what it is, or leave it aside with --skip FILE",
+);
+
 /// A layer of any kind.
 pub(in crate::import) const ROLE_UNKNOWN: Flaw = Flaw::new(
     "role-unknown",

@@ -87,6 +87,27 @@ const DOCUMENTATION: &[&str] = &[
     "Viafill",
 ];
 
+/// What a file function says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Function {
+    /// What the file is for.
+    pub(super) role: Role,
+    /// The side, of a layer of any kind.
+    pub(super) side: Option<Side>,
+}
+
+impl Function {
+    /// None for one that the specification has not.
+    pub(super) fn read(function: &str) -> Option<Self> {
+        let side = function.split(',').find_map(|field| match field.trim() {
+            "Top" => Some(Side::Front),
+            "Bot" => Some(Side::Back),
+            _ => None,
+        });
+        Some(Self { role: role_by_function(function)?, side })
+    }
+}
+
 /// The role that a file function names; none for one that the specification has not, as a damaged
 /// byte makes it: then the name of the file decides.
 pub(super) fn role_by_function(function: &str) -> Option<Role> {
@@ -289,6 +310,66 @@ pub(super) fn role_by_sure_name(name: &str) -> Option<Role> {
         .filter(|_| is_gerber_by_extension(name))
         .or_else(|| role_by_extension(name))
         .or_else(|| role_by_words(&extension_words(name, stem.len())).filter(|_| stem.len() < name.len()))
+}
+
+/// The kind of layer that a name tells, beyond a side: not by words that any layer's name may hold,
+/// nor by numbers; and no mechanical layer, which programs use for anything.
+pub(super) fn kind_by_name(name: &str, shared: usize) -> Option<Role> {
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let by_words = |words: Vec<String>| {
+        looked_up(PARTS, |part| words.iter().any(|word| word.contains(part)))
+            .or_else(|| looked_up(ASIDE, |known| words.iter().any(|word| word == known)))
+    };
+    role_by_sure_name(name)
+        .or_else(|| by_words(words(stem.get(shared..).unwrap_or(stem), false)))
+        .filter(|role| !matches!(role, Role::Group(_) | Role::Other("inner copper" | "mechanical layer")))
+}
+
+/// Extensions of layers on one side.
+const SIDES: &[(Side, &[&str])] = &[
+    (
+        Side::Front,
+        &[
+            "gtl", "cmp", "top", "gts", "stc", "smt", "tsm", "tsp", "tsk", "gtp", "crc", "spt", "gto", "plc",
+            "sst", "gpt",
+        ],
+    ),
+    (
+        Side::Back,
+        &[
+            "gbl", "sol", "bot", "gbs", "sts", "smb", "bsm", "bsp", "bsk", "gbp", "crs", "spb", "gbo", "pls",
+            "ssb", "gpb",
+        ],
+    ),
+];
+
+/// The side that a name tells, of a layer of any kind: by KiCad's ending, the extension, or the
+/// last word that is a side.
+pub(super) fn side_by_name(name: &str, shared: usize) -> Option<Side> {
+    let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
+    let (extension, normal) = (extension.to_ascii_lowercase(), stem.to_ascii_lowercase());
+    let normal = normal.replace(['.', '-', ' '], "_");
+    let ending = KICAD.iter().find(|(end, _)| normal == *end || normal.ends_with(&format!("_{end}")));
+    if let Some((ending, _)) = ending {
+        return match ending.get(..2) {
+            Some("f_") => Some(Side::Front),
+            Some("b_") => Some(Side::Back),
+            _ => None,
+        };
+    }
+    let by_extension =
+        || SIDES.iter().find(|(_, all)| all.contains(&extension.as_str())).map(|&(side, _)| side);
+    let of_word = |word: &String| match word.trim_end_matches(|c: char| c.is_ascii_digit()) {
+        "top" | "front" | "toplayer" => Some(Side::Front),
+        "bottom" | "bot" | "back" | "bottomlayer" => Some(Side::Back),
+        _ => None,
+    };
+    let by_words = |words: Vec<String>| words.iter().rev().find_map(of_word);
+    let rest = stem.get(shared..).unwrap_or(stem);
+    by_extension()
+        .or_else(|| by_words(extension_words(name, stem.len())))
+        .or_else(|| by_words(words(rest, false)))
+        .or_else(|| by_words(words(rest, true)))
 }
 
 /// Whether a name has an extension that Gerber files have, and says nothing more by it.

@@ -11,6 +11,7 @@
 
 mod archive;
 mod assign;
+mod contradiction;
 mod design;
 mod digest;
 mod error;

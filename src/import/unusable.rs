@@ -74,7 +74,7 @@ impl Unusable {
             Form::File(head) => head.as_slice(),
             Form::Folder | Form::Special(_) => &[],
         };
-        let by_job = || meant(job.role_of(&self.name)?).map(|meant| (meant, "the job file"));
+        let by_job = || meant(job.function_of(&self.name)?.role).map(|meant| (meant, "the job file"));
         let by_function = || {
             let function = function_of(head)?;
             meant(role_by_function(&function)?).map(|meant| (meant, "its file function"))

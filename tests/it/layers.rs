@@ -219,6 +219,64 @@ fn a_job_file_is_believed_before_functions_and_these_before_names() {
 }
 
 #[test]
+fn a_function_that_contradicts_a_name_of_any_layer_is_said() {
+    let disputed = |loaded: &Loaded| -> Vec<String> {
+        let of_code = loaded.warnings.iter().filter(|warning| warning.code == "layer-disputed");
+        of_code.map(|warning| warning.message.clone()).collect()
+    };
+    let (copper, mask, edge) =
+        (function("Copper,L1,Top"), function("Soldermask,Top"), function("Profile,NP"));
+    // Copper and mask in each other's file: the attribute is believed, and both are said.
+    let files = [("amp-F_Cu.gbr", &*mask), ("amp-F_Mask.gbr", &*copper), ("amp-Edge_Cuts.gbr", &*edge)];
+    let loaded = Folder::with(&files).load(&Selection::default()).expect("the attributes decide");
+    assert_eq!(files_of(&loaded, "front-copper"), ["amp-F_Mask.gbr"], "by its function");
+    assert_eq!(
+        disputed(&loaded),
+        [
+            "amp-F_Cu.gbr is named like the front copper, but its .FileFunction calls it solder mask, so it is not milled",
+            "amp-F_Mask.gbr is named like solder mask, but its .FileFunction calls it the front copper, so it is taken for \
+             that",
+        ],
+        "both"
+    );
+    // An edge that calls itself a drawing would be lost in silence.
+    let drawing = function("OtherDrawing,Comment");
+    let loaded = Folder::with(&[("amp-F_Cu.gbr", &copper), ("amp-Edge_Cuts.gbr", &drawing)]);
+    let loaded = loaded.load(&Selection::default()).expect("the attributes decide");
+    assert!(disputed(&loaded)[0].starts_with("amp-Edge_Cuts.gbr is named like the outline"), "the edge");
+    // Layers that are not milled: said where their sides differ, as files may have been mixed up.
+    let below = function("Soldermask,Bot");
+    let loaded = Folder::with(&[("amp-F_Cu.gbr", &copper), ("amp-F_Mask.gbr", &below)]);
+    let loaded = loaded.load(&Selection::default()).expect("a mask is not milled");
+    assert!(disputed(&loaded)[0].contains("a layer of the front"), "{:?}", disputed(&loaded));
+    // No contradiction: a word that any layer may hold, drawings of holes, another kind of drawing.
+    let (legend, map) = (function("Legend,Top"), function("Drillmap"));
+    let fab = function("AssemblyDrawing,Top");
+    let files = [
+        ("amp-F_Cu.gbr", &*copper),
+        ("amp-top.gbr", &*legend),
+        ("amp-PTH-map.gbr", &*map),
+        ("amp-F_Fab.gbr", &*fab),
+    ];
+    let loaded = Folder::with(&files).load(&Selection::default()).expect("a board");
+    assert_eq!(disputed(&loaded), [""; 0], "nothing to say");
+}
+
+#[test]
+fn a_mask_of_one_side_that_calls_itself_copper_of_the_other_is_an_error() {
+    let (back, below) = (function("Copper,L2,Bot"), function("Soldermask,Bot"));
+    for (name, text) in [("amp-F_Mask.gbr", &back), ("amp-F_Cu.gbr", &below), ("amp_TopPaste.gbr", &back)] {
+        let folder = Folder::with(&[(name, text), ("amp-Edge_Cuts.gbr", SQUARE)]);
+        let error = folder.load(&Selection::default()).expect_err("a contradiction");
+        assert!(
+            error.contains(name) && error.contains("of the back") || error.contains("the back copper"),
+            "{error}"
+        );
+        assert!(error.contains("--skip"), "it says how to go on: {error}");
+    }
+}
+
+#[test]
 fn what_is_no_layer_is_left_aside() {
     let files = [
         ("amp-F_Cu.gbr", SQUARE),

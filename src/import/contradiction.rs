@@ -1,0 +1,161 @@
+//! Witnesses that disagree: a file whose name says one thing and whose content or attribute
+//! another.
+//!
+//! Where a wrong guess would cut the wrong side or the wrong thing, that is an error; where the
+//! attribute is believed before the name, it is said.
+
+use super::archive::{Found, Gathered};
+use super::assign::{Vote, Witness};
+use super::error::{Error, find, locate};
+use super::layers::{self, Kind, Role};
+use super::load::Selection;
+use super::naming;
+use super::unusable::quoted;
+use crate::board::{Side, Warning};
+use crate::import::flaw;
+
+fn shared_start(gathered: &Gathered) -> usize {
+    let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
+    layers::shared_start(&names)
+}
+
+/// What a name says: what kind of layer it is, and on which side.
+fn named(file: &Found, shared: usize) -> Option<(Option<Role>, Option<Side>)> {
+    let role = layers::role_by_name(&file.name, shared);
+    let side = match role {
+        Some(Role::Copper(side)) => Some(side),
+        _ => layers::side_by_name(&file.name, shared),
+    };
+    (role.is_some() || side.is_some()).then_some((role, side))
+}
+
+const fn is_sided(role: Role) -> bool {
+    matches!(role, Role::Copper(_))
+}
+
+/// A role in words.
+const fn what(role: Role) -> &'static str {
+    match role {
+        Role::Copper(Side::Front) => "the front copper",
+        Role::Copper(Side::Back) => "the back copper",
+        Role::Group(_) => "a copper layer",
+        Role::Outline => "the outline",
+        Role::Drill => "a drill file",
+        Role::Other(what) => what,
+    }
+}
+
+fn on_side(what: &str, side: Option<Side>) -> String {
+    side.map_or_else(|| what.to_owned(), |side| format!("{what} of the {side}"))
+}
+
+const fn who(witness: Witness) -> &'static str {
+    match witness {
+        Witness::Job => "the job file",
+        Witness::Function | Witness::Name => "its .FileFunction",
+    }
+}
+
+/// A file whose name says drill and whose content says layer, or the other way round, or one named
+/// for one side that calls itself the other: one of the two is wrong, and guessing cuts the wrong
+/// thing.
+pub(super) fn refuse(gathered: &Gathered, votes: &[Vote], selection: &Selection) -> Result<(), Error> {
+    refuse_other_side(gathered, votes)?;
+    let shared = shared_start(gathered);
+    for vote in votes {
+        let file = &gathered.files[vote.file];
+        let by_words = || layers::role_by_name(&file.name, shared);
+        // Words count where the extension says layer and the content does not.
+        let is_odd = file.kind == Kind::Excellon && layers::is_gerber_by_extension(&file.name);
+        let named = layers::role_by_sure_name(&file.name).or_else(|| by_words().filter(|_| is_odd));
+        let skip = format!("or leave it aside: --skip {}", quoted(&file.name));
+        let (what, hint) = match (named, file.kind, vote.role) {
+            (Some(Role::Drill), Kind::Gerber, Some(Role::Copper(_))) if vote.witness == Witness::Function => {
+                (
+                    "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)",
+                    "export the drill file again, or say with --front or --back that this is copper"
+                        .to_owned(),
+                )
+            }
+            (Some(Role::Drill), Kind::Gerber, Some(Role::Other("drill drawing")))
+                if selection.drill.is_empty() =>
+            {
+                let what = "named like a drill file, but it is a Gerber file that does not say what it draws";
+                (what, format!("export the drill file again as Excellon, {skip}"))
+            }
+            (Some(Role::Copper(_) | Role::Outline | Role::Group(_)), Kind::Excellon, Some(Role::Drill))
+                if selection.drill.is_empty() =>
+            {
+                let what = "named like a layer, but it is an Excellon drill file";
+                (what, format!("export the layer again, say with --drill that it has holes, {skip}"))
+            }
+            _ => continue,
+        };
+        return Err(Error::content(&file.shown, what, hint));
+    }
+    Ok(())
+}
+
+/// A file named for one side that calls itself the other, where either says that it is copper.
+fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
+    let shared = shared_start(gathered);
+    for vote in votes.iter().filter(|vote| vote.witness > Witness::Name) {
+        let file = &gathered.files[vote.file];
+        let (Some(told), Some(side)) = (vote.role, vote.side) else { continue };
+        let Some((named, named_side)) = named(file, shared) else { continue };
+        let is_copper = matches!(told, Role::Copper(_)) || matches!(named, Some(Role::Copper(_)));
+        if named_side.is_some_and(|named| named != side) && is_copper {
+            let like = named.map_or("a layer", what);
+            let like = if named.is_some_and(is_sided) { like.to_owned() } else { on_side(like, named_side) };
+            let calls = if is_sided(told) { what(told).to_owned() } else { on_side(what(told), Some(side)) };
+            let message = format!("named like {like}, but {} calls it {calls}", who(vote.witness));
+            let hint = format!(
+                "say which it is: --front {0} or --back {0}, or leave it aside: --skip {0}",
+                quoted(&file.name)
+            );
+            return Err(Error::content(&file.shown, message, hint));
+        }
+    }
+    Ok(())
+}
+
+/// Layers of which the name says one thing and the file or the job file another, and either is
+/// milled: the name is not believed, and that is said.
+pub(super) fn disputed(gathered: &Gathered, votes: &[Vote]) -> Vec<Warning> {
+    let shared = shared_start(gathered);
+    let mut warnings = Vec::new();
+    for vote in votes.iter().filter(|vote| vote.witness > Witness::Name) {
+        let file = &gathered.files[vote.file];
+        let Some(told) = vote.role else { continue };
+        let kind = layers::kind_by_name(&file.name, shared).filter(|named| !agree(*named, told));
+        let other_side = || {
+            layers::side_by_name(&file.name, shared)
+                .filter(|side| vote.side.is_some_and(|told| told != *side))
+        };
+        let like = match (kind, other_side()) {
+            (Some(named), _) => what(named).to_owned(),
+            (None, side @ Some(_)) => on_side("a layer", side),
+            (None, None) => continue,
+        };
+        let calls = if kind.is_some() { what(told).to_owned() } else { on_side(what(told), vote.side) };
+        let so =
+            if matches!(told, Role::Other(_)) { "so it is not milled" } else { "so it is taken for that" };
+        let message =
+            format!("{} is named like {like}, but {} calls it {calls}, {so}", file.name, who(vote.witness));
+        let place = find(&file.bytes, b"FileFunction,").filter(|_| vote.witness == Witness::Function);
+        let span = place.map_or_else(|| file.first_line(), |at| locate(&file.name, &file.bytes, at..at + 12));
+        warnings.push(flaw::LAYER_DISPUTED.warning(message).caused_by(span));
+    }
+    warnings
+}
+
+/// Whether what a name says and what a file says of itself can both be true, or neither is milled.
+const fn agree(named: Role, told: Role) -> bool {
+    match (named, told) {
+        (Role::Copper(_), Role::Copper(_))
+        | (Role::Outline, Role::Outline)
+        | (Role::Drill, Role::Drill | Role::Other(_))
+        | (Role::Other(_), Role::Other(_)) => true,
+        (Role::Copper(_) | Role::Group(_) | Role::Outline | Role::Drill | Role::Other(_), _) => false,
+    }
+}
