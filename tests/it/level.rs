@@ -424,6 +424,20 @@ fn dialects_that_probe_write_a_program_that_touches_every_point_once() {
     }
 }
 
+#[test]
+fn g_code_of_the_users_own_stays_as_it_is() {
+    // What nobody can follow without the machine, and a cut of its own below the safe height.
+    let own = "(own G-code begins)\nG28\nG10 L20 P0 Z0\nG1 X50 Y50 Z-0.1 F50\n(own G-code ends)\n";
+    let program = |own: &str| {
+        format!("{own}G21 G90\nG0 Z2\n{own}G0 Z2\nG0 X1 Y1\nG1 Z-0.1 F100\nG1 X4\nG0 Z2\n{own}M2\n")
+    };
+    let map = map(4, 5.0, bump);
+    let (plain, with) = (bent(&program(""), &map), bent(&program(own), &map));
+    assert_eq!(with.text.matches(own).count(), 3, "as it was:\n{}", with.text);
+    assert_eq!(with.text.replace(own, ""), plain.text, "and all else as without it");
+    assert!(plain.text != program(""), "which is bent");
+}
+
 /// LinuxCNC's own interpreter takes the program, where `LCNC_ROOT` says where LinuxCNC is.
 fn accepted_by_linuxcnc(text: &str, dialect: &Dialect) {
     // Skipped where there is no LinuxCNC.

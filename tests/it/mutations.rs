@@ -14,9 +14,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
-use voromill::import::{Loaded, Selection, load};
+use voromill::import::{Loaded, load};
 
 use crate::layers::boards;
+use crate::real_boards;
 
 /// What is done to a board.
 enum Damage {
@@ -111,8 +112,8 @@ impl Random {
     }
 }
 
-/// The boards that are read as they are (one must be told its side); what lies beside their files
-/// for the tests is no part of them.
+/// The boards that are read as they are, or with what a person has to say; what lies beside their
+/// files for the tests is no part of them.
 fn subjects() -> Vec<Subject> {
     let folders = boards().into_iter().flatten();
     folders
@@ -138,7 +139,7 @@ fn read(files: &[(String, Vec<u8>)]) -> Option<Census> {
     for (name, bytes) in files {
         fs::write(folder.path().join(name), bytes).expect("written");
     }
-    load(&[folder.path().to_owned()], &Selection::default()).ok().map(Census::from)
+    load(&[folder.path().to_owned()], &real_boards::selection(folder.path())).ok().map(Census::from)
 }
 
 /// All damage to a board, `count` cuts and flips a file.

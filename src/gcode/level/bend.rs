@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::words::{Pointer, Word, words};
-use crate::gcode::read::{Listing, Motion, Place, Way, lines, read};
+use crate::gcode::read::{Listing, Motion, Place, Way, lines, read, without_own_code};
 use crate::geometry::{Arc, Nm, Point};
 
 use super::course::Course;
@@ -53,14 +53,16 @@ pub struct Levelled {
     pub heights: Option<[Nm; 2]>,
 }
 
-/// Bends a program to the surface of `map`.
+/// Bends a program to the surface of `map`. The user's own G-code within one of ours stays as it
+/// is: what follows it says anew what is in force and where it goes.
 ///
 /// # Errors
 ///
 /// [`LevelError`] for a program that cannot be followed, that cuts outside the touched area, that
 /// goes down before it says where, or that travels lower than the surface is high.
 pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Levelled, LevelError> {
-    let listing = read(text)?;
+    let ours = without_own_code(text);
+    let listing = read(&ours)?;
     if let Some((line, what)) = listing.indirect {
         return Err(LevelError::Indirect { line, what });
     }
@@ -71,9 +73,9 @@ pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Level
     }
     let mut bender = Bender::new(map, levelling, safe);
     let mut motions = listing.motions.chunk_by(|a, b| a.line == b.line).peekable();
-    for (number, source) in (1_u32..).zip(lines(text)) {
+    for ((number, source), ours) in (1_u32..).zip(lines(text)).zip(lines(&ours)) {
         let own = motions.next_if(|own| own[0].line == number).unwrap_or_default();
-        if listing.end.is_some_and(|end| number > end) {
+        if listing.end.is_some_and(|end| number > end) || ours != source {
             bender.lines.push(source.to_owned());
         } else {
             bender.line(Pointer { line: number, source }, own)?;

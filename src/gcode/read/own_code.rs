@@ -3,6 +3,8 @@
 
 use std::borrow::Cow;
 
+use super::source::lines;
+
 /// The comments that stand round it.
 const BEGINS: &str = "own G-code begins";
 const ENDS: &str = "own G-code ends";
@@ -13,11 +15,11 @@ const ENDS: &str = "own G-code ends";
 /// it.
 #[must_use]
 pub fn without_own_code(text: &str) -> Cow<'_, str> {
-    if !text.lines().any(|line| is(line, BEGINS)) {
+    if !lines(text).any(|line| is(line, BEGINS)) {
         return Cow::Borrowed(text);
     }
     let (mut own, mut out) = (false, String::with_capacity(text.len()));
-    for line in text.lines() {
+    for line in lines(text) {
         own = (own || is(line, BEGINS)) && !is(line, ENDS);
         if !own {
             out.push_str(line);
