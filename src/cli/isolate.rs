@@ -3,6 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use voromill::gcode::Dialect;
+use voromill::gcode::dialect::ToolChange;
 use voromill::job::{self, Part};
 
 use super::config::Config;
@@ -59,11 +61,7 @@ impl Isolate {
         drop(progress);
         let text = job.programs.first().map_or("", |program| &program.text);
         if job.programs.len() > 1 {
-            let hint = "`voromill mill` writes them all";
-            return Err(Failure::new(
-                "the dialect wants a file for each tool, and this is for one file",
-                hint,
-            ));
+            return Err(several_tools(&settings.dialect, job.programs.len()));
         }
         if self.output == Path::new("-") {
             shared.say(&document.summary(shared.verbose));
@@ -74,4 +72,22 @@ impl Isolate {
         output.commit()?;
         shared.report(&document.summary(shared.verbose))
     }
+}
+
+/// Several tools where each has a file of its own, and what to do about it.
+fn several_tools(dialect: &Dialect, tools: usize) -> Failure {
+    let cause = format!(
+        "in {} each of {tools} tools has a file of its own, and this command writes one",
+        dialect.name
+    );
+    let all = "`voromill mill` writes them all";
+    let hint = if dialect.changes.contains(&ToolChange::M6) {
+        format!("{all}; --tool-change m6 changes tools within one")
+    } else if dialect.changes.contains(&ToolChange::Pause) {
+        let word = &dialect.pause;
+        format!("{all}; --tool-change pause waits at {word} within one, for tools that all reach as far down")
+    } else {
+        format!("{all}; or say one --tool")
+    };
+    Failure::new(cause, hint)
 }

@@ -86,6 +86,7 @@ fn is_of_the_machine(option: &str) -> bool {
             | "blend"
             | "tool-change"
             | "tool-change-at"
+            | "tool-probe"
             | "park"
             | "direction"
             | "before"

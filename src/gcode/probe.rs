@@ -40,11 +40,10 @@ pub struct Touching {
 
 /// Why there is no program that probes.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "{dialect} neither reports nor keeps where a probe touched, as far as its documents say: expected {known}"
-)]
+#[error("{dialect} keeps no touches of a probe for `voromill level`: {reason}; expected {known}")]
 pub struct ProbeError {
     dialect: String,
+    reason: String,
     known: String,
 }
 
@@ -120,6 +119,7 @@ impl ProbeError {
     fn new(dialect: &Dialect) -> Self {
         let known = ALL.iter().filter(|dialect| dialect.touches != Touches::None);
         let known: Vec<&str> = known.map(|dialect| dialect.name.as_ref()).collect();
-        Self { dialect: dialect.name.to_string(), known: known.join(" or ") }
+        let reason = dialect.no_probe.as_deref().unwrap_or("its description says so (touches = \"none\")");
+        Self { dialect: dialect.name.to_string(), reason: reason.to_owned(), known: known.join(" or ") }
     }
 }

@@ -13,6 +13,7 @@ use crate::toolpath::{Feed, Move, Position, Program, Section, Tool};
 
 use super::dialect::{
     ArcCheck, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, Rapids, ToolChange,
+    TouchOff,
 };
 use super::header::{Header, brief, highest, named};
 
@@ -129,6 +130,9 @@ impl<'a> Writer<'a> {
                 self.at = None;
                 self.lift(Nm::new(height * self.unit));
             }
+            if let Some(plate) = self.dialect.touch_off {
+                self.touch_off(plate, height);
+            }
             self.start(&section.tool);
         } else {
             self.comment(&section.label);
@@ -136,6 +140,31 @@ impl<'a> Writer<'a> {
         for step in &section.moves {
             self.step(step);
         }
+    }
+
+    /// The tool down to the plate, twice, the second time slowly; what it is high there is said; up
+    /// again.
+    fn touch_off(&mut self, plate: TouchOff, from: i64) {
+        let Some(sets) = &self.dialect.sets_height else { return };
+        let (x, y) = (self.round(plate.at.x), self.round(plate.at.y));
+        let (top, reach) = (self.round(plate.height), self.round(SHORTER));
+        self.comment(TOUCH_OFF_BEGINS);
+        self.message("the tool touches the plate - the probe is on both");
+        let mut over = format!("G0 X{} Y{}", self.number(x), self.number(y));
+        self.rapid_feed(&mut over);
+        self.line(&over);
+        self.line("G91");
+        self.line(&format!("G38.2 Z{} F{FAST}", self.number(top - reach - from)));
+        let mut off = "G0 Z1".to_owned();
+        self.rapid_feed(&mut off);
+        self.line(&off);
+        self.line(&format!("G38.2 Z-2 F{SLOW}"));
+        self.line("G90");
+        self.line(&format!("{sets} Z{}", self.number(top)));
+        self.lift(Nm::new(from * self.unit));
+        self.comment(TOUCH_OFF_ENDS);
+        // What comes after says all anew, as after any lines that programs may be read without.
+        (self.at, self.feed) = (None, None);
     }
 
     fn start(&mut self, tool: &Tool) {
@@ -420,6 +449,19 @@ impl<'a> Writer<'a> {
         self.text.push('\n');
     }
 }
+
+/// How much shorter than the tool before it a tool may be, to find its plate. Chosen: with more,
+/// the way down would be longer than small machines have.
+const SHORTER: Nm = Nm::from_mm(10);
+
+/// How fast a tool looks for the plate, and how fast it touches it, in millimetres a minute.
+/// Chosen: at the second, an axis that brakes with 10 mm/s² stops 6 µm beyond.
+const FAST: u32 = 100;
+const SLOW: u32 = 20;
+
+/// What stands before and after the touch of a tool.
+const TOUCH_OFF_BEGINS: &str = "touch-off begins";
+const TOUCH_OFF_ENDS: &str = "touch-off ends";
 
 /// What stands before and after lines of the user's own, for whoever reads the program.
 const OWN_BEGINS: &str = "own G-code begins";

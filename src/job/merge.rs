@@ -40,6 +40,7 @@ impl Options {
             after: self.after.or(others.after),
             at_tool_change: self.at_tool_change.or(others.at_tool_change),
             tool_change_at: self.tool_change_at.or(others.tool_change_at),
+            tool_probe: self.tool_probe.or(others.tool_probe),
             alignment_holes: self.alignment_holes.or(others.alignment_holes),
             alignment_margin: self.alignment_margin.or(others.alignment_margin),
             depth,

@@ -260,6 +260,12 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tool_change_at: Option<ToolChangeAt>,
 
+    /// Touch each tool off after it was fitted: where, and how high the plate lies there above the
+    /// copper, such as -10mm,5mm,1.6mm; a wire on the tool and one on the plate
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Machine")]
+    #[serde(with = "text", skip_serializing_if = "Option::is_none")]
+    pub tool_probe: Option<Triple>,
+
     /// How thick the board is, copper and all: what through-cuts and holes are judged against
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]

@@ -7,9 +7,9 @@ use clap::ValueEnum;
 
 use crate::board::Side;
 use crate::gcode::Dialect;
-use crate::gcode::dialect::{OwnCode, ToolChange};
-use crate::geometry::{Nm, Vector};
-use crate::toolpath::{self, Angle, Direction, DrillSpeeds, Heights, Machine, Tool, ToolKind};
+use crate::gcode::dialect::{self, OwnCode, ToolChange, TouchOff};
+use crate::geometry::{Nm, Point, Vector};
+use crate::toolpath::{self, Angle, Direction, DrillSpeeds, Feed, Heights, Machine, Tool, ToolKind};
 
 use super::Error;
 use super::Options;
@@ -20,7 +20,7 @@ use super::holding::{Holding, holding};
 use super::output_name;
 use super::own_lines::OwnLines;
 use super::pattern::Pattern;
-use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Wait};
+use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Triple, Wait};
 use super::sense;
 use super::tools::{ToolChoice, Workshop, point_angle};
 
@@ -311,17 +311,51 @@ fn dialect(options: &Options, base: Dialect) -> Result<Dialect, Error> {
         return Err(Error::Value { key: "at-tool-change", problem });
     }
     let lines = |own: Option<&OwnLines>| own.map_or_else(Vec::new, |own| own.lines().to_vec());
+    let touch_off = options.tool_probe.map(|plate| touch_off(plate, options, &base)).transpose()?;
     Ok(Dialect {
+        touch_off,
         own: OwnCode {
             before: lines(options.before.as_ref()),
             at_tool_change: lines(options.at_tool_change.as_ref()),
             after: lines(options.after.as_ref()),
         },
         spin_up: options.spin_up.map_or(base.spin_up, |Wait { milliseconds }| milliseconds),
+        rapid: rapids(options).unwrap_or(base.rapid),
         tool_change,
         blend: base.blend.map(|own| options.blend.unwrap_or(own)),
         ..base
     })
+}
+
+/// How fast a person's machine goes level and straight up or down, for programs that must say it;
+/// none where its profile does not.
+fn rapids(options: &Options) -> Option<[Feed; 2]> {
+    let profile = options.machine.as_ref().filter(|machine| machine.0.rapid.is_some())?;
+    let machine = profile.0.machine();
+    Some([machine.level_rapid(), machine.rapid[2]])
+}
+
+/// The plate that tools touch, for a controller whose programs can.
+fn touch_off(Triple([x, y, z]): Triple, options: &Options, base: &Dialect) -> Result<TouchOff, Error> {
+    let wrong = |problem| Err(Error::Value { key: "tool-probe", problem });
+    if base.sets_height.is_none() {
+        let reason = base.no_probe.as_deref().unwrap_or("no word is known that sets zero by a touch");
+        let known = dialect::ALL.iter().filter(|dialect| dialect.sets_height.is_some());
+        let known: Vec<&str> = known.map(|dialect| dialect.name.as_ref()).collect();
+        return wrong(format!(
+            "{} cannot touch a tool off within a program: {reason}; expected {}, or touch off by hand",
+            base.name,
+            known.join(" or ")
+        ));
+    }
+    let safe = sense::travel_height("safe-z", options.safe_z)?;
+    if z.nm() < Nm::ZERO || z.nm() >= safe {
+        let safe = Length(safe);
+        return wrong(format!(
+            "a plate at {z} makes no sense: expected a height from 0mm up to below {safe} (--safe-z)"
+        ));
+    }
+    Ok(TouchOff { at: Point::new(x.nm(), y.nm()), height: z.nm() })
 }
 
 /// Why a way of changing tools cannot be asked for: a machine that does not stand still cuts on

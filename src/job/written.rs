@@ -52,7 +52,8 @@ impl Part {
             "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
             "feed" | "plunge" | "spindle" | "spin-up" | "safe-z" | "dialect" | "origin" | "tile"
             | "tile-spacing" | "thickness" | "machine" | "machine-travel" | "tool-change"
-            | "tool-change-at" | "park" | "before" | "after" | "at-tool-change" | "blend" | "offset" => true,
+            | "tool-change-at" | "tool-probe" | "park" | "before" | "after" | "at-tool-change" | "blend"
+            | "offset" => true,
             "output-name" => false,
             "direction" => matches!(self, Self::Front | Self::Back | Self::Cutout),
             _ if option.starts_with("alignment") => self == Self::Alignment,

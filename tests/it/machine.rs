@@ -51,6 +51,47 @@ fn a_machine_has_its_dialect_its_speeds_and_its_times() {
 }
 
 #[test]
+fn rapids_that_must_say_their_speed_say_that_of_the_machine() {
+    let folder = folder();
+    let rapids = |text: &str| -> Vec<String> {
+        let fed = text.lines().filter(|line| line.starts_with("G0 "));
+        let mut feeds: Vec<String> = fed
+            .filter_map(|line| line.split(' ').find(|word| word.starts_with('F')))
+            .map(str::to_owned)
+            .collect();
+        feeds.sort();
+        feeds.dedup();
+        feeds
+    };
+    let mine = "[machine]\nbase = \"3018\"\nrapid = \"2100mm/min,2400mm/min,450mm/min\"\n";
+    fs::write(folder.path().join("mine.toml"), mine).expect("written");
+    let (_, text, _) = milled(&folder, &["--dialect", "marlin"]);
+    assert_eq!(rapids(&text), ["F1500", "F600"], "what is usual, where nobody says more");
+    let (_, text, _) = milled(&folder, &["--machine", "mine.toml", "--dialect", "marlin"]);
+    assert_eq!(rapids(&text), ["F2100", "F450"], "the slower of x and y, and z");
+    let (_, text, _) = milled(&folder, &["--machine", "mine.toml", "--dialect", "smoothieware"]);
+    assert_eq!(rapids(&text), ["F2100"], "the first rapid speaks for all");
+    let (_, text, _) = milled(&folder, &["--machine", "mine.toml", "--dialect", "grbl"]);
+    assert_eq!(rapids(&text), [""; 0], "Grbl knows");
+}
+
+#[test]
+fn several_tools_in_one_file_are_refused_with_what_helps() {
+    let folder = folder();
+    let board = board();
+    for (dialect, option) in [
+        ("grbl", "--tool-change pause waits at M0"),
+        ("linuxcnc", "--tool-change m6"),
+        ("tinyg", "say one --tool"),
+    ] {
+        let arguments = ["isolate", &board, "--side", "back", "-o", "x.ngc", "--dialect", dialect];
+        let tools = ["--tool", "endmill:0.8mm", "--tool", "endmill:0.2mm", "--tool-change", "files"];
+        let done = voromill(folder.path(), &[&arguments[..], &tools].concat());
+        assert!(!done.status.success() && stderr(&done).contains(option), "{dialect}: {}", stderr(&done));
+    }
+}
+
+#[test]
 fn what_a_machine_cannot_do_is_lowered_and_said() {
     let folder = folder();
     let arguments =

@@ -11,9 +11,13 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::LazyLock;
 
+use voromill::gcode::level::{HeightMap, Levelling, level};
+use voromill::gcode::read::{Place, Way, read};
 use voromill::gcode::{Dialect, Header, dialect};
+use voromill::geometry::Nm;
 use voromill::import;
 use voromill::job::{self, Job, Options, Settings, Written};
+use voromill::verify::Severity;
 
 use crate::real_boards::selection;
 
@@ -38,6 +42,8 @@ struct Rules {
     change: Change,
     /// What stands last, after the spindle is off.
     end: &'static [&'static str],
+    /// What says how high a tool is that has touched a plate; none where no program can.
+    touched: Option<&'static str>,
 }
 
 #[derive(Clone, Copy, PartialEq)]
@@ -86,6 +92,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M2"],
+        touched: Some("G92 Z1.6"),
     },
     Rules {
         name: "grblhal",
@@ -100,6 +107,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::M6,
         end: &["M2"],
+        touched: Some("G92 Z1.6"),
     },
     Rules {
         name: "fluidnc",
@@ -114,6 +122,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M2"],
+        touched: Some("G92 Z1.6"),
     },
     Rules {
         name: "linuxcnc",
@@ -131,6 +140,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::M6,
         end: &["M2"],
+        touched: Some("G10 L20 P0 Z1.6"),
     },
     Rules {
         name: "mach3",
@@ -148,6 +158,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::M6,
         end: &["M30"],
+        touched: None,
     },
     Rules {
         name: "mach4",
@@ -165,6 +176,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::M6,
         end: &["M30"],
+        touched: None,
     },
     Rules {
         name: "marlin",
@@ -180,6 +192,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M400"],
+        touched: None,
     },
     Rules {
         name: "reprapfirmware",
@@ -194,6 +207,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3 P0",
         change: Change::Files,
         end: &["M2"],
+        touched: None,
     },
     Rules {
         name: "klipper",
@@ -208,6 +222,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M400"],
+        touched: None,
     },
     Rules {
         name: "smoothieware",
@@ -223,6 +238,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M2"],
+        touched: None,
     },
     Rules {
         name: "tinyg",
@@ -240,6 +256,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M2"],
+        touched: Some("G92 Z1.6"),
     },
     Rules {
         name: "g2core",
@@ -257,6 +274,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M2"],
+        touched: Some("G92 Z1.6"),
     },
 ];
 
@@ -892,6 +910,90 @@ fn rule_22_nothing_goes_where_the_program_does_not_say() {
 #[test]
 fn rule_23_the_tool_goes_straight_down_and_up() {
     holds(23);
+}
+
+/// A text without what stands between the marks of a touch, and the lines of each touch.
+fn touches(text: &str) -> (String, Vec<Vec<&str>>) {
+    let (mut rest, mut touches, mut within) = (String::new(), Vec::new(), false);
+    for line in text.lines() {
+        match line {
+            "(touch-off begins)" => {
+                within = true;
+                touches.push(Vec::new());
+            }
+            "(touch-off ends)" => within = false,
+            line if within => touches.last_mut().expect("begun").push(line),
+            line => rest.extend([line, "\n"]),
+        }
+    }
+    (rest, touches)
+}
+
+/// The way of a program at or below the surface, in order.
+fn cuts(text: &str) -> Vec<(Way, Place, Place)> {
+    let listing = read(text).unwrap_or_else(|error| panic!("{error}\n{text}"));
+    let low = |place: Place| place.z.is_some_and(|z| z < Nm::ZERO);
+    let motions = listing.motions.iter().filter(|motion| low(motion.from) || low(motion.to));
+    motions.map(|motion| (motion.way, motion.from, motion.to)).collect()
+}
+
+#[test]
+fn each_tool_touches_a_plate_before_it_turns_where_a_program_can_say_how_high_it_is_then() {
+    const PLATE: &str = "tool-probe = \"-10mm,5mm,1.6mm\"";
+    for rules in TABLE {
+        let Some(touched) = rules.touched else {
+            let options = Options::from_toml("f", &format!("dialect = \"{}\"\n{PLATE}", rules.name));
+            let refused = Settings::resolve(options.expect("settings")).expect_err(rules.name).to_string();
+            assert!(refused.contains("cannot touch a tool off within a program: "), "{refused}");
+            continue;
+        };
+        let (job, settings) = mill(&fixture("blinker"), rules.name, PLATE);
+        let found = job.verify(&settings).expect("it can be judged");
+        assert!(found.passes(Severity::Warning), "{}: {:?}", rules.name, found.findings);
+        for program in &job.programs {
+            let what = format!("{} in {}", program.tag, rules.name);
+            let (rest, touches) = touches(&program.text);
+            assert_eq!(touches.len(), rest.matches("\nM3 S").count(), "{what}: once for each tool");
+            for touch in touches {
+                let code: Vec<&str> = touch.into_iter().filter(|line| !line.starts_with('(')).collect();
+                let down = ["G0 X-10 Y5", "G91", "G38.2 Z-28.4 F100", "G0 Z1", "G38.2 Z-2 F20", "G90"];
+                assert_eq!(code, [&down[..], &[touched, "G0 Z20"]].concat(), "{what}");
+            }
+            // Where it begins the spindle is off, and what follows turns it on.
+            let at = |text: &str| program.text.find(text).expect("it is there");
+            let before = &program.text[..at("(touch-off begins)")];
+            assert!(!before.contains("\nM3"), "{what}: the spindle is off");
+            let lines = rest.lines().zip(1..).map(|(text, number)| Line::new(number, text)).collect();
+            let case = Case { what: what.clone(), rules, lines };
+            for (number, rule) in RULES {
+                assert_eq!(rule(&case), Vec::<String>::new(), "{what}, rule {number}, beside the touch");
+            }
+            assert_eq!(cuts(&program.text), cuts(&rest), "{what}: it is read back, and cuts where it would");
+            let map =
+                HeightMap::through(&[[0.0, 0.0, 1e4], [2e8, 0.0, 1e4], [0.0, 2e8, 1e4], [2e8, 2e8, 1e4]]);
+            let levelling = Levelling { margin: Nm::from_mm(200), ..Levelling::default() };
+            let bent = level(&program.text, &map.expect("a plane"), &levelling).expect("it can be bent").text;
+            assert_eq!(
+                self::touches(&bent).1,
+                self::touches(&program.text).1,
+                "{what}: bent, it is touched as before"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_plate_lies_below_the_way() {
+    for (place, reason) in
+        [("0mm,0mm,-1mm", "makes no sense"), ("0mm,0mm,2mm", "--safe-z"), ("0mm,0mm", "three lengths")]
+    {
+        let options = Options::from_toml("f", &format!("tool-probe = \"{place}\""));
+        let error = match options.map(Settings::resolve) {
+            Err(error) | Ok(Err(error)) => error.to_string(),
+            Ok(Ok(_)) => panic!("{place} is taken"),
+        };
+        assert!(error.contains(reason), "{error}");
+    }
 }
 
 #[test]

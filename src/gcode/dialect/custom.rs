@@ -111,6 +111,9 @@ impl Dialect {
             coolant: keys.coolant.map(|[on, off]| (Cow::Owned(on), Cow::Owned(off))).or(base.coolant),
             spin_up: keys.spin_up.unwrap_or(base.spin_up),
             touches: keys.touches.unwrap_or(base.touches),
+            sets_height: base.sets_height,
+            no_probe: base.no_probe,
+            touch_off: base.touch_off,
             condition: base.condition,
             own: base.own,
         })

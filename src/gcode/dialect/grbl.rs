@@ -42,6 +42,9 @@ pub(super) const GRBL: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Reported,
+    sets_height: Some(Borrowed("G92")),
+    no_probe: None,
+    touch_off: None,
     condition: Some(Borrowed(NO_LASER)),
     own: OwnCode::NONE,
 };
@@ -71,6 +74,9 @@ pub(super) const GRBLHAL: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Reported,
+    sets_height: Some(Borrowed("G92")),
+    no_probe: None,
+    touch_off: None,
     condition: Some(Borrowed(NO_LASER)),
     own: OwnCode::NONE,
 };
@@ -100,6 +106,9 @@ pub(super) const FLUIDNC: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Reported,
+    sets_height: Some(Borrowed("G92")),
+    no_probe: None,
+    touch_off: None,
     condition: None,
     own: OwnCode::NONE,
 };

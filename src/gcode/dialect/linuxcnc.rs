@@ -35,6 +35,9 @@ pub(super) const LINUXCNC: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Logged,
+    sets_height: Some(Borrowed("G10 L20 P0")),
+    no_probe: None,
+    touch_off: None,
     condition: None,
     own: OwnCode::NONE,
 };

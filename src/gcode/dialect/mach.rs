@@ -7,6 +7,9 @@ use super::{
     ToolChange, Touches,
 };
 
+/// Why its programs do not probe.
+const G31: &str = "it probes with G31, and only a macro takes what was touched";
+
 /// Mach3. G91.1 because its own default for centres is a setting; G64 without a tolerance, which it
 /// does not know, would round corners by the feed, so it runs in exact stop. M30 rewinds; no file
 /// is lost by it. Whether G4 counts seconds is a setting too.
@@ -34,6 +37,9 @@ pub(super) const MACH3: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    sets_height: None,
+    no_probe: Some(Borrowed(G31)),
+    touch_off: None,
     condition: Some(Borrowed("G4 must count seconds and M6 must stop: both are settings of the controller")),
     own: OwnCode::NONE,
 };
@@ -63,6 +69,9 @@ pub(super) const MACH4: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    sets_height: None,
+    no_probe: Some(Borrowed(G31)),
+    touch_off: None,
     condition: Some(Borrowed("G4 must count seconds and M6 must stop: both are settings of the controller")),
     own: OwnCode::NONE,
 };

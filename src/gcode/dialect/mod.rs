@@ -14,6 +14,7 @@ pub use custom::DialectError;
 
 use std::borrow::Cow;
 
+use crate::geometry::{Nm, Point};
 use crate::toolpath::Feed;
 
 /// A text that may be built in or come from the settings.
@@ -69,6 +70,13 @@ pub struct Dialect {
     pub spin_up: u32,
     /// What becomes of the touches of a probe.
     pub touches: Touches,
+    /// The words, before Z, that say how high the tool is once a probe has touched something; none
+    /// where no program can say it.
+    pub sets_height: Option<Text>,
+    /// Why programs do not probe, or do not set zero by a touch, where they do not.
+    pub no_probe: Option<Text>,
+    /// Where each tool is touched off after it was fitted; none for not at all.
+    pub touch_off: Option<TouchOff>,
     /// What a person must have set for the programs to run as they are meant, for their headers.
     pub condition: Option<Text>,
     /// G-code of the user's own.
@@ -88,6 +96,15 @@ pub struct OwnCode {
 
 impl OwnCode {
     const NONE: Self = Self { before: Vec::new(), at_tool_change: Vec::new(), after: Vec::new() };
+}
+
+/// A plate that each tool touches after it was fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TouchOff {
+    /// Where it is touched.
+    pub at: Point,
+    /// How high it lies there above the work's zero.
+    pub height: Nm,
 }
 
 /// What small spindles need. Chosen.

@@ -39,6 +39,11 @@ pub(super) const MARLIN: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    sets_height: None,
+    no_probe: Some(Borrowed(
+        "only some builds of it know G38.2, none reports what it touched, and G10 retracts filament",
+    )),
+    touch_off: None,
     condition: Some(Borrowed("Marlin must be built with SPINDLE_FEATURE, S in turns per minute")),
     own: OwnCode::NONE,
 };
@@ -68,6 +73,9 @@ pub(super) const REPRAPFIRMWARE: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    sets_height: None,
+    no_probe: Some(Borrowed("it does not report what G38.2 has touched")),
+    touch_off: None,
     condition: Some(Borrowed("the spindle must be number 0 [M950 R0]")),
     own: OwnCode::NONE,
 };
@@ -97,6 +105,9 @@ pub(super) const KLIPPER: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    sets_height: None,
+    no_probe: Some(Borrowed("it knows no G38.2")),
+    touch_off: None,
     condition: Some(Borrowed("macros must make M3 S and M5 turn the spindle on and off")),
     own: OwnCode::NONE,
 };

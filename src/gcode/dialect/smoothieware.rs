@@ -36,6 +36,9 @@ pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Reported,
+    sets_height: None,
+    no_probe: Some(Borrowed("how its programs could set zero by a touch is not known")),
+    touch_off: None,
     condition: None,
     own: OwnCode::NONE,
 };

@@ -36,6 +36,9 @@ pub(super) const TINYG: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::ReportedJson,
+    sets_height: Some(Borrowed("G92")),
+    no_probe: None,
+    touch_off: None,
     condition: None,
     own: OwnCode::NONE,
 };
@@ -65,6 +68,9 @@ pub(super) const G2CORE: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::ReportedJson,
+    sets_height: Some(Borrowed("G92")),
+    no_probe: None,
+    touch_off: None,
     condition: None,
     own: OwnCode::NONE,
 };

@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::words::{Pointer, Word, words};
-use crate::gcode::read::{Listing, Motion, Place, Way, lines, read, without_own_code};
+use crate::gcode::read::{Listing, Motion, Place, Way, lines, read, without_unbent};
 use crate::geometry::{Arc, Nm, Point};
 
 use super::course::Course;
@@ -53,15 +53,15 @@ pub struct Levelled {
     pub heights: Option<[Nm; 2]>,
 }
 
-/// Bends a program to the surface of `map`. The user's own G-code within one of ours stays as it
-/// is: what follows it says anew what is in force and where it goes.
+/// Bends a program to the surface of `map`. The user's own G-code and the touch of a tool within
+/// one of ours stay as they are: what follows them says anew what is in force and where it goes.
 ///
 /// # Errors
 ///
 /// [`LevelError`] for a program that cannot be followed, that cuts outside the touched area, that
 /// goes down before it says where, or that travels lower than the surface is high.
 pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Levelled, LevelError> {
-    let ours = without_own_code(text);
+    let ours = without_unbent(text);
     let listing = read(&ours)?;
     if let Some((line, what)) = listing.indirect {
         return Err(LevelError::Indirect { line, what });

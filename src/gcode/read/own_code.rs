@@ -1,13 +1,15 @@
-//! G-code of a user's own within a program that voromill wrote: it may go to places of the machine,
-//! or turn on what nobody knows, so it is passed over.
+//! G-code within a program that voromill wrote which is passed over: a user's own, which may go to
+//! places of the machine, or turn on what nobody knows; and the touch of a tool, which counts from
+//! where the tool is.
 
 use std::borrow::Cow;
 
 use super::source::lines;
 
-/// The comments that stand round it.
-const BEGINS: &str = "own G-code begins";
-const ENDS: &str = "own G-code ends";
+/// The comments that stand round it: where it begins, and where it ends.
+type Marks = (&'static str, &'static str);
+const OWN: Marks = ("own G-code begins", "own G-code ends");
+const TOUCH_OFF: Marks = ("touch-off begins", "touch-off ends");
 
 /// `text` with the user's own G-code as empty lines, so that all others keep their numbers.
 ///
@@ -15,13 +17,25 @@ const ENDS: &str = "own G-code ends";
 /// it.
 #[must_use]
 pub fn without_own_code(text: &str) -> Cow<'_, str> {
-    if !lines(text).any(|line| is(line, BEGINS)) {
+    without(text, &[OWN])
+}
+
+/// The same, without the touches of tools on their plate too: both stay as they are where a program
+/// is bent to a surface.
+#[must_use]
+pub fn without_unbent(text: &str) -> Cow<'_, str> {
+    without(text, &[OWN, TOUCH_OFF])
+}
+
+fn without<'a>(text: &'a str, passed: &[Marks]) -> Cow<'a, str> {
+    let begins = |line| passed.iter().find(|(begins, _)| is(line, begins)).map(|(_, ends)| *ends);
+    if !lines(text).any(|line| begins(line).is_some()) {
         return Cow::Borrowed(text);
     }
-    let (mut own, mut out) = (false, String::with_capacity(text.len()));
+    let (mut ends, mut out) = (None, String::with_capacity(text.len()));
     for line in lines(text) {
-        own = (own || is(line, BEGINS)) && !is(line, ENDS);
-        if !own {
+        ends = ends.or_else(|| begins(line)).filter(|ends| !is(line, ends));
+        if ends.is_none() {
             out.push_str(line);
         }
         out.push('\n');
