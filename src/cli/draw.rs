@@ -123,7 +123,7 @@ impl Draw {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input)?;
         let loaded = self.input.load(&settings)?;
-        let side = self.side(loaded.board.front.is_some(), loaded.board.back.is_some())?;
+        let side = chosen_side(self.side, loaded.board.front.is_some(), loaded.board.back.is_some())?;
         let area = self.window.map(|Window(rect)| rect);
         let format = self.format.unwrap_or_else(|| Format::of(&self.output));
         let rim = if self.stage.shows_frame() && settings.frame && loaded.board.outline.is_none() {
@@ -161,17 +161,16 @@ impl Draw {
         output.stage(&self.output, &bytes)?;
         output.commit()
     }
+}
 
-    /// The side that was asked for, or the only one.
-    fn side(&self, front: bool, back: bool) -> Result<Side, Failure> {
-        match (self.side, front, back) {
-            (Some(SideName::Front), true, _) | (None, true, false) => Ok(Side::Front),
-            (Some(SideName::Back), _, true) | (None, false, true) => Ok(Side::Back),
-            (None, true, true) => Ok(Side::Front),
-            (Some(SideName::Front), false, _) => Err(no_copper(Side::Front).into()),
-            (Some(SideName::Back), _, false) => Err(no_copper(Side::Back).into()),
-            (None, false, false) => Err(job::Error::NoCopper("in these files".to_owned()).into()),
-        }
+/// The side that was asked for, or the only one, or the front.
+pub(super) fn chosen_side(asked: Option<SideName>, front: bool, back: bool) -> Result<Side, Failure> {
+    match (asked, front, back) {
+        (Some(SideName::Front), true, _) | (None, true, _) => Ok(Side::Front),
+        (Some(SideName::Back), _, true) | (None, false, true) => Ok(Side::Back),
+        (Some(SideName::Front), false, _) => Err(no_copper(Side::Front).into()),
+        (Some(SideName::Back), _, false) => Err(no_copper(Side::Back).into()),
+        (None, false, false) => Err(job::Error::NoCopper("in these files".to_owned()).into()),
     }
 }
 
@@ -199,7 +198,7 @@ const MARGIN: Nm = Nm::from_um(1500);
 enum Format {
     /// Pixels
     Png,
-    /// Lines and areas: copper, voronoi and toolpath
+    /// Lines and areas: copper, nets, voronoi and toolpath
     Svg,
     /// Half blocks in 24-bit colour, for the terminal
     Blocks,
@@ -315,8 +314,9 @@ impl Drawn {
     /// As lines and areas.
     fn svg(&self, area: Rect) -> Result<String, Failure> {
         let over = match self.stage {
-            Stage::Nets | Stage::Translucent | Stage::Heat | Stage::Depth => {
-                let hint = "choose --stage copper, voronoi or toolpath, or name a .png";
+            Stage::Nets => return Ok(svg::nets(&self.shown()?, area)),
+            Stage::Translucent | Stage::Heat | Stage::Depth => {
+                let hint = "choose --stage copper, nets, voronoi or toolpath, or name a .png";
                 return Err(Failure::new("there is no SVG of this stage", hint));
             }
             Stage::Copper => Over::Nothing,

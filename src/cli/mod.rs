@@ -12,6 +12,7 @@ mod isolate;
 mod leftovers;
 mod level;
 mod machine;
+mod mask;
 mod mill;
 mod output;
 mod probe;
@@ -52,6 +53,7 @@ Examples:
   voromill verify out/*.ngc --board board/     what programs, anybody's, do to the board
   voromill diff old/ new/                      what copper changes between programs
   voromill draw board/ --stage voronoi -o v.png  a picture of one stage
+  voromill mask board/ -o front.png --dpi 1200 a mask for etching, lasers or UV light
   voromill probe board/ -o probe.ngc           touch the surface of the board on the machine
   voromill level front.ngc --map probe.txt     bend a program to what was touched
   voromill tools                               the tools, and how wide they cut at which depth
@@ -66,6 +68,7 @@ enum Command {
     Mill(mill::Mill),
     Isolate(isolate::Isolate),
     Draw(draw::Draw),
+    Mask(mask::Mask),
     Inspect(inspect::Inspect),
     Verify(verify::Verify),
     Diff(diff::Diff),
@@ -105,6 +108,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Mill(mill) => mill.run(cli.shared),
         Command::Isolate(isolate) => isolate.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Draw(draw) => draw.run(cli.shared).map(|()| ExitCode::SUCCESS),
+        Command::Mask(mask) => mask.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Inspect(inspect) => inspect.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Verify(verify) => verify.run(cli.shared),
         Command::Diff(diff) => diff.run(cli.shared),

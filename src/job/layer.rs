@@ -82,6 +82,29 @@ fn needed_frame(diagram: &Diagram, boundaries: &Boundaries) -> Option<Path> {
     diagram.frame().filter(|_| reached).cloned()
 }
 
+/// The diagram of all nets, midway between them and as far as there is room, with its boundaries
+/// and what is to be said of them: what parts regions on a mask.
+pub(super) fn plain(
+    copper: &Copper,
+    nets: &Nets,
+    outline: Option<&Outline>,
+    settings: &Settings,
+) -> Result<(Diagram, Boundaries, Vec<Warning>), Error> {
+    let gap = topology::smallest_gap(copper, nets);
+    let pitch = gap.map_or(COARSEST, |gap| COARSEST.min((gap.width / PIXELS_A_GAP).max(FINEST)));
+    let settings = voronoi::Settings {
+        pitch,
+        tolerance: settings.tolerance,
+        frame: Frame::Hull(settings.frame_margin),
+        ..voronoi::Settings::default()
+    };
+    let error = |reason| Error::Voronoi { side: copper.side, reason };
+    let diagram = Diagram::new(copper, nets, outline, &settings).map_err(error)?;
+    let (boundaries, mut warnings) = diagram.boundaries();
+    warnings.extend_from_slice(diagram.warnings());
+    Ok((diagram, boundaries, warnings))
+}
+
 const FRAME_NOT_CUT: &str = "without an outline and without the lap round the frame, nets that reach the edge stay joined through the copper outside";
 
 /// The nets of a side, and what Algorithm 2 saw of them if it was asked.

@@ -16,6 +16,7 @@ mod ignore;
 mod inspect;
 mod layer;
 mod machine;
+mod masking;
 mod merge;
 mod millproject;
 mod numbering;
@@ -53,6 +54,7 @@ pub use layer::Layer;
 pub use machine::{
     ImportError, MachineChoice, ParseMachineError, ParsePerAxisError, PerAxis, Profile, READY, import_machine,
 };
+pub use masking::{Masking, mask};
 pub use millproject::{MillProject, ProjectFiles};
 pub use options::Options;
 pub use output_name::{OutputName, ParseOutputNameError};

@@ -54,13 +54,7 @@ pub struct Job {
 /// cannot be isolated.
 pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let Loaded { mut board, sources, mut warnings, ignored } = loaded;
-    if let Some(cut_off) = warnings.iter().find(|warning| warning.code == TRUNCATED) {
-        let place = cut_off
-            .source
-            .as_ref()
-            .map_or(String::new(), |s| format!("{}:{}:{}: ", s.file, s.line, s.column));
-        return Err(Error::Truncated(format!("{place}{}", cut_off.message)));
-    }
+    refuse_cut_off(&warnings)?;
     if !settings.ignore.is_empty() {
         warnings.extend(ignore(&mut board, &settings.ignore, settings.topology));
     }
@@ -131,6 +125,14 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     warnings.extend(electrical.iter().flat_map(Electrical::check));
     let (placement, axis) = (stock.front, stock.axis);
     Ok(Job { board, sources, ignored, placement, axis, layers, electrical, programs, warnings })
+}
+
+/// Fails for a file that was cut off.
+pub(super) fn refuse_cut_off(warnings: &[Warning]) -> Result<(), Error> {
+    let Some(cut_off) = warnings.iter().find(|warning| warning.code == TRUNCATED) else { return Ok(()) };
+    let place =
+        cut_off.source.as_ref().map_or(String::new(), |s| format!("{}:{}:{}: ", s.file, s.line, s.column));
+    Err(Error::Truncated(format!("{place}{}", cut_off.message)))
 }
 
 /// Lowers what programs ask of the machine to what it can do; what is said of several programs is

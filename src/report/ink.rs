@@ -1,4 +1,5 @@
-//! Paths as short text: letters name what follows, whole micrometres from where the pen is.
+//! Paths as short text: letters name what follows, whole units from where the pen is: micrometres,
+//! or hundredths of them.
 
 use std::fmt::Write as _;
 
@@ -6,8 +7,13 @@ use crate::board::Shape;
 use crate::geometry::{Arc, Nm, Path, Point, Segment, Turn};
 
 /// In whole micrometres, halves up.
-pub(super) fn um(length: Nm) -> i64 {
-    (length.get() + 500).div_euclid(1000)
+pub(super) const fn um(length: Nm) -> i64 {
+    units(length, MICROMETRE)
+}
+
+/// In whole units of so many nanometres, halves up.
+pub(super) const fn units(length: Nm, unit: i64) -> i64 {
+    (length.get() + unit / 2).div_euclid(unit)
 }
 
 /// A point in whole micrometres.
@@ -30,14 +36,40 @@ pub(super) const fn pen(shape: &Shape) -> Nm {
 /// Points are rounded before they are subtracted, so that errors do not add up and paths that share
 /// a point share it in the text too. A letter that repeats is left out, and so is the blank before
 /// a minus.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Ink {
     text: String,
     at: [i64; 2],
     letter: char,
+    /// In nanometres.
+    unit: i64,
 }
 
+impl Default for Ink {
+    /// In micrometres.
+    fn default() -> Self {
+        Self::of(MICROMETRE)
+    }
+}
+
+/// A unit in nanometres: as short as a picture needs.
+const MICROMETRE: i64 = 1000;
+
 impl Ink {
+    /// A pen that writes in units of so many nanometres.
+    pub(super) const fn of(unit: i64) -> Self {
+        Self { text: String::new(), at: [0; 2], letter: '\0', unit }
+    }
+
+    /// In whole units, halves up.
+    const fn units(&self, length: Nm) -> i64 {
+        units(length, self.unit)
+    }
+
+    fn place(&self, p: Point) -> [i64; 2] {
+        [self.units(p.x), self.units(p.y)]
+    }
+
     /// What it wrote.
     pub(super) fn into_text(self) -> String {
         self.text
@@ -73,13 +105,13 @@ impl Ink {
     pub(super) fn begin(&mut self, p: Point) {
         // A moveto that follows one would be read as a line.
         self.letter = ' ';
-        self.step('m', place(p), &[]);
+        self.step('m', self.place(p), &[]);
         self.letter = 'l';
     }
 
     /// SVG: a straight line to `p`.
     pub(super) fn line(&mut self, p: Point) {
-        self.step('l', place(p), &[]);
+        self.step('l', self.place(p), &[]);
     }
 
     /// SVG: a spot that round ends make a disc of. A line of no length would not be drawn
@@ -100,22 +132,23 @@ impl Ink {
 
     /// SVG: an arc, in halves where it is more than one: then its ends and radius tell which it is.
     pub(super) fn arc(&mut self, arc: &Arc) {
-        let radius = um(Nm::from_f64(arc.radius())).max(1);
+        let radius = self.units(Nm::from_f64(arc.radius())).max(1);
         let sweep = i64::from(arc.turn == Turn::CounterClockwise);
         let halves = if arc.sweep().abs() > 3.0 { 2 } else { 1 };
         for half in 1..=halves {
             let (x, y) = arc.at(f64::from(half) / f64::from(halves));
             let end = if half == halves { arc.end } else { Point::from_f64(x, y) };
-            let [dx, dy] = self.to(place(end));
+            let place = self.place(end);
+            let [dx, dy] = self.to(place);
             self.put('a', &[radius, radius, 0, 0, sweep, dx, dy]);
-            self.at = place(end);
+            self.at = place;
         }
     }
 
     /// SVG: back to where the line began, which was `start`.
     pub(super) fn close(&mut self, start: Point) {
         self.put('z', &[]);
-        self.at = place(start);
+        self.at = self.place(start);
     }
 
     /// SVG: a whole path.

@@ -9,6 +9,7 @@ mod ink;
 pub mod inspection;
 pub mod legend;
 mod lettering;
+pub mod mask;
 pub mod methods;
 pub mod page;
 mod palette;

@@ -1,15 +1,18 @@
 //! A side as SVG, for documents: true lines and areas that a drawing program can take apart.
 //!
-//! A user unit is a micrometre, the size is in millimetres, y points up within the one group. Each
-//! layer is a group with a name. There is no background, so it lies well on paper.
+//! A user unit is a hundredth of a micrometre, so that copper read back is the copper that was
+//! drawn; the size is in millimetres, y points up within the one group. Each layer is a group with
+//! a name. There is no background, so it lies well on paper.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
-use crate::board::{Board, Copper, FLATTEN};
+use crate::board::{Board, Copper, FLATTEN, Feature};
 use crate::geometry::{Nm, Path, Rect};
+use crate::topology::NetId;
 
-use super::ink::{Ink, pen, place, um};
+use super::ink::{Ink, pen, units};
+use super::palette::{Rgb, vivid};
 use super::picture::{Shown, Ways};
 
 /// What is drawn over the copper.
@@ -23,6 +26,9 @@ pub enum Over {
     Cuts,
 }
 
+/// A user unit, in nanometres.
+const UNIT: i64 = 10;
+
 const COPPER: &str = "#d0894a";
 const BOARD: &str = "#eef0ec";
 const CUT: &str = "#20262e";
@@ -35,6 +41,28 @@ pub fn copper(board: &Board, copper: &Copper, area: Rect) -> String {
     let mut svg = Svg::new(area, &board.name);
     svg.ground(board, copper);
     svg.drills(board);
+    svg.finish()
+}
+
+/// The part of a side within `area`: its copper, with a colour and a group for each net, and its
+/// name.
+#[must_use]
+pub fn nets(shown: &Shown<'_>, area: Rect) -> String {
+    let mut svg = Svg::new(area, &shown.board.name);
+    svg.board(shown.board);
+    svg.group("copper", "fill=\"none\"", |svg| {
+        for (number, net) in (0..).zip(shown.nets.nets()) {
+            let id = NetId(number);
+            let Rgb(r, g, b) = vivid(id);
+            let colour = format!("#{r:02x}{g:02x}{b:02x}");
+            svg.group(&format!("net-{}", number + 1), &line(&colour, 1.0), |svg| {
+                _ = writeln!(svg.text, "<title>{}</title>", escaped(&shown.nets.label(id)));
+                let features = net.features.iter().map(|&at| &shown.copper.features[at as usize]);
+                svg.features(features, &colour);
+            });
+        }
+    });
+    svg.drills(shown.board);
     svg.finish()
 }
 
@@ -74,16 +102,25 @@ fn line(colour: &str, opacity: f64) -> String {
     format!("stroke=\"{colour}\" stroke-opacity=\"{opacity}\" fill=\"none\"")
 }
 
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+}
+
+/// In user units, halves up.
+const fn fine(length: Nm) -> i64 {
+    units(length, UNIT)
+}
+
 struct Svg {
     text: String,
 }
 
 impl Svg {
     fn new(area: Rect, name: &str) -> Self {
-        let ([left, _], [_, top]) = (place(area.min()), place(area.max()));
-        let (width, height) = (um(area.width()), um(area.height()));
+        let (left, top) = (fine(area.min().x), fine(area.max().y));
+        let (width, height) = (fine(area.width()), fine(area.height()));
         let (wide, high) = (area.width(), area.height());
-        let name = name.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+        let name = escaped(name);
         let text = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{wide:.3}mm\" height=\"{high:.3}mm\" \
              viewBox=\"{left} {} {width} {height}\">\n<title>{name}</title>\n\
@@ -93,38 +130,45 @@ impl Svg {
         Self { text }
     }
 
-    /// The board and its copper: areas, then strokes by width.
+    /// The board and its copper.
     fn ground(&mut self, board: &Board, copper: &Copper) {
+        self.board(board);
+        self.group("copper", &line(COPPER, 1.0), |svg| svg.features(&copper.features, COPPER));
+    }
+
+    fn board(&mut self, board: &Board) {
         if let Some(outline) = &board.outline {
-            let mut ink = Ink::default();
+            let mut ink = Ink::of(UNIT);
             ink.rings(outline.polygon(FLATTEN * 4).contours());
             self.group("board", &format!("fill=\"{BOARD}\" fill-rule=\"evenodd\""), |svg| svg.path("", ink));
         }
+    }
+
+    /// Features in the colour of their group: areas, then strokes by width.
+    fn features<'a>(&mut self, features: impl IntoIterator<Item = &'a Feature>, colour: &str) {
         let mut pens: BTreeMap<Nm, Ink> = BTreeMap::new();
-        for feature in &copper.features {
-            pens.entry(pen(&feature.shape)).or_default().shape(&feature.shape);
+        for feature in features {
+            pens.entry(pen(&feature.shape)).or_insert_with(|| Ink::of(UNIT)).shape(&feature.shape);
         }
-        self.group("copper", &line(COPPER, 1.0), |svg| {
-            for (width, ink) in pens {
-                if width == Nm::ZERO {
-                    svg.path(&format!(" fill=\"{COPPER}\" stroke=\"none\""), ink);
-                } else {
-                    svg.path(&format!(" stroke-width=\"{}\"", um(width)), ink);
-                }
+        for (width, ink) in pens {
+            if width == Nm::ZERO {
+                self.path(&format!(" fill=\"{colour}\" stroke=\"none\""), ink);
+            } else {
+                self.path(&format!(" stroke-width=\"{}\"", fine(width)), ink);
             }
-        });
+        }
     }
 
     /// The holes by diameter.
     fn drills(&mut self, board: &Board) {
         let mut pens: BTreeMap<Nm, Ink> = BTreeMap::new();
         for hole in &board.holes {
-            let ink = pens.entry(hole.diameter).or_default();
+            let ink = pens.entry(hole.diameter).or_insert_with(|| Ink::of(UNIT));
             if hole.is_slot() { ink.path(&hole.path) } else { ink.spot(hole.path.start) }
         }
         self.group("drills", &line(HOLE, 1.0), |svg| {
             for (diameter, ink) in pens {
-                svg.path(&format!(" stroke-width=\"{}\"", um(diameter)), ink);
+                svg.path(&format!(" stroke-width=\"{}\"", fine(diameter)), ink);
             }
         });
     }
@@ -141,11 +185,11 @@ impl Svg {
     }
 
     fn strokes<'a>(&mut self, width: Nm, paths: impl IntoIterator<Item = &'a Path>) {
-        let mut ink = Ink::default();
+        let mut ink = Ink::of(UNIT);
         paths
             .into_iter()
             .for_each(|path| if path.segments.is_empty() { ink.spot(path.start) } else { ink.path(path) });
-        self.path(&format!(" stroke-width=\"{}\"", um(width)), ink);
+        self.path(&format!(" stroke-width=\"{}\"", fine(width)), ink);
     }
 
     fn finish(mut self) -> String {

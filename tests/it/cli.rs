@@ -133,6 +133,7 @@ fn a_side_can_be_drawn_as_lines_and_in_the_terminal() {
         ("toolpath", "id=\"cuts\"", "id=\"boundaries\""),
         ("voronoi", "id=\"boundaries\"", "id=\"cuts\""),
         ("copper", "id=\"copper\"", "id=\"cuts\""),
+        ("nets", "id=\"net-2\"", "id=\"cuts\""),
     ] {
         assert!(draw(&["--stage", stage, "-o", "board.svg"]).is_empty(), "nothing is printed");
         let svg = fs::read_to_string(out.path().join("board.svg")).expect("written");
@@ -150,7 +151,7 @@ fn a_side_can_be_drawn_as_lines_and_in_the_terminal() {
     assert!(draw(&["-o", "-", "--format", "sixel"]).starts_with(b"\x1bPq"), "sixels");
     fails(
         &out,
-        &["draw", &board, "--stage", "nets", "-o", "nets.svg"],
+        &["draw", &board, "--stage", "heat", "-o", "heat.svg"],
         &["no SVG", "hint: "],
         &["board.svg"],
     );

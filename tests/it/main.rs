@@ -23,6 +23,7 @@ mod layers;
 mod leftovers;
 mod level;
 mod machine;
+mod mask;
 mod millproject;
 mod mixed;
 mod mutations;
