@@ -248,6 +248,13 @@ pub(in crate::import) const DRILL_OFF_BOARD: Flaw = Flaw::new(
     "check that the files belong to one board and have one origin, and the drill file its own unit",
 );
 
+/// Some holes off the board.
+pub(in crate::import) const HOLES_OFF_BOARD: Flaw = Flaw::new(
+    "holes-off-board",
+    "holes on the board, or in 5 mm of frame round it",
+    "look whether they are meant: what is drilled there is drilled into the bed",
+);
+
 /// A drill wider than any.
 pub(in crate::import) const DRILL_IMPLAUSIBLE: Flaw = Flaw::new(
     "drill-implausible",

@@ -10,7 +10,7 @@ use super::excellon::{self, Context};
 use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
 use super::unusable::quoted;
-use super::{gerber_drill, outline};
+use super::{gerber_drill, off_board, outline};
 use crate::board::{Axis, Board, Copper, Feature, Hole, Outline, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
@@ -95,6 +95,7 @@ fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<
     build.warn_of_size();
     if need == Need::Job {
         build.refuse_size(&assigned.place)?;
+        build.refuse_nothing(assigned.outline.map(|index| &gathered.files[index]))?;
     }
     build.set_aside(&gathered, &assigned);
     let read = [assigned.front, assigned.back, assigned.outline]
@@ -230,6 +231,7 @@ impl Build {
 
     fn drills(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
         let context = self.context();
+        let place = self.board.bounds();
         let mut warnings = Vec::new();
         for &index in &assigned.drill {
             let file = &gathered.files[index];
@@ -249,12 +251,17 @@ impl Build {
                         && need == Need::Job
                         && !by_hand
                     {
-                        return Err(off_board(file, off));
+                        return Err(off_board::most(file, off));
                     }
                     warnings.extend(drilling.warnings);
                     (drilling.holes, drilling.source)
                 }
             };
+            let is_chosen = need != Need::Job || assigned.by_hand.contains(&index);
+            if let Some(stray) = place.and_then(|place| off_board::some(file, &holes, place)) {
+                warnings.push(stray.warning);
+                stray.refusal.filter(|_| !is_chosen).map_or(Ok(()), Err)?;
+            }
             self.sources.push(Source { role: "drill".to_owned(), ..source });
             self.add_holes(holes, file, &mut warnings);
         }
@@ -331,6 +338,22 @@ impl Build {
             what,
             "`inspect` lists the unit of each file; have the wrong one written again",
         ))
+    }
+
+    /// An outline that is none, and nothing beside it to mill.
+    fn refuse_nothing(&self, outline: Option<&Found>) -> Result<(), Error> {
+        let board = &self.board;
+        let has_copper = board.front.is_some() || board.back.is_some();
+        let Some(outline) = outline.filter(|_| !has_copper && board.holes.is_empty()) else { return Ok(()) };
+        if board.outline.is_some() {
+            return Ok(());
+        }
+        let is_outline =
+            |warning: &&Warning| [flaw::OUTLINE_OPEN.code, flaw::OUTLINE_EMPTY.code].contains(&warning.code);
+        let why = self.warnings.iter().find(is_outline);
+        let why = why.map_or("it draws no edge", |warning| warning.message.as_str());
+        let hint = "without copper and holes there is nothing else to mill";
+        Err(Error::content(&outline.shown, why, hint))
     }
 
     /// Lists the aperture lists that `files` draw with.
@@ -477,13 +500,7 @@ pub(super) fn describe(bytes: &[u8]) -> &'static str {
 }
 
 /// What to do about a drill file that cannot be read, if nothing else.
-const NO_DRILL: &str = "--no-drill does all but the holes";
-
-/// Holes most of which lie beside the board, however they are read.
-fn off_board(file: &Found, off: &Warning) -> Error {
-    let hint = format!("say --drill {} if they are right; {NO_DRILL}", file.name);
-    Error::content(&file.shown, &off.message, hint)
-}
+pub(super) const NO_DRILL: &str = "--no-drill does all but the holes";
 
 /// A copper layer that may be either side: a back that is not mirrored is a ruined board.
 fn side_unknown(file: &Found) -> Error {

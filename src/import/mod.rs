@@ -23,6 +23,7 @@ mod jobfile;
 mod layers;
 mod load;
 mod naming;
+mod off_board;
 pub mod outline;
 mod settle;
 mod unusable;

@@ -389,6 +389,32 @@ fn holes_beside_the_board_are_an_error_unless_a_person_wants_them() {
 }
 
 #[test]
+fn an_outline_that_does_not_close_is_named_where_there_is_nothing_else() {
+    let open = SQUARE.replace("X0Y0D01*\nM02", "M02");
+    assert_ne!(open, SQUARE, "one side is gone");
+    let folder = Folder::with(&[("amp-Edge_Cuts.gbr", &open)]);
+    let error = folder.load(&Selection::default()).expect_err("nothing to mill");
+    assert!(error.contains("amp-Edge_Cuts.gbr") && error.contains("does not close"), "{error}");
+}
+
+#[test]
+fn some_holes_off_the_board_are_said_and_one_far_off_is_an_error() {
+    let with = |line: &str| {
+        let more = DRILL.replace("M30", &format!("X2.0Y2.0\nX8.0Y2.0\n{line}\nM30"));
+        let files = [("amp-F_Cu.gbr", SQUARE), ("amp-Edge_Cuts.gbr", SQUARE), ("amp.drl", &*more)];
+        Folder::with(&files).load(&Selection::default())
+    };
+    let codes = |loaded: &Loaded| loaded.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>();
+    let loaded = with("X40.0Y5.0").expect("a board");
+    assert!(codes(&loaded).contains(&"holes-off-board"), "{:?}", codes(&loaded));
+    let framed = with("X13.0Y5.0").expect("a board");
+    assert!(!codes(&framed).contains(&"holes-off-board"), "in the frame: {:?}", codes(&framed));
+    // As a damaged digit makes it: the programs could not even be judged.
+    let error = with("X7.0Y6.0G85X8.0Y677.7").expect_err("a slot of half a metre");
+    assert!(error.contains("a slot of line 9 lies") && error.contains("--no-drill"), "{error}");
+}
+
+#[test]
 fn what_a_person_must_know_is_an_error_in_a_sentence() {
     let mask = function("Soldermask,Top");
     let files = [
