@@ -124,6 +124,7 @@ fn drilled(holes: &[Trail], order: Order) -> Section {
         order,
         dwell: 0,
         tips: false,
+        one: false,
         speeds: DrillSpeeds::default(),
         point: POINT,
     };

@@ -89,10 +89,11 @@ impl Input {
         let Some(path) = &self.millproject else { return Ok(MillProject::default()) };
         let text = std::fs::read_to_string(path).map_err(|error| Failure::io("read", path, &error))?;
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let mut project = MillProject::read(&name, &text)?;
+        let folder = path.with_file_name("");
+        let mut project = MillProject::read(&name, &text)?.with_own_code(&name, &folder)?;
         let ProjectFiles { front, back, outline, drill } = &mut project.files;
         for file in [front, back, outline, drill, &mut project.output].into_iter().flatten() {
-            *file = path.with_file_name("").join(&*file);
+            *file = folder.join(&*file);
         }
         Ok(project)
     }

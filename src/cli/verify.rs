@@ -186,6 +186,16 @@ fn length(programs: &[Program], setting: &str) -> Option<Nm> {
     programs.iter().find_map(|program| verify::said(&program.text, setting)?.parse().ok())
 }
 
+/// How far a hole may be from its diameter, as the programs say.
+fn diameter(programs: &[Program], usual: Nm) -> Nm {
+    let is_one =
+        |program: &Program| verify::said(&program.text, "one-drill").is_some_and(|said| said == "true");
+    if programs.iter().any(is_one) {
+        return verify::Settings::ANY_DIAMETER;
+    }
+    length(programs, "drill-tolerance").map_or(usual, |own| own.max(usual))
+}
+
 /// How many tabs each board was given, where that is known of all.
 fn tabs(programs: &[Program]) -> Option<u32> {
     let of = |program: &Program| {
@@ -229,8 +239,7 @@ impl Verify {
             travel: self.travel.map(|Travel(travel)| travel),
             tabs: self.tabs.or_else(|| tabs(&programs)),
             tab_width: length(&programs, "tab-width"),
-            diameter: length(&programs, "drill-tolerance")
-                .map_or(usual.diameter, |own| own.max(usual.diameter)),
+            diameter: diameter(&programs, usual.diameter),
             complete: self.programs.iter().any(|path| path.is_dir()),
             tiles: self.tiles(&programs)?,
             pixel: self.resolution,

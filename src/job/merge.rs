@@ -73,6 +73,7 @@ impl Options {
             drill_plunge: self.drill_plunge.or(others.drill_plunge),
             drill_spindle: self.drill_spindle.or(others.drill_spindle),
             drill_bore: self.drill_bore.or(others.drill_bore),
+            one_drill: self.one_drill.or(others.one_drill),
             drill_bore_from: self.drill_bore_from.or(others.drill_bore_from),
             drill_bore_tool: self.drill_bore_tool.or(others.drill_bore_tool),
             drill_side: self.drill_side.or(others.drill_side),

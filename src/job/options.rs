@@ -276,6 +276,19 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drills: Option<Drills>,
 
+    /// Drill all holes with the thinnest of these, or of those in the files, to be drilled open by
+    /// hand
+    #[arg(
+        long,
+        value_name = "true|false",
+        num_args = 0..=1,
+        require_equals = true,
+        default_missing_value = "true",
+        help_heading = "Drilling and cutting out"
+    )]
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub one_drill: Option<bool>,
+
     /// How far a drill at hand may differ from the hole
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]

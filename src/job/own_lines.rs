@@ -51,6 +51,16 @@ impl OwnLines {
         &self.lines
     }
 
+    /// The lines of a file.
+    pub(super) fn read(path: &Path) -> Result<Self, ParseOwnLinesError> {
+        let shown = path.to_string_lossy();
+        let text = std::fs::read_to_string(path).map_err(|error| ParseOwnLinesError::File {
+            file: shown.clone().into_owned(),
+            reason: error.to_string().to_lowercase(),
+        })?;
+        Self::new(&shown, &text)
+    }
+
     fn new(path: &str, text: &str) -> Result<Self, ParseOwnLinesError> {
         let name =
             Path::new(path).file_name().map_or_else(String::new, |name| name.to_string_lossy().into_owned());
@@ -80,11 +90,7 @@ impl FromStr for OwnLines {
     type Err = ParseOwnLinesError;
 
     fn from_str(path: &str) -> Result<Self, Self::Err> {
-        let text = std::fs::read_to_string(path).map_err(|error| ParseOwnLinesError::File {
-            file: path.to_owned(),
-            reason: error.to_string().to_lowercase(),
-        })?;
-        Self::new(path, &text)
+        Self::read(Path::new(path))
     }
 }
 

@@ -245,6 +245,7 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
         bored_from: settings.drill_bore_from,
         heights: settings.drilling,
         tips: settings.drill_tips,
+        one: settings.one_drill,
         placement,
         order: Order::default(),
         dwell: settings.drill_dwell,

@@ -108,6 +108,8 @@ pub struct Settings {
     pub drilling: Heights,
     /// Whether each drill goes deeper than that by its tip.
     pub drill_tips: bool,
+    /// Whether one drill drills all holes that are drilled.
+    pub one_drill: bool,
     /// How deep alignment holes go at their full width.
     pub alignment_depth: Nm,
     /// How much wider plated holes are drilled.
@@ -225,6 +227,7 @@ impl Settings {
             alignment: sense::alignment(&options)?,
             drilling,
             drill_tips: drill_depth.is_none(),
+            one_drill: options.one_drill == Some(true),
             alignment_depth: sense::alignment_depth(&options, thickness)?.unwrap_or(thickness + PINS),
             rivet: given("rivet", options.rivet)?,
             narrow: options.narrow.expect(open),

@@ -93,6 +93,7 @@ impl Stock {
             bored_from: None,
             heights: Heights { cut: settings.alignment_depth, ..settings.drilling },
             tips: true,
+            one: false,
             placement: &placement,
             order: Order::default(),
             dwell: 0,

@@ -36,7 +36,11 @@ impl Job {
         let usual = verify::Settings::default();
         // What the settings allow is no finding.
         let judging = verify::Settings {
-            diameter: usual.diameter.max(settings.drill_tolerance),
+            diameter: if settings.one_drill {
+                verify::Settings::ANY_DIAMETER
+            } else {
+                usual.diameter.max(settings.drill_tolerance)
+            },
             board: settings.thickness,
             travel: settings.machine.travel,
             tabs: settings.tabs.count(),

@@ -60,7 +60,7 @@ impl Part {
             "drill-tip-angle" | "drill-safe-z" | "drill-plunge" | "drill-spindle" | "material" => {
                 matches!(self, Self::Alignment | Self::Drill)
             }
-            "break-through" | "rivet" => self == Self::Drill,
+            "break-through" | "rivet" | "one-drill" => self == Self::Drill,
             _ if option.starts_with("drill") => self == Self::Drill,
             _ if option.starts_with("cutout") || option.starts_with("tab") => self == Self::Cutout,
             _ => matches!(self, Self::Front | Self::Back),

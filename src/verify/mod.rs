@@ -159,6 +159,11 @@ pub struct Settings {
     pub pixel: Option<Nm>,
 }
 
+impl Settings {
+    /// As far as no hole's diameter is off: for holes that one drill drills, whatever they ask for.
+    pub const ANY_DIAMETER: Nm = Nm::from_mm(100);
+}
+
 impl Default for Settings {
     /// Copper of 35 µm (one ounce); 10 µm into copper, twice what a centred cut may be off, a tenth
     /// of a millimetre at the deepest, and half of each net's width left; crumbs of 0.01 mm², a

@@ -269,6 +269,7 @@ fn drilling<'a>(drills: &'a [Tool], mill: Option<&'a Tool>, placement: &'a Place
         order: Order::Improved,
         dwell: 0,
         tips: false,
+        one: false,
         speeds: DrillSpeeds::default(),
         point: POINT,
     }

@@ -11,11 +11,11 @@ use crate::job::overlap::Overlap;
 use crate::job::quantity::{DrillChoice, Drills, Length, Place, Tiles, Wait};
 use crate::job::tools::OwnTool;
 use crate::job::written::Part;
-use crate::toolpath::ToolKind;
+use crate::toolpath::{Direction, ToolKind};
 
-use super::MillProject;
 use super::left;
 use super::value::{Entry, Units, Wrong};
+use super::{MillProject, OwnFile};
 
 /// A project while its lines are read; many options mean something only together.
 pub(super) struct Draft<'a> {
@@ -159,6 +159,8 @@ impl<'a> Draft<'a> {
             "outline" => self.made.files.outline = Some(PathBuf::from(entry.value)),
             "drill" => self.made.files.drill = Some(PathBuf::from(entry.value)),
             "output-dir" => self.made.output = Some(PathBuf::from(entry.value)),
+            "preamble" => self.made.before = Some(OwnFile::new(entry)),
+            "postamble" => self.made.after = Some(OwnFile::new(entry)),
             "basename" => self.made.name = Some(entry.value.to_owned()),
             "front-output" => self.output(entry, Part::Front),
             "back-output" => self.output(entry, Part::Back),
@@ -192,15 +194,14 @@ impl<'a> Draft<'a> {
             "extra-passes" => isolating.extra_passes = Some((entry.count()?, *entry)),
             "milling-overlap" => isolating.overlap = Some((entry.overlap(units)?, *entry)),
             "offset" => isolating.offset = Some((entry.length(units)?, *entry)),
-            // Climb or conventional is said of the passes beside copper alone, so it matters with
-            // copper only.
-            "mill-feed-direction" => match entry.value {
-                "any" => {}
-                "climb" | "conventional" | "clockwise" | "counterclockwise" | "anticlockwise" => {
-                    self.leave(entry, "cuts run whichever way is shorter");
-                }
-                _ => return Err(entry.wrong("any, climb or conventional")),
-            },
+            "mill-feed-direction" => {
+                options.direction = match entry.value.to_ascii_lowercase().as_str() {
+                    "any" => None,
+                    "climb" | "clockwise" => Some(Direction::Climb),
+                    "conventional" | "counterclockwise" | "anticlockwise" => Some(Direction::Conventional),
+                    _ => return Err(entry.wrong("any, climb or conventional")),
+                };
+            }
             "invert-gerbers" | "draw-gerber-lines" => {
                 if entry.flag()? {
                     let expected = "false: what is drawn is copper here, and the gaps between are cut";
@@ -254,6 +255,7 @@ impl<'a> Draft<'a> {
             "drill-feed" => options.drill_plunge = Some(entry.feed(units)?),
             "drill-speed" => options.drill_spindle = Some(entry.turns()?),
             "drills-available" => self.drills(entry)?,
+            "onedrill" => options.one_drill = entry.flag()?.then_some(true),
             "drill-side" => drilling.side = side(entry)?,
             "drill-front" if entry.flag()? => drilling.side = CutSide::Front,
             "drill-front" => {}

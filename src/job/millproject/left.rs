@@ -19,7 +19,8 @@ enum Idle {
 /// How voromill orders its cuts is its own affair.
 const ORDER: &str = "voromill orders and joins its cuts its own way";
 /// What is written round the cuts.
-const FRAME: &str = "a dialect of one's own says what comes before and after (docs/dialects.md)";
+const FRAME: &str =
+    "--before and --after say what stands before and after a program, and nothing stands between cuts";
 
 /// The options that are only told of, in the order of their names.
 const LEFT: &[(&str, Idle, &str)] = &[
@@ -37,20 +38,13 @@ const LEFT: &[(&str, Idle, &str)] = &[
     ("no-export", Idle::Unset, "`voromill draw` and `voromill inspect` show a board and write no programs"),
     ("nog81", Idle::Set, "holes are drilled with G0 and G1"),
     ("nog91-1", Idle::Unset, "the dialect says whether programs have G91.1"),
-    (
-        "onedrill",
-        Idle::Unset,
-        "each hole has the drill that is nearest to it; with one in drills-available, that one",
-    ),
     ("optimise", Idle::Zero, "--tolerance says how far a fitted cut may leave its place"),
     ("optimize", Idle::Zero, "--tolerance says how far a fitted cut may leave its place"),
     ("outline-width", Idle::Never, "the middle of the outline's line is the board's edge"),
     ("path-finding-limit", Idle::Never, ORDER),
     ("post-milling-gcode", Idle::Never, FRAME),
-    ("postamble", Idle::Never, FRAME),
     ("pre-milling-gcode", Idle::Never, FRAME),
-    ("preamble", Idle::Never, FRAME),
-    ("preamble-text", Idle::Never, FRAME),
+    ("preamble-text", Idle::Never, "what a program says first is what to mount and where zero is"),
     ("preserve-thermal-reliefs", Idle::Unset, "gaps within a net are not cut"),
     ("spindown-time", Idle::Zero, "no program waits for a spindle to stop"),
     ("svg", Idle::Never, "`--svg` writes pictures of both sides"),
@@ -88,14 +82,12 @@ mod tests {
             ("backtrack", "0"),
             ("optimise", "0.0000"),
             ("spindown-time", "0s"),
-            ("onedrill", "false"),
             ("fill-outline", "true"),
             ("vectorial", "1"),
         ] {
             assert_eq!(reason(name, value), Some(""), "{name} = {value}");
         }
-        for (name, value) in
-            [("backtrack", "1000mm/s"), ("onedrill", "1"), ("fill-outline", "0"), ("postamble", "end.txt")]
+        for (name, value) in [("backtrack", "1000mm/s"), ("fill-outline", "0"), ("post-milling-gcode", "M5")]
         {
             assert!(reason(name, value).is_some_and(|reason| !reason.is_empty()), "{name} = {value}");
         }

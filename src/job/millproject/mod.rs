@@ -17,10 +17,11 @@ mod left;
 mod together;
 mod value;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::board::Warning;
 
+use super::own_lines::{OwnLines, ParseOwnLinesError};
 use super::{Error, Options};
 use draft::Draft;
 use value::{Entry, Units};
@@ -36,10 +37,26 @@ pub struct MillProject {
     pub name: Option<String>,
     /// The folder for its outputs, as seen from its own.
     pub output: Option<PathBuf>,
+    /// G-code of the user's own before and after each program.
+    before: Option<OwnFile>,
+    after: Option<OwnFile>,
     /// The options without a counterpart, each with its line.
     pub left: Vec<Warning>,
     /// The lines behind settings.
     said: Vec<Said>,
+}
+
+/// A file with G-code, and the line of a project that names it.
+#[derive(Clone, Debug)]
+struct OwnFile {
+    path: PathBuf,
+    line: usize,
+}
+
+impl OwnFile {
+    fn new(entry: &Entry<'_>) -> Self {
+        Self { path: PathBuf::from(entry.value), line: entry.line }
+    }
 }
 
 /// A line of a project that says a setting of ours.
@@ -92,6 +109,29 @@ impl MillProject {
             })
             .collect();
         Ok(made)
+    }
+
+    /// Takes over the G-code that `preamble` and `postamble` of the project `file` name, seen from
+    /// `folder`.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Settings`] with the line, for a file that cannot be read, or whose lines cannot
+    /// stand in a program.
+    pub fn with_own_code(mut self, file: &str, folder: &Path) -> Result<Self, Error> {
+        let read = |own: OwnFile| {
+            let lines = OwnLines::read(&folder.join(&own.path));
+            let wrong = |error: ParseOwnLinesError| Error::Settings {
+                file: file.to_owned(),
+                line: own.line,
+                column: 1,
+                problem: error.to_string(),
+            };
+            lines.map_err(wrong)
+        };
+        self.options.before = self.before.take().map(read).transpose()?;
+        self.options.after = self.after.take().map(read).transpose()?;
+        Ok(self)
     }
 
     /// An error of settings that this project said, with its line; as it is where the project did

@@ -239,14 +239,12 @@ impl Draft<'_> {
         let units = self.units;
         match (self.zchange, self.is_change_absolute) {
             (Some(_), Some(absolute)) => {
-                self.leave(
-                    &absolute,
-                    "heights count from work zero: zchange is left too, --tool-change-at says where",
-                );
+                self.leave(&absolute, "heights count from work zero: zchange is left too, --park says where");
             }
             (Some(entry), None) => {
                 let height = Length(entry.length(units)?);
-                self.made.options.tool_change_at = Some(ToolChangeAt::Height(height));
+                // It rises as high in the end.
+                self.made.options.park = Some(ToolChangeAt::Height(height));
             }
             (None, _) => {}
         }
@@ -316,7 +314,7 @@ pub(super) const BEHIND: &[(&str, &[&str])] = &[
     ("drill-depth", &["zdrill"]),
     ("drill-bore-tool", &["milldrill-diameter"]),
     ("tool-change", &["nom6"]),
-    ("tool-change-at", &["zchange"]),
+    ("park", &["zchange"]),
     ("output-name", &["front-output", "back-output", "drill-output", "outline-output"]),
 ];
 

@@ -26,6 +26,8 @@ pub struct Drilling<'a> {
     pub heights: Heights,
     /// Whether that depth is the full diameter's: each drill goes deeper by its tip.
     pub tips: bool,
+    /// Whether the thinnest of all drills that the holes need drills them all.
+    pub one: bool,
     /// From board to machine.
     pub placement: &'a Placement,
     /// How the holes are ordered.
@@ -52,11 +54,18 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
     let mut jobs: BTreeMap<(Nm, u32), (Tool, Vec<&Hole>)> = BTreeMap::new();
     let (mut bored, mut warnings) = (Vec::new(), Vec::new());
     let is_wide = |hole: &Hole| settings.bored_from.is_some_and(|from| hole.diameter >= from);
+    let is_milled = |hole: &Hole| {
+        let fits = settings.mill.is_some_and(|mill| bore::fits(hole, mill, settings.tolerance));
+        fits && (hole.is_slot() || is_wide(hole))
+    };
+    let drilled = holes.iter().filter(|hole| settings.one && !is_milled(hole));
+    let thinnest = drilled.filter_map(|hole| bit(hole, settings)).min_by_key(|tool| tool.width_at(Nm::ZERO));
     for hole in holes {
         let milled = settings.mill.filter(|mill| bore::fits(hole, mill, settings.tolerance));
         match bit(hole, settings) {
-            _ if milled.is_some() && (hole.is_slot() || is_wide(hole)) => bored.push(hole),
+            _ if is_milled(hole) => bored.push(hole),
             Some(tool) => {
+                let tool = thinnest.clone().unwrap_or(tool);
                 let key = (tool.width_at(Nm::ZERO), tool.number);
                 jobs.entry(key).or_insert_with(|| (tool, Vec::new())).1.push(hole);
             }
