@@ -43,6 +43,8 @@ pub struct Board {
     pub outline: Option<Outline>,
     /// Holes and slots, in file order.
     pub holes: Vec<Hole>,
+    /// How thick it is, where a file says so.
+    pub thickness: Option<Nm>,
 }
 
 impl Board {

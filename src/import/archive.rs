@@ -69,19 +69,44 @@ pub(super) struct Gathered {
     pub(super) folders: Vec<String>,
     /// What a person wants left aside, and whether it was met.
     skipped: Vec<(PathBuf, bool)>,
+    /// Whether KiCad boards are looked for in folders and archives, and not layers.
+    boards: bool,
 }
 
 impl Gathered {
     /// Everything under `paths` but what `skip` names.
     pub(super) fn under(paths: &[impl AsRef<Path>], skip: &[PathBuf]) -> Result<Self, Error> {
+        Self::found(paths, skip, false)
+    }
+
+    /// The KiCad boards under `paths`, where there is no layer.
+    pub(super) fn boards_under(paths: &[impl AsRef<Path>], skip: &[PathBuf]) -> Result<Self, Error> {
+        Self::found(paths, skip, true)
+    }
+
+    fn found(paths: &[impl AsRef<Path>], skip: &[PathBuf], boards: bool) -> Result<Self, Error> {
         let plain = |path: &PathBuf| path.components().filter(|part| *part != Component::CurDir).collect();
         let skipped = skip.iter().map(|path| (plain(path), false)).collect();
-        let mut gathered = Self { skipped, ..Self::default() };
+        let mut gathered = Self { skipped, boards, ..Self::default() };
         for path in paths {
             gathered.path(path.as_ref())?;
         }
-        match gathered.skipped.iter().find(|(_, met)| !met) {
-            None => Ok(gathered),
+        Ok(gathered)
+    }
+
+    /// Whether a person wants the layer `name` of a KiCad board left aside.
+    pub(super) fn skips_layer(&mut self, name: &str) -> bool {
+        let mut skips = false;
+        for (_, met) in self.skipped.iter_mut().filter(|(path, _)| path.as_os_str() == name) {
+            (*met, skips) = (true, true);
+        }
+        skips
+    }
+
+    /// Fails for what was to be left aside and is not there.
+    pub(super) fn refuse_unmet_skips(&self) -> Result<(), Error> {
+        match self.skipped.iter().find(|(_, met)| !met) {
+            None => Ok(()),
             Some((path, _)) => {
                 let what = "no such file or folder among those given, so it cannot be left aside";
                 Err(Error::content(&path.display().to_string(), what, "check the name after --skip"))
@@ -132,7 +157,7 @@ impl Gathered {
             if path.is_dir() {
                 self.folders.push(name.clone());
                 self.unusable.push(Unusable::folder(name, shown));
-            } else if !worth_reading(&name) {
+            } else if !self.looks_for(&name) {
                 self.ignored.push(name);
             } else if let Some(what) = special(&path) {
                 self.ignored.push(name.clone());
@@ -183,7 +208,7 @@ impl Gathered {
             if self.skips(&format!("{shown}/{full}")) {
                 continue;
             }
-            if !worth_reading(&name) {
+            if !self.looks_for(&name) {
                 self.ignored.push(name);
                 continue;
             }
@@ -199,11 +224,19 @@ impl Gathered {
         Ok(())
     }
 
+    /// Whether a file of a folder or an archive is opened.
+    fn looks_for(&self, name: &str) -> bool {
+        if self.boards { is_board(name) } else { worth_reading(name) }
+    }
+
     fn take(&mut self, name: String, shown: String, bytes: Vec<u8>, named: bool) {
         if Job::is_named(&name) {
             return self.jobs.push((name, bytes));
         }
         let kind = Kind::of(&bytes);
+        if kind == Kind::Kicad && !named && !self.boards {
+            return self.ignored.push(name);
+        }
         let listed = named || ApertureList::is_named(&name);
         let list = (kind == Kind::Unknown && listed).then(|| ApertureList::read(&name, &bytes)).flatten();
         if let Some(list) = list {
@@ -335,6 +368,12 @@ fn unreadable(shown: &str, error: &io::Error) -> Error {
         io::ErrorKind::PermissionDenied => Error::content(shown, "may not be read", "check its permissions"),
         _ => Error::content(shown, format!("cannot be read: {error}"), "check the path"),
     }
+}
+
+/// Whether a file of a folder is a KiCad board: what it saves by itself between times is none.
+fn is_board(name: &str) -> bool {
+    let hidden = name.starts_with('.') || name.starts_with("_autosave-");
+    !hidden && name.to_ascii_lowercase().ends_with(".kicad_pcb")
 }
 
 /// Whether a file of a folder could be a layer: hidden files, pictures and documents are not

@@ -474,3 +474,51 @@ pub(in crate::import) const EMPTY_COPPER: Flaw =
 /// A board as wide as a table.
 pub(in crate::import) const SIZE_IMPLAUSIBLE: Flaw =
     Flaw::new("size-implausible", "a board of 620 mm at most", "check the unit of each file with `inspect`");
+
+// Of KiCad boards.
+
+/// A text that KiCad draws with a font of its own.
+pub(in crate::import) const KICAD_TEXT: Flaw = Flaw::new(
+    "kicad-text",
+    "copper whose shape is in the file",
+    "plot the board as Gerber in KiCad and give those files, where the text matters; nets do not change",
+);
+
+/// Something drawn that is none of what is read.
+pub(in crate::import) const KICAD_NOT_READ: Flaw = Flaw::new(
+    "kicad-not-read",
+    "pads, tracks, vias, zones, lines, arcs, circles, rectangles, polygons and curves",
+    "plot the board as Gerber in KiCad and give those files",
+);
+
+/// Dashes, hatches, round corners.
+pub(in crate::import) const KICAD_LINE_STYLE: Flaw = Flaw::new(
+    "kicad-line-style",
+    "solid lines, full areas and square corners on copper",
+    "plot the board as Gerber in KiCad and give those files",
+);
+
+/// A via to an inner layer.
+pub(in crate::import) const KICAD_BLIND_VIA: Flaw = Flaw::new(
+    "kicad-blind-via",
+    "vias from the front to the back",
+    "use through vias on a board that is milled",
+);
+
+/// A via without a hole.
+pub(in crate::import) const KICAD_VIA_WITHOUT_DRILL: Flaw =
+    Flaw::new("kicad-via-without-drill", "`(drill …)` in a via", "save the board again in KiCad");
+
+/// A zone that was filled with nothing.
+pub(in crate::import) const KICAD_ZONE_EMPTY: Flaw = Flaw::new(
+    "kicad-zone-empty",
+    "copper in a zone",
+    "nothing, where the zone has no room; else press B in KiCad and save",
+);
+
+/// A board from the future.
+pub(in crate::import) const KICAD_VERSION: Flaw = Flaw::new(
+    "kicad-version",
+    "a board of KiCad 4 to 9",
+    "compare what `draw` shows with KiCad, or plot the board as Gerber and give those files",
+);

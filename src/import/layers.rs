@@ -38,6 +38,8 @@ pub(super) enum Kind {
     Gerber,
     /// Excellon.
     Excellon,
+    /// A KiCad board, which has all layers.
+    Kicad,
     /// Neither.
     Unknown,
 }
@@ -45,7 +47,9 @@ pub(super) enum Kind {
 impl Kind {
     /// Looks at the content.
     pub(super) fn of(bytes: &[u8]) -> Self {
-        if excellon::looks_like(bytes) {
+        if super::kicad::looks_like(bytes) {
+            Self::Kicad
+        } else if excellon::looks_like(bytes) {
             Self::Excellon
         } else if super::gerber::looks_like(bytes) {
             Self::Gerber

@@ -10,7 +10,7 @@ use super::excellon::{self, Context};
 use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
 use super::unusable::quoted;
-use super::{gerber_drill, off_board, outline};
+use super::{gerber_drill, kicad, off_board, outline, whole_board};
 use crate::board::{Axis, Board, Copper, Feature, Hole, Outline, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
@@ -50,8 +50,8 @@ pub struct Loaded {
     pub ignored: Vec<String>,
 }
 
-/// Reads the board in `paths`: folders, zip archives and single files, mixed. Folders inside
-/// folders are not looked into.
+/// Reads the board in `paths`: folders, zip archives and single files, mixed, or one KiCad board.
+/// Folders inside folders are not looked into.
 ///
 /// # Errors
 ///
@@ -74,7 +74,7 @@ pub fn survey(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error>
 
 /// What a board must have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Need {
+pub(super) enum Need {
     /// Something to be done, and no doubt about what.
     Job,
     AnyLayer,
@@ -83,6 +83,11 @@ enum Need {
 fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Loaded, Error> {
     let mut gathered = Gathered::under(paths, &selection.skip)?;
     gathered.add_selected(selection)?;
+    let gathered = whole_board::instead(gathered, paths, selection)?;
+    if whole_board::is_among(&gathered) {
+        return whole_board::load(gathered, selection, need);
+    }
+    gathered.refuse_unmet_skips()?;
     let assigned = assign(&gathered, paths, selection)?;
     if let (Need::Job, Some(index)) = (need, assigned.guessed) {
         return Err(side_unknown(&gathered.files[index]));
@@ -125,21 +130,29 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
     let mut build = Build::new(super::naming::stem(&found.name).to_owned());
     let mut gathered = Gathered::default();
     gathered.look_beside(path, &found.bytes);
-    build.copper(&found, read_gerber(&gathered, &found, "a copper layer")?, side);
+    let image = if kind == Kind::Kicad {
+        let layout = kicad::read(&found.name, &found.bytes)?;
+        build.board.thickness = layout.thickness;
+        build.warnings.extend(layout.warnings);
+        if side == Side::Front { layout.front } else { layout.back }
+    } else {
+        read_gerber(&gathered, &found, "a copper layer")?
+    };
+    build.copper(&found, image, side);
     build.wheels(&gathered, [&found])?;
     build.require_copper(&[&found])?;
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })
 }
 
 /// A board in the making.
-struct Build {
-    board: Board,
-    sources: Vec<Source>,
-    warnings: Vec<Warning>,
+pub(super) struct Build {
+    pub(super) board: Board,
+    pub(super) sources: Vec<Source>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl Build {
-    fn new(name: String) -> Self {
+    pub(super) fn new(name: String) -> Self {
         Self { board: Board { name, ..Board::default() }, sources: Vec::new(), warnings: Vec::new() }
     }
 
@@ -178,7 +191,7 @@ impl Build {
     }
 
     /// Takes over a copper layer; one that draws nothing is a warning.
-    fn copper(&mut self, file: &Found, image: Image, side: Side) {
+    pub(super) fn copper(&mut self, file: &Found, image: Image, side: Side) {
         let mut warnings = image.warnings;
         let name = &file.name;
         self.sources.push(Source { role: format!("{side}-copper"), ..image.source });
@@ -204,7 +217,7 @@ impl Build {
     }
 
     /// A board without copper is an error.
-    fn require_copper(&self, read: &[&Found]) -> Result<(), Error> {
+    pub(super) fn require_copper(&self, read: &[&Found]) -> Result<(), Error> {
         if self.board.front.is_some() || self.board.back.is_some() {
             return Ok(());
         }
@@ -240,7 +253,7 @@ impl Build {
                     gerber_holes(gathered, file, assigned.by_hand.contains(&index), &mut warnings)
                         .map_err(|error| error.or(NO_DRILL))?
                 }
-                Kind::Excellon | Kind::Unknown => {
+                Kind::Excellon | Kind::Kicad | Kind::Unknown => {
                     let drilling = excellon::read(&file.name, &file.bytes, &context)
                         .map_err(|error| error.or(NO_DRILL))?;
                     refuse_cut_off(file, drilling.holes.is_empty(), &drilling.warnings)
@@ -310,7 +323,7 @@ impl Build {
     }
 
     /// A board as wide as a table is a unit taken for another.
-    fn warn_of_size(&mut self) {
+    pub(super) fn warn_of_size(&mut self) {
         /// Chosen: the largest panels are 610 mm long; an inch taken for a millimetre makes 25 mm
         /// wider than this.
         const WIDEST: Nm = Nm::from_mm(620);
@@ -324,7 +337,7 @@ impl Build {
     }
 
     /// A board of a metre is none: a file is in another unit than it says.
-    fn refuse_size(&self, place: &str) -> Result<(), Error> {
+    pub(super) fn refuse_size(&self, place: &str) -> Result<(), Error> {
         /// Chosen: beyond what any mill for boards reaches, and below a board of 50 mm whose
         /// millimetres are taken for inches.
         const METRE: Nm = Nm::from_mm(1000);
@@ -389,6 +402,7 @@ impl Build {
                 format: match file.kind {
                     Kind::Gerber => "gerber",
                     Kind::Excellon => "excellon",
+                    Kind::Kicad => "kicad-pcb",
                     Kind::Unknown => "unknown",
                 }
                 .to_owned(),
@@ -468,6 +482,7 @@ fn read_gerber(gathered: &Gathered, file: &Found, wanted: &str) -> Result<Image,
     let (what, hint) = match file.kind {
         Kind::Gerber => return gathered.read_gerber(file),
         Kind::Excellon => ("an Excellon drill file", "give it with --drill"),
+        Kind::Kicad => ("a whole KiCad board", "give it alone: it has all layers"),
         Kind::Unknown => (describe(&file.bytes), "export the layer as Gerber RS-274X"),
     };
     Err(Error::content(&file.shown, format!("{what} where {wanted} (Gerber) was expected"), hint))
@@ -480,7 +495,7 @@ pub(super) fn describe(bytes: &[u8]) -> &'static str {
         (b"\xff\xd8\xff", "a JPEG picture"),
         (b"%PDF", "a PDF document"),
         (b"PK", "a zip archive"),
-        (b"(kicad_pcb", "a KiCad board and not its plot (File, Fabrication Outputs)"),
+        (b"(kicad_sch", "a KiCad schematic and not its board (.kicad_pcb)"),
         (b"<?xml", "an XML file"),
         (b"<!doctype", "a web page, as a failed download leaves"),
         (b"<html", "a web page, as a failed download leaves"),

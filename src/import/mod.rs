@@ -3,7 +3,7 @@
 //! ```text
 //!  paths ─ archive ─▶ files ─ layers, jobfile, assign ─▶ roles ─ load ─▶ Board
 //!                                                                 │
-//!                                     gerber, excellon, outline ──┘
+//!                              gerber, excellon, kicad, outline ──┘
 //! ```
 //!
 //! [`load()`] takes a folder, an archive or single files and puts a board together; the readers of
@@ -20,6 +20,7 @@ mod flaw;
 pub mod gerber;
 mod gerber_drill;
 mod jobfile;
+pub mod kicad;
 mod layers;
 mod load;
 mod naming;
@@ -28,6 +29,7 @@ pub mod outline;
 mod settle;
 mod unusable;
 mod wheel;
+mod whole_board;
 
 pub use digest::sha256;
 pub use error::{Diagnosis, Error};

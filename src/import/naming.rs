@@ -47,6 +47,11 @@ pub(super) fn board_name(
     safe(&name.or_else(shared).or_else(folder).unwrap_or_else(|| "board".to_owned()))
 }
 
+/// What a KiCad board is called: as told, or as its file is.
+pub(super) fn whole_board_name(file: &str, selection: &Selection) -> String {
+    safe(selection.name.as_deref().unwrap_or_else(|| stem(file)))
+}
+
 /// The start that two stems share, up to a mark that parts words; the whole of one that the other
 /// begins with.
 fn shared_head<'a>(a: &'a str, b: &str) -> &'a str {

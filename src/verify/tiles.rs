@@ -44,6 +44,7 @@ impl Tiles {
             back: board.back.as_ref().map(copper),
             outline: Outline::new(contours.collect()),
             holes: ways.iter().flat_map(|&way| board.holes.iter().map(move |h| hole(h, way))).collect(),
+            thickness: board.thickness,
         }
     }
 }

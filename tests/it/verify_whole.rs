@@ -177,7 +177,14 @@ fn board(hole: Hole) -> Board {
     let corner = |x: i64, y: i64| Point::new(Nm::from_mm(x), Nm::from_mm(y));
     let ring = [corner(0, 0), corner(30, 0), corner(30, 20), corner(0, 20), corner(0, 0)];
     let outline = Outline::new(Way::polyline(ring).into_iter().collect());
-    Board { name: "plate".to_owned(), front: None, back: None, outline, holes: vec![hole] }
+    Board {
+        name: "plate".to_owned(),
+        front: None,
+        back: None,
+        outline,
+        holes: vec![hole],
+        ..Board::default()
+    }
 }
 
 #[test]

@@ -69,7 +69,7 @@ fn board(copper: Copper, edge: Option<&str>) -> Result<Board, String> {
     };
     let side = copper.side;
     let [front, back] = [Side::Front, Side::Back].map(|other| Some(copper.clone()).filter(|_| other == side));
-    Ok(Board { name: "random".to_owned(), front, back, outline, holes: Vec::new() })
+    Ok(Board { name: "random".to_owned(), front, back, outline, ..Board::default() })
 }
 
 fn mill(board: &Board, settings: &Settings, threads: usize) -> Result<Job, String> {

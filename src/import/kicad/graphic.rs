@@ -1,0 +1,167 @@
+//! Lines, arcs, circles, rectangles, polygons and curves: of the board, of footprints, and of what
+//! custom pads are made of.
+
+use super::curve::{Curve, line};
+use super::frame::Frame;
+use super::reader::{Drawing, Reader};
+use super::tree::Node;
+use crate::board::{Axis, Shape, polarity};
+use crate::geometry::{Arc, Nm, Point, Turn, Vector};
+use crate::import::error::Error;
+use crate::import::flaw;
+
+/// Whether `head` is that of something drawn, without `gr_` and `fp_`.
+pub(super) fn is_graphic(head: &[u8]) -> bool {
+    matches!(kind(head), b"line" | b"arc" | b"circle" | b"rect" | b"poly" | b"curve")
+}
+
+/// A head without where it belongs to.
+fn kind(head: &[u8]) -> &[u8] {
+    head.strip_prefix(b"gr_").or_else(|| head.strip_prefix(b"fp_")).unwrap_or(head)
+}
+
+/// How the outline is drawn, and whether the inside is filled.
+#[derive(Clone, Copy)]
+struct Pen {
+    width: Nm,
+    filled: bool,
+}
+
+impl Reader<'_> {
+    /// What `node`, given in `frame`, draws. On the layer of the edge nothing is filled but what
+    /// says so.
+    pub(super) fn graphic(&mut self, node: Node<'_>, frame: &Frame, on_edge: bool) -> Result<Drawing, Error> {
+        let kind = kind(node.head());
+        let pen = self.pen(node, kind, on_edge)?;
+        let curve = match kind {
+            b"circle" => return self.circle(node, frame, pen),
+            b"rect" => return self.rectangle(node, frame, pen),
+            b"poly" => return self.polygon(node, frame, pen),
+            b"arc" => self.arc(node, frame)?,
+            b"curve" => self.bezier(node, frame)?,
+            _ => {
+                let (from, to) = (self.point(node, "start")?, self.point(node, "end")?);
+                Curve::Line(frame.place(from), frame.place(to))
+            }
+        };
+        Ok(curve.drawn(pen.width))
+    }
+
+    fn pen(&mut self, node: Node<'_>, kind: &[u8], on_edge: bool) -> Result<Pen, Error> {
+        let stroke = node.find("stroke");
+        let width = match stroke.and_then(|stroke| stroke.find("width")).or_else(|| node.find("width")) {
+            Some(list) => self.length(list, 0)?,
+            None => Nm::ZERO,
+        };
+        let style = stroke.and_then(|stroke| stroke.find("type")?.argument(0));
+        if let Some(style) = style.filter(|style| !matches!(style.raw(), b"solid" | b"default"))
+            && !on_edge
+        {
+            let message = format!("a line drawn with a pattern ({}) is read as a solid one", style.text());
+            self.warnings.add(&flaw::KICAD_LINE_STYLE, node.place(), message);
+        }
+        let told = node.find("fill").and_then(|fill| match fill.argument(0) {
+            Some(word) => Some(word),
+            None => fill.find("type").and_then(|list| list.argument(0)),
+        });
+        // Where nothing is told: KiCad before version 6 filled polygons, and rings without a width.
+        let untold = match kind {
+            b"poly" => !on_edge,
+            b"circle" | b"rect" => width == Nm::ZERO,
+            _ => false,
+        };
+        let filled = told.map_or(untold, |word| !matches!(word.raw(), b"none" | b"no" | b"false"));
+        if let Some(word) = told.filter(|word| word.raw().ends_with(b"hatch")) {
+            let message = format!("an area filled with a pattern ({}) is read as a full one", word.text());
+            self.warnings.add(&flaw::KICAD_LINE_STYLE, node.place(), message);
+        }
+        Ok(Pen { width, filled })
+    }
+
+    fn circle(&mut self, node: Node<'_>, frame: &Frame, pen: Pen) -> Result<Drawing, Error> {
+        let center = frame.place(self.point(node, "center")?);
+        let end = frame.place(self.point(node, "end")?);
+        let reach = Nm::from_f64(center.distance(end));
+        if pen.filled || reach == Nm::ZERO {
+            let disc = Shape::Disc { center, radius: reach + pen.width / 2 };
+            return Ok(vec![(disc, Axis::Flash(center))]);
+        }
+        let start = center + Vector::new(reach, Nm::ZERO);
+        let circle = Arc { start, end: start, center, turn: Turn::CounterClockwise };
+        Ok(Curve::Arc(circle).drawn(pen.width))
+    }
+
+    fn rectangle(&mut self, node: Node<'_>, frame: &Frame, pen: Pen) -> Result<Drawing, Error> {
+        let (a, b) = (self.point(node, "start")?, self.point(node, "end")?);
+        if let Some(radius) = node.find("radius")
+            && self.length(radius, 0)? > Nm::ZERO
+        {
+            let message = "the rounded corners of a rectangle are read as square ones";
+            self.warnings.add(&flaw::KICAD_LINE_STYLE, node.place(), message);
+        }
+        let corners = [a, (b.0, a.1), b, (a.0, b.1)].map(|corner| frame.place(corner));
+        Ok(area(&corners, pen))
+    }
+
+    fn polygon(&mut self, node: Node<'_>, frame: &Frame, pen: Pen) -> Result<Drawing, Error> {
+        let Some(points) = node.find("pts") else { return Err(self.lacks(node, "`(pts (xy …) …)`")) };
+        let points = self.points(points, frame)?;
+        Ok(area(&points, pen))
+    }
+
+    /// The corners in a `(pts …)`; arcs between them as lines.
+    pub(super) fn points(&mut self, list: Node<'_>, frame: &Frame) -> Result<Vec<Point>, Error> {
+        let mut points: Vec<Point> = Vec::new();
+        for node in list.arguments().filter(|node| node.is_list()) {
+            match node.head() {
+                b"xy" => points.push(frame.place((self.length(node, 0)?, self.length(node, 1)?))),
+                b"arc" => {
+                    let curve = self.arc(node, frame)?;
+                    points.push(curve.start());
+                    points.extend(curve.flatten());
+                }
+                _ => return Err(self.lacks(node, "`(xy …)` or `(arc …)`")),
+            }
+        }
+        points.dedup();
+        Ok(points)
+    }
+
+    pub(super) fn arc(&self, node: Node<'_>, frame: &Frame) -> Result<Curve, Error> {
+        let (start, end) = (frame.place(self.point(node, "start")?), frame.place(self.point(node, "end")?));
+        if node.find("mid").is_some() {
+            return Ok(Curve::through(start, frame.place(self.point(node, "mid")?), end));
+        }
+        // Until version 6, `start` is the centre and `end` where the arc begins.
+        let Some(angle) = node.find("angle") else {
+            return Err(self.lacks(node, "`(mid …)` or `(angle …)`"));
+        };
+        Ok(Curve::round(start, end, self.number(angle, 0)?))
+    }
+
+    fn bezier(&mut self, node: Node<'_>, frame: &Frame) -> Result<Curve, Error> {
+        let Some(list) = node.find("pts") else {
+            return Err(self.lacks(node, "`(pts …)` with four points"));
+        };
+        let mut corners = Vec::new();
+        for corner in list.all("xy") {
+            corners.push(frame.place((self.length(corner, 0)?, self.length(corner, 1)?)));
+        }
+        let corners: Result<[Point; 4], _> = corners.try_into();
+        corners.map(Curve::bezier).map_err(|_| self.lacks(list, "four points"))
+    }
+}
+
+/// The closed line through `corners`, and what is in it.
+fn area(corners: &[Point], pen: Pen) -> Drawing {
+    let mut drawing = Drawing::new();
+    if pen.filled && corners.len() >= 3 {
+        let pieces = polarity::clean(&[corners.to_vec()]);
+        drawing.extend(pieces.into_iter().map(|piece| (Shape::Polygon(piece), Axis::Region)));
+    }
+    if pen.width > Nm::ZERO || !pen.filled {
+        let next = corners.iter().cycle().skip(1);
+        drawing.extend(corners.iter().zip(next).map(|(&from, &to)| line(from, to, pen.width / 2)));
+    }
+    drawing
+}
