@@ -22,7 +22,7 @@
 //! | [`geometry`] | integer nanometres, points, arcs, paths, polygons | – |
 //! | [`raster`] | the z-buffer engine; stands alone, speaks of pixels, labels, depths | – |
 //! | [`board`] | the resolved board: copper, holes, outline; macros, repeats and polarity are gone | geometry |
-//! | [`import`] | files → [`Board`](board::Board): Gerber, Excellon, job files, archives | geometry, board |
+//! | [`import`] | files → [`Board`](board::Board): Gerber, Excellon, KiCad boards, job files, archives | geometry, board |
 //! | [`grid`] | the only crossing between nanometres and pixels | geometry, raster |
 //! | [`topology`] | which features conduct to each other: [`Nets`](topology::Nets) | geometry, raster, board, grid |
 //! | [`voronoi`] | nets → regions → a planar graph of [`Boundaries`](voronoi::Boundaries), placed exactly | all above but import |

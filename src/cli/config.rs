@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use voromill::job::{Error, FILE_NAME, MillProject, Options, Settings};
+use voromill::board::Board;
+use voromill::job::{Error, FILE_NAME, Length, MillProject, Options, Settings};
 
 use super::Failure;
 use super::input::Input;
@@ -22,9 +23,20 @@ pub(super) struct Config {
 impl Config {
     /// The settings for a job: the command line's, then a millproject's, then the file's.
     pub(super) fn settings(&self, input: &Input) -> Result<Settings, Failure> {
+        self.resolved(input, Options::default())
+    }
+
+    /// The settings for `board`, where nothing else says how thick it is.
+    pub(super) fn settings_for(&self, input: &Input, board: &Board) -> Result<Settings, Failure> {
+        let thickness = board.thickness.map(Length);
+        self.resolved(input, Options { thickness, ..Options::default() })
+    }
+
+    fn resolved(&self, input: &Input, of_board: Options) -> Result<Settings, Failure> {
         let from_file = Self::found(self.config.as_deref(), &input.paths())?;
         let project = input.project()?;
-        let settings = Settings::resolve(self.options.clone().or(project.options.clone()).or(from_file));
+        let told = self.options.clone().or(project.options.clone()).or(from_file);
+        let settings = Settings::resolve(told.or(of_board));
         let settings = settings.map_err(|error| self.explain(error, &project))?;
         self.judge(&settings)?;
         Ok(settings)

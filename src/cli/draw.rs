@@ -123,6 +123,7 @@ impl Draw {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input)?;
         let loaded = self.input.load(&settings)?;
+        let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let side = chosen_side(self.side, loaded.board.front.is_some(), loaded.board.back.is_some())?;
         let area = self.window.map(|Window(rect)| rect);
         let format = self.format.unwrap_or_else(|| Format::of(&self.output));

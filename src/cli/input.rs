@@ -12,7 +12,7 @@ use super::Failure;
 /// What to read.
 #[derive(Args)]
 pub(super) struct Input {
-    /// A folder, a zip archive, or the files themselves
+    /// A folder, a zip archive, the files themselves, or a KiCad board (.kicad_pcb)
     #[arg(required_unless_present = "millproject", value_name = "PATH")]
     paths: Vec<PathBuf>,
 
@@ -36,7 +36,8 @@ pub(super) struct Input {
     #[arg(long = "drill", value_name = "FILE", help_heading = "Files")]
     drill_files: Vec<PathBuf>,
 
-    /// File or folder among these to leave aside, by name; may be given several times
+    /// File or folder among these to leave aside, by name, or a layer of a KiCad board, such as
+    /// F.Cu; may be given several times
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     skip: Vec<PathBuf>,
 

@@ -41,6 +41,7 @@ impl Inspect {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input)?;
         let loaded = self.input.survey(&settings)?;
+        let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let mut inspection = inspect(&loaded, &settings);
         if self.paper {
             for layer in &mut inspection.layers {

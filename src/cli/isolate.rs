@@ -40,6 +40,7 @@ impl Isolate {
         let settings = self.config.settings(&self.input)?;
         let progress = Progress::start(shared);
         let mut loaded = self.input.load(&settings)?;
+        let settings = self.config.settings_for(&self.input, &loaded.board)?;
         match self.side {
             Some(SideName::Front) => loaded.board.back = None,
             Some(SideName::Back) => loaded.board.front = None,

@@ -21,13 +21,13 @@ use super::{Failure, Shared};
 
 /// All programs, pictures and the report of a board
 ///
-/// Reads a folder, a zip archive or single files, finds the copper of both sides, the outline and
-/// the holes, and writes into OUT, named after the board: NAME-front.ngc and NAME-back.ngc that
-/// isolate the nets (the back turned over left to right), NAME-drill.ngc, NAME-cutout.ngc,
-/// NAME-front.png and NAME-back.png that show what will be cut, NAME.html to look at it all in a
-/// browser, and NAME.json, which lists them. What an earlier run of the board wrote there and this
-/// one does not is removed. With one copper file alone, that side. The programs are read back and
-/// milled on a picture before anybody mills them: exit code 1 where that finds something.
+/// Reads a folder, a zip archive, single files or a KiCad board, finds the copper of both sides,
+/// the outline and the holes, and writes into OUT, named after the board: NAME-front.ngc and NAME-
+/// back.ngc that isolate the nets (the back turned over left to right), NAME-drill.ngc, NAME-
+/// cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut, NAME.html to look at it
+/// all in a browser, and NAME.json, which lists them. What an earlier run of the board wrote there
+/// and this one does not is removed. With one copper file alone, that side. The programs are read
+/// back and milled on a picture before anybody mills them: exit code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Mill {
@@ -70,6 +70,7 @@ pub(super) struct Mill {
 const EXAMPLES: &str = "\
 Examples:
   voromill mill board/ -o out
+  voromill mill board.kicad_pcb -o out         a KiCad board, its zones filled
   voromill mill board.zip -o out --dialect linuxcnc --feed 8in/min
   voromill mill board/ -o out --tool endmill:0.2mm --depth 0.08mm --limit 1mm
   voromill mill board-B_Cu.gbr board.drl -o out --cutout-tool endmill:2mm
@@ -81,6 +82,7 @@ impl Mill {
         let progress = Progress::start(shared);
         progress.say("reading");
         let loaded = self.input.load(&settings)?;
+        let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let folder = self.output.clone().or(self.input.project()?.output).filter(|_| !self.cache_key);
         if folder.is_none() && !self.cache_key {
             let hint = "say -o OUT, or output-dir in the project";

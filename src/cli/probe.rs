@@ -70,6 +70,7 @@ impl Probe {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input)?;
         let loaded = self.input.survey(&settings)?;
+        let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let side = match self.side {
             SideName::Front => Side::Front,
             SideName::Back => Side::Back,

@@ -30,7 +30,7 @@ pub(super) struct Verify {
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
 
-    /// The board: a folder, a zip archive, or files
+    /// The board: a folder, a zip archive, files, or a KiCad board
     #[arg(long, required = true, value_name = "PATH", num_args = 1..)]
     board: Vec<PathBuf>,
 
@@ -68,7 +68,8 @@ pub(super) struct Verify {
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     deny: Severity,
 
-    /// How thick the board is [default: as the programs' comments say, else 1.6mm]
+    /// How thick the board is [default: as the programs' comments say, else the KiCad board, else
+    /// 1.6mm]
     #[arg(long, value_name = "LENGTH", value_parser = above_zero)]
     thickness: Option<Nm>,
 
@@ -243,7 +244,7 @@ impl Verify {
             complete: self.programs.iter().any(|path| path.is_dir()),
             tiles: self.tiles(&programs)?,
             pixel: self.resolution,
-            board: self.thickness(&programs)?,
+            board: self.thickness(&programs, &board)?,
             ..usual
         };
         if self.register {
@@ -315,7 +316,7 @@ impl Verify {
     }
 
     /// How thick the board is.
-    fn thickness(&self, programs: &[Program]) -> Result<Nm, Failure> {
+    fn thickness(&self, programs: &[Program], board: &Board) -> Result<Nm, Failure> {
         if let Some(thickness) = self.thickness {
             return Ok(thickness);
         }
@@ -324,7 +325,9 @@ impl Verify {
             Some((program, text.parse::<Nm>().ok().filter(|&thickness| thickness > Nm::ZERO)?))
         });
         let said: Vec<(&Program, Nm)> = said.collect();
-        let Some(&(first, thickness)) = said.first() else { return Ok(verify::Settings::default().board) };
+        let Some(&(first, thickness)) = said.first() else {
+            return Ok(board.thickness.unwrap_or(verify::Settings::default().board));
+        };
         match said.iter().find(|(_, other)| *other != thickness) {
             None => Ok(thickness),
             Some((other, otherwise)) => {

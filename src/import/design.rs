@@ -12,7 +12,8 @@
 //!   pin and function;
 //! * of a drill file, for each hole in file order: its path, its diameter, its plating and its
 //!   tool's number;
-//! * of an aperture list: the number and the shape of each aperture.
+//! * of an aperture list: the number and the shape of each aperture;
+//! * of a KiCad board: the hashes, as such, of its front, its back, its edge and its holes.
 //!
 //! So comments, dates, units, number formats, line ends and names of apertures do not count.
 //! Another version of this program may flatten curves otherwise and hash to something else.

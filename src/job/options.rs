@@ -266,7 +266,8 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tool_probe: Option<Triple>,
 
-    /// How thick the board is, copper and all: what through-cuts and holes are judged against
+    /// How thick the board is, copper and all: what through-cuts and holes are judged against; a
+    /// KiCad board says so itself
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub thickness: Option<Length>,

@@ -270,12 +270,10 @@ fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cuto
 pub(super) fn header(sources: &[Source]) -> Header {
     let used = sources.iter().filter(|source| !source.role.starts_with("ignored"));
     let input = |source: &Source| Input { file: source.file.clone(), design: source.design.clone() };
-    Header {
-        generator: GENERATOR.to_owned(),
-        inputs: used.map(input).collect(),
-        settings: Vec::new(),
-        seconds: None,
-    }
+    // A KiCad board is one file for both sides, the edge and the holes.
+    let mut inputs: Vec<Input> = used.map(input).collect();
+    inputs.dedup();
+    Header { generator: GENERATOR.to_owned(), inputs, settings: Vec::new(), seconds: None }
 }
 
 fn electrical(board: &Board, layers: &[Layer]) -> Option<Electrical> {

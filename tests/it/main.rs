@@ -18,6 +18,8 @@ mod gerber_damage;
 mod gl_parity;
 mod house;
 mod job;
+mod kicad;
+mod kicad_damage;
 mod layering;
 mod layers;
 mod leftovers;

@@ -103,16 +103,22 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Layout, Error> {
         generator: generator(root),
         apertures: Vec::new(),
     };
+    // One file is one design, whichever part of it a program is made from.
+    let parts = [
+        design::of_features(&reader.front.features, &reader.front.attributes),
+        design::of_features(&reader.back.features, &reader.back.attributes),
+        design::of_features(&reader.edge.features, &reader.edge.attributes),
+        design::of_holes(&reader.holes),
+    ];
+    let source = Source { design: design::of_texts((1..).zip(parts.iter().map(String::as_str))), ..source };
     let slots = reader.holes.iter().filter(|hole| hole.is_slot()).count() as u64;
     let holes = [("holes", reader.holes.len() as u64 - slots), ("slots", slots)];
     let drill = Source {
-        design: design::of_holes(&reader.holes),
         counts: holes.into_iter().map(|(what, count)| (what.to_owned(), count)).collect(),
         ..source.clone()
     };
     let image = |sheet: Sheet| {
         let source = Source {
-            design: design::of_features(&sheet.features, &sheet.attributes),
             counts: BTreeMap::from([("features".to_owned(), sheet.features.len() as u64)]),
             ..source.clone()
         };

@@ -1,0 +1,397 @@
+//! KiCad boards beside KiCad's own plots of them: the same nets, copper, holes and edge.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
+
+use voromill::board::{Board, Copper, FLATTEN, Feature, Hole, Outline, Plating, Side, polarity};
+use voromill::geometry::{Nm, Polygon};
+use voromill::import::{self, Loaded, Selection};
+
+/// A board of KiCad beside its plots, which are moved to where the board lies.
+struct Pair {
+    name: &'static str,
+    ours: Loaded,
+    plotted: Board,
+    /// How far the two may be apart.
+    within: Nm,
+}
+
+/// The folder that a variable names, or that lies beside the repository.
+#[expect(clippy::print_stderr, reason = "a test that skips says so")]
+fn folder(variable: &str, beside: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os(variable).map_or_else(|| PathBuf::from(beside), PathBuf::from);
+    if folder.is_dir() {
+        return Some(folder);
+    }
+    eprintln!("skipped: no {} (set {variable})", folder.display());
+    None
+}
+
+fn load(path: &Path) -> Loaded {
+    let loaded = import::load(&[path.to_owned()], &Selection::default());
+    loaded.unwrap_or_else(|error| panic!("{}:\n{}", path.display(), error.render()))
+}
+
+/// Boards whose plots are of the same revision, read once.
+fn pairs() -> &'static [Pair] {
+    static PAIRS: OnceLock<Vec<Pair>> = OnceLock::new();
+    PAIRS.get_or_init(|| {
+        let Some(artwork) = folder("VOROMILL_ARTWORK", "../shared/artwork") else { return Vec::new() };
+        let artwork = artwork.join("kicad");
+        // Those that are moved were plotted from another origin than they were saved with.
+        let beside = [
+            ("v4_ftsh", "ftsh_breakout", false),
+            ("v4_karacoro", "karacoro", false),
+            ("v4_blinds_mainboard", "mainboard-pcb", true),
+            ("v9_opentherm", "OpenThermShield", true),
+            ("v9_first_exercise", "firstExcercise", false),
+        ];
+        let mut pairs = Vec::new();
+        for (name, file, moved) in beside {
+            let ours = load(&artwork.join(name).join(file).with_extension("kicad_pcb"));
+            let plotted = load(&artwork.join(name).join("gerbers")).board;
+            let plotted = if moved { laid_on(&plotted, &ours.board) } else { plotted };
+            pairs.push(Pair { name, ours, plotted, within: Nm::from_um(1) });
+        }
+        // KiCad plots custom pads with few chords for an arc: up to 22 µm inside it where one ends,
+        // as a third program measures, and 0.015 % of the copper.
+        let elsewhere = [
+            ("v6_ecc83-pp", "kicad_ecc83", 1),
+            ("v6_custom_pads_test", "kicad_custom_pads", 25),
+            ("v6_interf_u", "kicad_interf_u", 1),
+            ("v6_StickHub", "kicad_stickhub", 1),
+        ];
+        if let Some(boards) = folder("VOROMILL_BOARDS", "../shared/boards") {
+            for (name, plots, within) in elsewhere {
+                let ours = load(&artwork.join(format!("{name}.kicad_pcb")));
+                let plotted = load(&boards.join(plots)).board;
+                pairs.push(Pair { name, ours, plotted, within: Nm::from_um(within) });
+            }
+        }
+        pairs
+    })
+}
+
+/// `board` moved to where the copper of `other` lies.
+fn laid_on(board: &Board, other: &Board) -> Board {
+    let corner = |board: &Board| board.front.as_ref().and_then(Copper::bounds).expect("copper").min();
+    let way = corner(other) - corner(board);
+    let feature = |feature: &Feature| Feature { shape: feature.shape.translated(way), ..feature.clone() };
+    let copper = |copper: &Copper| Copper {
+        features: copper.features.iter().map(feature).collect(),
+        ..copper.clone()
+    };
+    let contours = board.outline.iter().flat_map(Outline::contours);
+    let hole = |hole: &Hole| Hole { path: hole.path.translated(way), ..hole.clone() };
+    Board {
+        front: board.front.as_ref().map(copper),
+        back: board.back.as_ref().map(copper),
+        outline: Outline::new(contours.map(|contour| contour.translated(way)).collect()),
+        holes: board.holes.iter().map(hole).collect(),
+        ..board.clone()
+    }
+}
+
+/// The copper as polygons that do not touch, without lettering where the board says that it left
+/// some out, and without what a hole that is not plated takes: KiCad 6 plots the pad of a slot that
+/// is as large as the slot.
+fn islands(board: &Board, side: Side, pair: &Pair) -> Vec<Polygon> {
+    let Some(copper) = board.copper(side) else { return Vec::new() };
+    let without_text = pair.ours.warnings.iter().any(|warning| warning.code == "kicad-text");
+    let counts = |feature: &&Feature| {
+        let function = copper.attributes_of(feature).function.as_deref();
+        !(without_text && function == Some("NonConductor"))
+    };
+    let features = copper.features.iter().filter(counts);
+    let shapes: Vec<Polygon> = features.filter_map(|feature| feature.shape.polygon(FLATTEN)).collect();
+    let mut islands = polarity::union(&shapes);
+    let bare: Vec<&Hole> = board.holes.iter().filter(|hole| hole.plating == Plating::NonPlated).collect();
+    islands.retain(|island| {
+        let (low, high) = (island.bounds().min(), island.bounds().max());
+        !bare.iter().any(|hole| hole.bounds().contains(low) && hole.bounds().contains(high))
+    });
+    islands
+}
+
+fn area(polygons: &[Polygon]) -> f64 {
+    polygons.iter().map(Polygon::area_mm2).sum()
+}
+
+/// What of `inner` lies more than `by` outside `outer`.
+fn beyond(inner: &[Polygon], outer: &[Polygon], by: Nm) -> Vec<Polygon> {
+    let grown: Vec<Polygon> =
+        outer.iter().flat_map(|polygon| polarity::offset(polygon, by, Nm::new(50))).collect();
+    let near = |polygon: &Polygon| {
+        let bounds = polygon.bounds();
+        grown.iter().filter(move |other| other.bounds().touches(bounds)).collect::<Vec<_>>()
+    };
+    inner.iter().flat_map(|polygon| polarity::difference(polygon, near(polygon))).collect()
+}
+
+/// How two drawings differ by more than they may, in words.
+fn differences(ours: &[Polygon], plotted: &[Polygon], within: Nm) -> Vec<String> {
+    let mut found = Vec::new();
+    if ours.len() != plotted.len() {
+        found.push(format!("{} islands and not {}", ours.len(), plotted.len()));
+    }
+    let (a, b) = (area(ours), area(plotted));
+    let share = if within > Nm::from_um(1) { 2e-4 } else { 1e-4 };
+    if (a - b).abs() > share * b {
+        found.push(format!("{a} mm² and not {b}"));
+    }
+    for (inner, outer, side) in [(ours, plotted, "too much"), (plotted, ours, "missing")] {
+        let rest = beyond(inner, outer, within);
+        if let Some(first) = rest.first() {
+            let place = first.bounds();
+            found.push(format!("{side}: {} mm² in {} pieces, at {place:?}", area(&rest), rest.len()));
+        }
+    }
+    found
+}
+
+/// Fails where any pair differs.
+fn agree(differ: impl Fn(&Pair) -> Vec<String>) {
+    let said = |pair: &Pair| differ(pair).into_iter().map(|what| format!("{}: {what}", pair.name)).collect();
+    let found: Vec<Vec<String>> = pairs().iter().map(said).collect();
+    let found = found.concat();
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+const SIDES: [Side; 2] = [Side::Front, Side::Back];
+
+#[test]
+fn copper_is_that_of_the_plots() {
+    agree(|pair| {
+        let mut found = Vec::new();
+        for side in SIDES.into_iter().filter(|&side| pair.plotted.copper(side).is_some()) {
+            let (ours, plotted) = (islands(&pair.ours.board, side, pair), islands(&pair.plotted, side, pair));
+            let differ = differences(&ours, &plotted, pair.within);
+            found.extend(differ.into_iter().map(|what| format!("{side}: {what}")));
+        }
+        found
+    });
+}
+
+#[test]
+fn the_edge_is_that_of_the_plots() {
+    let edge = |board: &Board| -> Vec<Polygon> {
+        board.outline.iter().map(|outline| outline.polygon(FLATTEN)).collect()
+    };
+    agree(|pair| {
+        // Marks for drilling, plotted with the edge, make one board's edge another one.
+        if pair.ours.warnings.iter().any(|warning| warning.message.contains("targets")) {
+            return Vec::new();
+        }
+        differences(&edge(&pair.ours.board), &edge(&pair.plotted), pair.within)
+    });
+}
+
+/// A hole by place, size and whether it is a slot.
+type Place = (Nm, Nm, Nm, bool);
+
+#[test]
+fn holes_are_those_of_the_drill_files() {
+    let places = |board: &Board| -> Vec<Place> {
+        let place = |hole: &Hole| {
+            let (low, high) = (hole.bounds().min(), hole.bounds().max());
+            (low.x + high.x, low.y + high.y, hole.diameter, hole.is_slot())
+        };
+        board.holes.iter().map(place).collect()
+    };
+    // What an inch of four decimals rounds, doubled as the sums above are.
+    let near = |a: Nm, b: Nm| (a - b).abs() <= Nm::from_um(6);
+    let same = |a: &Place, b: &Place| near(a.0, b.0) && near(a.1, b.1) && near(a.2, b.2) && a.3 == b.3;
+    agree(|pair| {
+        let (ours, plotted) = (places(&pair.ours.board), places(&pair.plotted));
+        let lacking = |holes: &[Place], others: &[Place], whose: &str| -> Vec<String> {
+            let lacks = |hole: &&Place| !others.iter().any(|other| same(hole, other));
+            holes.iter().filter(lacks).map(|hole| format!("{hole:?} is drilled {whose} alone")).collect()
+        };
+        [lacking(&ours, &plotted, "here"), lacking(&plotted, &ours, "there")].concat()
+    });
+}
+
+#[test]
+fn nets_have_the_names_of_the_plots() {
+    let names = |board: &Board, side: Side| -> BTreeSet<String> {
+        let copper = board.copper(side);
+        copper.iter().flat_map(|copper| &copper.attributes).filter_map(|set| set.net.clone()).collect()
+    };
+    agree(|pair| {
+        let mut found = Vec::new();
+        for side in SIDES {
+            let (ours, plotted) = (names(&pair.ours.board, side), names(&pair.plotted, side));
+            if !plotted.is_empty() && ours != plotted {
+                found.push(format!("{side}: {ours:?} and not {plotted:?}"));
+            }
+        }
+        found
+    });
+}
+
+fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(name)
+}
+
+/// What of the copper on `side` the pin `pin` or the function `function` covers, in mm².
+fn covers(board: &Board, side: Side, is_wanted: impl Fn(&voromill::board::Attributes) -> bool) -> f64 {
+    let copper = board.copper(side).expect("copper");
+    let wanted = copper.features.iter().filter(|feature| is_wanted(copper.attributes_of(feature)));
+    let shapes: Vec<Polygon> = wanted.filter_map(|feature| feature.shape.polygon(Nm::new(10))).collect();
+    area(&polarity::union(&shapes))
+}
+
+#[test]
+fn every_shape_covers_what_geometry_says() {
+    use std::f64::consts::PI;
+    let board = load(&fixture("kicad/shapes.kicad_pcb")).board;
+    let square = 1.0 - PI / 4.0;
+    let pins = [
+        ("1", Side::Front, PI),
+        ("2", Side::Front, 2.0),
+        ("3", Side::Front, 2.0 + PI / 4.0),
+        ("4", Side::Front, 2.0 - 4.0 * square * 0.25 * 0.25),
+        ("5", Side::Front, 2.0 - 2.0 * 0.5 * 0.5 / 2.0),
+        ("6", Side::Front, 2.0),
+        // A square, a rectangle beside it, and a line from its other side with a round end.
+        ("7", Side::Front, 1.0 + 2.0 + 0.2 * 1.5 + PI * 0.1 * 0.1 / 2.0),
+        ("8", Side::Front, 0.4 * 1.6 + PI * 0.8 * 0.8),
+        ("8", Side::Back, 0.4 * 1.6 + PI * 0.8 * 0.8),
+        ("9", Side::Front, PI),
+        ("9", Side::Back, 2.25),
+    ];
+    for (pin, side, expected) in pins {
+        let found = covers(&board, side, |set| {
+            set.component.as_deref() == Some("U1") && set.pin.as_deref() == Some(pin)
+        });
+        assert!((found - expected).abs() < 5e-4, "pin {pin} on the {side}: {found} and not {expected}");
+    }
+    let function = |side, name: &str| covers(&board, side, |set| set.function.as_deref() == Some(name));
+    let found = function(Side::Front, "Conductor");
+    let length = 10.0 + 3.0 * PI / 2.0;
+    let expected = 0.4 * length + PI * 0.2 * 0.2;
+    assert!((found - expected).abs() < 2e-4, "tracks: {found} and not {expected}");
+    let found = function(Side::Front, "ViaPad");
+    assert!((found - 2.0 * PI * 0.16).abs() < 2e-4, "both vias on the front: {found}");
+    let found = function(Side::Back, "ViaPad");
+    assert!((found - PI * 0.16).abs() < 2e-4, "one of them on the back: {found}");
+    let found = function(Side::Back, "Conductor");
+    assert!((found - (80.0 - 16.0)).abs() < 1e-9, "an area with a hole: {found}");
+    let found = function(Side::Front, "NonConductor");
+    let expected = 2.0 * PI * 0.2 + PI * 1.1 * 1.1;
+    assert!((found - expected).abs() < 2e-4, "a ring and a disc: {found} and not {expected}");
+}
+
+#[test]
+fn pads_lie_where_their_footprint_is_turned_to() {
+    let board = load(&fixture("kicad/shapes.kicad_pcb")).board;
+    let copper = board.front.as_ref().expect("copper");
+    let at = |pin: &str| {
+        let of_pin = |feature: &&Feature| copper.attributes_of(feature).pin.as_deref() == Some(pin);
+        let bounds = copper.features.iter().find(of_pin).expect("a pad").shape.bounds();
+        (bounds.min().midpoint(bounds.max()), bounds.width())
+    };
+    // The file's origin is its auxiliary one, 100 mm to the right and 130 mm down.
+    let point = |x: i64, y: i64| voromill::geometry::Point::new(Nm::from_um(x), Nm::from_um(y));
+    assert_eq!(at("1"), (point(10_000, 20_000), Nm::from_mm(2)), "the origin of the footprint");
+    assert_eq!(
+        at("2"),
+        (point(10_000, 25_000), Nm::from_mm(1)),
+        "what was to the right is above, and turned"
+    );
+    assert_eq!(at("4"), (point(15_000, 20_000), Nm::from_mm(1)), "what was below is to the right");
+}
+
+#[test]
+fn edge_holes_and_thickness_are_read() {
+    let loaded = load(&fixture("kicad/shapes.kicad_pcb"));
+    let board = &loaded.board;
+    assert_eq!(board.thickness, Some(Nm::from_um(800)), "as the board says");
+    let outline = board.outline.as_ref().expect("an edge");
+    let corner = 25.0 * (1.0 - std::f64::consts::FRAC_PI_4);
+    let expected = 1200.0 - corner - 4.0 * std::f64::consts::PI - 12.0;
+    let found = outline.polygon(Nm::new(10)).area_mm2();
+    assert!((found - expected).abs() < 1e-2, "a round corner, a round and a square cut-out: {found}");
+    assert_eq!(outline.contours().len(), 3, "the edge and two cut-outs");
+    let mut holes: Vec<_> =
+        board.holes.iter().map(|hole| (hole.diameter, hole.is_slot(), hole.plating)).collect();
+    holes.sort_by_key(|hole| hole.0);
+    let um = Nm::from_um;
+    let expected = [
+        (um(400), false, Plating::Plated),
+        (um(800), true, Plating::Plated),
+        (um(1000), false, Plating::Plated),
+        (um(1200), false, Plating::NonPlated),
+    ];
+    assert_eq!(holes, expected, "a via, a slot, a pad and a hole that is not plated; no blind via");
+}
+
+#[test]
+fn what_is_not_read_is_said() {
+    let loaded = load(&fixture("kicad/shapes.kicad_pcb"));
+    let said: Vec<_> =
+        loaded.warnings.iter().map(|warning| (warning.code, warning.message.as_str())).collect();
+    let expected = [
+        ("kicad-text", "the text `REV 1` on the front copper at (5.000, 3.000) is left out"),
+        ("kicad-not-read", "dimensions (dimension) on copper or the edge are not read"),
+        (
+            "kicad-blind-via",
+            "a via that ends on an inner layer gets no hole, since inner layers are not milled",
+        ),
+    ];
+    assert_eq!(said, expected, "and nothing else");
+    assert!(loaded.warnings.iter().all(|warning| warning.source.is_some()), "each with its line");
+}
+
+#[test]
+fn zones_that_are_not_filled_are_an_error_that_says_how_to_fill_them() {
+    let board = fixture("boards/regulator/regulator.kicad_pcb");
+    let error = import::load(&[board], &Selection::default()).expect_err("not filled").render();
+    assert!(error.contains("the zone of net GND on the front is not filled, and 1 more"), "{error}");
+    assert!(error.contains("press B") && error.contains("regulator.kicad_pcb:539:3"), "{error}");
+}
+
+#[test]
+fn a_folder_of_layers_stays_one_and_a_folder_without_is_read_from_its_board() {
+    let plotted = load(&fixture("boards/blinker"));
+    assert!(plotted.ignored.contains(&"blinker.kicad_pcb".to_owned()), "it lies beside the layers");
+    assert_eq!(plotted.board.copper(Side::Front).map(|_| ()), None, "which have no front");
+    let folder = tempfile::tempdir().expect("a folder");
+    let project = folder.path().join("amp");
+    std::fs::create_dir_all(project.join("gerbers")).expect("folders");
+    std::fs::copy(fixture("boards/blinker/blinker.kicad_pcb"), project.join("amp.kicad_pcb"))
+        .expect("copied");
+    for (name, text) in [
+        ("amp.kicad_pro", "{}"),
+        ("amp.kicad_sch", "(kicad_sch (version 20211123))"),
+        ("fp-lib-table", "(fp_lib_table (lib (name \"x\")))"),
+        ("_autosave-amp.kicad_pcb", "(kicad_pcb)"),
+    ] {
+        std::fs::write(project.join(name), text).expect("written");
+    }
+    let loaded = load(&project);
+    assert_eq!(loaded.board.name, "amp", "named after its file");
+    assert!(loaded.sources.iter().all(|source| source.file == "amp.kicad_pcb"), "nothing else is read");
+    assert!(loaded.board.back.is_some() && loaded.board.holes.len() == 47, "all of it");
+    std::fs::copy(project.join("amp.kicad_pcb"), project.join("other.kicad_pcb")).expect("copied");
+    let error = import::load(&[project], &Selection::default()).expect_err("two boards").to_string();
+    assert!(error.contains("amp.kicad_pcb") && error.contains("other.kicad_pcb"), "{error}");
+}
+
+#[test]
+fn a_layer_of_a_board_can_be_left_aside_and_none_can_be_added() {
+    let board = fixture("boards/blinker/blinker.kicad_pcb");
+    let skip = vec![PathBuf::from("F.Cu")];
+    let loaded = import::load(std::slice::from_ref(&board), &Selection { skip, ..Selection::default() })
+        .expect("read");
+    assert!(loaded.board.front.is_none() && loaded.board.back.is_some(), "the back alone");
+    let roles: Vec<&str> = loaded.sources.iter().map(|source| source.role.as_str()).collect();
+    assert_eq!(roles, ["ignored (front copper)", "back-copper", "outline", "drill"], "it is listed");
+    let layer = fixture("boards/blinker/blinker-B_Cu.gbr");
+    let error = import::load(&[board.clone(), layer.clone()], &Selection::default()).expect_err("two");
+    assert!(error.to_string().contains("give the board alone"), "{error}");
+    let back = Selection { back: Some(layer), ..Selection::default() };
+    let error = import::load(&[board], &back).expect_err("two backs");
+    assert!(error.to_string().contains("give the board alone"), "{error}");
+}
