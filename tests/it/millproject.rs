@@ -344,7 +344,7 @@ fn bridges_are_as_thick_as_they_can_be() {
     assert!(told(&shallow).contains("`zbridges` is not taken over"), "{}", told(&shallow));
     assert_eq!(settings(shallow).tabs, Holding::Count(0), "nothing is cut through");
     let made = settings(construct("bridges-to-the-surface").expect("a project"));
-    assert_eq!((made.tabs, made.tab_height), (Holding::Count(2), um(1490)), "the cutter is lifted out");
+    assert_eq!((made.tabs, made.tab_height), (Holding::Count(2), um(1450)), "the cutter is lifted out");
 }
 
 #[test]

@@ -19,8 +19,9 @@ const CUTTER: &str = "millproject-cutter";
 /// How the table of the mill that bores is called.
 const BORER: &str = "millproject-borer";
 
-/// What a bridge that reaches the surface leaves uncut less: a tab is thinner than the cut is deep.
-const SCRATCH: Nm = Nm::from_um(10);
+/// How deep a bridge that reaches the surface is cut all the same: a tab is thinner than the cut is
+/// deep. Chosen: through the copper, so that it is seen where the bridge is.
+const SCRATCH: Nm = Nm::from_um(50);
 
 impl Draft<'_> {
     /// Puts together what belongs together.
