@@ -21,8 +21,9 @@
 //! |---|---|---|
 //! | [`geometry`] | integer nanometres, points, arcs, paths, polygons | – |
 //! | [`raster`] | the z-buffer engine; stands alone, speaks of pixels, labels, depths | – |
+//! | [`vectorize`] | pixels → contours; stands alone, speaks of samples and levels | – |
 //! | [`board`] | the resolved board: copper, holes, outline; macros, repeats and polarity are gone | geometry |
-//! | [`import`] | files → [`Board`](board::Board): Gerber, Excellon, KiCad boards, job files, archives | geometry, board |
+//! | [`import`] | files → [`Board`](board::Board): Gerber, Excellon, KiCad boards, pictures, job files, archives | geometry, board, vectorize |
 //! | [`grid`] | the only crossing between nanometres and pixels | geometry, raster |
 //! | [`topology`] | which features conduct to each other: [`Nets`](topology::Nets) | geometry, raster, board, grid |
 //! | [`voronoi`] | nets → regions → a planar graph of [`Boundaries`](voronoi::Boundaries), placed exactly | all above but import |
@@ -82,5 +83,6 @@ pub mod raster;
 pub mod report;
 pub mod toolpath;
 pub mod topology;
+pub mod vectorize;
 pub mod verify;
 pub mod voronoi;

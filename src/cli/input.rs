@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
-use voromill::import::{self, Loaded, Selection};
-use voromill::job::{MillProject, ProjectFiles, Settings};
+use clap::{Args, ValueEnum};
+use voromill::import::{self, Loaded, Selection, picture};
+use voromill::job::{Length, MillProject, ProjectFiles, Settings};
 use voromill::report::document::WarningEntry;
 
 use super::Failure;
@@ -49,9 +49,58 @@ pub(super) struct Input {
     #[arg(long, value_name = "NAME", help_heading = "Files")]
     name: Option<String>,
 
+    /// Pixels to the inch of a picture, whatever the file says; --dpi says it where the file does
+    /// not
+    #[arg(long, value_name = "NUMBER", value_parser = dpi, help_heading = "Pictures")]
+    picture_dpi: Option<f64>,
+
+    /// The same as the width of the whole picture
+    #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
+    picture_width: Option<Length>,
+
+    /// Which part of a picture is copper [default: the rarer]
+    #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
+    copper: Option<Colour>,
+
+    /// Take the other part of a picture for copper
+    #[arg(long, help_heading = "Pictures")]
+    invert: bool,
+
+    /// Leave specks out, of copper and in it, of less than so many square millimetres
+    #[arg(long, value_name = "MM2", value_parser = area, help_heading = "Pictures")]
+    despeckle: Option<f64>,
+
+    /// Read a part of a picture: left, top, width and height in pixels
+    #[arg(long, value_name = "X,Y,W,H", value_parser = pixels, help_heading = "Pictures")]
+    crop: Option<[u32; 4]>,
+
     /// Fail where there is anything to warn of, and write nothing
     #[arg(long, help_heading = "Output")]
     deny_warnings: bool,
+}
+
+/// Which part of a picture is copper.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Colour {
+    Dark,
+    Light,
+}
+
+fn dpi(text: &str) -> Result<f64, String> {
+    let number = text.parse::<f64>().ok().filter(|number| (10.0..=30_000.0).contains(number));
+    number.ok_or_else(|| "expected from 10 to 30000 pixels to the inch".to_owned())
+}
+
+fn area(text: &str) -> Result<f64, String> {
+    let number = text.trim_end_matches("mm2").trim().parse::<f64>();
+    let number = number.ok().filter(|number| (0.0..=1000.0).contains(number));
+    number.ok_or_else(|| "expected an area in square millimetres, such as 0.05".to_owned())
+}
+
+fn pixels(text: &str) -> Result<[u32; 4], String> {
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
+    let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
+    numbers.ok_or_else(|| "expected four numbers of pixels: left, top, width, height".to_owned())
 }
 
 impl Input {
@@ -99,6 +148,23 @@ impl Input {
         Ok(project)
     }
 
+    fn picture(&self, settings: &Settings) -> picture::Options {
+        picture::Options {
+            dpi: self.picture_dpi,
+            dpi_unless_said: settings.options().dpi.map(f64::from),
+            width: self.picture_width.map(Length::nm),
+            colour: match self.copper {
+                None => picture::Colour::Rarer,
+                Some(Colour::Dark) => picture::Colour::Dark,
+                Some(Colour::Light) => picture::Colour::Light,
+            },
+            invert: self.invert,
+            despeckle: self.despeckle.unwrap_or(0.0),
+            crop: self.crop,
+            most_pixels: None,
+        }
+    }
+
     fn read(
         &self,
         settings: &Settings,
@@ -123,6 +189,7 @@ impl Input {
             no_drill: self.no_drill,
             name: self.name.clone().or(project.name),
             outline_gap: Some(settings.outline_gap),
+            picture: self.picture(settings),
         };
         let paths = self.paths();
         if paths.is_empty() {

@@ -24,6 +24,22 @@ impl Flaw {
     }
 }
 
+// Of pictures.
+
+/// Nobody told which colour is copper.
+pub(in crate::import) const PICTURE_COLOUR_GUESSED: Flaw = Flaw::new(
+    "picture-colour-guessed",
+    "the colour of copper, where it is not the rarer one",
+    "say --copper dark or --copper light",
+);
+
+/// Single pixels that nobody drew.
+pub(in crate::import) const PICTURE_SPECKS: Flaw = Flaw::new(
+    "picture-specks",
+    "copper and gaps of more than a few pixels",
+    "leave specks out with --despeckle 0.05",
+);
+
 // Of Gerber files.
 
 /// The number format comes after coordinates.

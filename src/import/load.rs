@@ -10,7 +10,7 @@ use super::excellon::{self, Context};
 use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
 use super::unusable::quoted;
-use super::{gerber_drill, kicad, off_board, outline, whole_board};
+use super::{gerber_drill, kicad, off_board, outline, picture, whole_board};
 use crate::board::{Axis, Board, Copper, Feature, Hole, Outline, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
@@ -35,6 +35,8 @@ pub struct Selection {
     /// How far apart two lines of the outline may end and still meet; [`outline::GAP`] where it is
     /// left open.
     pub outline_gap: Option<Nm>,
+    /// What is said of pictures.
+    pub picture: picture::Options,
 }
 
 /// A board with what is known of where it came from.
@@ -81,6 +83,9 @@ pub(super) enum Need {
 }
 
 fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Loaded, Error> {
+    if let Some(loaded) = picture::board(paths, selection)? {
+        return Ok(loaded);
+    }
     let mut gathered = Gathered::under(paths, &selection.skip)?;
     gathered.add_selected(selection)?;
     let gathered = whole_board::instead(gathered, paths, selection)?;

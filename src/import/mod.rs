@@ -8,6 +8,7 @@
 //!
 //! [`load()`] takes a folder, an archive or single files and puts a board together; the readers of
 //! the formats stand alone and never touch the file system.
+//! A [`picture`] of copper is a board by itself.
 
 mod archive;
 mod assign;
@@ -26,6 +27,7 @@ mod load;
 mod naming;
 mod off_board;
 pub mod outline;
+pub mod picture;
 mod settle;
 mod unusable;
 mod wheel;

@@ -8,8 +8,9 @@ use std::path::{Path, PathBuf};
 const MAY_USE: &[(&str, &[&str])] = &[
     ("geometry", &[]),
     ("raster", &[]),
+    ("vectorize", &[]),
     ("board", &["geometry"]),
-    ("import", &["geometry", "board"]),
+    ("import", &["geometry", "board", "vectorize"]),
     ("grid", &["geometry", "raster"]),
     ("topology", &["geometry", "raster", "board", "grid"]),
     ("voronoi", &["geometry", "raster", "board", "grid", "topology"]),

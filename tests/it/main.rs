@@ -35,6 +35,7 @@ mod oracle;
 mod outline;
 mod page;
 mod paper;
+mod pictures;
 mod planner;
 mod programs;
 mod random_boards;

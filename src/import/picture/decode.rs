@@ -1,0 +1,208 @@
+//! The pixels of a picture file as one value each: how far along the line of its two colours they
+//! are.
+//!
+//! The `image` crate reads the formats; sizes are judged before anything is decoded.
+
+use std::io::Cursor;
+use std::path::Path;
+
+use image::{DynamicImage, GenericImageView as _, ImageDecoder as _, ImageFormat, ImageReader, Limits};
+
+use super::Options;
+use super::resolution::resolution;
+use crate::import::error::Error;
+use crate::vectorize::Field;
+
+/// The formats, with the names that reports have for them.
+const FORMATS: &[(ImageFormat, &str)] = &[
+    (ImageFormat::Png, "png"),
+    (ImageFormat::Bmp, "bmp"),
+    (ImageFormat::Jpeg, "jpeg"),
+    (ImageFormat::Tiff, "tiff"),
+    (ImageFormat::Gif, "gif"),
+    (ImageFormat::WebP, "webp"),
+    (ImageFormat::Pnm, "pnm"),
+];
+
+/// The most pixels: with what it takes to decode and to trace them, below 2 GiB of memory.
+const MOST_PIXELS: u64 = 1 << 27;
+/// The most bytes that a decoder may ask for at once.
+const MOST_BYTES: u64 = 1 << 30;
+
+/// Pixels as values.
+pub(super) struct Decoded {
+    pub(super) field: Field,
+    /// Whether higher values are brighter; else they are darker.
+    pub(super) is_bright: bool,
+    /// Pixels to the inch, across and down, where the file says them.
+    pub(super) dpi: Option<(f64, f64)>,
+    pub(super) format: &'static str,
+}
+
+/// Whether a file is to be read as a picture: by its first bytes, or by its name.
+#[must_use]
+pub fn is_picture(path: &Path, bytes: &[u8]) -> bool {
+    let by_name = ImageFormat::from_path(path).is_ok_and(|format| name_of(format).is_some());
+    by_name || format_of(bytes).is_some()
+}
+
+fn name_of(format: ImageFormat) -> Option<&'static str> {
+    FORMATS.iter().find(|known| known.0 == format).map(|known| known.1)
+}
+
+fn format_of(bytes: &[u8]) -> Option<ImageFormat> {
+    image::guess_format(bytes).ok().filter(|&format| name_of(format).is_some())
+}
+
+/// Decodes a picture, turned upright, or the part of it that is asked for.
+pub(super) fn decode(name: &str, bytes: &[u8], options: &Options) -> Result<Decoded, Error> {
+    let Some(format) = format_of(bytes) else {
+        let what = if bytes.is_empty() { "an empty file, not a picture" } else { "this is not a picture" };
+        return Err(Error::content(name, what, "expected a PNG, BMP, JPEG, TIFF, GIF, WebP or PNM file"));
+    };
+    let broken = |error: image::ImageError| {
+        let what = format!("the picture cannot be read: {error}");
+        Error::content(name, what, "save it again, as PNG in black and white")
+    };
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    let most = options.most_pixels.unwrap_or(MOST_PIXELS);
+    if u64::from(width) * u64::from(height) > most {
+        let what = format!("{width} × {height} pixels are too many: at most {most} are read");
+        return Err(Error::content(name, what, "save it with fewer pixels to the inch, or in parts"));
+    }
+    let orientation = decoder.orientation().map_err(broken)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    picture.apply_orientation(orientation);
+    let mut dpi = resolution(bytes, format);
+    if picture.dimensions() != (width, height) {
+        dpi = dpi.map(|(x, y)| (y, x));
+    }
+    if let Some([left, top, columns, rows]) = options.crop {
+        picture = cropped(name, &picture, [left, top, columns, rows])?;
+    }
+    let (samples, is_bright) = values(&picture);
+    let width = picture.width() as usize;
+    let empty = || Error::content(name, "the picture has no pixels", "check that it is whole");
+    let field = Field::new(width, samples).ok_or_else(empty)?;
+    Ok(Decoded { field, is_bright, dpi, format: name_of(format).unwrap_or_default() })
+}
+
+fn cropped(name: &str, picture: &DynamicImage, part: [u32; 4]) -> Result<DynamicImage, Error> {
+    let [left, top, columns, rows] = part;
+    let (width, height) = picture.dimensions();
+    let lies_within =
+        |from: u32, count: u32, all: u32| count > 0 && from.checked_add(count).is_some_and(|end| end <= all);
+    if !lies_within(left, columns, width) || !lies_within(top, rows, height) {
+        let what =
+            format!("--crop {left},{top},{columns},{rows} does not lie within its {width} × {height} pixels");
+        return Err(Error::content(
+            name,
+            what,
+            "left, top, width and height, in pixels from the upper left corner",
+        ));
+    }
+    Ok(picture.crop_imm(left, top, columns, rows))
+}
+
+/// A value for each pixel, and whether higher ones are brighter.
+fn values(picture: &DynamicImage) -> (Vec<u16>, bool) {
+    if let DynamicImage::ImageLuma8(grey) = picture {
+        return (grey.as_raw().iter().map(|&value| u16::from(value) * 257).collect(), true);
+    }
+    if let DynamicImage::ImageLuma16(grey) = picture {
+        return (grey.as_raw().clone(), true);
+    }
+    let colours: Vec<[u16; 4]> = match picture {
+        DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) | DynamicImage::ImageLumaA16(_) => {
+            picture.to_rgba16().pixels().map(|pixel| pixel.0).collect()
+        }
+        _ => picture.to_rgba8().pixels().map(|pixel| pixel.0.map(|value| u16::from(value) * 257)).collect(),
+    };
+    let on = |ground: u16| colours.iter().map(move |&colour| over(colour, ground));
+    let white = Axis::of(on(u16::MAX));
+    // Light ink on nothing shows on black alone.
+    let is_clear = colours.iter().any(|colour| colour[3] < u16::MAX);
+    let black = is_clear.then(|| Axis::of(on(0))).filter(|black| black.variance > white.variance);
+    match black {
+        Some(axis) => (on(0).map(|colour| axis.value(colour)).collect(), axis.is_bright()),
+        None => (on(u16::MAX).map(|colour| white.value(colour)).collect(), white.is_bright()),
+    }
+}
+
+/// A colour laid on a ground.
+fn over([r, g, b, a]: [u16; 4], ground: u16) -> [f64; 3] {
+    let share = f64::from(a) / f64::from(u16::MAX);
+    [r, g, b].map(|value| f64::from(value) * share + f64::from(ground) * (1.0 - share))
+}
+
+/// The direction in which colours differ most, and how far they reach along it.
+struct Axis {
+    middle: [f64; 3],
+    way: [f64; 3],
+    variance: f64,
+    low: f64,
+    high: f64,
+}
+
+impl Axis {
+    fn of(colours: impl Iterator<Item = [f64; 3]> + Clone) -> Self {
+        let (mut count, mut sum, mut products) = (0.0, [0.0; 3], [[0.0; 3]; 3]);
+        for colour in colours.clone() {
+            count += 1.0;
+            for (row, value) in products.iter_mut().zip(colour) {
+                row.iter_mut().zip(colour).for_each(|(product, other)| *product += value * other);
+            }
+            sum.iter_mut().zip(colour).for_each(|(sum, value)| *sum += value);
+        }
+        let count = f64::max(count, 1.0);
+        let middle = sum.map(|sum| sum / count);
+        let mut matrix = products.map(|row| row.map(|product| product / count));
+        for (row, a) in matrix.iter_mut().zip(middle) {
+            row.iter_mut().zip(middle).for_each(|(value, b)| *value -= a * b);
+        }
+        // The greatest eigenvector, by powers, from grey: two colours need a few steps.
+        let mut way = [1.0, 1.1, 0.9];
+        for _ in 0..64 {
+            let next = matrix.map(|row| dot(row, way));
+            let length = dot(next, next).sqrt();
+            if length <= 0.0 {
+                break;
+            }
+            way = next.map(|value| value / length);
+        }
+        let length = dot(way, way).sqrt();
+        way = way.map(|value| value / length);
+        let along = |colour: [f64; 3]| dot(less(colour, middle), way);
+        let reach = colours.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), colour| {
+            (low.min(along(colour)), high.max(along(colour)))
+        });
+        let variance = dot(matrix.map(|row| dot(row, way)), way);
+        Self { middle, way, variance, low: reach.0, high: reach.1 }
+    }
+
+    /// A colour as a value: the whole range is used.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the range")]
+    fn value(&self, colour: [f64; 3]) -> u16 {
+        let along = dot(less(colour, self.middle), self.way);
+        let range = (self.high - self.low).max(1.0);
+        ((along - self.low) / range * f64::from(u16::MAX)).round() as u16
+    }
+
+    /// Whether higher values are brighter, by the weights of ITU-R BT.709.
+    fn is_bright(&self) -> bool {
+        dot(self.way, [0.2126, 0.7152, 0.0722]) >= 0.0
+    }
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
