@@ -44,9 +44,11 @@
 //!    of a hash map, no clock and no path reaches an output.
 //! 2. **Exact where it decides.** Lengths are integer nanometres; orientation, containment and
 //!    contact are decided in integers.
-//! 3. **The picture decides what meets what, analysis decides where.** Which regions touch is read
-//!    from pixels; every point of a boundary is then moved to where its two exact distances are
-//!    equal. The resolution limits what is *seen*, not how accurately it is *cut*.
+//! 3. **The certificate decides.** Voronoi vertices and edges are solved on the exact distances of
+//!    the copper's edges, and hold because an empty circle says so: what is cut between nets does
+//!    not depend on any pixel. Where regions are limited (outlines, wide isolation) or core axes
+//!    are the sites, a picture still says what meets what, and every point is then moved to where
+//!    its exact distances are equal.
 //! 4. **Nothing in silence.** What is skipped, too narrow or off the board is a
 //!    [`Warning`](board::Warning) with a place; broken input is an error naming file, line, column
 //!    and what was expected; no output is half-written.

@@ -61,6 +61,11 @@ impl Border {
         Self { inside, window, rings, ring_count, frame, clearance }
     }
 
+    /// The rectangle round what lies within it; none where nothing does.
+    pub(super) fn bounds(&self) -> Option<Rect> {
+        self.inside.iter().map(Polygon::bounds).reduce(Rect::union)
+    }
+
     /// The contours of what lies outside, by the even-odd rule.
     pub(super) fn outside(&self) -> Vec<Vec<Point>> {
         let beyond = self.window.inflate(self.window.width().max(self.window.height()));

@@ -128,10 +128,10 @@ impl Fitter<'_> {
         let half = (a - middle).cross(b - middle) * turn > 0.0;
         let fits = self.vertices[i..=j].windows(2).all(|pair| {
             let (p, q) = (pair[0].at, pair[1].at);
-            let chord = (q - p).length();
             let onward = (p - middle).cross(q - middle) * turn > 0.0;
-            let sagitta = chord * chord / (8.0 * radius);
-            onward && sagitta <= self.tolerance && ((q - middle).length() - radius).abs() <= self.tolerance
+            // Of a chord the middle is nearest to the centre.
+            let is_on = |at: Spot| ((at - middle).length() - radius).abs() <= self.tolerance;
+            onward && is_on(q) && is_on(p.midpoint(q))
         });
         let turn = if turn > 0.0 { Turn::CounterClockwise } else { Turn::Clockwise };
         (half && fits).then(|| Segment::Arc { to: self.point(j), center, turn })

@@ -2,21 +2,26 @@
 //! to III-D).
 //!
 //! ```text
-//!  Copper, Nets ── seed ──▶ sites ── raster ──▶ tiles ── trace ──▶ pieces ── stitch ──▶ lines ── fit ──▶ Boundaries
-//!                    │                            (in parallel, placed on the spot)            (in parallel)
-//!                  edge: where the board ends
+//!  Copper, Nets ── exact ──▶ vertices, edges ── chain ──▶ chains ── clip ──▶ pieces ── fit ──▶ Boundaries
+//!        │                                                            │
+//!        │                                           edge: where the board ends
+//!        ╰─ seed ──▶ sites ── raster ──▶ tiles ── trace ──▶ pieces ── stitch ──▶ lines ── fit ──▶ Boundaries
 //! ```
 //!
-//! The picture decides which regions meet and where boundaries branch; the exact distances of the
-//! features decide where the boundary runs ([`place`](self)). The resolution limits which gaps are
-//! *seen*, not how accurately they are *cut*.
+//! Boundaries between nets come from the certified diagram of [`exact`], which no pixel has a part
+//! in. What it does not answer for comes from a picture: regions with a limit (outlines and loops),
+//! the passes of wide isolation, core axes as sites, and nets that touch, as Algorithm 1 alone may
+//! leave them. There the picture says which regions meet and where boundaries branch, and the exact
+//! distances of the features say where the boundary runs ([`place`](self)).
 //!
-//! Only tiles that a boundary may cross are drawn, each on a worker that at once traces and places
-//! what it sees; no stage holds a picture of the whole board. Labels are sites, so a pixel names
-//! the feature that it is nearest to, and placing costs a few distances.
+//! Of a picture only tiles that a boundary may cross are drawn, each on a worker that at once
+//! traces and places what it sees; no stage holds a picture of the whole board. Labels are sites,
+//! so a pixel names the feature that it is nearest to, and placing costs a few distances.
 
 mod artifact;
+mod boundary;
 mod bridge;
+mod clip;
 mod copper;
 mod cross;
 mod edge;
@@ -55,7 +60,7 @@ use crate::board::{Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect};
 use crate::grid::{Grid, GridError};
 use crate::raster::{self, Scene, TileContent};
-use crate::topology::{NetId, Nets};
+use crate::topology::{NetId, Nets, smallest_gap};
 
 pub use fit::fit_points;
 pub use frame::Frame;
@@ -233,6 +238,8 @@ pub struct Diagram {
     warnings: Vec<Warning>,
     /// What makes it one of loops and of boundaries midway, where nets differ.
     mixed: Option<Box<Mixed>>,
+    /// The certified diagram, where distances are to the copper's edges and nothing limits them.
+    certified: Option<Box<exact::Diagram>>,
 }
 
 impl Diagram {
@@ -277,12 +284,18 @@ impl Diagram {
         let sites = Sites::new(copper, nets, settings, &keep);
         let (near, edges) = match settings.sites {
             SiteKind::Copper => (Near::new(&sites), None),
-            SiteKind::Core => (None, Edges::new(copper, nets, settings, keep)),
+            SiteKind::Core => (None, Edges::new(copper, nets, settings, &keep)),
         };
         let grid = Grid::covering(border.window, settings.pitch)?;
+        let certified = is_certain(copper, nets, settings).then(|| {
+            let owner = |feature: usize| keep(feature).then(|| nets.of(feature).0);
+            let generators = exact::Generators::of_copper(copper, owner);
+            let space = exact::Space::Window(border.bounds().unwrap_or(border.window));
+            Box::new(exact::Diagram::new(generators, exact::Kind::Owners, space))
+        });
         let (owners, settings, side) = (sites.owners(), settings.clone(), copper.side);
-        let warnings = Vec::new();
-        Ok(Self { sites, owners, near, edges, border, grid, settings, side, warnings, mixed: None })
+        let (warnings, mixed) = (Vec::new(), None);
+        Ok(Self { sites, owners, near, edges, border, grid, settings, side, warnings, mixed, certified })
     }
 
     /// The grid on which boundaries are found.
@@ -381,6 +394,26 @@ impl Diagram {
         if let Some(mixed) = &self.mixed {
             return mixed.boundaries(self);
         }
+        if let Some(certified) = &self.certified {
+            let (boundaries, faults) = self.certified_boundaries(certified);
+            if faults.is_empty() {
+                return (boundaries, Vec::new());
+            }
+        }
+        self.traced()
+    }
+
+    /// Where the certified diagram contradicts itself, so that the picture is traced instead:
+    /// nowhere, unless the program is at fault.
+    #[must_use]
+    pub fn faults(&self) -> Vec<Point> {
+        let faults = |certified: &exact::Diagram| self.certified_boundaries(certified).1;
+        self.certified.as_deref().map_or(Vec::new(), faults)
+    }
+
+    /// The same by tracing the picture.
+    #[must_use]
+    pub fn traced(&self) -> (Boundaries, Vec<Warning>) {
         let stitcher = self.trace(&self.scene(&self.grid));
         let mut warnings = Vec::new();
         let (traced, torn) = (stitcher.unplaced, stitcher.torn());
@@ -461,6 +494,13 @@ impl Diagram {
         let edges = fitted.into_iter().map(edge).collect();
         Boundaries { nodes, edges }
     }
+}
+
+/// Whether the certified diagram answers for these settings: it knows the edges of copper, without
+/// a limit, of nets that do not touch.
+fn is_certain(copper: &Copper, nets: &Nets, settings: &Settings) -> bool {
+    let is_plain = settings.sites == SiteKind::Copper && settings.limit.is_none();
+    is_plain && smallest_gap(copper, nets).is_none_or(|gap| gap.width > Nm::ZERO)
 }
 
 /// The nets of which nothing lies on the board, each with a place.

@@ -32,7 +32,7 @@ const FOUND: f64 = 1e-9;
 /// corner that a probe misses is off by less than [`BEND`].
 const UNEVEN: f64 = 3.0;
 /// How far the clearance may leave its chord between two samples, in nanometres.
-const CLEARANCE_CHORD: f64 = 1_000.0;
+pub(super) const CLEARANCE_CHORD: f64 = 1_000.0;
 /// Where the slope of an equation is less, it leads nowhere, and says nothing of a course.
 pub(super) const LEVEL: f64 = 1e-3;
 /// A vertex that a curve passes by so closely need not be kept, in nanometres. Chosen: a tenth of

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod aperture_lists;
+mod certified_boundaries;
 mod certified_diagram;
 mod cli;
 mod damage;

@@ -2,10 +2,10 @@
 //! anew.
 
 use super::form::Place;
-use super::vertex::TIE;
-use super::{Diagram, Edge};
+use super::{Diagram, Edge, Vertex};
 use crate::geometry::Point;
 use crate::voronoi::plane::Spot;
+use crate::voronoi::span::{CLEARANCE_CHORD, Sample};
 
 /// What a certificate contradicts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,16 +19,24 @@ pub struct Violation {
 
 impl Diagram {
     /// Points along an edge from its beginning to its end, with the distance to copper: chords stay
-    /// within `tolerance` nanometres of it, but none is shorter than an eighth of a millionth of a
-    /// turn.
+    /// within `tolerance` nanometres of it, but none is shorter than a nanometre.
     #[must_use]
     pub fn course(&self, edge: &Edge, tolerance: f64) -> Vec<((f64, f64), f64)> {
-        let [from, to] = [edge.from, edge.to].map(|i| &self.vertices[i as usize]);
-        let [a, b] = [from, to].map(|vertex| Spot::new(vertex.at.0, vertex.at.1));
-        let mut course = vec![(a, from.clearance)];
-        self.halve(edge, (a, b), tolerance, 16, &mut course);
-        course.push((b, to.clearance));
-        course.into_iter().map(|(p, clearance)| ((p.x, p.y), clearance)).collect()
+        let samples = self.samples(edge, tolerance).into_iter();
+        samples.map(|Sample { at, clearance }| ((at.x, at.y), clearance)).collect()
+    }
+
+    /// The same; the distance to copper, too, follows its chords.
+    pub(super) fn samples(&self, edge: &Edge, tolerance: f64) -> Vec<Sample> {
+        let sample = |vertex: u32| {
+            let Vertex { at: (x, y), clearance, .. } = self.vertices[vertex as usize];
+            Sample { at: Spot::new(x, y), clearance }
+        };
+        let (from, to) = (sample(edge.from), sample(edge.to));
+        let mut samples = vec![from];
+        self.halve(edge, (from, to), tolerance, 16, &mut samples);
+        samples.push(to);
+        samples
     }
 
     /// The place midway between two of an edge, by the foot on one of its generators.
@@ -57,19 +65,21 @@ impl Diagram {
     fn halve(
         &self,
         edge: &Edge,
-        (a, b): (Spot, Spot),
+        (a, b): (Sample, Sample),
         tolerance: f64,
         left: u32,
-        course: &mut Vec<(Spot, f64)>,
+        samples: &mut Vec<Sample>,
     ) {
-        if left == 0 || (b - a).length() < 1.0 {
+        if left == 0 || (b.at - a.at).length() < 1.0 {
             return;
         }
-        let Some((middle, clearance)) = self.midway(edge, a, b) else { return };
-        if middle.distance_to_chord(a, b) > tolerance {
-            self.halve(edge, (a, middle), tolerance, left - 1, course);
-            course.push((middle, clearance));
-            self.halve(edge, (middle, b), tolerance, left - 1, course);
+        let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { return };
+        let is_off = at.distance_to_chord(a.at, b.at) > tolerance;
+        if is_off || (clearance - f64::midpoint(a.clearance, b.clearance)).abs() > CLEARANCE_CHORD {
+            let middle = Sample { at, clearance };
+            self.halve(edge, (a, middle), tolerance, left - 1, samples);
+            samples.push(middle);
+            self.halve(edge, (middle, b), tolerance, left - 1, samples);
         }
     }
 
@@ -112,7 +122,7 @@ impl Diagram {
         for (_, distance) in self.within(at, clearance) {
             worst = worst.max(clearance - distance);
         }
-        if worst > 2.0 * TIE {
+        if worst > 2.0 * self.tie {
             found.push(Violation { at: at.rounded(), by: worst });
         }
     }

@@ -17,7 +17,7 @@ use crate::voronoi::plane::Spot;
 
 /// A foot may lie so far beyond the end of a slab and count, in nanometres: far more than rounding,
 /// far less than any real length.
-pub(super) const SLAB: f64 = 0.01;
+pub(super) const SLAB: f64 = 0.05;
 
 /// Nothing on a board is so far away, in nanometres: bisectors end here that rounding has turned
 /// from parallel ones.
@@ -89,6 +89,15 @@ impl Form {
                 if hollow { -out } else { out }
             }
         }
+    }
+
+    /// How far `p` is from the nearest place of it, its ends included, from whichever side.
+    pub(super) fn off(&self, p: Spot) -> f64 {
+        if self.slack(p) >= 0.0 {
+            return self.distance(p).abs();
+        }
+        let ends = self.ends().into_iter().flatten();
+        ends.map(|end| (self.foot(end).0 - p).length()).fold(f64::INFINITY, f64::min)
     }
 
     /// The direction in which the distance grows.

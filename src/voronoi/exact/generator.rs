@@ -25,7 +25,6 @@ use crate::geometry::{Arc, Nm, Point, Polygon};
 use crate::voronoi::plane::Spot;
 
 use super::form::{Form, Place, SLAB, clockwise, unit};
-use super::vertex::TIE;
 
 /// No generator.
 const NONE: u32 = u32::MAX;
@@ -260,23 +259,21 @@ impl Index {
         for [left, bottom, right, top] in &boxes {
             builder.add(*left, *bottom, *right, *top);
         }
-        let mut index = Self { boxes, tree: builder.build().ok(), breaks: Vec::new(), starts: Vec::new() };
-        let mut found = index.find_breaks(generators);
+        Self { boxes, tree: builder.build().ok(), breaks: Vec::new(), starts: Vec::new() }
+    }
+
+    /// Finds all breaks where distances that differ by less than `tie` are equal.
+    pub(super) fn find_breaks(&mut self, generators: &Generators, tie: f64) {
+        let mut found = self.touching_ends(generators, tie);
         found.sort_by_key(|(generator, _)| *generator);
-        let mut at = 0;
-        for i in (0_u32..).take(generators.len() + 1) {
-            while at < found.len() && found[at].0 < i {
-                at += 1;
-            }
-            index.starts.push(u32::try_from(at).expect("below 2³² breaks"));
-        }
-        index.breaks = found.into_iter().map(|(_, place)| place).collect();
-        index
+        let starts = (0_u32..).take(generators.len() + 1).map(|i| found.partition_point(|&(of, _)| of < i));
+        self.starts = starts.map(|at| u32::try_from(at).expect("below 2³² breaks")).collect();
+        self.breaks = found.into_iter().map(|(_, place)| place).collect();
     }
 
     /// The places on generators where a line or an arc ends with the same foot and normal. A disc
     /// on its own has two all the same, so that no loop round it is without a vertex.
-    fn find_breaks(&self, generators: &Generators) -> Vec<(u32, Place)> {
+    fn touching_ends(&self, generators: &Generators, tie: f64) -> Vec<(u32, Place)> {
         let mut found: Vec<(u32, Place)> = Vec::new();
         let mut counts = vec![0_u32; generators.len()];
         for (i, form) in (0_u32..).zip(&generators.forms) {
@@ -284,9 +281,9 @@ impl Index {
                 let (foot, normal) = form.foot(place);
                 // A disc of no radius has its normal a little way off.
                 let ahead = foot + normal * AHEAD;
-                self.visit_round(foot, TIE, |other| {
+                self.visit_round(foot, tie, |other| {
                     let touched = &generators.forms[other as usize];
-                    let touches = touched.distance(foot).abs() <= TIE
+                    let touches = touched.distance(foot).abs() <= tie
                         && touched.slack(ahead) >= -SLAB
                         && touched.away(ahead).dot(normal) > 1.0 - 1e-9;
                     if other != i && touches {

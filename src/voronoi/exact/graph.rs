@@ -5,7 +5,7 @@
 
 use rustc_hash::FxHashMap;
 
-use super::vertex::{Junction, Slot, TIE};
+use super::vertex::{Junction, SNAP, Slot, resolution};
 use super::walk::{Event, Pair};
 use super::{Diagram, Edge, Space, Vertex};
 use crate::voronoi::plane::Spot;
@@ -13,9 +13,10 @@ use crate::voronoi::plane::Spot;
 /// The graph as it grows.
 #[derive(Default)]
 pub(super) struct Growth {
+    tie: f64,
     pub(super) junctions: Vec<Junction>,
     edges: Vec<Edge>,
-    /// The junctions of each square nanometre.
+    /// The junctions of each cell of the plane.
     by_place: FxHashMap<[i64; 2], Vec<u32>>,
     /// Slots that nobody has followed yet.
     open: Vec<(u32, usize)>,
@@ -26,29 +27,37 @@ pub(super) struct Growth {
 /// seen.
 const RETRIES: usize = 8;
 
-/// Places nearer to each other are one, in nanometres: twice what ties may leave.
-const ONE: f64 = 2.0 * TIE;
+/// The side of a cell, in nanometres. Chosen: what one vertex may be off, mostly.
+const CELL: f64 = 1_000.0;
 
 #[expect(clippy::cast_possible_truncation, reason = "a board is smaller than 2⁶³ nanometres")]
-fn square(p: Spot) -> [i64; 2] {
-    [p.x.floor() as i64, p.y.floor() as i64]
+fn cell(p: Spot) -> [i64; 2] {
+    [(p.x / CELL).floor() as i64, (p.y / CELL).floor() as i64]
 }
 
 impl Growth {
-    fn find(&self, p: Spot) -> Option<u32> {
-        let [low, high] = [square(p - Spot::new(ONE, ONE)), square(p + Spot::new(ONE, ONE))];
-        let squares = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
-        let known = squares.filter_map(|square| self.by_place.get(&square)).flatten();
-        known.copied().find(|&i| (self.junctions[i as usize].at - p).length() <= ONE)
+    /// The junction at the place of another, or where the same generators are tied all the way
+    /// there.
+    fn known(&self, junction: &Junction) -> Option<u32> {
+        let Junction { at, clearance, .. } = *junction;
+        let reach = resolution(self.tie, clearance);
+        let [low, high] = [cell(at - Spot::new(reach, reach)), cell(at + Spot::new(reach, reach))];
+        let cells = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
+        let known = cells.filter_map(|cell| self.by_place.get(&cell)).flatten().copied();
+        let off = |i: u32| (self.junctions[i as usize].at - at).length();
+        let one = known.filter(|&i| {
+            off(i) <= 2.0 * self.tie || (off(i) <= reach && self.junctions[i as usize].tied == junction.tied)
+        });
+        one.min_by(|&a, &b| off(a).total_cmp(&off(b)))
     }
 
     /// The number of a junction, which is new or known.
     pub(super) fn place(&mut self, junction: Junction) -> u32 {
-        if let Some(known) = self.find(junction.at) {
+        if let Some(known) = self.known(&junction) {
             return known;
         }
         let number = u32::try_from(self.junctions.len()).expect("below 2³² vertices");
-        self.by_place.entry(square(junction.at)).or_default().push(number);
+        self.by_place.entry(cell(junction.at)).or_default().push(number);
         self.open.extend((0..junction.slots.len()).map(|slot| (number, slot)));
         self.junctions.push(junction);
         number
@@ -93,7 +102,7 @@ fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Junction {
 impl Diagram {
     /// Finds all vertices and edges.
     pub(super) fn walk_all(&mut self, space: Space) {
-        let mut growth = Growth::default();
+        let mut growth = Growth { tie: self.tie, ..Growth::default() };
         self.sow(&mut growth, space);
         self.finish(growth);
     }
@@ -104,8 +113,7 @@ impl Diagram {
             let junction = &growth.junctions[from as usize];
             let Slot { left, right, edge: None, .. } = junction.slots[slot] else { continue };
             let pair = self.pair(left, right);
-            let event = self.follow(&pair, junction.at, &junction.tied);
-            let Some((ending, way)) = self.ending(&pair, junction.at, event) else {
+            let Some((ending, way)) = self.next(growth, from, &pair) else {
                 growth.fault(growth.junctions[from as usize].at);
                 continue;
             };
@@ -114,7 +122,7 @@ impl Diagram {
             let same = |slot: &Slot| owners(slot) == (self.owner(right), self.owner(left));
             match growth.back(to, left, right, way, same) {
                 Some(back) => growth.connect((from, slot), to, back),
-                None if growth.junctions[to as usize].clearance < TIE => {
+                None if growth.junctions[to as usize].clearance < self.tie => {
                     // Any number of edges may end in one notch.
                     let slots = &mut growth.junctions[to as usize].slots;
                     slots.push(Slot { left: right, right: left, way: way * -1.0, edge: None });
@@ -126,6 +134,28 @@ impl Diagram {
         }
     }
 
+    /// The junction at which the edge between a pair that leaves a junction ends, and the direction
+    /// in which it arrives.
+    fn next(&self, growth: &Growth, from: u32, pair: &Pair) -> Option<(Junction, Spot)> {
+        let home = &growth.junctions[from as usize];
+        let near = resolution(self.tie, home.clearance) + SNAP;
+        let mut start = home.at;
+        for _ in 0..RETRIES {
+            let event = self.follow(pair, start, &home.tied);
+            let found = self.ending(pair, start, event)?;
+            // Ends of generators within a nanometre of each other are one vertex: beyond them.
+            match event {
+                Event::Junction { at, .. }
+                    if (at - home.at).length() < near && growth.known(&found.0) == Some(from) =>
+                {
+                    start = at;
+                }
+                _ => return Some(found),
+            }
+        }
+        None
+    }
+
     pub(super) fn pair(&self, left: u32, right: u32) -> Pair {
         Pair { left, right, forms: [left, right].map(|i| self.forms()[i as usize]) }
     }
@@ -133,7 +163,7 @@ impl Diagram {
     /// The junction at which an edge from `start` ends, and the direction in which it arrives.
     pub(super) fn ending(&self, pair: &Pair, start: Spot, event: Event) -> Option<(Junction, Spot)> {
         match event {
-            Event::Junction { at, clearance, way, .. } if clearance < TIE => {
+            Event::Junction { at, clearance, way, .. } if clearance < self.tie => {
                 Some((dead_end(pair, at, 0.0, way), way))
             }
             Event::Junction { mut at, mut clearance, mut third, .. } => {
@@ -142,7 +172,7 @@ impl Diagram {
                         return Some((junction, pair.way(at)));
                     }
                     // The certificate names what was overlooked.
-                    let nearer = self.within(at, clearance - TIE);
+                    let nearer = self.within(at, clearance - self.tie);
                     third = nearer.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))?.0;
                     (at, clearance) = self.entered(pair, start, (at, clearance), third)?;
                 }

@@ -13,7 +13,6 @@
 
 use super::form::{Form, Place, turn};
 use super::graph::Growth;
-use super::vertex::TIE;
 use super::walk::{Event, Pair};
 use super::{Diagram, NOBODY, Space};
 use crate::voronoi::plane::Spot;
@@ -28,7 +27,7 @@ impl Diagram {
     /// Sows all seeds, and grows what comes of them.
     pub(super) fn sow(&self, growth: &mut Growth, space: Space) {
         match space {
-            Space::Around(_) => {
+            Space::Around(_) | Space::Window(_) => {
                 for (generator, foot) in self.rightmost() {
                     self.shoot(growth, generator, foot, Spot::new(1.0, 0.0));
                 }
@@ -71,9 +70,9 @@ impl Diagram {
                 if c == generator || !self.parts(generator, c) || self.generators.are_joined(generator, c) {
                     return;
                 }
-                let Some(s) = form.meet(foot, normal).filter(|&s| s > TIE) else { return };
+                let Some(s) = form.meet(foot, normal).filter(|&s| s > self.tie) else { return };
                 let nearer = nearest.is_none_or(|known| (s, c) < known);
-                if nearer && form.counts(foot + normal * s, TIE) {
+                if nearer && form.counts(foot + normal * s, self.tie) {
                     nearest = Some((s, c));
                 }
             });
@@ -95,9 +94,12 @@ impl Diagram {
     fn plant(&self, growth: &mut Growth, at: Spot, clearance: f64, [a, b]: [u32; 2]) {
         let Some(junction) = self.junction(at, clearance, [a, b, b]) else { return };
         match junction.slots[..] {
-            // An edge passes here, also where others touch the circle and do not enter: it is no
-            // vertex.
-            [one, other] if (one.left, one.right) == (other.right, other.left) => {
+            // A boundary passes here, also where others touch the circle and do not enter: whether
+            // it is a vertex shows who comes along it.
+            [one, other]
+                if self.owner(one.left) == self.owner(other.right)
+                    && self.owner(one.right) == self.owner(other.left) =>
+            {
                 self.plant_pair(growth, &self.pair(one.left, one.right), at);
             }
             _ => {
@@ -145,7 +147,8 @@ impl Diagram {
     fn sow_side(&self, growth: &mut Growth, corner: Spot, axis: Spot) {
         let Some((nearest, distance)) = self.nearest(corner) else { return };
         let mut at = corner;
-        let mut tied: Vec<u32> = self.within(corner, distance + TIE).into_iter().map(|(i, _)| i).collect();
+        let mut tied: Vec<u32> =
+            self.within(corner, distance + self.tie).into_iter().map(|(i, _)| i).collect();
         let mut current = self.ahead_of(corner, distance, axis, &tied).unwrap_or(nearest);
         for _ in 0..EVENTS {
             let form = self.forms()[current as usize];
@@ -160,7 +163,7 @@ impl Diagram {
                 growth.fault(next);
                 return;
             };
-            tied = self.within(next, clearance + TIE).into_iter().map(|(i, _)| i).collect();
+            tied = self.within(next, clearance + self.tie).into_iter().map(|(i, _)| i).collect();
             for slot in junction.slots.iter().filter(|slot| axis.cross(slot.way) > 0.0) {
                 self.plant_pair(growth, &self.pair(slot.left, slot.right), next);
             }

@@ -14,13 +14,14 @@ use super::form::{SLAB, clockwise, turn};
 use super::{Diagram, Kind, apollonius};
 use crate::voronoi::plane::Spot;
 
-/// Distances that differ by less are equal, in nanometres. Chosen: rounding is a millionth of it,
-/// and whole nanometres rarely come so close.
-pub(super) const TIE: f64 = 0.02;
+/// Distances that differ by less are equal, in nanometres: the first of these with which all edges
+/// find their ends. Chosen: rounding is a thousandth of the least, whole nanometres rarely come as
+/// close as the largest.
+pub(super) const TIES: [f64; 3] = [0.002, 0.02, 0.000_2];
 
 /// A place so near to the end of a slab is taken for it where all that is tied stays so, in
 /// nanometres. Chosen.
-const SNAP: f64 = 1.0;
+pub(super) const SNAP: f64 = 1.0;
 
 /// Feet nearer to each other than this have one direction, beside what a tie may turn them by.
 const SAME: f64 = 1e-6;
@@ -53,14 +54,20 @@ pub(super) struct Junction {
     pub(super) slots: Vec<Slot>,
 }
 
+/// How far from a place so far from copper two generators may be tied that part there, in
+/// nanometres: what touches a circle from within leaves it by the square of the way.
+pub(super) fn resolution(tie: f64, clearance: f64) -> f64 {
+    (60.0 * tie * clearance).sqrt().max(1.0)
+}
+
 impl Diagram {
     /// The generators that count at `p` and are at most `reach` far, with their distances.
     pub(super) fn within(&self, p: Spot, reach: f64) -> Vec<(u32, f64)> {
         let mut found = Vec::new();
-        self.index.visit_round(p, reach + TIE, |i| {
+        self.index.visit_round(p, reach + self.tie, |i| {
             let form = &self.forms()[i as usize];
             let distance = form.distance(p);
-            if distance <= reach && form.counts(p, TIE) {
+            if distance <= reach && form.counts(p, self.tie) {
                 found.push((i, distance));
             }
         });
@@ -71,9 +78,9 @@ impl Diagram {
     /// What is tied near `p`, which `third` generators at about `clearance` have led to; none where
     /// something is nearer.
     pub(super) fn junction(&self, p: Spot, clearance: f64, led: [u32; 3]) -> Option<Junction> {
-        let near = self.within(p, clearance + 8.0 * TIE);
+        let near = self.within(p, clearance + 8.0 * self.tie);
         let least = near.iter().map(|&(_, d)| d).fold(f64::INFINITY, f64::min);
-        if near.is_empty() || least < clearance - 4.0 * TIE {
+        if near.is_empty() || least < clearance - 4.0 * self.tie {
             return None;
         }
         let numbers = || near.iter().map(|&(i, _)| i);
@@ -96,7 +103,9 @@ impl Diagram {
         let mut tied: Vec<Tied> = Vec::new();
         for generator in among {
             let form = &self.forms()[generator as usize];
-            if (form.distance(p) - clearance).abs() > TIE || form.slack(p) < -slab || form.distance(p) < -TIE
+            if (form.distance(p) - clearance).abs() > self.tie
+                || form.slack(p) < -slab
+                || form.distance(p) < -self.tie
             {
                 continue;
             }
@@ -112,7 +121,7 @@ impl Diagram {
         tied.sort_by(|a, b| {
             turn(from, a.toward).total_cmp(&turn(from, b.toward)).then(a.generator.cmp(&b.generator))
         });
-        let same = SAME + 2.0 * TIE / clearance.max(TIE);
+        let same = SAME + 2.0 * self.tie / clearance.max(self.tie);
         let is_same = |a: Spot, b: Spot| a.dot(b) > 0.0 && a.cross(b).abs() < same;
         // Begin after a gap between two directions, so that no group is cut in two.
         let n = tied.len();
@@ -184,14 +193,15 @@ impl Diagram {
         let other = tied.iter().filter(|other| other.group != group).map(|other| other.generator).min()?;
         let s = self.forms()[other as usize].meet(foot, normal)?;
         let at = foot + normal * s;
-        let stays = |other: &Tied| (self.forms()[other.generator as usize].distance(at) - s).abs() <= TIE;
+        let stays =
+            |other: &Tied| (self.forms()[other.generator as usize].distance(at) - s).abs() <= self.tie;
         ((at - p).length() < 2.0 * SNAP && tied.iter().all(stays)).then_some(at)
     }
 
     /// What leaves between neighbouring groups.
     fn slots(&self, at: Spot, clearance: f64, tied: &[Tied]) -> Vec<Slot> {
         let groups = tied.last().map_or(0, |last| last.group + 1);
-        if groups < 2 || clearance < TIE {
+        if groups < 2 || clearance < self.tie {
             return Vec::new();
         }
         let group = |g: usize| tied.iter().filter(move |entry| entry.group == g % groups);
@@ -230,7 +240,7 @@ impl Diagram {
         way: Spot,
         group: impl Iterator<Item = &'a Tied> + Clone,
     ) -> u32 {
-        let probe = at + way * (60.0 * TIE * clearance).sqrt().max(1.0);
+        let probe = at + way * resolution(self.tie, clearance);
         let goes_on = |i: u32| {
             let form = &self.forms()[i as usize];
             let Some(ends) = form.ends() else { return true };

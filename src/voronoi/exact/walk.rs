@@ -14,7 +14,7 @@
 
 use super::apollonius;
 use super::form::{Form, Place, SLAB, clockwise, unit};
-use super::vertex::TIE;
+use super::vertex::resolution;
 use super::{Diagram, NOBODY};
 use crate::voronoi::plane::Spot;
 
@@ -95,7 +95,7 @@ impl Pair {
     }
 
     /// The end of an edge that runs into a notch, if it does: there both distances are zero.
-    fn contact(&self, here: &Here) -> Event {
+    fn contact(&self, here: &Here, tie: f64) -> Event {
         let [left, right] = &self.forms;
         let mut at = here.at;
         for _ in 0..4 {
@@ -108,7 +108,7 @@ impl Pair {
             }
             at = at + step;
         }
-        let touches = self.forms.iter().all(|form| form.distance(at).abs() < TIE);
+        let touches = self.forms.iter().all(|form| form.distance(at).abs() < tie);
         if touches { Event::Contact { at, way: self.way(here.at) } } else { Event::Fault }
     }
 
@@ -130,7 +130,7 @@ impl Diagram {
         let mut stride = STRIDE;
         for _ in 0..STEPS {
             let Some((mut next, mut is_end)) = self.step(pair, main, &here, end.as_ref(), stride) else {
-                return pair.contact(&here);
+                return pair.contact(&here, self.tie);
             };
             let mut leaves = false;
             if !self.holds(next.at) {
@@ -269,7 +269,7 @@ impl Diagram {
         // The arc strays from its chord by no more than half of it, for it turns by less than a
         // quarter.
         let reach = form.distance(middle).max(0.0).max(here.clearance).max(next.clearance);
-        let room = reach + half + TIE;
+        let room = reach + half + self.tie;
         let look = [
             here.at.x.min(next.at.x) - room,
             here.at.y.min(next.at.y) - room,
@@ -278,14 +278,14 @@ impl Diagram {
         ];
         let mut first: Option<Hit> = None;
         let mut missed: Option<u32> = None;
-        let near = (60.0 * TIE * here.clearance).sqrt().max(1.0);
+        let near = resolution(self.tie, here.clearance);
         self.index.visit(look, |c| {
             if c == pair.left || c == pair.right || self.joined_to(pair, c) {
                 return;
             }
             let other = &self.forms()[c as usize];
             let distance = other.distance(middle);
-            if distance > reach + 2.0 * half + TIE || distance < -half - half - TIE {
+            if distance > reach + 2.0 * half + self.tie || distance < -half - half - self.tie {
                 return;
             }
             let was_tied = tied.contains(&c);
@@ -293,18 +293,19 @@ impl Diagram {
                 let place = form.place(at);
                 let along = form.progress(here.place, place, sense);
                 let limit = first.map_or(ahead, |hit| hit.0);
-                if !(along > 0.0 && along <= limit) || other.slack(at) < -SLAB || s < -TIE {
+                if !(along > 0.0 && along <= limit) || other.slack(at) < -SLAB || s < -self.tie {
                     continue;
                 }
                 let off = (at - start).length();
-                let is_near = off < 2.0 * TIE || (was_tied && off < near);
+                let is_near = off < 2.0 * self.tie || (was_tied && off < near);
                 let entering = (other.away(at) - form.away(at)).dot(pair.way(at));
                 if (is_near && entering > -0.1) || entering >= -FLAT {
                     continue;
                 }
                 first = Some((along, at, s, c));
             }
-            let nearer = other.distance(next.at) < next.clearance - TIE && other.counts(next.at, TIE);
+            let nearer =
+                other.distance(next.at) < next.clearance - self.tie && other.counts(next.at, self.tie);
             if nearer && missed.is_none_or(|known| c < known) {
                 missed = Some(c);
             }
@@ -327,11 +328,11 @@ impl Diagram {
             };
             let Some((at, clearance)) = pair.at(main, place) else { break };
             let middle = Here { at, clearance, place };
-            let nearer = other.distance(at) < clearance - TIE / 4.0 && other.counts(at, TIE);
+            let nearer = other.distance(at) < clearance - self.tie / 4.0 && other.counts(at, self.tie);
             if nearer { hit = middle } else { clear = middle }
         }
         let along = form.progress(here.place, hit.place, pair.sense(main));
-        let (at, clearance) = touch(pair, other, hit.at).unwrap_or((hit.at, hit.clearance));
+        let (at, clearance) = touch(pair, other, hit.at, self.tie).unwrap_or((hit.at, hit.clearance));
         Some((along, at, clearance, c))
     }
 
@@ -357,13 +358,13 @@ impl Diagram {
 
 /// The place near `p` where an end of a line or an arc begins to touch one of two generators from
 /// within.
-fn touch(pair: &Pair, other: &Form, p: Spot) -> Option<(Spot, f64)> {
+fn touch(pair: &Pair, other: &Form, p: Spot, tie: f64) -> Option<(Spot, f64)> {
     let slacks = other.slacks(p);
     let end = usize::from(slacks[1].abs() < slacks[0].abs());
     let (foot, normal) = other.foot(other.ends()?[end]);
     let meetings = pair.forms.iter().filter_map(|form| form.meet(foot, normal));
     let mut places = meetings.map(|s| (foot + normal * s, s));
     places.find(|&(at, s)| {
-        (at - p).length() < NEAR && pair.forms.iter().all(|form| (form.distance(at) - s).abs() < TIE)
+        (at - p).length() < NEAR && pair.forms.iter().all(|form| (form.distance(at) - s).abs() < tie)
     })
 }

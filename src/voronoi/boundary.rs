@@ -1,0 +1,94 @@
+//! Boundaries from the certified diagram: chains cut at the border, stubs merged, fitted.
+//!
+//! The graph is the diagram's own: no pixel, no tile and no order of search has a part in it.
+//!
+//! ```text
+//!     ╲ stub ╱            ╲  ╱          A stub is a piece between two nodes that are closer than half the
+//!      ●────●      ─▶      ●            fitting tolerance: one node stands for both. Fitting takes the other
+//!     ╱      ╲            ╱  ╲          half, so what ends there stays within all of it.
+//! ```
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+
+use crate::geometry::{Nm, Path, Point};
+
+use super::clip::{Node, Piece};
+use super::exact;
+use super::fit;
+use super::plane::Spot;
+use super::{Boundaries, Boundary, Diagram, NodeId, Owner};
+
+impl Diagram {
+    /// The boundaries of the certified diagram, and where it contradicts itself.
+    pub(super) fn certified_boundaries(&self, diagram: &exact::Diagram) -> (Boundaries, Vec<Point>) {
+        let number = |net: u32| Owner::Net(crate::topology::NetId(net)).number();
+        let (mut pieces, torn) = super::clip::within(&self.border, diagram, diagram.chains(), number);
+        let faults = diagram.faults().iter().copied().chain(torn.iter().map(|at| at.rounded())).collect();
+        merge_stubs(&mut pieces, self.settings.tolerance.to_f64() / 2.0);
+        (self.fitted(&pieces), faults)
+    }
+
+    /// Pieces fitted, with nodes in the order in which they are met.
+    fn fitted(&self, pieces: &[Piece]) -> Boundaries {
+        // Two nodes that fall on the same nanometre are one, and nothing runs between them.
+        let fit = |piece: &Piece| {
+            let fitted = fit::fit(&piece.samples, self.settings.tolerance, self.settings.arcs)?;
+            Some((fitted, [piece.left, piece.right], piece.ends.is_none()))
+        };
+        let fitted: Vec<_> = pieces.par_iter().filter_map(fit).collect();
+        let mut numbers = rustc_hash::FxHashMap::default();
+        let mut nodes = Vec::new();
+        let mut node = |at: Point| {
+            *numbers.entry(at).or_insert_with(|| {
+                nodes.push(at);
+                NodeId(u32::try_from(nodes.len() - 1).expect("below 2³² nodes"))
+            })
+        };
+        let edge = |((path, clearance), sides, is_loop): ((Path, Vec<Nm>), [u32; 2], bool)| {
+            let ends = (!is_loop).then(|| (node(path.start), node(path.end())));
+            let [left, right] = sides.map(Owner::from_number);
+            Boundary { path, clearance, left, right, ends }
+        };
+        let edges = fitted.into_iter().map(edge).collect();
+        Boundaries { nodes, edges }
+    }
+}
+
+/// Makes one node of the ends of every stub shorter than `size` nanometres.
+fn merge_stubs(pieces: &mut Vec<Piece>, size: f64) {
+    let mut moved: BTreeMap<Node, (Node, Spot)> = BTreeMap::new();
+    pieces.retain(|piece| {
+        let Some([from, to]) = piece.ends else { return true };
+        let samples = &piece.samples;
+        let resolve = |node, at| resolved(&moved, node).unwrap_or((node, at));
+        let (here, first) = resolve(from, samples[0].at);
+        let (there, last) = resolve(to, samples[samples.len() - 1].at);
+        let is_near = |at: Spot| (at - first).length() < size;
+        let is_stub = here != there && is_near(last) && samples.iter().all(|sample| is_near(sample.at));
+        if is_stub {
+            moved.insert(there, (here, first));
+        }
+        !is_stub
+    });
+    for piece in pieces {
+        let Some(ends) = &mut piece.ends else { continue };
+        let last = piece.samples.len() - 1;
+        for (end, sample) in ends.iter_mut().zip([0, last]) {
+            if let Some((node, at)) = resolved(&moved, *end) {
+                piece.samples[sample].at = at;
+                *end = node;
+            }
+        }
+    }
+}
+
+/// The node that another was merged into, if it was.
+fn resolved(moved: &BTreeMap<Node, (Node, Spot)>, node: Node) -> Option<(Node, Spot)> {
+    let mut found = *moved.get(&node)?;
+    while let Some(&next) = moved.get(&found.0) {
+        found = next;
+    }
+    Some(found)
+}

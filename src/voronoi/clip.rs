@@ -1,0 +1,314 @@
+//! What lies on the board of the chains of a diagram, and the border itself, cut where they cross.
+//!
+//! ```text
+//!     outside ╎ board             Where a chain crosses the border is a node. What lies beyond is left
+//!             ╎   A               away; the pieces of the border between two crossings are boundaries
+//!    ─ ─ ─ ─ ─●──────────●        of the outside and of the net whose region they close.
+//!             ╎   B       ╲
+//! ```
+
+use std::cmp::Ordering;
+
+use rayon::prelude::*;
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use super::OUTSIDE;
+use super::edge::Border;
+use super::exact::{self, Chain};
+use super::plane::Spot;
+use super::span::Sample;
+
+/// Where a piece ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub(super) enum Node {
+    /// At a vertex of the diagram.
+    Vertex(u32),
+    /// Where a chain crosses the border.
+    Crossing(u32),
+}
+
+/// A part of the graph of boundaries before it is fitted.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Piece {
+    /// The number of the owner on its left.
+    pub(super) left: u32,
+    /// The number of the owner on its right.
+    pub(super) right: u32,
+    pub(super) samples: Vec<Sample>,
+    /// The nodes at its ends; none for a loop.
+    pub(super) ends: Option<[Node; 2]>,
+}
+
+impl Piece {
+    /// Makes it begin at the end that comes first by place, so that it does not matter from where
+    /// it was found.
+    fn orient(&mut self) {
+        let samples = &self.samples;
+        let backwards = || samples.iter().rev().zip(samples).map(|(b, a)| by_place(a, b)).find(|o| o.is_ne());
+        if self.ends.is_some() && backwards() == Some(Ordering::Greater) {
+            self.samples.reverse();
+            self.ends.iter_mut().for_each(|ends| ends.reverse());
+            std::mem::swap(&mut self.left, &mut self.right);
+        }
+    }
+
+    fn compare(&self, other: &Self) -> Ordering {
+        let pairs = self.samples.iter().zip(&other.samples);
+        pairs.map(|(a, b)| by_place(a, b)).find(|order| order.is_ne()).unwrap_or(Ordering::Equal)
+    }
+}
+
+fn by_place(a: &Sample, b: &Sample) -> Ordering {
+    a.at.x.total_cmp(&b.at.x).then(a.at.y.total_cmp(&b.at.y))
+}
+
+/// The border lies off whole nanometres by this, so that nothing on the grid of a board lies on it
+/// exactly. Chosen: two unequal parts of a nanometre that is rounded away in the end.
+const OFF_GRID: Spot = Spot::new(0.013_7, 0.007_1);
+
+/// Crossings this near to each other, in nanometres, may come in either order. Chosen: far more
+/// than rounding.
+const SAME: f64 = 10.0;
+
+/// The border's edges by place.
+struct Fence {
+    /// From vertex to vertex, with the board on the left.
+    edges: Vec<[Spot; 2]>,
+    /// Of each ring its first edge; one more ends the last.
+    starts: Vec<usize>,
+    index: Option<StaticAABB2DIndex<f64>>,
+}
+
+/// Where a chain crosses the border.
+#[derive(Clone, Copy, Debug)]
+struct Crossing {
+    /// Between which samples of the chain, and how far from the first to the second.
+    sample: usize,
+    part: f64,
+    /// On which edge of the border, and how far from its start.
+    edge: usize,
+    along: f64,
+    /// Whether the chain leaves the board.
+    leaves: bool,
+    at: Sample,
+    /// The owners on the board ahead and behind, for who follows the border.
+    ahead: u32,
+    behind: u32,
+}
+
+/// Whether `p` lies on the left of the way from `a` to `b`; on it counts as not.
+fn is_left(a: Spot, b: Spot, p: Spot) -> bool {
+    (b - a).cross(p - a) > 0.0
+}
+
+fn bounds(samples: &[Sample]) -> [f64; 4] {
+    let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+    samples.iter().fold(far, |[left, bottom, right, top], sample| {
+        let Spot { x, y } = sample.at;
+        [left.min(x), bottom.min(y), right.max(x), top.max(y)]
+    })
+}
+
+impl Fence {
+    fn new(border: &Border) -> Self {
+        let (mut edges, mut starts) = (Vec::new(), vec![0]);
+        for number in 0..border.ring_count {
+            let ring = border.rings.ring(number);
+            let next = ring.iter().cycle().skip(1);
+            edges.extend(ring.iter().zip(next).map(|(&a, &b)| [a + OFF_GRID, b + OFF_GRID]));
+            starts.push(edges.len());
+        }
+        let mut builder = StaticAABB2DIndexBuilder::new(edges.len());
+        for [a, b] in &edges {
+            builder.add(a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y));
+        }
+        Self { edges, starts, index: builder.build().ok() }
+    }
+
+    fn query(&self, [left, bottom, right, top]: [f64; 4]) -> Vec<usize> {
+        self.index.as_ref().map_or(Vec::new(), |index| index.query(left, bottom, right, top))
+    }
+
+    /// Whether `p` lies on the board.
+    fn holds(&self, p: Spot) -> bool {
+        let beyond = self.query([p.x, p.y, f64::MAX, p.y]).into_iter().filter(|&edge| {
+            let [a, b] = self.edges[edge];
+            (a.y > p.y) != (b.y > p.y) && (is_left(a, b, p) == (b.y > a.y))
+        });
+        beyond.count() % 2 == 1
+    }
+
+    /// Where a chain crosses the border, in its order.
+    fn crossings(&self, chain: &Chain) -> Vec<Crossing> {
+        let mut crossings = Vec::new();
+        if self.query(bounds(&chain.samples)).is_empty() {
+            return crossings;
+        }
+        for (sample, pair) in chain.samples.windows(2).enumerate() {
+            let (p, q) = (pair[0].at, pair[1].at);
+            let from = crossings.len();
+            for edge in self.query(bounds(pair)) {
+                let [a, b] = self.edges[edge];
+                let leaves = is_left(a, b, p);
+                if leaves == is_left(a, b, q) || is_left(p, q, a) == is_left(p, q, b) {
+                    continue;
+                }
+                let (way, side) = (q - p, b - a);
+                let part = (side.cross(a - p) / side.cross(way)).clamp(0.0, 1.0);
+                let at = p + way * part;
+                let clearance = pair[0].clearance + (pair[1].clearance - pair[0].clearance) * part;
+                let (ahead, behind) =
+                    if leaves { (chain.left, chain.right) } else { (chain.right, chain.left) };
+                let (along, at) = ((at - a).length(), Sample { at, clearance });
+                crossings.push(Crossing { sample, part, edge, along, leaves, at, ahead, behind });
+            }
+            crossings[from..].sort_by(|a, b| a.part.total_cmp(&b.part).then(a.edge.cmp(&b.edge)));
+        }
+        crossings
+    }
+}
+
+/// The pieces of `chains` on the board, then those of the border; and where the border's owners
+/// contradict each other: nowhere, unless the program is at fault. The chains' owners are those of
+/// `diagram`, the pieces' numbers what `number` makes of them.
+pub(super) fn within(
+    border: &Border,
+    diagram: &exact::Diagram,
+    chains: Vec<Chain>,
+    number: impl Fn(u32) -> u32,
+) -> (Vec<Piece>, Vec<Spot>) {
+    let fence = Fence::new(border);
+    let cut: Vec<(bool, Vec<Crossing>)> =
+        chains.par_iter().map(|chain| (fence.holds(chain.samples[0].at), fence.crossings(chain))).collect();
+    let mut pieces = Vec::new();
+    let mut crossings: Vec<(Crossing, Node)> = Vec::new();
+    for (chain, (starts_inside, found)) in chains.into_iter().zip(cut) {
+        let first = u32::try_from(crossings.len()).expect("below 2³² crossings");
+        let numbered = (first..).map(Node::Crossing);
+        let found: Vec<(Crossing, Node)> = found.into_iter().zip(numbered).collect();
+        crossings.extend(&found);
+        let sides = (number(chain.left), number(chain.right));
+        pieces.extend(parts(chain, starts_inside, &found).map(|(samples, ends)| {
+            let (left, right) = sides;
+            Piece { left, right, samples, ends }
+        }));
+    }
+    pieces.iter_mut().for_each(Piece::orient);
+    pieces.sort_by(Piece::compare);
+    let mut faults = Vec::new();
+    for ring in 0..fence.starts.len() - 1 {
+        let edges = fence.starts[ring]..fence.starts[ring + 1];
+        let mut on: Vec<(Crossing, Node)> =
+            crossings.iter().filter(|(crossing, _)| edges.contains(&crossing.edge)).copied().collect();
+        on.sort_by(|(a, _), (b, _)| a.edge.cmp(&b.edge).then(a.along.total_cmp(&b.along)));
+        let corners = border.rings.ring(u32::try_from(ring).expect("below 2³² rings"));
+        let clearance = border.clearance.to_f64();
+        let lap = Lap { corners, first_edge: edges.start, clearance };
+        if on.is_empty() {
+            let owner = diagram.owner_near(corners[0]);
+            let left = owner.map_or(super::BACKGROUND, &number);
+            pieces.push(Piece { left, right: OUTSIDE, samples: lap.whole(), ends: None });
+        }
+        for (i, &(from, start)) in on.iter().enumerate() {
+            let (to, end) = on[(i + 1) % on.len()];
+            let samples = lap.between(&from, &to, on.len() == 1);
+            let length: f64 = samples.windows(2).map(|pair| (pair[1].at - pair[0].at).length()).sum();
+            let mut owner = from.ahead;
+            if from.ahead != to.behind {
+                let middle = &samples[samples.len() / 2 - 1..=samples.len() / 2];
+                let near = diagram.owner_near(middle[0].at.midpoint(middle[1].at));
+                owner = near.unwrap_or(owner);
+                if length > SAME && owner != from.ahead && owner != to.behind {
+                    faults.push(samples[0].at);
+                }
+            }
+            pieces.push(Piece { left: number(owner), right: OUTSIDE, samples, ends: Some([start, end]) });
+        }
+    }
+    (pieces, faults)
+}
+
+type Part = (Vec<Sample>, Option<[Node; 2]>);
+
+/// The parts of a chain on the board.
+fn parts(
+    chain: Chain,
+    starts_inside: bool,
+    crossings: &[(Crossing, Node)],
+) -> impl Iterator<Item = Part> + use<> {
+    let Chain { samples, ends, .. } = chain;
+    let mut parts: Vec<Part> = Vec::new();
+    let whole = ends.map(|ends| ends.map(Node::Vertex));
+    let (Some((first, _)), Some((last, last_node))) = (crossings.first(), crossings.last()) else {
+        if starts_inside {
+            parts.push((samples, whole));
+        }
+        return parts.into_iter();
+    };
+    let mut head: Vec<Sample> = samples[..=first.sample].to_vec();
+    let mut tail: Vec<Sample> = vec![last.at];
+    tail.extend_from_slice(&samples[last.sample + 1..]);
+    for pair in crossings.windows(2) {
+        let ((from, start), (to, end)) = (&pair[0], &pair[1]);
+        if !from.leaves {
+            let mut part = vec![from.at];
+            part.extend_from_slice(&samples[from.sample + 1..=to.sample.max(from.sample)]);
+            part.push(to.at);
+            parts.push((part, Some([*start, *end])));
+        }
+    }
+    let (_, first_node) = crossings[0];
+    head.push(first.at);
+    match whole {
+        Some([from, to]) => {
+            if first.leaves {
+                parts.insert(0, (head, Some([from, first_node])));
+            }
+            if !last.leaves {
+                parts.push((tail, Some([*last_node, to])));
+            }
+        }
+        // A loop: its beginning and its end are one part.
+        None if !last.leaves => {
+            tail.extend_from_slice(&head[1..]);
+            parts.push((tail, Some([*last_node, first_node])));
+        }
+        None => {}
+    }
+    parts.into_iter()
+}
+
+/// One ring of the border.
+struct Lap<'a> {
+    corners: &'a [Spot],
+    /// The number of its first edge.
+    first_edge: usize,
+    clearance: f64,
+}
+
+impl Lap<'_> {
+    fn sample(&self, at: Spot) -> Sample {
+        Sample { at, clearance: self.clearance }
+    }
+
+    /// Once round.
+    fn whole(&self) -> Vec<Sample> {
+        self.corners.iter().chain(self.corners.first()).map(|&at| self.sample(at)).collect()
+    }
+
+    /// From one crossing to the next, along the border; all the way round where they are one.
+    fn between(&self, from: &Crossing, to: &Crossing, round: bool) -> Vec<Sample> {
+        let n = self.corners.len();
+        let (mut edge, last) = (from.edge - self.first_edge, to.edge - self.first_edge);
+        let mut samples = vec![self.sample(from.at.at)];
+        let is_behind = edge == last && (round || to.along < from.along);
+        let mut left = if is_behind { n } else { (last + n - edge) % n };
+        while left > 0 {
+            edge = (edge + 1) % n;
+            samples.push(self.sample(self.corners[edge]));
+            left -= 1;
+        }
+        samples.push(self.sample(to.at.at));
+        samples
+    }
+}

@@ -1,0 +1,150 @@
+//! Chains: the edges between the same two owners, one after the other, from where boundaries meet
+//! to where they meet again.
+//!
+//! ```text
+//!    A    ╱           Most vertices are *joints*: a generator hands over to the next one of its
+//!   ●────●───○──╮     owner ○. Only where more than two regions meet, or a boundary ends, is there a
+//!    B    ╲     ○     node ●. What closes without a node is a loop.
+//! ```
+
+use rayon::prelude::*;
+
+use super::{Diagram, Edge};
+use crate::voronoi::plane::Spot;
+use crate::voronoi::span::{CHORD, Sample};
+
+/// Edges in a row between the same two owners.
+#[derive(Clone, Debug, PartialEq)]
+pub(in crate::voronoi) struct Chain {
+    /// The owner on its left.
+    pub(in crate::voronoi) left: u32,
+    /// The owner on its right.
+    pub(in crate::voronoi) right: u32,
+    /// Places along it, so dense that chords follow the curves.
+    pub(in crate::voronoi) samples: Vec<Sample>,
+    /// The vertices at its ends; none for a loop, of which the last sample is the first again.
+    pub(in crate::voronoi) ends: Option<[u32; 2]>,
+}
+
+/// An edge of a chain, and whether the chain runs along it from its end to its beginning.
+type Link = (u32, bool);
+
+impl Diagram {
+    /// The chains between different owners: first those between nodes, by their lower vertices,
+    /// then the loops.
+    pub(in crate::voronoi) fn chains(&self) -> Vec<Chain> {
+        let ends = self.ends_by_vertex();
+        let joint = |vertex: u32| self.is_joint(&ends[vertex as usize]);
+        let mut seen = vec![false; self.edges.len()];
+        let mut rows: Vec<(Vec<Link>, bool)> = Vec::new();
+        let nodes = (0_u32..).take(ends.len()).filter(|&vertex| !joint(vertex));
+        for link in nodes.flat_map(|vertex| ends[vertex as usize].iter().copied()) {
+            if !seen[link.0 as usize] {
+                rows.push((self.row(link, &ends, &mut seen), false));
+            }
+        }
+        for number in (0_u32..).take(self.edges.len()) {
+            if !seen[number as usize] && self.is_boundary(&self.edges[number as usize]) {
+                rows.push((self.row((number, false), &ends, &mut seen), true));
+            }
+        }
+        rows.into_par_iter().map(|(row, is_loop)| self.chain(&row, is_loop)).collect()
+    }
+
+    fn is_boundary(&self, edge: &Edge) -> bool {
+        self.owner(edge.left) != self.owner(edge.right)
+    }
+
+    /// The boundary edges that leave each vertex.
+    fn ends_by_vertex(&self) -> Vec<Vec<Link>> {
+        let mut ends = vec![Vec::new(); self.vertices.len()];
+        for (number, edge) in (0_u32..).zip(&self.edges).filter(|(_, edge)| self.is_boundary(edge)) {
+            ends[edge.from as usize].push((number, false));
+            ends[edge.to as usize].push((number, true));
+        }
+        ends
+    }
+
+    /// The vertex that a link leads to.
+    fn target(&self, (edge, reversed): Link) -> u32 {
+        let edge = &self.edges[edge as usize];
+        if reversed { edge.from } else { edge.to }
+    }
+
+    /// The owners on the left and on the right of a link.
+    fn sides(&self, (edge, reversed): Link) -> (u32, u32) {
+        let Edge { left, right, .. } = self.edges[edge as usize];
+        let (left, right) = (self.owner(left), self.owner(right));
+        if reversed { (right, left) } else { (left, right) }
+    }
+
+    /// Whether what leaves a vertex is one boundary that goes on.
+    fn is_joint(&self, leaving: &[Link]) -> bool {
+        let [one, other] = leaving else { return false };
+        let (left, right) = self.sides(*one);
+        one.0 != other.0 && self.sides(*other) == (right, left)
+    }
+
+    /// The links from `first` to the next node, or round.
+    fn row(&self, first: Link, ends: &[Vec<Link>], seen: &mut [bool]) -> Vec<Link> {
+        let mut row = vec![first];
+        seen[first.0 as usize] = true;
+        let mut link = first;
+        loop {
+            let leaving = &ends[self.target(link) as usize];
+            let next = leaving.iter().find(|next| next.0 != link.0 && !seen[next.0 as usize]);
+            match next {
+                Some(&next) if self.is_joint(leaving) => {
+                    seen[next.0 as usize] = true;
+                    row.push(next);
+                    link = next;
+                }
+                _ => return row,
+            }
+        }
+    }
+
+    fn chain(&self, row: &[Link], is_loop: bool) -> Chain {
+        let mut samples: Vec<Sample> = Vec::new();
+        for &(number, reversed) in row {
+            let from = samples.len();
+            let skip = usize::from(from > 0);
+            let course = self.samples(&self.edges[number as usize], CHORD);
+            if reversed {
+                samples.extend(course.into_iter().rev().skip(skip));
+            } else {
+                samples.extend(course.into_iter().skip(skip));
+            }
+        }
+        let (left, right) = self.sides(row[0]);
+        let (first, last) = (row[0], row[row.len() - 1]);
+        let ends = (!is_loop).then(|| [self.target((first.0, !first.1)), self.target(last)]);
+        Chain { left, right, samples, ends }
+    }
+
+    /// The owner of the copper nearest to `p`, which may lie in it.
+    pub(in crate::voronoi) fn owner_near(&self, p: Spot) -> Option<u32> {
+        let [left, bottom, right, top] = self.window;
+        let all = (right - left) + (top - bottom);
+        let mut reach = FIRST_REACH;
+        loop {
+            let mut nearest: Option<(f64, u32)> = None;
+            self.index.visit_round(p, reach, |i| {
+                let found = (self.forms()[i as usize].off(p), i);
+                if nearest.is_none_or(|nearest| found < nearest) {
+                    nearest = Some(found);
+                }
+            });
+            match nearest {
+                Some((off, generator)) if off <= reach || reach > 4.0 * all => {
+                    return Some(self.owner(generator));
+                }
+                None if reach > 4.0 * all => return None,
+                Some(_) | None => reach *= 2.0,
+            }
+        }
+    }
+}
+
+/// Where a search begins, in nanometres; it doubles.
+const FIRST_REACH: f64 = 100_000.0;
