@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::{Excerpt, Side};
-use crate::geometry::Point;
+use crate::geometry::{Nm, Point};
 
 /// Where in a file something was found.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -55,13 +55,15 @@ pub struct Warning {
     pub source: Option<SourceSpan>,
     /// What to do about it; every warning about a file has that.
     pub help: Option<Help>,
+    /// How large: how much copper goes.
+    pub size: Option<Nm>,
 }
 
 impl Warning {
     /// A warning without a place.
     #[must_use]
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self { code, message: message.into(), side: None, at: None, source: None, help: None }
+        Self { code, message: message.into(), side: None, at: None, source: None, help: None, size: None }
     }
 
     /// The same, at a place on the board.

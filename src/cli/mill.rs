@@ -105,6 +105,7 @@ impl Mill {
             let report = job.verify(&settings)?;
             passes = report.passes(self.deny);
             document.verification = Some(Verdict::from(&report));
+            document.leave_out_explained_gaps();
         }
         progress.say("drawing");
         let mut files = files(&job, &settings)?;

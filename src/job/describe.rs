@@ -20,7 +20,7 @@ impl Job {
     #[must_use]
     pub fn describe(&self, settings: &Settings) -> Document {
         let changes = self.tool_changes(settings);
-        Document {
+        let document = Document {
             schema_version: SCHEMA_VERSION,
             generator: GENERATOR.to_owned(),
             board: self.board.name.clone(),
@@ -37,7 +37,8 @@ impl Job {
             verification: None,
             warnings: self.warnings.iter().map(WarningEntry::from).collect(),
             settings: settings.options().listed().into_iter().collect(),
-        }
+        };
+        document.with_gaps_merged(settings.finest_kerf())
     }
 }
 
@@ -64,6 +65,7 @@ impl Layer {
             junctions: self.boundaries.nodes.len(),
             boundary_length_mm: Millimetres(self.boundary_length()),
             frame_length_mm: self.lap.as_ref().map(|lap| Millimetres(Nm::from_f64(lap.length()))),
+            slight_gaps: 0,
         }
     }
 }

@@ -108,6 +108,14 @@ pub struct LayerEntry {
     pub boundary_length_mm: Millimetres,
     /// The lap round the frame, where it was cut.
     pub frame_length_mm: Option<Millimetres>,
+    /// Gaps that the kerf does not fit by so little that nobody minds.
+    #[serde(skip_serializing_if = "is_none")]
+    pub slight_gaps: usize,
+}
+
+#[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde asks")]
+const fn is_none(count: &usize) -> bool {
+    *count == 0
 }
 
 /// One island of copper.
@@ -198,6 +206,12 @@ pub struct WarningEntry {
     /// What was expected there, and what to do about it.
     #[serde(flatten)]
     pub help: Option<Help>,
+    /// How large: how much copper goes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub size_mm: Option<Millimetres>,
+    /// Where else it is so, and no worse.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub places: Vec<Place>,
 }
 
 impl From<Point> for Place {
@@ -215,6 +229,8 @@ impl From<&Warning> for WarningEntry {
             at: warning.at.map(Place::from),
             source: warning.source.clone(),
             help: warning.help,
+            size_mm: warning.size.map(Millimetres),
+            places: Vec::new(),
         }
     }
 }

@@ -19,8 +19,17 @@ impl Document {
                 let [a, b] = &gap.between;
                 format!(", smallest gap {:.3} mm between {a} and {b}", gap.width_mm.0)
             });
+            let slight = match layer.slight_gaps {
+                0 => String::new(),
+                gaps => format!(", {} narrower than the kerf by a hundredth or less", count(gaps, "gap")),
+            };
             let lengths = layer.lengths();
-            let _ = writeln!(text, "  {}: {}{gap}, {lengths}", layer.side, count(layer.nets.len(), "net"));
+            let _ = writeln!(
+                text,
+                "  {}: {}{gap}, {lengths}{slight}",
+                layer.side,
+                count(layer.nets.len(), "net")
+            );
             if let Some(colours) = layer.translucency.as_ref().filter(|_| verbose) {
                 let _ = write!(text, "  {}", colours.to_text());
             }
@@ -149,6 +158,8 @@ mod tests {
             at: None,
             source: None,
             help: None,
+            size_mm: None,
+            places: Vec::new(),
         };
         let all: Vec<_> = (1..=5).map(one).collect();
         let short = warnings(&all, false);
@@ -169,6 +180,7 @@ mod tests {
             junctions: 0,
             boundary_length_mm: Millimetres(Nm::from_mm(208)),
             frame_length_mm,
+            slight_gaps: 0,
         };
         assert_eq!(layer(None).lengths(), "boundaries 208 mm", "an outline is no lap");
         let framed = layer(Some(Millimetres(Nm::from_mm(81)))).lengths();

@@ -411,3 +411,30 @@ fn a_board_without_copper_is_drilled_and_cut_out() {
     assert!(job.page(&settings, &document).is_ok(), "it has a page");
     assert!(job.picture(Side::Front, &settings).is_none(), "no copper, no picture of it");
 }
+
+#[test]
+fn gaps_narrower_than_the_kerf_are_one_entry_a_side_and_none_beside_what_is_found_there() {
+    let (job, settings) = job("blinker", "tool = \"endmill:0.6mm\"");
+    let narrow = "gap-narrower-than-tool";
+    let sizes: Vec<Nm> =
+        job.warnings.iter().filter(|warning| warning.code == narrow).filter_map(|w| w.size).collect();
+    let deepest = sizes.iter().copied().max().expect("some gaps are too narrow");
+    assert!(sizes.len() > 5 && deepest > Nm::from_um(20), "{sizes:?}");
+    let mut document = job.describe(&settings);
+    let entries: Vec<_> = document.warnings.iter().filter(|entry| entry.code == narrow).collect();
+    assert!(entries.len() <= 2, "those that verification tells of, and those it does not: {entries:?}");
+    assert!(entries.iter().any(|entry| entry.size_mm.is_some_and(|size| size.0 == deepest)), "the worst");
+    let told: usize = entries.iter().map(|entry| entry.places.len() + 1).sum();
+    let slight: usize = document.layers.iter().map(|layer| layer.slight_gaps).sum();
+    assert_eq!(told + slight, sizes.len(), "none is left out");
+    let report = job.verify(&settings).expect("it can be judged");
+    let gouges: Vec<_> = report.findings.iter().filter(|finding| finding.name == "gouge").collect();
+    assert!(!gouges.is_empty(), "verification finds them, too");
+    document.verification = Some((&report).into());
+    document.leave_out_explained_gaps();
+    let left: Vec<_> = document.warnings.iter().filter(|entry| entry.code == narrow).collect();
+    assert!(
+        left.iter().all(|entry| entry.size_mm.is_some_and(|size| size.0 <= Nm::from_um(10))),
+        "what is found is told once: {left:?}"
+    );
+}

@@ -161,7 +161,8 @@ fn contention(
         micrometres(clearance * 2),
         micrometres(kerf),
     );
-    Some(Warning::new("gap-narrower-than-tool", message).at(at))
+    let size = (narrow == Narrow::Centre).then_some(lost);
+    Some(Warning { size, ..Warning::new("gap-narrower-than-tool", message).at(at) })
 }
 
 /// For display.
