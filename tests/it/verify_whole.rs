@@ -112,6 +112,31 @@ fn a_spoilt_cutout_is_found_out() {
 }
 
 #[test]
+fn a_tab_of_an_inner_cut_out_that_is_cut_through_is_told() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/regulator");
+    let loaded = import::load(&[folder], &Selection::default()).expect("a board");
+    let options = Options::from_toml("settings", "dialect = \"linuxcnc\"").expect("options");
+    let job = job::mill(loaded, &job::Settings::resolve(options).expect("settings")).expect("a job");
+    let whole = &job.programs.iter().find(|written| written.part == Part::Cutout).expect("a program").text;
+    let find = |text: &str| judge(&job.board, Some(Role::Cutout), text);
+    assert_eq!(find(whole), [], "nothing is wrong with it");
+    // The inner cut-out comes first: two tabs in two passes, the last of which goes through.
+    let climbs: Vec<usize> = whole.match_indices("Z-1.1\n").map(|(at, _)| at).collect();
+    assert_eq!(climbs.len(), 12, "two tabs in the cut-out, four outside, in two passes each");
+    for climb in [2, 3] {
+        let mut spoilt = whole.clone();
+        spoilt.replace_range(climbs[climb]..climbs[climb] + 5, "Z-1.7");
+        let found = find(&spoilt);
+        assert_eq!(
+            names(&found, Severity::Warning),
+            ["tab-missing"],
+            "tab {climb} of the cut-out: {found:?}"
+        );
+        assert!(found[0].at.is_some_and(|at| at.y > Nm::from_mm(-70)), "in the cut-out: {:?}", found[0].at);
+    }
+}
+
+#[test]
 fn a_cutout_a_little_off_is_no_error() {
     let whole = text(Part::Cutout);
     let find = |text: &str| judge(&BLINKER.board, Some(Role::Cutout), text);

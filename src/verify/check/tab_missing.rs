@@ -2,7 +2,8 @@
 //!
 //! What is cut out is held until the last: with everything cut, every board hangs together with the
 //! stock round it through at least one tab. Where the program says how many tabs it was asked for,
-//! fewer are told too.
+//! fewer are told too; of what falls out of a cut-out where a tab among evenly spread ones is not
+//! there, or one alone holds it.
 //!
 //! # Why
 //!
@@ -11,14 +12,14 @@
 //! # What it can miss
 //!
 //! Boards held by tape, which need none (ask for `--tabs 0`). Whether tabs are strong enough is for
-//! `tab-thin` to say.
+//! `tab-thin` to say. Cut-outs without any tab: what falls out of a small one needs none.
 
 use super::{Check, Run, Severity};
 use crate::board::{Board, Shape};
 use crate::geometry::{Nm, Point, Rect};
 use crate::grid::Grid;
 use crate::verify::Settings;
-use crate::verify::contours::Contours;
+use crate::verify::contours::{Contours, Ring};
 use crate::verify::pieces::{Joiner, Part};
 use crate::verify::report::Finding;
 use crate::verify::spans::{Spans, filled, less};
@@ -63,7 +64,44 @@ fn check(contours: &Contours<'_>, _: &Board, settings: &Settings) -> Vec<Finding
         let bounds = contours.outline.bounds();
         findings.push(finding(bounds.min().midpoint(bounds.max()), Severity::Warning, message));
     }
+    let inner = contours.rings.iter().filter(|ring| !ring.is_board);
+    let gaps = inner.filter_map(|ring| uneven(contours, ring, settings));
+    findings.extend(gaps.map(|(at, message)| finding(at, Severity::Warning, message)));
     findings
+}
+
+/// How much longer the longest way without a tab is than the next where one is not there. Chosen:
+/// it is twice as long where tabs are spread evenly, and corners move them a little.
+const UNEVEN: f64 = 1.7;
+
+/// What holds too little of a piece that falls out of a cut-out, and about where a tab should be.
+///
+/// How many find room on a small contour nobody says; but where a program makes any it spreads them
+/// evenly, and one alone holds nothing level.
+fn uneven(contours: &Contours<'_>, ring: &Ring, settings: &Settings) -> Option<(Point, String)> {
+    let wanted = settings.tabs.and_then(|wanted| usize::try_from(wanted).ok())?;
+    let count = ring.stretches.len();
+    let is_tab = |at: &usize| contours.is_tab(&ring.stretches[*at], ring, settings);
+    let tabs: Vec<usize> = (0..count).filter(is_tab).collect();
+    let first = *tabs.first().filter(|_| tabs.len() < wanted)?;
+    // The ways from each tab to the next, with the longest stretch of each.
+    let mut ways: Vec<(f64, f64, Point)> = Vec::new();
+    for at in (first..first + count).map(|at| at % count) {
+        let stretch = &ring.stretches[at];
+        if tabs.contains(&at) {
+            ways.push((0.0, 0.0, stretch.at));
+        } else if let Some((all, longest, place)) = ways.last_mut() {
+            *all += stretch.length;
+            if stretch.length > *longest {
+                (*longest, *place) = (stretch.length, stretch.at);
+            }
+        }
+    }
+    ways.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let is_uneven = ways.get(1).is_none_or(|next| ways[0].0 > next.0 * UNEVEN);
+    let held = if tabs.len() == 1 { "one tab".to_owned() } else { format!("{} tabs", tabs.len()) };
+    let message = format!("what falls out of a cut-out is held by {held}: one is not there");
+    is_uneven.then(|| (ways[0].2, message))
 }
 
 /// In mm², what is a board and no crumb. Chosen.
