@@ -5,10 +5,14 @@
 //! judged in another, so that the peak memory of each can be told. Both begin with the board as it
 //! was read. Times are CPU seconds of all threads, the least of several rounds. The boards are ours
 //! and, where there are some, those of `VOROMILL_BOARDS`.
+//!
+//! Last come programs that nobody would mill, chords and full circles by chance over a whole board
+//! (`regulator`): what is cut a hundred times over must take seconds, not hours.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 mod usage;
 
+use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -48,6 +52,65 @@ fn main() {
             made.0, judged.0, made.1, judged.1
         );
     }
+    crowds(&arguments);
+}
+
+/// Programs that cut the same places over and over: what of, and how many.
+const CROWDS: [(&str, u32); 4] =
+    [("chords", 10_000), ("chords", 100_000), ("circles", 10_000), ("circles", 20_000)];
+
+/// Judges [`CROWDS`], those among `wanted` where there are any.
+fn crowds(wanted: &[String]) {
+    let board = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/regulator");
+    for (kind, count) in CROWDS {
+        let name = format!("{kind}-{count}");
+        if !wanted.is_empty() && !wanted.contains(&name) {
+            continue;
+        }
+        let folder = std::env::temp_dir().join(format!("voromill-verify-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&folder).expect("a folder to write to");
+        std::fs::write(folder.join("crowd.ngc"), crowd(kind, count, &board)).expect("writable");
+        let (seconds, mib) = measured("judge", &board, &folder);
+        std::fs::remove_dir_all(&folder).expect("ours");
+        println!("{name:24} {:>9} {seconds:9.4} {:6} {:>8} {mib:8.1}", "", "", "");
+    }
+}
+
+/// So many cuts by chance over a board, the same every time.
+fn crowd(kind: &str, count: u32, board: &Path) -> String {
+    let bounds = load(board).board.bounds().expect("a board has bounds");
+    let mut seed = 7_u64;
+    let mut chance = |from: f64, to: f64| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let share = f64::from(u32::try_from(seed >> 33).expect("31 bits")) / f64::from(1_u32 << 31);
+        from + (to - from) * share
+    };
+    let mut text =
+        "(front isolation)\n(origin keep)\n(tool endmill:0.2mm)\nG21 G90 G17 F100\nM3 S1000\nG0 Z2\n"
+            .to_owned();
+    for _ in 0..count {
+        let ends = [0, 1].map(|_| {
+            let x = chance(bounds.min().x.to_mm(), bounds.max().x.to_mm());
+            [x, chance(bounds.min().y.to_mm(), bounds.max().y.to_mm())]
+        });
+        let _ = match kind {
+            "chords" => {
+                let [[x, y], [to_x, to_y]] = ends;
+                writeln!(text, "G0 X{x:.4} Y{y:.4}\nG1 Z-0.1\nG1 X{to_x:.4} Y{to_y:.4}\nG0 Z2")
+            }
+            _ => {
+                let ([x, y], radius) = (ends[0], chance(0.5, 10.0));
+                writeln!(
+                    text,
+                    "G0 X{:.4} Y{y:.4}\nG1 Z-0.1\nG2 X{:.4} Y{y:.4} I{:.4} J0\nG0 Z2",
+                    x + radius,
+                    x + radius,
+                    -radius
+                )
+            }
+        };
+    }
+    text + "M5\nM2\n"
 }
 
 /// Names and folders, ours first.

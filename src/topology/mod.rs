@@ -33,6 +33,7 @@ mod names;
 mod nets;
 mod proximity;
 mod sets;
+mod stretches;
 mod surface;
 mod translucency;
 

@@ -5,14 +5,18 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 
 use crate::board::{Copper, Shape};
-use crate::geometry::{Nm, Point};
+use crate::geometry::{Nm, Point, Rect};
 
 use super::contact::{Bodies, Body, Scratch};
+use super::index::RectIndex;
+use super::stretches::stretches;
 
 /// Shapes made ready to be asked what comes near another.
 #[derive(Debug)]
 pub struct Proximity {
     bodies: Bodies,
+    /// Where some are long, the rectangles that hold each closely, in order; and whose they are.
+    close: Option<(RectIndex, Vec<usize>)>,
 }
 
 /// A feature near a shape.
@@ -30,13 +34,14 @@ impl Proximity {
     /// The features of `copper` by place.
     #[must_use]
     pub fn new(copper: &Copper) -> Self {
-        Self { bodies: Bodies::new(copper) }
+        let shapes = copper.features.iter().map(|feature| &feature.shape);
+        Self { bodies: Bodies::new(copper), close: close(shapes) }
     }
 
     /// The same of shapes that are no copper.
     #[must_use]
     pub fn of(shapes: &[Shape]) -> Self {
-        Self { bodies: Bodies::of(shapes.par_iter()) }
+        Self { bodies: Bodies::of(shapes.par_iter()), close: close(shapes.iter()) }
     }
 
     /// Every feature within `reach` of `shape`, by its index.
@@ -49,18 +54,120 @@ impl Proximity {
     #[must_use]
     pub fn near_of(&self, shape: &Shape, reach: Nm, wanted: impl Fn(usize) -> bool) -> Vec<Near> {
         let body = Body::new(shape);
+        let bounds = body.bounds();
         let (mut found, mut scratch) = (Vec::new(), Scratch::default());
-        let _ = self.bodies.index.visit(body.bounds().inflate(reach), &mut Vec::new(), |feature| {
-            if !wanted(feature) {
-                return ControlFlow::Continue(());
-            }
+        let mut look = |feature: usize| {
             let place = body.narrowest(&self.bodies.bodies[feature], reach, &mut scratch);
             found.extend(place.map(|place| Near { feature, width: place.width, at: place.at }));
-            ControlFlow::Continue(())
-        });
+        };
+        let long = stretches(shape);
+        let rects = long.as_deref().unwrap_or(std::slice::from_ref(&bounds));
+        if long.is_none() && self.close.is_none() {
+            let _ = self.bodies.index.visit(bounds.inflate(reach), &mut Vec::new(), |feature| {
+                if wanted(feature) {
+                    look(feature);
+                }
+                ControlFlow::Continue(())
+            });
+        } else {
+            self.candidates(rects, reach).into_iter().filter(|feature| wanted(*feature)).for_each(look);
+        }
         found.sort_unstable_by_key(|near| near.feature);
         found
     }
+
+    /// Whether a feature within `reach` of `shape`, of those whose index is `asked`, is `wanted`:
+    /// looks no further than the first.
+    #[must_use]
+    pub fn any(
+        &self,
+        shape: &Shape,
+        reach: Nm,
+        asked: impl Fn(usize) -> bool,
+        wanted: impl Fn(&Near) -> bool,
+    ) -> bool {
+        let body = Body::new(shape);
+        let mut scratch = Scratch::default();
+        let (index, owners) = match &self.close {
+            Some((index, owners)) => (index, Some(owners)),
+            None => (&self.bodies.index, None),
+        };
+        let visited = index.visit(body.bounds().inflate(reach), &mut Vec::new(), |number| {
+            let feature = owners.map_or(number, |owners| owners[number]);
+            if !asked(feature) {
+                return ControlFlow::Continue(());
+            }
+            let place = body.narrowest(&self.bodies.bodies[feature], reach, &mut scratch);
+            match place.map(|place| Near { feature, width: place.width, at: place.at }) {
+                Some(near) if wanted(&near) => ControlFlow::Break(()),
+                _ => ControlFlow::Continue(()),
+            }
+        });
+        visited.is_break()
+    }
+
+    /// One of the features, where it is within `reach` of `shape`.
+    #[must_use]
+    pub fn near_one(&self, shape: &Shape, reach: Nm, feature: usize) -> Option<Near> {
+        let place =
+            Body::new(shape).narrowest(&self.bodies.bodies[feature], reach, &mut Scratch::default())?;
+        Some(Near { feature, width: place.width, at: place.at })
+    }
+
+    /// The features that may be within `reach` of what these rectangles hold, in order.
+    fn candidates(&self, rects: &[Rect], reach: Nm) -> Vec<usize> {
+        let mut stack = Vec::new();
+        let mut candidates = Vec::new();
+        for rect in rects {
+            let (index, owner) = match &self.close {
+                Some((index, owners)) => (index, Some(owners)),
+                None => (&self.bodies.index, None),
+            };
+            let _ = index.visit(rect.inflate(reach), &mut stack, |number| {
+                candidates.push(owner.map_or(number, |owners| owners[number]));
+                ControlFlow::Continue(())
+            });
+        }
+        candidates.sort_unstable();
+        candidates.dedup();
+        candidates
+    }
+
+    /// How many features, stretches of long ones each, may be within `reach` of `shape`; counts no
+    /// further than `most`.
+    #[must_use]
+    pub fn count(&self, shape: &Shape, reach: Nm, most: usize) -> usize {
+        let (mut stack, mut count) = (Vec::new(), 0);
+        let index = self.close.as_ref().map_or(&self.bodies.index, |(index, _)| index);
+        let long = stretches(shape);
+        let bounds = shape.bounds();
+        for rect in long.as_deref().unwrap_or(std::slice::from_ref(&bounds)) {
+            let _ = index.visit(rect.inflate(reach), &mut stack, |_| {
+                count += 1;
+                if count < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+            });
+            if count >= most {
+                break;
+            }
+        }
+        count
+    }
+}
+
+/// Rectangles that hold shapes closely, and whose they are; none where their bounds do.
+fn close<'a>(shapes: impl Iterator<Item = &'a Shape> + Clone) -> Option<(RectIndex, Vec<usize>)> {
+    if shapes.clone().all(|shape| stretches(shape).is_none()) {
+        return None;
+    }
+    let (mut all, mut owners) = (Vec::new(), Vec::new());
+    for (number, shape) in shapes.enumerate() {
+        match stretches(shape) {
+            Some(rects) => all.extend(rects),
+            None => all.push(shape.bounds()),
+        }
+        owners.resize(all.len(), number);
+    }
+    Some((RectIndex::new(all.into_iter()), owners))
 }
 
 #[cfg(test)]

@@ -42,7 +42,7 @@ impl Basin {
         let (grid, pictures) =
             sheet.window(place, sheet.pitch(), SIDE, &[Show::Left, Show::Ways, Show::Edge]);
         let labels = pictures[0].labels().to_vec();
-        let half = grid.pixels(sheet.half);
+        let half = grid.pixels(sheet.floor);
         let nearest = |(ways, edge): (&f32, &f32)| ways.min(edge + half);
         let depths: Vec<f32> = pictures[1].depths().iter().zip(pictures[2].depths()).map(nearest).collect();
         let mut order: Vec<u32> =
@@ -61,7 +61,9 @@ impl Basin {
     /// none where no cut is near.
     fn seen(&self, sheet: &Sheet<'_>, pixel: usize) -> Option<f64> {
         let depth = self.depths[pixel];
-        depth.is_finite().then(|| 2.0 * (f64::from(depth) * self.grid.pitch().to_f64() - sheet.half.to_f64()))
+        depth
+            .is_finite()
+            .then(|| 2.0 * (f64::from(depth) * self.grid.pitch().to_f64() - sheet.floor.to_f64()))
     }
 
     /// How wide it is where a pixel joins two parts, and where exactly; no width where nothing

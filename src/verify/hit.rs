@@ -1,5 +1,7 @@
 //! Where the cutter reaches into copper of the design, measured on the exact shapes.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use rayon::prelude::*;
 
 use crate::board::Shape;
@@ -27,17 +29,69 @@ pub(super) struct Hit {
 pub(super) const FAINT: f64 = 1_000.0;
 const FAINT_SHARE: f64 = 0.01;
 
-/// All pieces of cuts that reach further than `tolerance` into a net: by net, what the gap forces
-/// apart from the rest, in order; and how many more reach so little into one that it is nothing.
-pub(super) fn hits(sheet: &Sheet<'_>, tolerance: Nm) -> (Vec<Hit>, usize) {
-    let cuts = sheet.cuts.par_iter().enumerate();
-    let mut hits: Vec<Hit> = cuts.flat_map_iter(|(index, cut)| taken(sheet, index, cut, tolerance)).collect();
-    let all = hits.len();
-    let kerf = |hit: &Hit| sheet.cuts[hit.cut].swept.half().to_f64() * 2.0;
-    hits.retain(|hit| hit.depth > (kerf(hit) * FAINT_SHARE).max(FAINT));
-    let faint = all - hits.len();
-    hits.sort_by_key(|hit| (hit.net, hit.forced, hit.cut));
-    (hits, faint)
+/// Where cuts take copper.
+#[derive(Debug, Default)]
+pub(super) struct Hits {
+    /// By net, what the gap forces apart from the rest, in order.
+    pub(super) all: Vec<Hit>,
+    /// How often a cut reaches so little into a net that it is nothing.
+    pub(super) faint: usize,
+    /// Of nets that more cuts reach into than are looked at one by one, how many do; the deepest
+    /// are among `all`.
+    pub(super) many: BTreeMap<NetId, usize>,
+}
+
+/// Cuts into a net that are looked at one by one: of a net of which nothing is left, and of one of
+/// which something is. Chosen: a board that is moved has a tenth of the latter.
+const MANY: [usize; 2] = [500, 2_000];
+/// Cuts that are looked at between counting. Chosen: they take some megabytes at worst.
+const CHUNK: usize = 4_096;
+
+impl Hits {
+    /// All pieces of cuts that reach further than `tolerance` into a net. Of those that are `lost`
+    /// nothing is left.
+    pub(super) fn new(sheet: &Sheet<'_>, lost: &BTreeSet<NetId>, tolerance: Nm) -> Self {
+        let mut hits = Self::default();
+        let mut nets: BTreeMap<NetId, (usize, Vec<Hit>)> = BTreeMap::new();
+        for first in (0..sheet.cuts.len()).step_by(CHUNK) {
+            let chunk = first..(first + CHUNK).min(sheet.cuts.len());
+            let taken = |index: usize| taken(sheet, index, &sheet.cuts[index], tolerance);
+            let found: Vec<Hit> = chunk.into_par_iter().flat_map_iter(taken).collect();
+            for hit in found {
+                let kerf = sheet.cuts[hit.cut].swept.half().to_f64() * 2.0;
+                if hit.depth <= (kerf * FAINT_SHARE).max(FAINT) {
+                    hits.faint += 1;
+                    continue;
+                }
+                let (count, own) = nets.entry(hit.net).or_default();
+                *count += 1;
+                own.push(hit);
+                let most = MANY[usize::from(!lost.contains(&hit.net))];
+                if own.len() > most * 2 {
+                    deepest(own, most);
+                }
+            }
+        }
+        for (net, (count, mut own)) in nets {
+            let most = MANY[usize::from(!lost.contains(&net))];
+            if count > most {
+                // Where nothing is left one is enough.
+                deepest(&mut own, if lost.contains(&net) { 1 } else { most });
+                hits.many.insert(net, count);
+            }
+            hits.all.extend(own);
+        }
+        let forced = |hit: &mut Hit| hit.forced = forced(sheet, &sheet.cuts[hit.cut], hit, tolerance);
+        hits.all.par_iter_mut().for_each(forced);
+        hits.all.sort_by_key(|hit| (hit.net, hit.forced, hit.cut));
+        hits
+    }
+}
+
+/// Leaves the deepest of some hits, the first of those that are as deep.
+fn deepest(hits: &mut Vec<Hit>, most: usize) {
+    hits.sort_by(|a, b| b.depth.total_cmp(&a.depth).then(a.cut.cmp(&b.cut)));
+    hits.truncate(most);
 }
 
 /// Hits this near to each other are one. Chosen: what one looks at at once.
@@ -68,9 +122,6 @@ fn taken(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, tolerance: Nm) -> Vec<H
             Some(known) => hits[known] = hit,
             None => hits.push(hit),
         }
-    }
-    for hit in &mut hits {
-        hit.forced = forced(sheet, cut, hit, tolerance);
     }
     hits
 }

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::board::Shape;
 use crate::geometry::Nm;
+use crate::grid::Grid;
 
 use super::machining::with_radius;
 use super::pieces::{Joiner, Part, Run};
@@ -28,15 +29,16 @@ enum Item {
     Feature(usize),
 }
 
-/// The connected pieces of what is left, with all kerfs narrower by `narrower` on either side.
-pub(super) fn pieces(sheet: &Sheet<'_>, narrower: Nm) -> Vec<Part> {
-    let bands = bands(sheet);
+/// The connected pieces of what is left, on `grid`, with all kerfs narrower by `narrower` on either
+/// side.
+pub(super) fn pieces(sheet: &Sheet<'_>, grid: &Grid, narrower: Nm) -> Vec<Part> {
+    let bands = bands(sheet, grid);
     let board = sheet.outline.clone().map(Shape::Polygon);
     let mut joiner = Joiner::default();
     let mut row = 0;
     for (batch, first) in bands.chunks(BATCH).zip((0..).step_by(BATCH)) {
         let draw =
-            |(at, items): (usize, &Vec<Item>)| draw(sheet, first + at, items, board.as_ref(), narrower);
+            |(at, items): (usize, &Vec<Item>)| draw(sheet, grid, first + at, items, board.as_ref(), narrower);
         let drawn: Vec<Vec<Vec<Run>>> = batch.par_iter().enumerate().map(draw).collect();
         for runs in drawn.iter().flatten() {
             joiner.row(row, runs);
@@ -47,9 +49,9 @@ pub(super) fn pieces(sheet: &Sheet<'_>, narrower: Nm) -> Vec<Part> {
 }
 
 /// What reaches into each band.
-fn bands(sheet: &Sheet<'_>) -> Vec<Vec<Item>> {
-    let ruling = Ruling::rows(&sheet.grid);
-    let count = i64::from(sheet.grid.height().div_ceil(BAND));
+fn bands(sheet: &Sheet<'_>, grid: &Grid) -> Vec<Vec<Item>> {
+    let ruling = Ruling::rows(grid);
+    let count = i64::from(grid.height().div_ceil(BAND));
     let mut bands: Vec<Vec<Item>> = (0..count).map(|_| Vec::new()).collect();
     let cuts = sheet.cuts.iter().enumerate().map(|(index, cut)| (Item::Cut(index), &cut.swept.shape));
     let features = sheet.copper.features.iter().enumerate();
@@ -67,12 +69,12 @@ fn bands(sheet: &Sheet<'_>) -> Vec<Vec<Item>> {
 /// The rows of a band.
 fn draw(
     sheet: &Sheet<'_>,
+    grid: &Grid,
     band: usize,
     items: &[Item],
     outline: Option<&Shape>,
     narrower: Nm,
 ) -> Vec<Vec<Run>> {
-    let grid = &sheet.grid;
     let first = u32::try_from(band).expect("few") * BAND;
     let rows = first..(first + BAND).min(grid.height());
     let [mut cut, mut nets, mut board] = [(); 3].map(|()| Spans::new(grid, rows.clone()));

@@ -18,6 +18,7 @@
 mod bores;
 pub mod check;
 mod contours;
+mod crowd;
 mod cutter;
 mod diff;
 mod flood;

@@ -19,6 +19,7 @@ use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::topology::NetId;
 
 use super::Settings;
+use super::crowd;
 use super::hit::Hit;
 use super::parting::may_part;
 use super::sheet::Sheet;
@@ -30,6 +31,8 @@ pub(super) struct Remains {
     pub(super) joined: Vec<Joined>,
     /// The nets that a cut may have parted.
     pub(super) nets: BTreeMap<NetId, Rest>,
+    /// Nets of which it was not worked out whether they are joined or parted.
+    pub(super) unsure: BTreeSet<NetId>,
 }
 
 /// Nets that are joined.
@@ -39,6 +42,8 @@ pub(super) struct Joined {
     pub(super) place: Rect,
     /// In order.
     pub(super) nets: Vec<NetId>,
+    /// Whether too many cuts cross there to say by what.
+    pub(super) crowded: bool,
 }
 
 /// What became of a net.
@@ -57,13 +62,18 @@ pub(super) struct Remnant {
     /// In mm².
     pub(super) area: f64,
     /// The connected piece of clad that it is part of.
-    piece: usize,
+    pub(super) piece: usize,
 }
 
 impl Rest {
     /// Its area as designed, in mm².
     pub(super) fn area(&self) -> f64 {
         self.designed.iter().map(Polygon::area_mm2).sum()
+    }
+
+    /// The area from which on a part of it counts, in mm²: a crumb, or of small nets three tenths.
+    pub(super) fn least(&self, settings: &Settings) -> f64 {
+        (self.area() * SMALL).min(settings.crumb)
     }
 
     /// The parts by what they conduct to, each group the largest first; more than one for a net
@@ -82,36 +92,49 @@ impl Rest {
 
 /// A part of the board in doubt.
 #[derive(Clone, Debug)]
-struct Doubt {
-    rect: Rect,
+pub(super) struct Doubt {
+    pub(super) rect: Rect,
     /// The nets that may be joined.
-    nets: BTreeSet<NetId>,
+    pub(super) nets: BTreeSet<NetId>,
     /// Of these, those that may be parted; all of each lies in the rectangle.
-    parted: BTreeSet<NetId>,
+    pub(super) parted: BTreeSet<NetId>,
 }
 
 /// In shares of a crumb, the copper of a net in the picture from which on a piece is in doubt.
 /// Chosen: pixels are coarse.
 pub(super) const HINT: f64 = 0.1;
+/// The part of a small net that is left of it where something is.
+pub(super) const SMALL: f64 = 0.3;
 
 impl Remains {
-    pub(super) fn new(sheet: &Sheet<'_>, settings: &Settings) -> Self {
+    /// What is left of a sheet; of the nets that are `lost` nothing is.
+    pub(super) fn new(sheet: &Sheet<'_>, lost: &BTreeSet<NetId>, settings: &Settings) -> Self {
+        let mut all = Self::default();
+        // Of a net that is lost to many cuts there is nothing to work out.
+        let many = |net: &&NetId| sheet.hits.many.contains_key(net);
+        for &net in lost.iter().filter(many) {
+            let designed = sheet.extent(net).map_or(Vec::new(), |rect| designed(sheet, net, rect));
+            all.nets.insert(net, Rest { designed, parts: Vec::new() });
+        }
         let mut doubts: Vec<Doubt> = Vec::new();
-        for doubt in doubts_of(sheet, settings) {
+        for doubt in doubts_of(sheet, &all, settings) {
             merge(&mut doubts, doubt);
         }
-        let looked_at: Vec<Self> =
-            doubts.par_iter().map(|doubt| Self::within(sheet, doubt, settings)).collect();
-        let mut all = Self::default();
+        let look = |doubt: &Doubt| match crosses(sheet, doubt.rect) {
+            true => crowd::within(sheet, doubt, settings),
+            false => Self::within(sheet, doubt, settings),
+        };
+        let looked_at: Vec<Self> = doubts.par_iter().map(look).collect();
         for mut remains in looked_at {
             all.joined.append(&mut remains.joined);
             all.nets.append(&mut remains.nets);
+            all.unsure.append(&mut remains.unsure);
         }
         all
     }
 
     /// What is left in a part of the board.
-    fn within(sheet: &Sheet<'_>, doubt: &Doubt, settings: &Settings) -> Self {
+    pub(super) fn within(sheet: &Sheet<'_>, doubt: &Doubt, settings: &Settings) -> Self {
         let bounded = |polygon: Polygon| (polygon.bounds(), polygon);
         let kerfs: Vec<(Rect, Polygon)> = kerfs(sheet, doubt.rect).into_iter().map(bounded).collect();
         let ground = sheet.ground(doubt.rect);
@@ -125,14 +148,16 @@ impl Remains {
             pieces.into_iter().for_each(|piece| by_piece.entry(piece).or_default().push(*net));
         }
         let several = by_piece.into_iter().filter(|(_, nets)| nets.len() > 1);
-        let joined = several.map(|(piece, nets)| Joined { place: within.clad[piece].0, nets }).collect();
+        let joined =
+            |(piece, nets): (usize, Vec<NetId>)| Joined { place: within.clad[piece].0, nets, crowded: false };
+        let joined = several.map(joined).collect();
         let parted = nets.into_iter().zip(rests).filter(|(net, _)| doubt.parted.contains(net)).collect();
-        Self { joined, nets: parted }
+        Self { joined, nets: parted, unsure: BTreeSet::new() }
     }
 }
 
 /// What the picture leaves in doubt.
-fn doubts_of(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Doubt> {
+fn doubts_of(sheet: &Sheet<'_>, known: &Remains, settings: &Settings) -> Vec<Doubt> {
     let mut doubts = Vec::new();
     let mut reach: BTreeMap<NetId, Rect> = BTreeMap::new();
     for parts in sheet.parts.chunk_by(|a, b| a.piece == b.piece) {
@@ -150,7 +175,8 @@ fn doubts_of(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Doubt> {
             doubts.push(Doubt { rect, nets, parted: BTreeSet::new() });
         }
     }
-    let hits: Vec<&[Hit]> = sheet.hits.chunk_by(|a, b| a.net == b.net).collect();
+    let hits = sheet.hits.all.chunk_by(|a, b| a.net == b.net);
+    let hits: Vec<&[Hit]> = hits.filter(|hits| !known.nets.contains_key(&hits[0].net)).collect();
     let parted = |hits: &[Hit]| {
         let net = hits[0].net;
         let place = sheet.extent(net)?;
@@ -171,6 +197,25 @@ fn merge(doubts: &mut Vec<Doubt>, mut doubt: Doubt) {
         doubt.parted.append(&mut other.parted);
     }
     doubts.push(doubt);
+}
+
+/// Pairs of cuts that may cross in a doubt of which polygons are made, and for each cut so many
+/// more. Chosen: a second's work; the densest boards have a tenth.
+const PAIRS: usize = 200_000;
+const EACH: usize = 20;
+
+/// Whether more cuts cross within `rect` than polygons are made of.
+fn crosses(sheet: &Sheet<'_>, rect: Rect) -> bool {
+    let near = sheet.places.cuts.touching(rect);
+    let most = PAIRS + near.len() * EACH;
+    let mut pairs = 0;
+    for cut in near {
+        pairs += sheet.walls.count(cut, Nm::ZERO, most);
+        if pairs > most {
+            return true;
+        }
+    }
+    false
 }
 
 /// How far curves are flattened where areas count: of a strip of a tenth of a millimetre that is a
@@ -227,8 +272,7 @@ impl Within {
     fn rest(&self, sheet: &Sheet<'_>, net: NetId, settings: &Settings) -> Rest {
         let designed = on(&self.ground, &copper(sheet, net, self.rect));
         let mut rest = Rest { parts: Vec::new(), designed };
-        // A crumb, or of small nets three tenths.
-        let least = (rest.area() * 0.3).min(settings.crumb);
+        let least = rest.least(settings);
         let parts = left(&rest.designed, &self.kerfs).into_iter();
         rest.parts = parts.filter_map(|polygon| self.remnant(polygon, least)).collect();
         rest.parts.sort_by(|a, b| b.area.total_cmp(&a.area));

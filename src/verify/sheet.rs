@@ -1,6 +1,9 @@
 //! The copper-clad sheet, milled: its picture, what is left of it, and the exact shapes behind it.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
+
+use rayon::prelude::*;
 
 use crate::board::{Board, Copper, FLATTEN, Shape, Side, polarity};
 use crate::geometry::{Nm, Point, Polygon, Rect};
@@ -8,11 +11,11 @@ use crate::grid::Grid;
 use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
 use crate::topology::{Method, NetId, Nets, Proximity, RectIndex, recover, surface};
 
-use super::hit::{Hit, hits};
+use super::hit::Hits;
 use super::machining::{Machining, Swept, with_radius};
 use super::milled;
 use super::pieces::{Extent, Part};
-use super::remains::Remains;
+use super::remains::{HINT, Remains, SMALL};
 use super::walls::Walls;
 use super::{Error, Settings};
 
@@ -38,13 +41,15 @@ pub(super) struct Sheet<'a> {
     /// The same exactly, where the picture leaves a doubt.
     pub(super) remains: Remains,
     /// Where the cuts take copper of nets.
-    pub(super) hits: Vec<Hit>,
-    /// How often they take so little that it is nothing.
-    pub(super) faint: usize,
+    pub(super) hits: Hits,
+    /// Whether so many others run near a cut that not all is asked that would be.
+    pub(super) crowded: Vec<bool>,
     /// What bounds the copper that is left.
     pub(super) walls: Walls,
     /// Half the narrowest kerf.
     pub(super) half: Nm,
+    /// The same at the copper's bottom.
+    pub(super) floor: Nm,
     pub(super) places: Places,
     /// The board's edge, where it is known.
     pub(super) outline: Option<Polygon>,
@@ -70,8 +75,8 @@ pub(super) struct Cut<'a> {
 pub(super) enum Show {
     /// What is left: nets, clad, cuts, the outside.
     Left,
-    /// How far it is to the way of the nearest cut, less what half its kerf has beyond half the
-    /// narrowest.
+    /// How far it is to the way of the nearest cut, less what half its kerf at the copper's bottom
+    /// has beyond half the narrowest.
     Ways,
     /// How far it is to the board's edge.
     Edge,
@@ -83,6 +88,15 @@ pub(super) enum Show {
 /// lies. A gap of any width between two cuts that are narrower by three quarters of a pixel each is
 /// wider than that.
 const DOUBT: f64 = 0.75;
+
+/// Ways, stretches of long ones each, of which no more may come near one for all to be asked.
+/// Chosen: some ten times what the densest board has.
+const CROWD: usize = 300;
+
+/// How much narrower kerfs are drawn with pixels of `pitch`.
+pub(super) fn narrower(pitch: Nm) -> Nm {
+    Nm::from_f64(pitch.to_f64() * DOUBT)
+}
 
 impl<'a> Sheet<'a> {
     /// Mills `copper` with `programs`.
@@ -98,6 +112,7 @@ impl<'a> Sheet<'a> {
         let cuts: Vec<Cut<'a>> = programs.iter().flat_map(|&program| of(program)).collect();
         let outline = board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
         let half = cuts.iter().map(|cut| cut.swept.half()).min().unwrap_or(Nm::from_um(100));
+        let floor = cuts.iter().map(|cut| cut.swept.floor).min().unwrap_or(half);
         let pitch = settings.pixel.unwrap_or_else(|| pixel(half));
         let walls = Walls::new(&cuts, outline.as_ref());
         let area = area(copper, outline.as_ref(), &cuts, pitch);
@@ -114,18 +129,32 @@ impl<'a> Sheet<'a> {
             cuts,
             parts: Vec::new(),
             remains: Remains::default(),
-            hits: Vec::new(),
-            faint: 0,
+            hits: Hits::default(),
+            crowded: Vec::new(),
             walls,
             half,
+            floor,
             places,
             outline,
             grid,
         };
-        (sheet.hits, sheet.faint) = hits(&sheet, settings.gouge);
-        sheet.parts = milled::pieces(&sheet, Nm::from_f64(sheet.pitch().to_f64() * DOUBT));
-        sheet.remains = Remains::new(&sheet, settings);
+        sheet.parts = milled::pieces(&sheet, &sheet.grid, narrower(sheet.pitch()));
+        let lost = sheet.lost(settings);
+        sheet.hits = Hits::new(&sheet, &lost, settings.gouge);
+        let crowded = |cut| sheet.walls.count(cut, settings.sliver, CROWD) >= CROWD;
+        sheet.crowded = (0..sheet.cuts.len()).into_par_iter().map(crowded).collect();
+        sheet.remains = Remains::new(&sheet, &lost, settings);
         Ok(sheet)
+    }
+
+    /// The nets of which nothing is left beyond doubt: no piece that the picture shows, which shows
+    /// too much rather than too little, holds as much of it as could count.
+    fn lost(&self, settings: &Settings) -> BTreeSet<NetId> {
+        let is_something = |part: &&Part| self.mm2(part.pixels) >= settings.crumb * HINT * SMALL;
+        let left: BTreeSet<NetId> =
+            self.parts.iter().filter(is_something).filter_map(|part| Self::net(part.label)).collect();
+        let all = (0..).map(NetId).take(self.nets.nets().len());
+        all.filter(|net| !left.contains(net)).collect()
     }
 
     /// The pixel of its picture.
@@ -208,7 +237,7 @@ impl<'a> Sheet<'a> {
         }
         if show == Show::Ways {
             for swept in self.cuts.iter().map(|cut| cut.swept) {
-                let shape = with_radius(&swept.shape, swept.half() - self.half);
+                let shape = with_radius(&swept.shape, swept.floor - self.floor);
                 scene.add(Label(CUT), surface(&shape, grid, None));
             }
         }

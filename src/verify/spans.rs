@@ -15,7 +15,12 @@ pub(super) struct Spans {
     width: u32,
     first: u32,
     rows: Vec<Vec<Run>>,
+    /// How many runs a row may hold before those that touch are made one.
+    room: Vec<usize>,
 }
+
+/// Runs in a row that are held side by side. Chosen: several times what the densest board has.
+const ROOM: usize = 512;
 
 impl Spans {
     /// Nothing yet, in `rows` of `grid`.
@@ -25,17 +30,21 @@ impl Spans {
             pitch: grid.pitch().to_f64(),
             width: grid.width(),
             first: rows.start,
+            room: vec![ROOM; rows.len()],
             rows: rows.map(|_| Vec::new()).collect(),
         }
     }
 
     /// Adds the pixels of a shape.
     pub(super) fn add(&mut self, shape: &Shape, label: u32) {
-        let Self { ruling, pitch, width, first, rows } = self;
+        let Self { ruling, pitch, width, first, rows, room } = self;
         let lines = i64::from(*first)..i64::from(*first) + i64::try_from(rows.len()).unwrap_or(0);
         ruling.rule(shape, lines.clone(), &mut |line, from, to| {
             let row = usize::try_from(line - lines.start).expect("one of these lines");
             rows[row].extend(run(from / *pitch, to / *pitch, *width).map(|run| Run { label, ..run }));
+            if rows[row].len() >= room[row] {
+                room[row] = crowded(&mut rows[row]).max(ROOM);
+            }
         });
     }
 
@@ -49,6 +58,16 @@ impl Spans {
     pub(super) fn into_rows(self) -> impl Iterator<Item = Vec<Run>> {
         self.rows.into_iter().map(apart)
     }
+}
+
+/// Makes runs that touch one, and says how many the row may hold next: where cuts cross by the
+/// thousand a few runs are left of them. Which of several labels keeps a pixel is only known when
+/// all runs are.
+fn crowded(row: &mut Vec<Run>) -> usize {
+    if row.iter().all(|run| run.label == row[0].label) {
+        *row = apart(std::mem::take(row));
+    }
+    row.len() * 2
 }
 
 /// The pixels of a row whose centres lie within a stretch of it; both in pixels.

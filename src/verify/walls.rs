@@ -1,9 +1,12 @@
 //! What bounds the copper that is left, exactly: the ways of the cutter with half the kerf round
 //! them, and the board's edge.
+//!
+//! The kerf is that at the copper's bottom. What a V-bit leaves between two cuts is wider there
+//! than at the surface: that width holds a strip to the board, and conducts.
 
 use crate::board::Shape;
 use crate::geometry::{Nm, Point, Polygon, Vector};
-use crate::topology::Proximity;
+use crate::topology::{Near, Proximity};
 
 use super::sheet::Cut;
 
@@ -12,7 +15,7 @@ pub(super) struct Walls {
     near: Proximity,
     /// The axes of all cuts, then the edges of the outline.
     axes: Vec<Shape>,
-    /// Half the kerf of each.
+    /// Half the kerf of each, at the copper's bottom.
     halves: Vec<Nm>,
     widest: Nm,
 }
@@ -48,7 +51,7 @@ impl Walls {
         axes.extend(cuts.iter().map(|cut| cut.swept.axis()));
         axes.extend(edges().map(|(from, to)| Shape::Stroke { from, to, radius: Nm::ZERO }));
         let mut halves = Vec::with_capacity(axes.len());
-        halves.extend(cuts.iter().map(|cut| cut.swept.half()));
+        halves.extend(cuts.iter().map(|cut| cut.swept.floor));
         halves.resize(axes.len(), Nm::ZERO);
         let widest = halves.iter().copied().max().unwrap_or(Nm::ZERO);
         Self { near: Proximity::of(&axes), axes, halves, widest }
@@ -63,20 +66,50 @@ impl Walls {
     pub(super) fn around_of(&self, p: Point, reach: Nm, wanted: impl Fn(usize) -> bool) -> Vec<Wall> {
         let spot = Shape::Disc { center: p, radius: Nm::ZERO };
         let near = self.near.near_of(&spot, self.widest + reach, wanted);
-        let wall = |near: &crate::topology::Near| Wall {
-            index: near.feature,
-            distance: near.width - self.halves[near.feature].to_f64(),
-            foot: near.at + (near.at - p),
-        };
-        let mut walls: Vec<Wall> =
-            near.iter().map(wall).filter(|wall| wall.distance <= reach.to_f64()).collect();
+        let walls = near.iter().map(|near| self.wall(p, near));
+        let mut walls: Vec<Wall> = walls.filter(|wall| wall.distance <= reach.to_f64()).collect();
         walls.sort_by(|a, b| a.distance.total_cmp(&b.distance).then(a.index.cmp(&b.index)));
         walls
     }
 
     /// The point of a wall's axis nearest to a place within its kerf.
     pub(super) fn foot(&self, index: usize, p: Point) -> Point {
-        self.around_of(p, Nm::ZERO, |wall| wall == index).first().map_or(p, |wall| wall.foot)
+        self.one(index, p, Nm::ZERO).map_or(p, |wall| wall.foot)
+    }
+
+    /// A wall, where its face is within `reach` of `p`.
+    pub(super) fn one(&self, index: usize, p: Point, reach: Nm) -> Option<Wall> {
+        let spot = Shape::Disc { center: p, radius: Nm::ZERO };
+        let near = self.near.near_one(&spot, self.widest + reach, index)?;
+        Some(self.wall(p, &near)).filter(|wall| wall.distance <= reach.to_f64())
+    }
+
+    /// Whether a wall whose face is within `reach` of `p`, of the first `count`, is `wanted`.
+    pub(super) fn any(&self, p: Point, reach: Nm, count: usize, wanted: impl Fn(&Wall) -> bool) -> bool {
+        let spot = Shape::Disc { center: p, radius: Nm::ZERO };
+        self.near.any(
+            &spot,
+            self.widest + reach,
+            |wall| wall < count,
+            |near| {
+                let wall = self.wall(p, near);
+                wall.distance <= reach.to_f64() && wanted(&wall)
+            },
+        )
+    }
+
+    /// How many ways, stretches of long ones each, may come within `reach` of that of wall `index`;
+    /// counts no further than `most`.
+    pub(super) fn count(&self, index: usize, reach: Nm, most: usize) -> usize {
+        self.near.count(&self.axes[index], self.halves[index] + self.widest + reach, most)
+    }
+
+    fn wall(&self, p: Point, near: &Near) -> Wall {
+        Wall {
+            index: near.feature,
+            distance: near.width - self.halves[near.feature].to_f64(),
+            foot: near.at + (near.at - p),
+        }
     }
 
     /// The walls that are `wanted` and whose faces come within `reach` of that of wall `index`:
@@ -89,7 +122,7 @@ impl Walls {
     ) -> Vec<(usize, Neck)> {
         let own = self.halves[index];
         let near = self.near.near_of(&self.axes[index], own + self.widest + reach, wanted);
-        let gap = |near: crate::topology::Near| {
+        let gap = |near: Near| {
             let width = near.width - (own + self.halves[near.feature]).to_f64();
             (near.feature, Neck { at: near.at, width })
         };

@@ -51,6 +51,7 @@ mod unusable;
 mod verdict;
 mod verify;
 mod verify_cli;
+mod verify_crowds;
 mod verify_foreign;
 mod verify_mutations;
 mod verify_whole;

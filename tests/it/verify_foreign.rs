@@ -158,3 +158,42 @@ fn a_loop_that_moved_is_cut_in_one_place_and_left_in_another() {
         assert!((left_area - 2.3 * wide).abs() < 0.1, "{left_area} mm² less");
     }
 }
+
+/// Cutouts that other people gathered beside boards they were not made for: `VOROMILL_ARTWORK`, or
+/// `../shared/artwork`.
+#[test]
+fn a_cutout_of_another_board_does_not_fit_wherever_it_is_laid() {
+    let usual = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/artwork");
+    let root = std::env::var_os("VOROMILL_ARTWORK").map_or_else(usual, PathBuf::from);
+    for (program, board, tool, thickness) in [
+        (
+            "gcode/flatcam_8991_test_copper/CUTOUT-2mm.nc",
+            "gcode/flatcam_8991_test_copper/gerbers",
+            "2mm",
+            1600,
+        ),
+        ("gcode/flatcam_2014_blinds/cutout.ngc", "kicad/v4_blinds_mainboard/gerbers", "3.175mm", 1500),
+    ] {
+        let Ok(text) = std::fs::read_to_string(root.join(program)) else {
+            println!("no {program} at VOROMILL_ARTWORK: nothing is judged");
+            continue;
+        };
+        let board = import::load(&[root.join(board)], &Selection::default()).expect("a board").board;
+        let cutter = Some(format!("endmill:{tool}").parse().expect("a tool"));
+        let role = Some(Role::Cutout);
+        let mut read = Program { file: program.to_owned(), text, role, cutter, placement: None };
+        let settings = Settings { board: Nm::from_um(thickness), ..Settings::default() };
+        let fitted =
+            register(&read, &board, &Orientation::default(), &settings).expect("it is laid somewhere");
+        for placement in [None, Some(fitted)] {
+            read.placement = placement;
+            let found = verify(&[read.clone()], &board, &[], &settings).expect("it can be judged").findings;
+            let wrong = found.iter().filter(|finding| finding.severity == Severity::Error);
+            let names: Vec<&str> = wrong.map(|finding| finding.name).collect();
+            assert!(
+                names.contains(&"board-gouged") || names.contains(&"board-left"),
+                "{program} laid {placement:?}: {found:?}"
+            );
+        }
+    }
+}

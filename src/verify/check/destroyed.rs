@@ -29,9 +29,11 @@ fn destroyed(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
     let area = rest.area();
     let first = sheet.nets.nets()[net.index()].features[0] as usize;
     let name = sheet.nets.label(net);
-    let hits = sheet.hits.iter().filter(|hit| hit.net == net);
+    let hits = sheet.hits.all.iter().filter(|hit| hit.net == net);
     let deepest = hits.reduce(|a, b| if b.depth > a.depth { b } else { a });
     let cut = deepest.map(|hit| sheet.cuts[hit.cut]);
+    let many = sheet.hits.many.get(&net);
+    let many = many.map_or(String::new(), |count| format!(": {count} cuts reach into it"));
     // What lies beyond the outline was never on the board.
     (rest.parts.is_empty() && area > 0.0).then(|| Finding {
         at: Some(sheet.copper.features[first].shape.anchor()),
@@ -39,6 +41,6 @@ fn destroyed(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
         program: cut.map(|cut| cut.program.file.clone()),
         line: cut.map(|cut| cut.swept.line),
         nets: vec![name.clone()],
-        ..Finding::new(NAME, Severity::Error, format!("nothing is left of {name}"))
+        ..Finding::new(NAME, Severity::Error, format!("nothing is left of {name}{many}"))
     })
 }

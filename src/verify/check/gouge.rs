@@ -23,7 +23,7 @@
 use rayon::prelude::*;
 
 use super::{Check, Run, Severity};
-use crate::geometry::{Nm, Rect};
+use crate::geometry::{Nm, Point, Rect};
 use crate::topology::NetId;
 use crate::verify::Settings;
 use crate::verify::hit::{Hit, TOGETHER, clusters};
@@ -53,6 +53,8 @@ struct Gouge {
     area: f64,
     /// The part of a net's width that is left, where it is that which makes it an error.
     narrow: Option<Width>,
+    /// Where else it is the same cut.
+    places: Vec<Point>,
 }
 
 impl Gouge {
@@ -62,7 +64,12 @@ impl Gouge {
 }
 
 fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
-    let nets: Vec<&[Hit]> = sheet.hits.chunk_by(|a, b| a.net == b.net).collect();
+    // Of a net that is lost to many cuts `destroyed` tells.
+    let is_left = |hits: &&[Hit]| {
+        let rest = sheet.remains.nets.get(&hits[0].net);
+        !sheet.hits.many.contains_key(&hits[0].net) || rest.is_none_or(|rest| !rest.parts.is_empty())
+    };
+    let nets: Vec<&[Hit]> = sheet.hits.all.chunk_by(|a, b| a.net == b.net).filter(is_left).collect();
     let gouges = nets.into_par_iter().flat_map(|hits| of_net(sheet, hits, settings)).collect();
     let (shallow, deep): (Vec<Gouge>, Vec<Gouge>) =
         one_for_each_place(sheet, gouges).into_iter().partition(Gouge::is_shallow);
@@ -95,7 +102,7 @@ fn gouge(sheet: &Sheet<'_>, interior: Option<&Interior<'_>>, hits: &[Hit], setti
     let narrow = narrowest(sheet, hits).filter(|width| width.share() < settings.keep);
     let costs = deepest.through || deepest.depth > settings.deep.to_f64() || narrow.is_some();
     let severity = if costs { Severity::Error } else { Severity::Warning };
-    Gouge { severity, deepest, nets: vec![deepest.net], area: lost(sheet, hits), narrow }
+    Gouge { severity, deepest, nets: vec![deepest.net], area: lost(sheet, hits), narrow, places: Vec::new() }
 }
 
 /// A cut that takes copper on both sides of a gap makes one place of them.
@@ -119,9 +126,11 @@ fn one_for_each_place(sheet: &Sheet<'_>, mut gouges: Vec<Gouge>) -> Vec<Gouge> {
         place.area += gouge.area;
         place.nets.extend(&gouge.nets);
         place.narrow = place.narrow.or(gouge.narrow);
-        if gouge.deepest.depth > place.deepest.depth {
-            place.deepest = gouge.deepest;
+        let mut other = gouge.deepest;
+        if other.depth > place.deepest.depth {
+            std::mem::swap(&mut other, &mut place.deepest);
         }
+        place.places.push(other.at);
     }
     places
 }
@@ -148,6 +157,7 @@ fn finding(sheet: &Sheet<'_>, gouge: &Gouge) -> Finding {
         area: Some(*area),
         program: Some(cut.program.file.clone()),
         line: Some(cut.swept.line),
+        places: gouge.places.clone(),
         ..Finding::new(NAME, *severity, message)
     }
 }
@@ -162,7 +172,9 @@ fn together(sheet: &Sheet<'_>, gouges: &[Gouge]) -> Option<Finding> {
     let mut nets: Vec<NetId> = gouges.iter().flat_map(|gouge| gouge.nets.iter().copied()).collect();
     nets.sort_unstable();
     nets.dedup();
-    let others = gouges.iter().map(|gouge| gouge.deepest.at).filter(|at| *at != worst.deepest.at);
+    let places =
+        gouges.iter().flat_map(|gouge| std::iter::once(gouge.deepest.at).chain(gouge.places.iter().copied()));
+    let others = places.filter(|at| *at != worst.deepest.at);
     let depth = worst.deepest.depth / 1000.0;
     let why = if worst.deepest.forced { ": their gaps are narrower than the kerf" } else { "" };
     let count = gouges.len();
@@ -180,9 +192,9 @@ fn together(sheet: &Sheet<'_>, gouges: &[Gouge]) -> Option<Finding> {
 fn faint(sheet: &Sheet<'_>) -> Option<Finding> {
     let message = format!(
         "{} times a cut takes less than a micrometre, or a hundredth of the kerf, of copper: that is not listed",
-        sheet.faint
+        sheet.hits.faint
     );
-    (sheet.faint > 0).then(|| Finding::new(NAME, Severity::Info, message))
+    (sheet.hits.faint > 0).then(|| Finding::new(NAME, Severity::Info, message))
 }
 
 /// What bounds the cuts whose middle goes through copper, where there are any.

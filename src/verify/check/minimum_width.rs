@@ -2,7 +2,8 @@
 //!
 //! How wide what is left of a net is at its narrowest, against the design: at every place where a
 //! cut reaches into it, straight across. Told where less than a stated part is left
-//! (`Settings::keep`).
+//! (`Settings::keep`). It is the width at the surface, where it is least: what is cut away of a
+//! trace and what is left are as wide together as the trace was designed.
 //!
 //! # Why
 //!
@@ -33,7 +34,7 @@ const NAME: &str = "minimum-width";
 
 fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
     let mut nets: BTreeMap<NetId, Vec<Hit>> = BTreeMap::new();
-    for hit in &sheet.hits {
+    for hit in &sheet.hits.all {
         nets.entry(hit.net).or_default().push(*hit);
     }
     let nets: Vec<Vec<Hit>> = nets.into_values().collect();

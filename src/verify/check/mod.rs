@@ -12,6 +12,7 @@ mod hole_missing;
 mod hole_place;
 mod hole_size;
 mod minimum_width;
+mod not_judged;
 mod not_through;
 mod open;
 mod outside_stock;
@@ -76,6 +77,7 @@ pub const ALL: &[Check] = &[
     minimum_width::CHECK,
     sliver::CHECK,
     recut::CHECK,
+    not_judged::CHECK,
     too_deep::CHECK,
     rapid_in_material::CHECK,
     plunge_spindle_off::CHECK,

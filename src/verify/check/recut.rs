@@ -10,7 +10,10 @@
 //!
 //! # What it can miss
 //!
-//! Passes that overlap by less than three quarters, as wide isolation does.
+//! Passes that overlap by less than three quarters, as wide isolation does. Of a very long program
+//! it looks at some of its cuts, evenly.
+
+use rayon::prelude::*;
 
 use super::{Check, Run, Severity, along};
 use crate::board::Shape;
@@ -33,20 +36,25 @@ const PASS: Nm = Nm::from_um(5);
 const END: f64 = 1_000.0;
 
 fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+    let every = every(sheet);
+    let cuts: Vec<usize> = (0..sheet.cuts.len()).step_by(every).collect();
+    let looked_at: Vec<Vec<(Point, f64, bool)>> = cuts.par_iter().map(|&index| look(sheet, index)).collect();
     let (mut all, mut again, mut first) = (0.0, 0.0, None);
-    for (index, cut) in sheet.cuts.iter().enumerate() {
-        let samples = samples(cut);
-        let Some(length) = samples.first().map(|(_, length)| *length) else { continue };
-        for &(at, _) in &samples {
+    for (&index, samples) in cuts.iter().zip(&looked_at) {
+        for &(at, length, is_again) in samples {
             all += length;
-            if is_cut(sheet, index, cut, at) {
+            if is_again {
                 again += length;
-                first = first.or(Some((at, *cut)));
+                first = first.or(Some((at, sheet.cuts[index])));
             }
         }
     }
     let Some((at, cut)) = first.filter(|_| again > all * SHARE) else { return Vec::new() };
-    let message = format!("{:.0} % of the way is cut again: {:.1} mm", again / all * 100.0, again / 1e6);
+    #[expect(clippy::cast_precision_loss, reason = "a display figure")]
+    let (share, again) = (again / all, again * every as f64);
+    let about = if every > 1 { "about " } else { "" };
+    let message =
+        format!("{about}{:.0} % of the way is cut again: {about}{:.1} mm", share * 100.0, again / 1e6);
     vec![Finding {
         at: Some(at),
         size: Some(Nm::from_f64(again)),
@@ -54,6 +62,21 @@ fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
         line: Some(cut.swept.line),
         ..Finding::new(NAME, Severity::Info, message)
     }]
+}
+
+/// Points that are looked at. Chosen: a second's work, and several times what a panel has.
+const POINTS: usize = 300_000;
+
+/// Of how many cuts one is looked at.
+fn every(sheet: &Sheet<'_>) -> usize {
+    let all: usize = sheet.cuts.iter().map(|cut| samples(cut).len()).sum();
+    all / POINTS + 1
+}
+
+/// Points along a cut, each with the length that it stands for, and whether it is cut again.
+fn look(sheet: &Sheet<'_>, index: usize) -> Vec<(Point, f64, bool)> {
+    let cut = &sheet.cuts[index];
+    samples(cut).into_iter().map(|(at, length)| (at, length, is_cut(sheet, index, cut, at))).collect()
 }
 
 /// Points along a cut about a kerf apart, each with the length that it stands for, in nanometres.
@@ -68,9 +91,10 @@ fn samples(cut: &Cut<'_>) -> Vec<(Point, f64)> {
 fn is_cut(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, at: Point) -> bool {
     let half = cut.swept.half();
     // As far from the face as a quarter of the kerf beside the middle is.
-    sheet.walls.around_of(at, -(half / 2), |wall| wall < index).into_iter().any(|wall| {
+    let reach = half / 2 - cut.swept.floor;
+    sheet.walls.any(at, reach, index, |wall| {
         let swept = sheet.cuts[wall.index].swept;
-        let near = wall.distance <= (half / 2 - swept.half()).to_f64();
+        let near = wall.distance <= (half / 2 - swept.floor).to_f64();
         near && swept.depth >= cut.swept.depth - PASS && is_inside(&swept.shape, wall.foot)
     })
 }

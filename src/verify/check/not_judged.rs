@@ -1,0 +1,66 @@
+//! # What it checks
+//!
+//! Whether everything was asked that is asked of other programs. Where cuts cross by the hundred
+//! thousand, looking at every pair of them would take hours; what was left out is told.
+//!
+//! # Why
+//!
+//! Nobody should take silence for a verdict.
+//!
+//! # What it can miss
+//!
+//! Nothing: it only tells of budgets that ended.
+
+use super::{Check, Run, Severity};
+use crate::verify::report::Finding;
+use crate::verify::sheet::Sheet;
+
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "cuts so crowded that not all was looked at",
+    run: Run::Isolation(|sheet, _| check(sheet)),
+};
+
+const NAME: &str = "not-judged";
+
+fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+    unsure(sheet).into_iter().chain(many(sheet)).chain(crowded(sheet)).collect()
+}
+
+/// Nets of which pictures did not tell what became of them.
+fn unsure(sheet: &Sheet<'_>) -> Option<Finding> {
+    let nets: Vec<String> = sheet.remains.unsure.iter().map(|&net| sheet.nets.label(net)).collect();
+    let (first, more) = (nets.first()?, nets.len() - 1);
+    let others = if more > 0 { format!(" and {more} more nets") } else { String::new() };
+    let message = format!(
+        "so many cuts cross that it was not worked out whether {first}{others} are whole and apart from others"
+    );
+    Some(Finding::new(NAME, Severity::Warning, message).of(nets))
+}
+
+/// Nets of which the deepest cuts alone were looked at.
+fn many(sheet: &Sheet<'_>) -> Option<Finding> {
+    let looked_at = |net| sheet.hits.all.iter().filter(|hit| hit.net == net).count();
+    let left_out = sheet.hits.many.iter().map(|(&net, count)| (net, count - looked_at(net).min(*count)));
+    let left_out: Vec<_> = left_out
+        .filter(|(net, _)| sheet.remains.nets.get(net).is_none_or(|rest| !rest.parts.is_empty()))
+        .collect();
+    let count: usize = left_out.iter().map(|(_, count)| count).sum();
+    let nets = left_out.iter().map(|&(net, _)| sheet.nets.label(net));
+    let message = format!("{count} more cuts reach into nets, less deep than those that were looked at");
+    (count > 0).then(|| Finding::new(NAME, Severity::Warning, message).of(nets))
+}
+
+/// Cuts beside which no slivers were looked for.
+fn crowded(sheet: &Sheet<'_>) -> Option<Finding> {
+    let count = sheet.crowded.iter().filter(|crowded| **crowded).count();
+    let first = sheet.crowded.iter().position(|crowded| *crowded)?;
+    let cut = sheet.cuts[first];
+    let message = format!("beside {count} cuts no slivers were looked for: hundreds of others run near each");
+    Some(Finding {
+        at: Some(cut.swept.shape.anchor()),
+        program: Some(cut.program.file.clone()),
+        line: Some(cut.swept.line),
+        ..Finding::new(NAME, Severity::Warning, message)
+    })
+}
