@@ -294,13 +294,13 @@ fn pads_lie_where_their_footprint_is_turned_to() {
     };
     // The file's origin is its auxiliary one, 100 mm to the right and 130 mm down.
     let point = |x: i64, y: i64| voromill::geometry::Point::new(Nm::from_um(x), Nm::from_um(y));
-    assert_eq!(at("1"), (point(10_000, 20_000), Nm::from_mm(2)), "the origin of the footprint");
+    assert_eq!(at("1"), (point(10_000, 15_000), Nm::from_mm(2)), "the origin of the footprint");
     assert_eq!(
         at("2"),
-        (point(10_000, 25_000), Nm::from_mm(1)),
+        (point(10_000, 20_000), Nm::from_mm(1)),
         "what was to the right is above, and turned"
     );
-    assert_eq!(at("4"), (point(15_000, 20_000), Nm::from_mm(1)), "what was below is to the right");
+    assert_eq!(at("4"), (point(15_000, 15_000), Nm::from_mm(1)), "what was below is to the right");
 }
 
 #[test]
@@ -394,4 +394,111 @@ fn a_layer_of_a_board_can_be_left_aside_and_none_can_be_added() {
     let back = Selection { back: Some(layer), ..Selection::default() };
     let error = import::load(&[board], &back).expect_err("two backs");
     assert!(error.to_string().contains("give the board alone"), "{error}");
+}
+
+/// The copper that a board of `version` with `things` on it has on the front and on the back, in
+/// mm².
+fn copper_of(version: u32, layers: [&str; 2], things: &str) -> [f64; 2] {
+    let [front, back] = layers;
+    let text = format!(
+        "(kicad_pcb (version {version}) (layers (0 {front} signal) (31 {back} signal) (44 Edge.Cuts user))\n\
+         (net 0 \"\") (net 1 A) (net 2 B)\n{things}\n)"
+    );
+    let layout =
+        import::kicad::read("x.kicad_pcb", text.as_bytes()).unwrap_or_else(|e| panic!("{}", e.render()));
+    [layout.front, layout.back].map(|image| {
+        let shapes = image.features.iter().filter_map(|feature| feature.shape.polygon(Nm::new(10)));
+        area(&polarity::union(&shapes.collect::<Vec<_>>()))
+    })
+}
+
+const CANONICAL: [&str; 2] = ["F.Cu", "B.Cu"];
+
+#[test]
+fn layers_are_known_by_number_where_a_person_named_them() {
+    let things = "(gr_poly (pts (xy 0 0) (xy 2 0) (xy 2 1) (xy 0 1)) (layer Top) (width 0))
+        (gr_poly (pts (xy 0 0) (xy 3 0) (xy 3 1) (xy 0 1)) (layer \"Solder side\") (width 0))";
+    let found = copper_of(20_171_130, ["Top", "\"Solder side\""], things);
+    assert_eq!(found.map(f64::round), [2.0, 3.0], "KiCad 5");
+    let things = "(gr_poly (pts (xy 0 0) (xy 2 0) (xy 2 1) (xy 0 1)) (layer F.Cu) (width 0))";
+    let found = copper_of(20_211_014, ["F.Cu", "B.Cu"], things);
+    assert_eq!(found.map(f64::round), [2.0, 0.0], "KiCad 6 keeps its own names");
+}
+
+#[test]
+fn old_zones_are_drawn_round_with_a_pen_and_new_ones_are_not() {
+    let zone = |more: &str| {
+        format!(
+            "(zone (net 1) (net_name A) (layer F.Cu) (min_thickness 0.2) {more} (fill yes)
+            (filled_polygon (pts (xy 0 0) (xy 10 0) (xy 10 10) (xy 0 10))))"
+        )
+    };
+    let grown = 100.0 + 4.0 * 10.0 * 0.1 + std::f64::consts::PI * 0.01;
+    let cases = [
+        (20_171_130, "", grown),
+        (20_211_014, "", grown),
+        (20_211_014, "(filled_areas_thickness no)", 100.0),
+        (20_221_018, "", 100.0),
+    ];
+    for (version, more, expected) in cases {
+        let [found, _] = copper_of(version, CANONICAL, &zone(more));
+        assert!((found - expected).abs() < 1e-3, "{version} {more}: {found} and not {expected}");
+    }
+}
+
+#[test]
+fn rings_that_nothing_meets_can_be_left_out() {
+    let via = |more: &str| {
+        format!("(via (at 5 5) (size 2) (drill 1) (layers F.Cu B.Cu) (remove_unused_layers) {more} (net 1))")
+    };
+    let track = |net: u32, layer: &str| {
+        format!("(segment (start 5 5) (end 5.5 5) (width 0.1) (layer {layer}) (net {net}))")
+    };
+    let disc = std::f64::consts::PI;
+    let cases = [
+        (via(""), [0.0, 0.0], "nothing meets it"),
+        (via("(keep_end_layers)"), [disc, disc], "the outer ones are kept"),
+        (via("") + &track(1, "B.Cu"), [0.0, disc], "a track on the back"),
+        (via("(zone_layer_connections \"F.Cu\")"), [disc, 0.0], "a zone, as the board says"),
+        (
+            via("")
+                + "(zone (net 1) (layer F.Cu) (fill yes) (filled_polygon (layer F.Cu) (pts (xy 0 0) (xy 9 0) (xy 9 9) (xy 0 9))))",
+            [81.0, 0.0],
+            "a zone round it",
+        ),
+    ];
+    for (things, expected, what) in cases {
+        let found = copper_of(20_241_229, CANONICAL, &things);
+        let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-3);
+        assert!(near, "{what}: {found:?} and not {expected:?}");
+    }
+}
+
+#[test]
+fn outlines_of_letters_are_copper() {
+    let text = "(gr_text \"o\" (at 5 5) (layer F.Cu) (effects (font (face \"Sans\") (size 1 1)))
+        (render_cache \"o\" 0 (polygon (pts (xy 0 0) (xy 4 0) (xy 4 4) (xy 0 4)) (pts (xy 1 1) (xy 3 1) (xy 3 3) (xy 1 3)))))";
+    assert_eq!(copper_of(20_221_018, CANONICAL, text).map(f64::round), [12.0, 0.0], "a ring");
+}
+
+#[test]
+fn what_is_wrong_is_shown_with_its_line() {
+    let cases = [
+        (
+            "(kicad_pcb (segment (start 0 0) (end x 0) (width 1) (layer F.Cu)))",
+            "`(end …)` has no number here",
+        ),
+        ("(kicad_pcb\n (via (at 0 0) (layers F.Cu B.Cu)))", "`(via …)` is incomplete"),
+        ("(kicad_pcb (gr_line (start 0 0) (end 9999 0) (layer F.Cu)))", "has no number here"),
+        (
+            "(kicad_pcb (footprint x (at 0 0) (pad 1 smd star (at 0 0) (size 1 1) (layers F.Cu))))",
+            "unknown shape",
+        ),
+        ("(kicad_pcb (general", "never ends"),
+        ("(kicad_sch)", "no KiCad board"),
+    ];
+    for (text, words) in cases {
+        let error = import::kicad::read("x.kicad_pcb", text.as_bytes()).expect_err(text).render();
+        assert!(error.contains(words) && error.contains("x.kicad_pcb:"), "{text}: {error}");
+    }
 }

@@ -1,7 +1,7 @@
 //! Pads: their copper and their holes.
 
 use super::frame::Frame;
-use super::layers::{Layers, copper_name};
+use super::layers::copper_name;
 use super::pad_shape::{Corners, obround, rounded, trapezoid};
 use super::reader::{Drawing, Reader, way};
 use super::ring::Ring;
@@ -68,7 +68,7 @@ impl Reader<'_> {
             function: Some(function(kind).to_owned()),
         };
         self.count("pads");
-        for side in Layers::of(node).sides() {
+        for side in self.layers(node).sides() {
             let look = Look::on(node, side);
             let Some(drawing) = self.look(look, &own, bore, plated)? else { continue };
             if leaves_rings_out(node) {

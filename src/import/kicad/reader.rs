@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap;
 
 use super::frame::Frame;
-use super::layers::Layers;
+use super::layers::{Layers, Names};
 use super::tree::{Node, Tree};
 use super::{footprint, number, text};
 use crate::board::{Attributes, Axis, Feature, Hole, Plating, Shape, Side};
@@ -59,6 +59,8 @@ pub(super) struct Reader<'a> {
     pub(super) filled_zones: u64,
     /// The version of the format, where the file says one.
     pub(super) version: u32,
+    /// What the board calls its layers.
+    names: Names,
 }
 
 impl<'a> Reader<'a> {
@@ -79,6 +81,7 @@ impl<'a> Reader<'a> {
             bare_zones: Vec::new(),
             filled_zones: 0,
             version: 0,
+            names: Names::default(),
         }
     }
 
@@ -107,6 +110,7 @@ impl<'a> Reader<'a> {
     fn settings(&mut self, root: Node<'_>) -> Result<(), Error> {
         let version = root.find("version").and_then(|version| version.argument(0));
         self.version = version.and_then(|version| version.text().parse().ok()).unwrap_or(0);
+        self.names = Names::of(root, self.version);
         let setup = root.find("setup");
         let uses_auxiliary =
             setup.and_then(|setup| setup.find("pcbplotparams")).is_some_and(|plot| plot.says("useauxorigin"));
@@ -143,7 +147,7 @@ impl<'a> Reader<'a> {
             b"zone" => return self.zone(node),
             _ => {}
         }
-        let layers = Layers::of(node);
+        let layers = self.layers(node);
         if !layers.is_milled() {
             return Ok(());
         }
@@ -201,6 +205,11 @@ impl<'a> Reader<'a> {
             }
         }
         Ok(())
+    }
+
+    /// The layers that `node` lies on, of those that are milled.
+    pub(super) fn layers(&self, node: Node<'_>) -> Layers {
+        Layers::of(node, &self.names)
     }
 
     pub(super) fn count(&mut self, what: &'static str) {
@@ -340,7 +349,7 @@ impl<'a> Reader<'a> {
                 b"pad" => self.pad(part, &frame, component.as_deref())?,
                 b"zone" => self.zone(part)?,
                 head => {
-                    let layers = Layers::of(part);
+                    let layers = self.layers(part);
                     if !layers.is_milled() || head == b"layer" {
                         continue;
                     }

@@ -1,7 +1,7 @@
 //! Tracks and vias.
 
 use super::curve::Curve;
-use super::layers::{Layers, copper_name};
+use super::layers::copper_name;
 use super::pad::leaves_rings_out;
 use super::reader::{Reader, way};
 use super::ring::Ring;
@@ -29,7 +29,7 @@ impl Reader<'_> {
         let Some(width) = node.find("width") else { return Err(self.lacks(node, "`(width …)`")) };
         let width = self.length(width, 0)?;
         let attributes = self.conductor(node, "Conductor");
-        for side in Layers::of(node).sides() {
+        for side in self.layers(node).sides() {
             self.count("tracks");
             self.put(side, node, curve.drawn(width), &attributes)?;
         }
@@ -43,7 +43,7 @@ impl Reader<'_> {
         let Some(size) = node.find("size") else { return Err(self.lacks(node, "`(size …)`")) };
         let size = self.length(size, 0)?;
         let attributes = self.conductor(node, "ViaPad");
-        let layers = Layers::of(node);
+        let layers = self.layers(node);
         self.count("vias");
         for side in layers.sides() {
             let layer = node.find("padstack").and_then(|stack| {

@@ -17,7 +17,7 @@ use crate::import::flaw;
 impl Reader<'_> {
     /// A zone; one that keeps copper out draws none.
     pub(super) fn zone(&mut self, node: Node<'_>) -> Result<(), Error> {
-        let layers = Layers::of(node);
+        let layers = self.layers(node);
         if node.find("keepout").is_some() || !layers.is_copper() {
             return Ok(());
         }
@@ -32,7 +32,7 @@ impl Reader<'_> {
         let attributes = self.conductor(node, "Conductor");
         let mut any = false;
         for area in node.all("filled_polygon") {
-            let own = Layers::of(area);
+            let own = self.layers(area);
             // Until version 5 a zone has one layer, and its areas name none.
             let on = if area.find("layer").is_some() { own } else { layers };
             let Some(points) = area.find("pts") else { return Err(self.lacks(area, "`(pts (xy …) …)`")) };
