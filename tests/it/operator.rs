@@ -284,6 +284,10 @@ struct Grbl {
     /// From the nose to the tip.
     tool: i64,
     spinning: bool,
+    /// Whether z counts from where the tool is (G91).
+    relative: bool,
+    /// How high a plate lies above the copper, where the probe's wires are on it and on the tool.
+    plate: Option<i64>,
     /// The lowest that the tip has been above the copper.
     deepest: i64,
 }
@@ -303,7 +307,16 @@ enum Refusal {
 
 impl Grbl {
     fn new() -> Self {
-        Self { state: State::Idle, nose: 60_000_000, offset: 0, tool: 0, spinning: false, deepest: 0 }
+        Self {
+            state: State::Idle,
+            nose: 60_000_000,
+            offset: 0,
+            tool: 0,
+            spinning: false,
+            relative: false,
+            plate: None,
+            deepest: 0,
+        }
     }
 
     fn send(&mut self, line: &str) -> Result<(), Refusal> {
@@ -327,6 +340,10 @@ impl Grbl {
             self.offset = self.nose - z.unwrap_or(self.nose);
             return Ok(());
         }
+        if words.contains(&"G92") {
+            self.offset = self.nose - z.expect("z alone");
+            return Ok(());
+        }
         if words.contains(&"M6") {
             return Err(Refusal::Error(20));
         }
@@ -335,11 +352,21 @@ impl Grbl {
                 "M0" => self.state = State::Hold,
                 "M3" => self.spinning = true,
                 "M5" | "M2" => self.spinning = false,
+                "G91" => self.relative = true,
+                "G90" => self.relative = false,
                 _ => {}
             }
         }
         if let Some(z) = z {
-            self.nose = z + self.offset;
+            let to = z + if self.relative { self.nose } else { self.offset };
+            self.nose = if words.contains(&"G38.2") {
+                let contact = self.plate.expect("the wires are on") + self.tool;
+                assert!(!self.spinning, "nobody probes with a tool that turns");
+                assert!(to <= contact && contact < self.nose, "no alarm: it touches, and not at once");
+                contact
+            } else {
+                to
+            };
             self.deepest = self.deepest.min(self.tip());
         }
         Ok(())
@@ -393,6 +420,29 @@ fn a_drill_job_is_run_on_grbl_file_by_file() {
         let deepest = planned.filter_map(voromill::toolpath::Move::to).map(|to| to.z.get()).min();
         let off = (grbl.deepest - deepest.expect("holes")).abs();
         assert!(off <= 50, "{off} nm off what was planned to the last digit, however long the drill is");
+    }
+}
+
+#[test]
+fn with_a_plate_every_drill_finds_its_own_zero() {
+    let (job, _) = mill("regulator", "tool-probe = \"-10mm,5mm,1.6mm\"");
+    let mut grbl = Grbl::new();
+    let files: Vec<_> = job.programs.iter().filter(|program| program.part == Part::Drill).collect();
+    assert!(files.len() > 3, "several drills");
+    // Zero is set once, with the first.
+    grbl.mount(20_000_000);
+    grbl.touch_off().expect("it is idle");
+    grbl.send("$J=G91 Z40 F100").expect("up");
+    grbl.plate = Some(1_600_000);
+    for (program, length) in files.iter().zip([20_000_000, 27_500_000, 18_000_000, 24_000_000, 31_000_000]) {
+        grbl.mount(length);
+        for line in program.text.lines() {
+            assert_eq!(grbl.send(line), Ok(()), "{line}");
+        }
+        let planned = program.program.sections.iter().flat_map(|section| &section.moves);
+        let deepest = planned.filter_map(voromill::toolpath::Move::to).map(|to| to.z.get()).min();
+        let off = (grbl.deepest - deepest.expect("holes")).abs();
+        assert!(off <= 50, "{off} nm off what was planned, however long the drill is");
     }
 }
 
