@@ -55,9 +55,12 @@ pub(crate) fn nanometres(text: &str) -> Result<i64, ParseLengthError> {
         other => return Err(ParseLengthError::UnknownUnit { unit: other.to_owned() }),
     };
     let (mantissa, scale) = decimal(number).ok_or_else(|| ParseLengthError::NoNumber(text.to_owned()))?;
-    let scaled = mantissa * unit_nm;
-    let half = if scaled < 0 { -scale / 2 } else { scale / 2 };
-    i64::try_from((scaled + half) / scale).map_err(|_| ParseLengthError::OutOfRange(text.to_owned()))
+    // A number of many digits before and behind the point is longer than all that is computed with.
+    let rounded = mantissa.checked_mul(unit_nm).and_then(|scaled| {
+        let half = if scaled < 0 { -scale / 2 } else { scale / 2 };
+        i64::try_from(scaled.checked_add(half)? / scale).ok()
+    });
+    rounded.ok_or_else(|| ParseLengthError::OutOfRange(text.to_owned()))
 }
 
 /// A decimal as mantissa and power of ten, `1.25` → (125, 100); at most 18 digits before the point.
@@ -97,6 +100,17 @@ mod tests {
         ];
         for (text, nm) in cases {
             assert_eq!(text.parse::<Nm>(), Ok(Nm::new(nm)), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_number_of_any_digits_is_a_length_or_out_of_range() {
+        let many = "8".repeat(18);
+        for unit in ["nm", "mm", "in"] {
+            let text = format!("{many}.{many}{many}{unit}");
+            assert_eq!(text.parse::<Nm>(), Err(ParseLengthError::OutOfRange(text.clone())), "{text}");
+            let text = format!("-0.{many}{many}{unit}");
+            assert!(text.parse::<Nm>().is_ok(), "{text}");
         }
     }
 

@@ -365,6 +365,7 @@ fn what_would_make_another_board_is_refused_with_its_line_where_it_matters() {
         ("inverted", "millproject:2:1: `invert-gerbers = true`: expected false"),
         ("turned-bottom-up", "millproject:2:1: `mirror-yaxis = true`: expected false"),
         ("apart", "millproject:2:1: `milling-overlap = -0.2mm`: expected zero or more"),
+        ("many-digits", "millproject:4:1: `cut-infeed = 088888888888888888.8"),
     ] {
         let error = construct(name).expect_err(name).to_string();
         assert!(error.contains(reason), "{name}: {error}");
