@@ -334,6 +334,31 @@ fn place(p: Point) -> (i64, i64) {
     (Nm::from_f64(p.x.to_mm()).get(), Nm::from_f64(p.y.to_mm()).get())
 }
 
+/// Every picture of a layer of the test boards; unoptimised, the small ones.
+#[test]
+fn pictures_of_layers_have_the_islands_of_their_boards() {
+    let Some(folder) = shared("VOROMILL_BOARDS", "../shared/boards") else { return };
+    let json = |path: &Path| -> Option<serde_json::Value> {
+        serde_json::from_slice(&std::fs::read(path).ok()?).ok()
+    };
+    let (mut seen, mut right) = (0, 0);
+    for board in std::fs::read_dir(folder).expect("boards").map(|entry| entry.expect("an entry").path()) {
+        let Some(truth) = json(&board.join("truth_nets.json")) else { continue };
+        for side in ["front", "back"] {
+            let path = board.join(format!("ref/{side}_500.png"));
+            let Ok(bytes) = std::fs::read(&path) else { continue };
+            if cfg!(debug_assertions) && bytes.len() > 12_000 {
+                continue;
+            }
+            let options = Options { dpi: Some(500.0), colour: Colour::Light, ..OPTIONS };
+            let picture = read("layer", &bytes, &options).expect("a picture of copper");
+            seen += 1;
+            right += usize::from(truth[side]["islands_shapely"].as_u64() == Some(islands(&picture) as u64));
+        }
+    }
+    assert!(seen >= 5 && right + seen / 46 >= seen, "{right} of {seen}");
+}
+
 #[test]
 fn photos_of_boards_are_refused() {
     let Some(folder) = shared("VOROMILL_ARTWORK", "../shared/artwork") else { return };
