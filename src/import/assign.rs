@@ -143,7 +143,7 @@ fn refuse_unknown(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
     Err(Error::content(
         &file.shown,
         what,
-        "give Gerber layers and Excellon drill files, their folder or a zip of them",
+        "give Gerber layers and Excellon drill files, their folder or a zip of them, or a KiCad board",
     ))
 }
 

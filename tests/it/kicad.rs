@@ -502,3 +502,29 @@ fn what_is_wrong_is_shown_with_its_line() {
         assert!(error.contains(words) && error.contains("x.kicad_pcb:"), "{text}: {error}");
     }
 }
+
+fn voromill(arguments: &[&str]) -> std::process::Output {
+    let program = env!("CARGO_BIN_EXE_voromill");
+    std::process::Command::new(program).args(arguments).output().expect("it runs")
+}
+
+#[test]
+fn a_board_is_milled_and_verified_by_itself_with_its_thickness() {
+    let out = tempfile::tempdir().expect("a folder");
+    let out = out.path().to_str().expect("a plain name");
+    let board = fixture("kicad/shapes.kicad_pcb");
+    let board = board.to_str().expect("a plain name");
+    let milled = voromill(&["mill", board, "-o", out, "--no-html"]);
+    assert!(milled.status.success(), "{}", String::from_utf8_lossy(&milled.stderr));
+    let program = std::fs::read_to_string(Path::new(out).join("shapes-front.ngc")).expect("a program");
+    assert_eq!(program.matches("(from shapes.kicad_pcb design ").count(), 1, "one file is said once");
+    assert!(program.contains("(thickness 0.8mm)"), "as thick as the board says");
+    let verified = voromill(&["verify", out, "--board", board]);
+    let said = String::from_utf8_lossy(&verified.stdout).into_owned();
+    assert!(verified.status.success(), "{said}");
+    assert!(!said.contains("[revision]"), "made from the same board: {said}");
+    let told = voromill(&["mill", board, "-o", out, "--no-html", "--no-verify", "--thickness", "1mm"]);
+    assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
+    let program = std::fs::read_to_string(Path::new(out).join("shapes-front.ngc")).expect("a program");
+    assert!(program.contains("(thickness 1mm)") || program.contains("(thickness 1.0mm)"), "as told");
+}

@@ -1,9 +1,44 @@
-//! What a footprint is called on its board.
+//! Footprints: where they lie, what they are called, and all that stands in them.
 
+use super::frame::Frame;
+use super::reader::Reader;
 use super::tree::Node;
+use super::{graphic, text};
+use crate::import::error::Error;
+
+impl Reader<'_> {
+    /// A footprint, turned and moved to its place.
+    pub(super) fn footprint(&mut self, node: Node<'_>) -> Result<(), Error> {
+        let at = node.find("at").ok_or_else(|| self.lacks(node, "`(at x y)`"))?;
+        let origin = self.frame.place((self.length(at, 0)?, self.length(at, 1)?));
+        let degrees = if at.argument(2).is_some() { self.number(at, 2)? } else { 0.0 };
+        let frame = Frame::at(origin, degrees);
+        let component = reference(node);
+        for part in node.arguments().filter(|part| part.is_list()) {
+            match part.head() {
+                b"pad" => self.pad(part, &frame, component.as_deref())?,
+                b"zone" => self.zone(part)?,
+                head => {
+                    let layers = self.layers(part);
+                    if !layers.is_milled() || head == b"layer" {
+                        continue;
+                    }
+                    if graphic::is_graphic(head) {
+                        self.draw(part, &frame, layers, Some(component.as_deref().unwrap_or_default()))?;
+                    } else if text::is_text(head) {
+                        self.text(part, layers, false)?;
+                    } else {
+                        self.not_read(part);
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+}
 
 /// The reference of a footprint, `R1`: a property since version 8, a text before.
-pub(super) fn reference(node: Node<'_>) -> Option<String> {
+fn reference(node: Node<'_>) -> Option<String> {
     let property = || {
         let named = |list: &Node<'_>| list.argument(0).is_some_and(|name| name.text() == "Reference");
         node.all("property").find(named)

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 use super::frame::Frame;
 use super::layers::{Layers, Names};
 use super::tree::{Node, Tree};
-use super::{footprint, number, text};
+use super::{number, text};
 use crate::board::{Attributes, Axis, Feature, Hole, Plating, Shape, Side};
 use crate::geometry::{Nm, Path, Point, Rect};
 use crate::import::error::{Error, Warnings};
@@ -336,34 +336,6 @@ impl<'a> Reader<'a> {
         let head = String::from_utf8_lossy(node.head()).into_owned();
         let what = format!("`({head} …)` is incomplete");
         Error::syntax(self.name, self.bytes, node.place(), what, expected, "save the board again in KiCad")
-    }
-
-    fn footprint(&mut self, node: Node<'_>) -> Result<(), Error> {
-        let at = node.find("at").ok_or_else(|| self.lacks(node, "`(at x y)`"))?;
-        let origin = self.frame.place((self.length(at, 0)?, self.length(at, 1)?));
-        let degrees = if at.argument(2).is_some() { self.number(at, 2)? } else { 0.0 };
-        let frame = Frame::at(origin, degrees);
-        let component = footprint::reference(node);
-        for part in node.arguments().filter(|part| part.is_list()) {
-            match part.head() {
-                b"pad" => self.pad(part, &frame, component.as_deref())?,
-                b"zone" => self.zone(part)?,
-                head => {
-                    let layers = self.layers(part);
-                    if !layers.is_milled() || head == b"layer" {
-                        continue;
-                    }
-                    if super::graphic::is_graphic(head) {
-                        self.draw(part, &frame, layers, Some(component.as_deref().unwrap_or_default()))?;
-                    } else if text::is_text(head) {
-                        self.text(part, layers, false)?;
-                    } else {
-                        self.not_read(part);
-                    }
-                }
-            }
-        }
-        Ok(())
     }
 }
 
