@@ -191,6 +191,20 @@ fn on_coarse_grids_brute_force_agrees_with_the_certified_diagram() {
     check_owners(100..130, 250_000);
 }
 
+/// All edges of the free space end where others begin, and no circle holds copper.
+#[test]
+fn the_medial_axis_of_random_copper_is_certified() {
+    for (seeds, grid) in [(0..60, 1), (0..60, 100_000), (0..60, 250_000)] {
+        for seed in seeds {
+            let name = format!("seed {seed} on a grid of {grid} nm");
+            let (copper, nets) = scene(seed, grid);
+            let diagram = diagram(&copper, &nets, Kind::MedialAxis);
+            assert_eq!(diagram.faults(), [], "{name}: no end is loose");
+            assert_eq!(diagram.certify(100_000.0), [], "{name}: all circles are empty");
+        }
+    }
+}
+
 #[test]
 fn an_edge_between_two_discs_is_a_hyperbola_with_its_clearance() {
     let disc = |x: i64, radius: i64| Shape::Disc { center: at(1_000, x, 0), radius: Nm::from_um(radius) };

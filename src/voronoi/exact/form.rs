@@ -210,6 +210,38 @@ impl Form {
         reaches.then_some(s)
     }
 
+    /// Where the whole line or circle crosses that of another form: there the bisector of both
+    /// ends, and another branch of it may begin.
+    pub(super) fn crossings(&self, other: &Self) -> [Option<Spot>; 2] {
+        let of_circle = |from: Spot, along: Spot, center: Spot, radius: f64| {
+            let foot = from + along * along.dot(center - from);
+            let out = foot - center;
+            let squared = radius * radius - out.dot(out);
+            let half = (squared >= 0.0).then(|| squared.sqrt());
+            [half.map(|half| foot + along * half), half.map(|half| foot - along * half)]
+        };
+        match (*self, *other) {
+            (Self::Line { from, along, .. }, Self::Line { from: start, along: way, .. }) => {
+                let turn = along.cross(way);
+                let meets = turn.abs() > 1e-12;
+                [meets.then(|| from + along * ((start - from).cross(way) / turn)), None]
+            }
+            (Self::Line { from, along, .. }, Self::Circle { center, radius, .. })
+            | (Self::Circle { center, radius, .. }, Self::Line { from, along, .. }) => {
+                of_circle(from, along, center, radius)
+            }
+            (Self::Circle { center, radius, .. }, Self::Circle { center: c, radius: r, .. }) => {
+                let (way, length) = (unit(c - center), (c - center).length());
+                if length <= 0.0 {
+                    return [None; 2];
+                }
+                // Both lie on their radical line.
+                let out = (length * length + (radius - r) * (radius + r)) / (2.0 * length);
+                of_circle(center + way * out, clockwise(way), center, radius)
+            }
+        }
+    }
+
     /// Moves a place by so many nanometres, seen at the distance `out` from the centre of a circle;
     /// there by an eighth of a turn at most.
     pub(super) fn advance(&self, place: Place, way: f64, out: f64) -> Place {

@@ -101,6 +101,7 @@ impl Diagram {
     /// in groups of one direction.
     fn tied(&self, p: Spot, clearance: f64, among: impl Iterator<Item = u32>, slab: f64) -> Vec<Tied> {
         let mut tied: Vec<Tied> = Vec::new();
+        let mut around: Vec<(u32, Option<[Spot; 2]>)> = Vec::new();
         for generator in among {
             let form = &self.forms()[generator as usize];
             if (form.distance(p) - clearance).abs() > self.tie
@@ -116,7 +117,17 @@ impl Diagram {
                 Some(None) => add(Spot::new(1.0, 0.0)),
                 None => add(form.away(p) * -1.0),
             }
+            around.extend(form.around(p).map(|sector| (generator, sector)));
         }
+        // What touches an arc from behind is nowhere nearer than the arc.
+        let is_behind = |entry: &Tied, (arc, sector): &(u32, Option<[Spot; 2]>)| {
+            let within = |[from, to]: [Spot; 2]| {
+                let along = turn(from, entry.toward);
+                along > SAME && along < turn(from, to) - SAME
+            };
+            *arc != entry.generator && sector.is_none_or(within)
+        };
+        tied.retain(|entry| !around.iter().any(|arc| is_behind(entry, arc)));
         let from = Spot::new(1.0, 0.0);
         tied.sort_by(|a, b| {
             turn(from, a.toward).total_cmp(&turn(from, b.toward)).then(a.generator.cmp(&b.generator))

@@ -190,6 +190,14 @@ impl Diagram {
                 }
             }
         }
+        let form = &pair.forms[main];
+        for at in pair.forms[0].crossings(&pair.forms[1]).into_iter().flatten() {
+            let there = Here { at, clearance: 0.0, place: form.place(at) };
+            let along = form.progress(here.place, there.place, pair.sense(main));
+            if along > 0.0 && nearest.as_ref().is_none_or(|(least, _)| along < *least) {
+                nearest = Some((along, there));
+            }
+        }
         nearest.map(|(_, there)| there)
     }
 
