@@ -169,6 +169,17 @@ fn a_picture_is_as_large_as_it_is_told_or_says() {
 }
 
 #[test]
+fn an_oblong_opening_of_a_few_pixels_is_no_dot() {
+    // Of a letter, at 150 DPI.
+    let is_bare = |x: u32, y: u32| (18..22).contains(&x) && (17..24).contains(&y);
+    let is_pad = |x: u32, y: u32| (10..30).contains(&x) && (10..30).contains(&y);
+    let ink = |x, y| Luma([if is_pad(x, y) && !is_bare(x, y) { 255 } else { 0 }]);
+    let bytes = encoded(&GrayImage::from_fn(60, 60, ink).into(), ImageFormat::Png);
+    let picture = read("board", &bytes, &Options { dpi: Some(150.0), ..OPTIONS }).expect("a pad");
+    assert!(picture.holes.is_empty(), "{:?}", picture.holes);
+}
+
+#[test]
 fn specks_go_and_parts_are_read_where_asked_for() {
     let mut picture = grey().to_luma8();
     for at in 0..40 {

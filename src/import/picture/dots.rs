@@ -11,7 +11,7 @@ use super::Scale;
 const DIAMETERS: std::ops::RangeInclusive<f64> = 0.25e6..=1.6e6;
 
 /// How far a dot's edge may leave a circle: a part of its radius, and a part of a pixel.
-const ROUNDNESS: (f64, f64) = (0.08, 0.75);
+const ROUNDNESS: (f64, f64) = (0.05, 0.55);
 
 /// How wide the copper round a dot must be at least, as a part of its diameter. Chosen: the stroke
 /// of a letter is thinner.
