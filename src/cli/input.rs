@@ -13,7 +13,7 @@ use super::Failure;
 #[derive(Args)]
 pub(super) struct Input {
     /// A folder, a zip archive, the files themselves, or a KiCad board (.kicad_pcb)
-    #[arg(required_unless_present = "millproject", value_name = "PATH")]
+    #[arg(required_unless_present_any = ["millproject", "front", "back"], value_name = "PATH")]
     paths: Vec<PathBuf>,
 
     /// Take options and files over from a millproject of pcb2gcode; options given here win
@@ -125,10 +125,15 @@ impl Input {
         Err(Failure::new(cause, "mend the files, or leave --deny-warnings out"))
     }
 
-    /// What to read: what is named here, or else the files of the millproject.
+    /// What to read: what is named here, by itself or by what it is, or else the files of the
+    /// millproject.
     pub(super) fn paths(&self) -> Vec<PathBuf> {
         if !self.paths.is_empty() {
             return self.paths.clone();
+        }
+        if self.millproject.is_none() {
+            let layers = [&self.front, &self.back, &self.outline].into_iter().flatten();
+            return layers.chain(&self.drill_files).cloned().collect();
         }
         let ProjectFiles { front, back, outline, drill } = self.project().unwrap_or_default().files;
         [front, back, outline, drill].into_iter().flatten().collect()

@@ -589,3 +589,17 @@ fn a_cache_key_tells_apart_what_is_written() {
     assert_eq!(key(&["--deny", "warning"]), keys[0], "an exit code is not among the outputs");
     assert!(listing(folder.path()).is_empty(), "and nothing is made");
 }
+
+#[test]
+fn files_named_for_what_they_are_need_no_folder_beside_them() {
+    let folder = TempDir::new().expect("a folder");
+    let board = fixture("boards/blinker");
+    let file = |name: &str| board.join(name).to_str().expect("a name").to_owned();
+    let (back, outline) = (file("blinker-B_Cu.gbr"), file("blinker-Edge_Cuts.gbr"));
+    let arguments = ["inspect", "--back", &back, "--outline", &outline];
+    let output = voromill(folder.path(), &arguments);
+    assert!(output.status.success(), "{}", stderr(&output));
+    let said = stdout(&output);
+    assert!(said.contains("back") && !said.contains("drill"), "a back and an outline alone: {said}");
+    fails(&folder, &["inspect", "--outline", &outline], &["required"], &[]);
+}

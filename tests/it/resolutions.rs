@@ -1,4 +1,5 @@
-//! The same board at four resolutions: paths are the same wherever the same features are seen.
+//! The same board traced at four resolutions: paths are the same wherever the same features are
+//! seen.
 //!
 //! What a picture sees of a boundary is which two regions it parts and which others it meets at its
 //! ends. Boundaries of two pictures of which all that is the same, as often in the one as in the
@@ -89,7 +90,7 @@ fn a_board_has_the_same_paths_at_any_resolution() {
         }
         let found = PITCHES.map(|pitch| {
             let settings = Settings { pitch: Nm::new(pitch), ..Settings::default() };
-            Diagram::new(&copper, &nets, outline.as_ref(), &settings).expect("a diagram").boundaries().0
+            Diagram::new(&copper, &nets, outline.as_ref(), &settings).expect("a diagram").traced().0
         });
         for (coarse, pitch) in found.iter().zip(PITCHES).take(3) {
             let (off, at, part) = compare(coarse, &found[3], pitch);
