@@ -431,7 +431,7 @@ fn what_a_person_must_know_is_an_error_in_a_sentence() {
     let cases = [
         ("missing.gbr", "no such file"),
         ("empty.gbr", "an empty file"),
-        ("picture.gbr", "a PNG picture"),
+        ("picture.gbr", "the picture cannot be read"),
         ("prose.gbr", "neither Gerber nor Excellon"),
         ("mask.gbr", "no copper layer found among mask.gbr (solder mask)"),
         ("nothing_top.gbr", "no copper"),

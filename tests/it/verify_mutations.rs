@@ -140,8 +140,12 @@ impl Fault {
     }
 }
 
-/// The width of a bridge.
+/// The width of a bridge at the surface.
 const BRIDGE: f64 = 20_000.0;
+
+/// How much wider it is at the bottom of copper of 35 µm, where a V-bit of 30° is narrower by the
+/// tangent of 15° on either side.
+const FLARE: f64 = 18_756.0;
 
 /// Does one thing wrong; where that has one, the place.
 fn spoil(milled: &Milled, fault: Fault, dice: &mut Dice) -> (Vec<Motion>, Option<Point>) {
@@ -264,11 +268,12 @@ fn missed(milled: &Milled, round: usize) -> Option<String> {
     let mut named = serious.filter(|finding| fault.names().contains(&finding.name));
     let found = match place {
         None => named.next().is_some(),
-        // A bridge has its place and its width.
+        // A bridge has its place and its width, which is that at the bottom of the copper.
         Some(place) => named.any(|finding| {
+            let bridge = if milled.tool.starts_with("vbit") { BRIDGE + FLARE } else { BRIDGE };
             let width = finding.size.map_or(0.0, Nm::to_f64);
             let off = finding.at.map_or(f64::INFINITY, |at| at.distance(place));
-            (width - BRIDGE).abs() < 2_000.0 && off < 50_000.0
+            (width - bridge).abs() < 2_000.0 && off < 50_000.0
         }),
     };
     let names: Vec<_> = findings.iter().map(|f| (f.name, f.message.as_str())).collect();

@@ -27,6 +27,10 @@ pub(super) struct Growth {
 /// seen.
 const RETRIES: usize = 8;
 
+/// The cosine of the angle of feet on one side of an edge is less off 1 than this. Chosen: a
+/// hundredth of a degree.
+const BESIDE: f64 = 1e-8;
+
 /// The side of a cell, in nanometres. Chosen: what one vertex may be off, mostly.
 const CELL: f64 = 1_000.0;
 
@@ -110,13 +114,16 @@ impl Diagram {
     /// Follows all open slots, and what they lead to.
     pub(super) fn grow(&self, growth: &mut Growth) {
         while let Some((from, slot)) = growth.open.pop() {
-            let junction = &growth.junctions[from as usize];
-            let Slot { left, right, edge: None, .. } = junction.slots[slot] else { continue };
-            let pair = self.pair(left, right);
-            let Some((ending, way)) = self.next(growth, from, &pair) else {
+            let Slot { left, right, edge: None, .. } = growth.junctions[from as usize].slots[slot] else {
+                continue;
+            };
+            let Some((pair, ending, way)) = self.next(growth, from, self.pair(left, right)) else {
                 growth.fault(growth.junctions[from as usize].at);
                 continue;
             };
+            let Pair { left, right, .. } = pair;
+            let leaving = &mut growth.junctions[from as usize].slots[slot];
+            (leaving.left, leaving.right) = (left, right);
             let to = growth.place(ending);
             let owners = |slot: &Slot| (self.owner(slot.left), self.owner(slot.right));
             let same = |slot: &Slot| owners(slot) == (self.owner(right), self.owner(left));
@@ -134,26 +141,39 @@ impl Diagram {
         }
     }
 
-    /// The junction at which the edge between a pair that leaves a junction ends, and the direction
-    /// in which it arrives.
-    fn next(&self, growth: &Growth, from: u32, pair: &Pair) -> Option<(Junction, Spot)> {
+    /// The pair that an edge from a junction is between, the junction at which it ends, and the
+    /// direction in which it arrives.
+    fn next(&self, growth: &Growth, from: u32, mut pair: Pair) -> Option<(Pair, Junction, Spot)> {
         let home = &growth.junctions[from as usize];
         let near = resolution(self.tie, home.clearance) + SNAP;
         let mut start = home.at;
         for _ in 0..RETRIES {
-            let event = self.follow(pair, start, &home.tied);
-            let found = self.ending(pair, start, event)?;
+            let event = self.follow(&pair, start, &home.tied);
+            let (ending, way) = self.ending(&pair, start, event)?;
             // Ends of generators within a nanometre of each other are one vertex: beyond them.
             match event {
-                Event::Junction { at, .. }
-                    if (at - home.at).length() < near && growth.known(&found.0) == Some(from) =>
+                Event::Junction { at, clearance, .. }
+                    if (at - home.at).length() < near && growth.known(&ending) == Some(from) =>
                 {
                     start = at;
+                    pair = self.ahead_of_pair(&pair, at, clearance);
                 }
-                _ => return Some(found),
+                _ => return Some((pair, ending, way)),
             }
         }
         None
+    }
+
+    /// What is nearest on either side of an edge a little ahead of a place on it.
+    fn ahead_of_pair(&self, pair: &Pair, at: Spot, clearance: f64) -> Pair {
+        let (way, tied) = (pair.way(at), self.within(at, clearance + self.tie));
+        let [left, right] = [0, 1].map(|side| {
+            let toward = pair.forms[side].away(at);
+            let is_beside = |&i: &u32| self.forms()[i as usize].away(at).dot(toward) > 1.0 - BESIDE;
+            let beside: Vec<u32> = tied.iter().map(|&(i, _)| i).filter(is_beside).collect();
+            self.ahead_of(at, clearance, way, &beside).unwrap_or([pair.left, pair.right][side])
+        });
+        self.pair(left, right)
     }
 
     pub(super) fn pair(&self, left: u32, right: u32) -> Pair {

@@ -23,7 +23,8 @@
 //!    more, the rule on a grid, are nothing special.
 //! 5. The [graph] grows until nothing is open. An edge must arrive where one leaves; if not, the
 //!    place is one of [`Diagram::faults`].
-//! 6. [`Diagram::certify`] asks all generators anew whether each circle is empty.
+//! 6. [`Diagram::certify`] asks all generators anew whether each circle is empty, at vertices and
+//!    in the middle of edges; where one is not, the place is a fault, too.
 //!
 //! # What it guarantees
 //!
@@ -144,6 +145,10 @@ impl Diagram {
             diagram.tie = tie;
             diagram.walk_all(space);
             if diagram.faults.is_empty() {
+                let wrong = diagram.certify(f64::INFINITY).into_iter().filter(|found| found.by > WRONG);
+                diagram.faults = wrong.map(|found| found.at).collect();
+            }
+            if diagram.faults.is_empty() {
                 break;
             }
         }
@@ -180,8 +185,8 @@ impl Diagram {
         &self.edges
     }
 
-    /// Where an edge could not be followed to its end, or ended where no other begins: none, unless
-    /// the program is at fault.
+    /// Where an edge could not be followed to its end, or ended where no other begins, or copper
+    /// lies in a circle: none, unless the program is at fault.
     #[must_use]
     pub fn faults(&self) -> &[Point] {
         &self.faults
@@ -203,6 +208,9 @@ impl Diagram {
         (left - BEYOND..=right + BEYOND).contains(&p.x) && (bottom - BEYOND..=top + BEYOND).contains(&p.y)
     }
 }
+
+/// A circle that holds copper by more is no rounding, in nanometres. Chosen: no cut is as true.
+const WRONG: f64 = 1.0;
 
 /// Edges end so far beyond the window that its sides can be walked, in nanometres. Chosen.
 const BEYOND: f64 = 1_000.0;
