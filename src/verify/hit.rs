@@ -42,7 +42,7 @@ pub(super) struct Hits {
 }
 
 /// Cuts into a net that are looked at one by one: of a net of which nothing is left, and of one of
-/// which something is. Chosen: a board that is moved has a tenth of the latter.
+/// which something is. Chosen, and not compared with other numbers.
 const MANY: [usize; 2] = [500, 2_000];
 /// Cuts that are looked at between counting. Chosen: they take some megabytes at worst.
 const CHUNK: usize = 4_096;

@@ -200,7 +200,7 @@ fn merge(doubts: &mut Vec<Doubt>, mut doubt: Doubt) {
 }
 
 /// Pairs of cuts that may cross in a doubt of which polygons are made, and for each cut so many
-/// more. Chosen: a second's work; the densest boards have a tenth.
+/// more. Chosen, and not compared with other numbers.
 const PAIRS: usize = 200_000;
 const EACH: usize = 20;
 

@@ -90,7 +90,7 @@ pub(super) enum Show {
 const DOUBT: f64 = 0.75;
 
 /// Ways, stretches of long ones each, of which no more may come near one for all to be asked.
-/// Chosen: some ten times what the densest board has.
+/// Chosen, and not compared with other numbers.
 const CROWD: usize = 300;
 
 /// How much narrower kerfs are drawn with pixels of `pitch`.

@@ -124,9 +124,11 @@ impl Diagram {
     fn check(&self, at: Spot, clearance: f64, tied: &[u32], found: &mut Vec<Violation>) {
         let off = tied.iter().map(|&i| (self.forms()[i as usize].distance(at) - clearance).abs());
         let mut worst = off.fold(0.0, f64::max);
-        for (_, distance) in self.within(at, clearance) {
-            worst = worst.max(clearance - distance);
-        }
+        // No edge of copper, seen from whichever side, lies within an empty circle; so what lies in
+        // copper is told from what lies outside, too.
+        self.index.visit_round(at, clearance, |i| {
+            worst = worst.max(clearance - self.forms()[i as usize].off(at));
+        });
         if worst > 2.0 * self.tie {
             found.push(Violation { at: at.rounded(), by: worst });
         }

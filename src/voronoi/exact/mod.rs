@@ -24,7 +24,7 @@
 //! 5. The [graph] grows until nothing is open. An edge must arrive where one leaves; if not, the
 //!    place is one of [`Diagram::faults`].
 //! 6. [`Diagram::certify`] asks all generators anew whether each circle is empty, at vertices and
-//!    in the middle of edges; where one is not, the place is a fault, too.
+//!    along edges; where one is not, the place is a fault, too.
 //!
 //! # What it guarantees
 //!
@@ -145,7 +145,7 @@ impl Diagram {
             diagram.tie = tie;
             diagram.walk_all(space);
             if diagram.faults.is_empty() {
-                let wrong = diagram.certify(f64::INFINITY).into_iter().filter(|found| found.by > WRONG);
+                let wrong = diagram.certify(CLOSE).into_iter().filter(|found| found.by > WRONG);
                 diagram.faults = wrong.map(|found| found.at).collect();
             }
             if diagram.faults.is_empty() {
@@ -211,6 +211,9 @@ impl Diagram {
 
 /// A circle that holds copper by more is no rounding, in nanometres. Chosen: no cut is as true.
 const WRONG: f64 = 1.0;
+
+/// At places so close together edges are asked, in nanometres. Chosen: narrower pads are rare.
+const CLOSE: f64 = 250_000.0;
 
 /// Edges end so far beyond the window that its sides can be walked, in nanometres. Chosen.
 const BEYOND: f64 = 1_000.0;

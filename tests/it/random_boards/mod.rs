@@ -161,6 +161,7 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         ("slit-and-trace", SETTINGS[2]),
         ("band", SETTINGS[6]),
         ("facing-corners", SETTINGS[0]),
+        ("gap-of-a-micrometre", SETTINGS[3]),
     ] {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let copper = copper(&text, Side::Front).expect("readable").expect("copper");
