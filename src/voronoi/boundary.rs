@@ -12,13 +12,13 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::geometry::{Nm, Path, Point};
+use crate::geometry::Point;
 
 use super::clip::{Node, Piece};
 use super::exact;
 use super::fit;
 use super::plane::Spot;
-use super::{Boundaries, Boundary, Diagram, NodeId, Owner};
+use super::{Boundaries, Diagram, Owner};
 
 impl Diagram {
     /// The boundaries of the certified diagram, and where it contradicts itself.
@@ -35,24 +35,9 @@ impl Diagram {
         // Two nodes that fall on the same nanometre are one, and nothing runs between them.
         let fit = |piece: &Piece| {
             let fitted = fit::fit(&piece.samples, self.settings.tolerance, self.settings.arcs)?;
-            Some((fitted, [piece.left, piece.right], piece.ends.is_none()))
+            Some((fitted, (piece.left, piece.right), piece.ends.is_none()))
         };
-        let fitted: Vec<_> = pieces.par_iter().filter_map(fit).collect();
-        let mut numbers = rustc_hash::FxHashMap::default();
-        let mut nodes = Vec::new();
-        let mut node = |at: Point| {
-            *numbers.entry(at).or_insert_with(|| {
-                nodes.push(at);
-                NodeId(u32::try_from(nodes.len() - 1).expect("below 2³² nodes"))
-            })
-        };
-        let edge = |((path, clearance), sides, is_loop): ((Path, Vec<Nm>), [u32; 2], bool)| {
-            let ends = (!is_loop).then(|| (node(path.start), node(path.end())));
-            let [left, right] = sides.map(Owner::from_number);
-            Boundary { path, clearance, left, right, ends }
-        };
-        let edges = fitted.into_iter().map(edge).collect();
-        Boundaries { nodes, edges }
+        Boundaries::of(pieces.par_iter().filter_map(fit).collect())
     }
 }
 

@@ -477,7 +477,17 @@ impl Diagram {
             let fitted = fit::fit(&samples, self.settings.tolerance, self.settings.arcs)?;
             Some((fitted, (line.left, line.right), line.ends.is_none()))
         };
-        let fitted: Vec<_> = lines.into_par_iter().filter_map(fit).collect();
+        Boundaries::of(lines.into_par_iter().filter_map(fit).collect())
+    }
+}
+
+/// A fitted path with its clearance, the numbers of the owners on its left and right, and whether
+/// it is a loop.
+type Fitted = ((Path, Vec<Nm>), (u32, u32), bool);
+
+impl Boundaries {
+    /// The graph of fitted paths, with nodes in the order in which they are met.
+    fn of(fitted: Vec<Fitted>) -> Self {
         let mut numbers = rustc_hash::FxHashMap::default();
         let mut nodes = Vec::new();
         let mut node = |at: Point| {
@@ -486,13 +496,13 @@ impl Diagram {
                 NodeId(u32::try_from(nodes.len() - 1).expect("below 2³² nodes"))
             })
         };
-        let edge = |((path, clearance), (left, right), is_loop): ((Path, Vec<Nm>), (u32, u32), bool)| {
+        let edge = |((path, clearance), (left, right), is_loop): Fitted| {
             let ends = (!is_loop).then(|| (node(path.start), node(path.end())));
             let (left, right) = (Owner::from_number(left), Owner::from_number(right));
             Boundary { path, clearance, left, right, ends }
         };
         let edges = fitted.into_iter().map(edge).collect();
-        Boundaries { nodes, edges }
+        Self { nodes, edges }
     }
 }
 

@@ -9,6 +9,7 @@
 
 use rayon::prelude::*;
 
+use super::seed::FIRST_REACH;
 use super::{Diagram, Edge};
 use crate::voronoi::plane::Spot;
 use crate::voronoi::span::{CHORD, Sample};
@@ -145,6 +146,3 @@ impl Diagram {
         }
     }
 }
-
-/// Where a search begins, in nanometres; it doubles.
-const FIRST_REACH: f64 = 100_000.0;

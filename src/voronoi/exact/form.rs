@@ -15,8 +15,8 @@
 
 use crate::voronoi::plane::Spot;
 
-/// A foot may lie so far beyond the end of a slab and count, in nanometres: far more than rounding,
-/// far less than any real length.
+/// A foot may lie so far beyond the end of a slab and count, in nanometres: far more than rounding
+/// and than what makes two places one vertex, far less than any real length.
 pub(super) const SLAB: f64 = 0.05;
 
 /// Nothing on a board is so far away, in nanometres: bisectors end here that rounding has turned

@@ -33,8 +33,8 @@
 //! used. With [`Kind::Owners`] the graph is complete if every owner's copper is connected.
 //! Distances that differ by less than a *tie* are equal; where one tie leaves an end loose, all is
 //! walked anew with another, and what no tie resolves is a fault, for which
-//! [`Diagram`](super::Diagram) traces the picture instead. None of 600 random scenes and none of
-//! the 47 layers of real boards needs that.
+//! [`Diagram`](super::Diagram) traces the picture instead. None of the 47 layers of real boards
+//! needs that, and none of 600 random scenes did before places in copper were told, too.
 //!
 //! With [`Kind::MedialAxis`] less is proven: around copper what one owner encloses is not found,
 //! for no ray leads there, and of 1200 random scenes two break a certificate, where an edge steps

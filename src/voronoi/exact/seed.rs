@@ -18,7 +18,7 @@ use super::{Diagram, NOBODY, Space};
 use crate::voronoi::plane::Spot;
 
 /// Where a search begins, in nanometres; it doubles.
-const FIRST_REACH: f64 = 100_000.0;
+pub(super) const FIRST_REACH: f64 = 100_000.0;
 
 /// Events along one side of the window at most.
 const EVENTS: usize = 1_000_000;
