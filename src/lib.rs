@@ -23,7 +23,8 @@
 //! | [`raster`] | the z-buffer engine; stands alone, speaks of pixels, labels, depths | – |
 //! | [`vectorize`] | pixels → contours; stands alone, speaks of samples and levels | – |
 //! | [`board`] | the resolved board: copper, holes, outline; macros, repeats and polarity are gone | geometry |
-//! | [`import`] | files → [`Board`](board::Board): Gerber, Excellon, KiCad boards, pictures, job files, archives | geometry, board, vectorize |
+//! | [`artwork`] | drawings: layers of areas and lines; → polygons, copper, holes | geometry, board |
+//! | [`import`] | files → [`Board`](board::Board): Gerber, Excellon, KiCad boards, pictures, job files, archives | geometry, board, artwork, vectorize |
 //! | [`grid`] | the only crossing between nanometres and pixels | geometry, raster |
 //! | [`topology`] | which features conduct to each other: [`Nets`](topology::Nets) | geometry, raster, board, grid |
 //! | [`voronoi`] | nets → regions → a planar graph of [`Boundaries`](voronoi::Boundaries), placed exactly | all above but import |
@@ -75,6 +76,7 @@
 //! # }
 //! ```
 
+pub mod artwork;
 pub mod board;
 pub mod gcode;
 pub mod geometry;
