@@ -10,7 +10,7 @@ use voromill::report::document::WarningEntry;
 use super::Failure;
 
 /// What to read.
-#[derive(Args)]
+#[derive(Args, Default)]
 pub(super) struct Input {
     /// A folder, a zip archive, the files themselves, or a KiCad board (.kicad_pcb)
     #[arg(required_unless_present_any = ["millproject", "front", "back"], value_name = "PATH")]
@@ -81,12 +81,12 @@ pub(super) struct Input {
 
 /// Which part of a picture is copper.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Colour {
+pub(super) enum Colour {
     Dark,
     Light,
 }
 
-fn dpi(text: &str) -> Result<f64, String> {
+pub(super) fn dpi(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| (10.0..=30_000.0).contains(number));
     number.ok_or_else(|| "expected from 10 to 30000 pixels to the inch".to_owned())
 }
@@ -104,6 +104,22 @@ fn pixels(text: &str) -> Result<[u32; 4], String> {
 }
 
 impl Input {
+    /// A file that is no board, and what is said of it if it is a picture.
+    pub(super) fn artwork(
+        path: Option<PathBuf>,
+        dpi: Option<f64>,
+        width: Option<Length>,
+        ink: Option<Colour>,
+    ) -> Self {
+        Self {
+            paths: path.into_iter().collect(),
+            picture_dpi: dpi,
+            picture_width: width,
+            copper: ink,
+            ..Self::default()
+        }
+    }
+
     /// The board to be milled: without copper it is none.
     pub(super) fn load(&self, settings: &Settings) -> Result<Loaded, Failure> {
         self.read(settings, import::load)

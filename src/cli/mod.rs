@@ -1,5 +1,6 @@
 //! The command line: one file a subcommand, and all that prints.
 
+mod carve;
 mod colour;
 mod config;
 mod diff;
@@ -54,6 +55,8 @@ Examples:
   voromill diff old/ new/                      what copper changes between programs
   voromill draw board/ --stage voronoi -o v.png  a picture of one stage
   voromill mask board/ -o front.png --dpi 1200 a mask for etching, lasers or UV light
+  voromill carve logo.png -o logo.ngc --tool vbit:0.1mm:60deg --picture-dpi 600
+                                               a V-bit into shapes, as deep as they are wide
   voromill probe board/ -o probe.ngc           touch the surface of the board on the machine
   voromill level front.ngc --map probe.txt     bend a program to what was touched
   voromill tools                               the tools, and how wide they cut at which depth
@@ -69,6 +72,7 @@ enum Command {
     Isolate(isolate::Isolate),
     Draw(draw::Draw),
     Mask(mask::Mask),
+    Carve(carve::Carve),
     Inspect(inspect::Inspect),
     Verify(verify::Verify),
     Diff(diff::Diff),
@@ -109,6 +113,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Isolate(isolate) => isolate.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Draw(draw) => draw.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Mask(mask) => mask.run(cli.shared).map(|()| ExitCode::SUCCESS),
+        Command::Carve(carve) => carve.run(cli.shared),
         Command::Inspect(inspect) => inspect.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Verify(verify) => verify.run(cli.shared),
         Command::Diff(diff) => diff.run(cli.shared),

@@ -7,7 +7,7 @@
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
-use voromill::job::{Options, Part};
+use voromill::job::{CARVING_OPTIONS, Options, Part};
 
 use super::Failure;
 
@@ -64,6 +64,7 @@ fn takes(subcommand: &str, option: &str) -> bool {
                     "safe-z" | "machine" | "dialect" | "blend" | "cutout-tool" | "outline-gap"
                 )
         }
+        "carve" => CARVING_OPTIONS.contains(&option),
         "inspect" => matches!(option, "topology" | "outline-gap"),
         _ => true,
     }

@@ -29,6 +29,7 @@ mod off_board;
 pub mod outline;
 pub mod picture;
 mod settle;
+pub mod text;
 mod unusable;
 mod wheel;
 mod whole_board;

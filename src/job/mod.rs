@@ -6,6 +6,7 @@
 
 mod by_net;
 mod cache_key;
+mod carving;
 mod choice;
 mod cutting;
 mod describe;
@@ -44,6 +45,7 @@ mod written;
 
 pub use by_net::{ParseStrategyForError, StrategyFor};
 pub use cache_key::cache_key;
+pub use carving::{Art, CARVING_OPTIONS, Carving, Engraving, carve};
 pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
 pub use cutting::Cutting;
 pub use error::Error;

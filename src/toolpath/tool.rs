@@ -108,6 +108,16 @@ impl ToolKind {
         }
     }
 
+    /// How much wider it cuts on either side for each unit of depth: the tangent of half a V-bit's
+    /// angle, and zero for other tools.
+    #[must_use]
+    pub fn flank(&self) -> f64 {
+        match *self {
+            Self::VBit { angle, .. } => slope(angle),
+            Self::EndMill { .. } | Self::Drill { .. } => 0.0,
+        }
+    }
+
     /// How deep it must go to cut a groove of `width`; none where no depth gives it.
     #[must_use]
     pub fn depth_for(&self, width: Nm) -> Option<Nm> {

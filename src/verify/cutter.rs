@@ -68,6 +68,16 @@ impl Cutter {
         if is_usual && degrees > 0.0 && degrees < 180.0 { Self { degrees, ..self } } else { self }
     }
 
+    /// Half the width of its tip, in nanometres, and how much wider it is on one side for each unit
+    /// of height; that is zero for a cylinder.
+    pub(super) fn cone(&self) -> [f64; 2] {
+        let flank = match self.kind {
+            CutterKind::VBit => self.slope(),
+            CutterKind::EndMill | CutterKind::Drill => 0.0,
+        };
+        [self.tip.to_f64() / 2.0, flank]
+    }
+
     /// How much wider its cone is on one side for a depth of one.
     fn slope(&self) -> f64 {
         libm::tan(self.degrees / 360.0 * std::f64::consts::PI)

@@ -16,6 +16,7 @@
 //! Checks are listed in [`check::ALL`], a file each.
 
 mod bores;
+pub mod carving;
 pub mod check;
 mod contours;
 mod crowd;

@@ -32,6 +32,7 @@ mod groove;
 mod junction;
 mod keep_off;
 mod measure;
+pub mod medial;
 mod mixed;
 mod near;
 mod overlooked;

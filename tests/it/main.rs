@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod aperture_lists;
+mod carve;
 mod certified_boundaries;
 mod certified_diagram;
 mod cli;
@@ -27,6 +28,7 @@ mod leftovers;
 mod level;
 mod machine;
 mod mask;
+mod medial_axis;
 mod millproject;
 mod mixed;
 mod mutations;

@@ -178,7 +178,8 @@ fn vertex(path: &Path, index: usize) -> Point {
 /// The moves that cut all ways that must be cut.
 fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move> {
     let links: Vec<Link> = ways.iter().map(|way| way.link).collect();
-    let trails = walk(nodes.len(), &links, WORTH * lift_seconds(settings));
+    let trails =
+        walk(nodes.len(), &links, WORTH * lift_seconds(settings.heights, settings.tool, settings.machine));
     let mut lines: Vec<Line> = trails.iter().filter_map(|trail| Line::along(ways, trail)).collect();
     let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
     let mut head = Head::new(settings.heights, settings.tool.plunge);
@@ -309,7 +310,7 @@ impl Line {
 /// take the same time within half a percent; with less, less is cut twice and the tool lasts
 /// longer, and with 0.7 none of the nine boards in docs/millproject.md is cut longer than by
 /// pcb2gcode.
-const WORTH: f64 = 0.7;
+pub(super) const WORTH: f64 = 0.7;
 
 /// The way over which the next trail is expected, for what a lift costs. Chosen: the middle of what
 /// boards show.
@@ -317,9 +318,8 @@ const EXPECTED_HOP: Nm = Nm::from_mm(5);
 
 /// What a lift costs: up, over, down to the approach height, the plunge, and each time from a
 /// standstill to a standstill.
-fn lift_seconds(settings: &Isolation<'_>) -> f64 {
-    let Heights { safe, approach, cut, .. } = settings.heights;
-    let Isolation { machine, tool, .. } = settings;
+pub(super) fn lift_seconds(heights: Heights, tool: &Tool, machine: &Machine) -> f64 {
+    let Heights { safe, approach, cut, .. } = heights;
     let (level, vertical) = (machine.level_acceleration(), machine.acceleration[2]);
     let stop = tool.feed.nm_per_second() / level.nm_per_s2();
     let rapid_z = machine.rapid[2].nm_per_second();

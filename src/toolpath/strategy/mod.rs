@@ -1,11 +1,13 @@
 //! The ways to plan a [`Section`](super::Section), one file each.
 
 mod bore;
+mod carve;
 mod cutout;
 mod drill;
 mod isolate;
 mod share;
 
+pub use carve::{Carving, carve};
 pub use cutout::{Cutout, TabPlaces, Tabs, cutout};
 pub use drill::{Drilling, drill};
 pub use isolate::{Isolation, Narrow, Role, isolate};

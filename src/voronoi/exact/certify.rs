@@ -30,13 +30,18 @@ impl Diagram {
 
     /// The same; the distance to copper, too, follows its chords.
     pub(super) fn samples(&self, edge: &Edge, tolerance: f64) -> Vec<Sample> {
+        self.samples_within(edge, [tolerance, CLEARANCE_CHORD])
+    }
+
+    /// The same, with how far chords may leave the place and the distance.
+    pub(super) fn samples_within(&self, edge: &Edge, tolerances: [f64; 2]) -> Vec<Sample> {
         let sample = |vertex: u32| {
             let Vertex { at: (x, y), clearance, .. } = self.vertices[vertex as usize];
             Sample { at: Spot::new(x, y), clearance }
         };
         let (from, to) = (sample(edge.from), sample(edge.to));
         let mut samples = vec![from];
-        self.halve(edge, (from, to), tolerance, 16, &mut samples);
+        self.halve(edge, (from, to), tolerances, 16, &mut samples);
         samples.push(to);
         samples
     }
@@ -68,7 +73,7 @@ impl Diagram {
         &self,
         edge: &Edge,
         (a, b): (Sample, Sample),
-        tolerance: f64,
+        tolerances: [f64; 2],
         left: u32,
         samples: &mut Vec<Sample>,
     ) {
@@ -76,12 +81,12 @@ impl Diagram {
             return;
         }
         let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { return };
-        let is_off = at.distance_to_chord(a.at, b.at) > tolerance;
-        if is_off || (clearance - f64::midpoint(a.clearance, b.clearance)).abs() > CLEARANCE_CHORD {
+        let is_off = at.distance_to_chord(a.at, b.at) > tolerances[0];
+        if is_off || (clearance - f64::midpoint(a.clearance, b.clearance)).abs() > tolerances[1] {
             let middle = Sample { at, clearance };
-            self.halve(edge, (a, middle), tolerance, left - 1, samples);
+            self.halve(edge, (a, middle), tolerances, left - 1, samples);
             samples.push(middle);
-            self.halve(edge, (middle, b), tolerance, left - 1, samples);
+            self.halve(edge, (middle, b), tolerances, left - 1, samples);
         }
     }
 

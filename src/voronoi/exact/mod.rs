@@ -55,6 +55,7 @@ mod chain;
 mod form;
 mod generator;
 mod graph;
+mod query;
 mod seed;
 mod vertex;
 mod walk;

@@ -1,0 +1,320 @@
+//! Artwork → the program that carves it, and what that does.
+
+use crate::board::Warning;
+use crate::board::polarity::{difference, offset};
+use crate::gcode::{self, Header, Input};
+use crate::geometry::{Nm, Polygon, Rect};
+use crate::toolpath::strategy;
+use crate::toolpath::{
+    Angle, Heights, Order, Placement, Program, Section, Statistics, Tool, ToolKind, measure,
+};
+use crate::verify::carving::{self, Carved, Ideal};
+use crate::verify::{Cutter, CutterKind};
+use crate::voronoi::medial::{MedialAxis, Pruning};
+
+use super::pipeline::{GENERATOR, zero};
+use super::{Error, Settings};
+
+/// What is carved.
+#[derive(Clone, Debug, Default)]
+pub struct Art {
+    /// What it is called.
+    pub name: String,
+    /// Its areas, simple polygons.
+    pub areas: Vec<Polygon>,
+    /// The files it was read from.
+    pub inputs: Vec<Input>,
+    /// What reading it had to warn of.
+    pub warnings: Vec<Warning>,
+}
+
+/// How it is carved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Carving {
+    /// No deeper than this; none for as deep as the areas are wide.
+    pub max_depth: Option<Nm>,
+    /// How much one pass takes; none for all at once.
+    pub step: Option<Nm>,
+    /// Branches into corners that turn by less are left out.
+    pub corner: Angle,
+    /// Carve what lies round the areas, up to so far from them, and leave them standing.
+    pub raised: Option<Nm>,
+}
+
+/// The program and what it is to do.
+#[derive(Clone, Debug)]
+pub struct Engraving {
+    /// What it is called.
+    pub name: String,
+    /// The areas that are carved, on the machine.
+    pub areas: Vec<Polygon>,
+    /// No deeper than this, where that was asked for.
+    pub max_depth: Option<Nm>,
+    /// What was planned.
+    pub program: Program,
+    /// What it amounts to.
+    pub statistics: Statistics,
+    /// How deep it goes.
+    pub deepest: Nm,
+    /// What the machine reads.
+    pub text: String,
+    /// What a person must know.
+    pub warnings: Vec<Warning>,
+}
+
+/// As deep as any tool.
+const BOTTOMLESS: Nm = Nm::from_mm(100);
+
+/// The share of the tolerance that what is left out may take. Chosen: lines and arcs have the rest.
+const SHARE: f64 = 0.3;
+
+/// What is off by less than this is right, when a program is judged. Chosen: five times the
+/// tolerance of the cut.
+const TOLERATED: Nm = Nm::from_um(10);
+
+/// Places are looked at so far apart at least, and so many of them at most.
+const FINEST: Nm = Nm::from_um(10);
+const MOST_PLACES: f64 = 4e5;
+
+/// The options of a job that change what is carved, by name.
+pub const CARVING_OPTIONS: &[&str] = &[
+    "tool",
+    "feed",
+    "plunge",
+    "spindle",
+    "spin-up",
+    "safe-z",
+    "dialect",
+    "machine",
+    "machine-travel",
+    "blend",
+    "origin",
+    "rotate",
+    "offset",
+    "tolerance",
+    "park",
+    "tool-probe",
+    "tool-change",
+    "before",
+    "after",
+];
+
+/// Plans the program that carves `art`.
+///
+/// # Errors
+///
+/// [`Error::Value`] for a tool that is no V-bit and lengths that make no sense, and for areas that
+/// are all narrower than the tip.
+pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, Error> {
+    let tool = v_bit(settings)?;
+    judge(how)?;
+    let areas = match how.raised {
+        None => art.areas,
+        Some(margin) => round(&art.areas, margin),
+    };
+    let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
+    let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to carve".to_owned()))?;
+    let placement = Placement::front(settings.origin, bounds, settings.rotate, settings.offset);
+    let flank = tool.kind.flank().min(1.0);
+    let pruning = Pruning {
+        loss: settings.tolerance.to_f64() * SHARE * flank,
+        corner: libm::cos(how.corner.radians()),
+    };
+    let axis = MedialAxis::new(&areas, &pruning);
+    let heights = Heights {
+        safe: settings.safe,
+        approach: settings.isolation[0].heights.approach,
+        cut: how.max_depth.unwrap_or(BOTTOMLESS),
+        step: how.step,
+    };
+    let mut warnings = art.warnings;
+    warnings.extend(flaws(&axis, &areas, tool, how));
+    let section = strategy::carve(
+        format!("carve {}", art.name),
+        &axis,
+        &strategy::Carving {
+            tool,
+            heights,
+            placement: &placement,
+            order: Order::default(),
+            machine: &settings.machine,
+            tolerance: settings.tolerance,
+            leaves_wide: false,
+        },
+    );
+    if section.moves.is_empty() {
+        let problem = format!("everything is narrower than the tip of `{}`: nothing is carved", tool.kind);
+        return Err(Error::Value { key: "tool", problem });
+    }
+    let areas: Vec<Polygon> = areas.iter().map(|area| placed(area, &placement)).collect();
+    Ok(written(art.name, areas, &art.inputs, section, warnings, settings, how))
+}
+
+/// The one tool, which must be a V-bit.
+fn v_bit(settings: &Settings) -> Result<&Tool, Error> {
+    let wrong = |problem: String| Err(Error::Value { key: "tool", problem });
+    match settings.isolation.as_slice() {
+        [one] if matches!(one.tool.kind, ToolKind::VBit { .. }) => Ok(&one.tool),
+        [one] => {
+            wrong(format!("`{}` is no V-bit: carving needs one, such as vbit:0.1mm:60deg", one.tool.kind))
+        }
+        several => wrong(format!("carving takes one V-bit, and here are {} tools", several.len())),
+    }
+}
+
+fn judge(how: &Carving) -> Result<(), Error> {
+    let positive = |key: &'static str, length: Option<Nm>| match length {
+        Some(length) if length <= Nm::ZERO => Err(Error::Value {
+            key,
+            problem: format!("{length:.3} mm makes no sense: it must be above zero"),
+        }),
+        _ => Ok(()),
+    };
+    positive("max-depth", how.max_depth)?;
+    positive("depth-pass", how.step)?;
+    positive("margin", how.raised)?;
+    if how.corner < Angle::ZERO || how.corner >= Angle::from_degrees(180) {
+        let problem = format!("{} makes no sense: expected from 0deg to below 180deg", how.corner);
+        return Err(Error::Value { key: "corner", problem });
+    }
+    Ok(())
+}
+
+/// What lies round areas, up to `margin` from the rectangle that holds them.
+fn round(areas: &[Polygon], margin: Nm) -> Vec<Polygon> {
+    let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
+    let frame = bounds.map(|bounds| Polygon::rectangle(bounds.inflate(margin)));
+    frame.map_or_else(Vec::new, |frame| difference(&frame, areas))
+}
+
+fn placed(area: &Polygon, placement: &Placement) -> Polygon {
+    let rings = area.contours().iter().map(|ring| ring.iter().map(|&p| placement.point(p)).collect());
+    Polygon::new(rings.collect()).expect("as many corners as before")
+}
+
+/// What the tool cannot do of the areas.
+fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Vec<Warning> {
+    let mut warnings = Vec::new();
+    let ToolKind::VBit { tip, .. } = tool.kind else { return warnings };
+    if let Some(&fault) = axis.faults.first() {
+        let message =
+            format!("the medial axis may lack a branch, here and at {} places in all", axis.faults.len());
+        warnings.push(Warning::new("axis-incomplete", message).at(fault));
+    }
+    let narrow = areas.iter().filter(|area| offset(area, -tip / 2, Nm::from_um(1)).is_empty()).count();
+    if narrow > 0 && tip > Nm::ZERO {
+        let message = format!(
+            "{narrow} of {} areas are narrower than the tip of {tip:.3} mm: they are not carved",
+            areas.len()
+        );
+        warnings.push(Warning::new("narrower-than-tip", message));
+    }
+    if let Some(most) = how.max_depth {
+        let reach = tool.kind.width_at(most) / 2;
+        let wide = areas.iter().flat_map(|area| offset(area, -reach, Nm::from_um(1)));
+        let area: f64 = wide.map(|polygon| polygon.area_mm2()).sum();
+        if area > LEAST_WIDE {
+            let message = format!(
+                "{area:.2} mm² are farther from the edge than the {reach:.3} mm that the tool cuts to either side at {most:.3} mm: there it follows the middle alone"
+            );
+            warnings.push(Warning::new("wide-place-left", message));
+        }
+    }
+    warnings
+}
+
+/// What is wider by less is no flat place, in mm².
+const LEAST_WIDE: f64 = 1e-3;
+
+fn written(
+    name: String,
+    areas: Vec<Polygon>,
+    inputs: &[Input],
+    section: Section,
+    mut warnings: Vec<Warning>,
+    settings: &Settings,
+    how: &Carving,
+) -> Engraving {
+    let mut program = Program {
+        title: format!("{name} carving"),
+        notes: vec![zero(settings)],
+        safe: settings.safe,
+        sections: vec![section],
+    };
+    warnings.extend(settings.machine.restrain(&mut program));
+    program.sections[0].tool.number = 1;
+    let statistics = measure(&program, &settings.machine);
+    let header = Header {
+        generator: GENERATOR.to_owned(),
+        inputs: inputs.to_vec(),
+        settings: said(settings, how),
+        seconds: Some(statistics.seconds),
+    };
+    let text = gcode::write(&program, &settings.dialect, &header);
+    warnings.extend(program.check_travel(&settings.machine));
+    let lowest = program.sections.iter().flat_map(|section| &section.moves).filter_map(|step| step.to());
+    let deepest = -lowest.map(|to| to.z).min().unwrap_or(Nm::ZERO);
+    Engraving { name, areas, max_depth: how.max_depth, program, statistics, deepest, text, warnings }
+}
+
+/// The settings that matter, for the header.
+fn said(settings: &Settings, how: &Carving) -> Vec<(String, String)> {
+    let mut listed = settings.options().listed();
+    listed.retain(|(option, _)| CARVING_OPTIONS.contains(&option.as_str()));
+    let mut say = |name: &str, length: Option<Nm>| {
+        listed.extend(length.map(|length| (name.to_owned(), super::Length(length).to_string())));
+    };
+    say("max-depth", how.max_depth);
+    say("depth-pass", how.step);
+    say("raised", how.raised);
+    if how.corner > Angle::ZERO {
+        listed.push(("corner".to_owned(), how.corner.to_string()));
+    }
+    listed
+}
+
+impl Engraving {
+    /// Judges a program, this one's or anybody's, by the areas that are to be carved, at places
+    /// `pitch` apart; none for as many as take a second or so.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Verify`] for a text that cannot be followed.
+    pub fn judge(&self, file: &str, text: &str, pitch: Option<Nm>) -> Result<Carved, Error> {
+        let cutters: Vec<Cutter> =
+            self.program.sections.iter().map(|section| cutter(section.tool.kind)).collect();
+        let around = self.areas.iter().map(Polygon::bounds).reduce(Rect::union);
+        let area = around.map_or(0.0, |around| around.width().to_f64() * around.height().to_f64());
+        let pitch = pitch.unwrap_or_else(|| Nm::from_f64((area / MOST_PLACES).sqrt()).max(FINEST));
+        let ideal = Ideal {
+            areas: &self.areas,
+            cutters: &cutters,
+            most: self.max_depth,
+            tolerance: TOLERATED,
+            pitch,
+        };
+        Ok(carving::carving(file, text, &ideal)?)
+    }
+
+    /// What it is, for a person.
+    #[must_use]
+    pub fn summary(&self) -> String {
+        let Statistics { cut_length, lifts, seconds, .. } = &self.statistics;
+        format!(
+            "{}: {:.1} mm carved down to {:.3} mm, {lifts} lifts, {}\n",
+            self.name,
+            cut_length.to_mm(),
+            self.deepest,
+            crate::toolpath::duration(*seconds)
+        )
+    }
+}
+
+/// The tool as the judge sees it.
+fn cutter(kind: ToolKind) -> Cutter {
+    match kind {
+        ToolKind::VBit { tip, angle } => Cutter { kind: CutterKind::VBit, tip, degrees: angle.degrees() },
+        ToolKind::EndMill { diameter } => Cutter { kind: CutterKind::EndMill, tip: diameter, degrees: 0.0 },
+        ToolKind::Drill { diameter } => Cutter { kind: CutterKind::Drill, tip: diameter, degrees: 0.0 },
+    }
+}

@@ -1,0 +1,250 @@
+//! Carving: a V-bit follows the medial axis of areas, as deep as the disc that fits is wide, and so
+//! mills them to their edges.
+//!
+//! ```text
+//!   ══════╲                    ╱══════ surface     depth = (clearance − tip / 2) / tan(angle / 2), at most what is asked for
+//!          ╲        ╱╲        ╱
+//!           ╲      ╱  ╲______╱ at most so deep
+//!            ╲    ╱
+//!             ╲  ╱  the axis
+//! ```
+//!
+//! In passes where the step is small: each follows what lies deeper than the one before it, so no
+//! way is milled twice at one depth but to save a retract.
+
+mod clip;
+mod fit;
+
+use crate::geometry::{Nm, Path, Point};
+use crate::toolpath::head::Head;
+use crate::toolpath::order::{Order, Stretch, arrange};
+use crate::toolpath::trails::{Link, Step, walk};
+use crate::toolpath::{Heights, Machine, Placement, Section, Tool, ToolKind};
+use crate::voronoi::medial::MedialAxis;
+
+use super::isolate::{WORTH, lift_seconds};
+use clip::{Pass, Piece, Tip};
+use fit::Fit;
+
+/// How areas are carved.
+#[derive(Clone, Copy, Debug)]
+pub struct Carving<'a> {
+    /// The tool, a V-bit.
+    pub tool: &'a Tool,
+    /// How high and deep: no deeper than `cut`, in passes of `step`.
+    pub heights: Heights,
+    /// From the artwork to the machine.
+    pub placement: &'a Placement,
+    /// How the trails are ordered.
+    pub order: Order,
+    /// What a lift costs.
+    pub machine: &'a Machine,
+    /// How far what is milled may be off its place.
+    pub tolerance: Nm,
+    /// Whether what is too wide for the V-bit at its full depth is left to another tool.
+    pub leaves_wide: bool,
+}
+
+/// The share of the tolerance that lines and arcs may take. Chosen: the rest is for the chords of
+/// the axis and the rounding of coordinates.
+const SHARE: f64 = 0.7;
+
+/// Steeper flanks than this are not followed more closely, in units of width for one of depth.
+/// Chosen: below it a tenth of a micrometre sideways, the last digit of a program, is what counts.
+const STEEP: f64 = 0.25;
+
+/// Follows the medial axis; no moves for a tool that is no V-bit.
+pub fn carve(label: impl Into<String>, axis: &MedialAxis, settings: &Carving<'_>) -> Section {
+    let mut head = Head::new(settings.heights, settings.tool.plunge);
+    let mut at = Point::default();
+    for pass in passes(axis, settings) {
+        let lines = lines(axis, &pass, settings);
+        at = mill(&mut head, lines, at, settings);
+    }
+    Section { tool: settings.tool.clone(), label: label.into(), moves: head.finish() }
+}
+
+/// The passes: as few as the step allows for the deepest place there is, all equally thick.
+fn passes(axis: &MedialAxis, settings: &Carving<'_>) -> Vec<Pass> {
+    let ToolKind::VBit { tip, .. } = settings.tool.kind else { return Vec::new() };
+    let (blunt, flank) = (tip.to_f64() / 2.0, settings.tool.kind.flank());
+    let whole = Pass { low: 0.0, high: 0.0, blunt, flank, leaves_wide: settings.leaves_wide };
+    let deepest = Nm::from_f64(whole.depth(axis.widest())).min(settings.heights.cut);
+    if deepest <= Nm::ZERO {
+        return Vec::new();
+    }
+    let levels: Vec<f64> = Heights { cut: deepest, ..settings.heights }.passes().map(Nm::to_f64).collect();
+    let lows = std::iter::once(0.0).chain(levels.iter().copied());
+    let mut passes: Vec<Pass> = lows.zip(&levels).map(|(low, &high)| Pass { low, high, ..whole }).collect();
+    // Before the last pass nothing is too wide: the walls are not at their place yet.
+    let count = passes.len();
+    passes[..count - 1].iter_mut().for_each(|pass| pass.leaves_wide = false);
+    passes
+}
+
+/// A line of the pass on the machine, with the depth at each vertex.
+#[derive(Clone)]
+struct Line {
+    path: Path,
+    depths: Vec<Nm>,
+}
+
+impl Line {
+    fn reverse(&mut self) {
+        self.path = self.path.reversed();
+        self.depths.reverse();
+    }
+
+    fn append(&mut self, mut next: Self) {
+        self.path.segments.append(&mut next.path.segments);
+        self.depths.extend(next.depths.drain(1..));
+    }
+
+    /// Turned so that a closed one begins with the segment of this index.
+    fn begin_at(&mut self, entry: usize) {
+        if entry > 0 {
+            self.path.start = self.path.segments[entry - 1].to();
+            self.path.segments.rotate_left(entry);
+            self.depths.pop();
+            self.depths.rotate_left(entry);
+            self.depths.push(self.depths[0]);
+        }
+    }
+
+    /// Where it may begin and end: anywhere if it is closed.
+    fn stretch(&self) -> Stretch {
+        let is_loop = self.path.is_closed() && self.depths.first() == self.depths.last();
+        let entries = if is_loop { self.path.steps().map(|(from, _)| from).collect() } else { Vec::new() };
+        Stretch { from: self.path.start, to: self.path.end(), entries }
+    }
+}
+
+/// What a pass mills, in as few trails as the axis allows.
+fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
+    let flank = pass.flank.clamp(STEEP, 1.0);
+    let fit = Fit { tolerance: settings.tolerance.to_f64() * SHARE * flank, flank: pass.flank };
+    let mut nodes = axis.nodes.len();
+    let (mut ways, mut links): (Vec<Line>, Vec<Link>) = (Vec::new(), Vec::new());
+    for way in &axis.ways {
+        for Piece { course, whole } in pass.pieces(&way.course, way.ends.is_none()) {
+            let Some((path, depths)) = fit.path(&course) else { continue };
+            let mut end = |at: usize| {
+                way.ends.filter(|_| whole[at]).map_or_else(
+                    || {
+                        nodes += 1;
+                        u32::try_from(nodes - 1).expect("below 2³² nodes")
+                    },
+                    |ends| ends[at],
+                )
+            };
+            let is_ring = way.ends.is_none() && whole == [true, true];
+            let ends = (!is_ring).then(|| (end(0), end(1)));
+            let seconds = path.length() / settings.tool.feed.nm_per_second();
+            links.push(Link { ends, seconds, must: true });
+            ways.push(Line { path: settings.placement.path(&path), depths });
+        }
+    }
+    let lift = WORTH * lift_seconds(settings.heights, settings.tool, settings.machine);
+    let trails = walk(nodes, &links, lift);
+    let mut lines: Vec<Line> = trails.iter().filter_map(|trail| joined(&ways, trail)).collect();
+    lines.extend(axis.dots.iter().filter_map(|&dot| {
+        let place = axis.nodes[dot as usize];
+        let tip = Tip { at: place.at, depth: pass.depth(place.clearance).min(pass.high) };
+        (tip.depth > pass.low && !(pass.leaves_wide && pass.depth(place.clearance) > pass.high)).then(|| {
+            let start = settings.placement.point(Point::from_f64(tip.at.0, tip.at.1));
+            Line { path: Path { start, segments: Vec::new() }, depths: vec![Nm::from_f64(tip.depth)] }
+        })
+    }));
+    lines
+}
+
+fn joined(ways: &[Line], trail: &[Step]) -> Option<Line> {
+    let mut whole: Option<Line> = None;
+    for step in trail {
+        let mut next = ways[step.link].clone();
+        if step.backwards {
+            next.reverse();
+        }
+        match &mut whole {
+            None => whole = Some(next),
+            Some(whole) => whole.append(next),
+        }
+    }
+    whole
+}
+
+/// Mills all lines of a pass from `start` on; where it ends.
+fn mill(head: &mut Head, mut lines: Vec<Line>, start: Point, settings: &Carving<'_>) -> Point {
+    let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
+    let length = lines.iter().map(|line| line.path.length()).sum();
+    let mut at = start;
+    for leg in arrange(&stretches, start, settings.order, length) {
+        let line = &mut lines[leg.stretch];
+        line.begin_at(leg.entry.unwrap_or(0));
+        if leg.reversed {
+            line.reverse();
+        }
+        head.over(line.path.start);
+        head.plunge(line.depths[0]);
+        for (segment, &depth) in line.path.segments.iter().zip(&line.depths[1..]) {
+            head.cut(segment, depth, settings.tool.feed);
+        }
+        at = line.path.end();
+    }
+    at
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Polygon, Rect};
+    use crate::toolpath::Move;
+    use crate::voronoi::medial::Pruning;
+
+    fn square(side: i64) -> Polygon {
+        Polygon::rectangle(Rect::new(Point::default(), Point::new(Nm::from_um(side), Nm::from_um(side))))
+    }
+
+    fn plan(step: Option<Nm>, most: Nm) -> Vec<Move> {
+        let tool: Tool = "vbit:0.1mm:90deg".parse().expect("a tool");
+        let axis = MedialAxis::new(&[square(2_000)], &Pruning { loss: 1.0, corner: 1.0 });
+        let (safe, approach) = (Nm::from_mm(2), Nm::from_um(200));
+        let settings = Carving {
+            tool: &tool,
+            heights: Heights { safe, approach, cut: most, step },
+            placement: &Placement::default(),
+            order: Order::default(),
+            machine: &Machine::default(),
+            tolerance: Nm::from_um(2),
+            leaves_wide: false,
+        };
+        carve("carve", &axis, &settings).moves
+    }
+
+    fn deepest(moves: &[Move]) -> i64 {
+        moves.iter().filter_map(Move::to).map(|to| to.z.get()).min().unwrap_or(0)
+    }
+
+    #[test]
+    fn a_square_is_carved_to_its_middle_from_corner_to_corner() {
+        let moves = plan(None, Nm::from_mm(5));
+        // Half of 2 mm, less half the tip, at 45°.
+        assert_eq!(deepest(&moves), -950_000, "{moves:?}");
+        let corners = moves.iter().filter_map(Move::to).filter(|to| to.z == Nm::ZERO);
+        let near = |x: i64| (x - 50_000).abs() < 1 || (x - 1_950_000).abs() < 1;
+        assert_eq!(corners.filter(|to| near(to.x.get()) && near(to.y.get())).count(), 4, "{moves:?}");
+    }
+
+    #[test]
+    fn no_deeper_than_asked_for_and_in_passes() {
+        assert_eq!(deepest(&plan(None, Nm::from_um(300))), -300_000, "level in the middle");
+        let levels = |moves: &[Move]| {
+            let mut z: Vec<i64> = moves.iter().filter_map(Move::to).map(|to| to.z.get()).collect();
+            z.sort_unstable();
+            z.dedup();
+            z
+        };
+        let moves = plan(Some(Nm::from_um(500)), Nm::from_mm(5));
+        assert!(levels(&moves).contains(&-475_000), "two equal passes: {:?}", levels(&moves));
+    }
+}

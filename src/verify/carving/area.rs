@@ -1,0 +1,115 @@
+//! Distances to the edges of areas, by an index of boxes.
+
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use crate::geometry::Polygon;
+
+/// A point in nanometres.
+type Spot = (f64, f64);
+
+/// The edges of areas.
+pub(super) struct Edges {
+    edges: Vec<(Spot, Spot)>,
+    tree: Option<StaticAABB2DIndex<f64>>,
+}
+
+/// A search begins with this, in nanometres, and doubles. Chosen.
+const FIRST: f64 = 50_000.0;
+
+/// Places nearer to each other than this lie side by side, in nanometres.
+const NEXT: f64 = 0.5;
+
+/// No place is so far from an edge.
+const FAR: f64 = 1e10;
+
+impl Edges {
+    pub(super) fn new(areas: &[Polygon]) -> Self {
+        let edges: Vec<(Spot, Spot)> =
+            areas.iter().flat_map(Polygon::edges).map(|(a, b)| (a.to_f64(), b.to_f64())).collect();
+        let mut builder = StaticAABB2DIndexBuilder::new(edges.len());
+        for (a, b) in &edges {
+            builder.add(a.0.min(b.0), a.1.min(b.1), a.0.max(b.0), a.1.max(b.1));
+        }
+        Self { edges, tree: builder.build().ok() }
+    }
+
+    /// Where the horizontal line at `y` crosses edges.
+    pub(super) fn crossings(&self, y: f64) -> Vec<f64> {
+        let mut found = Vec::new();
+        self.visit([-FAR, y, FAR, y], |(a, b)| {
+            if (a.1 > y) != (b.1 > y) {
+                found.push(a.0 + (y - a.1) / (b.1 - a.1) * (b.0 - a.0));
+            }
+        });
+        found
+    }
+
+    fn visit(&self, [left, bottom, right, top]: [f64; 4], mut show: impl FnMut((Spot, Spot))) {
+        if let Some(tree) = &self.tree {
+            tree.visit_query(left, bottom, right, top, &mut |i: usize| show(self.edges[i]));
+        }
+    }
+
+    /// The distance to the nearest edge, and its nearest point.
+    pub(super) fn nearest(&self, p: Spot) -> (f64, Spot) {
+        let mut reach = FIRST;
+        loop {
+            let best = self.within(p, reach);
+            if best.0 <= reach || reach > FAR {
+                return best;
+            }
+            reach *= 2.0;
+        }
+    }
+
+    /// The same among the edges within `reach`.
+    fn within(&self, p: Spot, reach: f64) -> (f64, Spot) {
+        let mut best = (f64::INFINITY, p);
+        self.visit([p.0 - reach, p.1 - reach, p.0 + reach, p.1 + reach], |(a, b)| {
+            let foot = foot(p, a, b);
+            let distance = length((p.0 - foot.0, p.1 - foot.1));
+            if distance < best.0 {
+                best = (distance, foot);
+            }
+        });
+        best
+    }
+
+    /// How far one can go from `foot` through `p` while nothing else is nearer than it by more than
+    /// `slack`; as far as `p` where that is next to it.
+    pub(super) fn farthest(&self, p: Spot, distance: f64, foot: Spot, slack: f64) -> f64 {
+        if distance < NEXT {
+            return distance;
+        }
+        let way = ((p.0 - foot.0) / distance, (p.1 - foot.1) / distance);
+        let is_free = |far: f64| {
+            let at = (foot.0 + way.0 * far, foot.1 + way.1 * far);
+            self.within(at, far).0 >= far - slack
+        };
+        let (mut free, mut blocked) = (distance, 2.0 * distance);
+        while is_free(blocked) {
+            if blocked > FAR {
+                return free;
+            }
+            (free, blocked) = (blocked, 2.0 * blocked);
+        }
+        while blocked - free > NEXT {
+            let middle = f64::midpoint(free, blocked);
+            if is_free(middle) { free = middle } else { blocked = middle }
+        }
+        free
+    }
+}
+
+/// The point of a line from `a` to `b` nearest to `p`.
+fn foot(p: Spot, a: Spot, b: Spot) -> Spot {
+    let way = (b.0 - a.0, b.1 - a.1);
+    let squared = way.0 * way.0 + way.1 * way.1;
+    let along = (p.0 - a.0) * way.0 + (p.1 - a.1) * way.1;
+    let part = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
+    (a.0 + way.0 * part, a.1 + way.1 * part)
+}
+
+pub(super) fn length((x, y): Spot) -> f64 {
+    (x * x + y * y).sqrt()
+}

@@ -1,0 +1,185 @@
+//! What a program mills: how deep at each place, exactly for a cone that moves straight.
+
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use crate::gcode::read::{Listing, Motion, Way};
+use crate::geometry::{Arc, Nm, Rect};
+use crate::verify::cutter::Cutter;
+
+use super::area::length;
+
+/// A point in nanometres.
+type Spot = (f64, f64);
+
+/// Arcs become chords within this of them. Chosen: far below what is tolerated.
+const CHORD: Nm = Nm::new(50);
+
+/// A straight motion of a tool below the surface.
+#[derive(Clone, Copy, Debug)]
+struct Sweep {
+    from: Spot,
+    to: Spot,
+    /// How deep the tip is at either end, downwards.
+    depths: [f64; 2],
+    blunt: f64,
+    /// How much wider the tool is on either side for each unit of height; zero for a cylinder.
+    flank: f64,
+}
+
+/// What a program mills.
+pub struct Milled {
+    sweeps: Vec<Sweep>,
+    tree: Option<StaticAABB2DIndex<f64>>,
+}
+
+impl Milled {
+    /// All that the motions of a program mill, with tools in the order in which they are fitted.
+    pub(super) fn new(listing: &Listing, cutters: &[Cutter]) -> Self {
+        let mut sweeps = Vec::new();
+        let mut tool = 0;
+        let mut has_cut = false;
+        let mut stops = listing.stops.iter().map(|&(before, _)| before).peekable();
+        for (number, motion) in listing.motions.iter().enumerate() {
+            while stops.next_if(|&before| before <= number).is_some() {
+                tool += usize::from(has_cut);
+                has_cut = false;
+            }
+            let before = sweeps.len();
+            swept(motion, &cutters[tool.min(cutters.len() - 1)], &mut sweeps);
+            has_cut |= sweeps.len() > before;
+        }
+        let mut builder = StaticAABB2DIndexBuilder::new(sweeps.len());
+        for sweep in &sweeps {
+            let [left, bottom, right, top] = sweep.bounds();
+            builder.add(left, bottom, right, top);
+        }
+        Self { sweeps, tree: builder.build().ok() }
+    }
+
+    /// How deep it is milled at a place; zero where it is not.
+    #[must_use]
+    pub fn depth(&self, p: Spot) -> f64 {
+        let mut deepest = 0.0_f64;
+        if let Some(tree) = &self.tree {
+            tree.visit_query(p.0, p.1, p.0, p.1, &mut |i: usize| {
+                deepest = deepest.max(self.sweeps[i].depth(p));
+            });
+        }
+        deepest
+    }
+
+    /// The deepest place of the tip beyond a rectangle, with its depth; none where it stays within.
+    pub(super) fn beyond(&self, rect: Rect) -> Option<(Spot, f64)> {
+        let (low, high) = (rect.min().to_f64(), rect.max().to_f64());
+        let is_out = |p: Spot| p.0 < low.0 || p.1 < low.1 || p.0 > high.0 || p.1 > high.1;
+        let ends = self.sweeps.iter().flat_map(|s| [(s.from, s.depths[0]), (s.to, s.depths[1])]);
+        ends.filter(|&(at, _)| is_out(at)).max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
+
+/// The straight sweeps of a motion that reaches below the surface.
+fn swept(motion: &Motion, cutter: &Cutter, sweeps: &mut Vec<Sweep>) {
+    let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { return };
+    let (Some(top), Some(bottom)) = (motion.from.z, motion.to.z) else { return };
+    if top >= Nm::ZERO && bottom >= Nm::ZERO {
+        return;
+    }
+    let [blunt, flank] = cutter.cone();
+    let mut places = vec![from.to_f64()];
+    match motion.way {
+        Way::Rapid | Way::Feed => places.push(to.to_f64()),
+        Way::Arc { center, turn } => {
+            let arc = Arc { start: from, end: to, center, turn };
+            let count = u32::try_from(arc.chords(CHORD)).unwrap_or(u32::MAX).max(1);
+            places.extend((1..=count).map(|i| arc.at(f64::from(i) / f64::from(count))));
+        }
+    }
+    let parts = f64::from(u32::try_from(places.len() - 1).unwrap_or(u32::MAX));
+    let depth = |part: f64| -(top.to_f64() + (bottom - top).to_f64() * part);
+    let mut part = 0.0;
+    for pair in places.windows(2) {
+        let depths = [depth(part / parts), depth((part + 1.0) / parts)];
+        sweeps.push(Sweep { from: pair[0], to: pair[1], depths, blunt, flank });
+        part += 1.0;
+    }
+}
+
+impl Sweep {
+    /// Left, bottom, right, top of what it mills at the surface.
+    fn bounds(&self) -> [f64; 4] {
+        let deepest = self.depths[0].max(self.depths[1]).max(0.0);
+        let reach = self.blunt + deepest * self.flank;
+        [
+            self.from.0.min(self.to.0) - reach,
+            self.from.1.min(self.to.1) - reach,
+            self.from.0.max(self.to.0) + reach,
+            self.from.1.max(self.to.1) + reach,
+        ]
+    }
+
+    /// How deep it mills at a place; less than zero where it does not.
+    ///
+    /// With the tip a way s along, that is D + k s − max(ρ − blunt, 0) / flank, ρ being how far off
+    /// the place is: concave in s, so it is greatest at an end, where ρ is the tip's radius, or
+    /// where the slope of the cone is that of the way.
+    fn depth(&self, p: Spot) -> f64 {
+        let way = (self.to.0 - self.from.0, self.to.1 - self.from.1);
+        let whole = length(way);
+        let off = (p.0 - self.from.0, p.1 - self.from.1);
+        if whole <= 0.0 {
+            let deepest = self.depths[0].max(self.depths[1]);
+            return self.below(deepest, length(off));
+        }
+        let along = (off.0 * way.0 + off.1 * way.1) / whole;
+        let across = (off.0 * way.1 - off.1 * way.0).abs() / whole;
+        let rise = (self.depths[1] - self.depths[0]) / whole;
+        let flat = (self.blunt * self.blunt - across * across).max(0.0).sqrt();
+        let steep = rise * self.flank;
+        let slope = if steep.abs() < 1.0 { across * steep / (1.0 - steep * steep).sqrt() } else { 0.0 };
+        [0.0, whole, along, along - flat, along + flat, along + slope]
+            .into_iter()
+            .map(|s| {
+                let s = s.clamp(0.0, whole);
+                let off = length((along - s, across));
+                self.below(self.depths[0] + rise * s, off)
+            })
+            .fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// How deep a tool whose tip is at a depth mills so far off its axis.
+    fn below(&self, depth: f64, off: f64) -> f64 {
+        let beyond = (off - self.blunt).max(0.0);
+        if self.flank > 0.0 {
+            depth - beyond / self.flank
+        } else if beyond > 0.0 {
+            f64::NEG_INFINITY
+        } else {
+            depth
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The closed form beside many places along the way.
+    #[test]
+    fn a_sweep_mills_what_its_places_mill() {
+        for (depths, blunt, flank) in
+            [([1e5, 4e5], 5e4, 0.5), ([4e5, 1e5], 0.0, 0.3), ([2e5, 2e5], 1e5, 1.0), ([0.0, 9e5], 2e4, 1.5)]
+        {
+            let sweep = Sweep { from: (0.0, 0.0), to: (3e5, 4e5), depths, blunt, flank };
+            for i in 0..40_i32 {
+                let p = (f64::from(i * 7919 % 61) * 1e4 - 1e5, f64::from(i * 104_729 % 67) * 1e4 - 1e5);
+                let one = |t: f64| {
+                    let off = length((p.0 - 3e5 * t, p.1 - 4e5 * t));
+                    sweep.below(depths[0] + (depths[1] - depths[0]) * t, off)
+                };
+                let brute = (0..=20_000_i32).map(|t| one(f64::from(t) / 20_000.0)).fold(f64::MIN, f64::max);
+                let exact = sweep.depth(p);
+                assert!(exact >= brute - 1e-6 && exact - brute < 60.0, "{p:?}: {exact} and {brute} nm");
+            }
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! What a program carves beside what it should: the depth of what is milled at many places, and how
+//! deep an ideal V-bit would go there.
+//!
+//! ```text
+//!   ════╲         ╱════   At distance d from the edge of an area nothing may be deeper than d / tan(angle / 2), the cone that
+//!        ╲ ideal ╱        touches the edge there, nor than the most depth. How deep a tool can go at a place is asked of one
+//!         ╲     ╱         that moves straight away from the nearest edge for as long as that stays the nearest: it fits
+//!          ╲▁▁▁╱ tip      there, so what it would mill must be milled.
+//! ```
+//!
+//! Distances are measured to the edges themselves, and what is milled to the motions that the text
+//! is read back as: no medial axis, no diagram, nothing of the planner.
+
+mod area;
+mod milled;
+
+use rayon::prelude::*;
+
+use super::cutter::Cutter;
+use super::report::{Finding, Severity};
+use super::{Error, ReadError};
+use crate::gcode::read::{self, Listing, Way};
+use crate::geometry::{Nm, Point, Polygon, Rect};
+
+use area::Edges;
+pub use milled::Milled;
+
+/// What should be carved, on the machine.
+#[derive(Clone, Debug)]
+pub struct Ideal<'a> {
+    /// The areas, simple polygons.
+    pub areas: &'a [Polygon],
+    /// The tools in the order in which they are fitted; the first is the V-bit.
+    pub cutters: &'a [Cutter],
+    /// No deeper than this; none for as deep as it comes.
+    pub most: Option<Nm>,
+    /// What is less off is right.
+    pub tolerance: Nm,
+    /// The distance of the places that are looked at.
+    pub pitch: Nm,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Carved {
+    /// How many places were looked at.
+    pub places: usize,
+    /// How far the surface is off, in nanometres: at 99 of 100 places in areas no more than this.
+    pub p99: f64,
+    /// The most that it is too deep, in nanometres.
+    pub over: f64,
+    /// The most that it is too shallow.
+    pub under: f64,
+    /// How much of the areas is wider than the V-bit cuts at the most depth and was left, in mm².
+    pub left_mm2: f64,
+    /// What is wrong, worst first.
+    pub findings: Vec<Finding>,
+}
+
+/// Places nearer to each other are one finding. Chosen.
+const APART: f64 = 500_000.0;
+
+/// Places nearer than this are the same, in nanometres.
+const SAME: f64 = 0.5;
+
+/// How much nearer the next chord of a curve may be than the one whose curve it is, in nanometres.
+/// Chosen: for curves of some millimetres within a micrometre of their chords.
+const BULGE: f64 = 5_000.0;
+
+/// So far beside the areas every place is looked at; beyond, where the tip goes. Chosen: wider than
+/// tools are.
+const BESIDE: Nm = Nm::from_mm(1);
+
+/// So many findings of one kind are listed.
+const MOST_LISTED: usize = 50;
+
+/// A place that is off: where, by how much (too deep above zero), and whether it lies in an area.
+#[derive(Clone, Copy, Debug)]
+struct Off {
+    at: (f64, f64),
+    by: f64,
+    inside: bool,
+}
+
+/// Reads a program and compares what it carves with the ideal.
+///
+/// # Errors
+///
+/// [`Error::Read`] for a text that cannot be followed, and [`Error::NoTool`] without a cutter.
+pub fn carving(file: &str, text: &str, ideal: &Ideal<'_>) -> Result<Carved, Error> {
+    let failed = |reason: ReadError| Error::Read { file: file.to_owned(), reason };
+    let listing = read::read(&read::without_own_code(text)).map_err(failed)?;
+    if ideal.cutters.is_empty() {
+        return Err(Error::NoTool { file: file.to_owned(), line: 1 });
+    }
+    let milled = Milled::new(&listing, ideal.cutters);
+    let mut carved = compare(&milled, ideal);
+    carved.findings.splice(0..0, harm(&listing));
+    Ok(carved)
+}
+
+/// What harms the machine or the work whatever is carved.
+fn harm(listing: &Listing) -> Vec<Finding> {
+    let mut findings: Vec<Finding> = Vec::new();
+    let mut say = |name: &'static str, message: &str, line: u32, at: Option<Point>| {
+        if findings.iter().all(|finding| finding.name != name) {
+            let found = Finding::new(name, Severity::Error, message.to_owned());
+            findings.push(Finding { line: Some(line), at, ..found });
+        }
+    };
+    for motion in &listing.motions {
+        // At the surface a trail begins and ends: a rapid there is one that was not lifted.
+        let low = |z: Option<Nm>| z.is_some_and(|z| z <= Nm::ZERO);
+        if !low(motion.from.z) && !low(motion.to.z) {
+            continue;
+        }
+        let at = motion.to.point();
+        let lifts = motion.from.point() == at && motion.to.z > motion.from.z;
+        if motion.way == Way::Rapid && !lifts {
+            say("rapid-in-material", "a rapid goes through what is to be carved", motion.line, at);
+        }
+        if motion.way != Way::Rapid && motion.feed.is_none() {
+            say("feed-missing", "it cuts before any feed is given", motion.line, at);
+        }
+        if !motion.spindle.turns() {
+            say("plunge-spindle-off", "it cuts with the spindle off", motion.line, at);
+        }
+    }
+    findings
+}
+
+fn compare(milled: &Milled, ideal: &Ideal<'_>) -> Carved {
+    let Some(bounds) = ideal.areas.iter().map(Polygon::bounds).reduce(Rect::union) else {
+        return Carved::default();
+    };
+    let around = bounds.inflate(BESIDE);
+    let edges = Edges::new(ideal.areas);
+    let limits = Limits::new(ideal);
+    let pitch = ideal.pitch.to_f64();
+    let (rows, columns) = (count(around.height(), pitch), count(around.width(), pitch));
+    let (x0, y0) = around.min().to_f64();
+    // Off the grid that drawings are on.
+    let place = |i: u32| (f64::from(i) + 0.381_966) * pitch;
+    let row = |row: u32| {
+        let y = y0 + place(row);
+        let crossings = edges.crossings(y);
+        let mut found = Row::default();
+        for column in 0..columns {
+            let at = (x0 + place(column), y);
+            let inside = crossings.iter().filter(|&&x| x < at.0).count() % 2 == 1;
+            found.look(at, inside, milled, &edges, &limits);
+        }
+        found
+    };
+    let beyond = milled.beyond(around).filter(|&(_, depth)| depth > 0.0);
+    let rows: Vec<Row> = (0..rows).into_par_iter().map(row).collect();
+    sum_up(rows, beyond.map(|(at, by)| Off { at, by, inside: false }), ideal)
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+fn count(length: Nm, pitch: f64) -> u32 {
+    (length.to_f64() / pitch).ceil() as u32
+}
+
+/// How deep the V-bit may go.
+struct Limits {
+    /// Half the width of its tip.
+    blunt: f64,
+    /// How much wider it cuts on either side for each unit of depth.
+    flank: f64,
+    most: f64,
+    /// Whether a second tool clears what is wide.
+    clears: bool,
+    tolerance: f64,
+}
+
+impl Limits {
+    fn new(ideal: &Ideal<'_>) -> Self {
+        let [blunt, flank] = ideal.cutters[0].cone();
+        Self {
+            blunt,
+            flank,
+            most: ideal.most.map_or(f64::INFINITY, Nm::to_f64),
+            clears: ideal.cutters.len() > 1,
+            tolerance: ideal.tolerance.to_f64(),
+        }
+    }
+
+    /// How deep the tool mills at a distance from its axis, where the nearest edge is `radius` from
+    /// that.
+    fn at(&self, radius: f64, off: f64) -> f64 {
+        ((radius - self.blunt) / self.flank).min(self.most) - (off - self.blunt).max(0.0) / self.flank
+    }
+
+    /// How deep a tool can mill at a place, at least, and whether that is where it does not reach
+    /// from wall to wall.
+    fn reachable(&self, at: (f64, f64), distance: f64, foot: (f64, f64), edges: &Edges) -> (f64, bool) {
+        let farthest = edges.farthest(at, distance, foot, SAME);
+        let full = self.blunt + self.most * self.flank;
+        let centers = [farthest, full.clamp(distance, farthest), (distance + self.blunt).min(farthest)];
+        let best = centers.map(|radius| self.at(radius, radius - distance));
+        // Between the chords of a curve the way ends early; what is wide is so over all of them.
+        let is_wide = farthest > full || edges.farthest(at, distance, foot, BULGE) > full;
+        (best.into_iter().fold(f64::NEG_INFINITY, f64::max), is_wide)
+    }
+}
+
+/// What was found in a row of places.
+#[derive(Default)]
+struct Row {
+    places: usize,
+    errors: Vec<f64>,
+    off: Vec<Off>,
+    left: usize,
+}
+
+impl Row {
+    /// Looks at a place inside or outside the areas.
+    fn look(&mut self, at: (f64, f64), inside: bool, milled: &Milled, edges: &Edges, limits: &Limits) {
+        self.places += 1;
+        let depth = milled.depth(at);
+        if !inside {
+            if depth > limits.tolerance {
+                self.off.push(Off { at, by: depth, inside });
+            }
+            return;
+        }
+        let (distance, foot) = edges.nearest(at);
+        let most = (distance / limits.flank).min(limits.most);
+        let mut error = depth - most;
+        if error < 0.0 {
+            let (least, is_wide) = limits.reachable(at, distance, foot, edges);
+            if is_wide && !limits.clears && depth < least {
+                self.left += 1;
+                return;
+            }
+            error = (depth - least.max(0.0)).min(0.0);
+        }
+        self.errors.push(error);
+        if error.abs() > limits.tolerance {
+            self.off.push(Off { at, by: error, inside });
+        }
+    }
+}
+
+fn sum_up(rows: Vec<Row>, beyond: Option<Off>, ideal: &Ideal<'_>) -> Carved {
+    let mut carved = Carved::default();
+    let (mut errors, mut off): (Vec<f64>, Vec<Off>) = (Vec::new(), beyond.into_iter().collect());
+    let mut left = 0_usize;
+    for row in rows {
+        carved.places += row.places;
+        left += row.left;
+        errors.extend(row.errors);
+        off.extend(row.off);
+    }
+    let pitch = ideal.pitch.to_mm();
+    carved.left_mm2 = pitch * pitch * u32::try_from(left).map_or(f64::INFINITY, f64::from);
+    carved.over = errors.iter().chain(off.iter().map(|off| &off.by)).copied().fold(0.0, f64::max);
+    carved.under = -errors.iter().copied().fold(0.0, f64::min);
+    errors.iter_mut().for_each(|error| *error = error.abs());
+    errors.sort_by(f64::total_cmp);
+    carved.p99 = errors.get(errors.len() * 99 / 100).copied().unwrap_or(0.0);
+    off.sort_by(|a, b| b.by.abs().total_cmp(&a.by.abs()).then(a.at.0.total_cmp(&b.at.0)));
+    carved.findings = findings(&off);
+    carved
+}
+
+/// A name, which places it is said of, and what is wrong there.
+type Kind = (&'static str, fn(&Off) -> bool, &'static str);
+
+/// The worst places of each kind, none near another.
+fn findings(off: &[Off]) -> Vec<Finding> {
+    let kinds: [Kind; 3] = [
+        ("carved-outside", |off| !off.inside, "it mills what lies beside the areas"),
+        ("carved-too-deep", |off| off.inside && off.by > 0.0, "it mills deeper than the areas are wide"),
+        ("carved-too-shallow", |off| off.by < 0.0, "it leaves what its tool could mill"),
+    ];
+    let mut findings = Vec::new();
+    for (name, is_one, what) in kinds {
+        let mut listed: Vec<(f64, f64)> = Vec::new();
+        for found in off.iter().filter(|off| is_one(off)) {
+            let near = |&(x, y): &(f64, f64)| (x - found.at.0).abs().max((y - found.at.1).abs()) < APART;
+            if listed.iter().any(near) {
+                continue;
+            }
+            listed.push(found.at);
+            let by = Nm::from_f64(found.by.abs());
+            let message = format!("{what}, by {:.1} µm", by.to_f64() / 1_000.0);
+            let at = Some(Point::from_f64(found.at.0, found.at.1));
+            findings.push(Finding { at, size: Some(by), ..Finding::new(name, Severity::Error, message) });
+            if listed.len() == MOST_LISTED {
+                break;
+            }
+        }
+    }
+    findings
+}

@@ -1,0 +1,272 @@
+//! Carving: what programs mill beside the ideal surface, and spoilt programs that are found out.
+
+use std::path::PathBuf;
+
+use voromill::geometry::{Nm, Point, Polygon};
+use voromill::import::text::text;
+use voromill::job::{Art, Carving, Engraving, Options, Settings, carve};
+use voromill::toolpath::Angle;
+
+use crate::medial_axis::{capitals, random_areas};
+
+/// How far apart places are looked at: a debug build looks at few.
+const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 80 } else { 15 }));
+
+const HOW: Carving = Carving { max_depth: None, step: None, corner: Angle::ZERO, raised: None };
+
+fn settings(tool: &str) -> Settings {
+    let tool = vec![tool.parse().expect("a tool")];
+    Settings::resolve(Options { tool, ..Options::default() }).expect("settings")
+}
+
+fn engraving(name: &str, areas: Vec<Polygon>, tool: &str, how: &Carving) -> Engraving {
+    let art = Art { name: name.to_owned(), areas, ..Art::default() };
+    carve(art, &settings(tool), how).expect("a program")
+}
+
+fn letters(words: &str) -> Vec<Polygon> {
+    text(dejavu::serif::bold(), words, Nm::from_mm(4)).expect("letters")
+}
+
+/// The surface of capitals is off by 2 µm at most at 99 of 100 places, and by 10 µm anywhere.
+#[test]
+fn capitals_are_carved_to_micrometres() {
+    let every = if cfg!(debug_assertions) { 23 } else { 1 };
+    let (mut p99, mut worst, mut places) = (0.0_f64, 0.0_f64, 0);
+    for (name, areas) in capitals().step_by(every) {
+        for tool in ["vbit:0mm:60deg", "vbit:0.1mm:60deg"] {
+            let engraving = engraving(&name, areas.clone(), tool, &HOW);
+            assert_eq!(engraving.warnings, [], "{name} with {tool}");
+            let judged = engraving.judge("it", &engraving.text, PITCH).expect("a program");
+            assert_eq!(judged.findings, [], "{name} with {tool}");
+            p99 = p99.max(judged.p99);
+            worst = worst.max(judged.over).max(judged.under);
+            places += judged.places;
+        }
+    }
+    println!("capitals: {places} places, p99 {p99:.0} nm, worst {worst:.0} nm");
+    assert!(p99 <= 2_000.0 && worst <= 10_000.0, "p99 {p99:.0} nm, worst {worst:.0} nm");
+}
+
+#[test]
+fn random_areas_with_holes_are_carved_to_micrometres() {
+    let seeds = if cfg!(debug_assertions) { 3 } else { 200 };
+    let (mut p99, mut worst) = (0.0_f64, 0.0_f64);
+    for seed in 0..seeds {
+        let areas = random_areas(seed, if seed % 2 == 0 { 1 } else { 250_000 });
+        let engraving = engraving("random", areas, "vbit:0mm:90deg", &HOW);
+        let judged = engraving.judge("it", &engraving.text, PITCH).expect("a program");
+        assert_eq!(judged.findings, [], "seed {seed}");
+        p99 = p99.max(judged.p99);
+        worst = worst.max(judged.over).max(judged.under);
+    }
+    println!("random areas: p99 {p99:.0} nm, worst {worst:.0} nm");
+    assert!(p99 <= 2_000.0 && worst <= 10_000.0, "p99 {p99:.0} nm, worst {worst:.0} nm");
+}
+
+#[test]
+fn passes_end_at_the_same_surface_and_none_goes_deeper_than_it_may() {
+    let how = Carving { step: Some(Nm::from_um(250)), ..HOW };
+    let stepped = engraving("S", letters("S"), "vbit:0.1mm:60deg", &how);
+    let whole = engraving("S", letters("S"), "vbit:0.1mm:60deg", &HOW);
+    let apart = (stepped.deepest - whole.deepest).abs();
+    assert!(apart < Nm::from_um(2), "in the end, within what both may be off: {apart:?}");
+    let judged = stepped.judge("it", &stepped.text, PITCH).expect("a program");
+    assert_eq!(judged.findings, [], "what is right at once is right in passes");
+    let how = Carving { max_depth: Some(Nm::from_um(300)), ..HOW };
+    let shallow = engraving("I", letters("I"), "vbit:0.1mm:60deg", &how);
+    assert_eq!(shallow.deepest, Nm::from_um(300), "as deep as it may");
+    let judged = shallow.judge("it", &shallow.text, PITCH).expect("a program");
+    assert_eq!(judged.findings, [], "what is wide is left, and said so");
+    assert!(judged.left_mm2 > 0.1, "{} mm² are left", judged.left_mm2);
+    assert_eq!(shallow.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>(), ["wide-place-left"]);
+}
+
+/// A letter is one axis: a program of it lifts no more often than the axis has parts and pairs of
+/// odd nodes that are too far apart.
+#[test]
+fn an_axis_is_walked_with_few_lifts() {
+    for (letter, most) in [("I", 3), ("O", 2), ("X", 4), ("E", 6)] {
+        let made = engraving(
+            letter,
+            text(dejavu::sans::regular(), letter, Nm::from_mm(4)).expect("a letter"),
+            "vbit:0.1mm:60deg",
+            &HOW,
+        );
+        let lifts = made.statistics.lifts;
+        assert!(lifts <= most, "{letter}: {lifts} lifts");
+    }
+}
+
+#[test]
+fn what_stands_is_as_sharp_as_what_is_sunk() {
+    let how = Carving { raised: Some(Nm::from_mm(1)), max_depth: None, ..HOW };
+    let made = engraving("T", letters("T"), "vbit:0.1mm:60deg", &how);
+    let judged = made.judge("it", &made.text, PITCH).expect("a program");
+    assert_eq!(judged.findings, [], "round the letter");
+}
+
+/// Changes every line of a program that `change` does not leave as it is.
+fn lines(text: &str, mut change: impl FnMut(&str, usize) -> Option<String>) -> String {
+    let mut cut = 0;
+    let line = |line: &str| {
+        cut += usize::from(line.starts_with("G1 X") || line.starts_with("G2 ") || line.starts_with("G3 "));
+        change(line, cut).map(|line| line + "\n").unwrap_or_default()
+    };
+    text.lines().map(line).collect()
+}
+
+/// The number after a letter of a line, changed.
+fn word(line: &str, letter: char, change: impl Fn(f64) -> f64) -> String {
+    let code = !line.starts_with('(') && !line.starts_with(';');
+    let Some(at) = line.find(letter).filter(|_| code) else { return line.to_owned() };
+    let rest = &line[at + 1..];
+    let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(rest.len());
+    let Ok(number) = rest[..end].parse::<f64>() else { return line.to_owned() };
+    format!("{}{letter}{:.4}{}", &line[..at], change(number), &rest[end..])
+}
+
+#[test]
+fn twenty_kinds_of_spoiling_are_found() {
+    let made = engraving("Ri", letters("Ri"), "vbit:0.1mm:60deg", &HOW);
+    let judge = |text: &str| made.judge("it", text, PITCH).expect("a program").findings;
+    assert_eq!(judge(&made.text), [], "nothing is wrong with it as it is");
+    let text = made.text.as_str();
+    let each = |letter: char, change: fn(f64) -> f64| lines(text, |line, _| Some(word(line, letter, change)));
+    let cut = |line: &str| line.starts_with("G1 X") || line.starts_with("G2 ") || line.starts_with("G3 ");
+    let half = text.lines().filter(|line| cut(line)).count() / 2;
+    let spoilt: [(&str, String); 22] = [
+        ("moved to the right", each('X', |x| x + 0.03)),
+        ("moved up", each('Y', |y| y - 0.03)),
+        ("zero too low", each('Z', |z| if z < 0.0 { z - 0.03 } else { z })),
+        ("zero too high", each('Z', |z| if z < 0.0 { z + 0.03 } else { z })),
+        ("twice as deep", each('Z', |z| if z < 0.0 { 2.0 * z } else { z })),
+        ("half as deep", each('Z', |z| if z < 0.0 { z / 2.0 } else { z })),
+        ("a hundredth larger", each('X', |x| x * 1.02)),
+        ("mirrored", each('X', |x| -x)),
+        ("a depth for the whole", each('Z', |z| if z < 0.0 { -0.2 } else { z })),
+        ("never below the surface", each('Z', |z| z.max(0.0))),
+        (
+            "some lines left out",
+            lines(text, |line, n| (!(half..half + 15).contains(&n) || !cut(line)).then(|| line.to_owned())),
+        ),
+        (
+            "the second half left out",
+            lines(text, |line, n| (n <= half || !cut(line)).then(|| line.to_owned())),
+        ),
+        ("arcs the other way", text.replace("G2 ", "G9 ").replace("G3 ", "G2 ").replace("G9 ", "G3 ")),
+        (
+            "one place too deep",
+            lines(text, |line, n| {
+                Some(if n == half && cut(line) {
+                    word(&with_z(line), 'Z', |z| z.min(0.0) - 0.2)
+                } else {
+                    line.to_owned()
+                })
+            }),
+        ),
+        (
+            "a lift left out",
+            lines(text, |line, n| (n < 1 || !line.starts_with("G0 Z2")).then(|| line.to_owned())),
+        ),
+        (
+            "rapids instead of cuts",
+            lines(text, |line, n| {
+                Some(if n == half {
+                    line.replacen("G1 X", "G0 X", 1).replacen("G2 ", "G0 ", 1).replacen("G3 ", "G0 ", 1)
+                } else {
+                    line.to_owned()
+                })
+            })
+            .replace("I", "(I) I"),
+        ),
+        ("the spindle off", lines(text, |line, _| (!line.starts_with("M3")).then(|| line.to_owned()))),
+        ("no feed", lines(text, |line, _| Some(line.split(" F").next().unwrap_or_default().to_owned()))),
+        ("inches", text.replace("G21", "G20")),
+        ("relative", text.replace("G90", "G91")),
+        ("places to a tenth", each('X', |x| (x * 10.0).round() / 10.0)),
+        ("depths to a tenth", each('Z', |z| (z * 10.0).round() / 10.0)),
+    ];
+    for (how, spoilt) in spoilt {
+        assert_ne!(spoilt, text, "{how}: it is changed");
+        // A text that cannot be followed is found, too.
+        let found = made.judge("it", &spoilt, PITCH).map_or(1, |judged| judged.findings.len());
+        assert!(found > 0, "{how}: nothing is found");
+    }
+}
+
+/// The line with a height, if it has none.
+fn with_z(line: &str) -> String {
+    if line.contains('Z') { line.to_owned() } else { format!("{line} Z-0.1") }
+}
+
+/// A wrong tool is found by what it would mill.
+#[test]
+fn another_tool_than_the_one_planned_for_is_found() {
+    let areas = letters("A");
+    let planned = engraving("A", areas.clone(), "vbit:0.1mm:60deg", &HOW);
+    for other in ["vbit:0.1mm:50deg", "vbit:0.1mm:70deg", "vbit:0.2mm:60deg"] {
+        let fitted = engraving("A", areas.clone(), other, &HOW);
+        let found = fitted.judge("it", &planned.text, PITCH).expect("a program").findings;
+        assert!(!found.is_empty(), "{other} instead of the one planned for");
+    }
+}
+
+fn voromill(arguments: &[&str]) -> std::process::Output {
+    let program = PathBuf::from(env!("CARGO_BIN_EXE_voromill"));
+    std::process::Command::new(program).args(arguments).output().expect("it runs")
+}
+
+#[test]
+fn a_text_becomes_a_program_that_passes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    std::fs::write(path("font.ttf"), dejavu::sans::bold()).expect("a font");
+    let (font, program) = (path("font.ttf"), path("r1.ngc"));
+    let carved = ["carve", "--text", "R1", "--font", &font, "--height", "2mm", "--tool", "vbit:0.1mm:60deg"];
+    let made = voromill(&[&carved[..], &["-o", &program]].concat());
+    let said = String::from_utf8_lossy(&made.stdout).into_owned();
+    assert!(made.status.success(), "{said}{}", String::from_utf8_lossy(&made.stderr));
+    assert!(said.contains("verified at"), "{said}");
+    let checked = voromill(&[&carved[..], &["--check", &program]].concat());
+    assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stdout));
+    let text = std::fs::read_to_string(&program).expect("a program");
+    std::fs::write(&program, text.replace("Z-0.2", "Z-0.3")).expect("spoilt");
+    let checked = voromill(&[&carved[..], &["--check", &program, "--json"]].concat());
+    let said = String::from_utf8_lossy(&checked.stdout).into_owned();
+    assert_eq!(checked.status.code(), Some(1), "{said}");
+    assert!(said.contains("carved-too-deep"), "{said}");
+}
+
+#[test]
+fn a_layer_is_carved_and_what_makes_no_sense_is_refused() {
+    let layer = "fixtures/gerber/clear_polarity.gbr";
+    let most = ["--max-depth", "0.2mm", "--no-verify"];
+    let made = voromill(&[&["carve", layer, "-o", "-", "--tool", "vbit:0.1mm:90deg"], &most[..]].concat());
+    assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
+    assert!(String::from_utf8_lossy(&made.stdout).contains("Z-0.2"), "as deep as asked for");
+    for (arguments, expected) in [
+        (&["--tool", "endmill:1mm"][..], "is no V-bit"),
+        (&["--max-depth", "0mm"], "above zero"),
+        (&["--depth", "1mm"], "changes nothing"),
+        (&["--tool", "vbit:9.8mm:60deg"], "narrower than the tip"),
+    ] {
+        let refused = voromill(&[&["carve", layer, "-o", "-"], arguments].concat());
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(refused.status.code() == Some(2) && said.contains(expected), "{arguments:?}: {said}");
+    }
+}
+
+/// Capitals and digits are where a ruler would find them.
+#[test]
+fn letters_are_as_high_as_asked_for() {
+    let areas = letters("H");
+    let bounds = areas.iter().map(Polygon::bounds).next().expect("a letter");
+    assert!((bounds.height() - Nm::from_mm(4)).abs() < Nm::from_um(30), "{:?}", bounds.height());
+    assert_eq!(bounds.min().y, Point::default().y, "on the line");
+    let two = text(dejavu::sans::bold(), "l\nl", Nm::from_mm(4)).expect("two lines");
+    assert_eq!(two.len(), 2, "one below the other");
+    assert!(text(dejavu::sans::bold(), "\u{e000}", Nm::from_mm(4)).is_err(), "no such glyph");
+    assert!(text(b"no font", "a", Nm::from_mm(4)).is_err(), "no font");
+    assert!(text(dejavu::sans::bold(), " ", Nm::from_mm(4)).is_err(), "nothing to see");
+}

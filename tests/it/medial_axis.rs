@@ -1,0 +1,286 @@
+//! The medial axis of areas beside an exact Voronoi diagram of segments (Boost's algorithm) and
+//! brute force: random areas with holes, and capitals of four fonts.
+
+use boostvoronoi::prelude::{Builder, Diagram as Exact, EdgeIndex};
+use voromill::board::polarity::{clean, difference};
+use voromill::geometry::{Nm, Point, Polygon};
+use voromill::import::text::text;
+use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
+use voromill::voronoi::medial::{MedialAxis, Pruning};
+
+use crate::oracle::field::Spot;
+use crate::oracle::polyline;
+
+/// A splitmix64 generator.
+pub(crate) struct Random(pub(crate) u64);
+
+impl Random {
+    pub(crate) fn below(&mut self, bound: i64) -> i64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        let high = i64::from(u32::try_from((z ^ (z >> 31)) >> 33).expect("31 bits"));
+        (high * bound) >> 31
+    }
+}
+
+/// Areas with holes: random rings on a grid, less others.
+pub(crate) fn random_areas(seed: u64, grid: i64) -> Vec<Polygon> {
+    let mut random = Random(seed);
+    let side = 10_000_000 / grid;
+    let ring = |corners: i64, size: i64, random: &mut Random| -> Vec<Point> {
+        let (x, y) = (random.below(side), random.below(side));
+        let mut point = || (x + random.below(size / grid), y + random.below(size / grid));
+        (0..corners)
+            .map(|_| {
+                let (x, y) = point();
+                Point::new(Nm::new(x * grid), Nm::new(y * grid))
+            })
+            .collect()
+    };
+    let body: Vec<Vec<Point>> = (0..3).map(|_| ring(7, 9_000_000, &mut random)).collect();
+    let holes: Vec<Vec<Point>> = (0..4).map(|_| ring(4, 2_000_000, &mut random)).collect();
+    let holes = clean(&holes);
+    let areas = clean(&body).into_iter().flat_map(|area| difference(&area, &holes));
+    // Of specks rounding leaves nothing to compare.
+    areas.filter(|area| area.area_mm2() > 1e-4).collect()
+}
+
+/// The capitals of four fonts, each by itself.
+pub(crate) fn capitals() -> impl Iterator<Item = (String, Vec<Polygon>)> {
+    let fonts = [
+        ("sans", dejavu::sans::regular()),
+        ("sans bold oblique", dejavu::sans::bold_oblique()),
+        ("serif bold", dejavu::serif::bold()),
+        ("mono oblique", dejavu::sans_mono::oblique()),
+    ];
+    fonts.into_iter().flat_map(|(name, font)| {
+        ('A'..='Z').map(move |letter| {
+            let areas = text(font, &letter.to_string(), Nm::from_mm(6)).expect("a capital");
+            (format!("{letter} in {name}"), areas)
+        })
+    })
+}
+
+fn diagram(area: &Polygon) -> Diagram {
+    let mut generators = Generators::new();
+    generators.inside(area, |_| 0);
+    Diagram::new(generators, Kind::MedialAxis, Space::Within)
+}
+
+/// A curve with the box round it: left, bottom, right, top.
+struct Curve(Vec<Spot>, [f64; 4]);
+
+impl Curve {
+    fn new(points: Vec<Spot>) -> Self {
+        let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+        let bounds =
+            points.iter().fold(far, |[a, b, c, d], p| [a.min(p[0]), b.min(p[1]), c.max(p[0]), d.max(p[1])]);
+        Self(points, bounds)
+    }
+
+    /// Places spread along it, its ends left out.
+    fn places(&self) -> Vec<Spot> {
+        let points = polyline::points(&self.0, 20_000.0);
+        let step = (points.len() / 6).max(1);
+        let inner = points.iter().skip(1).step_by(step).copied();
+        let middle =
+            self.0.windows(2).next().map(|pair| [0, 1].map(|i| f64::midpoint(pair[0][i], pair[1][i])));
+        inner.take(6).chain(middle).collect()
+    }
+}
+
+fn off(p: Spot, curves: &[Curve]) -> f64 {
+    curves.iter().fold(f64::INFINITY, |best, Curve(points, [left, bottom, right, top])| {
+        let x = (left - p[0]).max(p[0] - right).max(0.0);
+        let y = (bottom - p[1]).max(p[1] - top).max(0.0);
+        if x.max(y) >= best { best } else { best.min(polyline::distance(p, std::slice::from_ref(points))) }
+    })
+}
+
+/// What Boost's diagram has inside an area.
+///
+/// None where it fails: on corners that all but touch it divides by nothing.
+fn exact(area: &Polygon) -> Option<Vec<Curve>> {
+    let number = |nm: Nm| i32::try_from(nm.get()).expect("a board");
+    let segments: Vec<[i32; 4]> =
+        area.edges().map(|(a, b)| [number(a.x), number(a.y), number(b.x), number(b.y)]).collect();
+    let build = || Builder::<i32>::default().with_segments(segments.iter())?.build();
+    let diagram = std::panic::catch_unwind(build).ok()?.ok()?;
+    let mut curves = Vec::new();
+    for edge in diagram.edges() {
+        let twin = edge.twin().expect("every edge has a twin");
+        if edge.id().usize() > twin.usize() || !edge.is_primary() {
+            continue;
+        }
+        let sites = [edge.id(), twin].map(|id| site(&diagram, id));
+        let vertices = [diagram.edge_get_vertex0(edge.id()), diagram.edge_get_vertex1(edge.id())];
+        let [Some(from), Some(to)] = vertices.map(|vertex| {
+            let vertex = diagram.vertex(vertex.ok()??).ok()?;
+            Some([vertex.x(), vertex.y()])
+        }) else {
+            continue;
+        };
+        let ends = |i: usize| {
+            let [ax, ay, bx, by] = segments[i].map(f64::from);
+            [[ax, ay], [bx, by]]
+        };
+        let points = match sites {
+            [(a, Some(end)), (b, None)] | [(b, None), (a, Some(end))] => {
+                parabola(ends(a)[end], ends(b), from, to)
+            }
+            [(_, None), (_, None)] | [(_, Some(_)), (_, Some(_))] => vec![from, to],
+        };
+        let i = (points.len() - 1) / 2;
+        let middle = [0, 1].map(|axis| f64::midpoint(points[i][axis], points[i + 1][axis]));
+        if is_inside(area, middle) {
+            curves.push(Curve::new(points));
+        }
+    }
+    Some(curves)
+}
+
+/// The segment that an edge is beside, and which of its ends if it is only that.
+fn site(diagram: &Exact, edge: EdgeIndex) -> (usize, Option<usize>) {
+    let cell = diagram.cell(diagram.edge_get_cell(edge).expect("a cell")).expect("a cell");
+    let end = match (cell.contains_segment_startpoint(), cell.contains_segment_endpoint()) {
+        (true, _) => Some(0),
+        (_, true) => Some(1),
+        (false, false) => None,
+    };
+    (cell.source_index().usize(), end)
+}
+
+/// Points equally far from `focus` and a line, between two of them.
+fn parabola(focus: Spot, [a, b]: [Spot; 2], from: Spot, to: Spot) -> Vec<Spot> {
+    let way = [b[0] - a[0], b[1] - a[1]];
+    let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
+    let along = way.map(|x| x / length);
+    let local = |p: Spot| {
+        let off = [p[0] - a[0], p[1] - a[1]];
+        [off[0] * along[0] + off[1] * along[1], off[1] * along[0] - off[0] * along[1]]
+    };
+    let [x, height] = local(focus);
+    let (start, end) = (local(from)[0], local(to)[0]);
+    // Chords stay within some nanometres of it.
+    let step = (height.abs() / 20.0).clamp(50.0, 10_000.0);
+    let count = ((end - start).abs() / step).ceil().clamp(4.0, 20_000.0);
+    let mut points = Vec::new();
+    let mut place = 0.0;
+    while place <= count {
+        let u = start + (end - start) * place / count;
+        let v = ((u - x) * (u - x) / height + height) / 2.0;
+        points.push([a[0] + along[0] * u - along[1] * v, a[1] + along[1] * u + along[0] * v]);
+        place += 1.0;
+    }
+    points
+}
+
+/// Whether a place lies inside, by crossings.
+pub(crate) fn is_inside(area: &Polygon, [x, y]: Spot) -> bool {
+    let crosses = |(a, b): (Point, Point)| {
+        let ((ax, ay), (bx, by)) = (a.to_f64(), b.to_f64());
+        (ay > y) != (by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax)
+    };
+    area.edges().filter(|&edge| crosses(edge)).count() % 2 == 1
+}
+
+/// The distance from a place to the edge of an area.
+pub(crate) fn to_edge(area: &Polygon, p: Spot) -> f64 {
+    let chord = |(a, b): (Point, Point)| polyline::to_chord(p, a.to_f64().into(), b.to_f64().into());
+    area.edges().map(chord).fold(f64::INFINITY, f64::min)
+}
+
+/// How far our edges are from those of Boost, theirs from ours, and our clearances from brute
+/// force: at all places.
+#[derive(Default)]
+struct Compared {
+    off: Vec<f64>,
+    missing: Vec<f64>,
+    clearance: Vec<f64>,
+    faults: usize,
+    /// How many areas were compared, and with how many the other algorithm failed.
+    areas: usize,
+    failed: usize,
+}
+
+impl Compared {
+    fn add(&mut self, area: &Polygon) {
+        let diagram = diagram(area);
+        self.faults += usize::from(!diagram.faults().is_empty());
+        let Some(exact) = exact(area) else {
+            self.failed += 1;
+            return;
+        };
+        self.areas += 1;
+        let mut ours = Vec::new();
+        for edge in diagram.edges() {
+            let course = diagram.profile(edge, 5.0);
+            let ((x, y), clearance) = course[course.len() / 2];
+            self.clearance.push((to_edge(area, [x, y]) - clearance).abs());
+            ours.push(Curve::new(course.into_iter().map(|((x, y), _)| [x, y]).collect()));
+        }
+        self.off.extend(ours.iter().flat_map(Curve::places).map(|p| off(p, &exact)));
+        self.missing.extend(exact.iter().flat_map(Curve::places).map(|p| off(p, &ours)));
+    }
+
+    /// Judges what was compared; a line for a person.
+    fn judge(mut self, name: &str) -> String {
+        let mut told = String::new();
+        let mut worst = [0.0; 3];
+        for (found, worst) in
+            [&mut self.off, &mut self.missing, &mut self.clearance].into_iter().zip(&mut worst)
+        {
+            found.sort_by(f64::total_cmp);
+            let p99 = found[found.len() * 99 / 100];
+            *worst = found[found.len() - 1];
+            told += &format!("{name}: {} places, p99 {p99:.3} nm, worst {worst:.3} nm\n", found.len());
+        }
+        told += &format!(
+            "{name}: {} areas, {} that Boost failed at, {} with faults",
+            self.areas, self.failed, self.faults
+        );
+        assert!(self.failed * 10 < self.areas, "{name}: the other algorithm fails at few: {}", self.failed);
+        assert_eq!(self.faults, 0, "{name}: no diagram has a fault");
+        assert!(worst.iter().all(|&worst| worst < 1_000.0), "{name}: {worst:?} nm off");
+        told
+    }
+}
+
+#[test]
+fn the_medial_axis_of_random_areas_is_that_of_another_algorithm() {
+    let mut compared = Compared::default();
+    for (seeds, grid) in [(0..20, 1), (20..40, 100_000), (40..60, 500_000)] {
+        for seed in seeds {
+            random_areas(seed, grid).iter().for_each(|area| compared.add(area));
+        }
+    }
+    println!("{}", compared.judge("random areas"));
+}
+
+#[test]
+fn the_medial_axis_of_capitals_is_that_of_another_algorithm() {
+    let mut compared = Compared::default();
+    let every = if cfg!(debug_assertions) { 13 } else { 1 };
+    for (_, areas) in capitals().step_by(every) {
+        areas.iter().for_each(|area| compared.add(area));
+    }
+    println!("{}", compared.judge("capitals"));
+}
+
+/// A rectangle has four ways into its corners and one between them; a circle is a dot.
+#[test]
+fn what_is_worth_nothing_is_pruned() {
+    let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
+    let rectangle =
+        Polygon::new(vec![vec![at(0, 0), at(9000, 0), at(9000, 4000), at(0, 4000)]]).expect("four");
+    let disc = Polygon::disc(at(20_000, 0), Nm::from_mm(2), Nm::new(250)).expect("a circle");
+    let pruning = Pruning { loss: 1_000.0, corner: 1.0 };
+    let axis = MedialAxis::new(&[rectangle.clone(), disc], &pruning);
+    assert_eq!((axis.nodes.len(), axis.ways.len(), axis.dots.len()), (7, 5, 1), "two areas");
+    assert!((axis.widest() - 2e6).abs() < 300.0, "half as wide as the rectangle is high: {}", axis.widest());
+    let blunt = Pruning { loss: 1_000.0, corner: -0.5 };
+    let axis = MedialAxis::new(&[rectangle], &blunt);
+    assert_eq!((axis.nodes.len(), axis.ways.len()), (2, 1), "no right angle is left");
+}
