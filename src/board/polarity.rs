@@ -148,19 +148,33 @@ pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Result<Vec<Feature>, TooMuc
     let Some(index) = index(clear.iter().map(|(_, polygon)| polygon.bounds())) else {
         return Ok(dark(objects).map(|(_, feature)| feature).collect());
     };
+    // All is counted before anything is erased: the cheap count first.
+    let size = |polygon: &Polygon| polygon.contours().iter().map(|ring| ring.len() as u64).sum();
+    let sizes: Vec<u64> = clear.iter().map(|(_, polygon)| size(polygon)).collect();
     let mut left = Vec::with_capacity(objects.len());
-    let mut effort = 0;
+    let mut cut: Vec<(Feature, Vec<usize>)> = Vec::with_capacity(objects.len());
+    let mut vertices = 0;
     for (at, feature) in dark(objects) {
         let mut over = query(&index, feature.shape.bounds());
         over.retain(|&i| clear[i].0 > at);
         over.sort_unstable();
-        let clips = || over.iter().map(|&i| &clear[i].1);
-        let tangle = Tangle::of(clips().flat_map(Polygon::contours));
-        effort += tangle.effort();
+        vertices += over.iter().map(|&i| sizes[i]).sum::<u64>();
+        if vertices > EFFORT {
+            return Err(TooMuch);
+        }
+        cut.push((feature, over));
+    }
+    let mut effort = 0;
+    // Features one after another often lie under the same clear objects.
+    for same in cut.chunk_by(|(_, a), (_, b)| a == b) {
+        let tangle = Tangle::of(clips(&clear, &same[0].1).flat_map(Polygon::contours));
+        effort += tangle.effort() * same.len() as u64;
         if effort > EFFORT || tangle.is_too_much() {
             return Err(TooMuch);
         }
-        erase(feature, clips(), &mut left);
+    }
+    for (feature, over) in cut {
+        erase(feature, clips(&clear, &over), &mut left);
     }
     Ok(left)
 }
@@ -222,6 +236,11 @@ impl Tangle {
 fn dark(objects: Vec<(Feature, Polarity)>) -> impl Iterator<Item = (usize, Feature)> {
     let dark = |(at, (feature, polarity))| (polarity == Polarity::Dark).then_some((at, feature));
     objects.into_iter().enumerate().filter_map(dark)
+}
+
+/// The polygons of the clear objects `over` a feature.
+fn clips<'a>(clear: &'a [(usize, Polygon)], over: &'a [usize]) -> impl ExactSizeIterator<Item = &'a Polygon> {
+    over.iter().map(|&i| &clear[i].1)
 }
 
 /// What `clear` leaves of `feature`, appended to `left`.
