@@ -101,6 +101,13 @@ struct Shared {
 
 /// Reads the arguments, does what they say, prints errors.
 pub(crate) fn run() -> ExitCode {
+    let print_panic = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |panic| {
+        // What a broken picture does to its decoder is told as an error.
+        if std::thread::current().name() != Some(voromill::import::picture::DECODER) {
+            print_panic(panic);
+        }
+    }));
     // What help says of defaults is worked out where it is shown: most runs show none.
     let read = Cli::command().try_get_matches().or_else(|_| command().try_get_matches());
     let (cli, matches) = match read.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches))) {

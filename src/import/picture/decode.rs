@@ -60,24 +60,8 @@ pub(super) fn decode(name: &str, bytes: &[u8], options: &Options) -> Result<Deco
         let what = if bytes.is_empty() { "an empty file, not a picture" } else { "this is not a picture" };
         return Err(Error::content(name, what, "expected a PNG, BMP, JPEG, TIFF, GIF, WebP or PNM file"));
     };
-    let broken = |error: image::ImageError| {
-        let what = format!("the picture cannot be read: {error}");
-        Error::content(name, what, "save it again, as PNG in black and white")
-    };
-    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
-    let mut limits = Limits::default();
-    limits.max_alloc = Some(MOST_BYTES);
-    reader.limits(limits);
-    let mut decoder = reader.into_decoder().map_err(broken)?;
-    let (width, height) = decoder.dimensions();
-    let most = options.most_pixels.unwrap_or(MOST_PIXELS);
-    if u64::from(width) * u64::from(height) > most {
-        let what = format!("{width} × {height} pixels are too many: at most {most} are read");
-        return Err(Error::content(name, what, "save it with fewer pixels to the inch, or in parts"));
-    }
-    let orientation = decoder.orientation().map_err(broken)?;
-    let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
-    picture.apply_orientation(orientation);
+    let decoded = contained(|| upright(name, bytes, format, options.most_pixels.unwrap_or(MOST_PIXELS)));
+    let (mut picture, (width, height)) = decoded.unwrap_or_else(|words| Err(broken(name, words)))?;
     let mut dpi = resolution(bytes, format);
     if picture.dimensions() != (width, height) {
         dpi = dpi.map(|(x, y)| (y, x));
@@ -90,6 +74,53 @@ pub(super) fn decode(name: &str, bytes: &[u8], options: &Options) -> Result<Deco
     let empty = || Error::content(name, "the picture has no pixels", "check that it is whole");
     let field = Field::new(width, samples).ok_or_else(empty)?;
     Ok(Decoded { field, is_bright, dpi, format: name_of(format).unwrap_or_default() })
+}
+
+/// The picture as it is to be looked at, and how wide and high it lies in the file.
+fn upright(
+    name: &str,
+    bytes: &[u8],
+    format: ImageFormat,
+    most: u64,
+) -> Result<(DynamicImage, (u32, u32)), Error> {
+    let broken = |error: image::ImageError| broken(name, error);
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MOST_BYTES);
+    reader.limits(limits);
+    let mut decoder = reader.into_decoder().map_err(broken)?;
+    let (width, height) = decoder.dimensions();
+    if u64::from(width) * u64::from(height) > most {
+        let what = format!("{width} × {height} pixels are too many: at most {most} are read");
+        return Err(Error::content(name, what, "save it with fewer pixels to the inch, or in parts"));
+    }
+    let orientation = decoder.orientation().map_err(broken)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
+    picture.apply_orientation(orientation);
+    Ok((picture, (width, height)))
+}
+
+fn broken(name: &str, why: impl std::fmt::Display) -> Error {
+    let what = format!("the picture cannot be read: {why}");
+    Error::content(name, what, "save it again, as PNG in black and white")
+}
+
+/// The name of the thread on which pictures are decoded. A panic there is an error of the file and
+/// is returned as one: a program may keep its own words about it to itself.
+pub const DECODER: &str = "picture decoder";
+
+/// What `work` returns; where a decoder meets bytes that its author did not think of and panics,
+/// its last words.
+fn contained<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, String> {
+    let thread = std::thread::Builder::new().name(DECODER.to_owned());
+    std::thread::scope(|scope| {
+        let decoding = thread.spawn_scoped(scope, work).map_err(|error| error.to_string())?;
+        decoding.join().map_err(|panic| {
+            let words = panic.downcast_ref::<String>().map(String::as_str);
+            let words = words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a word");
+            format!("its decoder gave up ({words})")
+        })
+    })
 }
 
 fn cropped(name: &str, picture: &DynamicImage, part: [u32; 4]) -> Result<DynamicImage, Error> {
@@ -205,4 +236,21 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 fn less(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_decoder_that_panics_is_an_error() {
+        let none: [u8; 0] = [];
+        let words = contained(|| none[bytes_of_a_broken_file()]).expect_err("there is no such byte");
+        assert!(words.starts_with("its decoder gave up (index out of bounds"), "{words}");
+        assert_eq!(contained(|| 7), Ok(7), "all others return");
+    }
+
+    fn bytes_of_a_broken_file() -> usize {
+        std::hint::black_box(3)
+    }
 }

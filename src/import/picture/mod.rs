@@ -28,7 +28,7 @@ use super::load::{Loaded, Selection};
 
 use decode::Decoded;
 
-pub use decode::is_picture;
+pub use decode::{DECODER, is_picture};
 
 /// Which pixels of a picture are copper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
