@@ -49,7 +49,7 @@ pub(super) struct Diff {
     copper: Nm,
 
     /// The pixel of the picture [default: a quarter of the kerf, within 5um to 25um]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long = "pixel", alias = "resolution", value_name = "LENGTH")]
     resolution: Option<Nm>,
 
     /// For people or for programs

@@ -6,6 +6,7 @@ use clap::{Args, ValueEnum};
 use voromill::import::{self, Loaded, Selection, picture};
 use voromill::job::{Length, MillProject, ProjectFiles, Settings};
 use voromill::report::document::WarningEntry;
+use voromill::report::explain::is_bookkeeping;
 
 use super::Failure;
 
@@ -132,13 +133,14 @@ impl Input {
 
     /// Fails for `warnings` where they are denied.
     pub(super) fn judge(&self, warnings: &[WarningEntry]) -> Result<(), Failure> {
+        let warnings: Vec<_> = warnings.iter().filter(|warning| !is_bookkeeping(warning.code)).collect();
         if !self.deny_warnings || warnings.is_empty() {
             return Ok(());
         }
-        let shown: String = warnings.iter().map(WarningEntry::to_text).collect();
+        let shown: String = warnings.iter().map(|warning| warning.to_text()).collect();
         let all = shown.trim_end();
         let cause = format!("--deny-warnings allows no warning, and here are {}:\n{all}", warnings.len());
-        Err(Failure::new(cause, "mend the files, or leave --deny-warnings out"))
+        Err(Failure::new(cause, "repair the files, or leave --deny-warnings out"))
     }
 
     /// What to read: what is named here, by itself or by what it is, or else the files of the

@@ -11,7 +11,7 @@ use voromill::job::{Length, Place, Triple};
 use super::output::Output;
 use super::{Failure, Shared};
 
-/// A program bent to the surface that a probe has found
+/// A program levelled: adapted to the surface that was probed
 ///
 /// Reads anybody's program and a map of heights, and adds the height of the surface to every z
 /// below the height for travel. Cuts and arcs are split where the surface asks for it; comments,
@@ -22,7 +22,7 @@ use super::{Failure, Shared};
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Level {
-    /// Program to bend
+    /// Program to level
     #[arg(value_name = "PROGRAM")]
     program: PathBuf,
 
@@ -44,7 +44,7 @@ pub(super) struct Level {
     #[arg(long, value_name = "LENGTH", default_value = "2mm")]
     margin: Length,
 
-    /// Height from which on nothing is bent [default: that of the program's lowest level rapid]
+    /// Height from which on nothing is levelled [default: that of the program's lowest level rapid]
     #[arg(long, value_name = "LENGTH")]
     safe_z: Option<Length>,
 
@@ -56,7 +56,7 @@ pub(super) struct Level {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     map_zero: Option<Triple>,
 
-    /// Bend the program to touches that lie off their neighbours too, and say which they are
+    /// Level with probed points that lie off their neighbours too, and say which they are
     #[arg(long)]
     accept_outliers: bool,
 
@@ -69,7 +69,7 @@ pub(super) struct Level {
 const EXAMPLES: &str = "\
 Examples:
   voromill level out/board-front.ngc --map board.probe
-  voromill level flatcam.nc --map board.hmap -o bent.nc --tolerance 2um
+  voromill level flatcam.nc --map board.hmap -o levelled.nc --tolerance 2um
   voromill level front.ngc --map grbl.log --map-zero -120mm,-80mm,-31.2mm
   voromill level front.ngc --map board-front-probe.txt --zero-at 0mm,0mm";
 
@@ -209,7 +209,7 @@ fn hint(error: &LevelError) -> &'static str {
         LevelError::High { .. } => {
             "raise the program's height for travel, or set z to zero anew and probe again"
         }
-        LevelError::Nowhere { .. } => "say with --safe-z from which height on nothing is to be bent",
+        LevelError::Nowhere { .. } => "say with --safe-z from which height on nothing is to be levelled",
         _ => "",
     }
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use rayon::prelude::*;
 use voromill::board::Side;
 use voromill::import::sha256;
@@ -22,12 +22,12 @@ use super::{Failure, Shared};
 /// All programs, pictures and the report of a board
 ///
 /// Reads a folder, a zip archive, single files or a KiCad board, finds the copper of both sides,
-/// the outline and the holes, and writes into OUT, named after the board: NAME-front.ngc and NAME-
-/// back.ngc that isolate the nets (the back turned over left to right), NAME-drill.ngc, NAME-
-/// cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut, NAME.html to look at it
-/// all in a browser, and NAME.json, which lists them. What an earlier run of the board wrote there
-/// and this one does not is removed. With one copper file alone, that side. The programs are read
-/// back and milled on a picture before anybody mills them: exit code 1 where that finds something.
+/// the outline and the holes, and writes into OUT, named after the board: NAME-front.ngc and
+/// NAME-back.ngc that isolate the nets (the back mirrored left to right), NAME-drill.ngc,
+/// NAME-cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut, NAME.html to look
+/// at it all in a browser, and NAME.json, which lists them. What an earlier run of the board wrote
+/// there and this one does not is removed. With one copper file alone, that side. The programs are
+/// read back and simulated before anybody mills them: exit code 1 where that finds an error.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Mill {
@@ -38,11 +38,11 @@ pub(super) struct Mill {
     #[arg(long, short, value_name = "OUT", required_unless_present_any = ["cache_key", "millproject"])]
     output: Option<PathBuf>,
 
-    /// Do not read the programs back, mill them on a picture and compare with the board
+    /// Do not verify: programs are otherwise read back, simulated and compared with the board
     #[arg(long, help_heading = "Output")]
     no_verify: bool,
 
-    /// How bad something must be that is found so, for exit code 1: info, warning or error
+    /// Exit code 1 for findings of at least this severity: info, warning or error
     #[arg(long, value_name = "SEVERITY", default_value = "error", help_heading = "Output")]
     deny: Severity,
 
@@ -54,13 +54,17 @@ pub(super) struct Mill {
     #[arg(long, help_heading = "Output")]
     no_html: bool,
 
-    /// Print the report as JSON on stdout
-    #[arg(long, help_heading = "Output")]
+    /// What is printed: the summary for people, or the report for programs
+    #[arg(long, value_enum, default_value = "text", help_heading = "Output")]
+    format: Format,
+
+    /// The same as --format json
+    #[arg(long, hide = true, help_heading = "Output")]
     json: bool,
 
-    /// Print a name for what would be made, and make nothing: the same for the same files, settings
+    /// Print a key for build caches and make nothing: it is the same for the same files, settings
     /// and version
-    #[arg(long, help_heading = "Output", conflicts_with_all = ["output", "json"])]
+    #[arg(long, help_heading = "Output", conflicts_with_all = ["output", "json", "format"])]
     cache_key: bool,
 
     #[command(flatten)]
@@ -75,6 +79,12 @@ Examples:
   voromill mill board/ -o out --tool endmill:0.2mm --depth 0.08mm --limit 1mm
   voromill mill board-B_Cu.gbr board.drl -o out --cutout-tool endmill:2mm
   voromill mill --millproject millproject      what pcb2gcode was told, as far as there is a counterpart";
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
 
 impl Mill {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
@@ -101,7 +111,7 @@ impl Mill {
         self.input.judge(&document.warnings)?;
         let mut passes = true;
         if !self.no_verify {
-            progress.say("milling on a picture");
+            progress.say("simulating");
             let report = job.verify(&settings)?;
             passes = report.passes(self.deny);
             document.verification = Some(Verdict::from(&report));
@@ -135,7 +145,7 @@ impl Mill {
         output.commit()?;
         drop(progress);
         shared.say(&leftovers.to_text(folder));
-        if self.json {
+        if self.json || self.format == Format::Json {
             super::print(&document.to_json())?;
         } else {
             shared.report(&document.summary(shared.verbose))?;

@@ -5,7 +5,9 @@ mod colour;
 mod config;
 mod diff;
 mod draw;
+mod explain;
 mod failure;
+mod help;
 mod init;
 mod input;
 mod inspect;
@@ -57,13 +59,15 @@ Examples:
   voromill mask board/ -o front.png --dpi 1200 a mask for etching, lasers or UV light
   voromill carve logo.png -o logo.ngc --tool vbit:0.1mm:60deg --picture-dpi 600
                                                a V-bit into shapes, as deep as they are wide
-  voromill probe board/ -o probe.ngc           touch the surface of the board on the machine
-  voromill level front.ngc --map probe.txt     bend a program to what was touched
+  voromill probe board/ -o probe.ngc           probe the surface of the board on the machine
+  voromill level front.ngc --map probe.txt     adapt a program to the probed surface
   voromill tools                               the tools, and how wide they cut at which depth
   voromill machine list                        the machines whose figures are known
+  voromill explain gouge                       what the code behind a message means
   voromill init                                write voromill.toml with every setting and its default
 
-Lengths carry units: nm, um, mm, cm, mil, in. `voromill mill --help` explains each option.
+Lengths carry units: nm, um, mm, cm, mil, in. `voromill mill --help` shows the options that people use first,
+`voromill mill --help-all` every one.
 Exit codes: 0 done, 1 verification found something or programs differ, 2 failed.";
 
 #[derive(Subcommand)]
@@ -80,6 +84,7 @@ enum Command {
     Level(level::Level),
     Tools(tools::Tools),
     Machine(machine::Machine),
+    Explain(explain::Explain),
     Init(init::Init),
 }
 
@@ -109,7 +114,7 @@ pub(crate) fn run() -> ExitCode {
         }
     }));
     // What help says of defaults is worked out where it is shown: most runs show none.
-    let read = Cli::command().try_get_matches().or_else(|_| command().try_get_matches());
+    let read = help::with_all(Cli::command()).try_get_matches().or_else(|_| command().try_get_matches());
     let (cli, matches) = match read.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches))) {
         Ok(read) => read,
         Err(error) => error.format(&mut command()).exit(),
@@ -128,6 +133,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Level(level) => level.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Tools(tools) => tools.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Machine(machine) => machine.run(cli.shared).map(|()| ExitCode::SUCCESS),
+        Command::Explain(explain) => explain.run().map(|()| ExitCode::SUCCESS),
         Command::Init(init) => init.run(cli.shared).map(|()| ExitCode::SUCCESS),
     });
     match done {
@@ -143,7 +149,7 @@ pub(crate) fn run() -> ExitCode {
 /// its help.
 fn command() -> clap::Command {
     let defaults = Options::defaults().listed();
-    scope::hidden(Cli::command()).mut_subcommands(move |sub| {
+    help::shortened(scope::hidden(help::with_all(Cli::command()))).mut_subcommands(move |sub| {
         let defaults = defaults.clone();
         sub.mut_args(move |argument| {
             let key = argument.get_id().as_str().replace('_', "-");

@@ -13,7 +13,7 @@ use super::input::Input;
 use super::output::Output;
 use super::{Failure, Shared};
 
-/// The program that touches a board's surface, for `voromill level`
+/// The program that probes a board's surface, for `voromill level`
 ///
 /// Touches the copper in a grid over the board as it will lie on the machine (with the same
 /// --origin, --rotate, --tile and --mirror-axis as `voromill mill`), with the tool itself, a wire
@@ -33,7 +33,7 @@ pub(super) struct Probe {
     #[arg(long, value_enum, default_value = "front")]
     side: SideName,
 
-    /// The most way between two touches, or how many columns and rows, such as 7x5
+    /// Greatest distance between two probed points, or how many columns and rows, such as 7x5
     #[arg(long, value_name = "LENGTH|NxM", default_value = "10mm", help_heading = "Probing")]
     probe_grid: ProbeGrid,
 
@@ -41,15 +41,15 @@ pub(super) struct Probe {
     #[arg(long, value_name = "LENGTH", default_value = "1mm", help_heading = "Probing")]
     probe_depth: Length,
 
-    /// Height for the way from touch to touch
+    /// Height at which the tool travels between points
     #[arg(long, value_name = "LENGTH", default_value = "1mm", help_heading = "Probing")]
     probe_clearance: Length,
 
-    /// Speed of a touch
+    /// Speed of probing
     #[arg(long, value_name = "SPEED", default_value = "50mm/min", help_heading = "Probing")]
     probe_feed: Feed,
 
-    /// How far inside the board's edge the outermost touches are
+    /// How far inside the board's edge the outermost points are
     #[arg(long, value_name = "LENGTH", default_value = "0mm", help_heading = "Probing")]
     probe_inset: Length,
 
@@ -91,6 +91,6 @@ impl Probe {
         output.stage(&self.output, text.as_bytes())?;
         output.commit()?;
         let touches = text.lines().filter(|line| line.contains("G38.2")).count();
-        shared.report(&format!("{}: {touches} touches\n", self.output.display()))
+        shared.report(&format!("{}: {touches} points to probe\n", self.output.display()))
     }
 }

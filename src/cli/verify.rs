@@ -18,15 +18,15 @@ use super::{Failure, Shared};
 
 /// What programs do to a board, before a machine does it
 ///
-/// Reads G-code, anybody's, mills the board with it on a picture, and compares what is left with
-/// the design: nets joined or cut in two, copper lost, rapids through material, holes missed. What
+/// Reads G-code, anybody's, simulates how the board is milled, and compares what is left with the
+/// design: nets joined or cut in two, copper lost, rapids through material, holes missed. What
 /// voromill wrote says itself which tool and side it is for; of other programs tell it. Exit code
 /// 0: nothing as bad as --deny; 1: something; 2: it could not be judged.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Verify {
-    /// Programs to judge, those for the same side together; of a folder all in it, and what the
-    /// board asks for beside them is missed
+    /// Programs to verify, those for the same side together; or a folder of them: then a program
+    /// that the board needs and that is not there is a finding too
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
 
@@ -51,8 +51,8 @@ pub(super) struct Verify {
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     offset: Option<Offset>,
 
-    /// The vertical line about which the moved board was mirrored
-    #[arg(long, value_name = "X", allow_hyphen_values = true)]
+    /// Where x is mirrored for the back, after the board was moved
+    #[arg(long = "mirror-axis", alias = "mirror", value_name = "LENGTH", allow_hyphen_values = true)]
     mirror: Option<Nm>,
 
     /// How far the board was turned, counter-clockwise, before it was moved
@@ -60,7 +60,7 @@ pub(super) struct Verify {
     rotate: Option<Angle>,
 
     /// Find from what is cut how the board lies under each program: the offset, and unless given,
-    /// --mirror and quarter turns
+    /// --mirror-axis and quarter turns
     #[arg(long, conflicts_with = "offset")]
     register: bool,
 
@@ -89,8 +89,9 @@ pub(super) struct Verify {
     #[arg(long, value_name = "LENGTH", default_value = "0.05mm")]
     sliver: Nm,
 
-    /// How far the machine travels, as three lengths
-    #[arg(long, value_name = "X,Y,Z")]
+    /// How far the machine can move in x, y and z, such as 280mm,170mm,40mm: a program that spans
+    /// more is an error
+    #[arg(long = "machine-travel", alias = "travel", value_name = "X,Y,Z")]
     travel: Option<Travel>,
 
     /// How many tabs must hold each board; 0 for boards that are held otherwise [default: at least
@@ -111,7 +112,7 @@ pub(super) struct Verify {
     tile_spacing: Option<Nm>,
 
     /// The pixel of the picture [default: a quarter of the kerf, within 5um to 25um]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long = "pixel", alias = "resolution", value_name = "LENGTH")]
     resolution: Option<Nm>,
 
     /// For people or for programs
@@ -123,7 +124,7 @@ const EXAMPLES: &str = "\
 Examples:
   voromill verify out/*.ngc --board board/
   voromill verify front.gcode --board board-F_Cu.gbr --tool endmill:0.2mm --side front
-  voromill verify back.nc --board board.zip --tool vbit:0.1mm:20deg --side back --mirror 25mm --format sarif
+  voromill verify back.nc --board board.zip --tool vbit:0.1mm:20deg --side back --mirror-axis 25mm --format sarif
   voromill verify flatcam.nc --board board.zip --tool endmill:0.2mm --side front --register";
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
@@ -136,7 +137,7 @@ enum Purpose {
     Drill,
     /// Cuts the board out
     Cutout,
-    /// Drills the holes on whose pins the board is turned over
+    /// Drills the holes on whose pins the board is flipped
     Alignment,
 }
 
@@ -258,7 +259,9 @@ impl Verify {
         let report = report.with(verify::revisions(&programs, &inputs));
         let verdict = Verdict::from(&report);
         match self.format {
-            Format::Text => shared.report(&verdict.to_text(shared.verbose)),
+            Format::Text => {
+                shared.report(&format!("{}{}", verdict.to_text(shared.verbose), verdict.fitness()))
+            }
             Format::Json => super::print(&verdict.to_json()),
             Format::Sarif => super::print(&verdict.to_sarif()),
             Format::Junit => super::print(&verdict.to_junit(self.deny)),
@@ -365,7 +368,7 @@ impl Verify {
     ) -> Result<(), Failure> {
         let known = Orientation { degrees: self.rotate.map(Angle::degrees), mirror: self.mirror };
         let found = verify::register(program, board, &known, settings)?;
-        let mirror = found.mirror.map_or(String::new(), |axis| format!(" --mirror {axis:.3}mm"));
+        let mirror = found.mirror.map_or(String::new(), |axis| format!(" --mirror-axis {axis:.3}mm"));
         let turned = if found.degrees.abs() < 1e-9 {
             String::new()
         } else {

@@ -36,4 +36,5 @@ mod whole_board;
 
 pub use digest::sha256;
 pub use error::{Diagnosis, Error};
+pub use flaw::{ALL as FLAWS, Flaw};
 pub use load::{Loaded, Selection, load, load_copper, survey};

@@ -89,7 +89,7 @@ pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm
     let least = kerf / 2 + options.tolerance.map_or(Nm::ZERO, Length::nm);
     if margin < least {
         let problem = format!(
-            "a lap {} from copper would cut it: with a kerf of {} it needs {}",
+            "a frame cut {} from copper would cut it: with a kerf of {} it needs {}",
             Length(margin),
             Length(kerf),
             Length(least)

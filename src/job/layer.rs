@@ -105,7 +105,7 @@ pub(super) fn plain(
     Ok((diagram, boundaries, warnings))
 }
 
-const FRAME_NOT_CUT: &str = "without an outline and without the lap round the frame, nets that reach the edge stay joined through the copper outside";
+const FRAME_NOT_CUT: &str = "without an outline and without the frame cut, nets that reach the edge stay joined through the copper outside";
 
 /// The nets of a side, and what Algorithm 2 saw of them if it was asked.
 fn recover(copper: &Copper, method: Method) -> (Nets, Option<Translucency>) {

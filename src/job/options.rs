@@ -55,8 +55,8 @@ pub struct Options {
     )]
     pub strategy: Option<Strategy>,
 
-    /// The strategy of some nets, by name as for --ignore, such as GND*=outline; the first that
-    /// means a net decides
+    /// The strategy of some nets, by name as for --ignore, such as GND*=outline; the first pattern
+    /// that matches a net decides
     #[arg(long, value_name = "PATTERN=STRATEGY", value_delimiter = ',', help_heading = "Isolation")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub strategy_for: Vec<StrategyFor>,
@@ -65,7 +65,7 @@ pub struct Options {
     #[arg(long, value_enum, hide_possible_values = true, value_name = "SITES", help_heading = "Isolation")]
     pub sites: Option<Sites>,
 
-    /// Nothing farther than this from copper belongs to a net
+    /// A net's region ends at this distance from its copper, and is cut round there
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub limit: Option<Length>,
@@ -75,7 +75,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub width: Option<Length>,
 
-    /// The same as a number of passes beside every net
+    /// Number of passes beside every net, instead of --width
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Isolation")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub passes: Option<u32>,
@@ -91,7 +91,7 @@ pub struct Options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clear: Option<bool>,
 
-    /// How much neighbouring passes share: a length, or a part of the kerf [default: 10%]
+    /// Overlap of neighbouring passes: a length, or a part of the kerf [default: 10%]
     #[arg(long, value_name = "LENGTH|PERCENT", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub overlap: Option<Overlap>,
@@ -102,7 +102,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Length>,
 
-    /// The same in pixels per inch
+    /// --pixel as a number of pixels to the inch
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=25_400), help_heading = "Isolation")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dpi: Option<u32>,
@@ -111,7 +111,7 @@ pub struct Options {
     #[arg(long = "no-frame", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
     pub frame: Option<bool>,
 
-    /// How far that lap keeps from copper [default: as wide as the cut or the width to be cleared,
+    /// How far this frame cut keeps from copper [default: the kerf or the width to be cleared,
     /// 0.2mm at least]
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
@@ -174,7 +174,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub spin_up: Option<Wait>,
 
-    /// Height for travel above the copper
+    /// Height above the copper at which the tool travels after a retract
     #[arg(long, value_name = "LENGTH", help_heading = "Machine")]
     #[serde(with = "text")]
     pub safe_z: Option<Length>,
@@ -212,7 +212,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub offset: Option<Place>,
 
-    /// Where x is when the board is turned over for the back [default: its middle]
+    /// The x about which the back is mirrored, on the machine [default: the board's middle]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub mirror_axis: Option<Length>,
@@ -227,7 +227,8 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tile_spacing: Option<Length>,
 
-    /// How far the machine goes, such as 280mm,170mm,40mm: a warning where a program goes farther
+    /// How far the machine can move in x, y and z, such as 280mm,170mm,40mm: a program that spans
+    /// more is an error
     #[arg(long, value_name = "X,Y,Z", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub machine_travel: Option<Triple>,
@@ -305,7 +306,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_dwell: Option<Wait>,
 
-    /// Speed of a drill into the material [default: by its diameter]
+    /// Speed of a drill into the material [default: by its diameter and --material]
     #[arg(long, value_name = "SPEED", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_plunge: Option<Feed>,
@@ -337,7 +338,7 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_bore_tool: Option<ToolChoice>,
 
-    /// The side that is up while holes are drilled: front, or back for a board that is turned over
+    /// The side that is up while holes are drilled: front or back
     #[arg(
         long,
         value_enum,
@@ -348,7 +349,7 @@ pub struct Options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drill_side: Option<DrillSide>,
 
-    /// Two holes of this diameter beside the board, to turn it over on pins: a program of their own
+    /// Two holes of this diameter beside the board, to flip it on pins: a program of their own
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub alignment_holes: Option<Length>,
@@ -416,8 +417,7 @@ pub struct Options {
     #[serde(with = "text")]
     pub cutout_tool: Option<ToolChoice>,
 
-    /// The side that is up while the board is cut out: front, or back for a board that is turned
-    /// over
+    /// The side that is up while the board is cut out: front or back
     #[arg(
         long,
         value_enum,
@@ -453,7 +453,7 @@ pub struct Options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tabs: Option<u32>,
 
-    /// The same as the most way between two
+    /// The greatest tab spacing, instead of a number of tabs
     #[arg(long, value_name = "LENGTH", conflicts_with = "tabs", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tab_spacing: Option<Length>,

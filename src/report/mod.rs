@@ -5,6 +5,7 @@ mod canvas;
 pub mod colours;
 pub mod comparison;
 pub mod document;
+pub mod explain;
 mod gaps;
 mod ink;
 pub mod inspection;

@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::document::{Document, Figures, LayerEntry, ToolChanges, WarningEntry};
+use super::explain::is_bookkeeping;
 use crate::board::{self, Severity};
 use crate::toolpath::duration;
 
@@ -47,6 +48,11 @@ impl Document {
             text.push_str(&verdict.to_text(verbose));
         }
         text.push_str(&warnings(&self.warnings, verbose));
+        match &self.verification {
+            Some(verdict) => text.push_str(&verdict.fitness()),
+            None if self.programs.is_empty() => {}
+            None => text.push_str("  not verified: whether it is fit to mill is not known\n"),
+        }
         text
     }
 
@@ -61,17 +67,17 @@ impl Document {
         let row = |name: &str, figures: &Figures| {
             let [cut, rapid] = [figures.cut_mm, figures.rapid_mm].map(|length| format!("{:.0} mm", length.0));
             let time = duration(figures.seconds);
-            format!("  {name:widest$}  {cut:>9}  {rapid:>9}  {:>5}  {time:>9}\n", figures.lifts)
+            format!("  {name:widest$}  {cut:>9}  {rapid:>9}  {:>8}  {time:>9}\n", figures.lifts)
         };
         let mut text =
-            format!("  {:widest$}  {:>9}  {:>9}  {:>5}  {:>9}\n", "", "cut", "rapid", "lifts", "time");
+            format!("  {:widest$}  {:>9}  {:>9}  {:>8}  {:>9}\n", "", "cut", "rapid", "retracts", "time");
         for program in &self.programs {
             text.push_str(&row(&program.file, &program.figures));
         }
         let ToolChanges { count: changes, seconds } = self.tool_changes;
         if changes > 0 {
             let (name, time) = (count(changes as usize, "tool change"), duration(seconds));
-            let _ = writeln!(text, "  {name:widest$}  {:>9}  {:>9}  {:>5}  {time:>9}", "", "", "");
+            let _ = writeln!(text, "  {name:widest$}  {:>9}  {:>9}  {:>8}  {time:>9}", "", "", "");
         }
         if self.programs.len() > 1 || changes > 0 {
             text.push_str(&row("total", &self.total));
@@ -81,13 +87,13 @@ impl Document {
 }
 
 impl LayerEntry {
-    /// How long its boundaries are, without and with the lap round the frame.
+    /// How long its boundaries are, without and with the frame cut.
     fn lengths(&self) -> String {
         let bare = self.boundary_length_mm.0;
-        let lap = self
+        let framed = self
             .frame_length_mm
-            .map_or(String::new(), |lap| format!(", {:.0} mm with the lap round the frame", bare + lap.0));
-        format!("boundaries {bare:.0} mm{lap}")
+            .map_or(String::new(), |frame| format!(", {:.0} mm with the frame cut", bare + frame.0));
+        format!("boundaries {bare:.0} mm{framed}")
     }
 }
 
@@ -95,9 +101,10 @@ impl LayerEntry {
 /// there are none.
 #[must_use]
 pub fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
-    let mut text = if warnings.is_empty() { String::new() } else { "\n".to_owned() };
+    let told = || warnings.iter().filter(|warning| verbose || !is_bookkeeping(warning.code));
+    let mut text = if told().next().is_none() { String::new() } else { "\n".to_owned() };
     let mut kinds: Vec<&str> = Vec::new();
-    for warning in warnings {
+    for warning in told() {
         if !kinds.contains(&warning.code) {
             kinds.push(warning.code);
         }
@@ -182,8 +189,8 @@ mod tests {
             frame_length_mm,
             slight_gaps: 0,
         };
-        assert_eq!(layer(None).lengths(), "boundaries 208 mm", "an outline is no lap");
+        assert_eq!(layer(None).lengths(), "boundaries 208 mm", "an outline is no frame cut");
         let framed = layer(Some(Millimetres(Nm::from_mm(81)))).lengths();
-        assert_eq!(framed, "boundaries 208 mm, 289 mm with the lap round the frame", "both lengths");
+        assert_eq!(framed, "boundaries 208 mm, 289 mm with the frame cut", "both lengths");
     }
 }

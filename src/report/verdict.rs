@@ -56,6 +56,9 @@ pub struct FindingEntry {
     /// The place on the board.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at: Option<Place>,
+    /// The same place on the machine.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub on_machine: Option<Place>,
     /// How large.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub size_mm: Option<Millimetres>,
@@ -82,6 +85,7 @@ impl From<&Finding> for FindingEntry {
             side: finding.side,
             nets: finding.nets.clone(),
             at: finding.at.map(Place::from),
+            on_machine: finding.on_machine.map(Place::from),
             size_mm: finding.size.map(Millimetres),
             area_mm2: finding.area.map(|area| (area * 1e6).round() / 1e6),
             program: finding.program.clone(),
@@ -113,8 +117,8 @@ impl From<&Report> for Verdict {
 const SHOWN: usize = 5;
 
 impl Verdict {
-    /// For people: what was found, and the verdict in the last line; where `verbose`, all findings,
-    /// and what is only worth knowing.
+    /// For people: what was found with what to try, and what was judged; where `verbose`, all
+    /// findings, and what is only worth knowing.
     #[must_use]
     pub fn to_text(&self, verbose: bool) -> String {
         let mut text = String::new();
@@ -126,9 +130,12 @@ impl Verdict {
                 let FindingEntry { severity, name, message, .. } = finding;
                 let _ = writeln!(text, "  {severity}: {}{message} [{name}]", place(finding));
             }
+            let (severity, name) = (same[0].severity, same[0].name);
             if same.len() > shown {
-                let (severity, name) = (same[0].severity, same[0].name);
                 let _ = writeln!(text, "  {severity}: {} more [{name}]; -v shows all", same.len() - shown);
+            }
+            if let Some(check) = check::of(name).filter(|_| severity > Severity::Info) {
+                let _ = writeln!(text, "    try: {}", check.cure);
             }
         }
         text.push_str(&self.line());
@@ -153,6 +160,27 @@ impl Verdict {
         format!("  verified {programs}: {found}{pixels}\n")
     }
 
+    /// Whether the board is fit to be milled so, and what to change first where it is not.
+    #[must_use]
+    pub fn fitness(&self) -> String {
+        let count = super::summary::count;
+        let first = |severity: Severity| {
+            let worst = self.findings.iter().find(|finding| finding.severity == severity);
+            let check = worst.and_then(|finding| check::of(finding.name));
+            check.map_or(String::new(), |check| format!("; first, about `{}`: {}", check.name, check.cure))
+        };
+        match (self.errors, self.warnings) {
+            (0, 0) => "  fit to mill\n".to_owned(),
+            (0, warnings) => {
+                let them = if warnings == 1 { "it" } else { "them" };
+                format!("  fit to mill if you accept {}: look at {them} first\n", count(warnings, "warning"))
+            }
+            (errors, _) => {
+                format!("  not fit to mill: {}{}\n", count(errors, "error"), first(Severity::Error))
+            }
+        }
+    }
+
     /// As JSON text.
     #[must_use]
     pub fn to_json(&self) -> String {
@@ -164,7 +192,14 @@ impl Verdict {
     pub fn to_sarif(&self) -> String {
         let rules: Vec<_> = check::ALL
             .iter()
-            .map(|check| json!({ "id": check.name, "shortDescription": { "text": check.about } }))
+            .map(|check| {
+                json!({
+                    "id": check.name,
+                    "shortDescription": { "text": check.about },
+                    "fullDescription": { "text": check.cost },
+                    "help": { "text": check.cure },
+                })
+            })
             .collect();
         let results: Vec<_> =
             self.findings.iter().map(|finding| sarif(finding, self.program(finding))).collect();
@@ -261,7 +296,11 @@ fn place(finding: &FindingEntry) -> String {
     }
     let side = finding.side.map_or(String::new(), |side| format!("{side} "));
     if let Some(at) = finding.at {
-        let _ = write!(text, "{side}at {:.3}, {:.3} mm: ", at.x_mm.0, at.y_mm.0);
+        let _ = write!(text, "{side}at {:.3}, {:.3} mm", at.x_mm.0, at.y_mm.0);
+        if let Some(on_machine) = finding.on_machine.filter(|place| *place != at) {
+            let _ = write!(text, " (machine {:.3}, {:.3})", on_machine.x_mm.0, on_machine.y_mm.0);
+        }
+        text.push_str(": ");
     }
     text
 }

@@ -252,8 +252,8 @@ impl Error {
         match self {
             Self::NoTool { .. } => "name it: --tool vbit:0.1mm:30deg, or endmill:0.2mm",
             Self::NoSide(_) | Self::NoCopper { .. } => "name it: --side front, or back",
-            Self::Grid(_) => "choose a larger --resolution",
-            Self::Unplaced(_) => "say how it lies: --offset, --mirror, --rotate",
+            Self::Grid(_) => "choose a larger --pixel",
+            Self::Unplaced(_) => "say how it lies: --offset, --mirror-axis, --rotate",
             Self::Read { .. } | Self::Range { .. } | Self::NoMotion(_) => "",
         }
     }
@@ -310,9 +310,21 @@ pub fn verify(
         report.judged.push(judged);
         findings.extend(found);
     }
+    for finding in &mut findings {
+        finding.on_machine = on_machine(finding, &read);
+    }
     report.findings = findings;
     report.sort();
     Ok(report)
+}
+
+/// The place of a finding as its program has it; of what no program does, as one of those that
+/// should have done it has it.
+fn on_machine(finding: &Finding, read: &[Machining]) -> Option<Point> {
+    let by_name = |machining: &&Machining| finding.program.as_ref() == Some(&machining.file);
+    let role = finding.side.map_or(Role::Drilling, Role::Isolation);
+    let by_role = || read.iter().find(|machining| machining.role == role);
+    Some(read.iter().find(by_name).or_else(by_role)?.placement.apply(finding.at?))
 }
 
 fn judge(

@@ -23,6 +23,13 @@ impl Placement {
         turned(moved, -self.degrees)
     }
 
+    /// Where the point `p` of the board lies on the machine.
+    #[must_use]
+    pub fn apply(&self, p: Point) -> Point {
+        let moved = turned(p, self.degrees) + self.shift;
+        self.mirror.map_or(moved, |axis| Point::new(axis * 2 - moved.x, moved.y))
+    }
+
     /// The placement that turns a board so, and lays the point of it that `zero` picks from the
     /// turned bounds on zero.
     pub(super) fn turned(degrees: f64, bounds: Rect, zero: impl Fn(Rect) -> Point) -> Self {
@@ -72,5 +79,6 @@ mod tests {
         // (3, 1) turns to (-1, 3), moves to (4, 1), mirrors to (16, 1).
         let back = placement.undo(Point::new(Nm::from_mm(16), Nm::from_mm(1)));
         assert_eq!(back, Point::new(Nm::from_mm(3), Nm::from_mm(1)), "the way back");
+        assert_eq!(placement.apply(back), Point::new(Nm::from_mm(16), Nm::from_mm(1)), "and there again");
     }
 }

@@ -54,6 +54,8 @@ pub struct Finding {
     pub nets: Vec<String>,
     /// The place on the board, in the board's own coordinates.
     pub at: Option<Point>,
+    /// The same place on the machine.
+    pub on_machine: Option<Point>,
     /// How large: the width of a bridge, the depth of a gouge, how much a hole is off.
     pub size: Option<Nm>,
     /// How much copper, in mm².
@@ -77,6 +79,7 @@ impl Finding {
             side: None,
             nets: Vec::new(),
             at: None,
+            on_machine: None,
             size: None,
             area: None,
             program: None,

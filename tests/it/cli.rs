@@ -110,7 +110,7 @@ fn every_thread_count_gives_the_same_bytes() {
 fn the_report_on_stdout_is_the_report_in_the_file() {
     let out = folder();
     let board = fixture("boards/blinker");
-    let done = voromill(out.path(), &["mill", &board.to_string_lossy(), "--json", "-o", "."]);
+    let done = voromill(out.path(), &["mill", &board.to_string_lossy(), "--format", "json", "-o", "."]);
     let file = fs::read_to_string(out.path().join("blinker.json")).expect("written");
     assert_eq!(stdout(&done), file, "the same text");
     assert!(!file.contains(&*out.path().to_string_lossy()), "no path of this machine");
@@ -287,9 +287,10 @@ fn an_option_that_changes_nothing_is_neither_shown_nor_taken() {
             given.push(value);
         }
         fails(&out, &given, &[&format!("{option} changes nothing of what `voromill {command}` makes")], &[]);
-        let help = stdout(&voromill(out.path(), &[command, "--help"]));
-        assert!(!help.contains(option), "{command} --help is silent on {option}");
-        assert!(stdout(&voromill(out.path(), &["mill", "--help"])).contains(option), "mill takes {option}");
+        let help = stdout(&voromill(out.path(), &[command, "--help-all"]));
+        assert!(!help.contains(option), "{command} --help-all is silent on {option}");
+        let help = stdout(&voromill(out.path(), &["mill", "--help-all"]));
+        assert!(help.contains(option), "mill takes {option}");
     }
     // A settings file is for all of them.
     fs::write(out.path().join("all.toml"), "drill-depth = \"2mm\"\n").expect("written");
@@ -336,7 +337,7 @@ fn a_default_is_told_once() {
     for command in
         ["mill", "isolate", "draw", "inspect", "verify", "diff", "probe", "level", "tools", "machine", "init"]
     {
-        let help = stdout(&voromill(out.path(), &[command, "--help"]));
+        let help = stdout(&voromill(out.path(), &[command, "--help-all"]));
         let words = help.split_whitespace().collect::<Vec<_>>().join(" ");
         for option in words.split(" --") {
             let defaults = option.matches("[default: ").count();

@@ -545,7 +545,7 @@ fn the_walkthrough_bends_its_front() {
     };
     run(&["mill", &board, "--config", &config, "-o", "out", "--no-html", "--no-verify"]);
     let said = run(&["probe", &board, "--config", &config, "-o", "out/regulator-probe.ngc"]);
-    assert!(said.contains("35 touches"), "{said}");
+    assert!(said.contains("35 points to probe"), "{said}");
     let map = named("docs/walkthrough/regulator.probe");
     let tools = ["endmill-0.4mm", "vbit-0.1mm-20deg"].map(|tool| format!("out/regulator-front-{tool}"));
     for tool in &tools {

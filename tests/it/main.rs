@@ -59,3 +59,4 @@ mod verify_mutations;
 mod verify_whole;
 mod voronoi;
 mod warnings;
+mod words;

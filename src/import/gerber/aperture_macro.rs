@@ -4,6 +4,8 @@
 use std::f64::consts::PI;
 use std::ops::Range;
 
+use crate::geometry::Nm;
+
 use super::expression::{Fault, Variables, evaluate};
 use super::figure::{Figure, Primitive, arc};
 use super::lex::{Block, Number, is_blank};
@@ -265,6 +267,10 @@ impl Modifiers<'_> {
         let (outer, inner, half) = (self.length(2) / 2.0, self.length(3) / 2.0, self.length(4) / 2.0);
         if outer <= 0.0 || half * 2.0_f64.sqrt() >= outer {
             return Ok(()); // the cross covers it
+        }
+        if outer.max(inner) > Nm::MAX.to_f64() {
+            let expected = "a thermal of two metres at most";
+            return Err(self.statement.fault("this thermal is larger than any board", expected));
         }
         let from = libm::asin(half / outer);
         let mut quarter: Vec<_> = arc((0.0, 0.0), outer, from, PI / 2.0 - 2.0 * from).collect();

@@ -21,8 +21,13 @@ use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Cut;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a hole for turning over that holds no pin", run: Run::Alignment(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "an alignment hole that holds no pin",
+    cost: "a pin does not stand, and the back is not milled in register with the front",
+    cure: "drill deeper (--alignment-depth), or farther from the board (--alignment-margin)",
+    run: Run::Alignment(check),
+};
 
 const NAME: &str = "alignment-hole";
 

@@ -22,8 +22,13 @@ use crate::verify::Settings;
 use crate::verify::contours::{Contours, Taken};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a cutout that cuts into the board", run: Run::Cutout(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a cutout that cuts into the board",
+    cost: "the board loses a part of its edge, and maybe copper",
+    cure: "check the cutter (--cutout-tool) and the offset of the program",
+    run: Run::Cutout(check),
+};
 
 const NAME: &str = "board-gouged";
 

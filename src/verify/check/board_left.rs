@@ -21,8 +21,13 @@ use crate::verify::Settings;
 use crate::verify::contours::{Contours, Ring, State, Stretch};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "an edge that is not cut, or too far out", run: Run::Cutout(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "an edge that is not cut, or too far out",
+    cost: "the board stays too large, or hangs on the stock",
+    cure: "check the cutter (--cutout-tool), and that the outline is closed",
+    run: Run::Cutout(check),
+};
 
 const NAME: &str = "board-left";
 

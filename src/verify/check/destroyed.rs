@@ -16,8 +16,13 @@ use crate::verify::remains::Rest;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a net milled away", run: Run::Isolation(|sheet, _| check(sheet)) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a net milled away",
+    cost: "all copper of a net is gone",
+    cure: "check tool, offset and scale of the program; a net narrower than the kerf needs a narrower tool",
+    run: Run::Isolation(|sheet, _| check(sheet)),
+};
 
 const NAME: &str = "destroyed";
 

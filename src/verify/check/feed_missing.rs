@@ -17,6 +17,9 @@ use crate::gcode::read::{Motion, Way};
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "a motion at a feed that was never given",
+    cost: "the controller stops with an error, or moves at a speed that nobody chose",
+    cure: "give a feed (F) with the first cut (--feed)",
+
     run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)),
 };
 

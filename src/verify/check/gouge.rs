@@ -34,8 +34,13 @@ use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::width::{Width, narrowest};
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "copper of the design cut away", run: Run::Isolation(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "copper of the design cut away",
+    cost: "a trace or pad loses copper: it carries less current, and may come off when it is soldered",
+    cure: "use a narrower tool, or with a V-bit the --kerf that fits; --narrow skip leaves such a gap uncut, and its nets joined",
+    run: Run::Isolation(check),
+};
 
 const NAME: &str = "gouge";
 
@@ -135,9 +140,19 @@ fn one_for_each_place(sheet: &Sheet<'_>, mut gouges: Vec<Gouge>) -> Vec<Gouge> {
     places
 }
 
-/// Why copper had to be cut away, for people.
-const fn why(hit: &Hit) -> &'static str {
-    if hit.forced { ": the gap is narrower than the kerf" } else { "" }
+/// A narrower kerf is none that a tool cuts. Chosen: finer tips break.
+const FINEST: f64 = 20_000.0;
+
+/// Why copper had to be cut away, for people, and the kerf that takes none at the deepest of these
+/// places; of places that nothing forced, nothing.
+fn why(sheet: &Sheet<'_>, deepest: &Hit, gaps: &str) -> String {
+    if !deepest.forced {
+        return String::new();
+    }
+    let kerf = sheet.cuts[deepest.cut].swept.half().to_f64() * 2.0 - deepest.depth * 2.0;
+    let fits = Nm::from_f64((kerf / 1_000.0).floor() * 1_000.0);
+    let fits = if kerf < FINEST { String::new() } else { format!("; one of {fits:.3} mm fits") };
+    format!(": {gaps} narrower than the kerf{fits}")
 }
 
 fn finding(sheet: &Sheet<'_>, gouge: &Gouge) -> Finding {
@@ -147,7 +162,7 @@ fn finding(sheet: &Sheet<'_>, gouge: &Gouge) -> Finding {
         format!(", {left:.3} mm of {designed:.3} mm are left")
     });
     let (depth, names_and) = (deepest.depth / 1000.0, names.join(" and "));
-    let why = why(deepest);
+    let why = why(sheet, deepest, "the gap is");
     let message = format!("{depth:.0} µm of {names_and} are cut away, {area:.4} mm²{left}{why}");
     let cut = sheet.cuts[deepest.cut];
     Finding {
@@ -176,7 +191,7 @@ fn together(sheet: &Sheet<'_>, gouges: &[Gouge]) -> Option<Finding> {
         gouges.iter().flat_map(|gouge| std::iter::once(gouge.deepest.at).chain(gouge.places.iter().copied()));
     let others = places.filter(|at| *at != worst.deepest.at);
     let depth = worst.deepest.depth / 1000.0;
-    let why = if worst.deepest.forced { ": their gaps are narrower than the kerf" } else { "" };
+    let why = why(sheet, &worst.deepest, "their gaps are");
     let count = gouges.len();
     let message = format!("up to {depth:.0} µm of copper are cut away in {count} places, {area:.4} mm²{why}");
     Some(Finding {

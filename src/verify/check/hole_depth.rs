@@ -18,8 +18,13 @@ use crate::verify::Settings;
 use crate::verify::bores::{Bore, Bores, Made};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a hole that does not go through the board", run: Run::Drilling(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a hole that does not go through the board",
+    cost: "the hole does not go through the board",
+    cure: "drill deeper (--break-through, --drill-depth), or say how thick the board is (--thickness)",
+    run: Run::Drilling(check),
+};
 
 const NAME: &str = "hole-depth";
 

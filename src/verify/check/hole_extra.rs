@@ -17,8 +17,13 @@ use crate::verify::bores::Bores;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Cut;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a hole that the board has not", run: Run::Drilling(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a hole that the board has not",
+    cost: "a hole that the design does not have may cut a trace",
+    cure: "check that the program belongs to this board, and its offset",
+    run: Run::Drilling(check),
+};
 
 const NAME: &str = "hole-extra";
 

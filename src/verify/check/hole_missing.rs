@@ -16,8 +16,13 @@ use crate::verify::Settings;
 use crate::verify::bores::Bores;
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a hole that is not drilled", run: Run::Drilling(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a hole that is not drilled",
+    cost: "a part does not fit, or a via is missing",
+    cure: "mill the drill programs too, or name the drill file (--drill)",
+    run: Run::Drilling(check),
+};
 
 const NAME: &str = "hole-missing";
 

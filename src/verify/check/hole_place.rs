@@ -18,8 +18,13 @@ use crate::verify::Settings;
 use crate::verify::bores::{Bore, Bores, Made};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a hole beside its place", run: Run::Drilling(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a hole beside its place",
+    cost: "pins do not fit, and the pad round the hole is broken",
+    cure: "check offset, mirror axis and scale of the program",
+    run: Run::Drilling(check),
+};
 
 const NAME: &str = "hole-place";
 

@@ -17,8 +17,13 @@ use crate::verify::Settings;
 use crate::verify::bores::{Bore, Bores, Made};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a hole or slot of another size", run: Run::Drilling(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a hole or slot of another size",
+    cost: "pins do not fit, or the pad is drilled away",
+    cure: "choose another drill (--drills, --drill-tolerance), or bore the hole (--drill-bore-from)",
+    run: Run::Drilling(check),
+};
 
 const NAME: &str = "hole-size";
 

@@ -27,8 +27,13 @@ use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::width::{Width, narrowest};
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a net left with less than half its width", run: Run::Isolation(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a net left with less than half its width",
+    cost: "a trace keeps less than half of its width: it carries less current and breaks easily",
+    cure: "use a narrower tool, or a smaller --depth with a V-bit",
+    run: Run::Isolation(check),
+};
 
 const NAME: &str = "minimum-width";
 

@@ -47,6 +47,10 @@ pub struct Check {
     pub name: &'static str,
     /// What it finds, in a line.
     pub about: &'static str,
+    /// What that does to the board, the tool or the machine.
+    pub cost: &'static str,
+    /// What to try.
+    pub cure: &'static str,
     run: Run,
 }
 
@@ -100,6 +104,12 @@ pub const ALL: &[Check] = &[
     tab_thin::CHECK,
     program_missing::CHECK,
 ];
+
+/// The check of this name.
+#[must_use]
+pub fn of(name: &str) -> Option<&'static Check> {
+    ALL.iter().find(|check| check.name == name)
+}
 
 /// The checks of any program.
 pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {

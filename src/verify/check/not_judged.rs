@@ -18,6 +18,9 @@ use crate::verify::sheet::Sheet;
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "cuts so crowded that not all was looked at",
+    cost: "nobody knows what became of the copper there",
+    cure: "look at the program: it cuts the same places hundreds of times",
+
     run: Run::Isolation(|sheet, _| check(sheet)),
 };
 

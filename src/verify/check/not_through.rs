@@ -16,8 +16,13 @@ use crate::verify::Settings;
 use crate::verify::contours::{Contours, Ring, State, Stretch};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "an edge that is not cut through the board", run: Run::Cutout(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "an edge that is not cut through the board",
+    cost: "the board does not come out of the stock",
+    cure: "cut deeper (--cutout-depth), or say how thick the board is (--thickness)",
+    run: Run::Cutout(check),
+};
 
 const NAME: &str = "not-through";
 

@@ -20,8 +20,13 @@ use crate::verify::remains::{Remnant, Rest};
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a net cut in two", run: Run::Isolation(|sheet, _| check(sheet)) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a net cut in two",
+    cost: "a net is interrupted: one part of it is not connected to the other",
+    cure: "use a narrower tool, or a smaller --depth with a V-bit; of another's program check tool and offset",
+    run: Run::Isolation(|sheet, _| check(sheet)),
+};
 
 const NAME: &str = "open";
 

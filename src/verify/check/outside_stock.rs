@@ -18,8 +18,13 @@ use crate::verify::Settings;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a cut beyond the stock", run: Run::Motion(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a cut beyond the stock",
+    cost: "the tool may cut the bed or a clamp",
+    cure: "check unit, origin and offset of the program (--origin, --offset)",
+    run: Run::Motion(check),
+};
 
 const NAME: &str = "outside-stock";
 

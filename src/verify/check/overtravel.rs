@@ -22,6 +22,9 @@ use crate::verify::report::Finding;
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "a program that spans more than the machine can travel",
+    cost: "the machine runs into its end stops",
+    cure: "turn the board (--rotate 90deg), or mill fewer tiles at once (--tile)",
+
     run: Run::Motion(|program, _, settings| check(program, settings)),
 };
 

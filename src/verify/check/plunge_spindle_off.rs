@@ -17,6 +17,9 @@ use crate::geometry::Nm;
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "the tool is in material while the spindle is off",
+    cost: "a tool that does not turn is pressed into the board: it breaks",
+    cure: "start the spindle (M3 S…) before the first plunge",
+
     run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)),
 };
 

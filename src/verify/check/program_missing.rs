@@ -17,8 +17,13 @@ use crate::board::{Board, Side};
 use crate::verify::report::Finding;
 use crate::verify::{Role, Settings};
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a side, drill or cutout that nobody wrote", run: Run::Whole(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a side, drill or cutout that nobody wrote",
+    cost: "the board is not finished",
+    cure: "make the missing program, or leave the layer aside with --skip",
+    run: Run::Whole(check),
+};
 
 const NAME: &str = "program-missing";
 

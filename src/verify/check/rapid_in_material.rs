@@ -18,6 +18,9 @@ use crate::geometry::Nm;
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "a rapid through material, or just above it",
+    cost: "the tool is driven through material at full speed: it breaks",
+    cure: "retract before each rapid, higher than the surface (--safe-z)",
+
     run: Run::Motion(|program, _, settings| {
         each_stretch(program, NAME, |motion| wrong(motion, settings.clearance))
     }),

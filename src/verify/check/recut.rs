@@ -21,8 +21,13 @@ use crate::geometry::{Nm, Point};
 use crate::verify::report::Finding;
 use crate::verify::sheet::{Cut, Sheet};
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "much of the way is cut twice", run: Run::Isolation(|sheet, _| check(sheet)) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "much of the way is cut twice",
+    cost: "nothing but time",
+    cure: "nothing; boundaries that are cut once, as by --strategy voronoi, take less time",
+    run: Run::Isolation(|sheet, _| check(sheet)),
+};
 
 const NAME: &str = "recut";
 

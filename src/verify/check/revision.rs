@@ -25,6 +25,9 @@ use crate::verify::{Input, Program};
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "a program that was made from other files than it is judged by",
+    cost: "the board is milled as it was before its files changed",
+    cure: "make the programs again from these files",
+
     run: Run::Inputs(check),
 };
 

@@ -28,6 +28,9 @@ use crate::verify::sheet::{Cut, NETS, Sheet};
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "two nets joined by copper that was left",
+    cost: "current flows between nets that must be apart: the board does not work",
+    cure: "isolate with a narrower cut (--tool, or --depth with a V-bit), and check that every cut goes through the copper (--depth, `voromill level`)",
+
     run: Run::Isolation(|sheet, _| check(sheet)),
 };
 
@@ -103,7 +106,10 @@ struct Bridge {
 
 fn finding(sheet: &Sheet<'_>, bridge: &Bridge, count: usize) -> Finding {
     let [a, b] = [bridge.nets.0, bridge.nets.1].map(|net| sheet.nets.label(net));
-    let wide = bridge.width.map_or(String::new(), |width| format!(", {width:.3} mm wide"));
+    let wide = bridge.width.map_or(String::new(), |width| match width < Nm::from_um(1) {
+        true => ", less than a micrometre wide".to_owned(),
+        false => format!(", {width:.3} mm wide"),
+    });
     let of = if count > 2 { format!(" (of {count} nets in one piece)") } else { String::new() };
     let cause = nearest(sheet, bridge.at);
     Finding {

@@ -27,6 +27,9 @@ use crate::verify::walls::Neck;
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "a thin strip of copper left between two cuts, or at the edge",
+    cost: "a thin strip of copper may come loose and join two nets",
+    cure: "clear it away with --width, --passes or --clear, or scrape it off",
+
     run: Run::Isolation(check),
 };
 

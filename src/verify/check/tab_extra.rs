@@ -16,8 +16,13 @@ use crate::verify::Settings;
 use crate::verify::contours::Contours;
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "more tabs than were asked for", run: Run::Cutout(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "more tabs than were asked for",
+    cost: "more is left to be cut by hand",
+    cure: "check --tabs",
+    run: Run::Cutout(check),
+};
 
 const NAME: &str = "tab-extra";
 

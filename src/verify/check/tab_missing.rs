@@ -24,8 +24,13 @@ use crate::verify::pieces::{Joiner, Part};
 use crate::verify::report::Finding;
 use crate::verify::spans::{Spans, filled, less};
 
-pub(super) const CHECK: Check =
-    Check { name: NAME, about: "a board cut out with nothing to hold it", run: Run::Cutout(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a board cut out with nothing to hold it",
+    cost: "the board comes loose while it is cut out, and the cutter catches it",
+    cure: "ask for tabs (--tabs 4); of a board that is held otherwise say so (`verify --tabs 0`)",
+    run: Run::Cutout(check),
+};
 
 const NAME: &str = "tab-missing";
 

@@ -18,7 +18,13 @@ use crate::verify::Settings;
 use crate::verify::contours::{Contours, State, Stretch};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check { name: NAME, about: "a tab that breaks", run: Run::Cutout(check) };
+pub(super) const CHECK: Check = Check {
+    name: NAME,
+    about: "a tab that breaks",
+    cost: "the tab breaks while the board is cut out",
+    cure: "make tabs wider or higher (--tab-width, --tab-height)",
+    run: Run::Cutout(check),
+};
 
 const NAME: &str = "tab-thin";
 

@@ -23,6 +23,9 @@ use crate::verify::{Role, Settings};
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "an isolating cut that goes far deeper than the copper asks for",
+    cost: "the cut is wider than planned, and may go through the board",
+    cure: "check the unit and the Z words of the program",
+
     run: Run::Motion(|program, _, settings| check(program, settings)),
 };
 

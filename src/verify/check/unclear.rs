@@ -20,6 +20,9 @@ use crate::verify::report::Finding;
 pub(super) const CHECK: Check = Check {
     name: NAME,
     about: "something that the program leaves open",
+    cost: "what the machine does depends on the state that it is in",
+    cure: "write it into the program: the unit (G21), the spindle speed (S), the coordinate system (G54)",
+
     run: Run::Motion(|program, _, _| check(program)),
 };
 
