@@ -63,6 +63,42 @@ const fn planned(
 /// What is noticed while programs and masks are made.
 const PLANNED: &[Explained] = &[
     planned(
+        "axis-incomplete",
+        "the medial axis of a carved shape may lack a branch",
+        "a corner may stay uncut: this is a fault of voromill",
+        "look at the place, and report it with the file",
+    ),
+    planned(
+        "narrower-than-tip",
+        "shapes are narrower than the tip of the V-bit",
+        "they are not carved",
+        "use a V-bit with a finer tip (--tool), or larger shapes",
+    ),
+    planned(
+        "wide-place-left",
+        "shapes are wider than the V-bit cuts at its greatest depth",
+        "there it follows the middle alone, and leaves the rest",
+        "allow more (--max-depth), or clear the rest with an end mill",
+    ),
+    planned(
+        "carved-outside",
+        "a program mills beside the shapes to be carved",
+        "the picture is spoilt there",
+        "check offset, scale and tool of the program",
+    ),
+    planned(
+        "carved-too-deep",
+        "a program mills deeper than the shapes are wide",
+        "edges of the shapes are cut away",
+        "check the tool: its angle and its tip",
+    ),
+    planned(
+        "carved-too-shallow",
+        "a program leaves what its tool could carve",
+        "lines come out thinner than they are",
+        "check the tool, and where Z is zero",
+    ),
+    planned(
         "beyond-the-machine",
         "the program spans more than the machine can move",
         "the machine runs into its end stops",
