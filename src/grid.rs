@@ -80,7 +80,14 @@ impl Grid {
     /// `height` of its rows from row `top` on, as a picture of their own: the same pixels.
     #[must_use]
     pub fn rows(&self, top: u32, height: u32) -> Self {
-        Self { top: self.top - self.pitch * i64::from(top), height: height.max(1), ..*self }
+        self.part((0, top), self.width, height)
+    }
+
+    /// `width` by `height` of its pixels from a column and row on, as a picture of their own.
+    #[must_use]
+    pub fn part(&self, (column, row): (u32, u32), width: u32, height: u32) -> Self {
+        let corner = self.corner(i64::from(column), i64::from(row));
+        Self { left: corner.x, top: corner.y, width: width.max(1), height: height.max(1), ..*self }
     }
 
     /// Pixels across.

@@ -235,10 +235,9 @@ impl<F: Field> WithSimd for Lay<'_, F> {
                     *old_label = label;
                 }),
                 Extent::Whole => along(simd, block.x, row_depths, row_labels, |x, old_depth, old_label| {
-                    let depth = F::depth(row, x);
-                    let closer = depth.less(Lanes::new(simd, *old_depth)).value;
-                    *old_depth = simd.select_f32s(closer, depth.value, *old_depth);
-                    *old_label = simd.select_u32s(closer, label, *old_label);
+                    let (depth, old) = (F::depth(row, x), Lanes::new(simd, *old_depth));
+                    *old_label = depth.less(old).merge(label, *old_label);
+                    *old_depth = depth.min(old).value;
                 }),
                 Extent::Part(_, limit) => {
                     let Some(columns) = columns.next().filter(|columns| !columns.is_empty()) else {
@@ -247,12 +246,14 @@ impl<F: Field> WithSimd for Lay<'_, F> {
                     let limit = Lanes::splat(simd, limit);
                     let from = Lanes::splat(simd, position(columns.start));
                     let to = Lanes::splat(simd, position(columns.end));
+                    let far = Lanes::splat(simd, f32::INFINITY);
                     along(simd, block.x, row_depths, row_labels, |x, old_depth, old_label| {
                         let depth = F::depth(row, x);
                         let inside = from.at_most(x).and(x.less(to)).and(depth.at_most(limit));
-                        let closer = depth.less(Lanes::new(simd, *old_depth)).and(inside).value;
-                        *old_depth = simd.select_f32s(closer, depth.value, *old_depth);
-                        *old_label = simd.select_u32s(closer, label, *old_label);
+                        let old = Lanes::new(simd, *old_depth);
+                        let depth = inside.select(depth, far);
+                        *old_label = depth.less(old).merge(label, *old_label);
+                        *old_depth = depth.min(old).value;
                     });
                 }
             }

@@ -80,6 +80,15 @@ impl<S: Simd> Mask<S> {
         Self { value: self.simd.and_m32s(self.value, other.value), ..self }
     }
 
+    /// One label where the lane is in the mask, the other where it is not, without a choice: as a
+    /// choice that is stored where it was read, it would become a masked store.
+    #[inline(always)]
+    pub(super) fn merge(self, inside: S::u32s, outside: S::u32s) -> S::u32s {
+        let simd = self.simd;
+        let bits = simd.select_u32s(self.value, simd.splat_u32s(u32::MAX), simd.splat_u32s(0));
+        simd.xor_u32s(outside, simd.and_u32s(simd.xor_u32s(outside, inside), bits))
+    }
+
     /// One number where the lane is in the mask, the other where it is not.
     #[inline(always)]
     pub(super) fn select(self, inside: Lanes<S>, outside: Lanes<S>) -> Lanes<S> {

@@ -1,19 +1,20 @@
 //! What another program cuts that this one does not: copper, not lines.
 //!
-//! Both are drawn on one picture, row of tiles by row of tiles. A pixel is a difference where one
-//! cuts it and the other stays clear of it by more than a tolerance, so that programs that say the
-//! same in other words (lines for arcs, another order, other digits) do not differ. Differences
-//! that hang together are one.
+//! Both are drawn tile by tile where one has cuts that the other has not; a pixel that no such cut
+//! covers cannot differ. It does where one cuts it and the other stays clear of it by more than a
+//! tolerance, so that programs that say the same in other words (lines for arcs, another order,
+//! other digits) do not differ. Differences that hang together are one.
 
 use rayon::prelude::*;
+use rustc_hash::FxHashSet;
 
 use crate::board::{Board, Shape};
-use crate::geometry::{Nm, Point, Rect};
+use crate::geometry::{Arc, Nm, Point, Rect, Turn};
 use crate::grid::Grid;
 use crate::raster::{Buffers, Label, Scene, render};
-use crate::topology::surface;
+use crate::topology::{RectIndex, surface};
 
-use super::machining::{Machining, with_radius};
+use super::machining::Machining;
 use super::pieces::{Joiner, Run};
 use super::sheet::pixel;
 use super::{Error, Placement, Program, Role, Settings};
@@ -39,7 +40,7 @@ pub struct Region {
 }
 
 /// How two programs differ.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Comparison {
     /// Where, the largest first.
     pub regions: Vec<Region>,
@@ -47,8 +48,8 @@ pub struct Comparison {
     pub resolution: Nm,
     /// What both together cut lies within; none where neither cuts.
     pub rect: Option<Rect>,
-    before: Vec<Shape>,
-    after: Vec<Shape>,
+    before: Cuts,
+    after: Cuts,
     tolerance: Nm,
 }
 
@@ -80,10 +81,14 @@ pub fn diff(
     let rect = shapes().map(Shape::bounds).reduce(Rect::union);
     let narrowest = shapes().map(half).min().unwrap_or(Nm::from_um(100));
     let resolution = settings.pixel.unwrap_or_else(|| pixel(narrowest));
+    let others = [&after, &before].map(|shapes| shapes.iter().collect::<FxHashSet<_>>());
+    let only = [&before, &after].into_iter().zip(&others).map(|(own, other)| Index::without(own, other));
+    let only: Vec<Index> = only.collect();
+    let [before, after] = [before, after].map(|shapes| Cuts::new(shapes, tolerance));
     let mut comparison = Comparison { regions: Vec::new(), resolution, rect, before, after, tolerance };
     if let Some(rect) = rect {
         let grid = Grid::covering(rect.inflate(resolution), resolution)?;
-        comparison.regions = comparison.regions(&grid)?;
+        comparison.regions = comparison.regions(&grid, &only);
     }
     Ok(comparison)
 }
@@ -97,7 +102,54 @@ fn swept(program: &Program, settings: &Settings) -> Result<Vec<Shape>, Error> {
     let role = program.role.unwrap_or(Role::Cutout);
     let placed = Program { role: Some(role), placement: Some(Placement::default()), ..program.clone() };
     let read = Machining::read(&placed, &Board::default(), settings)?;
-    Ok(read.swept.into_iter().map(|swept| swept.shape).collect())
+    Ok(read.swept.into_iter().map(|swept| undirected(swept.shape)).collect())
+}
+
+/// The same shape whichever way it is cut.
+fn undirected(shape: Shape) -> Shape {
+    match shape {
+        Shape::Stroke { from, to, radius } if to < from => Shape::Stroke { from: to, to: from, radius },
+        Shape::Arc { arc, radius } if arc.turn == Turn::Clockwise => {
+            let arc = Arc { start: arc.end, end: arc.start, turn: Turn::CounterClockwise, ..arc };
+            Shape::Arc { arc, radius }
+        }
+        other => other,
+    }
+}
+
+/// What a program cuts, by place.
+#[derive(Debug)]
+struct Cuts {
+    shapes: Vec<Shape>,
+    /// As far as what counts as cut reaches.
+    index: RectIndex,
+}
+
+impl Cuts {
+    fn new(shapes: Vec<Shape>, tolerance: Nm) -> Self {
+        let index = RectIndex::new(shapes.iter().map(|shape| shape.bounds().inflate(tolerance)));
+        Self { shapes, index }
+    }
+
+    /// How far pixels lie beyond the cuts, up to `tolerance`; 0 where they are cut.
+    fn draw(&self, grid: &Grid, tolerance: Nm, buffers: &mut Buffers) {
+        let mut scene = Scene::new(grid.width(), grid.height());
+        for number in self.index.touching(grid.rect()) {
+            scene.add(Label(1), surface(&self.shapes[number], grid, Some(grid.pixels(tolerance))));
+        }
+        render(&scene, buffers);
+    }
+}
+
+/// Where one program has cuts that the other has not.
+struct Index(RectIndex);
+
+impl Index {
+    /// Of what is in `own` and not in `other`.
+    fn without(own: &[Shape], other: &FxHashSet<&Shape>) -> Self {
+        let only: Vec<Rect> = own.iter().filter(|shape| !other.contains(shape)).map(Shape::bounds).collect();
+        Self(RectIndex::new(only.into_iter()))
+    }
 }
 
 const fn half(shape: &Shape) -> Nm {
@@ -107,8 +159,9 @@ const fn half(shape: &Shape) -> Nm {
     }
 }
 
-/// Rows that are drawn at once. Chosen: as many as tiles are high in the renderer's own squares.
-const BAND: u32 = 256;
+/// Pixels along a side of what is drawn at once. Chosen: half as much took a tenth longer, twice as
+/// much draws more beside what differs.
+const TILE: u32 = 128;
 
 impl Comparison {
     /// Whether both cut the same.
@@ -132,42 +185,56 @@ impl Comparison {
     pub fn picture(&self, rect: Rect, most: u32) -> Result<(Grid, Vec<Spot>), Error> {
         let least = Nm::new((rect.width().max(rect.height()) / i64::from(most)).get() + 1);
         let grid = Grid::covering(rect, least.max(self.resolution))?;
-        Ok((grid, self.spots(&grid)))
+        let mut spots = vec![Spot::Neither; grid.width() as usize * grid.height() as usize];
+        let band = grid.width() as usize * TILE as usize;
+        spots.par_chunks_mut(band).zip(tops(&grid)).for_each(|(band, top)| {
+            for (column, tile) in tiles(&grid, top) {
+                let (width, drawn) = (tile.width() as usize, self.spots(&tile));
+                let rows = band.chunks_exact_mut(grid.width() as usize).zip(drawn.chunks_exact(width));
+                rows.for_each(|(row, drawn)| row[column as usize..][..width].copy_from_slice(drawn));
+            }
+        });
+        Ok((grid, spots))
     }
 
     /// What lies at each pixel.
     fn spots(&self, grid: &Grid) -> Vec<Spot> {
-        let sides = [
-            (&self.before, Nm::ZERO),
-            (&self.after, Nm::ZERO),
-            (&self.before, self.tolerance),
-            (&self.after, self.tolerance),
-        ];
-        let drawn: Vec<Buffers> =
-            sides.into_par_iter().map(|(shapes, wider)| draw(shapes, grid, wider)).collect();
-        let [before, after, near_before, near_after] = [0, 1, 2, 3].map(|side: usize| drawn[side].labels());
-        let spot = |pixel: usize| match (before[pixel], after[pixel], near_before[pixel], near_after[pixel]) {
-            (0, 0, _, _) => Spot::Neither,
-            (0, _, 0, _) => Spot::One(Change::Cut),
-            (_, 0, _, 0) => Spot::One(Change::Left),
+        let [mut before, mut after] = [Buffers::new(), Buffers::new()];
+        self.before.draw(grid, self.tolerance, &mut before);
+        self.after.draw(grid, self.tolerance, &mut after);
+        let spot = |(&before, &after): (&f32, &f32)| match (before <= 0.0, after <= 0.0) {
+            (false, false) => Spot::Neither,
+            (false, true) if before.is_infinite() => Spot::One(Change::Cut),
+            (true, false) if after.is_infinite() => Spot::One(Change::Left),
             _ => Spot::Both,
         };
-        (0..before.len()).map(spot).collect()
+        before.depths().iter().zip(after.depths()).map(spot).collect()
     }
 
-    /// What differs, on this grid, band by band.
-    fn regions(&self, grid: &Grid) -> Result<Vec<Region>, Error> {
+    /// What differs, on this grid, tile by tile: only those where one program has cuts that the
+    /// other has not.
+    fn regions(&self, grid: &Grid, only: &[Index]) -> Vec<Region> {
         // What is cut and what is left each hang together by themselves, though they may touch.
         let (mut cut, mut left) = (Joiner::default(), Joiner::default());
-        for top in (0..grid.height()).step_by(BAND as usize) {
-            let height = BAND.min(grid.height() - top);
-            let corner = grid.corner(0, i64::from(top));
-            let below = grid.corner(i64::from(grid.width()), i64::from(top + height));
-            let band = Grid::covering(Rect::new(corner, below), grid.pitch())?;
-            let spots = self.spots(&band);
-            for (row, spots) in (top..).zip(spots.chunks_exact(grid.width() as usize)) {
-                cut.row(row, &runs(spots, Change::Cut));
-                left.row(row, &runs(spots, Change::Left));
+        for top in tops(grid) {
+            let differs =
+                |(_, tile): &(u32, Grid)| only.iter().any(|only| !only.0.touching(tile.rect()).is_empty());
+            let drawn: Vec<(u32, u32, Vec<Spot>)> = tiles(grid, top)
+                .collect::<Vec<_>>()
+                .into_par_iter()
+                .filter(differs)
+                .map(|(column, tile)| (column, tile.width(), self.spots(&tile)))
+                .collect();
+            for row in top..grid.height().min(top + TILE) {
+                let runs = |change: Change| -> Vec<Run> {
+                    let of = |(column, width, spots): &(u32, u32, Vec<Spot>)| {
+                        let from = (row - top) as usize * *width as usize;
+                        runs(*column, &spots[from..][..*width as usize], change)
+                    };
+                    drawn.iter().flat_map(of).collect()
+                };
+                cut.row(row, &runs(Change::Cut));
+                left.row(row, &runs(Change::Left));
             }
         }
         let mm2 = grid.pitch().to_mm() * grid.pitch().to_mm();
@@ -186,13 +253,26 @@ impl Comparison {
         regions.sort_by(|a, b| {
             b.area.total_cmp(&a.area).then((a.rect.min(), a.change).cmp(&(b.rect.min(), b.change)))
         });
-        Ok(regions)
+        regions
     }
 }
 
-/// The differences of one kind in a row of pixels.
-fn runs(spots: &[Spot], change: Change) -> Vec<Run> {
-    let mut start = 0_u32;
+/// The first rows of the rows of tiles.
+fn tops(grid: &Grid) -> Vec<u32> {
+    (0..grid.height()).step_by(TILE as usize).collect()
+}
+
+/// The tiles of a row of them, each with its first column.
+fn tiles(grid: &Grid, top: u32) -> impl Iterator<Item = (u32, Grid)> {
+    let height = TILE.min(grid.height() - top);
+    (0..grid.width())
+        .step_by(TILE as usize)
+        .map(move |column| (column, grid.part((column, top), TILE.min(grid.width() - column), height)))
+}
+
+/// The differences of one kind in a row of pixels, of which the first is in this column.
+fn runs(column: u32, spots: &[Spot], change: Change) -> Vec<Run> {
+    let mut start = column;
     let mut runs = Vec::new();
     for same in spots.chunk_by(|a, b| a == b) {
         let end = start + u32::try_from(same.len()).expect("a picture is at most 2¹⁶ wide");
@@ -202,19 +282,6 @@ fn runs(spots: &[Spot], change: Change) -> Vec<Run> {
         start = end;
     }
     runs
-}
-
-fn draw(shapes: &[Shape], grid: &Grid, wider: Nm) -> Buffers {
-    let mut scene = Scene::new(grid.width(), grid.height());
-    for shape in shapes {
-        let shape = with_radius(shape, half(shape) + wider);
-        if shape.bounds().touches(grid.rect()) {
-            scene.add(Label(1), surface(&shape, grid, Some(0.0)));
-        }
-    }
-    let mut buffers = Buffers::new();
-    render(&scene, &mut buffers);
-    buffers
 }
 
 impl Region {

@@ -159,6 +159,54 @@ fn a_loop_that_moved_is_cut_in_one_place_and_left_in_another() {
     }
 }
 
+/// Strokes by chance, every third the other way round in the second program, some in one alone.
+#[test]
+fn differences_cover_what_exact_distances_say() {
+    let mut seed = 5_u64;
+    let mut chance = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        f64::from(u32::try_from(seed >> 40).expect("24 bits")) / f64::from(1_u32 << 24)
+    };
+    let strokes: Vec<[f64; 4]> = (0..40).map(|_| [(); 4].map(|()| 12.0 * chance())).collect();
+    // The last of each crosses many tiles and everything else.
+    let before: Vec<[f64; 4]> = strokes[..32].iter().copied().chain([[0.0, 0.0, 12.0, 11.0]]).collect();
+    let after: Vec<[f64; 4]> = strokes[8..].iter().copied().chain([[0.0, 11.5, 12.0, 0.5]]).collect();
+    let text = |strokes: &[[f64; 4]], turned: usize| {
+        let line = |(number, &[x, y, to_x, to_y]): (usize, &[f64; 4])| {
+            let ends = [(x, y), (to_x, to_y)];
+            let [from, to] = if number % 3 == turned { [ends[1], ends[0]] } else { ends };
+            format!("G0 X{:.6} Y{:.6}\nG1 Z-0.1\nG1 X{:.6} Y{:.6}\nG0 Z2\n", from.0, from.1, to.0, to.1)
+        };
+        let lines: String = strokes.iter().enumerate().map(line).collect();
+        format!("(front isolation)\n(tool endmill:0.2mm)\nG21 G90 G17 F100\nM3 S1000\nG0 Z2\n{lines}M5\nM2\n")
+    };
+    let program = |text: String| Program { file: "x.ngc".to_owned(), text, ..Program::default() };
+    let (old, new) = (program(text(&before, 3)), program(text(&after, 1)));
+    let found = diff(&old, &new, Nm::from_um(5), &Settings::default()).expect("compared");
+    let away = |strokes: &[[f64; 4]], x: f64, y: f64| {
+        let to = |&[ax, ay, bx, by]: &[f64; 4]| {
+            let (ux, uy, wx, wy) = (bx - ax, by - ay, x - ax, y - ay);
+            let t = ((wx * ux + wy * uy) / (ux * ux + uy * uy)).clamp(0.0, 1.0);
+            ((wx - t * ux).powi(2) + (wy - t * uy).powi(2)).sqrt()
+        };
+        strokes.iter().map(to).fold(f64::INFINITY, f64::min)
+    };
+    let places = (0..480).flat_map(|i| (0..480).map(move |j| (f64::from(i) / 40.0, f64::from(j) / 40.0)));
+    let (mut cut, mut left) = (0.0, 0.0);
+    for (x, y) in places {
+        let (old, new) = (away(&before, x, y), away(&after, x, y));
+        cut += if new <= 0.1 && old > 0.105 { 6.25e-4 } else { 0.0 };
+        left += if old <= 0.1 && new > 0.105 { 6.25e-4 } else { 0.0 };
+    }
+    for (change, expected) in [(Change::Cut, cut), (Change::Left, left)] {
+        let area = found.total(change).1;
+        // Ends of strokes lie half a kerf beyond the square that is sampled.
+        assert!(expected > 5.0 && (area - expected).abs() < 0.15 + expected * 0.01, "{area} for {expected}");
+    }
+    let turned = diff(&old, &program(text(&before, 2)), Nm::ZERO, &Settings::default()).expect("compared");
+    assert!(turned.is_same(), "the way that a line is cut is no difference");
+}
+
 /// Cutouts that other people gathered beside boards they were not made for: `VOROMILL_ARTWORK`, or
 /// `../shared/artwork`.
 #[test]
