@@ -42,7 +42,7 @@ pub(crate) const FAMILY: [Member; 14] = [
     member("serrated", "vertices of one disc's edge", 6250, serrated),
     member("text", "letters of 18 vertices", 250, text),
     member("diagonal", "traces side by side, aslant", 32, diagonal),
-    member("wheel", "arcs, one in the other", 8, wheel),
+    member("wheel", "millimetres of arcs, one in the other", 200, wheel),
     member("clusters", "holes in clusters, of 4 sizes", 1000, clusters),
     member("lattice", "holes on a grid, of one size", 1000, lattice),
 ];
@@ -267,7 +267,7 @@ fn diagonal(size: u32) -> Files {
 /// Nearly full circles, 1 mm apart, open on the right.
 fn wheel(size: u32) -> Files {
     let mut layer = Layer::new(&["C,0.4"]);
-    for arc in 0..size {
+    for arc in 0..(size / 3).isqrt() {
         let radius = 2e6 + 1e6 * f64::from(arc);
         let gap = 0.5e6 / radius / std::f64::consts::TAU;
         let ((x, y), (to_x, to_y)) = (polar(radius, gap, 1.0), polar(radius, -gap, 1.0));
@@ -276,14 +276,16 @@ fn wheel(size: u32) -> Files {
     layer.files()
 }
 
-/// Holes as a drill file, of tools in hundredths of a millimetre.
+/// Holes as a drill file, of tools in hundredths of a millimetre, between two pads.
 fn drill(tools: &[u32], holes: impl Iterator<Item = (usize, Place)>) -> Files {
     let mut by_tool = vec![String::new(); tools.len()];
+    let (mut far_x, mut far_y) = (0, 0);
     let millimetres = |nm: i64| {
         let sign = if nm < 0 { "-" } else { "" };
         format!("{sign}{}.{:03}", nm.abs() / 1_000_000, nm.abs() / 1000 % 1000)
     };
     for (tool, (x, y)) in holes {
+        (far_x, far_y) = (far_x.max(x), far_y.max(y));
         let _ = writeln!(by_tool[tool], "X{}Y{}", millimetres(x), millimetres(y));
     }
     let mut text = "M48\nMETRIC,TZ\n".to_owned();
@@ -295,8 +297,8 @@ fn drill(tools: &[u32], holes: impl Iterator<Item = (usize, Place)>) -> Files {
         let _ = write!(text, "T{number}\n{holes}");
     }
     let mut layer = Layer::new(&["C,1"]);
-    layer.flash(10, (-5_000_000, 0));
-    layer.flash(10, (-5_000_000, 2_000_000));
+    layer.flash(10, (-10_000_000, -10_000_000));
+    layer.flash(10, (far_x + 10_000_000, far_y + 10_000_000));
     let mut files = layer.files();
     files.push((HOLES, text + "M30\n"));
     files

@@ -14,19 +14,19 @@ mod usage;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use voromill::import::{self, Selection};
 use voromill::job::{self, Options, Settings};
 
 use boards::{FAMILY, Member};
-use usage::{cpu_seconds, peak_mib};
+use usage::{cpu_seconds, cpu_seconds_of, peak_mib};
 
 /// Names the folder to the process that mills it.
 const ONE: &str = "VOROMILL_ADVERSARIAL_ONE";
 
-/// How long one board may take.
-const PATIENCE: Duration = Duration::from_secs(120);
+/// How many CPU seconds one board may take.
+const PATIENCE: f64 = 60.0;
 
 /// How many times as many each size has.
 const FACTORS: [u32; 3] = [1, 4, 16];
@@ -98,9 +98,8 @@ fn measured(member: Member, size: u32) -> Option<Taken> {
     write(member, size, &folder);
     let own = std::env::current_exe().expect("a program has a name");
     let mut child = Command::new(own).env(ONE, &folder).stdout(Stdio::piped()).spawn().expect("it starts");
-    let start = Instant::now();
     while child.try_wait().expect("it can be waited for").is_none() {
-        if start.elapsed() > PATIENCE {
+        if cpu_seconds_of(&child.id().to_string()).is_some_and(|seconds| seconds > PATIENCE) {
             child.kill().expect("it can be ended");
         }
         std::thread::sleep(Duration::from_millis(5));

@@ -6,7 +6,13 @@ use std::path::PathBuf;
 /// CPU seconds of all threads of the process. Rayon's threads live as long as it does.
 #[allow(dead_code, reason = "not every benchmark needs it")]
 pub(crate) fn cpu_seconds() -> Option<f64> {
-    let threads = std::fs::read_dir("/proc/self/task").ok()?.flatten();
+    cpu_seconds_of("self")
+}
+
+/// The same of a process by its number.
+#[allow(dead_code, reason = "not every benchmark needs it")]
+pub(crate) fn cpu_seconds_of(process: &str) -> Option<f64> {
+    let threads = std::fs::read_dir(format!("/proc/{process}/task")).ok()?.flatten();
     let spent = |path: PathBuf| {
         let told = std::fs::read_to_string(path.join("schedstat")).ok()?;
         told.split_whitespace().next()?.parse::<f64>().ok()

@@ -119,7 +119,7 @@ impl Carve {
             None => Some(engraving.judge(&engraving.name, &engraving.text, None)?),
         };
         let warnings: Vec<WarningEntry> = engraving.warnings.iter().map(WarningEntry::from).collect();
-        shared.say(&report::warnings(&warnings, shared.verbose));
+        shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if let Some(output) = &self.output {
             write(output, &engraving.text)?;
         }

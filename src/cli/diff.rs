@@ -91,7 +91,8 @@ impl Diff {
             found.iter().map(|(name, comparison)| Compared::new(name, comparison)).collect();
         match self.format {
             Format::Text => {
-                let text: String = compared.iter().map(|compared| compared.to_text(shared.verbose)).collect();
+                let text: String =
+                    compared.iter().map(|compared| compared.to_text(shared.is_verbose())).collect();
                 shared.report(&text)
             }
             Format::Json => super::print(&to_json(&compared)),

@@ -154,7 +154,7 @@ impl Draw {
             Format::Shades => terminal::shades(drawn.canvas(grid)?).into_bytes(),
             Format::Sixel => terminal::sixels(drawn.canvas(grid)?).into_bytes(),
         };
-        shared.say(&report::warnings(&warnings, shared.verbose));
+        shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if self.output == Path::new("-") {
             return super::print_bytes(&bytes);
         }

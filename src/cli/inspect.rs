@@ -49,7 +49,7 @@ impl Inspect {
             }
         }
         super::print(&match self.format {
-            Format::Text => inspection.to_text(shared.verbose),
+            Format::Text => inspection.to_text(shared.is_verbose()),
             Format::Json => inspection.to_json(),
         })?;
         self.input.judge(&inspection.warnings)

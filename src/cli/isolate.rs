@@ -6,6 +6,7 @@ use clap::Args;
 use voromill::gcode::Dialect;
 use voromill::gcode::dialect::ToolChange;
 use voromill::job::{self, Part};
+use voromill::report::stages::Stages;
 
 use super::config::Config;
 use super::draw::SideName;
@@ -39,7 +40,8 @@ impl Isolate {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
         let settings = self.config.settings(&self.input)?;
         let progress = Progress::start(shared);
-        let mut loaded = self.input.load(&settings)?;
+        let mut stages = Stages::default();
+        let mut loaded = stages.run("reading", || self.input.load(&settings), |_| [])?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
         match self.side {
             Some(SideName::Front) => loaded.board.back = None,
@@ -60,18 +62,20 @@ impl Isolate {
         let document = job.describe(&settings);
         self.input.judge(&document.warnings)?;
         drop(progress);
+        stages.extend(&job.stages);
+        shared.tell_stages(&stages);
         let text = job.programs.first().map_or("", |program| &program.text);
         if job.programs.len() > 1 {
             return Err(several_tools(&settings.dialect, job.programs.len()));
         }
         if self.output == Path::new("-") {
-            shared.say(&document.summary(shared.verbose));
+            shared.say(&document.summary(shared.is_verbose()));
             return super::print(text);
         }
         let mut output = Output::new();
         output.stage(&self.output, text.as_bytes())?;
         output.commit()?;
-        shared.report(&document.summary(shared.verbose))
+        shared.report(&document.summary(shared.is_verbose()))
     }
 }
 

@@ -176,7 +176,7 @@ impl Mask {
         if placing.mirrored {
             said.push_str(", mirrored");
         }
-        shared.say(&report::warnings(&warnings, shared.verbose));
+        shared.say(&report::warnings(&warnings, shared.is_verbose()));
         let mut output = Output::new();
         output.stage(&self.output, &bytes)?;
         output.commit()?;

@@ -10,7 +10,8 @@ use voromill::import::sha256;
 use voromill::job::{self, Job, Settings};
 use voromill::report::Verdict;
 use voromill::report::document::OutputEntry;
-use voromill::verify::Severity;
+use voromill::report::stages::Stages;
+use voromill::verify::{Report, Severity};
 
 use super::config::Config;
 use super::input::Input;
@@ -91,7 +92,8 @@ impl Mill {
         let settings = self.config.settings(&self.input)?;
         let progress = Progress::start(shared);
         progress.say("reading");
-        let loaded = self.input.load(&settings)?;
+        let mut stages = Stages::default();
+        let loaded = stages.run("reading", || self.input.load(&settings), |_| [])?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let folder = self.output.clone().or(self.input.project()?.output).filter(|_| !self.cache_key);
         if folder.is_none() && !self.cache_key {
@@ -107,18 +109,23 @@ impl Mill {
         };
         progress.say("finding the way between nets");
         let job = job::mill(loaded, &settings)?;
+        stages.extend(&job.stages);
         let mut document = job.describe(&settings);
         self.input.judge(&document.warnings)?;
         let mut passes = true;
         if !self.no_verify {
             progress.say("simulating");
-            let report = job.verify(&settings)?;
+            let judge = || job.verify(&settings);
+            let findings = |report: &Result<Report, _>| {
+                [("findings", report.as_ref().map_or(0, |report| report.findings.len()))]
+            };
+            let report = stages.run("simulating", judge, findings)?;
             passes = report.passes(self.deny);
             document.verification = Some(Verdict::from(&report));
             document.leave_out_explained_gaps();
         }
         progress.say("drawing");
-        let mut files = files(&job, &settings)?;
+        let mut files = stages.run("pictures", || files(&job, &settings), |_| [])?;
         if self.svg {
             let drawn = [Side::Front, Side::Back].into_iter().filter_map(|side| Some((side, job.svg(side)?)));
             files.extend(
@@ -126,7 +133,8 @@ impl Mill {
             );
         }
         if !self.no_html {
-            let page = job.page(&settings, &document)?.to_html();
+            let page = || Ok::<_, job::Error>(job.page(&settings, &document)?.to_html());
+            let page = stages.run("page", page, |page| [("bytes", page.as_ref().map_or(0, String::len))])?;
             files.push((format!("{}.html", job.board.name), page.into_bytes()));
         }
         progress.say("writing");
@@ -138,17 +146,24 @@ impl Mill {
         self.input.judge(&leftovers.warnings(folder))?;
         let mut output = Output::new();
         output.make_folder(folder)?;
-        for (name, bytes) in &files {
-            output.stage(&folder.join(name), bytes)?;
-        }
-        leftovers.obsolete.iter().for_each(|path| output.remove(path.clone()));
-        output.commit()?;
+        let write = || {
+            for (name, bytes) in &files {
+                output.stage(&folder.join(name), bytes)?;
+            }
+            leftovers.obsolete.iter().for_each(|path| output.remove(path.clone()));
+            output.commit()
+        };
+        stages.run("writing files", write, |_| [("files", files.len())])?;
         drop(progress);
+        shared.tell_stages(&stages);
         shared.say(&leftovers.to_text(folder));
         if self.json || self.format == Format::Json {
+            if shared.tells_stages() {
+                document.stages = stages.list().to_vec();
+            }
             super::print(&document.to_json())?;
         } else {
-            shared.report(&document.summary(shared.verbose))?;
+            shared.report(&document.summary(shared.is_verbose()))?;
         }
         Ok(if passes { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }

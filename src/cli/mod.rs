@@ -30,6 +30,7 @@ use std::process::ExitCode;
 
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use voromill::job::Options;
+use voromill::report::stages::Stages;
 
 use failure::Failure;
 
@@ -95,9 +96,9 @@ struct Shared {
     #[arg(long, short, global = true, help_heading = "Output")]
     quiet: bool,
 
-    /// Say more
-    #[arg(long, short, global = true, conflicts_with = "quiet", help_heading = "Output")]
-    verbose: bool,
+    /// Say more; twice, how long each stage took too
+    #[arg(long, short, global = true, conflicts_with = "quiet", action = clap::ArgAction::Count, help_heading = "Output")]
+    verbose: u8,
 
     /// How many threads work [default: one for each processor]
     #[arg(long = "jobs", short = 'j', global = true, value_name = "THREADS", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Output")]
@@ -173,6 +174,23 @@ impl Shared {
         rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|error| {
             Failure::new(format!("cannot start {threads} threads: {error}"), "try fewer with -j")
         })
+    }
+
+    /// Whether everything is told, not the first few of each.
+    const fn is_verbose(self) -> bool {
+        self.verbose > 0
+    }
+
+    /// Whether it is told where the time went.
+    const fn tells_stages(self) -> bool {
+        self.verbose > 1
+    }
+
+    /// Prints where the time went, if that was asked for, on stderr.
+    fn tell_stages(self, stages: &Stages) {
+        if self.tells_stages() {
+            self.say(&stages.to_text());
+        }
     }
 
     /// Prints a line for a person, on stderr so that stdout carries results alone.

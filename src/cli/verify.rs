@@ -11,6 +11,7 @@ use voromill::geometry::{Nm, Vector};
 use voromill::import::{self, Loaded, Selection};
 use voromill::job::{self, Pattern, Tiles, Topology};
 use voromill::report::Verdict;
+use voromill::report::stages::Stages;
 use voromill::toolpath::Angle;
 use voromill::verify::{self, Cutter, Orientation, Placement, Program, Role, Severity};
 
@@ -228,7 +229,9 @@ impl Verify {
         let selection = Selection { skip: self.skip.clone(), ..Selection::default() };
         // What is cut says which side it is for; a file of copper that does not may be looked at as
         // either.
-        let Loaded { mut board, sources, .. } = import::survey(&self.board, &selection)?;
+        let mut stages = Stages::default();
+        let Loaded { mut board, sources, .. } =
+            stages.run("reading", || import::survey(&self.board, &selection), |_| [])?;
         let files = self.files()?;
         let mut programs = files.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
         self.leave_out(&mut board, &programs);
@@ -255,12 +258,14 @@ impl Verify {
         }
         let input = |source: Source| verify::Input { file: source.file, design: source.design };
         let inputs: Vec<verify::Input> = sources.into_iter().map(input).collect();
-        let report = verify::verify(&programs, &board, &[], &settings)?;
+        let judge = || verify::verify(&programs, &board, &[], &settings);
+        let report = stages.run("simulating", judge, |_| [("programs", programs.len())])?;
+        shared.tell_stages(&stages);
         let report = report.with(verify::revisions(&programs, &inputs));
         let verdict = Verdict::from(&report);
         match self.format {
             Format::Text => {
-                shared.report(&format!("{}{}", verdict.to_text(shared.verbose), verdict.fitness()))
+                shared.report(&format!("{}{}", verdict.to_text(shared.is_verbose()), verdict.fitness()))
             }
             Format::Json => super::print(&verdict.to_json()),
             Format::Sarif => super::print(&verdict.to_sarif()),

@@ -36,6 +36,7 @@ impl Job {
             outputs: Vec::new(),
             verification: None,
             warnings: self.warnings.iter().map(WarningEntry::from).collect(),
+            stages: Vec::new(),
             settings: settings.options().listed().into_iter().collect(),
         };
         document.with_gaps_merged(settings.finest_kerf())

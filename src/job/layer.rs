@@ -2,6 +2,7 @@
 
 use crate::board::{Board, Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path};
+use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate, share};
 use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, Nets, Translucency};
@@ -32,6 +33,8 @@ pub struct Layer {
     pub sections: Vec<Section>,
     /// What a person must know.
     pub warnings: Vec<Warning>,
+    /// Where the time went.
+    pub stages: Stages,
 }
 
 impl Layer {
@@ -48,15 +51,38 @@ impl Layer {
         settings: &Settings,
     ) -> Result<Self, Error> {
         let side = copper.side;
-        let (nets, translucency) = recover(copper, method(settings.topology));
-        let gap = topology::smallest_gap(copper, &nets);
-        let diagram = diagram(copper, &nets, board.outline.as_ref(), gap.as_ref(), settings)
+        let mut stages = Stages::default();
+        let (nets, translucency) = stages.run(
+            format!("{side}: nets"),
+            || recover(copper, method(settings.topology)),
+            |(nets, _)| [("features", copper.features.len()), ("nets", nets.nets().len())],
+        );
+        let gap =
+            stages.run(format!("{side}: smallest gap"), || topology::smallest_gap(copper, &nets), |_| []);
+        let diagram = stages
+            .run(
+                format!("{side}: Voronoi diagram"),
+                || diagram(copper, &nets, board.outline.as_ref(), gap.as_ref(), settings),
+                |_| [],
+            )
             .map_err(|reason| Error::Voronoi { side, reason })?;
-        let (boundaries, unplaced) = diagram.boundaries();
+        let (boundaries, unplaced) = stages.run(
+            format!("{side}: boundaries"),
+            || diagram.boundaries(),
+            |(boundaries, _)| [("edges", boundaries.edges.len()), ("nodes", boundaries.nodes.len())],
+        );
         let frame = needed_frame(&diagram, &boundaries);
         let lap = frame.as_ref().filter(|_| settings.frame);
-        let (shares, passes) = shares(&diagram, &boundaries, settings);
-        let (sections, narrow) = cut(side, &nets, &shares, lap, &placement, settings);
+        let (shares, passes) = stages.run(
+            format!("{side}: passes"),
+            || shares(&diagram, &boundaries, settings),
+            |(shares, _)| [("edges", shares.iter().map(|(_, share)| share.edges.len()).sum())],
+        );
+        let (sections, narrow) = stages.run(
+            format!("{side}: moves"),
+            || cut(side, &nets, &shares, lap, &placement, settings),
+            |(sections, _)| [("moves", sections.iter().map(|section| section.moves.len()).sum())],
+        );
         let mut warnings = topology::names_check(copper, &nets);
         warnings.extend_from_slice(diagram.warnings());
         warnings.extend(unplaced.into_iter().chain(passes).chain(narrow).map(|warning| warning.on(side)));
@@ -64,7 +90,19 @@ impl Layer {
             warnings.push(Warning::new("frame-not-cut", FRAME_NOT_CUT).on(side));
         }
         let lap = lap.cloned();
-        Ok(Self { side, nets, translucency, gap, diagram, boundaries, lap, placement, sections, warnings })
+        Ok(Self {
+            side,
+            nets,
+            translucency,
+            gap,
+            diagram,
+            boundaries,
+            lap,
+            placement,
+            sections,
+            warnings,
+            stages,
+        })
     }
 
     /// The length of the boundaries that isolate something.

@@ -7,6 +7,7 @@ use crate::gcode::dialect::ToolChange;
 use crate::gcode::{Header, Input};
 use crate::geometry::Nm;
 use crate::import::Loaded;
+use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
 use crate::toolpath::{Order, Origin, Placement, Program, Section};
 use crate::topology::{self, Electrical};
@@ -44,6 +45,8 @@ pub struct Job {
     pub programs: Vec<Written>,
     /// What a person must know, from reading to cutting out.
     pub warnings: Vec<Warning>,
+    /// Where the time went.
+    pub stages: Stages,
 }
 
 /// Does all there is to do to a board.
@@ -66,7 +69,9 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     }
     let bounds = board.bounds().ok_or_else(|| no_copper(settings))?;
     let stock = Stock::new(bounds, settings);
+    let mut stages = Stages::default();
     let layers = isolate(&board, &stock, settings)?;
+    layers.iter().for_each(|layer| stages.extend(&layer.stages));
     if settings.narrow == Narrow::Error {
         refuse_narrow(&layers)?;
     }
@@ -87,7 +92,11 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     if !board.holes.is_empty() {
         let side = settings.drill_side;
         let placement = stock.placement(side);
-        let (sections, found) = drill_holes(&board, &placement, settings);
+        let (sections, found) = stages.run(
+            "drilling",
+            || drill_holes(&board, &placement, settings),
+            |_| [("holes", board.holes.len())],
+        );
         let drilling = turned(whole("drill", &board, sections, settings), &placement);
         let drilling = Program { safe: settings.drilling.safe, ..drilling };
         let files = in_files(drilling, settings);
@@ -97,7 +106,11 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     if let Some(outline) = &board.outline {
         let side = settings.cutout_side;
         let placement = stock.placement(side);
-        let (section, found) = cutout(outline, &cutout_settings(&placement, settings));
+        let (section, found) = stages.run(
+            "cutout",
+            || cutout(outline, &cutout_settings(&placement, settings)),
+            |(section, _)| [("moves", section.moves.len())],
+        );
         let program = turned(whole("cutout", &board, vec![section], settings), &placement);
         planned.push((Part::Cutout, side, program));
         warnings.extend(found);
@@ -109,7 +122,13 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let tiling = stock.tiling(side).filter(|_| part != Part::Alignment);
         Written::new((part, side, tag), program, &header, tiling, settings)
     };
-    let programs: Vec<Written> = planned.into_par_iter().zip(tags).map(write).collect();
+    let programs: Vec<Written> = stages.run(
+        "writing programs",
+        || planned.into_par_iter().zip(tags).map(write).collect(),
+        |programs: &Vec<Written>| {
+            [("bytes", programs.iter().map(|program| program.text.len()).sum()), ("programs", programs.len())]
+        },
+    );
     warnings.extend(programs.iter().filter_map(|program| program.warning.clone()));
     if board.outline.is_none() && !warnings.iter().any(|warning| warning.code.starts_with("outline-")) {
         warnings.push(Warning::new("outline-missing", "no outline was named, so the board is not cut out"));
@@ -121,10 +140,10 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         );
         warnings.push(Warning::new("blend-unknown", message));
     }
-    let electrical = electrical(&board, &layers);
+    let electrical = stages.run("nets of the assembled board", || electrical(&board, &layers), |_| []);
     warnings.extend(electrical.iter().flat_map(Electrical::check));
     let (placement, axis) = (stock.front, stock.axis);
-    Ok(Job { board, sources, ignored, placement, axis, layers, electrical, programs, warnings })
+    Ok(Job { board, sources, ignored, placement, axis, layers, electrical, programs, warnings, stages })
 }
 
 /// Fails for a file that was cut off.

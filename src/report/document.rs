@@ -13,6 +13,7 @@ use crate::geometry::{Nm, Point};
 use crate::toolpath::Statistics;
 
 use super::colours::ColoursEntry;
+use super::stages::Stage;
 
 /// The version of the shape of [`Document`]: it grows when a key changes its meaning or goes, not
 /// when one is added.
@@ -53,6 +54,9 @@ pub struct Document {
     pub verification: Option<super::Verdict>,
     /// What a person must know.
     pub warnings: Vec<WarningEntry>,
+    /// How long each stage took, where that is asked for (`-vv`): never in a file.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub stages: Vec<Stage>,
     /// The settings, by the names of their options.
     pub settings: BTreeMap<String, String>,
 }

@@ -211,6 +211,16 @@ impl Comparison {
         before.depths().iter().zip(after.depths()).map(spot).collect()
     }
 
+    /// What differs in each row of a tile, of which the first pixel is in this column.
+    fn differing(&self, column: u32, tile: &Grid) -> Vec<Differing> {
+        let [mut before, mut after] = [Buffers::new(), Buffers::new()];
+        self.before.draw(tile, self.tolerance, &mut before);
+        self.after.draw(tile, self.tolerance, &mut after);
+        let width = tile.width() as usize;
+        let rows = before.depths().chunks_exact(width).zip(after.depths().chunks_exact(width));
+        rows.map(|(before, after)| (runs(column, before, after), runs(column, after, before))).collect()
+    }
+
     /// What differs, on this grid, tile by tile: only those where one program has cuts that the
     /// other has not.
     fn regions(&self, grid: &Grid, only: &[Index]) -> Vec<Region> {
@@ -219,22 +229,17 @@ impl Comparison {
         for top in tops(grid) {
             let differs =
                 |(_, tile): &(u32, Grid)| only.iter().any(|only| !only.0.touching(tile.rect()).is_empty());
-            let drawn: Vec<(u32, u32, Vec<Spot>)> = tiles(grid, top)
+            let drawn: Vec<Vec<Differing>> = tiles(grid, top)
                 .collect::<Vec<_>>()
                 .into_par_iter()
                 .filter(differs)
-                .map(|(column, tile)| (column, tile.width(), self.spots(&tile)))
+                .map(|(column, tile)| self.differing(column, &tile))
                 .collect();
-            for row in top..grid.height().min(top + TILE) {
-                let runs = |change: Change| -> Vec<Run> {
-                    let of = |(column, width, spots): &(u32, u32, Vec<Spot>)| {
-                        let from = (row - top) as usize * *width as usize;
-                        runs(*column, &spots[from..][..*width as usize], change)
-                    };
-                    drawn.iter().flat_map(of).collect()
-                };
-                cut.row(row, &runs(Change::Cut));
-                left.row(row, &runs(Change::Left));
+            for row in 0..TILE.min(grid.height() - top) {
+                let of = |tile: &Vec<Differing>| tile[row as usize].clone();
+                let (now_cut, now_left): (Vec<_>, Vec<_>) = drawn.iter().map(of).unzip();
+                cut.row(top + row, &now_cut.concat());
+                left.row(top + row, &now_left.concat());
             }
         }
         let mm2 = grid.pitch().to_mm() * grid.pitch().to_mm();
@@ -270,16 +275,23 @@ fn tiles(grid: &Grid, top: u32) -> impl Iterator<Item = (u32, Grid)> {
         .map(move |column| (column, grid.part((column, top), TILE.min(grid.width() - column), height)))
 }
 
-/// The differences of one kind in a row of pixels, of which the first is in this column.
-fn runs(column: u32, spots: &[Spot], change: Change) -> Vec<Run> {
-    let mut start = column;
-    let mut runs = Vec::new();
-    for same in spots.chunk_by(|a, b| a == b) {
-        let end = start + u32::try_from(same.len()).expect("a picture is at most 2¹⁶ wide");
-        if same[0] == Spot::One(change) {
-            runs.push(Run { start, end, label: 0 });
+/// The runs of pixels in a row that are newly cut, and that are newly left.
+type Differing = (Vec<Run>, Vec<Run>);
+
+/// The pixels of a row, of which the first is in this column, that `one` cuts and that are clear of
+/// what `other` cuts; both as far as the pixels lie beyond the cuts.
+fn runs(column: u32, other: &[f32], one: &[f32]) -> Vec<Run> {
+    let differs = |(&other, &one): (&f32, &f32)| (one <= 0.0) & (other == f32::INFINITY);
+    let pixels = || other.iter().zip(one);
+    let mut runs: Vec<Run> = Vec::new();
+    // Of most rows none: that is told many pixels at a time.
+    if pixels().map(differs).fold(false, |any, differs| any | differs) {
+        for (at, _) in (column..).zip(pixels().map(differs)).filter(|(_, differs)| *differs) {
+            match runs.last_mut().filter(|run| run.end == at) {
+                Some(run) => run.end += 1,
+                None => runs.push(Run { start: at, end: at + 1, label: 0 }),
+            }
         }
-        start = end;
     }
     runs
 }

@@ -107,6 +107,26 @@ fn every_thread_count_gives_the_same_bytes() {
 }
 
 #[test]
+fn where_the_time_went_is_told_where_asked_and_never_in_a_file() {
+    let out = TempDir::new().expect("a folder");
+    let board = fixture("boards/unsafe-gap");
+    let done =
+        voromill(out.path(), &["mill", &board.to_string_lossy(), "--json", "--no-html", "-vv", "-o", "."]);
+    let report: serde_json::Value = serde_json::from_slice(&done.stdout).expect("JSON");
+    let stages: Vec<&str> =
+        report["stages"].as_array().expect("stages").iter().filter_map(|s| s["stage"].as_str()).collect();
+    for stage in ["reading", "front: nets", "front: Voronoi diagram", "simulating", "writing files"] {
+        assert!(stages.contains(&stage), "{stage} among {stages:?}");
+        assert!(stderr(&done).contains(&format!(" ms  {stage}")), "{stage}: {}", stderr(&done));
+    }
+    let file = fs::read_to_string(out.path().join("unsafe-gap.json")).expect("written");
+    assert!(!file.contains("\"stages\""), "no clock in a file");
+    let once =
+        voromill(out.path(), &["mill", &board.to_string_lossy(), "--json", "--no-html", "-v", "-o", "."]);
+    assert_eq!(stdout(&once).trim_end(), file.trim_end(), "with one -v the report is as in the file");
+}
+
+#[test]
 fn the_report_on_stdout_is_the_report_in_the_file() {
     let out = folder();
     let board = fixture("boards/blinker");

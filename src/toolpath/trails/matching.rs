@@ -16,17 +16,26 @@ const LONGEST: usize = 4;
 /// How many ways one search looks at. Chosen: on the boards at hand the longest search that found
 /// something took 231; around a hub of hundreds of nodes a search would look at millions.
 const BUDGET: usize = 1000;
+/// How many ways all searches and markings together may look at, for each node. Chosen: as many as
+/// four searches that find nothing.
+const EACH: usize = 4 * BUDGET;
 /// Gains below this are rounding.
 const LEAST: f64 = 1e-9;
 
 /// The indices of the candidates that are joined, each node at most once, with a small sum of their
 /// costs and of `alone` for every node left over.
 pub(super) fn join(nodes: usize, candidates: &[Candidate], alone: f64) -> Vec<usize> {
+    joined(nodes, candidates, alone).0
+}
+
+/// [`join`], and how many ways were looked at: at most [`EACH`] for each node and what the last
+/// search still took.
+fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, usize) {
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     let key = |index: usize| candidates[index];
     order.sort_by(|&a, &b| key(a).cost.total_cmp(&key(b).cost).then(key(a).nodes.cmp(&key(b).nodes)));
     let mut matching =
-        Matching { candidates, near: vec![Vec::new(); nodes], joined: vec![None; nodes], alone };
+        Matching { candidates, near: vec![Vec::new(); nodes], joined: vec![None; nodes], alone, looks: 0 };
     for index in order {
         let Candidate { nodes: (a, b), cost } = candidates[index];
         matching.near[a].push(Way { to: b, cost, candidate: index });
@@ -40,15 +49,17 @@ pub(super) fn join(nodes: usize, candidates: &[Candidate], alone: f64) -> Vec<us
     while changed.any {
         changed.any = false;
         for node in 0..nodes {
-            if std::mem::take(&mut changed.about[node]) && !matching.near[node].is_empty() {
-                changed.mark(&matching.improve(node), &matching);
+            let is_due = std::mem::take(&mut changed.about[node]) && !matching.near[node].is_empty();
+            if is_due && matching.looks < EACH * nodes {
+                let touched = matching.improve(node);
+                matching.looks += changed.mark(&touched, &matching);
             }
         }
     }
     let mut chosen: Vec<usize> = matching.joined.into_iter().flatten().collect();
     chosen.sort_unstable();
     chosen.dedup();
-    chosen
+    (chosen, matching.looks)
 }
 
 /// A candidate as one of its nodes sees it.
@@ -66,6 +77,8 @@ struct Matching<'a> {
     /// The candidate by which a node is joined.
     joined: Vec<Option<usize>>,
     alone: f64,
+    /// How many ways were looked at.
+    looks: usize,
 }
 
 impl Matching<'_> {
@@ -82,12 +95,10 @@ impl Matching<'_> {
             None => (node, None, self.alone),
             Some(candidate) => (self.other(candidate, node), Some(node), self.candidates[candidate].cost),
         };
-        let mut search = Search { chain: Vec::new(), busy: vec![node, loose], budget: BUDGET };
-        if self.extend(loose, first, gain, &mut search) {
-            self.apply(first, &search.chain)
-        } else {
-            Vec::new()
-        }
+        let mut search = Search { chain: Vec::new(), busy: vec![node, loose], budget: BUDGET, looks: 0 };
+        let found = self.extend(loose, first, gain, &mut search);
+        self.looks += search.looks;
+        if found { self.apply(first, &search.chain) } else { Vec::new() }
     }
 
     /// Joins `loose` to a near node and either closes there or goes on from that node's partner.
@@ -99,6 +110,7 @@ impl Matching<'_> {
                 return false;
             }
             search.budget -= 1;
+            search.looks += 1;
             if search.busy.contains(&next) {
                 continue;
             }
@@ -108,7 +120,9 @@ impl Matching<'_> {
                 let left = left + self.candidates[broken].cost;
                 let partner = self.other(broken, next);
                 search.busy.extend([next, partner]);
-                if let Some(close) = first.and_then(|first| self.between(partner, first, left - LEAST)) {
+                if let Some(close) =
+                    first.and_then(|first| self.between(partner, first, left - LEAST, search))
+                {
                     search.chain.push(close);
                     return true;
                 }
@@ -128,8 +142,9 @@ impl Matching<'_> {
     }
 
     /// The candidate that joins two nodes for less than `bound`.
-    fn between(&self, a: usize, b: usize, bound: f64) -> Option<usize> {
-        let mut cheap = self.near[a].iter().take_while(|way| way.cost < bound);
+    fn between(&self, a: usize, b: usize, bound: f64, search: &mut Search) -> Option<usize> {
+        let cheap = self.near[a].iter().take_while(|way| way.cost < bound);
+        let mut cheap = cheap.inspect(|_| search.looks += 1);
         cheap.find(|way| way.to == b).map(|way| way.candidate)
     }
 
@@ -164,6 +179,8 @@ struct Search {
     /// The nodes that the chain uses.
     busy: Vec<usize>,
     budget: usize,
+    /// How many ways it has looked at, those that would close the chain included.
+    looks: usize,
 }
 
 /// The nodes about which something has changed since a chain was last sought from them.
@@ -180,8 +197,10 @@ impl Changed {
         Self { about: vec![true; nodes], any: nodes > 0, seen: vec![0; nodes], marks: 0 }
     }
 
-    /// Marks all nodes from which a chain can come by one of those `touched`.
-    fn mark(&mut self, touched: &[usize], matching: &Matching<'_>) {
+    /// Marks all nodes from which a chain can come by one of those `touched`; gives how many ways
+    /// it looked at.
+    fn mark(&mut self, touched: &[usize], matching: &Matching<'_>) -> usize {
+        let mut looks = 0;
         self.marks += 1;
         self.any |= !touched.is_empty();
         let mut ring = touched.to_vec();
@@ -189,7 +208,9 @@ impl Changed {
             ring.retain(|&node| std::mem::replace(&mut self.seen[node], self.marks) != self.marks);
             ring.iter().for_each(|&node| self.about[node] = true);
             ring = ring.iter().flat_map(|&node| matching.near[node].iter().map(|way| way.to)).collect();
+            looks += ring.len();
         }
+        looks
     }
 }
 
@@ -236,6 +257,38 @@ mod tests {
             prop_assert_eq!(seen.len(), count, "a node is joined twice");
             let (found, least) = (cost(&candidates, &chosen, 8, 1.0), best(&candidates, 0, 8, 1.0));
             prop_assert!(found <= least * 1.1 + 1e-9, "found {found}, possible {least}");
+        }
+    }
+
+    /// Nodes of which each may be joined to a dozen others, any of them, for about what both cost
+    /// alone: what hubs are to a search.
+    fn tangle(nodes: usize) -> Vec<Candidate> {
+        let mut seed = 11_u64;
+        let mut chance = |below: usize| {
+            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            usize::try_from(seed >> 33).expect("31 bits") % below
+        };
+        let mut candidates: Vec<Candidate> = (0..nodes * 6)
+            .map(|_| (chance(nodes), chance(nodes), chance(1000)))
+            .filter(|(a, b, _)| a != b)
+            .map(|(a, b, cost)| Candidate {
+                nodes: (a.min(b), a.max(b)),
+                cost: 1.0 + f64::from(u32::try_from(cost).expect("small")) / 1000.0,
+            })
+            .collect();
+        candidates.sort_by_key(|candidate| candidate.nodes);
+        candidates.dedup_by_key(|candidate| candidate.nodes);
+        candidates
+    }
+
+    #[test]
+    fn the_work_of_a_tangle_grows_as_it_does() {
+        for nodes in [100, 1600] {
+            let (chosen, looks) = joined(nodes, &tangle(nodes), 1.0);
+            assert!(chosen.len() * 5 > nodes * 2, "{} of {nodes} nodes are joined", 2 * chosen.len());
+            // What one search and one marking may still take, once the budget is spent.
+            let last = BUDGET * 20 + 12 * nodes;
+            assert!(looks <= EACH * nodes + last, "{looks} looks for {nodes} nodes");
         }
     }
 }
