@@ -95,8 +95,8 @@ impl Nm {
 impl fmt::Display for Nm {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let decimals = f.precision().unwrap_or(6).min(6);
-        let unit = 10_i64.pow(u32::try_from(6 - decimals).unwrap_or(0));
-        let rounded = (self.0.abs() + unit / 2) / unit;
+        let unit = 10_u64.pow(u32::try_from(6 - decimals).unwrap_or(0));
+        let rounded = (self.0.unsigned_abs() + unit / 2) / unit;
         let per_mm = 1_000_000 / unit;
         let sign = if self.0 < 0 && rounded != 0 { "-" } else { "" };
         if decimals == 0 {
@@ -174,6 +174,7 @@ mod tests {
         assert_eq!(format!("{:.3}", Nm::new(-499)), "0.000", "rounds to zero without a sign");
         assert_eq!(format!("{:.3}", Nm::new(-500)), "-0.001", "half goes away from zero");
         assert_eq!(format!("{:.0}", Nm::from_mm(12)), "12", "no decimals, no point");
+        assert_eq!(format!("{:.3}", Nm::new(i64::MIN)), "-9223372036854.776", "whatever was saturated");
     }
 
     #[test]

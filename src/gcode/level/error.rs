@@ -27,6 +27,9 @@ pub enum MapError {
     /// XML that is broken.
     #[error("{0}")]
     Xml(String),
+    /// A place or a height that no machine reaches.
+    #[error("line {0}: a place or a height of more than a metre: expected a map in the unit that was named")]
+    Range(usize),
     /// Fewer or more points than the file says.
     #[error("the map says {said} points, and has {found}")]
     Count {

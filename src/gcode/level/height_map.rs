@@ -51,6 +51,10 @@ impl HeightMap {
 
     /// The same, of touches that know their lines.
     pub(super) fn touched(touches: &[Touch]) -> Result<Self, MapError> {
+        let is_near = |value: &f64| value.abs() <= Nm::MAX.to_f64();
+        if let Some(touch) = touches.iter().find(|touch| !touch.place.iter().all(is_near)) {
+            return Err(MapError::Range(touch.line));
+        }
         let columns = lines(touches.iter().map(|touch| touch.place[0]).collect());
         let rows = lines(touches.iter().map(|touch| touch.place[1]).collect());
         if columns.len() < 2 || rows.len() < 2 {
@@ -256,5 +260,9 @@ mod tests {
         assert!(matches!(map(&row), MapError::Few { columns: 2, rows: 1 }), "a row is no surface");
         let cliff = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.5]];
         assert!(matches!(map(&cliff), MapError::Steep { .. }), "a cliff");
+        for far in [f64::INFINITY, f64::NAN, -1e30] {
+            let square = [[0.0, 0.0, far], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0]];
+            assert!(matches!(map(&square), MapError::Range(_)), "a height of {far}");
+        }
     }
 }

@@ -20,6 +20,9 @@ fn read(text: &str, _: &Frame) -> Result<Touches, MapError> {
     let map = document.root_element();
     let axis = |least, most, count| {
         let (least, most, count) = (number(map, least)?, number(map, most)?, number(map, count)?);
+        if count < 2.0 {
+            return Err(wrong(map, "expected at least two columns and two rows in SizeX and SizeY"));
+        }
         Ok::<_, MapError>((least, (most - least) / (count - 1.0), count))
     };
     let (x, y) = (axis("MinX", "MaxX", "SizeX")?, axis("MinY", "MaxY", "SizeY")?);
@@ -58,4 +61,25 @@ fn wrong(node: Node<'_, '_>, expected: &'static str) -> MapError {
     let line = line(node);
     let text = node.document().input_text()[node.range()].lines().next().unwrap_or_default().to_owned();
     MapError::Line { line, text, expected }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Nm;
+
+    #[test]
+    fn a_map_of_one_row_is_refused() {
+        let map = |size: u32| {
+            format!(
+                "<heightmap MinX=\"0\" MinY=\"0\" MaxX=\"20\" MaxY=\"75\" SizeX=\"2\" SizeY=\"{size}\">\n\
+                 <point X=\"0\" Y=\"0\">0</point><point X=\"1\" Y=\"0\">0</point>\n\
+                 <point X=\"0\" Y=\"1\">0</point><point X=\"1\" Y=\"1\">0.1</point></heightmap>"
+            )
+        };
+        let frame = Frame { unit: Nm::from_mm(1), zero: None };
+        assert_eq!(read(&map(2), &frame).expect("a map").len(), 4, "two rows");
+        let error = read(&map(1), &frame).expect_err("the way between its rows would be infinite");
+        assert!(error.to_string().contains("at least two"), "{error}");
+    }
 }
