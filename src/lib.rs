@@ -24,7 +24,7 @@
 //! | [`vectorize`] | pixels → contours; stands alone, speaks of samples and levels | – |
 //! | [`board`] | the resolved board: copper, holes, outline; macros, repeats and polarity are gone | geometry |
 //! | [`artwork`] | drawings: layers of areas and lines; → polygons, copper, holes | geometry, board |
-//! | [`import`] | files → [`Board`](board::Board): Gerber, Excellon, KiCad boards, pictures, job files, archives | geometry, board, artwork, vectorize |
+//! | [`import`] | files → [`Board`](board::Board): Gerber, Excellon, KiCad boards, pictures, drawings, job files, archives | geometry, board, artwork, vectorize |
 //! | [`grid`] | the only crossing between nanometres and pixels | geometry, raster |
 //! | [`topology`] | which features conduct to each other: [`Nets`](topology::Nets) | geometry, raster, board, grid |
 //! | [`voronoi`] | nets → regions → a planar graph of [`Boundaries`](voronoi::Boundaries), placed exactly | all above but import |

@@ -13,13 +13,16 @@ pub struct Area {
     pub rule: FillRule,
 }
 
-/// A round pen drawn along a path.
+/// A pen drawn along a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Line {
     /// Where its middle goes.
     pub path: Path,
     /// The pen's diameter; zero for a line that only marks a place, such as a board's edge.
     pub width: Nm,
+    /// What it covers, where that is not what a round pen leaves: square ends, mitred corners,
+    /// dashes.
+    pub painted: Option<Area>,
 }
 
 /// The kinds of figures.
@@ -64,8 +67,12 @@ impl Figure {
     /// A rectangle that holds it; none for an area without contours.
     #[must_use]
     pub fn bounds(&self) -> Option<Rect> {
-        let paths = self.paths().iter().map(|path| path.bounds().inflate(self.radius()));
-        paths.reduce(Rect::union)
+        let painted = match &self.drawn {
+            Drawn::Line(Line { painted: Some(area), .. }) => area.contours.as_slice(),
+            Drawn::Area(_) | Drawn::Line(_) => &[],
+        };
+        let middles = self.paths().iter().map(|path| path.bounds().inflate(self.radius()));
+        middles.chain(painted.iter().map(Path::bounds)).reduce(Rect::union)
     }
 
     /// What it covers: an area as polygons, curves within `tolerance`; a line as its strokes.
@@ -75,7 +82,7 @@ impl Figure {
     /// [`TooMuch`] for contours that cross themselves too often.
     pub fn shapes(&self, tolerance: Nm) -> Result<Vec<(Shape, Axis)>, TooMuch> {
         match &self.drawn {
-            Drawn::Area(area) => {
+            Drawn::Area(area) | Drawn::Line(Line { painted: Some(area), .. }) => {
                 let polygons = area.polygons(tolerance)?.into_iter();
                 Ok(polygons.map(|polygon| (Shape::Polygon(polygon), Axis::Region)).collect())
             }
@@ -97,17 +104,22 @@ impl Figure {
     #[must_use]
     pub fn translated(&self, way: Vector) -> Self {
         let drawn = match &self.drawn {
-            Drawn::Area(area) => {
-                let contours = area.contours.iter().map(|path| path.translated(way)).collect();
-                Drawn::Area(Area { contours, rule: area.rule })
-            }
-            Drawn::Line(line) => Drawn::Line(Line { path: line.path.translated(way), width: line.width }),
+            Drawn::Area(area) => Drawn::Area(area.translated(way)),
+            Drawn::Line(line) => Drawn::Line(Line {
+                path: line.path.translated(way),
+                width: line.width,
+                painted: line.painted.as_ref().map(|area| area.translated(way)),
+            }),
         };
         Self { drawn, ..self.clone() }
     }
 }
 
 impl Area {
+    fn translated(&self, way: Vector) -> Self {
+        Self { contours: self.contours.iter().map(|path| path.translated(way)).collect(), rule: self.rule }
+    }
+
     /// Simple polygons with holes, one for each connected piece, curves within `tolerance`.
     ///
     /// # Errors
@@ -123,9 +135,8 @@ impl Area {
 }
 
 impl Line {
-    /// A stroke for each segment; a disc for a path that goes nowhere.
-    #[must_use]
-    pub fn shapes(&self) -> Vec<(Shape, Axis)> {
+    /// What a round pen leaves: a stroke for each segment; a disc for a path that goes nowhere.
+    fn shapes(&self) -> Vec<(Shape, Axis)> {
         let radius = self.width / 2;
         let start = self.path.start;
         let stroke = |(from, segment): (Point, &Segment)| match segment.arc(from) {

@@ -86,12 +86,12 @@ mod tests {
     fn the_order_of_painting_and_the_rule_decide_what_is_filled() {
         let name = String::new();
         let both = vec![square(0, 10), square(2, 8)];
-        let painted = vec![
+        let painted = [
             area(both.clone(), FillRule::EvenOdd, Polarity::Dark),
             area(both, FillRule::NonZero, Polarity::Dark),
             area(vec![square(4, 6)], FillRule::NonZero, Polarity::Clear),
             Figure {
-                drawn: Drawn::Line(Line { path: square(0, 10), width: Nm::ZERO }),
+                drawn: Drawn::Line(Line { path: square(0, 10), width: Nm::ZERO, painted: None }),
                 polarity: Polarity::Dark,
                 line: 1,
             },

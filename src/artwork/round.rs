@@ -155,7 +155,8 @@ mod tests {
                 Segment::Line { to: at(0, 500) },
             ],
         };
-        let found = hole(&figure(Drawn::Line(Line { path: slot, width: Nm::ZERO }))).expect("a slot");
+        let found =
+            hole(&figure(Drawn::Line(Line { path: slot, width: Nm::ZERO, painted: None }))).expect("a slot");
         let ends = [found.path.start, found.path.end()];
         for end in [at(0, 0), at(3000, 0)] {
             let off = ends.iter().map(|p| p.distance(end)).fold(f64::INFINITY, f64::min);

@@ -13,6 +13,7 @@ use voromill::job::{self, Job, Settings};
 use voromill::report::document::WarningEntry;
 use voromill::report::picture::{self, Depth, Shown};
 use voromill::report::svg::{self, Over};
+use voromill::report::thinning::Thinning;
 use voromill::report::translucent::Translucent;
 use voromill::report::{self, Canvas, png, terminal};
 
@@ -87,6 +88,9 @@ enum Stage {
     Depth,
     /// What is cut, at its true width, and the way through the air
     Toolpath,
+    /// The bare board worn away to lines by a cellular automaton, as Cisolate does: dark what goes
+    /// first, blue and magenta where three and four lines meet; a picture by its own pixels
+    Thinning,
 }
 
 /// A side, as the command line names it.
@@ -138,6 +142,9 @@ impl Draw {
         let sampled =
             if self.stage == Stage::Copper { off_ties(area, settings.picture_pixel()) } else { area };
         let grid = format.grid(sampled, settings.picture_pixel())?;
+        if self.stage == Stage::Thinning {
+            return self.thinning(shared, &settings, &loaded.board, side, (format, grid));
+        }
         let read: Vec<WarningEntry> = loaded.warnings.iter().map(WarningEntry::from).collect();
         let mut loaded = loaded;
         match side {
@@ -155,13 +162,59 @@ impl Draw {
             Format::Sixel => terminal::sixels(drawn.canvas(grid)?).into_bytes(),
         };
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
+        self.write(&bytes)
+    }
+
+    fn write(&self, bytes: &[u8]) -> Result<(), Failure> {
         if self.output == Path::new("-") {
-            return super::print_bytes(&bytes);
+            return super::print_bytes(bytes);
         }
         let mut output = Output::new();
-        output.stage(&self.output, &bytes)?;
+        output.stage(&self.output, bytes)?;
         output.commit()
     }
+
+    /// The side thinned; what it consists of is said.
+    fn thinning(
+        &self,
+        shared: Shared,
+        settings: &Settings,
+        board: &Board,
+        side: Side,
+        (format, grid): (Format, Grid),
+    ) -> Result<(), Failure> {
+        let whole = format == Format::Png && self.window.is_none();
+        let pixels = if whole { self.input.pixels(settings, side)? } else { None };
+        let thinning = match pixels {
+            Some(picture) => {
+                let count = |pixels: usize| i64::try_from(pixels).unwrap_or(i64::MAX);
+                let size = [picture.width, picture.height].map(|pixels| picture.pixel * count(pixels));
+                let corner = Point::default() + Vector::new(size[0], size[1]);
+                let area = Rect::new(Point::default(), corner);
+                let grid = Grid::covering(area, picture.pixel).map_err(job::Error::from)?;
+                Thinning::of_pixels(grid, |at| !picture.is_copper[at])
+            }
+            None => {
+                let copper = board.copper(side).ok_or_else(|| no_copper(side))?;
+                Thinning::of_side(copper, &board.holes, grid)
+            }
+        };
+        let bytes = match format {
+            Format::Png => png::rgb(thinning.canvas()),
+            Format::Svg => return Err(no_svg()),
+            Format::Blocks => terminal::half_blocks(thinning.canvas()).into_bytes(),
+            Format::Shades => terminal::shades(thinning.canvas()).into_bytes(),
+            Format::Sixel => terminal::sixels(thinning.canvas()).into_bytes(),
+        };
+        shared.say(&format!("{}\n", thinning.counts()));
+        self.write(&bytes)
+    }
+}
+
+/// Stages that are pixels and nothing else.
+fn no_svg() -> Failure {
+    let hint = "choose --stage copper, nets, voronoi or toolpath, or name a .png";
+    Failure::new("there is no SVG of this stage", hint)
 }
 
 /// The side that was asked for, or the only one, or the front.
@@ -289,7 +342,12 @@ impl Drawn {
                 let translucent = self.translucent(&grid)?;
                 png::bands(&grid, |band| translucent.draw(band))
             }
-            Stage::Nets | Stage::Voronoi | Stage::Boundaries | Stage::Heat | Stage::Toolpath => {
+            Stage::Nets
+            | Stage::Voronoi
+            | Stage::Boundaries
+            | Stage::Heat
+            | Stage::Toolpath
+            | Stage::Thinning => {
                 let shown = self.shown()?;
                 png::bands(&grid, |band| self.stage.coloured(&shown, band))
             }
@@ -302,9 +360,12 @@ impl Drawn {
             Stage::Copper => Canvas::grey(grid, &picture::copper(self.copper()?, &grid)),
             Stage::Depth => Canvas::grey(grid, &Depth::new(self.shown()?.diagram, &grid).greys(&grid)),
             Stage::Translucent => self.translucent(&grid)?.draw(grid),
-            Stage::Nets | Stage::Voronoi | Stage::Boundaries | Stage::Heat | Stage::Toolpath => {
-                self.stage.coloured(&self.shown()?, grid)
-            }
+            Stage::Nets
+            | Stage::Voronoi
+            | Stage::Boundaries
+            | Stage::Heat
+            | Stage::Toolpath
+            | Stage::Thinning => self.stage.coloured(&self.shown()?, grid),
         })
     }
 
@@ -316,9 +377,8 @@ impl Drawn {
     fn svg(&self, area: Rect) -> Result<String, Failure> {
         let over = match self.stage {
             Stage::Nets => return Ok(svg::nets(&self.shown()?, area)),
-            Stage::Translucent | Stage::Heat | Stage::Depth => {
-                let hint = "choose --stage copper, nets, voronoi or toolpath, or name a .png";
-                return Err(Failure::new("there is no SVG of this stage", hint));
+            Stage::Translucent | Stage::Heat | Stage::Depth | Stage::Thinning => {
+                return Err(no_svg());
             }
             Stage::Copper => Over::Nothing,
             Stage::Voronoi | Stage::Boundaries => Over::Boundaries,
@@ -335,7 +395,7 @@ impl Stage {
     /// Whether the lap round copper without an outline can be seen.
     const fn shows_frame(self) -> bool {
         match self {
-            Self::Copper | Self::Nets | Self::Translucent => false,
+            Self::Copper | Self::Nets | Self::Translucent | Self::Thinning => false,
             Self::Voronoi | Self::Boundaries | Self::Heat | Self::Depth | Self::Toolpath => true,
         }
     }
@@ -346,7 +406,7 @@ impl Stage {
             Self::Voronoi => picture::voronoi(shown, grid),
             Self::Boundaries => picture::boundaries(shown, grid),
             Self::Heat => picture::heat(shown, grid),
-            Self::Toolpath | Self::Copper | Self::Translucent | Self::Depth => {
+            Self::Toolpath | Self::Copper | Self::Translucent | Self::Depth | Self::Thinning => {
                 picture::toolpath(shown, grid, true)
             }
         }

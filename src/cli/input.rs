@@ -1,8 +1,12 @@
 //! The options that name input files and their roles, shared by all commands that read a board.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
+use voromill::board::Side;
+use voromill::import::drawing::{self, Unit};
+use voromill::import::picture::Pixels;
 use voromill::import::{self, Loaded, Selection, picture};
 use voromill::job::{Length, MillProject, ProjectFiles, Settings};
 use voromill::report::document::WarningEntry;
@@ -13,7 +17,8 @@ use super::Failure;
 /// What to read.
 #[derive(Args, Default)]
 pub(super) struct Input {
-    /// A folder, a zip archive, the files themselves, or a KiCad board (.kicad_pcb)
+    /// A folder, a zip archive, the files themselves, a KiCad board (.kicad_pcb), or a drawing
+    /// (SVG, DXF)
     #[arg(required_unless_present_any = ["millproject", "front", "back"], value_name = "PATH")]
     paths: Vec<PathBuf>,
 
@@ -74,6 +79,15 @@ pub(super) struct Input {
     /// Read a part of a picture: left, top, width and height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = pixels, help_heading = "Pictures")]
     crop: Option<[u32; 4]>,
+
+    /// How long one unit of a drawing (SVG, DXF) is, whatever the file says: mm, in, 0.1mm, or
+    /// 90dpi for a 90th inch
+    #[arg(long, value_name = "UNIT", help_heading = "Drawings")]
+    unit: Option<Unit>,
+
+    /// Font for the texts of an SVG; may be given several times
+    #[arg(long = "font", value_name = "FILE", help_heading = "Drawings")]
+    fonts: Vec<PathBuf>,
 
     /// Fail where there is anything to warn of, and write nothing
     #[arg(long, help_heading = "Output")]
@@ -188,6 +202,32 @@ impl Input {
         }
     }
 
+    /// The pixels of the picture that shows `side`; none where it is no picture.
+    pub(super) fn pixels(&self, settings: &Settings, side: Side) -> Result<Option<Pixels>, Failure> {
+        let named = match side {
+            Side::Front => self.front.as_ref().or(self.paths.first()),
+            Side::Back => self.back.as_ref(),
+        };
+        let Some(path) = named.filter(|path| path.is_file()) else { return Ok(None) };
+        let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+        if !picture::is_picture(path, &bytes) {
+            return Ok(None);
+        }
+        let shown = path.display().to_string();
+        Ok(Some(picture::pixels(&shown, &bytes, &self.picture(settings))?))
+    }
+
+    fn drawing(&self) -> Result<drawing::Options, Failure> {
+        let read = |path: &PathBuf| match std::fs::read(path) {
+            Ok(bytes) => Ok(Arc::new(bytes)),
+            Err(error) => Err(Failure::io("read", path, &error)),
+        };
+        Ok(drawing::Options {
+            unit: self.unit,
+            fonts: self.fonts.iter().map(read).collect::<Result<_, _>>()?,
+        })
+    }
+
     fn read(
         &self,
         settings: &Settings,
@@ -213,6 +253,7 @@ impl Input {
             name: self.name.clone().or(project.name),
             outline_gap: Some(settings.outline_gap),
             picture: self.picture(settings),
+            drawing: self.drawing()?,
         };
         let paths = self.paths();
         if paths.is_empty() {

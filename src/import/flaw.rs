@@ -55,6 +55,56 @@ flaws! {
         "copper and gaps of more than a few pixels",
         "leave specks out with --despeckle 0.05";
 
+    // Of drawings.
+
+    /// Nobody told which layer of a drawing is for what.
+    DRAWING_GUESSED =
+        "drawing-role-guessed",
+        "layers named as those of a board are: F.Cu, Edge.Cuts, drill",
+        "say --front FILE, --outline FILE or --drill FILE, with #LAYER behind the name for one layer of it";
+
+    /// Layers of a drawing that no name tells of, beside such as are told.
+    DRAWING_LAYERS =
+        "drawing-layers-aside",
+        "layers named as those of a board are: F.Cu, Edge.Cuts, drill",
+        "say what they are: --front FILE#LAYER, --outline FILE#LAYER or --drill FILE#LAYER";
+
+    /// What of a DXF was not read.
+    DXF_LEFT_OUT =
+        "dxf-left-out",
+        "lines, arcs, circles, polylines, ellipses, splines, solids, hatches and inserts of them",
+        "explode other things into these in the drawing program";
+
+    /// A DXF without its last word.
+    DXF_NO_END =
+        "dxf-no-end",
+        "EOF as the last word of the file",
+        "fetch the file again, or have it written again";
+
+    /// What of an SVG was not read.
+    SVG_LEFT_OUT =
+        "svg-left-out",
+        "visible paths and shapes, and texts with a font",
+        "name a font with --font FILE for texts; turn other things into paths";
+
+    /// Effects of an SVG that are not followed.
+    SVG_EFFECTS =
+        "svg-effects",
+        "plain fills and strokes",
+        "apply clipping, masks and filters in the drawing program, so that only paths are left";
+
+    /// The width of an SVG's page has no unit.
+    SVG_UNIT_ASSUMED =
+        "svg-unit-assumed",
+        "a page with a width in mm or in",
+        "say how long one unit is: --unit mm, or --unit 90dpi for old Inkscape";
+
+    /// White paint on an SVG.
+    SVG_WHITE =
+        "svg-white-erases",
+        "no white paint, or holes that it makes",
+        "delete white figures that are not meant to erase";
+
     // Of Gerber files.
 
     /// The number format comes after coordinates.

@@ -10,7 +10,7 @@ use super::excellon::{self, Context};
 use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
 use super::unusable::quoted;
-use super::{gerber_drill, kicad, off_board, outline, picture, whole_board};
+use super::{drawing, gerber_drill, kicad, off_board, outline, picture, whole_board};
 use crate::board::{Axis, Board, Copper, Feature, Hole, Outline, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
@@ -37,6 +37,8 @@ pub struct Selection {
     pub outline_gap: Option<Nm>,
     /// What is said of pictures.
     pub picture: picture::Options,
+    /// What is said of drawings.
+    pub drawing: drawing::Options,
 }
 
 /// A board with what is known of where it came from.
@@ -83,6 +85,14 @@ pub(super) enum Need {
 }
 
 fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Loaded, Error> {
+    if let Some(loaded) = drawing::load(paths, selection, need, of_files)? {
+        return Ok(loaded);
+    }
+    of_files(paths, selection, need)
+}
+
+/// The board of a picture, of a KiCad board, or of layers.
+fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Loaded, Error> {
     if let Some(loaded) = picture::board(paths, selection)? {
         return Ok(loaded);
     }
@@ -291,7 +301,7 @@ impl Build {
     }
 
     /// Takes over `holes`, less those that another file has drilled already.
-    fn add_holes(&mut self, holes: Vec<Hole>, file: &Found, warnings: &mut Vec<Warning>) {
+    pub(super) fn add_holes(&mut self, holes: Vec<Hole>, file: &Found, warnings: &mut Vec<Warning>) {
         /// The cell in which two holes of different files are looked for.
         const CELL: i64 = 20_000;
         let cell = |p: Point| (p.x.get().div_euclid(CELL), p.y.get().div_euclid(CELL));

@@ -3,7 +3,8 @@
 //! ```text
 //!  paths ─ archive ─▶ files ─ layers, jobfile, assign ─▶ roles ─ load ─▶ Board
 //!                                                                 │
-//!                              gerber, excellon, kicad, outline ──┘
+//!                              gerber, excellon, kicad, outline ──┤
+//!                                 svg, dxf ─▶ Artwork ─ drawing ──┘
 //! ```
 //!
 //! [`load()`] takes a folder, an archive or single files and puts a board together; the readers of
@@ -15,6 +16,8 @@ mod assign;
 mod contradiction;
 mod design;
 mod digest;
+pub mod drawing;
+pub mod dxf;
 mod error;
 pub mod excellon;
 mod flaw;
@@ -29,6 +32,7 @@ mod off_board;
 pub mod outline;
 pub mod picture;
 mod settle;
+pub mod svg;
 pub mod text;
 mod unusable;
 mod wheel;

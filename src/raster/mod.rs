@@ -158,6 +158,7 @@
 //! [visolate]: #references
 
 mod bin;
+mod bits;
 pub mod blend;
 mod canvas;
 mod cell;
@@ -174,9 +175,11 @@ mod scene;
 mod stream;
 mod subpixel;
 mod surface;
+mod thin;
 mod tile;
 pub mod view;
 
+pub use bits::{Bits, Node};
 pub use fragment::{Fragment, Label};
 pub use pick::{Picker, Picks};
 pub use render::{Buffers, render};
@@ -184,4 +187,5 @@ pub use scene::Scene;
 pub use stream::{Options, stream};
 pub use subpixel::{PixelPoint, SubPx};
 pub use surface::{Caps, FillRule, Sides, Spin, Surface};
+pub use thin::{Thinned, thin};
 pub use tile::{Tile, TileContent, TilePixels};

@@ -22,6 +22,7 @@ pub mod stages;
 mod summary;
 pub mod svg;
 pub mod terminal;
+pub mod thinning;
 pub mod translucent;
 pub mod verdict;
 

@@ -119,6 +119,35 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Picture, Erro
     Ok(Picture { features, holes: dots, source, warnings })
 }
 
+/// The pixels of a picture as they are: no contours, no drill dots taken out.
+#[derive(Clone, Debug)]
+pub struct Pixels {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// How wide one is.
+    pub pixel: Nm,
+    /// Which are copper, row by row from the top.
+    pub is_copper: Vec<bool>,
+}
+
+/// Reads the pixels of the picture `name` with content `bytes`.
+///
+/// # Errors
+///
+/// As [`read`] for the same picture.
+pub fn pixels(name: &str, bytes: &[u8], options: &Options) -> Result<Pixels, Error> {
+    let decoded = decode::decode(name, bytes, options)?;
+    let scale = Scale::of(name, &decoded, options)?;
+    let level = two_colours(name, &decoded.field)?;
+    let is_high = copper_is_high(&level, decoded.is_bright, options, &mut Vec::new());
+    let field = &decoded.field;
+    let is_copper = field.samples().iter().map(|&sample| (sample > level.middle) == is_high).collect();
+    let pixel = Nm::from_f64(f64::midpoint(scale.pixel.0, scale.pixel.1));
+    Ok(Pixels { width: field.width(), height: field.height(), pixel, is_copper })
+}
+
 /// The two classes of a picture's pixels, well apart.
 fn two_colours(name: &str, field: &Field) -> Result<Level, Error> {
     let Some(level) = vectorize::level(field) else {

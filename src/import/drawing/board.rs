@@ -1,0 +1,301 @@
+//! Drawings among what was named → their parts on a board, beside its other files.
+
+use std::path::{Path, PathBuf};
+
+use super::told::{self, Part, Parts};
+use super::{Drawing, split};
+use crate::artwork::{self, Figure, Layer};
+use crate::board::{Attributes, Axis, Feature, Hole, Shape, Side, Source};
+use crate::geometry::{Nm, Path as Course};
+use crate::import::archive::{Found, name_of, read_file};
+use crate::import::error::Error;
+use crate::import::flaw;
+use crate::import::gerber::Image;
+use crate::import::layers::{Kind, Role};
+use crate::import::load::{Build, Loaded, Need, Selection};
+use crate::import::{naming, outline, picture};
+
+/// A drawing that was named.
+struct Named {
+    file: Found,
+    drawing: Drawing,
+    /// The layer of it that is meant.
+    layer: Option<String>,
+    /// What a person said it is.
+    role: Option<Role>,
+}
+
+/// The board of drawings among what was named; none where there is no drawing. `others` puts a
+/// board together from the other files.
+pub(in crate::import) fn load(
+    paths: &[PathBuf],
+    selection: &Selection,
+    need: Need,
+    others: impl FnOnce(&[PathBuf], &Selection, Need) -> Result<Loaded, Error>,
+) -> Result<Option<Loaded>, Error> {
+    let mut rest = selection.clone();
+    let mut named = Vec::new();
+    let slots = [
+        (&mut rest.front, Role::Copper(Side::Front)),
+        (&mut rest.back, Role::Copper(Side::Back)),
+        (&mut rest.outline, Role::Outline),
+    ];
+    let mut told = Vec::new();
+    for (slot, role) in slots {
+        if let Some(drawing) =
+            slot.as_ref().map(|path| named_as(path, Some(role), selection)).transpose()?.flatten()
+        {
+            named.push(drawing);
+            told.extend(slot.take());
+        }
+    }
+    for path in std::mem::take(&mut rest.drill) {
+        match named_as(&path, Some(Role::Drill), selection)? {
+            Some(drawing) => {
+                named.push(drawing);
+                told.push(path);
+            }
+            None => rest.drill.push(path),
+        }
+    }
+    let mut left = Vec::new();
+    for path in paths.iter().filter(|path| !told.contains(path)) {
+        match named_as(path, None, selection)? {
+            Some(drawing) => named.push(drawing),
+            None => left.push(path.clone()),
+        }
+    }
+    let Some(first) = named.first() else { return Ok(None) };
+    let mut build = Build::new(naming::whole_board_name(&first.file.name, selection));
+    let mut ignored = Vec::new();
+    let selected = [&rest.front, &rest.back, &rest.outline].into_iter().flatten().chain(&rest.drill);
+    if selected.clone().next().is_some() || !left.is_empty() {
+        refuse_pictures(left.iter().chain(selected))?;
+        let loaded = others(&left, &rest, Need::AnyLayer)?;
+        (build.board, build.sources, build.warnings) = (loaded.board, loaded.sources, loaded.warnings);
+        ignored = loaded.ignored;
+    }
+    for named in &named {
+        add(&mut build, named, selection)?;
+    }
+    finish(&mut build, &named[0].file, need)?;
+    Ok(Some(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored }))
+}
+
+/// What was named, read, if it is a drawing.
+fn named_as(path: &Path, role: Option<Role>, selection: &Selection) -> Result<Option<Named>, Error> {
+    let (file, layer) = split(path);
+    if !file.is_file() {
+        return Ok(None);
+    }
+    let shown = file.display().to_string();
+    let bytes = read_file(&file, &shown)?;
+    if !super::looks_like(&bytes) {
+        return Ok(None);
+    }
+    let drawing = super::read(&name_of(&file), &bytes, &selection.drawing)?;
+    let file = Found { name: name_of(&file), shown, bytes, kind: Kind::Unknown, named: true };
+    Ok(Some(Named { file, drawing, layer, role }))
+}
+
+fn refuse_pictures<'a>(paths: impl Iterator<Item = &'a PathBuf>) -> Result<(), Error> {
+    for path in paths.filter(|path| path.is_file()) {
+        let shown = path.display().to_string();
+        if picture::is_picture(path, &read_file(path, &shown)?) {
+            let what =
+                "a picture and a drawing do not make one board: nothing tells how they lie on each other";
+            return Err(Error::content(&shown, what, "name the picture alone"));
+        }
+    }
+    Ok(())
+}
+
+/// Takes over what one drawing has.
+fn add(build: &mut Build, named: &Named, selection: &Selection) -> Result<(), Error> {
+    let Named { file, drawing, layer, role } = named;
+    build.warnings.extend(drawing.warnings.iter().cloned());
+    let whole;
+    let artwork = match layer {
+        None => &drawing.artwork,
+        Some(name) => {
+            let kept = told::layer(&drawing.artwork, &file.shown, name)?.clone();
+            whole = artwork::Artwork { layers: vec![kept] };
+            &whole
+        }
+    };
+    let parts = match role {
+        Some(role) => {
+            let figures = artwork.layers.iter().flat_map(|layer| &layer.figures).cloned().collect();
+            Parts { parts: vec![Part { role: *role, figures }], ..Parts::default() }
+        }
+        None => Parts::of(artwork),
+    };
+    if let Some(guess) = parts.guess {
+        let message = format!("no layer of {} has a name that tells what it is for: {guess}", file.name);
+        build.warnings.push(flaw::DRAWING_GUESSED.warning(message));
+    }
+    let called = |name: &str| if name.is_empty() { "no name".to_owned() } else { format!("`{name}`") };
+    let unknown: Vec<String> =
+        parts.aside.iter().filter(|(_, what)| what.is_none()).map(|(name, _)| called(name)).collect();
+    if !unknown.is_empty() {
+        let listed = unknown.join(", ");
+        let message = format!(
+            "layers of {} whose names do not tell what they are for are left aside: {listed}",
+            file.name
+        );
+        build.warnings.push(flaw::DRAWING_LAYERS.warning(message));
+    }
+    for (name, what) in &parts.aside {
+        let what = what.unwrap_or("unknown role");
+        let role = format!("ignored ({what}: {})", called(name));
+        build.sources.push(Source { role, design: String::new(), ..drawing.source.clone() });
+    }
+    for part in parts.parts {
+        match part.role {
+            Role::Copper(side) => copper(build, named, side, part.figures)?,
+            Role::Outline => edge(build, named, &part.figures, selection),
+            Role::Drill if selection.no_drill => {}
+            Role::Drill => holes(build, named, &part.figures),
+            Role::Group(_) | Role::Other(_) => {}
+        }
+    }
+    Ok(())
+}
+
+/// Puts aside what other files had for a role that a drawing takes.
+fn replace(build: &mut Build, role: &str) {
+    for source in build.sources.iter_mut().filter(|source| source.role == role) {
+        source.role = format!("ignored (another {role} was named)");
+        source.design = String::new();
+    }
+}
+
+fn copper(build: &mut Build, named: &Named, side: Side, figures: Vec<Figure>) -> Result<(), Error> {
+    let layer = Layer { name: String::new(), figures };
+    let features = layer
+        .features()
+        .map_err(|error| Error::content(&named.file.shown, error.to_string(), "draw with fewer crossings"))?;
+    replace(build, &format!("{side}-copper"));
+    match side {
+        Side::Front => build.board.front = None,
+        Side::Back => build.board.back = None,
+    }
+    let source = named.drawing.source.clone();
+    let attributes = vec![Attributes::default()];
+    let image = Image { features, attributes, source, function: None, warnings: Vec::new() };
+    build.copper(&named.file, image, side);
+    Ok(())
+}
+
+fn edge(build: &mut Build, named: &Named, figures: &[Figure], selection: &Selection) {
+    let features: Vec<Feature> = figures.iter().flat_map(middles).collect();
+    let gap = selection.outline_gap.unwrap_or(outline::GAP);
+    let joined = outline::join(&named.file.name, &named.file.bytes, &features, gap);
+    replace(build, "outline");
+    build.sources.push(Source { role: "outline".to_owned(), ..named.drawing.source.clone() });
+    build.board.outline = joined.outline;
+    build.warnings.extend(joined.warnings);
+}
+
+/// The contours of an area, or the middle of a line, as bare lines.
+fn middles(figure: &Figure) -> Vec<Feature> {
+    let radius = figure.radius();
+    let mut features = Vec::new();
+    for path in figure.paths() {
+        let closed;
+        let path = if matches!(figure.drawn, artwork::Drawn::Area(_)) && !path.is_closed() {
+            closed = close(path);
+            &closed
+        } else {
+            path
+        };
+        for (from, segment) in path.steps() {
+            let to = segment.to();
+            let (shape, axis) = match segment.arc(from) {
+                Some(arc) => (Shape::Arc { arc, radius }, Axis::Arc(arc)),
+                None if from == to => continue,
+                None => (Shape::Stroke { from, to, radius }, Axis::Line(from, to)),
+            };
+            features.push(Feature { shape, axis, attributes: 0, line: figure.line });
+        }
+    }
+    features
+}
+
+fn close(path: &Course) -> Course {
+    let mut path = path.clone();
+    path.segments.push(crate::geometry::Segment::Line { to: path.start });
+    path
+}
+
+/// Takes over the round and obround figures as holes, small ones first.
+fn holes(build: &mut Build, named: &Named, figures: &[Figure]) {
+    let mut holes: Vec<Hole> = Vec::new();
+    let mut left_out: Vec<&Figure> = Vec::new();
+    for figure in figures {
+        // One figure may draw many circles.
+        let single: Vec<Figure> = match &figure.drawn {
+            artwork::Drawn::Area(area) if area.contours.len() > 1 => {
+                let of = |path: &Course| artwork::Area { contours: vec![path.clone()], rule: area.rule };
+                let one = |path| Figure { drawn: artwork::Drawn::Area(of(path)), ..figure.clone() };
+                area.contours.iter().map(one).collect()
+            }
+            artwork::Drawn::Area(_) | artwork::Drawn::Line(_) => vec![figure.clone()],
+        };
+        for one in single {
+            match artwork::hole(&one) {
+                Some(hole) => holes.push(hole),
+                None => left_out.push(figure),
+            }
+        }
+    }
+    // Coordinates that were rounded make one size several.
+    const STEP: f64 = 1_000.0;
+    for hole in &mut holes {
+        hole.diameter = Nm::from_f64((hole.diameter.to_f64() / STEP).round() * STEP).max(Nm::from_um(1));
+    }
+    let mut sizes: Vec<Nm> = holes.iter().map(|hole| hole.diameter).collect();
+    sizes.sort();
+    sizes.dedup();
+    for hole in &mut holes {
+        let at = sizes.binary_search(&hole.diameter).unwrap_or_default();
+        hole.tool = u32::try_from(at + 1).unwrap_or(u32::MAX);
+    }
+    let mut warnings = Vec::new();
+    if let Some(first) = left_out.first() {
+        let message = format!(
+            "{} figures of the holes in {} are neither round nor obround, so no drill makes them",
+            left_out.len(),
+            named.file.name
+        );
+        let warning = flaw::NOT_A_HOLE.warning(message);
+        let at = first.bounds().map(|bounds| bounds.min()).unwrap_or_default();
+        warnings.push(warning.at(at).caused_by(named.file.at_line(first.line)));
+    }
+    build.sources.push(Source { role: "drill".to_owned(), ..named.drawing.source.clone() });
+    build.add_holes(holes, &named.file, &mut warnings);
+    build.warnings.append(&mut warnings);
+}
+
+/// What a board must have.
+fn finish(build: &mut Build, file: &Found, need: Need) -> Result<(), Error> {
+    let has_copper = build.board.front.is_some() || build.board.back.is_some();
+    let missing = [flaw::COPPER_MISSING.code, flaw::OUTLINE_MISSING.code, flaw::SIZE_IMPLAUSIBLE.code];
+    build.warnings.retain(|warning| !missing.contains(&warning.code));
+    if !has_copper {
+        build.warnings.push(flaw::COPPER_MISSING.warning("no copper layer is among the files"));
+    }
+    if !build.sources.iter().any(|source| source.role == "outline") {
+        let message = "no outline is among the files, so the board's edge is not known";
+        build.warnings.push(flaw::OUTLINE_MISSING.warning(message));
+    }
+    build.warn_of_size();
+    if need == Need::Job {
+        build.refuse_size(&file.shown)?;
+        if !has_copper && build.board.holes.is_empty() && build.board.outline.is_none() {
+            let hint = "name the layers of the drawing, or say --front, --outline or --drill";
+            return Err(Error::content(&file.shown, "nothing of it can be milled", hint));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+//! Which part of a drawing is which layer of a board.
+
+use super::role_of;
+use crate::artwork::{Artwork, Drawn, Figure, Layer, diameter};
+use crate::geometry::Nm;
+use crate::import::error::Error;
+use crate::import::layers::Role;
+
+/// The widest circle among bare lines that is a hole. Chosen: of boards and panels drawn so, the
+/// widest hole for a screw; a wider circle is cut out.
+const WIDEST_HOLE: Nm = Nm::from_um(6_500);
+
+/// The figures of one role.
+#[derive(Clone, Debug)]
+pub(super) struct Part {
+    pub(super) role: Role,
+    pub(super) figures: Vec<Figure>,
+}
+
+/// What a drawing's own layers tell.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Parts {
+    pub(super) parts: Vec<Part>,
+    /// Layers that are left aside, with what they are where that is known.
+    pub(super) aside: Vec<(String, Option<&'static str>)>,
+    /// What nobody told, in words; none where the names did.
+    pub(super) guess: Option<&'static str>,
+}
+
+impl Parts {
+    /// The parts of `artwork` by the names of its layers, or by what is drawn.
+    pub(super) fn of(artwork: &Artwork) -> Self {
+        let roles: Vec<(&Layer, Option<Role>)> =
+            artwork.layers.iter().map(|layer| (layer, role_of(&layer.name))).collect();
+        let is_told =
+            |role: &Option<Role>| matches!(role, Some(Role::Copper(_) | Role::Outline | Role::Drill));
+        if !roles.iter().any(|(_, role)| is_told(role)) {
+            return Self::guessed(artwork);
+        }
+        let mut parts = Self::default();
+        for (layer, role) in roles {
+            match role {
+                Some(Role::Other(what)) => parts.aside.push((layer.name.clone(), Some(what))),
+                None | Some(Role::Group(_)) => parts.aside.push((layer.name.clone(), None)),
+                Some(role) => parts.add(role, &layer.figures),
+            }
+        }
+        parts
+    }
+
+    fn add(&mut self, role: Role, figures: &[Figure]) {
+        match self.parts.iter_mut().find(|part| part.role == role) {
+            Some(part) => part.figures.extend_from_slice(figures),
+            None => self.parts.push(Part { role, figures: figures.to_vec() }),
+        }
+    }
+
+    /// Areas are copper of the front; bare lines are the edge, small circles among them holes.
+    fn guessed(artwork: &Artwork) -> Self {
+        let mut parts = Self::default();
+        let figures: Vec<Figure> = artwork.layers.iter().flat_map(|layer| &layer.figures).cloned().collect();
+        if figures.iter().any(covers) {
+            parts.guess = Some("all of it is taken for the copper of the front");
+            parts.add(Role::Copper(crate::board::Side::Front), &figures);
+            return parts;
+        }
+        let circles = |figure: &Figure| match figure.paths() {
+            [path] => diameter(path).map(|(_, diameter)| diameter),
+            _ => None,
+        };
+        let is_hole = |figure: &Figure| circles(figure).is_some_and(|diameter| diameter <= WIDEST_HOLE);
+        let (holes, edge): (Vec<Figure>, Vec<Figure>) = figures.into_iter().partition(is_hole);
+        if edge.is_empty() {
+            parts.guess = Some("its circles are taken for holes");
+        } else if holes.is_empty() {
+            parts.guess = Some("its lines are taken for the board's edge");
+        } else {
+            parts.guess =
+                Some("its lines are taken for the board's edge, its circles up to 6.5 mm for holes");
+        }
+        for (role, figures) in [(Role::Outline, edge), (Role::Drill, holes)] {
+            if !figures.is_empty() {
+                parts.add(role, &figures);
+            }
+        }
+        parts
+    }
+}
+
+/// Whether a figure covers anything.
+fn covers(figure: &Figure) -> bool {
+    match &figure.drawn {
+        Drawn::Area(_) => true,
+        Drawn::Line(line) => line.width > Nm::ZERO,
+    }
+}
+
+/// The layer `name` of a drawing.
+pub(super) fn layer<'a>(artwork: &'a Artwork, shown: &str, name: &str) -> Result<&'a Layer, Error> {
+    artwork.layer(name).ok_or_else(|| {
+        const SHOWN: usize = 12;
+        let names: Vec<&str> =
+            artwork.layers.iter().map(|layer| layer.name.as_str()).filter(|name| !name.is_empty()).collect();
+        let more = if names.len() > SHOWN { ", …" } else { "" };
+        let listed = names.iter().take(SHOWN).copied().collect::<Vec<_>>().join(", ");
+        let what = format!("the drawing has no layer `{name}` with anything on it");
+        let hint = if names.is_empty() {
+            "its layers have no names".to_owned()
+        } else {
+            format!("it has {listed}{more}")
+        };
+        Error::content(shown, what, hint)
+    })
+}

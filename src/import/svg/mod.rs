@@ -1,0 +1,141 @@
+//! SVG drawings → [`Artwork`], by the crate `usvg`, which resolves styles, transforms, uses and
+//! units.
+//!
+//! ```text
+//!  bytes ─ document ─▶ groups with names, size, counts ─ usvg ─▶ paths ─ paint ─▶ Artwork
+//! ```
+//!
+//! What is painted counts: fills by their rule, strokes with caps, joins and dashes. White erases
+//! what was painted before it, where anything else is painted at all. y points up; the lower left
+//! corner of the page is zero.
+//!
+//! # Sources
+//!
+//! Scalable Vector Graphics (SVG) 2, W3C candidate recommendation, 2018; CSS Values and Units 3 for
+//! the pixel of a 96th inch. `usvg` computes in 32-bit floats: 8 nm at 100 mm.
+
+mod document;
+mod paint;
+mod size;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use usvg::fontdb;
+
+use super::digest;
+use super::drawing::{Drawing, Options};
+use super::error::Error;
+use super::flaw;
+use crate::artwork::Artwork;
+use crate::board::Source;
+use document::Document;
+use size::Size;
+
+/// Whether `bytes` are an SVG drawing: XML whose first element is `svg`.
+#[must_use]
+pub fn looks_like(bytes: &[u8]) -> bool {
+    let head = &bytes[..bytes.len().min(4096)];
+    let text = String::from_utf8_lossy(head);
+    let mut rest = text.trim_start_matches('\u{feff}').trim_start();
+    while rest.starts_with("<?") || rest.starts_with("<!") {
+        let end = if rest.starts_with("<!--") { "-->" } else { ">" };
+        // A document type may hold entities in brackets.
+        let end = if rest.starts_with("<!DOCTYPE") && rest[..rest.find('>').unwrap_or(0)].contains('[') {
+            "]"
+        } else {
+            end
+        };
+        let Some(at) = rest.find(end) else { return rest.starts_with("<!DOCTYPE svg") };
+        rest = rest[at + end.len()..].trim_start_matches('>').trim_start();
+    }
+    let name = rest.strip_prefix('<').unwrap_or_default();
+    let name = name.split(|c: char| c.is_whitespace() || c == '>' || c == '/').next().unwrap_or_default();
+    name == "svg" || name.ends_with(":svg")
+}
+
+/// Reads the drawing `name` with content `bytes`.
+///
+/// # Errors
+///
+/// [`Error`] for what is no SVG, does not say how long its unit is, or shows nothing.
+pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Error> {
+    let document = Document::read(name, bytes)?;
+    let xml = document.parse(name)?;
+    let usvg = settings(name, options)?;
+    let tree = usvg::Tree::from_xmltree(&xml, &usvg).map_err(|error| {
+        let what = format!("the SVG cannot be read: {error}");
+        Error::content(name, what, "open it in a drawing program and save it as plain SVG")
+    })?;
+    let mut warnings = Vec::new();
+    let size = Size::of(name, &xml, &tree, options, &mut warnings)?;
+    let painted = paint::painted(name, &tree, &document, &size)?;
+    let left_out = painted.left_out(&document, options);
+    if painted.layers.iter().all(|layer| layer.figures.is_empty()) {
+        let why = if left_out.is_empty() { String::new() } else { format!(": {}", left_out.join(", ")) };
+        let hint = if document.texts > 0 && options.fonts.is_empty() {
+            "name a font for its texts with --font FILE, or turn them into paths"
+        } else {
+            "check that the drawing has visible paths"
+        };
+        return Err(Error::content(name, format!("nothing is drawn in the SVG{why}"), hint));
+    }
+    if !left_out.is_empty() {
+        warnings.push(flaw::SVG_LEFT_OUT.warning(format!("left out of {name}: {}", left_out.join(", "))));
+    }
+    if !painted.effects.is_empty() {
+        let kinds: Vec<String> =
+            painted.effects.iter().map(|(what, count)| format!("{count} {what}")).collect();
+        let message = format!("drawn as if they were not there in {name}: {}", kinds.join(", "));
+        warnings.push(flaw::SVG_EFFECTS.warning(message));
+    }
+    if painted.erased > 0 {
+        let message =
+            format!("{} white figures of {name} erase what was painted before them", painted.erased);
+        warnings.push(flaw::SVG_WHITE.warning(message));
+    }
+    let source = source(name, bytes, &document, &size, painted.figures());
+    Ok(Drawing { artwork: Artwork { layers: painted.layers }, source, warnings })
+}
+
+/// Texts take the font that a person named; nothing is read from the machine.
+fn settings<'a>(name: &str, options: &Options) -> Result<usvg::Options<'a>, Error> {
+    let mut usvg = usvg::Options::default();
+    usvg.image_href_resolver.resolve_string = Box::new(|_, _| None);
+    usvg.image_href_resolver.resolve_data = Box::new(|_, _, _| None);
+    let mut fonts = fontdb::Database::new();
+    for font in &options.fonts {
+        let before = fonts.len();
+        fonts.load_font_data(font.as_ref().clone());
+        if fonts.len() == before {
+            let what = "a file named with --font is no font";
+            return Err(Error::content(name, what, "name a TrueType or OpenType font"));
+        }
+    }
+    let faces: Vec<fontdb::ID> = fonts.faces().map(|face| face.id).collect();
+    let first = faces.first().copied();
+    usvg.fontdb = Arc::new(fonts);
+    usvg.font_resolver.select_font = Box::new(move |_, _| first);
+    usvg.font_resolver.select_fallback =
+        Box::new(move |_, used, _| faces.iter().copied().find(|face| !used.contains(face)));
+    Ok(usvg)
+}
+
+fn source(name: &str, bytes: &[u8], document: &Document, size: &Size, figures: u64) -> Source {
+    let sha256 = digest::sha256(bytes);
+    let mut counts: BTreeMap<String, u64> = document.counts.clone();
+    counts.insert("figures".to_owned(), figures);
+    Source {
+        file: name.to_owned(),
+        format: "svg".to_owned(),
+        role: String::new(),
+        units: size.name.clone(),
+        number_format: format!("a pixel is {}", size.pixel),
+        design: sha256.clone(),
+        sha256,
+        bytes: bytes.len() as u64,
+        counts,
+        generator: document.generator.clone(),
+        apertures: Vec::new(),
+    }
+}

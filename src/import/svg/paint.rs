@@ -1,0 +1,306 @@
+//! Resolved paths → figures: fills and strokes, in the order in which they are painted.
+
+use std::collections::BTreeMap;
+
+use usvg::tiny_skia_path::{self, PathSegment};
+use usvg::{Group, LineCap, LineJoin, Node, Paint, Path, Transform, Tree};
+
+use super::document::{Document, Rank};
+use super::size::Size;
+use crate::artwork::{Area, Drawn, Figure, Layer, Line};
+use crate::board::polarity::{FillRule, Polarity};
+use crate::geometry::{self, Nm, Segment};
+use crate::import::drawing::{Contour, Options, Place};
+use crate::import::error::Error;
+
+/// What is fainter is not seen.
+const FAINTEST: f32 = 0.05;
+
+/// The least of each colour that is white. Chosen: what programs paint a page with.
+const WHITE: u8 = 250;
+
+/// The most lines and arcs of a drawing. Chosen: a gigabyte of them.
+const MOST_SEGMENTS: usize = 20_000_000;
+
+/// What was painted.
+#[derive(Debug, Default)]
+pub(super) struct Painted {
+    pub(super) layers: Vec<Layer>,
+    /// Effects that are not followed, and how many of each there are.
+    pub(super) effects: BTreeMap<&'static str, u64>,
+    /// White figures that erase.
+    pub(super) erased: u64,
+    /// Paths that nothing is painted of.
+    unpainted: u64,
+    segments: usize,
+}
+
+/// Paints all of `tree`.
+pub(super) fn painted(name: &str, tree: &Tree, document: &Document, size: &Size) -> Result<Painted, Error> {
+    let mut painted = Painted::default();
+    let scope = Scope { name, document, size, layer: String::new(), rank: Rank::None, opacity: 1.0 };
+    painted.group(tree.root(), &scope)?;
+    painted.layers.retain(|layer| !layer.figures.is_empty());
+    let figures = || painted.layers.iter().flat_map(|layer| &layer.figures);
+    let clear = figures().filter(|figure| figure.polarity == Polarity::Clear).count() as u64;
+    if clear == painted.figures() {
+        // White alone is what was meant.
+        let all = painted.layers.iter_mut().flat_map(|layer| &mut layer.figures);
+        all.for_each(|figure| figure.polarity = Polarity::Dark);
+    } else {
+        painted.erased = clear;
+    }
+    Ok(painted)
+}
+
+/// Where a figure stands.
+#[derive(Clone)]
+struct Scope<'a> {
+    name: &'a str,
+    document: &'a Document,
+    size: &'a Size,
+    layer: String,
+    rank: Rank,
+    opacity: f32,
+}
+
+impl Painted {
+    /// How many figures there are.
+    pub(super) fn figures(&self) -> u64 {
+        self.layers.iter().map(|layer| layer.figures.len() as u64).sum()
+    }
+
+    /// What is not drawn, in words.
+    pub(super) fn left_out(&self, document: &Document, options: &Options) -> Vec<String> {
+        let texts = if options.fonts.is_empty() { document.texts } else { 0 };
+        let all = [
+            (document.hidden, "hidden elements", "1 hidden element"),
+            (self.unpainted, "paths without fill and stroke", "1 path without fill and stroke"),
+            (texts, "texts, for which --font names no font", "1 text, for which --font names no font"),
+            (document.images, "images", "1 image"),
+        ];
+        let present = all.into_iter().filter(|(count, ..)| *count > 0);
+        present
+            .map(|(count, many, one)| if count == 1 { one.to_owned() } else { format!("{count} {many}") })
+            .collect()
+    }
+
+    fn group(&mut self, group: &Group, above: &Scope<'_>) -> Result<(), Error> {
+        let mut scope = above.clone();
+        if let Some((name, rank)) = above.document.group(group.id())
+            && (rank > above.rank || (rank == above.rank && rank > Rank::Id))
+        {
+            (scope.layer, scope.rank) = (name.to_owned(), rank);
+        }
+        scope.opacity *= group.opacity().get();
+        let mut effect = |is_there: bool, what| {
+            if is_there {
+                *self.effects.entry(what).or_insert(0) += 1;
+            }
+        };
+        effect(group.clip_path().is_some(), "clipping paths");
+        effect(group.mask().is_some(), "masks");
+        effect(!group.filters().is_empty(), "filters");
+        for node in group.children() {
+            match node {
+                Node::Group(group) => self.group(group, &scope)?,
+                Node::Path(path) => self.path(path, &scope)?,
+                Node::Text(text) => self.group(text.flattened(), &scope)?,
+                Node::Image(_) => {}
+            }
+        }
+        Ok(())
+    }
+
+    fn path(&mut self, path: &Path, scope: &Scope<'_>) -> Result<(), Error> {
+        let fill = path.fill().filter(|fill| fill.opacity().get() * scope.opacity >= FAINTEST);
+        let stroke = path.stroke().filter(|stroke| stroke.opacity().get() * scope.opacity >= FAINTEST);
+        if !path.is_visible() || (fill.is_none() && stroke.is_none()) {
+            self.unpainted += 1;
+            return Ok(());
+        }
+        let shape = Shape { path, scope };
+        let mut figures = Vec::new();
+        if let Some(fill) = fill {
+            let rule = match fill.rule() {
+                usvg::FillRule::NonZero => FillRule::NonZero,
+                usvg::FillRule::EvenOdd => FillRule::EvenOdd,
+            };
+            // A path of one line fills nothing.
+            let contours = shape.contours(path.data(), true)?;
+            let contours: Vec<_> = contours.into_iter().filter(|path| path.segments.len() > 1).collect();
+            if !contours.is_empty() {
+                figures.push(self.figure(Drawn::Area(Area { contours, rule }), fill.paint()));
+            }
+        }
+        if let Some(stroke) = stroke {
+            for drawn in shape.stroked(stroke)? {
+                figures.push(self.figure(drawn, stroke.paint()));
+            }
+        }
+        if path.paint_order() == usvg::PaintOrder::StrokeAndFill {
+            figures.reverse();
+        }
+        if figures.is_empty() {
+            self.unpainted += 1;
+        }
+        for figure in &figures {
+            self.segments += figure.paths().iter().map(|path| path.segments.len()).sum::<usize>();
+        }
+        if self.segments > MOST_SEGMENTS {
+            let what = format!("the drawing has more than {MOST_SEGMENTS} lines and arcs");
+            return Err(Error::content(scope.name, what, "draw less of it, or without dashes"));
+        }
+        self.layer(&scope.layer).extend(figures);
+        Ok(())
+    }
+
+    fn figure(&mut self, drawn: Drawn, paint: &Paint) -> Figure {
+        let polarity = match paint {
+            Paint::Color(colour) if colour.red.min(colour.green).min(colour.blue) >= WHITE => Polarity::Clear,
+            Paint::Color(_) => Polarity::Dark,
+            Paint::LinearGradient(_) | Paint::RadialGradient(_) => {
+                *self.effects.entry("gradients").or_insert(0) += 1;
+                Polarity::Dark
+            }
+            Paint::Pattern(_) => {
+                *self.effects.entry("patterns").or_insert(0) += 1;
+                Polarity::Dark
+            }
+        };
+        Figure { drawn, polarity, line: 1 }
+    }
+
+    fn layer(&mut self, name: &str) -> &mut Vec<Figure> {
+        let at = self.layers.iter().position(|layer| layer.name == name).unwrap_or_else(|| {
+            self.layers.push(Layer { name: name.to_owned(), figures: Vec::new() });
+            self.layers.len() - 1
+        });
+        &mut self.layers[at].figures
+    }
+}
+
+/// A path with where it stands.
+struct Shape<'a> {
+    path: &'a Path,
+    scope: &'a Scope<'a>,
+}
+
+impl Shape<'_> {
+    /// A stroke as the lines of a round pen, or where it is none as what it covers.
+    fn stroked(&self, stroke: &usvg::Stroke) -> Result<Vec<Drawn>, Error> {
+        let pixel = self.scope.size.pixel.nanometres();
+        let (x, y, is_similar) = scales(self.path.abs_transform());
+        let width = Nm::from_f64(f64::from(stroke.width().get()) * (x * y).sqrt() * pixel);
+        let dashed = stroke.dasharray().map(|_| stroke.to_tiny_skia());
+        // A pixel to the stroker is 250 nm.
+        #[expect(clippy::cast_possible_truncation, reason = "a scale")]
+        let scale = (x.max(y) * pixel / 250.0) as f32;
+        let middle = match &dashed {
+            None => None,
+            Some(pen) => pen.dash.as_ref().and_then(|dash| self.path.data().dash(dash, scale)),
+        };
+        if dashed.is_some() && middle.is_none() {
+            let what = "a line has more than a million dashes";
+            return Err(Error::content(self.scope.name, what, "draw it without dashes"));
+        }
+        let data = middle.as_ref().unwrap_or_else(|| self.path.data());
+        let paths = self.contours(data, false)?;
+        let is_round = stroke.linecap() == LineCap::Round && stroke.linejoin() == LineJoin::Round;
+        if is_similar && (is_round || paths.iter().all(is_circle)) {
+            return Ok(paths
+                .into_iter()
+                .map(|path| Drawn::Line(Line { path, width, painted: None }))
+                .collect());
+        }
+        let mut pen = stroke.to_tiny_skia();
+        pen.dash = None;
+        // Each part by itself, so that a line and what it covers stay together.
+        let mut drawn = Vec::new();
+        for (part, path) in parts(data).into_iter().zip(paths) {
+            let Some(edge) = part.and_then(|part| part.stroke(&pen, scale)) else { continue };
+            let painted = Area { contours: self.contours(&edge, true)?, rule: FillRule::NonZero };
+            drawn.push(Drawn::Line(Line { path, width, painted: Some(painted) }));
+        }
+        Ok(drawn)
+    }
+
+    /// The parts of `data` on the board; closed ones only, where an area is meant.
+    fn contours(&self, data: &tiny_skia_path::Path, closes: bool) -> Result<Vec<geometry::Path>, Error> {
+        let turn = self.path.abs_transform();
+        let place = |p: tiny_skia_path::Point| -> Place {
+            let (x, y) = (f64::from(p.x), f64::from(p.y));
+            let across = f64::from(turn.sx) * x + f64::from(turn.kx) * y + f64::from(turn.tx);
+            let down = f64::from(turn.ky) * x + f64::from(turn.sy) * y + f64::from(turn.ty);
+            self.scope.size.place((across, down))
+        };
+        let mut done: Vec<Contour> = Vec::new();
+        for segment in data.segments() {
+            if let PathSegment::MoveTo(p) = segment {
+                done.push(Contour::new(place(p)));
+                continue;
+            }
+            let Some(contour) = done.last_mut() else { continue };
+            match segment {
+                PathSegment::MoveTo(_) => {}
+                PathSegment::LineTo(p) => contour.line(place(p)),
+                PathSegment::QuadTo(a, p) => contour.quadratic(place(a), place(p)),
+                PathSegment::CubicTo(a, b, p) => contour.cubic(place(a), place(b), place(p)),
+                PathSegment::Close => contour.close(),
+            }
+        }
+        let finished = done.into_iter().map(|mut contour| {
+            if closes {
+                contour.close();
+            }
+            contour.finish()
+        });
+        finished.collect::<Option<Vec<_>>>().ok_or_else(|| {
+            let what = "a path reaches farther than 1073 mm from the corner of the page";
+            Error::content(self.scope.name, what, "say how long its unit is with --unit, or draw it nearer")
+        })
+    }
+}
+
+/// Each part of a path by itself, as many as it has moves.
+fn parts(data: &tiny_skia_path::Path) -> Vec<Option<tiny_skia_path::Path>> {
+    let mut builders: Vec<tiny_skia_path::PathBuilder> = Vec::new();
+    for segment in data.segments() {
+        if let PathSegment::MoveTo(p) = segment {
+            let mut builder = tiny_skia_path::PathBuilder::new();
+            builder.move_to(p.x, p.y);
+            builders.push(builder);
+            continue;
+        }
+        let Some(builder) = builders.last_mut() else { continue };
+        match segment {
+            PathSegment::MoveTo(_) => {}
+            PathSegment::LineTo(p) => builder.line_to(p.x, p.y),
+            PathSegment::QuadTo(a, p) => builder.quad_to(a.x, a.y, p.x, p.y),
+            PathSegment::CubicTo(a, b, p) => builder.cubic_to(a.x, a.y, b.x, b.y, p.x, p.y),
+            PathSegment::Close => builder.close(),
+        }
+    }
+    builders.into_iter().map(tiny_skia_path::PathBuilder::finish).collect()
+}
+
+/// How much a transform stretches along its two axes, and whether a circle stays one.
+fn scales(turn: Transform) -> (f64, f64, bool) {
+    let [a, b, c, d] = [turn.sx, turn.ky, turn.kx, turn.sy].map(f64::from);
+    // The singular values of the matrix.
+    let (sum, difference) = (libm::hypot(a + d, b - c), libm::hypot(a - d, b + c));
+    let (large, small) = (f64::midpoint(sum, difference), (sum - difference).abs() / 2.0);
+    (large, small, large - small <= large * 1e-5)
+}
+
+/// Whether a path is arcs of one circle all the way round: it has neither ends nor corners.
+fn is_circle(path: &geometry::Path) -> bool {
+    let mut middles = path.segments.iter().map(|segment| match segment {
+        Segment::Arc { center, .. } => Some(*center),
+        Segment::Line { .. } => None,
+    });
+    let Some(Some(first)) = middles.next() else { return false };
+    /// Middles are rounded, and 32-bit floats.
+    const SAME: f64 = 200.0;
+    path.is_closed() && middles.all(|middle| middle.is_some_and(|p| p.distance(first) < SAME))
+}

@@ -1,0 +1,98 @@
+//! How large a drawing is: the unit that its page is measured in, or that a person says.
+
+use usvg::roxmltree;
+
+use crate::board::Warning;
+use crate::import::drawing::{Options, Place, Unit};
+use crate::import::error::Error;
+use crate::import::flaw;
+
+/// Units that are of one length on any page, and px, which CSS makes a 96th inch.
+const ABSOLUTE: [&str; 7] = ["mm", "cm", "in", "pt", "pc", "q", "px"];
+
+/// From a page of pixels to nanometres.
+#[derive(Clone, Debug)]
+pub(super) struct Size {
+    /// The length of a pixel of the page.
+    pub(super) pixel: Unit,
+    /// What the page is measured in.
+    pub(super) name: String,
+    /// The page's height in pixels.
+    height: f64,
+}
+
+impl Size {
+    pub(super) fn of(
+        name: &str,
+        xml: &roxmltree::Document<'_>,
+        tree: &usvg::Tree,
+        options: &Options,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<Self, Error> {
+        let root = xml.root_element();
+        let height = f64::from(tree.size().height());
+        if let Some(unit) = options.unit {
+            let pixel = Unit::of_nanometres(unit.nanometres() / pixels_a_unit(&root, tree));
+            let pixel = pixel.unwrap_or(unit);
+            return Ok(Self { pixel, name: "as told".to_owned(), height });
+        }
+        let sizes = ["width", "height"].map(|side| root.attribute(side).map(measure));
+        let told = sizes.iter().flatten().find(|(_, unit)| ABSOLUTE.contains(&unit.as_str()));
+        if let Some((number, unit)) = told {
+            // A quarter of a millimetre is no unit to `usvg`, which takes the view box instead.
+            let quarter = (unit == "q").then(|| {
+                let is_width = sizes[0].as_ref().is_some_and(|size| size.1 == "q");
+                let pixels = if is_width { f64::from(tree.size().width()) } else { height };
+                Unit::of_nanometres(number * 0.25e6 / pixels)
+            });
+            let pixel = quarter.flatten().unwrap_or(Unit::PIXEL);
+            return Ok(Self { pixel, name: unit.clone(), height });
+        }
+        let is_plain = |size: &Option<(f64, String)>| {
+            size.as_ref().is_some_and(|(number, unit)| unit.is_empty() && number.is_finite())
+        };
+        if !sizes.iter().any(is_plain) {
+            let what = "the drawing does not say how large it is: its page has no width in mm, in or px";
+            let hint = "say how long its unit is: --unit mm, --unit in, --unit 0.1mm or --unit 90dpi";
+            return Err(Error::content(name, what, hint));
+        }
+        let message = "the page has a width without a unit: it is taken for pixels of 1/96 inch";
+        warnings.push(flaw::SVG_UNIT_ASSUMED.warning(message));
+        Ok(Self { pixel: Unit::PIXEL, name: "px".to_owned(), height })
+    }
+
+    /// A point of the page in nanometres, y up.
+    pub(super) fn place(&self, (x, y): Place) -> Place {
+        (x * self.pixel.nanometres(), (self.height - y) * self.pixel.nanometres())
+    }
+}
+
+/// A number and its unit in small letters.
+fn measure(text: &str) -> (f64, String) {
+    let text = text.trim();
+    let is_number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-');
+    let end = text.find(|c: char| !is_number(c)).unwrap_or(text.len());
+    // An exponent is followed by a digit, a unit by a letter: `1e2`, `1em`.
+    let rest = &text[end..];
+    let has_exponent = rest.starts_with(['e', 'E']) && rest[1..].starts_with(|c: char| is_number(c));
+    let end = if has_exponent {
+        let tail = &rest[1..];
+        end + 1 + tail.find(|c: char| !is_number(c)).unwrap_or(tail.len())
+    } else {
+        end
+    };
+    (text[..end].parse().unwrap_or(f64::NAN), text[end..].trim().to_ascii_lowercase())
+}
+
+/// How many pixels of the page a unit of the drawing is.
+fn pixels_a_unit(root: &roxmltree::Node<'_, '_>, tree: &usvg::Tree) -> f64 {
+    let numbers = |text: &str| -> Option<[f64; 4]> {
+        let parts = text.split(|c: char| c.is_whitespace() || c == ',').filter(|part| !part.is_empty());
+        parts.map(|part| part.parse().ok()).collect::<Option<Vec<f64>>>()?.try_into().ok()
+    };
+    let Some([_, _, width, height]) = root.attribute("viewBox").and_then(numbers) else { return 1.0 };
+    let (x, y) = (f64::from(tree.size().width()) / width, f64::from(tree.size().height()) / height);
+    let aspect = root.attribute("preserveAspectRatio").unwrap_or_default();
+    let scale = if aspect.contains("slice") { x.max(y) } else { x.min(y) };
+    if scale.is_finite() && scale > 0.0 { scale } else { 1.0 }
+}

@@ -1,0 +1,381 @@
+//! SVG and DXF drawings: what is read of them, against figures that others established.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use voromill::artwork::Figure;
+use voromill::board::{Board, Shape};
+use voromill::geometry::{Nm, Polygon};
+use voromill::import::drawing::{self, Drawing, Options, Unit};
+use voromill::import::{Loaded, Selection, load};
+use voromill::job::{self, Options as JobOptions, Settings};
+
+fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/drawings").join(name)
+}
+
+/// The gathered drawings of others: `VOROMILL_ARTWORK`, or `../shared/artwork`; none where they are
+/// not at hand.
+fn gathered(kind: &str) -> Option<PathBuf> {
+    let usual = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/artwork");
+    let root = std::env::var_os("VOROMILL_ARTWORK").map_or_else(usual, PathBuf::from).join(kind);
+    root.is_dir().then_some(root)
+}
+
+fn in_millimetres() -> Options {
+    Options { unit: Some(Unit::MILLIMETRE), ..Options::default() }
+}
+
+fn read(path: &Path, options: &Options) -> Result<Drawing, String> {
+    let bytes = std::fs::read(path).expect("readable");
+    let name = path.file_name().expect("a name").to_string_lossy();
+    drawing::read(&name, &bytes, options).map_err(|error| error.to_string())
+}
+
+/// The area in mm² that a layer covers, or all of them.
+fn area(drawing: &Drawing, layer: Option<&str>) -> f64 {
+    let tolerance = Nm::new(100);
+    let polygons = match layer {
+        None => drawing.artwork.polygons(tolerance),
+        Some(name) => drawing.artwork.layer(name).expect(name).polygons(tolerance),
+    };
+    polygons.expect("little work").iter().map(Polygon::area_mm2).sum()
+}
+
+fn codes(loaded: &Loaded) -> Vec<&str> {
+    loaded.warnings.iter().map(|warning| warning.code).collect()
+}
+
+fn board(path: &str) -> Loaded {
+    load(&[fixture(path)], &Selection::default()).unwrap_or_else(|error| panic!("{path}: {error}"))
+}
+
+/// The pad, track and ring of the front as islands.
+fn islands(board: &Board) -> usize {
+    let copper = board.front.as_ref().expect("copper");
+    let polygon = |shape: &Shape| shape.polygon(Nm::from_um(1));
+    let polygons: Vec<Polygon> =
+        copper.features.iter().filter_map(|feature| polygon(&feature.shape)).collect();
+    voromill::board::polarity::union(&polygons).len()
+}
+
+#[test]
+fn strokes_cover_what_their_ends_and_corners_ask_for() {
+    let drawing = read(&fixture("strokes.svg"), &Options::default()).expect("read");
+    let quarter = std::f64::consts::FRAC_PI_4;
+    let ellipse = |width: f64| std::f64::consts::PI * (2.0 + width) * (2.0 + width) * 3.0;
+    for (layer, expected) in [
+        ("butt", 20.0),
+        ("square", 21.0),
+        ("round", 20.0 + quarter),
+        ("mitre", 20.0),
+        ("dashed", 12.0),
+        ("ring", 10.0 * std::f64::consts::PI),
+        ("stretched", ellipse(0.5) - ellipse(-0.5)),
+    ] {
+        let area = area(&drawing, Some(layer));
+        // A circle of cubic curves, before it is stretched, is itself off by that.
+        let most = if layer == "stretched" { 2e-4 } else { 1e-4 };
+        assert!((area / expected - 1.0).abs() < most, "{layer}: {area} mm², expected {expected}");
+    }
+}
+
+#[test]
+fn a_drawing_without_a_unit_asks_and_white_erases() {
+    let error = read(&fixture("no_unit.svg"), &Options::default()).expect_err("no unit");
+    assert!(error.contains("--unit mm"), "{error}");
+    let drawing = read(&fixture("no_unit.svg"), &in_millimetres()).expect("told");
+    let expected = 100.0 - 4.0 * std::f64::consts::PI;
+    assert!((area(&drawing, None) - expected).abs() < 0.01, "{} mm²", area(&drawing, None));
+    let bounds = drawing.artwork.bounds().expect("figures");
+    assert_eq!(bounds.min().y, Nm::from_mm(5), "the page's lower edge is zero: {bounds:?}");
+}
+
+#[test]
+fn layers_are_what_their_names_say() {
+    for name in ["layers.svg", "layers.dxf"] {
+        let loaded = board(name);
+        let Board { outline, holes, back, .. } = &loaded.board;
+        let bounds = outline.as_ref().expect("an outline").bounds();
+        let off = (bounds.width() - Nm::from_mm(30)).abs() + (bounds.height() - Nm::from_mm(20)).abs();
+        assert!(off < Nm::new(20), "{name}: the edge is {bounds:?}");
+        assert_eq!(islands(&loaded.board), 3, "{name}: two pads, one with a track, and a frame");
+        assert_eq!(holes.len(), 2, "{name}: two holes");
+        for (hole, x) in holes.iter().zip([6, 24]) {
+            assert_eq!((hole.diameter, hole.is_slot()), (Nm::from_um(800), false), "{name}: {hole:?}");
+            let off =
+                hole.path.start.distance(voromill::geometry::Point::new(Nm::from_mm(x), Nm::from_mm(10)));
+            assert!(off < 200.0, "{name}: {hole:?} is {off} nm off");
+        }
+        assert!(back.is_none(), "{name}: nothing on the back");
+        let expected = if name.ends_with("svg") { "drawing-layers-aside" } else { "dxf-left-out" };
+        assert_eq!(codes(&loaded), [expected], "{name}");
+    }
+}
+
+#[test]
+fn a_person_says_what_a_layer_is_for() {
+    let layer = |name: &str| Some(PathBuf::from(format!("{}#{name}", fixture("layers.svg").display())));
+    let selection = Selection { back: layer("F.Cu"), outline: layer("edge.cuts"), ..Selection::default() };
+    let paths: Vec<PathBuf> = [&selection.back, &selection.outline].into_iter().flatten().cloned().collect();
+    let loaded = load(&paths, &selection).expect("two layers");
+    assert!(loaded.board.front.is_none() && loaded.board.holes.is_empty(), "no more than was named");
+    assert!(loaded.board.back.is_some() && loaded.board.outline.is_some(), "both that were");
+    let selection = Selection { front: layer("B.Cu"), ..Selection::default() };
+    let error = load(&paths, &selection).expect_err("no such layer").to_string();
+    assert!(error.contains("no layer `B.Cu`") && error.contains("F.Cu"), "{error}");
+}
+
+#[test]
+fn a_drawing_is_the_edge_of_a_board_in_gerber() {
+    let blinker = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
+    let drawing = in_millimetres();
+    let selection = Selection { outline: Some(fixture("loose.dxf")), drawing, ..Selection::default() };
+    let loaded = load(&[blinker], &selection).expect("a board");
+    let bounds = loaded.board.outline.as_ref().expect("the drawing's").bounds();
+    assert_eq!((bounds.width().to_mm().round(), bounds.height().to_mm()), (40.0, 30.0), "of the drawing");
+    let roles: Vec<&str> = loaded.sources.iter().map(|source| source.role.as_str()).collect();
+    assert_eq!(roles.iter().filter(|role| **role == "outline").count(), 1, "{roles:?}");
+    assert!(loaded.board.back.is_some(), "the copper of the folder");
+}
+
+#[test]
+fn bare_lines_are_an_edge_with_holes() {
+    let selection = Selection { drawing: in_millimetres(), ..Selection::default() };
+    let loaded = load(&[fixture("loose.dxf")], &selection).expect("read");
+    let outline = loaded.board.outline.as_ref().expect("its ends meet");
+    assert_eq!(outline.contours().len(), 2, "the edge and the ellipse");
+    let ellipse = outline.contours().iter().find(|contour| contour.bounds().width() < Nm::from_mm(20));
+    let ring: Vec<_> = ellipse.expect("the inner one").flatten(Nm::new(100));
+    let area = Polygon::new(vec![ring]).expect("a ring").area_mm2().abs();
+    assert!((area - 32.0 * std::f64::consts::PI).abs() < 0.01, "{area} mm²");
+    assert_eq!(loaded.board.holes.len(), 1, "one circle");
+    assert_eq!(loaded.board.holes[0].diameter, Nm::from_um(3200), "of 3.2 mm");
+    assert!(codes(&loaded).contains(&"drawing-role-guessed"), "{:?}", codes(&loaded));
+}
+
+#[test]
+fn a_drawing_mills_clean() {
+    for name in ["layers.svg", "layers.dxf"] {
+        let settings = Settings::resolve(JobOptions::default()).expect("defaults");
+        let job = job::mill(board(name), &settings).expect(name);
+        let parts: Vec<String> = job.programs.iter().map(|program| format!("{:?}", program.part)).collect();
+        assert_eq!(parts.len(), 3, "{name}: isolation, holes and edge: {parts:?}");
+        let findings = job.verify(&settings).expect("judged").findings;
+        assert!(findings.is_empty(), "{name}: {findings:?}");
+    }
+}
+
+#[test]
+fn what_is_damaged_says_where() {
+    let text = std::fs::read_to_string(fixture("layers.dxf")).expect("readable");
+    for (damaged, expected) in [
+        (text.replace("43\n0.8", "43\n0,8"), "this is no number at `0,8`"),
+        (text.replace("0\nENDSEC\n0\nEOF\n", ""), "cut off"),
+        (text.replacen("8\nDrill", "eight\nDrill", 1), "a group code is no number at `eight`"),
+    ] {
+        let error = drawing::read("x.dxf", damaged.as_bytes(), &Options::default()).expect_err(expected);
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+    let broken = b"<svg xmlns='http://www.w3.org/2000/svg'><g></svg>";
+    let error = drawing::read("x.svg", broken, &Options::default()).expect_err("not closed").to_string();
+    assert!(error.starts_with("x.svg:1:"), "{error}");
+}
+
+#[test]
+fn gathered_svgs_have_their_elements_or_a_reason() {
+    let Some(root) = gathered("svg") else { return };
+    let index: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(root.join("INDEX.json")).expect("an index")).expect("JSON");
+    let kinds = ["path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "image", "use"];
+    let (mut seen, mut refused) = (0, Vec::new());
+    for entry in index.as_array().expect("a list") {
+        let file = entry["file"].as_str().expect("a name");
+        let own = read(&root.join(file), &Options::default());
+        let Ok(drawing) = own.or_else(|_| read(&root.join(file), &in_millimetres())) else {
+            refused.push(file.rsplit('/').next().unwrap_or(file));
+            continue;
+        };
+        for kind in kinds {
+            let expected = entry["facts"]["elements"][kind].as_u64().unwrap_or(0);
+            let found = drawing.source.counts.get(kind).copied().unwrap_or(0);
+            assert_eq!(found, expected, "{file}: {kind}");
+        }
+        seen += 1;
+    }
+    let nothing_to_draw = ["billion_laughs.svg", "logo_sac.svg", "text_no_font.svg", "use_cycle.svg"];
+    refused.sort_unstable();
+    assert_eq!(refused, nothing_to_draw, "only what has no path");
+    assert!(seen > 80, "{seen} drawings");
+}
+
+#[test]
+fn made_svgs_cover_what_their_notes_say() {
+    let Some(root) = gathered("svg/made") else { return };
+    let truth = 541.095_138;
+    let cases = [
+        ("unit_mm.svg", truth),
+        ("unit_cm.svg", truth),
+        ("unit_in.svg", truth),
+        ("unit_pt.svg", truth),
+        ("unit_px.svg", truth),
+        ("unit_Q.svg", truth),
+        ("no_viewbox_px.svg", truth),
+        ("aspect_meet.svg", truth),
+        ("mixed_units.svg", 619.634_954),
+        ("use_symbol_rotate.svg", truth + 25.0),
+        ("mirror_and_skew.svg", truth * 2.0),
+        ("white_over_black.svg", 400.0 - 25.0 * std::f64::consts::PI),
+        ("hidden_things.svg", 100.0),
+    ];
+    for (file, expected) in cases {
+        let drawing = read(&root.join(file), &Options::default()).unwrap_or_else(|e| panic!("{file}: {e}"));
+        let area = area(&drawing, None);
+        assert!((area / expected - 1.0).abs() < 1e-4, "{file}: {area} mm², expected {expected}");
+    }
+    for file in ["no_size_no_viewbox.svg", "no_size_viewbox_only.svg", "percent_size.svg"] {
+        let error = read(&root.join(file), &Options::default()).expect_err(file);
+        assert!(error.contains("--unit"), "{file}: {error}");
+        let area = area(&read(&root.join(file), &in_millimetres()).expect(file), None);
+        assert!((area / truth - 1.0).abs() < 1e-4, "{file}: {area} mm²");
+    }
+}
+
+#[test]
+fn gathered_dxfs_have_their_entities_or_a_reason() {
+    let Some(root) = gathered("dxf") else { return };
+    let index: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(root.join("INDEX.json")).expect("an index")).expect("JSON");
+    // A tenth of a millimetre a unit, so that nothing lies beyond a metre.
+    let options = Options { unit: Unit::of_nanometres(1e4), ..Options::default() };
+    let (mut seen, mut refused) = (0, Vec::new());
+    for entry in index.as_array().expect("a list") {
+        let (file, facts) = (entry["file"].as_str().expect("a name"), &entry["facts"]);
+        let drawing = match read(&root.join(file), &options) {
+            Ok(drawing) => drawing,
+            Err(error) => {
+                refused.push((file.to_owned(), error));
+                continue;
+            }
+        };
+        let counts = drawing.source.counts.iter().filter(|(kind, _)| *kind != "figures");
+        let found: BTreeMap<&str, u64> = counts.map(|(kind, &count)| (kind.as_str(), count)).collect();
+        let expected = facts["modelspace"].as_object().expect("counts");
+        let expected: BTreeMap<&str, u64> =
+            expected.iter().map(|(kind, count)| (kind.as_str(), count.as_u64().unwrap_or(0))).collect();
+        assert_eq!(found, expected, "{file}");
+        same_box(file, facts, &drawing);
+        seen += 1;
+    }
+    let nothing = |error: &str| error.contains("nothing is drawn in the DXF");
+    let odd: Vec<&str> =
+        refused.iter().filter(|(_, error)| !nothing(error)).map(|(file, _)| file.as_str()).collect();
+    assert_eq!(odd, ["made/truncated.dxf", "made/comma_decimals.dxf"], "damaged ones: {refused:?}");
+    assert_eq!(refused.len(), 7, "and five of texts alone or of nothing: {refused:?}");
+    assert!(seen > 60, "{seen} drawings");
+}
+
+/// Whether the box is that which ezdxf finds, where it knows one and takes no text for a part.
+fn same_box(file: &str, facts: &serde_json::Value, drawing: &Drawing) {
+    let has =
+        |kind: &str| facts["modelspace"].get(kind).is_some() || facts["block_entities"].get(kind).is_some();
+    let texts = ["TEXT", "MTEXT", "DIMENSION", "ATTDEF", "POINT"];
+    let leaves_text = drawing.warnings.iter().any(|warning| warning.message.contains("TEXT"));
+    let is_wide = |figure: &Figure| figure.radius() > Nm::ZERO;
+    let wide = drawing.artwork.layers.iter().flat_map(|layer| &layer.figures).any(is_wide);
+    if wide || leaves_text || texts.into_iter().any(has) || facts["bbox"].is_null() {
+        return;
+    }
+    let expected: Vec<f64> =
+        facts["bbox"].as_array().expect("four").iter().filter_map(serde_json::Value::as_f64).collect();
+    // Middles of lines: a width does not count.
+    let paths = drawing.artwork.layers.iter().flat_map(|layer| layer.paths());
+    let bounds = paths.map(|path| path.bounds()).reduce(voromill::geometry::Rect::union).expect("figures");
+    let found = [bounds.min().x, bounds.min().y, bounds.max().x, bounds.max().y].map(|nm| nm.to_f64() / 1e4);
+    let size = (expected[2] - expected[0]).max(expected[3] - expected[1]);
+    for (a, b) in found.iter().zip(&expected) {
+        assert!((a - b).abs() < 0.002 * size + 0.001, "{file}: {found:?}, expected {expected:?}");
+    }
+}
+
+#[test]
+fn made_dxfs_are_as_large_as_their_notes_say() {
+    let Some(root) = gathered("dxf/made") else { return };
+    let plates = [
+        "plate_R2000",
+        "plate_R2007",
+        "plate_R2018",
+        "plate_R2018_binary",
+        "plate_insunits_1_inch",
+        "plate_insunits_5_cm",
+        "plate_insunits_6_m",
+        "plate_insunits_9_mil",
+        "plate_insunits_13_micron",
+        "plate_measurement_imperial",
+        "crlf_and_spaces",
+    ];
+    for name in plates {
+        let loaded = load(&[root.join(name).with_extension("dxf")], &Selection::default()).expect(name);
+        let outline =
+            loaded.board.outline.as_ref().unwrap_or_else(|| panic!("{name}: {:?}", loaded.warnings));
+        let area = outline.polygon(Nm::new(100)).area_mm2();
+        // The slot lies on a layer of its own.
+        let expected = 2_378.539_816;
+        assert!((area - expected).abs() < 0.01, "{name}: {area} mm²");
+        let holes: Vec<Nm> = loaded.board.holes.iter().map(|hole| hole.diameter).collect();
+        assert_eq!(holes, [Nm::from_um(3200); 4], "{name}");
+    }
+    let drawing = read(&root.join("hatch_islands.dxf"), &Options::default()).expect("read");
+    let shapes = drawing.artwork.layers[0].figures[0].shapes(Nm::new(100)).expect("little work");
+    let covered = shapes.iter().filter_map(|(shape, _)| shape.polygon(Nm::new(100)));
+    let area: f64 = covered.map(|polygon| polygon.area_mm2()).sum();
+    assert!((area - 1_014.938_070).abs() < 0.01, "a hatch with an island: {area} mm²");
+    let drawing = read(&root.join("insert_nested.dxf"), &Options::default()).expect("read");
+    assert_eq!(drawing.source.counts["figures"], 44, "22 pads of a circle and a polyline");
+    let error = read(&root.join("plate_insunits_0_unitless.dxf"), &Options::default()).expect_err("asks");
+    assert!(error.contains("--unit"), "{error}");
+}
+
+/// A damaged drawing is read or refused, and never more; `VOROMILL_MUTATIONS` says how many are
+/// tried of each.
+#[test]
+fn damage_is_read_or_refused() {
+    let count = std::env::var("VOROMILL_MUTATIONS").ok().and_then(|text| text.parse().ok()).unwrap_or(150);
+    let mut state = 0x9e37_79b9_7f4a_7c15_u64;
+    let mut random = |below: usize| {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        usize::try_from(state % below.max(1) as u64).expect("below a usize")
+    };
+    for name in ["layers.svg", "strokes.svg", "layers.dxf", "loose.dxf"] {
+        let whole = std::fs::read(fixture(name)).expect("readable");
+        for _ in 0..count {
+            let mut bytes = whole.clone();
+            for _ in 0..=random(3) {
+                let (at, to) = (random(bytes.len()), random(bytes.len()));
+                let (from, to) = (at.min(to), at.max(to).min(at.min(to) + 80));
+                match random(5) {
+                    0 => bytes[at] = u8::try_from(random(256)).expect("a byte"),
+                    1 => bytes.truncate(at.max(1)),
+                    2 => drop(bytes.drain(from..to)),
+                    3 => {
+                        let part = bytes[from..to].to_vec();
+                        bytes.splice(at..at, part);
+                    }
+                    _ => {
+                        let number = ["-1e30", "1e-30", "999999999", "0", "nan"][random(5)];
+                        let digits = |i: &usize| bytes[*i].is_ascii_digit();
+                        if let Some(digit) = (at..bytes.len()).find(digits) {
+                            bytes.splice(digit..=digit, number.bytes());
+                        }
+                    }
+                }
+            }
+            if let Ok(drawing) = drawing::read(name, &bytes, &in_millimetres()) {
+                drop(drawing.artwork.polygons(Nm::from_um(10)));
+                drawing.artwork.layers.iter().for_each(|layer| drop(layer.features()));
+            }
+        }
+    }
+}
