@@ -53,8 +53,9 @@ impl Spans {
     }
 }
 
-/// A row of pixels. Where cuts of one label cross by the thousand few runs are left of them: a bit
-/// for each pixel takes a tenth of the time of sorting them.
+/// A row of pixels. Where cuts of one label cross by the thousand few runs are left of them: bits
+/// hold what they cover without being sorted. Measured with 10⁴ chords over a board: a quarter less
+/// time in a debug build, in a release build none.
 #[derive(Default)]
 struct Row {
     runs: Vec<Run>,
