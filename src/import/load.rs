@@ -135,8 +135,17 @@ fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Load
 ///
 /// # Errors
 ///
-/// A path that cannot be read, a file that is no Gerber, or one that draws nothing.
+/// A path that cannot be read, a file that is neither Gerber nor a drawing, or one that draws
+/// nothing.
 pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
+    let told = Some(path.to_path_buf());
+    let selection = match side {
+        Side::Front => Selection { front: told, ..Selection::default() },
+        Side::Back => Selection { back: told, ..Selection::default() },
+    };
+    if let Some(loaded) = drawing::load(&[], &selection, Need::AnyLayer, of_files)? {
+        return Ok(loaded);
+    }
     let shown = path.display().to_string();
     let name = name_of(path);
     let bytes = read_file(path, &shown)?;

@@ -155,6 +155,29 @@ fn bare_lines_are_an_edge_with_holes() {
 }
 
 #[test]
+fn copper_drawn_as_svg_is_the_same_copper() {
+    let out = tempfile::tempdir().expect("a folder");
+    let blinker = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
+    let svg = out.path().join("copper.svg");
+    let done = std::process::Command::new(env!("CARGO_BIN_EXE_voromill"))
+        .args(["draw", &blinker.to_string_lossy(), "--stage", "copper", "-q", "-o", &svg.to_string_lossy()])
+        .status();
+    assert!(done.expect("runs").success(), "drawn");
+    let covered = |features: &[voromill::board::Feature]| {
+        let polygon = |feature: &voromill::board::Feature| feature.shape.polygon(Nm::new(250));
+        let polygons: Vec<Polygon> = features.iter().filter_map(polygon).collect();
+        let pieces = voromill::board::polarity::union(&polygons);
+        (pieces.len(), pieces.iter().map(Polygon::area_mm2).sum::<f64>())
+    };
+    let (board, drawn) = (load(&[blinker], &Selection::default()), load(&[svg], &Selection::default()));
+    let (board, drawn) = (board.expect("a board").board, drawn.expect("a drawing").board);
+    let (islands, area) = covered(&board.back.expect("copper").features);
+    let (found, drawn) = covered(&drawn.front.expect("copper").features);
+    assert_eq!(found, islands, "the same islands");
+    assert!((drawn / area - 1.0).abs() < 1e-4, "{drawn} mm², not {area}");
+}
+
+#[test]
 fn a_drawing_mills_clean() {
     for name in ["layers.svg", "layers.dxf"] {
         let settings = Settings::resolve(JobOptions::default()).expect("defaults");

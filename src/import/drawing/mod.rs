@@ -99,7 +99,8 @@ pub(in crate::import) fn role_of(name: &str) -> Option<Role> {
     // Fritzing numbers copper from below.
     match name.to_ascii_lowercase().as_str() {
         "copper0" => return Some(Role::Copper(Side::Back)),
-        "copper1" => return Some(Role::Copper(Side::Front)),
+        // One side drawn by itself, as `draw --stage copper` does.
+        "copper1" | "copper" => return Some(Role::Copper(Side::Front)),
         "hole" | "drills" | "bohrungen" => return Some(Role::Drill),
         "board" => return Some(Role::Outline),
         _ => {}
