@@ -9,7 +9,7 @@ use voromill::board::{Copper, FLATTEN, Feature, Side, polarity};
 use voromill::gcode::Input as Origin;
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::{self, text::text};
-use voromill::job::{Art, Carving, Engraving, Length, Settings, carve};
+use voromill::job::{Art, Carving, Engraving, Length, OneTool, Settings, ToolChoice, carve};
 use voromill::report;
 use voromill::report::document::WarningEntry;
 use voromill::toolpath::Angle;
@@ -50,14 +50,18 @@ pub(super) struct Carve {
     #[arg(long, value_name = "LENGTH", default_value = "6mm", help_heading = "Text")]
     height: Length,
 
-    /// No deeper than this; what is wider is followed along its middle [default: as deep as it is
-    /// wide]
+    /// No deeper than this; what is wider is followed along its middle, or cleared by --flat
+    /// [default: as deep as it is wide]
     #[arg(long, value_name = "LENGTH", help_heading = "Carving")]
     max_depth: Option<Length>,
 
     /// How much one pass takes at most [default: all at once]
     #[arg(long, value_name = "LENGTH", help_heading = "Carving")]
     depth_pass: Option<Length>,
+
+    /// End mill that clears what is too wide at --max-depth, with a program of its own: NAME-flat
+    #[arg(long, value_name = "TOOL", requires = "max_depth", help_heading = "Carving")]
+    flat: Option<ToolChoice>,
 
     /// Leave branches into corners out where the edge turns by less than this; 37deg is
     /// OpenVoronoi's filter
@@ -84,9 +88,10 @@ pub(super) struct Carve {
     #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
     ink: Option<Colour>,
 
-    /// Judge this program, whoever made it, instead of writing one
+    /// Judge this program, whoever made it, instead of writing one; with --flat two, that of the
+    /// end mill first
     #[arg(long, value_name = "PROGRAM", conflicts_with_all = ["output", "no_verify"], help_heading = "Output")]
-    check: Option<PathBuf>,
+    check: Vec<PathBuf>,
 
     /// Do not read the program back
     #[arg(long, help_heading = "Output")]
@@ -112,20 +117,20 @@ impl Carve {
         let input = Input::artwork(self.path.clone(), self.picture_dpi, self.picture_width, self.ink);
         let settings = self.config.settings(&input)?;
         let art = self.art(&input, &settings)?;
-        let engraving = carve(art, &settings, &self.how())?;
-        let judged = match &self.check {
-            Some(path) => Some(engraving.judge(&name_of(path), &read_text(path)?, None)?),
-            None if self.no_verify => None,
-            None => Some(engraving.judge(&engraving.name, &engraving.text, None)?),
+        let engraving = carve(art, &settings, &self.how(&input)?)?;
+        let judged = match self.check.as_slice() {
+            [] if self.no_verify => None,
+            [] => Some(engraving.verify(None)?),
+            paths => Some(judged(&engraving, paths)?),
         };
         let warnings: Vec<WarningEntry> = engraving.warnings.iter().map(WarningEntry::from).collect();
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if let Some(output) = &self.output {
-            write(output, &engraving.text)?;
+            write(output, &engraving)?;
         }
         let to_stdout = self.output.as_deref() == Some(Path::new("-"));
         let account = Account::new(&engraving, judged.as_ref(), &warnings);
-        let said = if self.check.is_some() { String::new() } else { engraving.summary() };
+        let said = if self.output.is_none() { String::new() } else { engraving.summary() };
         let told = said + &judged.as_ref().map_or(String::new(), to_text);
         if self.json && !to_stdout {
             super::print(&account.to_json())?;
@@ -138,13 +143,18 @@ impl Carve {
         Ok(if passes { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 
-    fn how(&self) -> Carving {
-        Carving {
+    fn how(&self, input: &Input) -> Result<Carving, Failure> {
+        let flat = self
+            .flat
+            .as_ref()
+            .map(|choice| self.config.workbench(input)?.fetch(choice).map_err(Failure::from));
+        Ok(Carving {
             max_depth: self.max_depth.map(Length::nm),
             step: self.depth_pass.map(Length::nm),
             corner: self.corner,
             raised: self.invert.then(|| self.margin.nm()),
-        }
+            flat: flat.transpose()?,
+        })
     }
 
     /// The shapes.
@@ -166,13 +176,41 @@ fn read_text(path: &Path) -> Result<String, Failure> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-fn write(output: &Path, text: &str) -> Result<(), Failure> {
+/// Judges programs of files.
+fn judged(engraving: &Engraving, paths: &[PathBuf]) -> Result<Carved, Failure> {
+    let texts: Vec<(String, String)> =
+        paths.iter().map(|path| Ok((name_of(path), read_text(path)?))).collect::<Result<_, Failure>>()?;
+    let texts: Vec<(&str, &str)> = texts.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
+    Ok(engraving.judge(&texts, None)?)
+}
+
+/// Writes a file for each tool: that of the V-bit is called as asked for.
+fn write(output: &Path, engraving: &Engraving) -> Result<(), Failure> {
     if output == Path::new("-") {
-        return super::print(text);
+        let [one] = engraving.programs.as_slice() else {
+            let cause = format!(
+                "each of {} tools has a program of its own, and stdout takes one",
+                engraving.programs.len()
+            );
+            return Err(Failure::new(cause, "name a file: -o NAME.ngc"));
+        };
+        return super::print(&one.text);
     }
     let mut staged = Output::new();
-    staged.stage(output, text.as_bytes())?;
+    for one in &engraving.programs {
+        staged.stage(&tagged(output, one.tag), one.text.as_bytes())?;
+    }
     staged.commit()
+}
+
+/// The name with a tag before its ending.
+fn tagged(path: &Path, tag: &str) -> PathBuf {
+    if tag.is_empty() {
+        return path.to_path_buf();
+    }
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().map_or(String::new(), |ending| format!(".{}", ending.to_string_lossy()));
+    path.with_file_name(format!("{stem}-{tag}{ending}"))
 }
 
 /// A text in a font.
@@ -223,12 +261,19 @@ fn areas(copper: &Copper) -> Vec<Polygon> {
 struct Account<'a> {
     name: &'a str,
     deepest_mm: f64,
-    cut_mm: f64,
-    lifts: u64,
-    seconds: f64,
+    programs: Vec<Cut>,
     #[serde(skip_serializing_if = "Option::is_none")]
     verification: Option<Verification>,
     warnings: &'a [WarningEntry],
+}
+
+/// What one tool does.
+#[derive(Serialize)]
+struct Cut {
+    tool: String,
+    cut_mm: f64,
+    lifts: u64,
+    seconds: f64,
 }
 
 /// What came of comparing it with the ideal; micrometres.
@@ -257,9 +302,7 @@ impl<'a> Account<'a> {
         Self {
             name: &engraving.name,
             deepest_mm: engraving.deepest.to_mm(),
-            cut_mm: engraving.statistics.cut_length.to_mm(),
-            lifts: engraving.statistics.lifts,
-            seconds: rounded(engraving.statistics.seconds),
+            programs: engraving.programs.iter().map(Cut::new).collect(),
             verification: judged.map(Verification::new),
             warnings,
         }
@@ -267,6 +310,17 @@ impl<'a> Account<'a> {
 
     fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("numbers and texts") + "\n"
+    }
+}
+
+impl Cut {
+    fn new(one: &OneTool) -> Self {
+        Self {
+            tool: one.program.sections[0].tool.kind.to_string(),
+            cut_mm: one.statistics.cut_length.to_mm(),
+            lifts: one.statistics.lifts,
+            seconds: rounded(one.statistics.seconds),
+        }
     }
 }
 

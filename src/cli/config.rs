@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use voromill::board::Board;
-use voromill::job::{Error, FILE_NAME, Length, MillProject, Options, Settings};
+use voromill::job::{Error, FILE_NAME, Length, MillProject, Options, Settings, Workbench};
 
 use super::Failure;
 use super::input::Input;
@@ -30,6 +30,12 @@ impl Config {
     pub(super) fn settings_for(&self, input: &Input, board: &Board) -> Result<Settings, Failure> {
         let thickness = board.thickness.map(Length);
         self.resolved(input, Options { thickness, ..Options::default() })
+    }
+
+    /// The tools that the settings know.
+    pub(super) fn workbench(&self, input: &Input) -> Result<Workbench, Failure> {
+        let from_file = Self::found(self.config.as_deref(), &input.paths())?;
+        Ok(Workbench::new(self.options.clone().or(from_file))?)
     }
 
     fn resolved(&self, input: &Input, of_board: Options) -> Result<Settings, Failure> {

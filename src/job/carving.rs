@@ -8,7 +8,7 @@ use crate::toolpath::strategy;
 use crate::toolpath::{
     Angle, Heights, Order, Placement, Program, Section, Statistics, Tool, ToolKind, measure,
 };
-use crate::verify::carving::{self, Carved, Ideal};
+use crate::verify::carving::{self, Carved, Ideal, Text};
 use crate::verify::{Cutter, CutterKind};
 use crate::voronoi::medial::{MedialAxis, Pruning};
 
@@ -29,7 +29,7 @@ pub struct Art {
 }
 
 /// How it is carved.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Carving {
     /// No deeper than this; none for as deep as the areas are wide.
     pub max_depth: Option<Nm>,
@@ -39,6 +39,8 @@ pub struct Carving {
     pub corner: Angle,
     /// Carve what lies round the areas, up to so far from them, and leave them standing.
     pub raised: Option<Nm>,
+    /// The end mill that clears what is too wide at the most depth.
+    pub flat: Option<Tool>,
 }
 
 /// The program and what it is to do.
@@ -50,17 +52,31 @@ pub struct Engraving {
     pub areas: Vec<Polygon>,
     /// No deeper than this, where that was asked for.
     pub max_depth: Option<Nm>,
+    /// Whether an end mill was to clear what is too wide.
+    pub clears: bool,
+    /// A program for each tool, in the order in which they are run; the last has the V-bit.
+    pub programs: Vec<OneTool>,
+    /// How deep they go.
+    pub deepest: Nm,
+    /// What a person must know.
+    pub warnings: Vec<Warning>,
+}
+
+/// A program with one tool.
+#[derive(Clone, Debug)]
+pub struct OneTool {
+    /// What its file's name ends in; empty for the V-bit's.
+    pub tag: &'static str,
     /// What was planned.
     pub program: Program,
     /// What it amounts to.
     pub statistics: Statistics,
-    /// How deep it goes.
-    pub deepest: Nm,
     /// What the machine reads.
     pub text: String,
-    /// What a person must know.
-    pub warnings: Vec<Warning>,
 }
+
+/// The narrowest tip that clears corners of a floor. Chosen: finer loops would take days.
+const BLUNTEST: Nm = Nm::from_um(20);
 
 /// As deep as any tool.
 const BOTTOMLESS: Nm = Nm::from_mm(100);
@@ -107,9 +123,9 @@ pub const CARVING_OPTIONS: &[&str] = &[
 /// are all narrower than the tip.
 pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, Error> {
     let tool = v_bit(settings)?;
-    judge(how)?;
+    judge(how, tool)?;
     let areas = match how.raised {
-        None => art.areas,
+        None => art.areas.clone(),
         Some(margin) => round(&art.areas, margin),
     };
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
@@ -127,27 +143,53 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         cut: how.max_depth.unwrap_or(BOTTOMLESS),
         step: how.step,
     };
-    let mut warnings = art.warnings;
+    let mut warnings = art.warnings.clone();
     warnings.extend(flaws(&axis, &areas, tool, how));
-    let section = strategy::carve(
-        format!("carve {}", art.name),
-        &axis,
-        &strategy::Carving {
-            tool,
-            heights,
-            placement: &placement,
-            order: Order::default(),
-            machine: &settings.machine,
-            tolerance: settings.tolerance,
-            leaves_wide: false,
-        },
-    );
-    if section.moves.is_empty() {
+    let flat = how.flat.as_ref().zip(how.max_depth);
+    let floor =
+        flat.map(|(mill, depth)| strategy::Floor::new(&areas, &axis, tool, depth, mill, settings.tolerance));
+    let carving = strategy::Carving {
+        tool,
+        heights,
+        placement: &placement,
+        order: Order::default(),
+        machine: &settings.machine,
+        tolerance: settings.tolerance,
+        floor: floor.as_ref(),
+    };
+    let mut sections: Vec<(&'static str, Section)> = Vec::new();
+    if let (Some(floor), Some((mill, _))) = (&floor, flat) {
+        let label = format!("clear the floor of {}", art.name);
+        sections.push(("flat", floor.clear(label, mill, heights, &placement)));
+    }
+    sections.push(("", strategy::carve(format!("carve {}", art.name), &axis, &carving)));
+    sections.retain(|(_, section)| !section.moves.is_empty());
+    if let Some((mill, _)) = flat.filter(|_| sections.iter().all(|(tag, _)| tag.is_empty())) {
+        let message = format!("`{}` fits nowhere: the V-bit clears the floor alone", mill.kind);
+        warnings.push(Warning::new("flat-fits-nowhere", message));
+    }
+    if sections.is_empty() {
         let problem = format!("everything is narrower than the tip of `{}`: nothing is carved", tool.kind);
         return Err(Error::Value { key: "tool", problem });
     }
     let areas: Vec<Polygon> = areas.iter().map(|area| placed(area, &placement)).collect();
-    Ok(written(art.name, areas, &art.inputs, section, warnings, settings, how))
+    let mut programs = Vec::new();
+    for (number, (tag, section)) in (1..).zip(sections) {
+        let (one, found) = written(&art, (tag, number, section), settings, how);
+        programs.push(one);
+        warnings.extend(found);
+    }
+    let moves = programs.iter().flat_map(|one| &one.program.sections).flat_map(|section| &section.moves);
+    let deepest = -moves.filter_map(|step| step.to()).map(|to| to.z).min().unwrap_or(Nm::ZERO);
+    Ok(Engraving {
+        name: art.name,
+        areas,
+        max_depth: how.max_depth,
+        clears: how.flat.is_some(),
+        programs,
+        deepest,
+        warnings,
+    })
 }
 
 /// The one tool, which must be a V-bit.
@@ -162,7 +204,7 @@ fn v_bit(settings: &Settings) -> Result<&Tool, Error> {
     }
 }
 
-fn judge(how: &Carving) -> Result<(), Error> {
+fn judge(how: &Carving, tool: &Tool) -> Result<(), Error> {
     let positive = |key: &'static str, length: Option<Nm>| match length {
         Some(length) if length <= Nm::ZERO => Err(Error::Value {
             key,
@@ -177,6 +219,20 @@ fn judge(how: &Carving) -> Result<(), Error> {
         let problem = format!("{} makes no sense: expected from 0deg to below 180deg", how.corner);
         return Err(Error::Value { key: "corner", problem });
     }
+    let Some(flat) = &how.flat else { return Ok(()) };
+    let wrong = |problem: String| Err(Error::Value { key: "flat", problem });
+    match (flat.kind, tool.kind) {
+        (ToolKind::VBit { .. } | ToolKind::Drill { .. }, _) => {
+            wrong(format!("`{}` is no end mill: a flat floor needs one, such as endmill:3mm", flat.kind))
+        }
+        _ if how.max_depth.is_none() => {
+            wrong("without --max-depth nothing is too wide, and no floor is flat".to_owned())
+        }
+        (_, ToolKind::VBit { tip, .. }) if tip < BLUNTEST => wrong(format!(
+            "a V-bit clears what the end mill does not reach with its tip, which must be {BLUNTEST:.2} mm or wider"
+        )),
+        _ => Ok(()),
+    }?;
     Ok(())
 }
 
@@ -209,7 +265,7 @@ fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Ve
         );
         warnings.push(Warning::new("narrower-than-tip", message));
     }
-    if let Some(most) = how.max_depth {
+    if let Some(most) = how.max_depth.filter(|_| how.flat.is_none()) {
         let reach = tool.kind.width_at(most) / 2;
         let wide = areas.iter().flat_map(|area| offset(area, -reach, Nm::from_um(1)));
         let area: f64 = wide.map(|polygon| polygon.area_mm2()).sum();
@@ -226,35 +282,32 @@ fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Ve
 /// What is wider by less is no flat place, in mm².
 const LEAST_WIDE: f64 = 1e-3;
 
+/// A section as a program of its own, with its tag and the number of its tool.
 fn written(
-    name: String,
-    areas: Vec<Polygon>,
-    inputs: &[Input],
-    section: Section,
-    mut warnings: Vec<Warning>,
+    art: &Art,
+    (tag, number, section): (&'static str, u32, Section),
     settings: &Settings,
     how: &Carving,
-) -> Engraving {
+) -> (OneTool, Vec<Warning>) {
+    let what = if tag.is_empty() { "carving" } else { "floor" };
     let mut program = Program {
-        title: format!("{name} carving"),
+        title: format!("{} {what}", art.name),
         notes: vec![zero(settings)],
         safe: settings.safe,
         sections: vec![section],
     };
-    warnings.extend(settings.machine.restrain(&mut program));
-    program.sections[0].tool.number = 1;
+    let mut warnings = settings.machine.restrain(&mut program);
+    program.sections[0].tool.number = number;
     let statistics = measure(&program, &settings.machine);
     let header = Header {
         generator: GENERATOR.to_owned(),
-        inputs: inputs.to_vec(),
+        inputs: art.inputs.clone(),
         settings: said(settings, how),
         seconds: Some(statistics.seconds),
     };
     let text = gcode::write(&program, &settings.dialect, &header);
     warnings.extend(program.check_travel(&settings.machine));
-    let lowest = program.sections.iter().flat_map(|section| &section.moves).filter_map(|step| step.to());
-    let deepest = -lowest.map(|to| to.z).min().unwrap_or(Nm::ZERO);
-    Engraving { name, areas, max_depth: how.max_depth, program, statistics, deepest, text, warnings }
+    (OneTool { tag, program, statistics, text }, warnings)
 }
 
 /// The settings that matter, for the header.
@@ -267,6 +320,9 @@ fn said(settings: &Settings, how: &Carving) -> Vec<(String, String)> {
     say("max-depth", how.max_depth);
     say("depth-pass", how.step);
     say("raised", how.raised);
+    if let Some(flat) = &how.flat {
+        listed.push(("flat".to_owned(), flat.kind.to_string()));
+    }
     if how.corner > Angle::ZERO {
         listed.push(("corner".to_owned(), how.corner.to_string()));
     }
@@ -274,39 +330,58 @@ fn said(settings: &Settings, how: &Carving) -> Vec<(String, String)> {
 }
 
 impl Engraving {
-    /// Judges a program, this one's or anybody's, by the areas that are to be carved, at places
-    /// `pitch` apart; none for as many as take a second or so.
+    /// Judges its programs by the areas that are to be carved, at places `pitch` apart; none for as
+    /// many as take a second or so.
     ///
     /// # Errors
     ///
     /// [`Error::Verify`] for a text that cannot be followed.
-    pub fn judge(&self, file: &str, text: &str, pitch: Option<Nm>) -> Result<Carved, Error> {
-        let cutters: Vec<Cutter> =
-            self.program.sections.iter().map(|section| cutter(section.tool.kind)).collect();
+    pub fn verify(&self, pitch: Option<Nm>) -> Result<Carved, Error> {
+        let texts: Vec<(String, &str)> =
+            self.programs.iter().map(|one| (one.program.title.clone(), one.text.as_str())).collect();
+        let texts: Vec<(&str, &str)> = texts.iter().map(|(file, text)| (file.as_str(), *text)).collect();
+        self.judge(&texts, pitch)
+    }
+
+    /// The same of other programs, each with its name, in place of these.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for more or fewer programs than there are tools, [`Error::Verify`] for a
+    /// text that cannot be followed.
+    pub fn judge(&self, texts: &[(&str, &str)], pitch: Option<Nm>) -> Result<Carved, Error> {
+        if texts.len() != self.programs.len() {
+            let problem = format!(
+                "expected a program for each of {} tools, and here are {}",
+                self.programs.len(),
+                texts.len()
+            );
+            return Err(Error::Value { key: "check", problem });
+        }
+        let cutters = self.programs.iter().map(|one| cutter(one.program.sections[0].tool.kind));
+        let programs: Vec<Text<'_>> =
+            texts.iter().zip(cutters).map(|(&(file, text), cutter)| Text { file, text, cutter }).collect();
         let around = self.areas.iter().map(Polygon::bounds).reduce(Rect::union);
         let area = around.map_or(0.0, |around| around.width().to_f64() * around.height().to_f64());
         let pitch = pitch.unwrap_or_else(|| Nm::from_f64((area / MOST_PLACES).sqrt()).max(FINEST));
-        let ideal = Ideal {
-            areas: &self.areas,
-            cutters: &cutters,
-            most: self.max_depth,
-            tolerance: TOLERATED,
-            pitch,
-        };
-        Ok(carving::carving(file, text, &ideal)?)
+        let v_bit = programs[programs.len() - 1].cutter;
+        let clears = self.clears;
+        let ideal =
+            Ideal { areas: &self.areas, v_bit, clears, most: self.max_depth, tolerance: TOLERATED, pitch };
+        Ok(carving::carving(&programs, &ideal)?)
     }
 
     /// What it is, for a person.
     #[must_use]
     pub fn summary(&self) -> String {
-        let Statistics { cut_length, lifts, seconds, .. } = &self.statistics;
-        format!(
-            "{}: {:.1} mm carved down to {:.3} mm, {lifts} lifts, {}\n",
-            self.name,
-            cut_length.to_mm(),
-            self.deepest,
-            crate::toolpath::duration(*seconds)
-        )
+        let mut text = format!("{}: carved down to {:.3} mm\n", self.name, self.deepest);
+        for OneTool { program, statistics, .. } in &self.programs {
+            let Statistics { cut_length, lifts, seconds, .. } = statistics;
+            let tool = program.sections[0].tool.kind;
+            let time = crate::toolpath::duration(*seconds);
+            text += &format!("  {tool}: {:.1} mm cut, {lifts} lifts, {time}\n", cut_length.to_mm());
+        }
+        text
     }
 }
 

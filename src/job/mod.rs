@@ -45,7 +45,7 @@ mod written;
 
 pub use by_net::{ParseStrategyForError, StrategyFor};
 pub use cache_key::cache_key;
-pub use carving::{Art, CARVING_OPTIONS, Carving, Engraving, carve};
+pub use carving::{Art, CARVING_OPTIONS, Carving, Engraving, OneTool, carve};
 pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
 pub use cutting::Cutting;
 pub use error::Error;

@@ -12,7 +12,7 @@ use crate::medial_axis::{capitals, random_areas};
 /// How far apart places are looked at: a debug build looks at few.
 const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 80 } else { 15 }));
 
-const HOW: Carving = Carving { max_depth: None, step: None, corner: Angle::ZERO, raised: None };
+const HOW: Carving = Carving { max_depth: None, step: None, corner: Angle::ZERO, raised: None, flat: None };
 
 fn settings(tool: &str) -> Settings {
     let tool = vec![tool.parse().expect("a tool")];
@@ -37,7 +37,7 @@ fn capitals_are_carved_to_micrometres() {
         for tool in ["vbit:0mm:60deg", "vbit:0.1mm:60deg"] {
             let engraving = engraving(&name, areas.clone(), tool, &HOW);
             assert_eq!(engraving.warnings, [], "{name} with {tool}");
-            let judged = engraving.judge("it", &engraving.text, PITCH).expect("a program");
+            let judged = engraving.verify(PITCH).expect("a program");
             assert_eq!(judged.findings, [], "{name} with {tool}");
             p99 = p99.max(judged.p99);
             worst = worst.max(judged.over).max(judged.under);
@@ -55,7 +55,7 @@ fn random_areas_with_holes_are_carved_to_micrometres() {
     for seed in 0..seeds {
         let areas = random_areas(seed, if seed % 2 == 0 { 1 } else { 250_000 });
         let engraving = engraving("random", areas, "vbit:0mm:90deg", &HOW);
-        let judged = engraving.judge("it", &engraving.text, PITCH).expect("a program");
+        let judged = engraving.verify(PITCH).expect("a program");
         assert_eq!(judged.findings, [], "seed {seed}");
         p99 = p99.max(judged.p99);
         worst = worst.max(judged.over).max(judged.under);
@@ -71,12 +71,12 @@ fn passes_end_at_the_same_surface_and_none_goes_deeper_than_it_may() {
     let whole = engraving("S", letters("S"), "vbit:0.1mm:60deg", &HOW);
     let apart = (stepped.deepest - whole.deepest).abs();
     assert!(apart < Nm::from_um(2), "in the end, within what both may be off: {apart:?}");
-    let judged = stepped.judge("it", &stepped.text, PITCH).expect("a program");
+    let judged = stepped.verify(PITCH).expect("a program");
     assert_eq!(judged.findings, [], "what is right at once is right in passes");
     let how = Carving { max_depth: Some(Nm::from_um(300)), ..HOW };
     let shallow = engraving("I", letters("I"), "vbit:0.1mm:60deg", &how);
     assert_eq!(shallow.deepest, Nm::from_um(300), "as deep as it may");
-    let judged = shallow.judge("it", &shallow.text, PITCH).expect("a program");
+    let judged = shallow.verify(PITCH).expect("a program");
     assert_eq!(judged.findings, [], "what is wide is left, and said so");
     assert!(judged.left_mm2 > 0.1, "{} mm² are left", judged.left_mm2);
     assert_eq!(shallow.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>(), ["wide-place-left"]);
@@ -93,8 +93,26 @@ fn an_axis_is_walked_with_few_lifts() {
             "vbit:0.1mm:60deg",
             &HOW,
         );
-        let lifts = made.statistics.lifts;
+        let lifts = made.programs[0].statistics.lifts;
         assert!(lifts <= most, "{letter}: {lifts} lifts");
+    }
+}
+
+/// What is wider than the V-bit cuts is flat: an end mill clears it, the V-bit the rest.
+#[test]
+fn wide_places_become_flat() {
+    let flat = Some("endmill:1mm".parse().expect("a tool"));
+    let how = Carving { max_depth: Some(Nm::from_um(300)), flat, ..HOW };
+    for (areas, tool) in [
+        (text(dejavu::serif::bold(), "L", Nm::from_mm(9)).expect("a letter"), "vbit:0.1mm:60deg"),
+        (text(dejavu::sans::bold(), "R", Nm::from_mm(12)).expect("a letter"), "vbit:0.2mm:90deg"),
+    ] {
+        let made = engraving("flat", areas, tool, &how);
+        let judged = made.verify(PITCH).expect("programs");
+        let lifts: Vec<u64> = made.programs.iter().map(|one| one.statistics.lifts).collect();
+        println!("{tool}: {:?} mm² left, {lifts:?} lifts, worst {:.0} nm", judged.left_mm2, judged.under);
+        assert_eq!(judged.findings, [], "with {tool}");
+        assert_eq!(made.programs.len(), 2, "a program for each tool");
     }
 }
 
@@ -102,7 +120,7 @@ fn an_axis_is_walked_with_few_lifts() {
 fn what_stands_is_as_sharp_as_what_is_sunk() {
     let how = Carving { raised: Some(Nm::from_mm(1)), max_depth: None, ..HOW };
     let made = engraving("T", letters("T"), "vbit:0.1mm:60deg", &how);
-    let judged = made.judge("it", &made.text, PITCH).expect("a program");
+    let judged = made.verify(PITCH).expect("a program");
     assert_eq!(judged.findings, [], "round the letter");
 }
 
@@ -129,9 +147,9 @@ fn word(line: &str, letter: char, change: impl Fn(f64) -> f64) -> String {
 #[test]
 fn twenty_kinds_of_spoiling_are_found() {
     let made = engraving("Ri", letters("Ri"), "vbit:0.1mm:60deg", &HOW);
-    let judge = |text: &str| made.judge("it", text, PITCH).expect("a program").findings;
-    assert_eq!(judge(&made.text), [], "nothing is wrong with it as it is");
-    let text = made.text.as_str();
+    let judge = |text: &str| made.judge(&[("it", text)], PITCH).expect("a program").findings;
+    assert_eq!(judge(&made.programs[0].text), [], "nothing is wrong with it as it is");
+    let text = made.programs[0].text.as_str();
     let each = |letter: char, change: fn(f64) -> f64| lines(text, |line, _| Some(word(line, letter, change)));
     let cut = |line: &str| line.starts_with("G1 X") || line.starts_with("G2 ") || line.starts_with("G3 ");
     let half = text.lines().filter(|line| cut(line)).count() / 2;
@@ -190,7 +208,7 @@ fn twenty_kinds_of_spoiling_are_found() {
     for (how, spoilt) in spoilt {
         assert_ne!(spoilt, text, "{how}: it is changed");
         // A text that cannot be followed is found, too.
-        let found = made.judge("it", &spoilt, PITCH).map_or(1, |judged| judged.findings.len());
+        let found = made.judge(&[("it", spoilt.as_str())], PITCH).map_or(1, |judged| judged.findings.len());
         assert!(found > 0, "{how}: nothing is found");
     }
 }
@@ -207,7 +225,8 @@ fn another_tool_than_the_one_planned_for_is_found() {
     let planned = engraving("A", areas.clone(), "vbit:0.1mm:60deg", &HOW);
     for other in ["vbit:0.1mm:50deg", "vbit:0.1mm:70deg", "vbit:0.2mm:60deg"] {
         let fitted = engraving("A", areas.clone(), other, &HOW);
-        let found = fitted.judge("it", &planned.text, PITCH).expect("a program").findings;
+        let found =
+            fitted.judge(&[("it", planned.programs[0].text.as_str())], PITCH).expect("a program").findings;
         assert!(!found.is_empty(), "{other} instead of the one planned for");
     }
 }

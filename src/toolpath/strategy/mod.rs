@@ -7,7 +7,7 @@ mod drill;
 mod isolate;
 mod share;
 
-pub use carve::{Carving, carve};
+pub use carve::{Carving, Floor, carve};
 pub use cutout::{Cutout, TabPlaces, Tabs, cutout};
 pub use drill::{Drilling, drill};
 pub use isolate::{Isolation, Narrow, Role, isolate};

@@ -33,20 +33,11 @@ pub struct Milled {
 }
 
 impl Milled {
-    /// All that the motions of a program mill, with tools in the order in which they are fitted.
-    pub(super) fn new(listing: &Listing, cutters: &[Cutter]) -> Self {
+    /// All that the motions of programs mill, each with its tool.
+    pub(super) fn new(programs: &[(Listing, Cutter)]) -> Self {
         let mut sweeps = Vec::new();
-        let mut tool = 0;
-        let mut has_cut = false;
-        let mut stops = listing.stops.iter().map(|&(before, _)| before).peekable();
-        for (number, motion) in listing.motions.iter().enumerate() {
-            while stops.next_if(|&before| before <= number).is_some() {
-                tool += usize::from(has_cut);
-                has_cut = false;
-            }
-            let before = sweeps.len();
-            swept(motion, &cutters[tool.min(cutters.len() - 1)], &mut sweeps);
-            has_cut |= sweeps.len() > before;
+        for (listing, cutter) in programs {
+            listing.motions.iter().for_each(|motion| swept(motion, cutter, &mut sweeps));
         }
         let mut builder = StaticAABB2DIndexBuilder::new(sweeps.len());
         for sweep in &sweeps {

@@ -30,14 +30,27 @@ pub use milled::Milled;
 pub struct Ideal<'a> {
     /// The areas, simple polygons.
     pub areas: &'a [Polygon],
-    /// The tools in the order in which they are fitted; the first is the V-bit.
-    pub cutters: &'a [Cutter],
+    /// The V-bit that reaches the walls.
+    pub v_bit: Cutter,
+    /// Whether what is too wide for it is cleared, too.
+    pub clears: bool,
     /// No deeper than this; none for as deep as it comes.
     pub most: Option<Nm>,
     /// What is less off is right.
     pub tolerance: Nm,
     /// The distance of the places that are looked at.
     pub pitch: Nm,
+}
+
+/// A program to be judged.
+#[derive(Clone, Copy, Debug)]
+pub struct Text<'a> {
+    /// Its name.
+    pub file: &'a str,
+    /// What the machine reads.
+    pub text: &'a str,
+    /// The one tool that it has.
+    pub cutter: Cutter,
 }
 
 /// What came of it.
@@ -82,20 +95,23 @@ struct Off {
     inside: bool,
 }
 
-/// Reads a program and compares what it carves with the ideal.
+/// Reads programs and compares what they carve together with the ideal.
 ///
 /// # Errors
 ///
-/// [`Error::Read`] for a text that cannot be followed, and [`Error::NoTool`] without a cutter.
-pub fn carving(file: &str, text: &str, ideal: &Ideal<'_>) -> Result<Carved, Error> {
-    let failed = |reason: ReadError| Error::Read { file: file.to_owned(), reason };
-    let listing = read::read(&read::without_own_code(text)).map_err(failed)?;
-    if ideal.cutters.is_empty() {
-        return Err(Error::NoTool { file: file.to_owned(), line: 1 });
-    }
-    let milled = Milled::new(&listing, ideal.cutters);
-    let mut carved = compare(&milled, ideal);
-    carved.findings.splice(0..0, harm(&listing));
+/// [`Error::Read`] for a text that cannot be followed.
+pub fn carving(programs: &[Text<'_>], ideal: &Ideal<'_>) -> Result<Carved, Error> {
+    let listing = |program: &Text<'_>| {
+        let failed = |reason: ReadError| Error::Read { file: program.file.to_owned(), reason };
+        let listing = read::read(&read::without_own_code(program.text)).map_err(failed)?;
+        Ok((listing, program.cutter))
+    };
+    let listings: Vec<(Listing, Cutter)> = programs.iter().map(listing).collect::<Result<_, Error>>()?;
+    let mut carved = compare(&Milled::new(&listings), ideal);
+    let harm = programs.iter().zip(&listings).flat_map(|(program, (listing, _))| {
+        harm(listing).into_iter().map(|found| Finding { program: Some(program.file.to_owned()), ..found })
+    });
+    carved.findings.splice(0..0, harm.collect::<Vec<_>>());
     Ok(carved)
 }
 
@@ -176,12 +192,12 @@ struct Limits {
 
 impl Limits {
     fn new(ideal: &Ideal<'_>) -> Self {
-        let [blunt, flank] = ideal.cutters[0].cone();
+        let [blunt, flank] = ideal.v_bit.cone();
         Self {
             blunt,
             flank,
             most: ideal.most.map_or(f64::INFINITY, Nm::to_f64),
-            clears: ideal.cutters.len() > 1,
+            clears: ideal.clears,
             tolerance: ideal.tolerance.to_f64(),
         }
     }

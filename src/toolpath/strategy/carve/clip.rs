@@ -36,8 +36,8 @@ pub(super) struct Pass {
     pub(super) blunt: f64,
     /// How much wider it cuts on either side for each unit of depth.
     pub(super) flank: f64,
-    /// Whether what is wider than the tool cuts at the end is left to others.
-    pub(super) leaves_wide: bool,
+    /// What would be deeper than this is left to others; none for nothing.
+    pub(super) beyond: Option<f64>,
 }
 
 impl Pass {
@@ -58,7 +58,7 @@ impl Pass {
         let mut is_open = false;
         for i in 0..last {
             let middle = f64::midpoint(tips[i].depth, tips[i + 1].depth);
-            if middle <= self.low || (self.leaves_wide && middle > self.high) {
+            if middle <= self.low || self.is_left(middle) {
                 is_open = false;
                 continue;
             }
@@ -73,6 +73,11 @@ impl Pass {
         pieces
     }
 
+    /// Whether a place that would be so deep is left.
+    pub(super) fn is_left(&self, depth: f64) -> bool {
+        self.beyond.is_some_and(|beyond| depth > beyond)
+    }
+
     /// No deeper than the pass.
     const fn held(&self, tip: Tip) -> Tip {
         Tip { depth: tip.depth.clamp(0.0, self.high), ..tip }
@@ -85,7 +90,7 @@ impl Pass {
         for pair in course.windows(2) {
             let (from, to) = (tip(&pair[0]), tip(&pair[1]));
             let part = |level: f64| (level - from.depth) / (to.depth - from.depth);
-            let mut parts = [self.low, self.high].map(part);
+            let mut parts = [self.low, self.high, self.beyond.unwrap_or(self.high)].map(part);
             parts.sort_by(f64::total_cmp);
             let crossed = parts.into_iter().filter(|part| (1e-9..1.0 - 1e-9).contains(part));
             tips.extend(crossed.map(|part| between(from, to, part)));
@@ -121,7 +126,7 @@ mod tests {
             .collect()
     }
 
-    const PASS: Pass = Pass { low: 10.0, high: 20.0, blunt: 5.0, flank: 0.5, leaves_wide: false };
+    const PASS: Pass = Pass { low: 10.0, high: 20.0, blunt: 5.0, flank: 0.5, beyond: None };
 
     #[test]
     fn a_pass_takes_what_is_deeper_than_the_one_before_and_goes_no_deeper_than_it_may() {
@@ -135,7 +140,7 @@ mod tests {
 
     #[test]
     fn what_is_wide_may_be_left() {
-        let pass = Pass { leaves_wide: true, ..PASS };
+        let pass = Pass { beyond: Some(20.0), ..PASS };
         let pieces = pass.pieces(&course(&[0.0, 20.0, 0.0]), false);
         assert_eq!(pieces.len(), 2, "down to the edge of what is wide, and up from it: {pieces:?}");
     }

@@ -14,6 +14,7 @@
 
 mod clip;
 mod fit;
+mod floor;
 
 use crate::geometry::{Nm, Path, Point};
 use crate::toolpath::head::Head;
@@ -25,6 +26,8 @@ use crate::voronoi::medial::MedialAxis;
 use super::isolate::{WORTH, lift_seconds};
 use clip::{Pass, Piece, Tip};
 use fit::Fit;
+
+pub use floor::Floor;
 
 /// How areas are carved.
 #[derive(Clone, Copy, Debug)]
@@ -41,8 +44,9 @@ pub struct Carving<'a> {
     pub machine: &'a Machine,
     /// How far what is milled may be off its place.
     pub tolerance: Nm,
-    /// Whether what is too wide for the V-bit at its full depth is left to another tool.
-    pub leaves_wide: bool,
+    /// What another tool clears, of which the V-bit cuts the rims; none to follow wide places along
+    /// their middle.
+    pub floor: Option<&'a Floor>,
 }
 
 /// The share of the tolerance that lines and arcs may take. Chosen: the rest is for the chords of
@@ -68,18 +72,15 @@ pub fn carve(label: impl Into<String>, axis: &MedialAxis, settings: &Carving<'_>
 fn passes(axis: &MedialAxis, settings: &Carving<'_>) -> Vec<Pass> {
     let ToolKind::VBit { tip, .. } = settings.tool.kind else { return Vec::new() };
     let (blunt, flank) = (tip.to_f64() / 2.0, settings.tool.kind.flank());
-    let whole = Pass { low: 0.0, high: 0.0, blunt, flank, leaves_wide: settings.leaves_wide };
+    let beyond = settings.floor.map(|_| settings.heights.cut.to_f64());
+    let whole = Pass { low: 0.0, high: 0.0, blunt, flank, beyond };
     let deepest = Nm::from_f64(whole.depth(axis.widest())).min(settings.heights.cut);
     if deepest <= Nm::ZERO {
         return Vec::new();
     }
     let levels: Vec<f64> = Heights { cut: deepest, ..settings.heights }.passes().map(Nm::to_f64).collect();
     let lows = std::iter::once(0.0).chain(levels.iter().copied());
-    let mut passes: Vec<Pass> = lows.zip(&levels).map(|(low, &high)| Pass { low, high, ..whole }).collect();
-    // Before the last pass nothing is too wide: the walls are not at their place yet.
-    let count = passes.len();
-    passes[..count - 1].iter_mut().for_each(|pass| pass.leaves_wide = false);
-    passes
+    lows.zip(&levels).map(|(low, &high)| Pass { low, high, ..whole }).collect()
 }
 
 /// A line of the pass on the machine, with the depth at each vertex.
@@ -150,10 +151,15 @@ fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
     lines.extend(axis.dots.iter().filter_map(|&dot| {
         let place = axis.nodes[dot as usize];
         let tip = Tip { at: place.at, depth: pass.depth(place.clearance).min(pass.high) };
-        (tip.depth > pass.low && !(pass.leaves_wide && pass.depth(place.clearance) > pass.high)).then(|| {
+        (tip.depth > pass.low && !pass.is_left(pass.depth(place.clearance))).then(|| {
             let start = settings.placement.point(Point::from_f64(tip.at.0, tip.at.1));
             Line { path: Path { start, segments: Vec::new() }, depths: vec![Nm::from_f64(tip.depth)] }
         })
+    }));
+    lines.extend(settings.floor.iter().flat_map(|floor| &floor.rims).map(|rim| {
+        let path = settings.placement.path(rim);
+        let depths = vec![Nm::from_f64(pass.high); path.segments.len() + 1];
+        Line { path, depths }
     }));
     lines
 }
@@ -216,7 +222,7 @@ mod tests {
             order: Order::default(),
             machine: &Machine::default(),
             tolerance: Nm::from_um(2),
-            leaves_wide: false,
+            floor: None,
         };
         carve("carve", &axis, &settings).moves
     }
