@@ -93,6 +93,10 @@ pub(super) struct Carve {
     #[arg(long, value_name = "PROGRAM", conflicts_with_all = ["output", "no_verify"], help_heading = "Output")]
     check: Vec<PathBuf>,
 
+    /// Picture of what is milled, seen at a slant: a PNG, 1600 pixels wide
+    #[arg(long, value_name = "FILE", requires = "output", help_heading = "Output")]
+    picture: Option<PathBuf>,
+
     /// Do not read the program back
     #[arg(long, help_heading = "Output")]
     no_verify: bool,
@@ -126,7 +130,7 @@ impl Carve {
         let warnings: Vec<WarningEntry> = engraving.warnings.iter().map(WarningEntry::from).collect();
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if let Some(output) = &self.output {
-            write(output, &engraving)?;
+            write(output, self.picture.as_deref(), &engraving)?;
         }
         let to_stdout = self.output.as_deref() == Some(Path::new("-"));
         let account = Account::new(&engraving, judged.as_ref(), &warnings);
@@ -184,8 +188,16 @@ fn judged(engraving: &Engraving, paths: &[PathBuf]) -> Result<Carved, Failure> {
     Ok(engraving.judge(&texts, None)?)
 }
 
+/// How many pixels a picture is wide.
+const WIDTH: u32 = 1600;
+
 /// Writes a file for each tool: that of the V-bit is called as asked for.
-fn write(output: &Path, engraving: &Engraving) -> Result<(), Failure> {
+fn write(output: &Path, picture: Option<&Path>, engraving: &Engraving) -> Result<(), Failure> {
+    let picture = picture.map(|path| Ok::<_, Failure>((path, engraving.picture(WIDTH)?))).transpose()?;
+    let mut staged = Output::new();
+    if let Some((path, bytes)) = &picture {
+        staged.stage(path, bytes)?;
+    }
     if output == Path::new("-") {
         let [one] = engraving.programs.as_slice() else {
             let cause = format!(
@@ -194,9 +206,9 @@ fn write(output: &Path, engraving: &Engraving) -> Result<(), Failure> {
             );
             return Err(Failure::new(cause, "name a file: -o NAME.ngc"));
         };
+        staged.commit()?;
         return super::print(&one.text);
     }
-    let mut staged = Output::new();
     for one in &engraving.programs {
         staged.stage(&tagged(output, one.tag), one.text.as_bytes())?;
     }

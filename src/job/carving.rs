@@ -4,6 +4,7 @@ use crate::board::Warning;
 use crate::board::polarity::{difference, offset};
 use crate::gcode::{self, Header, Input};
 use crate::geometry::{Nm, Polygon, Rect};
+use crate::report::relief::relief;
 use crate::toolpath::strategy;
 use crate::toolpath::{
     Angle, Heights, Order, Placement, Program, Section, Statistics, Tool, ToolKind, measure,
@@ -87,6 +88,9 @@ const SHARE: f64 = 0.3;
 /// What is off by less than this is right, when a program is judged. Chosen: five times the
 /// tolerance of the cut.
 const TOLERATED: Nm = Nm::from_um(10);
+
+/// What lies round the areas in a picture. Chosen: a little of the top.
+const MARGIN: Nm = Nm::from_mm(2);
 
 /// Places are looked at so far apart at least, and so many of them at most.
 const FINEST: Nm = Nm::from_um(10);
@@ -369,6 +373,29 @@ impl Engraving {
         let ideal =
             Ideal { areas: &self.areas, v_bit, clears, most: self.max_depth, tolerance: TOLERATED, pitch };
         Ok(carving::carving(&programs, &ideal)?)
+    }
+
+    /// What its programs mill, as a picture at a slant: a PNG so many pixels wide.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Verify`] for a program that cannot be followed, [`Error::Grid`] for a picture that
+    /// cannot be drawn.
+    pub fn picture(&self, width: u32) -> Result<Vec<u8>, Error> {
+        let texts: Vec<Text<'_>> = self
+            .programs
+            .iter()
+            .map(|one| Text {
+                file: &one.program.title,
+                text: &one.text,
+                cutter: cutter(one.program.sections[0].tool.kind),
+            })
+            .collect();
+        let milled = carving::milled(&texts)?;
+        let around = self.areas.iter().map(Polygon::bounds).reduce(Rect::union);
+        let around = around.ok_or_else(|| Error::NoCopper("to show".to_owned()))?.inflate(MARGIN);
+        let pitch = around.width() / i64::from(width.max(1)) + Nm::new(1);
+        Ok(relief(|at| milled.depth(at), around, pitch)?)
     }
 
     /// What it is, for a person.

@@ -147,6 +147,12 @@ const PLANNED: &[Explained] = &[
         "use a thinner cutter (--cutout-tool)",
     ),
     planned(
+        "flat-fits-nowhere",
+        "the end mill of --flat is wider than every floor",
+        "the V-bit clears the floor alone, which takes longer",
+        "use a thinner end mill (--flat)",
+    ),
+    planned(
         "frame-not-cut",
         "without an outline, nothing is cut round the copper",
         "copper at the edge stays joined to the clad around it",

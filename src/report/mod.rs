@@ -18,6 +18,7 @@ mod palette;
 pub mod paper;
 pub mod picture;
 pub mod png;
+pub mod relief;
 pub mod stages;
 mod summary;
 pub mod svg;

@@ -243,10 +243,12 @@ fn a_text_becomes_a_program_that_passes() {
     std::fs::write(path("font.ttf"), dejavu::sans::bold()).expect("a font");
     let (font, program) = (path("font.ttf"), path("r1.ngc"));
     let carved = ["carve", "--text", "R1", "--font", &font, "--height", "2mm", "--tool", "vbit:0.1mm:60deg"];
-    let made = voromill(&[&carved[..], &["-o", &program]].concat());
+    let picture = path("r1.png");
+    let made = voromill(&[&carved[..], &["-o", &program, "--picture", &picture]].concat());
     let said = String::from_utf8_lossy(&made.stdout).into_owned();
     assert!(made.status.success(), "{said}{}", String::from_utf8_lossy(&made.stderr));
     assert!(said.contains("verified at"), "{said}");
+    assert_eq!(std::fs::read(&picture).expect("a picture")[1..4], *b"PNG", "what it looks like");
     let checked = voromill(&[&carved[..], &["--check", &program]].concat());
     assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stdout));
     let text = std::fs::read_to_string(&program).expect("a program");

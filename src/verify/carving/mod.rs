@@ -101,18 +101,32 @@ struct Off {
 ///
 /// [`Error::Read`] for a text that cannot be followed.
 pub fn carving(programs: &[Text<'_>], ideal: &Ideal<'_>) -> Result<Carved, Error> {
-    let listing = |program: &Text<'_>| {
-        let failed = |reason: ReadError| Error::Read { file: program.file.to_owned(), reason };
-        let listing = read::read(&read::without_own_code(program.text)).map_err(failed)?;
-        Ok((listing, program.cutter))
-    };
-    let listings: Vec<(Listing, Cutter)> = programs.iter().map(listing).collect::<Result<_, Error>>()?;
+    let listings = followed(programs)?;
     let mut carved = compare(&Milled::new(&listings), ideal);
     let harm = programs.iter().zip(&listings).flat_map(|(program, (listing, _))| {
         harm(listing).into_iter().map(|found| Finding { program: Some(program.file.to_owned()), ..found })
     });
     carved.findings.splice(0..0, harm.collect::<Vec<_>>());
     Ok(carved)
+}
+
+/// What programs mill, for pictures of it.
+///
+/// # Errors
+///
+/// [`Error::Read`] for a text that cannot be followed.
+pub fn milled(programs: &[Text<'_>]) -> Result<Milled, Error> {
+    Ok(Milled::new(&followed(programs)?))
+}
+
+/// What programs do, each with its tool.
+fn followed(programs: &[Text<'_>]) -> Result<Vec<(Listing, Cutter)>, Error> {
+    let follow = |program: &Text<'_>| {
+        let failed = |reason: ReadError| Error::Read { file: program.file.to_owned(), reason };
+        let listing = read::read(&read::without_own_code(program.text)).map_err(failed)?;
+        Ok((listing, program.cutter))
+    };
+    programs.iter().map(follow).collect()
 }
 
 /// What harms the machine or the work whatever is carved.
