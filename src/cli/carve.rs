@@ -22,11 +22,11 @@ use super::{Failure, Shared};
 
 /// Carve shapes with a V-bit, as deep as they are wide
 ///
-/// Reads a Gerber layer (silkscreen, solder mask, copper), a KiCad board's front or a picture, or
-/// sets a text in a font, and writes one program: the V-bit follows the medial axis of the shapes,
-/// so deep that its flanks touch their edges on both sides, up into every corner. The program is
-/// read back and what it mills compared with the ideal before anybody mills it: exit code 1 where
-/// that finds something.
+/// Reads a Gerber layer (silkscreen, solder mask, copper), an SVG or DXF drawing, a picture or a
+/// KiCad board, or sets a text in a font, and writes a program: the V-bit follows the medial axis
+/// of the shapes, so deep that its flanks touch their edges on both sides, up into every corner.
+/// The program is read back and what it mills compared with the ideal before anybody mills it: exit
+/// code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Carve {
@@ -240,8 +240,22 @@ fn lettering(words: &str, font: &Path, height: Nm) -> Result<Art, Failure> {
 }
 
 /// Kinds of files that say by themselves what they are; any other is one Gerber layer.
-const BOARDS: [&str; 12] =
-    ["zip", "kicad_pcb", "png", "jpg", "jpeg", "bmp", "gif", "tif", "tiff", "webp", "pnm", "pbm"];
+const BOARDS: [&str; 14] = [
+    "zip",
+    "kicad_pcb",
+    "svg",
+    "dxf",
+    "png",
+    "jpg",
+    "jpeg",
+    "bmp",
+    "gif",
+    "tif",
+    "tiff",
+    "webp",
+    "pnm",
+    "pbm",
+];
 
 /// The shapes of a file.
 fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure> {
