@@ -18,13 +18,30 @@ use super::clip::{Node, Piece};
 use super::exact;
 use super::fit;
 use super::plane::Spot;
-use super::{Boundaries, Diagram, Owner};
+use super::{BACKGROUND, Boundaries, Diagram, Owner};
+
+/// The number of nobody among the owners of the certified diagram.
+const NOBODY: u32 = u32::MAX;
 
 impl Diagram {
     /// The boundaries of the certified diagram, and where it contradicts itself.
     pub(super) fn certified_boundaries(&self, diagram: &exact::Diagram) -> (Boundaries, Vec<Point>) {
-        let number = |net: u32| Owner::Net(crate::topology::NetId(net)).number();
-        let (mut pieces, torn) = super::clip::within(&self.border, diagram, diagram.chains(), number);
+        let number = |net: u32| match net {
+            NOBODY => BACKGROUND,
+            net => Owner::Net(crate::topology::NetId(net)).number(),
+        };
+        let (chains, level) = match self.settings.limit {
+            None => (Some(diagram.chains()), f64::INFINITY),
+            Some(limit) => (diagram.limited_chains(limit.to_f64(), NOBODY), limit.to_f64()),
+        };
+        let is_whole = chains.is_some();
+        let mut chains = chains.unwrap_or_default();
+        chains.retain(|chain| ![chain.left, chain.right].contains(&exact::WALL));
+        let owner = |p: Spot| diagram.owner_near(p, level, NOBODY);
+        let (mut pieces, mut torn) = super::clip::within(&self.border, chains, owner, number);
+        if !is_whole {
+            torn.push(Spot::from(self.border.window.min()));
+        }
         let faults = diagram.faults().iter().copied().chain(torn.iter().map(|at| at.rounded())).collect();
         merge_stubs(&mut pieces, self.settings.tolerance.to_f64() / 2.0);
         (self.fitted(&pieces), faults)

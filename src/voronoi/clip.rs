@@ -14,7 +14,7 @@ use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use super::OUTSIDE;
 use super::edge::Border;
-use super::exact::{self, Chain};
+use super::exact::Chain;
 use super::plane::Spot;
 use super::span::Sample;
 
@@ -169,12 +169,12 @@ impl Fence {
 }
 
 /// The pieces of `chains` on the board, then those of the border; and where the border's owners
-/// contradict each other: nowhere, unless the program is at fault. The chains' owners are those of
-/// `diagram`, the pieces' numbers what `number` makes of them.
+/// contradict each other: nowhere, unless the program is at fault. The chains' owners, and those
+/// that `owner` finds at a place, become the pieces' numbers by `number`.
 pub(super) fn within(
     border: &Border,
-    diagram: &exact::Diagram,
     chains: Vec<Chain>,
+    owner: impl Fn(Spot) -> Option<u32>,
     number: impl Fn(u32) -> u32,
 ) -> (Vec<Piece>, Vec<Spot>) {
     let fence = Fence::new(border);
@@ -205,24 +205,22 @@ pub(super) fn within(
         let clearance = border.clearance.to_f64();
         let lap = Lap { corners, first_edge: edges.start, clearance };
         if on.is_empty() {
-            let owner = diagram.owner_near(corners[0]);
-            let left = owner.map_or(super::BACKGROUND, &number);
+            let left = owner(corners[0]).map_or(super::BACKGROUND, &number);
             pieces.push(Piece { left, right: OUTSIDE, samples: lap.whole(), ends: None });
         }
         for (i, &(from, start)) in on.iter().enumerate() {
             let (to, end) = on[(i + 1) % on.len()];
             let samples = lap.between(&from, &to, on.len() == 1);
             let length: f64 = samples.windows(2).map(|pair| (pair[1].at - pair[0].at).length()).sum();
-            let mut owner = from.ahead;
+            let mut side = from.ahead;
             if from.ahead != to.behind {
                 let middle = &samples[samples.len() / 2 - 1..=samples.len() / 2];
-                let near = diagram.owner_near(middle[0].at.midpoint(middle[1].at));
-                owner = near.unwrap_or(owner);
-                if length > SAME && owner != from.ahead && owner != to.behind {
+                side = owner(middle[0].at.midpoint(middle[1].at)).unwrap_or(side);
+                if length > SAME && side != from.ahead && side != to.behind {
                     faults.push(samples[0].at);
                 }
             }
-            pieces.push(Piece { left: number(owner), right: OUTSIDE, samples, ends: Some([start, end]) });
+            pieces.push(Piece { left: number(side), right: OUTSIDE, samples, ends: Some([start, end]) });
         }
     }
     (pieces, faults)

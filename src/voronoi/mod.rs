@@ -8,11 +8,12 @@
 //!        ╰─ seed ──▶ sites ── raster ──▶ tiles ── trace ──▶ pieces ── stitch ──▶ lines ── fit ──▶ Boundaries
 //! ```
 //!
-//! Boundaries between nets come from the certified diagram of [`exact`], which no pixel has a part
-//! in. What it does not answer for comes from a picture: regions with a limit (outlines and loops),
-//! the passes of wide isolation, core axes as sites, and nets that touch, as Algorithm 1 alone may
-//! leave them. There the picture says which regions meet and where boundaries branch, and the exact
-//! distances of the features say where the boundary runs ([`place`](self)).
+//! Boundaries between nets, and the loops round them where regions have a limit, come from the
+//! certified diagram of [`exact`], which no pixel has a part in. What it does not answer for comes
+//! from a picture: the passes of wide isolation, core axes as sites, nets that touch, as
+//! Algorithm 1 alone may leave them, and layers on which the diagram contradicts itself. There the
+//! picture says which regions meet and where boundaries branch, and the exact distances of the
+//! features say where the boundary runs ([`place`](self)).
 //!
 //! Of a picture only tiles that a boundary may cross are drawn, each on a worker that at once
 //! traces and places what it sees; no stage holds a picture of the whole board. Labels are sites,
@@ -81,6 +82,13 @@ use tip::Tips;
 const BACKGROUND: u32 = 0;
 /// The owner number of what lies beyond the border.
 const OUTSIDE: u32 = 1;
+
+/// How far beyond the reach of regions the wall round everything stands. Chosen.
+const BEYOND: Nm = Nm::from_um(100);
+/// Slits of one net that are narrower than twice this are not walked: no cutter fits. Chosen.
+const FLOOR: Nm = Nm::from_um(10);
+/// No region reaches farther.
+const FARTHEST: Nm = Nm::from_mm(10_000);
 
 /// What lies on one side of a boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -290,9 +298,19 @@ impl Diagram {
         let grid = Grid::covering(border.window, settings.pitch)?;
         let certified = is_certain(copper, nets, settings).then(|| {
             let owner = |feature: usize| keep(feature).then(|| nets.of(feature).0);
-            let generators = exact::Generators::of_copper(copper, owner);
-            let space = exact::Space::Window(border.bounds().unwrap_or(border.window));
-            Box::new(exact::Diagram::new(generators, exact::Kind::Owners, space))
+            let mut generators = exact::Generators::of_copper(copper, owner);
+            Box::new(match (settings.limit, copper.bounds()) {
+                (Some(limit), Some(bounds)) => {
+                    // Where copper is nearer than the limit, the wall is not.
+                    generators.wall(bounds.inflate(limit.min(FARTHEST) * 3 + BEYOND));
+                    let floor = FLOOR.min(limit / 2);
+                    exact::Diagram::new(generators, exact::Kind::Above(floor), exact::Space::Within)
+                }
+                _ => {
+                    let space = exact::Space::Window(border.bounds().unwrap_or(border.window));
+                    exact::Diagram::new(generators, exact::Kind::Owners, space)
+                }
+            })
         });
         let (owners, settings, side) = (sites.owners(), settings.clone(), copper.side);
         let (warnings, mixed) = (Vec::new(), None);
@@ -507,11 +525,10 @@ impl Boundaries {
     }
 }
 
-/// Whether the certified diagram answers for these settings: it knows the edges of copper, without
-/// a limit, of nets that do not touch.
+/// Whether the certified diagram answers for these settings: it knows the edges of copper, of nets
+/// that do not touch.
 fn is_certain(copper: &Copper, nets: &Nets, settings: &Settings) -> bool {
-    let is_plain = settings.sites == SiteKind::Copper && settings.limit.is_none();
-    is_plain && smallest_gap(copper, nets).is_none_or(|gap| gap.width > Nm::ZERO)
+    settings.sites == SiteKind::Copper && smallest_gap(copper, nets).is_none_or(|gap| gap.width > Nm::ZERO)
 }
 
 /// The nets of which nothing lies on the board, each with a place.

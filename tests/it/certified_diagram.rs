@@ -205,6 +205,58 @@ fn the_medial_axis_of_random_copper_is_certified() {
     }
 }
 
+/// All level curves close and are as far from copper as they should be, and whoever goes from
+/// nearer to farther crosses one.
+fn check_levels(name: &str, copper: &Copper, nets: &Nets, random: &mut Random) {
+    let mut generators = Generators::of_copper(copper, |i| Some(nets.of(i).0));
+    let bounds = copper.bounds().expect("copper");
+    generators.wall(bounds.inflate(Nm::from_mm(2)));
+    let diagram = Diagram::new(generators, Kind::Above(Nm::from_um(10)), Space::Within);
+    assert_eq!(diagram.faults(), [], "{name}: no end is loose");
+    let reach = |p: [f64; 2]| nearest(copper, nets, p).0[0];
+    for level in [50_000.0, 125_000.0, 300_000.0, 900_000.0] {
+        let curves = diagram.level_set(level).expect("faces that close");
+        let courses = curves.iter().filter(|curve| curve.owner < 1000).map(|curve| &curve.course);
+        let courses: Vec<Vec<[f64; 2]>> =
+            courses.map(|course| course.iter().map(|&p| p.into()).collect()).collect();
+        for course in &courses {
+            assert_eq!(course.first(), course.last(), "{name}: a curve at {level} nm closes");
+            for &p in course.iter().step_by(7) {
+                let off = (reach(p) - level).abs();
+                assert!(off <= OFF, "{name}: {off} nm off {level} nm at {p:?}");
+            }
+        }
+        for _ in 0..10 {
+            let mut place = || {
+                let mut part = |least: Nm, size: Nm| (least + Nm::new(random.below(size.get()))).to_f64();
+                [part(bounds.min().x, bounds.width()), part(bounds.min().y, bounds.height())]
+            };
+            let (mut from, mut to) = (place(), place());
+            if (reach(from) > level) == (reach(to) > level) {
+                continue;
+            }
+            let is_far = reach(from) > level;
+            for _ in 0..50 {
+                let middle = [f64::midpoint(from[0], to[0]), f64::midpoint(from[1], to[1])];
+                if (reach(middle) > level) == is_far { from = middle } else { to = middle }
+            }
+            let off = polyline::distance(from, &courses);
+            assert!(off <= 1_000.0, "{name}: {off} nm from {from:?}, {level} nm from copper, to any curve");
+        }
+    }
+}
+
+#[test]
+fn level_sets_are_where_brute_force_has_them() {
+    for (seeds, grid) in [(0..7, 1), (0..7, 100_000), (0..7, 250_000)] {
+        for seed in seeds {
+            let name = format!("seed {seed} on a grid of {grid} nm");
+            let (copper, nets) = scene(seed, grid);
+            check_levels(&name, &copper, &nets, &mut Random(seed));
+        }
+    }
+}
+
 #[test]
 fn an_edge_between_two_discs_is_a_hyperbola_with_its_clearance() {
     let disc = |x: i64, radius: i64| Shape::Disc { center: at(1_000, x, 0), radius: Nm::from_um(radius) };

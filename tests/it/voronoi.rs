@@ -662,11 +662,12 @@ fn what_is_merged_leaves_no_nets_joined() {
         for limit in [None, Some(Nm::from_um(150)), Some(Nm::from_um(400)), Some(Nm::from_um(700))] {
             let settings = Settings { limit, tolerance: Nm::from_um(20), ..Settings::default() };
             let diagram = Diagram::new(copper, nets, None, &settings).expect("a diagram");
-            let (found, warnings) = diagram.boundaries();
-            let some = warnings.iter().any(|warning| warning.code == "boundary-artifacts");
-            merged.set(merged.get() + u32::from(some));
-            let joined = Flood::new(copper, nets, &found, window).joined();
-            prop_assert!(joined.is_none(), "{:?} are joined with {:?}: {:?}", joined, limit, warnings);
+            for (found, warnings) in [diagram.boundaries(), diagram.traced()] {
+                let some = warnings.iter().any(|warning| warning.code == "boundary-artifacts");
+                merged.set(merged.get() + u32::from(some));
+                let joined = Flood::new(copper, nets, &found, window).joined();
+                prop_assert!(joined.is_none(), "{:?} are joined with {:?}: {:?}", joined, limit, warnings);
+            }
         }
         Ok(())
     });

@@ -69,7 +69,7 @@ impl Diagram {
         pair.at(main, middle)
     }
 
-    fn halve(
+    pub(super) fn halve(
         &self,
         edge: &Edge,
         (a, b): (Sample, Sample),

@@ -10,7 +10,7 @@
 use rayon::prelude::*;
 
 use super::seed::FIRST_REACH;
-use super::{Diagram, Edge};
+use super::{Diagram, Edge, Link, WALL};
 use crate::voronoi::plane::Spot;
 use crate::voronoi::span::{CHORD, Sample};
 
@@ -27,13 +27,15 @@ pub(in crate::voronoi) struct Chain {
     pub(in crate::voronoi) ends: Option<[u32; 2]>,
 }
 
-/// An edge of a chain, and whether the chain runs along it from its end to its beginning.
-type Link = (u32, bool);
-
 impl Diagram {
     /// The chains between different owners: first those between nodes, by their lower vertices,
     /// then the loops.
     pub(in crate::voronoi) fn chains(&self) -> Vec<Chain> {
+        self.rows().into_par_iter().map(|(row, is_loop)| self.chain(&row, is_loop)).collect()
+    }
+
+    /// The links of each chain, and whether it is a loop.
+    pub(super) fn rows(&self) -> Vec<(Vec<Link>, bool)> {
         let ends = self.ends_by_vertex();
         let joint = |vertex: u32| self.is_joint(&ends[vertex as usize]);
         let mut seen = vec![false; self.edges.len()];
@@ -49,7 +51,7 @@ impl Diagram {
                 rows.push((self.row((number, false), &ends, &mut seen), true));
             }
         }
-        rows.into_par_iter().map(|(row, is_loop)| self.chain(&row, is_loop)).collect()
+        rows
     }
 
     fn is_boundary(&self, edge: &Edge) -> bool {
@@ -67,13 +69,13 @@ impl Diagram {
     }
 
     /// The vertex that a link leads to.
-    fn target(&self, (edge, reversed): Link) -> u32 {
+    pub(super) fn target(&self, (edge, reversed): Link) -> u32 {
         let edge = &self.edges[edge as usize];
         if reversed { edge.from } else { edge.to }
     }
 
     /// The owners on the left and on the right of a link.
-    fn sides(&self, (edge, reversed): Link) -> (u32, u32) {
+    pub(super) fn sides(&self, (edge, reversed): Link) -> (u32, u32) {
         let Edge { left, right, .. } = self.edges[edge as usize];
         let (left, right) = (self.owner(left), self.owner(right));
         if reversed { (right, left) } else { (left, right) }
@@ -123,8 +125,15 @@ impl Diagram {
         Chain { left, right, samples, ends }
     }
 
-    /// The owner of the copper nearest to `p`, which may lie in it.
-    pub(in crate::voronoi) fn owner_near(&self, p: Spot) -> Option<u32> {
+    /// The owner of the copper nearest to `p`, or that `p` lies in; `nobody` where it is farther
+    /// than `level` nanometres from all.
+    pub(in crate::voronoi) fn owner_near(&self, p: Spot, level: f64, nobody: u32) -> Option<u32> {
+        let (off, owner) = self.nearest_edge(p)?;
+        Some(if off <= level || self.is_copper(p) { owner } else { nobody })
+    }
+
+    /// How far the nearest edge is, from whichever side, and its owner.
+    fn nearest_edge(&self, p: Spot) -> Option<(f64, u32)> {
         let [left, bottom, right, top] = self.window;
         let all = (right - left) + (top - bottom);
         let mut reach = FIRST_REACH;
@@ -132,13 +141,13 @@ impl Diagram {
             let mut nearest: Option<(f64, u32)> = None;
             self.index.visit_round(p, reach, |i| {
                 let found = (self.forms()[i as usize].off(p), i);
-                if nearest.is_none_or(|nearest| found < nearest) {
+                if self.owner(i) != WALL && nearest.is_none_or(|nearest| found < nearest) {
                     nearest = Some(found);
                 }
             });
             match nearest {
                 Some((off, generator)) if off <= reach || reach > 4.0 * all => {
-                    return Some(self.owner(generator));
+                    return Some((off, self.owner(generator)));
                 }
                 None if reach > 4.0 * all => return None,
                 Some(_) | None => reach *= 2.0,

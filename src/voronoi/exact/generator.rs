@@ -17,13 +17,16 @@
 //! What is the same from two features is one generator. Buried edges need not be found: from
 //! outside all copper they are never nearest.
 
+use std::ops::Range;
+
 use rustc_hash::{FxHashMap, FxHashSet};
 use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use crate::board::{Copper, FLATTEN, Shape};
-use crate::geometry::{Arc, Nm, Point, Polygon};
+use crate::geometry::{Arc, Nm, Point, Polygon, Rect};
 use crate::voronoi::plane::Spot;
 
+use super::WALL;
 use super::form::{Form, Place, SLAB, clockwise, unit};
 
 /// No generator.
@@ -33,16 +36,35 @@ const NONE: u32 = u32::MAX;
 /// points leaves less.
 const DRIFT: f64 = 1_000.0;
 
+/// Two edges that turn by less, in radians, are one for all that is nearest to their corner.
+/// Derived: 100 mm away the distances to them differ by half a tie where both count.
+const STRAIGHT: f64 = 3e-6;
+
 /// So far from a foot its normal is looked at, in nanometres. Chosen.
 const AHEAD: f64 = 1_000.0;
+
+/// Copper, by the numbers of the generators that are its edges.
+#[derive(Clone, Debug)]
+pub(super) enum Body {
+    /// All of a disc.
+    Disc(u32),
+    /// Between the two sides of a stroke.
+    Strip([u32; 2]),
+    /// Within an outer arc, and outside an inner one.
+    Band(u32, Option<u32>),
+    /// What rings enclose, or where they are `open`, what they do not.
+    Rings { edges: Range<u32>, open: bool },
+}
 
 /// Generators under construction: what [`Diagram::new`](super::Diagram::new) takes.
 #[derive(Clone, Debug, Default)]
 pub struct Generators {
     pub(super) forms: Vec<Form>,
     pub(super) owners: Vec<u32>,
-    /// The discs at the start and the end of each.
+    /// What goes on at the start and the end of each: a disc, or a line that is straight on.
     ends: Vec<[u32; 2]>,
+    /// What they are the edges of.
+    pub(super) bodies: Vec<Body>,
     discs: FxHashMap<(Point, i64, u32), u32>,
     strokes: FxHashSet<(Point, Point, i64, u32)>,
 }
@@ -104,12 +126,24 @@ impl Generators {
         let rings: Vec<Vec<Point>> = polygon.contours().iter().map(|ring| simple(ring)).collect();
         let largest = rings.iter().map(|ring| twice_area(ring)).max_by_key(|area| area.unsigned_abs());
         let backwards = largest.is_some_and(|area| area < 0);
+        let first = self.number();
         for (i, mut ring) in rings.into_iter().enumerate().filter(|(_, ring)| ring.len() > 1) {
             if backwards != inwards {
                 ring.reverse();
             }
             self.ring(&ring, owner(i));
         }
+        self.bodies.push(Body::Rings { edges: first..self.number(), open: inwards });
+    }
+
+    /// Adds the sides of a rectangle that holds all else; the space inside it is free.
+    pub fn wall(&mut self, rect: Rect) {
+        self.inside(&Polygon::rectangle(rect), |_| WALL);
+    }
+
+    /// The number of the next one.
+    fn number(&self) -> u32 {
+        u32::try_from(self.forms.len()).expect("below 2³² generators")
     }
 
     /// A ring with copper on its left.
@@ -121,15 +155,34 @@ impl Generators {
         };
         let corners: Vec<u32> =
             (0..n).map(|i| if corner(i) { self.disc(ring[i], 0, owner) } else { NONE }).collect();
+        let first = self.number();
         for i in 0..n {
             let next = (i + 1) % n;
             let form = Form::line(ring[i].into(), ring[next].into());
             self.push(form, owner, [corners[i], corners[next]]);
         }
+        let count = self.number() - first;
+        for (line, next) in (0..count).map(|i| (first + i, first + (i + 1) % count)) {
+            self.join_straight(line, next);
+        }
+    }
+
+    /// Joins two lines one after the other that turn so little into the free space that nothing is
+    /// nearer to one of them alone.
+    fn join_straight(&mut self, line: u32, next: u32) {
+        let ways = [line, next].map(|i| match self.forms[i as usize] {
+            Form::Line { along, .. } => along,
+            Form::Circle { .. } => Spot::default(),
+        });
+        let is_straight = ways[0].cross(ways[1]).abs() < STRAIGHT && ways[0].dot(ways[1]) > 0.0;
+        if is_straight && line != next && self.ends[line as usize][1] == NONE {
+            self.ends[line as usize][1] = next;
+            self.ends[next as usize][0] = line;
+        }
     }
 
     fn push(&mut self, form: Form, owner: u32, ends: [u32; 2]) -> u32 {
-        let number = u32::try_from(self.forms.len()).expect("below 2³² generators");
+        let number = self.number();
         self.forms.push(form);
         self.owners.push(owner);
         self.ends.push(ends);
@@ -142,6 +195,7 @@ impl Generators {
         }
         let disc = self.push(Form::disc(center.into(), Nm::new(radius).to_f64()), owner, [NONE; 2]);
         self.discs.insert((center, radius, owner), disc);
+        self.bodies.push(Body::Disc(disc));
         disc
     }
 
@@ -157,10 +211,10 @@ impl Generators {
     /// The two sides of a stroke.
     fn sides(&mut self, from: Spot, to: Spot, radius: f64, owner: u32, [first, last]: [u32; 2]) {
         let out = clockwise(unit(to - from)) * radius;
-        for (a, b, out, ends) in [(from, to, out, [first, last]), (to, from, out * -1.0, [last, first])] {
-            // The length stays that of the axis, so that its ends are those of the discs.
-            self.push(Form::line(a + out, b + out), owner, ends);
-        }
+        let sides = [(from, to, out, [first, last]), (to, from, out * -1.0, [last, first])];
+        // The length stays that of the axis, so that its ends are those of the discs.
+        let sides = sides.map(|(a, b, out, ends)| self.push(Form::line(a + out, b + out), owner, ends));
+        self.bodies.push(Body::Strip(sides));
     }
 
     fn arc(&mut self, arc: &Arc, radius: i64, owner: u32) {
@@ -174,10 +228,11 @@ impl Generators {
         let (from, to) = if arc.sweep() > 0.0 { (arc.start, arc.end) } else { (arc.end, arc.start) };
         let sector = (!whole).then(|| [from, to].map(|end| unit(Spot::from(end) - center)));
         let ends = if whole { [NONE; 2] } else { [from, to].map(|end| self.disc(end, radius, owner)) };
-        self.push(Form::Circle { center, radius: reach + half, hollow: false, sector }, owner, ends);
-        if reach > half {
-            self.push(Form::Circle { center, radius: reach - half, hollow: true, sector }, owner, ends);
-        }
+        let outer = Form::Circle { center, radius: reach + half, hollow: false, sector };
+        let outer = self.push(outer, owner, ends);
+        let inner = Form::Circle { center, radius: reach - half, hollow: true, sector };
+        let inner = (reach > half).then(|| self.push(inner, owner, ends));
+        self.bodies.push(Body::Band(outer, inner));
     }
 
     /// Whether two generators have the same foot and normal where one ends on the other.
@@ -185,7 +240,7 @@ impl Generators {
         self.ends[a as usize].contains(&b) || self.ends[b as usize].contains(&a)
     }
 
-    /// The discs at the ends of a generator.
+    /// What goes on at the ends of a generator.
     pub(super) fn ends_of(&self, a: u32) -> [Option<u32>; 2] {
         self.ends[a as usize].map(|end| (end != NONE).then_some(end))
     }

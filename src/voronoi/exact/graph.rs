@@ -5,6 +5,7 @@
 
 use rustc_hash::FxHashMap;
 
+use super::form::turn;
 use super::vertex::{Junction, SNAP, Slot, resolution};
 use super::walk::{Event, Pair};
 use super::{Diagram, Edge, Space, Vertex};
@@ -67,6 +68,10 @@ impl Growth {
         number
     }
 
+    pub(super) const fn is_faulty(&self) -> bool {
+        !self.faults.is_empty()
+    }
+
     pub(super) fn fault(&mut self, at: Spot) {
         self.faults.push(at);
     }
@@ -100,7 +105,7 @@ impl Growth {
 fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Junction {
     let slot = Slot { left: pair.right, right: pair.left, way: way * -1.0, edge: None };
     let tied = vec![pair.left.min(pair.right), pair.left.max(pair.right)];
-    Junction { at, clearance, tied, slots: vec![slot] }
+    Junction { at, clearance, tied, slots: vec![slot], is_end: true }
 }
 
 impl Diagram {
@@ -113,7 +118,9 @@ impl Diagram {
 
     /// Follows all open slots, and what they lead to.
     pub(super) fn grow(&self, growth: &mut Growth) {
-        while let Some((from, slot)) = growth.open.pop() {
+        while growth.faults.is_empty()
+            && let Some((from, slot)) = growth.open.pop()
+        {
             let Slot { left, right, edge: None, .. } = growth.junctions[from as usize].slots[slot] else {
                 continue;
             };
@@ -129,8 +136,7 @@ impl Diagram {
             let same = |slot: &Slot| owners(slot) == (self.owner(right), self.owner(left));
             match growth.back(to, left, right, way, same) {
                 Some(back) => growth.connect((from, slot), to, back),
-                None if growth.junctions[to as usize].clearance < self.tie => {
-                    // Any number of edges may end in one notch.
+                None if growth.junctions[to as usize].is_end => {
                     let slots = &mut growth.junctions[to as usize].slots;
                     slots.push(Slot { left: right, right: left, way: way * -1.0, edge: None });
                     let back = slots.len() - 1;
@@ -198,7 +204,9 @@ impl Diagram {
                 }
                 None
             }
-            Event::Window { at, clearance, way } => Some((dead_end(pair, at, clearance, way), way)),
+            Event::Window { at, clearance, way } | Event::Floor { at, clearance, way } => {
+                Some((dead_end(pair, at, clearance, way), way))
+            }
             Event::Contact { at, way } => Some((dead_end(pair, at, 0.0, way), way)),
             Event::Fault => None,
         }
@@ -214,13 +222,38 @@ impl Diagram {
         });
         let mut numbers = vec![0_u32; order.len()];
         (0_u32..).zip(&order).for_each(|(number, &old)| numbers[old] = number);
-        let renamed = |edge: Edge| {
+        let turned = |edge: &Edge| {
             let [from, to] = [edge.from, edge.to].map(|old| numbers[old as usize]);
+            let edge = Edge { from, to, ..*edge };
             let turned = Edge { from: to, to: from, left: edge.right, right: edge.left };
-            Edge { from, to, ..edge }.min(turned)
+            (edge.min(turned), turned < edge)
         };
-        self.edges = growth.edges.into_iter().map(renamed).collect();
-        self.edges.sort_unstable();
+        let edges: Vec<(Edge, bool)> = growth.edges.iter().map(turned).collect();
+        let mut by_number: Vec<usize> = (0..edges.len()).collect();
+        by_number.sort_by_key(|&old| edges[old]);
+        let mut new_numbers = vec![0_u32; edges.len()];
+        (0_u32..).zip(&by_number).for_each(|(number, &old)| new_numbers[old] = number);
+        self.edges = by_number.iter().map(|&old| edges[old].0).collect();
+        let leaving = |&old: &usize| {
+            let junction = &growth.junctions[old];
+            let mut slots: Vec<&Slot> = junction.slots.iter().filter(|slot| slot.edge.is_some()).collect();
+            if junction.is_end {
+                let angle = |slot: &Slot| turn(Spot::new(1.0, 0.0), slot.way);
+                slots.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
+            }
+            let link = |slot: &Slot| {
+                let number = slot.edge.map_or(0, |edge| edge as usize);
+                let edge = &growth.edges[number];
+                let begins = if edge.from == edge.to {
+                    (slot.left, slot.right) == (edge.left, edge.right)
+                } else {
+                    edge.from as usize == old
+                };
+                (new_numbers[number], edges[number].1 == begins)
+            };
+            slots.into_iter().map(link).collect()
+        };
+        self.leaving = order.iter().map(leaving).collect();
         let vertex = |&old: &usize| {
             let Junction { at, clearance, tied, .. } = &growth.junctions[old];
             Vertex { at: (at.x, at.y), clearance: *clearance, tied: tied.clone() }

@@ -36,9 +36,15 @@
 //! [`Diagram`](super::Diagram) traces the picture instead. None of the 47 layers of real boards
 //! needs that, and none of 600 random scenes did before places in copper were told, too.
 //!
-//! With [`Kind::MedialAxis`] less is proven: around copper what one owner encloses is not found,
-//! for no ray leads there, and of 1200 random scenes two break a certificate, where an edge steps
-//! over an event. [`Space::Within`] has no tests. Copper of different owners must not touch.
+//! With [`Kind::MedialAxis`] less is proven: of 1200 random scenes two break a certificate, where
+//! an edge steps over an event. What one owner encloses is found from the edges that lie open
+//! there. Copper of different owners must not touch.
+//!
+//! # Level sets
+//!
+//! Where copper is equally far away, curves run from cell to cell ([`Diagram::level_set`]): the
+//! loops of the outline strategy and of regions with a limit. They need the edges between one
+//! owner's own generators, too, but only above the level ([`Kind::Above`]).
 //!
 //! # Sources
 //!
@@ -52,9 +58,11 @@
 mod apollonius;
 mod certify;
 mod chain;
+mod exposed;
 mod form;
 mod generator;
 mod graph;
+mod level;
 mod query;
 mod seed;
 mod vertex;
@@ -69,11 +77,15 @@ use vertex::TIES;
 
 pub use certify::Violation;
 pub use generator::Generators;
+pub use level::LevelCurve;
 
 pub(super) use chain::Chain;
 
 /// The number of no generator.
 const NOBODY: u32 = u32::MAX;
+
+/// The owner of a wall round everything.
+pub(super) const WALL: u32 = u32::MAX - 1;
 
 /// Which edges a diagram has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +94,9 @@ pub enum Kind {
     Owners,
     /// All: the medial axis of the free space.
     MedialAxis,
+    /// All, but those of one owner only where copper is farther away than this: what level sets
+    /// need. Where copper of one owner leaves slits, nothing is walked.
+    Above(Nm),
 }
 
 /// Where the space is free.
@@ -91,7 +106,7 @@ pub enum Space {
     Around(Nm),
     /// Outside the generators, within a rectangle and all round them.
     Window(Rect),
-    /// Inside rings added by [`Generators::inside`].
+    /// Within what [`Generators::inside`] and [`Generators::wall`] enclose, and outside all else.
     Within,
 }
 
@@ -130,8 +145,13 @@ pub struct Diagram {
     window: [f64; 4],
     vertices: Vec<Vertex>,
     edges: Vec<Edge>,
+    /// What leaves each vertex, counter-clockwise.
+    leaving: Vec<Vec<Link>>,
     faults: Vec<Point>,
 }
+
+/// An edge, and whether it is followed from its end to its beginning.
+type Link = (u32, bool);
 
 impl Diagram {
     /// The diagram of `generators`.
@@ -170,8 +190,8 @@ impl Diagram {
             let [left, bottom, right, top] = window;
             window = [left.min(low.x), bottom.min(low.y), right.max(high.x), top.max(high.y)];
         }
-        let (vertices, edges, faults) = (Vec::new(), Vec::new(), Vec::new());
-        Self { generators, index, kind, tie: TIES[0], window, vertices, edges, faults }
+        let (vertices, edges, leaving, faults) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { generators, index, kind, tie: TIES[0], window, vertices, edges, leaving, faults }
     }
 
     /// The vertices, by place.

@@ -8,13 +8,13 @@
 //!   ╚═════════════════════════════════╝     bisector of the nearest generator and its mirror image, and what enters there is met.
 //! ```
 //!
-//! The medial axis of one connected part of the free space is connected; a generator of which no
-//! edge is known yet is therefore in a part of its own, and its own normal is the ray.
+//! The medial axis of one connected part of the free space is connected; what one owner encloses
+//! has a part of its own, to which the normals of edges that lie open lead (`exposed`).
 
-use super::form::{Form, Place, turn};
+use super::form::{Form, Place};
 use super::graph::Growth;
 use super::walk::{Event, Pair};
-use super::{Diagram, NOBODY, Space};
+use super::{Diagram, Kind, NOBODY, Space};
 use crate::voronoi::plane::Spot;
 
 /// Where a search begins, in nanometres; it doubles.
@@ -26,16 +26,16 @@ const EVENTS: usize = 1_000_000;
 impl Diagram {
     /// Sows all seeds, and grows what comes of them.
     pub(super) fn sow(&self, growth: &mut Growth, space: Space) {
-        match space {
-            Space::Around(_) | Space::Window(_) => {
-                for (generator, foot) in self.rightmost() {
-                    self.shoot(growth, generator, foot, Spot::new(1.0, 0.0));
-                }
-                self.grow(growth);
-                self.sow_window(growth);
-                self.grow(growth);
-            }
-            Space::Within => self.sow_parts(growth),
+        for (generator, foot) in self.rightmost() {
+            self.shoot(growth, generator, foot, Spot::new(1.0, 0.0));
+        }
+        self.grow(growth);
+        if space != Space::Within {
+            self.sow_window(growth);
+            self.grow(growth);
+        }
+        if self.kind != Kind::Owners {
+            self.sow_exposed(growth);
         }
     }
 
@@ -59,7 +59,7 @@ impl Diagram {
 
     /// Follows the normal of a generator to where another is equally near, and plants what begins
     /// there.
-    fn shoot(&self, growth: &mut Growth, generator: u32, foot: Spot, normal: Spot) {
+    pub(super) fn shoot(&self, growth: &mut Growth, generator: u32, foot: Spot, normal: Spot) {
         let [left, bottom, right, top] = self.window;
         let farthest = (right - left) + (top - bottom);
         let mut reach = FIRST_REACH;
@@ -82,9 +82,20 @@ impl Diagram {
                 None => reach *= 2.0,
             }
         }
-        let Some((s, other)) = nearest else { return };
+        // From its centre on a hollow circle is nearer elsewhere: there its own ends meet.
+        let own = match self.forms()[generator as usize] {
+            Form::Circle { radius, hollow: true, .. } => Some((radius, generator)),
+            Form::Circle { .. } | Form::Line { .. } => None,
+        };
+        let Some((s, other)) = nearest.into_iter().chain(own).min_by(|a, b| a.0.total_cmp(&b.0)) else {
+            return;
+        };
         let at = foot + normal * s;
-        if self.holds(at) {
+        let is_low = match self.kind {
+            Kind::Above(floor) => s < floor.to_f64() && self.owner(generator) == self.owner(other),
+            Kind::Owners | Kind::MedialAxis => false,
+        };
+        if self.holds(at) && !is_low {
             self.plant(growth, at, s, [generator, other]);
         }
     }
@@ -171,34 +182,5 @@ impl Diagram {
             (current, at) = (ahead, next);
         }
         growth.fault(at);
-    }
-
-    /// Walks from the normals of generators of which no edge is known.
-    fn sow_parts(&self, growth: &mut Growth) {
-        let mut known = vec![false; self.forms().len()];
-        let mut seen = 0;
-        for i in 0..self.forms().len() {
-            for junction in &growth.junctions[seen..] {
-                junction.tied.iter().for_each(|&i| known[i as usize] = true);
-            }
-            seen = growth.junctions.len();
-            let form = &self.forms()[i];
-            if known[i] {
-                continue;
-            }
-            let Some([from, to]) = form.ends() else { continue };
-            let middle = match (from, to) {
-                (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
-                (Place::Toward(a), Place::Toward(b)) => {
-                    let half = super::form::unit(a + b);
-                    Place::Toward(if turn(a, b) > 2.0 { half * -1.0 } else { half })
-                }
-                (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => continue,
-            };
-            let (foot, normal) = form.foot(middle);
-            let number = u32::try_from(i).expect("below 2³² generators");
-            self.shoot(growth, number, foot, normal);
-            self.grow(growth);
-        }
     }
 }

@@ -52,6 +52,8 @@ pub(super) struct Junction {
     pub(super) clearance: f64,
     pub(super) tied: Vec<u32>,
     pub(super) slots: Vec<Slot>,
+    /// Whether any number of edges may end here.
+    pub(super) is_end: bool,
 }
 
 /// How far from a place so far from copper two generators may be tied that part there, in
@@ -94,7 +96,8 @@ impl Diagram {
         let mut generators: Vec<u32> = tied.iter().map(|tied| tied.generator).collect();
         generators.sort_unstable();
         generators.dedup();
-        Some(Junction { at, clearance, tied: generators, slots })
+        let is_end = slots.is_empty();
+        Some(Junction { at, clearance, tied: generators, slots, is_end })
     }
 
     /// The generators among some that are `clearance` far from `p`, by the direction of their feet,
@@ -232,7 +235,7 @@ impl Diagram {
     pub(super) fn parts(&self, a: u32, b: u32) -> bool {
         match self.kind {
             Kind::Owners => self.owner(a) != self.owner(b),
-            Kind::MedialAxis => true,
+            Kind::MedialAxis | Kind::Above(_) => true,
         }
     }
 

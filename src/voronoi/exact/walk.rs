@@ -15,7 +15,7 @@
 use super::apollonius;
 use super::form::{Form, Place, SLAB, clockwise, unit};
 use super::vertex::resolution;
-use super::{Diagram, NOBODY};
+use super::{Diagram, Kind, NOBODY};
 use crate::voronoi::plane::Spot;
 
 /// A step is so many clearances long, and no shorter than this, in nanometres. Measured: see the
@@ -53,6 +53,8 @@ pub(super) enum Event {
     Junction { at: Spot, clearance: f64, third: u32, way: Spot },
     /// Where the window ends.
     Window { at: Spot, clearance: f64, way: Spot },
+    /// Where copper of one owner comes too near to matter.
+    Floor { at: Spot, clearance: f64, way: Spot },
     /// Where the two generators touch each other.
     Contact { at: Spot, way: Spot },
     /// Nowhere that can be explained.
@@ -128,6 +130,7 @@ impl Diagram {
         let mut here = Here { at: start, clearance: form.distance(start).max(0.0), place: form.place(start) };
         let end = self.nearest_end(pair, main, &here);
         let mut stride = STRIDE;
+        let floor = self.floor(pair);
         for _ in 0..STEPS {
             let Some((mut next, mut is_end)) = self.step(pair, main, &here, end.as_ref(), stride) else {
                 return pair.contact(&here, self.tie);
@@ -143,6 +146,9 @@ impl Diagram {
                 return Event::Junction { at, clearance, third, way: pair.way(at) };
             }
             let Here { at, clearance, .. } = next;
+            if clearance < floor && clearance < here.clearance {
+                return Event::Floor { at, clearance, way: pair.way(at) };
+            }
             if leaves {
                 return Event::Window { at, clearance, way: pair.way(at) };
             }
@@ -154,6 +160,16 @@ impl Diagram {
             stride = (stride * 1.5).min(8.0);
         }
         Event::Fault
+    }
+
+    /// Nearer to copper an edge is not followed.
+    fn floor(&self, pair: &Pair) -> f64 {
+        match self.kind {
+            Kind::Above(floor) if pair.right != NOBODY && self.owner(pair.left) == self.owner(pair.right) => {
+                floor.to_f64()
+            }
+            Kind::Owners | Kind::MedialAxis | Kind::Above(_) => 0.0,
+        }
     }
 
     /// The first place ahead where a slab ends, or a disc hands over.

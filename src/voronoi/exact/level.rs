@@ -1,0 +1,523 @@
+//! Level sets: where copper is just so far away, cell by cell.
+//!
+//! ```text
+//!    ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓         Where the clearance along an edge passes the level, the curve crosses it: × where it rises
+//!    ───×─ ─ ─ ─ ─ ─×──           above it, × where it falls below again. Between the two the border of a cell lies above the
+//!   ╲   │           │   ╱         level, and the curve runs below it: a parallel of each generator in turn, from the foot of
+//!    ╲  │  above    │  ╱  edge    one vertex to that of the next.
+//! ```
+//!
+//! Who follows the borders of a face meets rises and falls in turn, because every vertex has one
+//! clearance; and each crossing falls for one of the two faces of its edge and rises for the other.
+//! So level sets close whatever rounding does, and their parts are lines and arcs.
+//!
+//! M. Held, *On the Computational Geometry of Pocket Machining*, LNCS 500, Springer 1991, ch. 4
+//! (offset curves from the diagram).
+
+use super::chain::Chain;
+use super::form::{Form, Place, turn, unit};
+use super::{Diagram, Edge, Kind, Link, NOBODY};
+use crate::voronoi::plane::Spot;
+use crate::voronoi::span::{CHORD, CLEARANCE_CHORD, Sample};
+
+/// A level lies above its number by this much, in nanometres, so that what is exactly so wide on a
+/// grid is on one side of it. Chosen: more than rounding, less than the grid.
+const ABOVE: f64 = 0.3;
+
+/// What chords may leave of an edge's place and clearance.
+const COURSE: [f64; 2] = [CHORD, CLEARANCE_CHORD];
+
+/// Directions are one if their cosine is no less. Chosen: a hundredth of a degree.
+const SAME: f64 = 1.0 - 1e-8;
+
+/// An edge is looked at in so many halvings for where its clearance turns. Derived: a conic's turns
+/// at most twice in a turn round it, and generators end there.
+const HALVINGS: u32 = 2;
+
+/// Where a level set crosses an edge.
+#[derive(Clone, Copy, Debug)]
+struct Crossing {
+    edge: u32,
+    at: Spot,
+    /// Whether the clearance rises there, from the edge's beginning to its end.
+    rises: bool,
+}
+
+/// The crossings of a level with all edges.
+pub(super) struct Crossings {
+    level: f64,
+    all: Vec<Crossing>,
+    /// The crossings of edge `i`, in its order: `all[starts[i]..starts[i + 1]]`.
+    starts: Vec<usize>,
+}
+
+/// A place on an edge.
+#[derive(Clone, Copy, Debug)]
+struct Knot {
+    at: Spot,
+    clearance: f64,
+}
+
+/// What a level set passes: the parallel of a generator up to where `at` has its foot, and what
+/// crossing ends it there, if one does.
+#[derive(Clone, Copy, Debug)]
+struct Leg {
+    generator: u32,
+    from: Spot,
+    to: Spot,
+    crossing: Option<usize>,
+}
+
+impl Crossings {
+    fn of(&self, edge: u32) -> std::ops::Range<usize> {
+        self.starts[edge as usize]..self.starts[edge as usize + 1]
+    }
+
+    /// The next crossing along a link behind `after`, or the first.
+    fn next(&self, (edge, reversed): Link, after: Option<usize>) -> Option<usize> {
+        let range = self.of(edge);
+        let next = match (after, reversed) {
+            (None, false) => range.start,
+            (None, true) => range.end.checked_sub(1)?,
+            (Some(at), false) => at + 1,
+            (Some(at), true) => at.checked_sub(1)?,
+        };
+        range.contains(&next).then_some(next)
+    }
+
+    /// The link along which the clearance rises at a crossing.
+    fn rising(&self, crossing: usize) -> Link {
+        let Crossing { edge, rises, .. } = self.all[crossing];
+        (edge, !rises)
+    }
+}
+
+/// A closed curve where copper is equally far away, with the copper on its left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LevelCurve {
+    /// The owner of the copper where it begins.
+    pub owner: u32,
+    /// Places along it in nanometres, the last of which is the first; chords stay within 150 nm of
+    /// it.
+    pub course: Vec<(f64, f64)>,
+}
+
+impl Diagram {
+    /// Where copper is `level` nanometres away, if something encloses the free space
+    /// ([`Space::Within`](super::Space::Within)). None where the graph contradicts itself: never,
+    /// unless the program is at fault.
+    ///
+    /// # Panics
+    ///
+    /// If the diagram has boundaries between owners alone ([`Kind::Owners`]).
+    #[must_use]
+    pub fn level_set(&self, level: f64) -> Option<Vec<LevelCurve>> {
+        assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
+        let chains = self.level_chains(&self.crossings(level), false, NOBODY)?;
+        let curve = |Chain { left: owner, samples, .. }| {
+            let course = samples.into_iter().map(|Sample { at, .. }| (at.x, at.y)).collect();
+            LevelCurve { owner, course }
+        };
+        Some(chains.into_iter().map(curve).collect())
+    }
+
+    fn knot(&self, vertex: u32) -> Knot {
+        let found = &self.vertices[vertex as usize];
+        Knot { at: Spot::new(found.at.0, found.at.1), clearance: found.clearance }
+    }
+
+    /// The generator on the left of a link.
+    fn left_of(&self, (edge, reversed): Link) -> u32 {
+        let edge = &self.edges[edge as usize];
+        if reversed { edge.right } else { edge.left }
+    }
+
+    /// The link that goes on along the face on the left.
+    fn onward(&self, link: Link) -> Option<Link> {
+        let leaving = &self.leaving[self.target(link) as usize];
+        let back = leaving.iter().position(|&other| other == (link.0, !link.1))?;
+        Some(leaving[(back + leaving.len() - 1) % leaving.len()])
+    }
+
+    /// Where a level crosses edges.
+    pub(super) fn crossings(&self, level: f64) -> Crossings {
+        let mut found = Crossings { level: level + ABOVE, all: Vec::new(), starts: vec![0] };
+        for (number, edge) in (0_u32..).zip(&self.edges) {
+            self.cross(number, edge, &mut found);
+            found.starts.push(found.all.len());
+        }
+        found
+    }
+
+    fn cross(&self, number: u32, edge: &Edge, found: &mut Crossings) {
+        let (from, to) = (self.knot(edge.from), self.knot(edge.to));
+        let reach = (to.at - from.at).length();
+        let (low, high) = (from.clearance.min(to.clearance), from.clearance.max(to.clearance));
+        // Clearance changes no faster than place, and edges turn by less than half a turn.
+        if low - 2.0 * reach > found.level || high + 2.0 * reach < found.level {
+            return;
+        }
+        let mut knots = vec![from];
+        self.halve_knots(edge, from, to, HALVINGS, &mut knots);
+        let mut stationary = vec![from];
+        for pair in knots.windows(2) {
+            stationary.extend(self.turning(edge, pair[0], pair[1]));
+            stationary.push(pair[1]);
+        }
+        for pair in stationary.windows(2) {
+            let [a, b] = [pair[0], pair[1]];
+            let rises = b.clearance > found.level;
+            if (a.clearance > found.level) != rises {
+                let at = self.crossing_between(edge, a, b, found.level);
+                found.all.push(Crossing { edge: number, at, rises });
+            }
+        }
+    }
+
+    fn halve_knots(&self, edge: &Edge, a: Knot, b: Knot, left: u32, knots: &mut Vec<Knot>) {
+        if left > 0
+            && let Some((at, clearance)) = self.midway(edge, a.at, b.at)
+        {
+            let middle = Knot { at, clearance };
+            self.halve_knots(edge, a, middle, left - 1, knots);
+            self.halve_knots(edge, middle, b, left - 1, knots);
+        } else {
+            knots.push(b);
+        }
+    }
+
+    /// How the clearance changes along an edge, at a place on it.
+    fn slope(&self, edge: &Edge, at: Spot) -> f64 {
+        let pair = self.pair(edge.left, edge.right);
+        pair.way(at).dot(pair.forms[0].away(at))
+    }
+
+    /// Where between two places the clearance is least or greatest, if it is.
+    fn turning(&self, edge: &Edge, mut a: Knot, mut b: Knot) -> Option<Knot> {
+        let (first, last) = (self.slope(edge, a.at), self.slope(edge, b.at));
+        if (first > 0.0) == (last > 0.0) {
+            return None;
+        }
+        for _ in 0..60 {
+            let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { break };
+            let middle = Knot { at, clearance };
+            if (self.slope(edge, at) > 0.0) == (first > 0.0) { a = middle } else { b = middle }
+        }
+        Some(a)
+    }
+
+    fn crossing_between(&self, edge: &Edge, mut a: Knot, mut b: Knot, level: f64) -> Spot {
+        let rises = b.clearance > level;
+        for _ in 0..60 {
+            let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { break };
+            let middle = Knot { at, clearance };
+            if (clearance > level) == rises { b = middle } else { a = middle }
+        }
+        a.at
+    }
+
+    /// The legs of the level set from a crossing to the next.
+    fn legs(&self, crossings: &Crossings, from: usize) -> Option<Vec<Leg>> {
+        let mut link = crossings.rising(from);
+        let mut legs = vec![];
+        let (mut at, mut after) = (crossings.all[from].at, Some(from));
+        for _ in 0..2 * self.edges.len() + 2 {
+            let generator = self.left_of(link);
+            if let Some(end) = crossings.next(link, after) {
+                legs.push(Leg { generator, from: at, to: crossings.all[end].at, crossing: Some(end) });
+                return Some(joined(legs));
+            }
+            let to = self.knot(self.target(link)).at;
+            legs.push(Leg { generator, from: at, to, crossing: None });
+            let onward = self.onward(link)?;
+            self.add_hollow(link, onward, &mut legs);
+            (link, at, after) = (onward, to, None);
+        }
+        None
+    }
+
+    /// Adds what lies between the generators on the left of two links, the second of which goes on
+    /// where the first ends: hollow arcs round that place.
+    fn add_hollow(&self, link: Link, onward: Link, legs: &mut Vec<Leg>) {
+        let vertex = self.target(link);
+        let at = self.knot(vertex).at;
+        let [first, last] = [link, onward].map(|link| self.left_of(link));
+        let hollow = |&i: &u32| i != first && i != last && self.forms()[i as usize].around(at).is_some();
+        let mut arcs: Vec<u32> = self.vertices[vertex as usize].tied.iter().copied().filter(hollow).collect();
+        if first == last {
+            return;
+        }
+        let mut toward = self.forms()[first as usize].away(at) * -1.0;
+        loop {
+            let begins_here = |&i: &u32| match self.forms()[i as usize].around(at) {
+                Some(Some([_, begin])) => begin.dot(toward) > SAME,
+                Some(None) | None => false,
+            };
+            let Some(found) = arcs.iter().position(begins_here) else { break };
+            let generator = arcs.remove(found);
+            legs.push(Leg { generator, from: at, to: at, crossing: None });
+            if let Some(Some([end, _])) = self.forms()[generator as usize].around(at) {
+                toward = end;
+            }
+        }
+    }
+
+    /// The closed chains where copper is `level` nanometres away, with the copper on their left;
+    /// with `nodes`, cut where boundaries between owners cross them. None where the graph
+    /// contradicts itself: never, unless the program is at fault.
+    pub(super) fn level_chains(&self, crossings: &Crossings, nodes: bool, nobody: u32) -> Option<Vec<Chain>> {
+        let mut chains = Vec::new();
+        let is_node = |crossing: usize| {
+            let edge = &self.edges[crossings.all[crossing].edge as usize];
+            nodes && self.owner(edge.left) != self.owner(edge.right)
+        };
+        let mut seen = vec![false; crossings.all.len()];
+        let firsts = (0..seen.len()).filter(|&i| is_node(i)).chain((0..seen.len()).filter(|&i| !is_node(i)));
+        for first in firsts {
+            let (mut legs, mut at) = (Vec::new(), first);
+            while !seen[at] {
+                seen[at] = true;
+                let next = self.legs(crossings, at)?;
+                at = next.last()?.crossing?;
+                legs.extend(next);
+                if is_node(at) {
+                    break;
+                }
+            }
+            if let Some(leg) = legs.first() {
+                let ends = is_node(first).then(|| [first, at].map(|i| self.node(i)));
+                let left = self.owner(leg.generator);
+                let samples = self.leg_samples(&legs, crossings.level - ABOVE);
+                let samples = between(samples, [first, at].map(|i| crossings.all[i].at));
+                chains.push(Chain { left, right: nobody, samples, ends });
+            }
+        }
+        for legs in self.whole_faces(crossings)? {
+            let left = self.owner(legs[0].generator);
+            let mut samples = self.leg_samples(&legs, crossings.level - ABOVE);
+            if let Some(&Sample { at, .. }) = samples.first() {
+                samples = between(samples, [at, at]);
+            }
+            chains.push(Chain { left, right: nobody, samples, ends: None });
+        }
+        Some(chains)
+    }
+
+    /// The number of the node at a crossing.
+    fn node(&self, crossing: usize) -> u32 {
+        u32::try_from(self.vertices.len() + crossing).expect("below 2³² nodes")
+    }
+
+    /// The legs of the loops that cross no edge.
+    fn whole_faces(&self, crossings: &Crossings) -> Option<Vec<Vec<Leg>>> {
+        let mut found = Vec::new();
+        let mut seen = vec![[false; 2]; self.edges.len()];
+        let links = (0_u32..).take(self.edges.len()).flat_map(|edge| [(edge, false), (edge, true)]);
+        for first in links {
+            let (mut link, mut legs, mut is_whole) = (first, Vec::new(), true);
+            while !std::mem::replace(&mut seen[link.0 as usize][usize::from(link.1)], true) {
+                let [from, to] = [(link.0, !link.1), link].map(|link| self.knot(self.target(link)));
+                is_whole &= from.clearance > crossings.level && crossings.of(link.0).is_empty();
+                legs.push(Leg { generator: self.left_of(link), from: from.at, to: to.at, crossing: None });
+                let onward = self.onward(link)?;
+                self.add_hollow(link, onward, &mut legs);
+                link = onward;
+            }
+            if is_whole && !legs.is_empty() {
+                // What begins within a generator's part ends there, too.
+                let turns = legs.windows(2).position(|pair| pair[0].generator != pair[1].generator);
+                legs.rotate_left(turns.map_or(0, |at| at + 1));
+                found.push(joined(legs));
+            }
+        }
+        found.extend((0_u32..).zip(&self.leaving).filter(|(_, leaving)| leaving.is_empty()).filter_map(
+            |(vertex, _)| {
+                let is_above = self.knot(vertex).clearance > crossings.level;
+                is_above.then(|| self.rounds(vertex)).flatten()
+            },
+        ));
+        Some(found)
+    }
+
+    /// The legs along the hollow arcs round a vertex that no edge leaves: all the way round.
+    fn rounds(&self, vertex: u32) -> Option<Vec<Leg>> {
+        let at = self.knot(vertex).at;
+        let tied = self.vertices[vertex as usize].tied.iter().copied();
+        let mut arcs: Vec<u32> = tied.filter(|&i| self.forms()[i as usize].around(at).is_some()).collect();
+        let leg = |generator: u32| Leg { generator, from: at, to: at, crossing: None };
+        let mut legs = vec![leg(arcs.pop()?)];
+        while let Some(Some([end, _])) = self.forms()[legs[legs.len() - 1].generator as usize].around(at) {
+            let begins_here = |&i: &u32| {
+                let around = self.forms()[i as usize].around(at).flatten();
+                around.is_some_and(|[_, begin]| begin.dot(end) > SAME)
+            };
+            let Some(next) = arcs.iter().position(begins_here) else { break };
+            legs.push(leg(arcs.remove(next)));
+        }
+        Some(legs)
+    }
+
+    /// The boundaries between owners where copper is nearer than `level` nanometres, and the curves
+    /// where it is just so far from it, which have `nobody` on their right. None where the graph
+    /// contradicts itself.
+    pub(in crate::voronoi) fn limited_chains(&self, level: f64, nobody: u32) -> Option<Vec<Chain>> {
+        debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
+        let crossings = self.crossings(level);
+        let mut chains = self.chains_below(&crossings);
+        chains.extend(self.level_chains(&crossings, true, nobody)?);
+        Some(chains)
+    }
+
+    /// The chains between owners, as far as they lie below the level.
+    fn chains_below(&self, crossings: &Crossings) -> Vec<Chain> {
+        let mut chains = Vec::new();
+        for (row, is_loop) in self.rows() {
+            let (left, right) = self.sides(row[0]);
+            let source = self.target((row[0].0, !row[0].1));
+            let mut parts: Vec<(Vec<Sample>, [u32; 2])> = Vec::new();
+            let mut open: Option<(Vec<Sample>, u32)> = None;
+            let sample = |knot: Knot| Sample { at: knot.at, clearance: knot.clearance };
+            let begins_below = self.knot(source).clearance <= crossings.level;
+            if begins_below {
+                open = Some((vec![sample(self.knot(source))], source));
+            }
+            for &link in &row {
+                let mut at = sample(self.knot(self.target((link.0, !link.1))));
+                let mut next = crossings.next(link, None);
+                while let Some(crossing) = next {
+                    let to = Sample { at: crossings.all[crossing].at, clearance: crossings.level - ABOVE };
+                    match open.take() {
+                        Some((mut samples, from)) => {
+                            self.extend(link, (at, to), &mut samples);
+                            parts.push((samples, [from, self.node(crossing)]));
+                        }
+                        None => open = Some((vec![to], self.node(crossing))),
+                    }
+                    (at, next) = (to, crossings.next(link, Some(crossing)));
+                }
+                if let Some((samples, _)) = &mut open {
+                    self.extend(link, (at, sample(self.knot(self.target(link)))), samples);
+                }
+            }
+            let end = self.target(row[row.len() - 1]);
+            let whole = parts.is_empty();
+            match open {
+                Some((samples, _)) if is_loop && whole => {
+                    chains.push(Chain { left, right, samples, ends: None });
+                }
+                // What a loop ends with goes on at its beginning.
+                Some((mut samples, from)) if is_loop && begins_below => {
+                    let (first, ends) = parts.remove(0);
+                    samples.extend_from_slice(&first[1..]);
+                    parts.push((samples, [from, ends[1]]));
+                }
+                Some((samples, from)) => parts.push((samples, [from, end])),
+                None => {}
+            }
+            let parts = parts.into_iter();
+            chains.extend(parts.map(|(samples, ends)| Chain { left, right, samples, ends: Some(ends) }));
+        }
+        chains
+    }
+
+    /// Adds the places along a link behind the first of two up to the second.
+    fn extend(&self, link: Link, (from, to): (Sample, Sample), samples: &mut Vec<Sample>) {
+        let edge = &self.edges[link.0 as usize];
+        if link.1 {
+            let mut between = Vec::new();
+            self.halve(edge, (to, from), COURSE, 16, &mut between);
+            samples.extend(between.into_iter().rev());
+        } else {
+            self.halve(edge, (from, to), COURSE, 16, samples);
+        }
+        samples.push(to);
+    }
+
+    /// Places along the parallels of generators, `level` nanometres away.
+    fn leg_samples(&self, legs: &[Leg], level: f64) -> Vec<Sample> {
+        let mut samples: Vec<Sample> = Vec::new();
+        let mut add = |at: Spot| {
+            if samples.last().is_none_or(|last| (last.at - at).length() > 1.0) {
+                samples.push(Sample { at, clearance: level });
+            }
+        };
+        for leg in legs {
+            let form = &self.forms()[leg.generator as usize];
+            let along = |place: Place| {
+                let (foot, normal) = form.foot(place);
+                foot + normal * level
+            };
+            match (*form, place_from(form, leg.from, true), place_from(form, leg.to, false)) {
+                (Form::Circle { center, radius, hollow, .. }, Place::Toward(u), Place::Toward(v)) => {
+                    let out = if hollow { radius - level } else { radius + level };
+                    add(center + u * out);
+                    let closed = leg.from == leg.to && !matches!(form.around(leg.from), Some(Some(_)));
+                    arc(center, out, [u, v], form.sense_on_left(), closed, &mut add);
+                }
+                (_, from, to) => {
+                    add(along(from));
+                    add(along(to));
+                }
+            }
+        }
+        samples
+    }
+}
+
+/// The place of the foot of `p`, at which the parallel begins or ends. From its centre an arc is
+/// everywhere: there it has come to its end.
+fn place_from(form: &Form, p: Spot, begins: bool) -> Place {
+    match form.around(p) {
+        Some(Some([first, last])) => Place::Toward(if begins { last } else { first }),
+        Some(None) => Place::Toward(Spot::new(1.0, 0.0)),
+        None => form.place(p),
+    }
+}
+
+/// Samples that begin and end at two places which theirs miss by rounding.
+fn between(mut samples: Vec<Sample>, [from, to]: [Spot; 2]) -> Vec<Sample> {
+    if samples.len() < 2 {
+        let clearance = samples.first().map_or(0.0, |sample| sample.clearance);
+        samples = [from, to].map(|at| Sample { at, clearance }).to_vec();
+    }
+    let last = samples.len() - 1;
+    (samples[0].at, samples[last].at) = (from, to);
+    samples
+}
+
+/// Legs along the same generator made one.
+fn joined(legs: Vec<Leg>) -> Vec<Leg> {
+    let mut joined: Vec<Leg> = Vec::with_capacity(legs.len());
+    for leg in legs {
+        match joined.last_mut() {
+            Some(last) if last.generator == leg.generator && last.crossing.is_none() => {
+                (last.to, last.crossing) = (leg.to, leg.crossing);
+            }
+            _ => joined.push(leg),
+        }
+    }
+    joined
+}
+
+/// Shows places along an arc behind its first, so dense that chords follow it.
+fn arc(center: Spot, radius: f64, [u, v]: [Spot; 2], sense: f64, closed: bool, add: &mut impl FnMut(Spot)) {
+    let swept = if sense > 0.0 { turn(u, v) } else { turn(v, u) };
+    if closed || (1e-9..4.0 - 1e-9).contains(&swept) {
+        let left = unit(Spot::new(-u.y, u.x)) * sense;
+        let (half, straight) = (unit(u + v), u.dot(v));
+        let middle = match (closed, swept < 1.9, swept > 2.1) {
+            (true, ..) => u * -1.0,
+            (_, true, _) => half,
+            (_, _, true) => half * -1.0,
+            _ => left,
+        };
+        // The height of the arc over its chord.
+        let height = radius * (1.0 - ((1.0 + straight.clamp(-1.0, 1.0)) / 2.0).sqrt());
+        if closed || swept >= 1.0 || height > CHORD {
+            arc(center, radius, [u, middle], sense, false, add);
+            arc(center, radius, [middle, v], sense, false, add);
+            return;
+        }
+    }
+    add(center + v * radius);
+}
