@@ -25,7 +25,7 @@ const OFF: f64 = 20.0;
 const SHORT: f64 = 200.0;
 
 /// Bodies by place.
-struct Bodies<'a> {
+pub(super) struct Bodies<'a> {
     diagram: &'a Diagram,
     index: Option<StaticAABB2DIndex<f64>>,
 }
@@ -63,13 +63,18 @@ fn at_position(form: &Form, position: f64) -> Place {
 }
 
 impl<'a> Bodies<'a> {
-    fn new(diagram: &'a Diagram) -> Self {
+    pub(super) fn new(diagram: &'a Diagram) -> Self {
         let mut builder = StaticAABB2DIndexBuilder::new(diagram.generators.bodies.len());
         for body in &diagram.generators.bodies {
             let [left, bottom, right, top] = diagram.bounds_of(body);
             builder.add(left, bottom, right, top);
         }
         Self { diagram, index: builder.build().ok() }
+    }
+
+    /// Whether copper lies off an edge with this foot and normal.
+    pub(super) fn cover(&self, foot: Spot, normal: Spot) -> bool {
+        self.hold(foot + normal * OFF, true)
     }
 
     /// Whether copper lies at `p`; what rings keep free ends within them where `beyond` says so.
@@ -156,7 +161,7 @@ impl Diagram {
                 let (foot, normal) = form.foot(at_position(form, f64::midpoint(from, to)));
                 let slack = (to - from) * 1e-6;
                 let is_known = |&at: &f64| at > from - slack && at < to + slack;
-                if !feet[number as usize].iter().any(is_known) && !bodies.hold(foot + normal * OFF, true) {
+                if !feet[number as usize].iter().any(is_known) && !bodies.cover(foot, normal) {
                     self.shoot(growth, number, foot, normal);
                     self.grow(growth);
                 }

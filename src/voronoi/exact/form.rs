@@ -23,6 +23,11 @@ pub(super) const SLAB: f64 = 0.05;
 /// from parallel ones.
 const FAR: f64 = 1e11;
 
+/// Lines that lie across more of a square of this side are known by pieces, and circles of a larger
+/// radius, in nanometres; a line by so many at most. Chosen: boards rarely have such.
+const PIECE: f64 = 1_000_000.0;
+const PIECES: f64 = 256.0;
+
 /// A line or a circle, one side of which is free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Form {
@@ -297,6 +302,36 @@ impl Form {
                 let sector = sector.map(|[from, to]| [direction(to), direction(from)]);
                 Self::Circle { center: spot(center), radius, hollow, sector }
             }
+        }
+    }
+
+    /// It, or pieces of it with far smaller boxes.
+    pub(super) fn pieces(&self) -> Vec<Self> {
+        match *self {
+            Self::Line { from, along, length } => {
+                let slant = (along.x.abs().min(along.y.abs()) * length / PIECE).ceil();
+                let count = slant.clamp(1.0, PIECES);
+                let step = length / count;
+                let starts = std::iter::successors(Some(0.0), |i| Some(i + 1.0)).take_while(|&i| i < count);
+                starts.map(|i| Self::Line { from: from + along * (step * i), along, length: step }).collect()
+            }
+            Self::Circle { center, radius, hollow, sector } if radius > PIECE => {
+                let east = Spot::new(1.0, 0.0);
+                let [first, last] = sector.unwrap_or([east; 2]);
+                let mut ends = vec![first];
+                let diagonal = unit(Spot::new(1.0, 1.0));
+                let mut eighth = [first, clockwise(first) * -1.0];
+                eighth[1] = first * diagonal.x + eighth[1] * diagonal.y;
+                while ends.len() < 8 && (sector.is_none() || turn(first, eighth[1]) < turn(first, last)) {
+                    ends.push(eighth[1]);
+                    let [from, to] = eighth;
+                    eighth = [to, to * (2.0 * to.dot(from)) - from];
+                }
+                ends.push(last);
+                let sectors = ends.windows(2).map(|pair| Some([pair[0], pair[1]]));
+                sectors.map(|sector| Self::Circle { center, radius, hollow, sector }).collect()
+            }
+            Self::Circle { .. } => vec![*self],
         }
     }
 

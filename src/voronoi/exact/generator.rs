@@ -299,8 +299,13 @@ fn simple(ring: &[Point]) -> Vec<Point> {
 }
 
 /// Generators by place, with the breaks of discs.
+///
+/// A long slanted line and a large arc are known by pieces, for a box round all of one would lie
+/// over much that they are far from.
 pub(super) struct Index {
     boxes: Vec<[f64; 4]>,
+    /// Of each box the generator, and how many boxes of it came before.
+    pieces: Vec<(u32, u32)>,
     tree: Option<StaticAABB2DIndex<f64>>,
     /// The breaks of generator `i`: `breaks[starts[i]..starts[i + 1]]`.
     breaks: Vec<Place>,
@@ -309,12 +314,18 @@ pub(super) struct Index {
 
 impl Index {
     pub(super) fn new(generators: &Generators) -> Self {
-        let boxes: Vec<[f64; 4]> = generators.forms.iter().map(Form::bounds).collect();
+        let (mut boxes, mut pieces) = (Vec::new(), Vec::new());
+        for (number, form) in (0_u32..).zip(&generators.forms) {
+            for (before, piece) in (0_u32..).zip(form.pieces()) {
+                boxes.push(piece.bounds());
+                pieces.push((number, before));
+            }
+        }
         let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
         for [left, bottom, right, top] in &boxes {
             builder.add(*left, *bottom, *right, *top);
         }
-        Self { boxes, tree: builder.build().ok(), breaks: Vec::new(), starts: Vec::new() }
+        Self { boxes, pieces, tree: builder.build().ok(), breaks: Vec::new(), starts: Vec::new() }
     }
 
     /// Finds all breaks where distances that differ by less than `tie` are equal.
@@ -356,23 +367,35 @@ impl Index {
         found
     }
 
-    /// Shows the generators whose boxes meet a box, left, bottom, right, top.
-    pub(super) fn visit(&self, [left, bottom, right, top]: [f64; 4], mut show: impl FnMut(u32)) {
-        if let Some(tree) = &self.tree {
-            tree.visit_query(left, bottom, right, top, &mut |i: usize| {
-                show(u32::try_from(i).expect("below 2³² generators"));
-            });
-        }
+    /// Shows the generators of which a box meets a box, left, bottom, right, top, each once.
+    pub(super) fn visit(&self, within: [f64; 4], show: impl FnMut(u32)) {
+        let [left, bottom, right, top] = within;
+        self.visit_where(within, |[a, b, c, d]| a <= right && c >= left && b <= top && d >= bottom, show);
     }
 
-    /// Shows the generators whose boxes come within `reach` of `p`.
-    pub(super) fn visit_round(&self, p: Spot, reach: f64, mut show: impl FnMut(u32)) {
-        self.visit([p.x - reach, p.y - reach, p.x + reach, p.y + reach], |i| {
-            let [left, bottom, right, top] = self.boxes[i as usize];
+    /// Shows the generators of which a box comes within `reach` of `p`, each once.
+    pub(super) fn visit_round(&self, p: Spot, reach: f64, show: impl FnMut(u32)) {
+        let comes_near = |[left, bottom, right, top]: [f64; 4]| {
             let x = (left - p.x).max(p.x - right).max(0.0);
             let y = (bottom - p.y).max(p.y - top).max(0.0);
-            if x * x + y * y <= reach * reach {
-                show(i);
+            x * x + y * y <= reach * reach
+        };
+        self.visit_where([p.x - reach, p.y - reach, p.x + reach, p.y + reach], comes_near, show);
+    }
+
+    /// Shows the generators of which a box within another meets a condition, each once.
+    fn visit_where(
+        &self,
+        [left, bottom, right, top]: [f64; 4],
+        meets: impl Fn([f64; 4]) -> bool,
+        mut show: impl FnMut(u32),
+    ) {
+        let Some(tree) = &self.tree else { return };
+        tree.visit_query(left, bottom, right, top, &mut |i: usize| {
+            let (generator, before) = self.pieces[i];
+            let first = i - before as usize;
+            if meets(self.boxes[i]) && !self.boxes[first..i].iter().any(|&bounds| meets(bounds)) {
+                show(generator);
             }
         });
     }

@@ -11,6 +11,7 @@
 //! The medial axis of one connected part of the free space is connected; what one owner encloses
 //! has a part of its own, to which the normals of edges that lie open lead (`exposed`).
 
+use super::exposed::Bodies;
 use super::form::{Form, Place};
 use super::graph::Growth;
 use super::walk::{Event, Pair};
@@ -26,8 +27,13 @@ const EVENTS: usize = 1_000_000;
 impl Diagram {
     /// Sows all seeds, and grows what comes of them.
     pub(super) fn sow(&self, growth: &mut Growth, space: Space) {
+        // Of what lies outside all else the rightmost point may be at the end of free space.
+        let bodies = (space == Space::Within).then(|| Bodies::new(self));
+        let right = Spot::new(1.0, 0.0);
         for (generator, foot) in self.rightmost() {
-            self.shoot(growth, generator, foot, Spot::new(1.0, 0.0));
+            if bodies.as_ref().is_none_or(|bodies| !bodies.cover(foot, right)) {
+                self.shoot(growth, generator, foot, right);
+            }
         }
         self.grow(growth);
         if space != Space::Within {

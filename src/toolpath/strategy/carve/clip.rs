@@ -90,8 +90,10 @@ impl Pass {
         for pair in course.windows(2) {
             let (from, to) = (tip(&pair[0]), tip(&pair[1]));
             let part = |level: f64| (level - from.depth) / (to.depth - from.depth);
-            let mut parts = [self.low, self.high, self.beyond.unwrap_or(self.high)].map(part);
+            let levels = [Some(self.low), Some(self.high), self.beyond];
+            let mut parts: Vec<f64> = levels.into_iter().flatten().map(part).collect();
             parts.sort_by(f64::total_cmp);
+            parts.dedup();
             let crossed = parts.into_iter().filter(|part| (1e-9..1.0 - 1e-9).contains(part));
             tips.extend(crossed.map(|part| between(from, to, part)));
             tips.push(to);
