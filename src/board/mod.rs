@@ -45,6 +45,9 @@ pub struct Board {
     pub holes: Vec<Hole>,
     /// How thick it is, where a file says so.
     pub thickness: Option<Nm>,
+    /// What it covered before parts of it were left aside: where its zero lies does not depend on
+    /// what is made of it.
+    pub whole: Option<Rect>,
 }
 
 impl Board {
@@ -57,10 +60,22 @@ impl Board {
         }
     }
 
-    /// A rectangle that holds the outline, or without one the copper of both sides and the holes.
+    /// Leaves aside all but the copper of `side`, where it is given, and the outline.
+    pub fn leave_copper(&mut self, side: Option<Side>) {
+        self.whole = self.bounds();
+        self.holes.clear();
+        match side {
+            Some(Side::Front) => self.back = None,
+            Some(Side::Back) => self.front = None,
+            None => {}
+        }
+    }
+
+    /// A rectangle that holds the outline, or without one the copper of both sides and the holes,
+    /// those that were left aside, too.
     #[must_use]
     pub fn bounds(&self) -> Option<Rect> {
-        self.outline.as_ref().map(Outline::bounds).or_else(|| {
+        self.outline.as_ref().map(Outline::bounds).or(self.whole).or_else(|| {
             let copper = [&self.front, &self.back].into_iter().flatten().filter_map(Copper::bounds);
             copper.chain(self.holes.iter().map(Hole::bounds)).reduce(Rect::union)
         })

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use voromill::board::Side;
 use voromill::gcode::Dialect;
 use voromill::gcode::dialect::ToolChange;
 use voromill::job::{self, Part};
@@ -43,11 +44,10 @@ impl Isolate {
         let mut stages = Stages::default();
         let mut loaded = stages.run("reading", || self.input.load(&settings), |_| [])?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
-        match self.side {
-            Some(SideName::Front) => loaded.board.back = None,
-            Some(SideName::Back) => loaded.board.front = None,
-            None => {}
-        }
+        loaded.board.leave_copper(self.side.map(|side| match side {
+            SideName::Front => Side::Front,
+            SideName::Back => Side::Back,
+        }));
         if loaded.board.front.is_some() && loaded.board.back.is_some() {
             let hint = "name the file of one layer, say --side, or use `voromill mill`";
             return Err(Failure::new("there is copper for both sides, and a program is for one", hint));
@@ -55,7 +55,6 @@ impl Isolate {
         if loaded.board.front.is_none() && loaded.board.back.is_none() {
             return Err(job::Error::NoCopper("in these files".to_owned()).into());
         }
-        loaded.board.holes.clear();
         let mut job = job::mill(loaded, &settings)?;
         // No other is written, so no other is told of.
         job.programs.retain(|program| matches!(program.part, Part::Front | Part::Back));

@@ -45,6 +45,7 @@ impl Tiles {
             outline: Outline::new(contours.collect()),
             holes: ways.iter().flat_map(|&way| board.holes.iter().map(move |h| hole(h, way))).collect(),
             thickness: board.thickness,
+            whole: None,
         }
     }
 }

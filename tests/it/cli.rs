@@ -320,6 +320,34 @@ fn an_option_that_changes_nothing_is_neither_shown_nor_taken() {
     assert!(!stdout(&done).contains("cutout"), "only what was written is told of: {}", stdout(&done));
 }
 
+/// Without an outline the zero is that of all copper, whichever side is isolated.
+#[test]
+fn a_side_alone_has_the_zero_of_the_whole_board() {
+    let out = folder();
+    let pads = |name: &str, pads: &str| {
+        let text = format!("%FSLAX26Y26*%%MOMM*%%ADD10C,1*%D10*{pads}M02*");
+        fs::write(out.path().join(name), text).expect("written");
+    };
+    pads("pads-F_Cu.gbr", "X5000000Y5000000D03*X9000000Y5000000D03*");
+    pads("pads-B_Cu.gbr", "X0Y0D03*X9000000Y0D03*");
+    let whole = voromill(out.path(), &["mill", "pads-F_Cu.gbr", "pads-B_Cu.gbr", "-o", "whole"]);
+    assert!(whole.status.success(), "{}", stderr(&whole));
+    let arguments = ["isolate", "pads-F_Cu.gbr", "pads-B_Cu.gbr", "--side", "front", "-o", "front.ngc"];
+    let alone = voromill(out.path(), &arguments);
+    assert!(alone.status.success(), "{}", stderr(&alone));
+    let moves = |path: PathBuf| {
+        let text = fs::read_to_string(path).expect("a program");
+        text.lines().filter(|line| line.starts_with('G')).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let names = listing(&out.path().join("whole"));
+    let front = names.iter().find(|name| name.ends_with("front.ngc")).expect("the front's program");
+    assert_eq!(
+        moves(out.path().join("front.ngc")),
+        moves(out.path().join("whole").join(front)),
+        "the same moves"
+    );
+}
+
 #[test]
 fn an_option_that_changes_nothing_beside_the_others_is_refused() {
     let out = folder();

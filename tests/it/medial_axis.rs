@@ -248,7 +248,9 @@ impl Compared {
     }
 }
 
+/// Boost divides by nothing on some of these, which only its assertions tell.
 #[test]
+#[cfg_attr(not(debug_assertions), ignore = "without assertions the other algorithm is wrong in silence")]
 fn the_medial_axis_of_random_areas_is_that_of_another_algorithm() {
     let mut compared = Compared::default();
     for (seeds, grid) in [(0..20, 1), (20..40, 100_000), (40..60, 500_000)] {
