@@ -100,6 +100,15 @@ pub(super) enum SideName {
     Back,
 }
 
+impl From<SideName> for Side {
+    fn from(name: SideName) -> Self {
+        match name {
+            SideName::Front => Self::Front,
+            SideName::Back => Self::Back,
+        }
+    }
+}
+
 /// A part of the board.
 #[derive(Clone, Copy)]
 struct Window(Rect);

@@ -44,10 +44,7 @@ impl Isolate {
         let mut stages = Stages::default();
         let mut loaded = stages.run("reading", || self.input.load(&settings), |_| [])?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
-        loaded.board.leave_copper(self.side.map(|side| match side {
-            SideName::Front => Side::Front,
-            SideName::Back => Side::Back,
-        }));
+        loaded.board.leave_copper(self.side.map(Side::from));
         if loaded.board.front.is_some() && loaded.board.back.is_some() {
             let hint = "name the file of one layer, say --side, or use `voromill mill`";
             return Err(Failure::new("there is copper for both sides, and a program is for one", hint));

@@ -71,10 +71,7 @@ impl Probe {
         let settings = self.config.settings(&self.input)?;
         let loaded = self.input.survey(&settings)?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
-        let side = match self.side {
-            SideName::Front => Side::Front,
-            SideName::Back => Side::Back,
-        };
+        let side = Side::from(self.side);
         let probing = Probing {
             side,
             grid: self.probe_grid,
