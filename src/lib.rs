@@ -28,6 +28,7 @@
 //! | [`grid`] | the only crossing between nanometres and pixels | geometry, raster |
 //! | [`topology`] | which features conduct to each other: [`Nets`](topology::Nets) | geometry, raster, board, grid |
 //! | [`voronoi`] | nets → regions → a planar graph of [`Boundaries`](voronoi::Boundaries), placed exactly | all above but import |
+//! | [`coupling`] | how near nets lie to each other for how long, and what capacitance that makes | geometry, topology, voronoi |
 //! | [`toolpath`] | boundaries, holes, outline and a tool → a [`Program`](toolpath::Program) | geometry, board, topology, voronoi |
 //! | [`gcode`] | program ↔ text; dialects are data; the reader shares nothing with the writer | geometry, toolpath |
 //! | [`verify`] | text and a board → what is wrong; uses neither voronoi nor toolpath | geometry, raster, board, grid, topology, the reader |
@@ -78,6 +79,7 @@
 
 pub mod artwork;
 pub mod board;
+pub mod coupling;
 pub mod gcode;
 pub mod geometry;
 pub mod grid;

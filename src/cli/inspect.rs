@@ -1,7 +1,7 @@
 //! `voromill inspect`: what is in the files, before anything is made of them.
 
 use clap::{Args, ValueEnum};
-use voromill::job::{inspect, paper};
+use voromill::job::{Pattern, coupling, inspect, paper};
 
 use super::config::Config;
 use super::input::Input;
@@ -27,6 +27,21 @@ pub(super) struct Inspect {
     #[arg(long)]
     paper: bool,
 
+    /// Add how strongly neighbouring nets are coupled: length over gap and an estimate in pF, as
+    /// Voronoi regions and as drawn; `--coupling=CLK,D*` says of these nets what --limit helps
+    ///
+    /// The estimate takes two nets for coplanar strips as wide as each is on average, on FR-4 as
+    /// thick as the board, along the boundary between them.
+    #[arg(
+        long,
+        value_name = "PATTERN",
+        value_delimiter = ',',
+        num_args = 0..,
+        require_equals = true,
+        default_missing_value = ""
+    )]
+    coupling: Option<Vec<Pattern>>,
+
     #[command(flatten)]
     config: Config,
 }
@@ -46,6 +61,19 @@ impl Inspect {
         if self.paper {
             for layer in &mut inspection.layers {
                 layer.paper = paper(&loaded.board, layer.side)?;
+            }
+        }
+        if let Some(asked) = &self.coupling {
+            for layer in &mut inspection.layers {
+                let Some(copper) = loaded.board.copper(layer.side) else { continue };
+                layer.coupling = Some(coupling(copper, loaded.board.outline.as_ref(), &settings, asked)?);
+            }
+            let is_named =
+                inspection.layers.iter().flat_map(|layer| &layer.coupling).any(|c| !c.nets.is_empty());
+            let mut named = asked.iter().map(ToString::to_string).filter(|pattern| !pattern.is_empty());
+            if let Some(pattern) = named.next().filter(|_| !is_named) {
+                let hint = "compare it with the names that `voromill inspect -v` lists";
+                return Err(Failure::new(format!("no net is called `{pattern}`"), hint));
             }
         }
         super::print(&match self.format {

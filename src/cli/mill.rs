@@ -112,6 +112,9 @@ impl Mill {
         stages.extend(&job.stages);
         let mut document = job.describe(&settings);
         self.input.judge(&document.warnings)?;
+        for (layer, found) in document.layers.iter_mut().zip(job.couplings(&settings)) {
+            layer.coupling = found;
+        }
         let mut passes = true;
         if !self.no_verify {
             progress.say("simulating");

@@ -65,7 +65,10 @@ fn takes(subcommand: &str, option: &str) -> bool {
                 )
         }
         "carve" => CARVING_OPTIONS.contains(&option),
-        "inspect" => matches!(option, "topology" | "outline-gap"),
+        // The kerf and the board's thickness decide how strongly nets are coupled.
+        "inspect" => {
+            matches!(option, "topology" | "outline-gap" | "tool" | "depth" | "kerf" | "thickness")
+        }
         _ => true,
     }
 }

@@ -67,6 +67,7 @@ impl Layer {
             boundary_length_mm: Millimetres(self.boundary_length()),
             frame_length_mm: self.lap.as_ref().map(|lap| Millimetres(Nm::from_f64(lap.length()))),
             slight_gaps: 0,
+            coupling: None,
         }
     }
 }

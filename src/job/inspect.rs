@@ -64,6 +64,7 @@ fn inspected(copper: &Copper, nets: &Nets, settings: &Settings) -> InspectedLaye
         nets: net_entries(nets),
         smallest_gap: topology::smallest_gap(copper, nets).map(|gap| gap_entry(gap, nets)),
         methods: differences.map(|differences| MethodsEntry::new(copper, &differences)),
+        coupling: None,
         paper: None,
     }
 }

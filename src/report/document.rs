@@ -13,6 +13,7 @@ use crate::geometry::{Nm, Point};
 use crate::toolpath::Statistics;
 
 use super::colours::ColoursEntry;
+use super::coupling::CouplingEntry;
 use super::stages::Stage;
 
 /// The version of the shape of [`Document`]: it grows when a key changes its meaning or goes, not
@@ -115,6 +116,9 @@ pub struct LayerEntry {
     /// Gaps that the kerf does not fit by so little that nobody minds.
     #[serde(skip_serializing_if = "is_none")]
     pub slight_gaps: usize,
+    /// Which nets are coupled most, where regions part them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<CouplingEntry>,
 }
 
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde asks")]

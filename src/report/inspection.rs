@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use crate::board::{Side, Source};
 
+use super::coupling::CouplingEntry;
 use super::document::{DrillEntry, GapEntry, Millimetres, NetEntry, WarningEntry};
 use super::methods::MethodsEntry;
 use super::paper::PaperEntry;
@@ -50,6 +51,9 @@ pub struct InspectedLayer {
     /// How the three ways to find nets compare, where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub methods: Option<MethodsEntry>,
+    /// How strongly neighbouring nets are coupled, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub coupling: Option<CouplingEntry>,
     /// The paper's figures, where they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub paper: Option<PaperEntry>,
@@ -148,6 +152,7 @@ fn layer(layer: &InspectedLayer, verbose: bool) -> String {
         let _ = writeln!(text, "  {}{more}", named[..named.len() - rest].join(", "));
     }
     text.extend(layer.methods.as_ref().map(|methods| methods.to_text(verbose)));
+    text.extend(layer.coupling.as_ref().map(|coupling| coupling.to_text(verbose)));
     text.extend(layer.paper.as_ref().map(PaperEntry::to_text));
     text
 }

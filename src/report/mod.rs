@@ -4,6 +4,7 @@
 mod canvas;
 pub mod colours;
 pub mod comparison;
+pub mod coupling;
 pub mod document;
 pub mod explain;
 mod gaps;

@@ -188,6 +188,7 @@ mod tests {
             boundary_length_mm: Millimetres(Nm::from_mm(208)),
             frame_length_mm,
             slight_gaps: 0,
+            coupling: None,
         };
         assert_eq!(layer(None).lengths(), "boundaries 208 mm", "an outline is no frame cut");
         let framed = layer(Some(Millimetres(Nm::from_mm(81)))).lengths();

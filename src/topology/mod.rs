@@ -27,6 +27,7 @@ mod coincidence;
 mod contact;
 mod differences;
 mod electrical;
+mod extent;
 mod gap;
 mod index;
 mod names;
@@ -39,6 +40,7 @@ mod translucency;
 
 pub use differences::{Differences, Missed, Reason, differences};
 pub use electrical::{Electrical, ElectricalNet, electrical};
+pub use extent::{Extent, extents};
 pub use gap::{Gap, smallest_gap};
 pub(crate) use index::RectIndex;
 pub use names::{islands_of_names, names_check};

@@ -1,9 +1,18 @@
-//! How long boundaries are and how large the regions between them.
+//! How long boundaries are, how large the regions between them, and how far places are from copper.
 
 use crate::geometry::{Path, Point};
 
 use super::plane::Spot;
-use super::{Boundaries, Owner};
+use super::{Boundaries, Diagram, Owner};
+
+impl Diagram {
+    /// How far the nearest copper is from `place`, in nanometres; none where the sites are not the
+    /// copper's edges.
+    #[must_use]
+    pub fn clearance_at(&self, place: Point) -> Option<f64> {
+        self.near.as_ref().map(|near| near.distance(&self.sites, place.into()))
+    }
+}
 
 impl Boundaries {
     /// The length of all that isolates, in nanometres: what runs along the board's edge or the

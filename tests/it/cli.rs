@@ -299,7 +299,7 @@ fn an_option_that_changes_nothing_is_neither_shown_nor_taken() {
         ("draw", "--cutout-side", "back"),
         ("probe", "--width", "0.5mm"),
         ("probe", "--no-frame", ""),
-        ("inspect", "--tool", "endmill:1mm"),
+        ("inspect", "--feed", "100mm/min"),
     ] {
         let mut given = vec![command, &board, option];
         given.extend([value, "-o", "x"].iter().filter(|word| !word.is_empty() && command != "inspect"));
@@ -549,6 +549,24 @@ fn inspect_lists_files_nets_and_holes() {
     let json = voromill(out.path(), &["inspect", &board.to_string_lossy(), "--format", "json"]);
     let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     assert!(report["layers"][0]["nets"].as_array().is_some_and(|nets| nets.len() > 1), "nets by name");
+}
+
+#[test]
+fn inspect_says_which_nets_are_coupled_and_what_a_limit_helps() {
+    let out = folder();
+    let board = fixture("boards/blinker");
+    let board = board.to_string_lossy();
+    let text = stdout(&voromill(out.path(), &["inspect", &board, "--coupling=GND"]));
+    for words in ["coupling of regions 0.", "length/gap", "GND: ", "with --limit "] {
+        assert!(text.contains(words), "says `{words}`:\n{text}");
+    }
+    let json = voromill(out.path(), &["inspect", &board, "--coupling", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
+    let coupling = &report["layers"][0]["coupling"];
+    let figure = |of: &str| coupling["picofarads"][of].as_f64().expect("a number");
+    assert!(figure("regions") > figure("drawn") && figure("drawn") > 0.0, "regions lie closer: {coupling}");
+    let unknown = ["inspect", &board, "--coupling=NOBODY"];
+    fails(&out, &unknown, &["no net is called `NOBODY`"], &[]);
 }
 
 #[test]

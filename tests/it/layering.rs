@@ -15,6 +15,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
     ("grid", &["geometry", "raster"]),
     ("topology", &["geometry", "raster", "board", "grid"]),
     ("voronoi", &["geometry", "raster", "board", "artwork", "grid", "topology"]),
+    ("coupling", &["geometry", "topology", "voronoi"]),
     ("toolpath", &["geometry", "board", "topology", "voronoi"]),
     ("gcode", &["geometry", "toolpath"]),
     ("gcode::read", &["geometry", "gcode"]),
@@ -22,15 +23,15 @@ const MAY_USE: &[(&str, &[&str])] = &[
     (
         "report",
         &[
-            "geometry", "raster", "board", "import", "grid", "topology", "voronoi", "toolpath", "gcode",
-            "verify",
+            "geometry", "raster", "board", "import", "grid", "topology", "voronoi", "coupling", "toolpath",
+            "gcode", "verify",
         ],
     ),
     (
         "job",
         &[
-            "geometry", "raster", "board", "import", "grid", "topology", "voronoi", "toolpath", "gcode",
-            "verify", "report",
+            "geometry", "raster", "board", "import", "grid", "topology", "voronoi", "coupling", "toolpath",
+            "gcode", "verify", "report",
         ],
     ),
 ];

@@ -6,6 +6,7 @@ mod carve;
 mod certified_boundaries;
 mod certified_diagram;
 mod cli;
+mod coupling;
 mod damage;
 mod dialect_files;
 mod drawings;

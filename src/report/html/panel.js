@@ -156,7 +156,20 @@ class Panel {
     });
     const gaps = this.report.layers.filter(layer => layer.smallest_gap).map(({ side, smallest_gap: gap }) => make('p', {}, `Smallest gap on the ${side}: `,
       make('button', { class: 'link', on: { click: () => this.actions.place(side, gap.at.x_mm * 1000, gap.at.y_mm * 1000) } }, `${mm(gap.width_mm)} between ${gap.between.join(' and ')}`)));
-    return this.section('Nets', ...gaps, ...lists);
+    return this.section('Nets', ...gaps, ...lists, ...this.coupling());
+  }
+
+  // The nets that lie closest to each other for longest.
+  coupling() {
+    const layers = this.report.layers.filter(layer => layer.coupling?.pairs.length);
+    return layers.map(({ side, coupling }) => {
+      const rows = coupling.pairs.map(({ between, boundary_mm: length, length_over_gap: over, picofarads: farads }) =>
+        [between.join(' and '), length.toFixed(1), over.regions.toFixed(0), farads.regions.toFixed(2), farads.drawn.toFixed(2)]);
+      const { regions, drawn } = coupling.picofarads;
+      return make('details', {}, make('summary', {}, make('b', {}, `Coupling, ${side}`), make('span', { class: 'count' }, `${regions.toFixed(1)} pF`)),
+        make('p', { class: 'how' }, `An estimate: coplanar strips ${mm(coupling.kerf_mm)} apart on ${coupling.thickness_mm} mm of permittivity ${coupling.permittivity}. In all ${regions.toFixed(1)} pF; as drawn, without the copper beside it, ${drawn.toFixed(1)} pF.`),
+        this.table(['Nets', 'mm', 'Length/gap', 'pF', 'as drawn'], rows));
+    });
   }
 
   about() {
