@@ -89,7 +89,8 @@ fn cut(trails: &[Trail], order: Order) -> Section {
         right: Owner::Net(NetId(1)),
         ends: Some((node(2 * index), node(2 * index + 1))),
     });
-    let boundaries = Boundaries { nodes: trails.as_flattened().to_vec(), edges: edges.collect() };
+    let boundaries =
+        Boundaries { nodes: trails.as_flattened().to_vec(), edges: edges.collect(), links: vec![] };
     let (placement, machine) = (Placement::default(), Machine::default());
     let settings = Isolation {
         tool: &tool,

@@ -32,7 +32,9 @@ impl Diagram {
         };
         let (chains, level) = match self.settings.limit {
             None => (Some(diagram.chains()), f64::INFINITY),
-            Some(limit) => (diagram.limited_chains(limit.to_f64(), NOBODY), limit.to_f64()),
+            Some(limit) => {
+                (diagram.limited_chains(limit.to_f64(), NOBODY, self.settings.enclosed), limit.to_f64())
+            }
         };
         let is_whole = chains.is_some();
         let mut chains = chains.unwrap_or_default();

@@ -9,10 +9,10 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::geometry::{Nm, Path, Point, Segment};
+use crate::geometry::{Nm, Point, Segment};
 
-use super::plane::{Spot, nearest_on_chord};
-use super::site::foot_on_arc;
+use super::part::{Cut, foot, part};
+use super::plane::Spot;
 use super::{Boundaries, Boundary, NodeId};
 
 /// Loops, and what is joined to them.
@@ -28,18 +28,9 @@ pub(super) struct Junctions {
     leash: f64,
 }
 
-/// A place on a loop.
-#[derive(Clone, Copy)]
-struct Cut {
-    segment: usize,
-    /// How far along the segment, in nanometres.
-    along: f64,
-    node: NodeId,
-}
-
 impl Junctions {
     pub(super) fn new(loops: Boundaries, leash: f64) -> Self {
-        let Boundaries { nodes, edges } = loops;
+        let Boundaries { nodes, edges, .. } = loops;
         let ends = edges.iter().filter_map(|edge| edge.ends).flat_map(|(a, b)| [a, b]);
         let known = ends.map(|node| (nodes[node.0 as usize], node)).collect();
         Self { nodes, cuts: vec![Vec::new(); edges.len()], loops: edges, known, others: Vec::new(), leash }
@@ -85,10 +76,7 @@ impl Junctions {
         }
         let node = push(&mut self.nodes, foot);
         self.known.insert(foot, node);
-        let path = &self.loops[index].path;
-        let from = segment.checked_sub(1).map_or(path.start, |before| path.segments[before].to());
-        let along = with_end(path.segments[segment], foot).length(from);
-        self.cuts[index].push(Cut { segment, along, node });
+        self.cuts[index].push(Cut::new(&self.loops[index].path, segment, foot, node));
         node
     }
 
@@ -132,7 +120,7 @@ impl Junctions {
             part(edge, cuts, &self.nodes, &mut edges);
         }
         edges.extend(self.others);
-        Boundaries { nodes: self.nodes, edges }
+        Boundaries { nodes: self.nodes, edges, links: Vec::new() }
     }
 }
 
@@ -141,96 +129,10 @@ fn push(nodes: &mut Vec<Point>, at: Point) -> NodeId {
     NodeId(u32::try_from(nodes.len() - 1).expect("below 2³² nodes"))
 }
 
-/// The point of `path` nearest to `p`: the index of its segment, the point, and how far it is, in
-/// nanometres.
-pub(super) fn foot(path: &Path, p: Spot) -> (usize, Spot, f64) {
-    let mut best = (0, path.start.into(), f64::INFINITY);
-    for (index, (from, segment)) in path.steps().enumerate() {
-        let foot = match segment.arc(from) {
-            Some(arc) => foot_on_arc(p, &arc),
-            None => nearest_on_chord(p, from.into(), segment.to().into()),
-        };
-        let distance = (p - foot).length();
-        if distance < best.2 {
-            best = (index, foot, distance);
-        }
-    }
-    best
-}
-
-/// A segment that ends earlier.
-const fn with_end(segment: Segment, to: Point) -> Segment {
-    match segment {
-        Segment::Line { .. } => Segment::Line { to },
-        Segment::Arc { center, turn, .. } => Segment::Arc { to, center, turn },
-    }
-}
-
-/// Parts `edge` at its cuts into edges from node to node; one without a node is parted into a loop
-/// with one at least.
-fn part(mut edge: Boundary, mut cuts: Vec<Cut>, nodes: &[Point], parts: &mut Vec<Boundary>) {
-    cuts.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.along.total_cmp(&b.along)));
-    if cuts.is_empty() {
-        return parts.push(edge);
-    }
-    let mut marks = mark(&mut edge, &cuts, nodes);
-    let ends = edge.ends.unwrap_or_else(|| {
-        let (first, node) = marks.remove(0);
-        begin_at(&mut edge, first);
-        marks.iter_mut().for_each(|(vertex, _)| *vertex -= first);
-        (node, node)
-    });
-    let mut start = (0, ends.0);
-    for end in marks.into_iter().chain([(edge.path.segments.len(), ends.1)]) {
-        if end.0 > start.0 {
-            let segments = edge.path.segments[start.0..end.0].to_vec();
-            let path = Path { start: vertex(&edge.path, start.0), segments };
-            let clearance = edge.clearance[start.0..=end.0].to_vec();
-            parts.push(Boundary { path, clearance, ends: Some((start.1, end.1)), ..edge.clone() });
-        }
-        start = end;
-    }
-}
-
-/// Gives the path a vertex at each cut; their indices, with the nodes.
-fn mark(edge: &mut Boundary, cuts: &[Cut], nodes: &[Point]) -> Vec<(usize, NodeId)> {
-    let mut marks = Vec::with_capacity(cuts.len());
-    let mut added = 0;
-    for cut in cuts {
-        let (at, index) = (nodes[cut.node.0 as usize], cut.segment + added);
-        let segment = edge.path.segments[index];
-        if at == vertex(&edge.path, index) {
-            marks.push((index, cut.node));
-        } else if at == segment.to() {
-            marks.push((index + 1, cut.node));
-        } else {
-            edge.path.segments.insert(index, with_end(segment, at));
-            edge.clearance.insert(index + 1, edge.clearance[index].min(edge.clearance[index + 1]));
-            marks.push((index + 1, cut.node));
-            added += 1;
-        }
-    }
-    marks
-}
-
-/// The vertex of `path` with this index: the start, then the ends of the segments.
-fn vertex(path: &Path, index: usize) -> Point {
-    index.checked_sub(1).map_or(path.start, |before| path.segments[before].to())
-}
-
-/// Turns a loop so that it begins at the vertex with this index.
-fn begin_at(edge: &mut Boundary, first: usize) {
-    edge.path.start = vertex(&edge.path, first);
-    edge.path.segments.rotate_left(first);
-    edge.clearance.pop();
-    edge.clearance.rotate_left(first);
-    edge.clearance.push(edge.clearance[0]);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Turn;
+    use crate::geometry::{Path, Turn};
     use crate::topology::NetId;
     use crate::voronoi::Owner;
 
@@ -249,7 +151,8 @@ mod tests {
         let start = at(-1000, 0);
         let circle = Segment::Arc { to: start, center: at(0, 0), turn: Turn::CounterClockwise };
         let circle = edge(Path { start, segments: vec![circle] }, None);
-        let mut junctions = Junctions::new(Boundaries { nodes: vec![], edges: vec![circle] }, 30_000.0);
+        let mut junctions =
+            Junctions::new(Boundaries { edges: vec![circle], ..Boundaries::default() }, 30_000.0);
         let far = at(3000, 3000);
         let line = |(index, &from): (u32, &Point)| {
             edge(Path::polyline([from, far]).expect("points"), Some((index, u32::MAX)))
@@ -264,7 +167,11 @@ mod tests {
         };
         edges.extend((0..last).map(mark));
         let nodes = ends.iter().copied().chain([far]).collect();
-        junctions.add(Boundaries { nodes, edges }, |edge| !edge.is_border(), |_| Nm::from_um(70));
+        junctions.add(
+            Boundaries { nodes, edges, links: vec![] },
+            |edge| !edge.is_border(),
+            |_| Nm::from_um(70),
+        );
         junctions.finish()
     }
 

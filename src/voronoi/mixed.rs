@@ -26,7 +26,8 @@ use crate::grid::Grid;
 use crate::topology::{NetId, Nets};
 
 use super::edge::{Border, lies_in};
-use super::junction::{self, Junctions};
+use super::junction::Junctions;
+use super::part::foot;
 use super::plane::Spot;
 use super::{Boundaries, Boundary, Diagram, Error, Owner, Settings, SiteKind};
 
@@ -91,7 +92,7 @@ impl Mixed {
         };
         let leash = 1.5 * all.grid.pitch().to_f64();
         let in_frame =
-            |edge: &Boundary| all.frame().is_some_and(|frame| junction::foot(frame, middle(edge)).2 <= leash);
+            |edge: &Boundary| all.frame().is_some_and(|frame| foot(frame, middle(edge)).2 <= leash);
         let mut junctions = Junctions::new(self.loops.clone(), leash);
         let mut warnings = self.warnings.clone();
         for field in &self.fields {

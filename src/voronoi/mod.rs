@@ -32,12 +32,14 @@ mod frame;
 mod groove;
 mod junction;
 mod keep_off;
+mod link;
 mod measure;
 pub mod medial;
 mod mixed;
 mod near;
 mod overlooked;
 pub mod paper;
+mod part;
 mod passes;
 mod place;
 mod plane;
@@ -66,6 +68,7 @@ use crate::topology::{NetId, Nets, smallest_gap};
 
 pub use fit::fit_points;
 pub use frame::Frame;
+pub use link::Link;
 pub use mixed::Loops;
 pub use passes::Widening;
 
@@ -166,6 +169,8 @@ pub struct Boundaries {
     pub nodes: Vec<Point>,
     /// The edges.
     pub edges: Vec<Boundary>,
+    /// Ways between passes on which the cutter may stay down: none where nothing was widened.
+    pub links: Vec<Link>,
 }
 
 /// What distances are measured to.
@@ -189,6 +194,9 @@ pub struct Settings {
     /// How far regions reach (§III-D.1); none for as far as there is room. The outline strategy is
     /// `copper` sites with the cutter's radius here (§III-C).
     pub limit: Option<Nm>,
+    /// Whether regions with a limit end in space that one net alone encloses, too, where nothing is
+    /// to be isolated. The paper's outlines do.
+    pub enclosed: bool,
     /// With [`SiteKind::Core`], what every region holds at least: its net's copper (§III-D.2),
     /// fattened by so much (§III-C), but no more than half of the gap; none for no such minimum.
     pub min_width: Option<Nm>,
@@ -208,6 +216,7 @@ impl Default for Settings {
             pitch: Nm::new(25_400),
             sites: SiteKind::Copper,
             limit: None,
+            enclosed: true,
             min_width: Some(Nm::ZERO),
             tolerance: Nm::from_um(2),
             arcs: true,
@@ -304,7 +313,12 @@ impl Diagram {
                     // Where copper is nearer than the limit, the wall is not.
                     generators.wall(bounds.inflate(limit.min(FARTHEST) * 3 + BEYOND));
                     let floor = FLOOR.min(limit / 2);
-                    exact::Diagram::new(generators, exact::Kind::Above(floor), exact::Space::Within)
+                    let kind = if settings.enclosed {
+                        exact::Kind::Above(floor)
+                    } else {
+                        exact::Kind::Between(floor)
+                    };
+                    exact::Diagram::new(generators, kind, exact::Space::Within)
                 }
                 _ => {
                     let space = exact::Space::Window(border.bounds().unwrap_or(border.window));
@@ -521,7 +535,7 @@ impl Boundaries {
             Boundary { path, clearance, left, right, ends }
         };
         let edges = fitted.into_iter().map(edge).collect();
-        Self { nodes, edges }
+        Self { nodes, edges, links: Vec::new() }
     }
 }
 

@@ -19,6 +19,7 @@ use crate::geometry::{Nm, Point};
 use crate::raster;
 
 use super::groove::Grooves;
+use super::link::Rules;
 use super::near::Insides;
 use super::place::Unplaced;
 use super::speck::Specks;
@@ -131,7 +132,13 @@ impl Diagram {
         }
         let what = ("points of further passes", "further passes");
         let warnings = self.not_placed(unplaced, what.0).into_iter().chain(self.torn(torn, what.1));
-        (all, warnings.collect())
+        let rules = Rules {
+            clearance: &|at| self.clearance(at.rounded()),
+            nearest: (widening.kerf / 2).to_f64(),
+            short: (widening.kerf * 3 / 2).to_f64(),
+            longest: widening.width.to_f64(),
+        };
+        (all.linked(&rules), warnings.collect())
     }
 
     /// The vertices that are not so far from copper. Those that were placed have a course, and are.

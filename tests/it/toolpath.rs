@@ -53,7 +53,7 @@ fn forks() -> Boundaries {
     let ring = [at(9000, 0), at(12_000, 0), at(12_000, 3000), at(9000, 3000), at(9000, 0)];
     let mut edges = vec![edge(0, 1), edge(0, 2), edge(0, 3), edge(1, 4), edge(1, 5)];
     edges.push(boundary(&ring, 60, None));
-    Boundaries { nodes, edges }
+    Boundaries { nodes, edges, links: vec![] }
 }
 
 fn name(owner: Owner) -> String {
@@ -428,7 +428,7 @@ proptest! {
                 boundary(&points, 300, Some((a, b)))
             })
             .collect();
-        let boundaries = Boundaries { nodes, edges };
+        let boundaries = Boundaries { nodes, edges, links: vec![] };
         let (tool, placement, machine) = (tool("endmill:0.2mm"), Placement::default(), Machine::default());
         let settings = Isolation { heights: heights(100, step), ..isolation(&tool, &placement, &machine) };
         let (section, warnings) = isolate("", &boundaries, &[], |_| Role::Cut, name, &settings);

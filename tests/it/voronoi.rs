@@ -196,6 +196,26 @@ fn the_limit_is_an_offset_curve() {
     assert!(segments < 24, "{segments} segments for a few arcs");
 }
 
+/// A ring of copper with a pad within it, another without one, and one that is open by a slit.
+#[test]
+fn space_that_one_net_encloses_has_loops_only_where_asked_for() {
+    let whole = |x| {
+        let start = at(x + 1000, 0);
+        let arc = Arc { start, end: start, center: at(x, 0), turn: Turn::CounterClockwise };
+        Shape::Arc { arc, radius: Nm::from_um(150) }
+    };
+    let open =
+        Arc { start: at(6000, 50), end: at(6000, -50), center: at(5000, 0), turn: Turn::CounterClockwise };
+    let open = Shape::Arc { arc: open, radius: Nm::from_um(20) };
+    let copper = layer([whole(0), disc(0, 0, 300), whole(2600), open]);
+    for (enclosed, loops) in [(true, 7), (false, 5)] {
+        let settings = Settings { limit: Some(Nm::from_um(100)), enclosed, ..Settings::default() };
+        let (_, found) = boundaries(&copper, &settings);
+        let count = found.edges.iter().filter(|edge| !edge.is_border()).count();
+        assert_eq!(count, loops, "enclosed: {enclosed}: three rings, a pad, and within the pad's ring");
+    }
+}
+
 #[test]
 fn a_sloppy_arc_is_met_where_it_is_drawn() {
     let arc =
@@ -417,6 +437,26 @@ fn the_middle_of_a_gap_too_narrow_for_the_next_pass_is_cleared_by_one_cut() {
 }
 
 #[test]
+fn passes_round_a_pad_are_cut_in_one_go() {
+    let copper = layer([disc(0, 0, 500), disc(6000, 0, 500)]);
+    let nets = topology::recover(&copper, Method::Contact);
+    let diagram = Diagram::new(&copper, &nets, None, &Settings::default()).expect("a diagram");
+    let [kerf, width, overlap] = [200, 700, 20].map(Nm::from_um);
+    let (cuts, _) = diagram.widened(diagram.boundaries().0, &Widening { kerf, width, overlap }, &[]);
+    let rings = cuts.edges.iter().filter(|edge| edge.is_bare());
+    assert_eq!(rings.count(), 12, "four round each, the middle ones in halves from link to link");
+    let mut lengths: Vec<i64> =
+        cuts.links.iter().map(|link| link.path.start.distance(link.path.end()).round() as i64).collect();
+    lengths.sort_unstable();
+    assert_eq!(lengths.len(), 6, "three steps round each, but none across the board: {lengths:?}");
+    assert!(lengths.iter().all(|length| (160_000..180_000).contains(length)), "straight out: {lengths:?}");
+    for link in &cuts.links {
+        let (a, b) = (cuts.nodes[link.ends.0.0 as usize], cuts.nodes[link.ends.1.0 as usize]);
+        assert_eq!((link.path.start, link.path.end()), (a, b), "from node to node");
+    }
+}
+
+#[test]
 fn a_thin_strip_between_the_last_pass_and_the_boundary_is_cut_off() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let file = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/voronoi/strip_beside_the_last_pass.gbr");
@@ -490,7 +530,9 @@ fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterat
     let paths: Vec<Vec<Point>> = inner.map(|edge| edge.path.flatten(Nm::new(100))).collect();
     let to_copper =
         |x: f64, y: f64| oracle::distances(copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
-    for pair in paths.iter().flat_map(|path| path.windows(2)) {
+    let links: Vec<Vec<Point>> = cuts.links.iter().map(|link| link.path.flatten(Nm::new(100))).collect();
+    assert!(!links.is_empty(), "passes are linked");
+    for pair in paths.iter().chain(&links).flat_map(|path| path.windows(2)) {
         let ((x0, y0), (x1, y1)) = (pair[0].to_f64(), pair[1].to_f64());
         // Places no more than a fifth of a kerf apart.
         let steps = ((x1 - x0).abs().max((y1 - y0).abs()) / 40_000.0).ceil().max(1.0);

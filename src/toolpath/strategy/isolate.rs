@@ -9,7 +9,7 @@ use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::planner::hop;
 use crate::toolpath::trails::{Link, Step, walk};
 use crate::toolpath::{Direction, Heights, Machine, Move, Placement, Section, Tool};
-use crate::voronoi::{Boundaries, Boundary, Owner};
+use crate::voronoi::{self, Boundaries, Boundary, Owner};
 
 use super::share::SLACK;
 
@@ -87,6 +87,10 @@ pub fn isolate(
             ways.push(Way::boundary(boundary, role, settings));
         }
     }
+    // Who says which way round loops go wants them for themselves.
+    if settings.direction.is_none() {
+        ways.extend(boundaries.links.iter().map(|link| Way::link(link, settings)));
+    }
     ways.extend(laps.iter().map(|lap| Way::lap(lap, settings)));
     (
         Section {
@@ -123,6 +127,19 @@ impl<'a> Way<'a> {
                 (Owner::Background | Owner::Outside, Owner::Net(_)) => Some(false),
                 (Owner::Net(_) | Owner::Background | Owner::Outside, _) => None,
             },
+        }
+    }
+
+    fn link(link: &voronoi::Link, settings: &Isolation<'_>) -> Self {
+        Self {
+            path: settings.placement.path(&link.path),
+            clearance: Cow::Owned(vec![link.clearance; link.path.segments.len() + 1]),
+            link: Link {
+                ends: Some((link.ends.0.0, link.ends.1.0)),
+                seconds: link.path.length() / settings.tool.feed.nm_per_second(),
+                must: false,
+            },
+            left: None,
         }
     }
 

@@ -33,6 +33,7 @@ pub fn share(boundaries: &Boundaries, kerfs: &[Nm]) -> Vec<Boundaries> {
     let of = |tool: usize| Boundaries {
         nodes: nodes.clone(),
         edges: parts.iter().filter(|part| part.0 == tool).map(|part| part.1.clone()).collect(),
+        links: Vec::new(),
     };
     (0..kerfs.len()).map(of).collect()
 }
@@ -138,7 +139,7 @@ mod tests {
     fn each_stretch_goes_to_the_widest_tool_that_fits_and_the_rest_to_the_last() {
         let nodes = vec![Point::default(), Point::new(Nm::from_mm(9), Nm::ZERO)];
         let edge = edge(&[500, 500, 500, 500, 500, 300, 300, 20, 300, 300], Some((0, 1)));
-        let parts = share(&Boundaries { nodes, edges: vec![edge] }, &KERFS);
+        let parts = share(&Boundaries { nodes, edges: vec![edge], links: vec![] }, &KERFS);
         assert_eq!(lengths(&parts), [4.0, 5.0], "the fine one has the narrow end");
         assert_eq!(
             parts[0].edges[0].ends.map(|ends| ends.1),
@@ -152,17 +153,21 @@ mod tests {
     fn a_piece_hardly_longer_than_its_kerf_is_left_to_the_finer_tool() {
         let nodes = vec![Point::default(), Point::new(Nm::from_mm(4), Nm::ZERO)];
         let edge = edge(&[300, 500, 500, 300, 300], Some((0, 1)));
-        let parts = share(&Boundaries { nodes, edges: vec![edge] }, &KERFS);
+        let parts = share(&Boundaries { nodes, edges: vec![edge], links: vec![] }, &KERFS);
         assert_eq!(lengths(&parts), [0.0, 4.0], "one millimetre is no more than a hole");
     }
 
     #[test]
     fn a_loop_is_cut_open_only_where_tools_change() {
-        let whole =
-            share(&Boundaries { nodes: vec![], edges: vec![edge(&[500, 500, 500, 500], None)] }, &KERFS);
+        let whole = share(
+            &Boundaries { edges: vec![edge(&[500, 500, 500, 500], None)], ..Boundaries::default() },
+            &KERFS,
+        );
         assert_eq!((lengths(&whole), whole[0].edges[0].ends), (vec![3.0, 0.0], None), "it stays a loop");
-        let parts =
-            share(&Boundaries { nodes: vec![], edges: vec![edge(&[500, 500, 500, 500, 300], None)] }, &KERFS);
+        let parts = share(
+            &Boundaries { edges: vec![edge(&[500, 500, 500, 500, 300], None)], ..Boundaries::default() },
+            &KERFS,
+        );
         assert_eq!(lengths(&parts), [3.0, 1.0], "it has two ends now");
         assert!(parts.iter().all(|part| part.edges[0].ends.is_some()), "with nodes");
     }

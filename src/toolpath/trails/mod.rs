@@ -47,7 +47,8 @@ pub(super) fn walk(nodes: usize, links: &[Link], lift: f64) -> Vec<Vec<Step>> {
             _ => {}
         }
     }
-    for index in joins(nodes, links, &passes, lift) {
+    let (again, there_and_back) = joins(nodes, links, &passes, lift);
+    for index in again.into_iter().chain(there_and_back.iter().flat_map(|&index| [index; 2])) {
         let ends = links[index].ends.expect("only links with ends join");
         passes.push(Pass { link: Some(index), ends });
     }
@@ -73,10 +74,12 @@ fn odd(nodes: usize, passes: &[Pass]) -> Vec<bool> {
     odd
 }
 
-/// The links to be passed once more: odd nodes are joined in pairs where the way between takes less
-/// than `lift`. Where two such ways share a link, passing it neither time joins the same four nodes
-/// for less.
-fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> Vec<usize> {
+/// The links to be passed once more, and those to be passed there and back.
+///
+/// Odd nodes are joined in pairs where the way between takes less than `lift`; where two such ways
+/// share a link, passing it neither time joins the same four nodes for less. What is then closed is
+/// joined to others by links there and back ([`bridges`]).
+fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> (Vec<usize>, Vec<usize>) {
     let odd = odd(nodes, passes);
     let graph = Adjacency::new(nodes, links.iter().map(|link| link.ends));
     let mut pairs: Vec<Pair> =
@@ -95,34 +98,72 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> Vec<usize>
     for pair in &chosen {
         pair.way.iter().for_each(|&link| again[link] ^= true);
     }
-    spare(nodes, links, &odd, &chosen, &mut again);
-    (0..links.len()).filter(|&link| again[link]).collect()
+    let mut joined = vec![false; nodes];
+    chosen.iter().for_each(|pair| (joined[pair.from], joined[pair.to]) = (true, true));
+    let alone: Vec<bool> = odd.iter().zip(&joined).map(|(odd, joined)| *odd && !joined).collect();
+    let mut part: Vec<usize> = (0..nodes).collect();
+    for (link, _) in links.iter().zip(&again).filter(|(link, again)| link.must || **again) {
+        if let Some(ends) = link.ends {
+            unite(&mut part, ends);
+        }
+    }
+    let there_and_back = bridges(links, &again, &alone, &mut part, lift);
+    spare(links, &alone, &chosen, &mut part, &mut again);
+    ((0..links.len()).filter(|&link| again[link]).collect(), there_and_back)
+}
+
+/// The links that need not be cut and, passed there and back, make one trail of what is closed and
+/// another part; the shortest first. `alone` are the odd nodes that are not joined.
+fn bridges(links: &[Link], again: &[bool], alone: &[bool], part: &mut [usize], lift: f64) -> Vec<usize> {
+    let mut is_cut = vec![false; part.len()];
+    for link in links.iter().filter(|link| link.must) {
+        if let Some((a, _)) = link.ends {
+            is_cut[root(part, a as usize)] = true;
+        }
+    }
+    let mut is_open = vec![false; part.len()];
+    for node in (0..alone.len()).filter(|&node| alone[node]) {
+        is_open[root(part, node)] = true;
+    }
+    let free = |&link: &usize| !links[link].must && !again[link] && 2.0 * links[link].seconds < lift;
+    let mut short: Vec<usize> = (0..links.len()).filter(free).collect();
+    short.sort_by(|&a, &b| links[a].seconds.total_cmp(&links[b].seconds).then(a.cmp(&b)));
+    let mut chosen = Vec::new();
+    for link in short {
+        let Some(ends) = links[link].ends else { continue };
+        let (a, b) = (root(part, ends.0 as usize), root(part, ends.1 as usize));
+        // Two parts with loose ends take as many trails together as apart.
+        if a != b && is_cut[a] && is_cut[b] && !(is_open[a] && is_open[b]) {
+            unite(part, ends);
+            is_open[a.min(b)] |= is_open[a.max(b)];
+            chosen.push(link);
+        }
+    }
+    chosen
+}
+
+/// Makes one part of those of two nodes.
+fn unite(part: &mut [usize], (a, b): (u32, u32)) {
+    let (a, b) = (root(part, a as usize), root(part, b as usize));
+    part[a.max(b)] = a.min(b);
 }
 
 /// Takes back the dearest join of each part whose odd nodes are all joined: with the last two left,
 /// it is still one trail.
 ///
 /// A way over links that must be cut anyway can be taken back without the part falling apart.
-fn spare(nodes: usize, links: &[Link], odd: &[bool], chosen: &[&Pair], again: &mut [bool]) {
-    let mut part: Vec<usize> = (0..nodes).collect();
-    for (link, _) in links.iter().zip(&*again).filter(|(link, again)| link.must || **again) {
-        let Some(ends) = link.ends else { continue };
-        let (a, b) = (root(&mut part, ends.0 as usize), root(&mut part, ends.1 as usize));
-        part[a.max(b)] = a.min(b);
-    }
-    let mut alone = vec![false; nodes];
-    let mut joined = vec![false; nodes];
-    chosen.iter().for_each(|pair| (joined[pair.from], joined[pair.to]) = (true, true));
-    for node in (0..nodes).filter(|&node| odd[node] && !joined[node]) {
-        alone[root(&mut part, node)] = true;
+fn spare(links: &[Link], alone: &[bool], chosen: &[&Pair], part: &mut [usize], again: &mut [bool]) {
+    let mut is_open = vec![false; part.len()];
+    for node in (0..alone.len()).filter(|&node| alone[node]) {
+        is_open[root(part, node)] = true;
     }
     let mut dearest: BTreeMap<usize, (f64, &Pair)> = BTreeMap::new();
     for pair in chosen.iter().filter(|pair| pair.way.iter().all(|&link| links[link].must)) {
         // What ways share is passed neither time, and would have to be again.
         let saved =
             pair.way.iter().map(|&link| if again[link] { links[link].seconds } else { -links[link].seconds });
-        let (saved, part) = (saved.sum::<f64>(), root(&mut part, pair.from));
-        if !alone[part] && saved > 0.0 && dearest.get(&part).is_none_or(|&(before, _)| saved > before) {
+        let (saved, part) = (saved.sum::<f64>(), root(part, pair.from));
+        if !is_open[part] && saved > 0.0 && dearest.get(&part).is_none_or(|&(before, _)| saved > before) {
             dearest.insert(part, (saved, pair));
         }
     }
@@ -216,10 +257,7 @@ impl Adjacency {
 /// Adds lifts between the odd nodes of each connected part, so that all nodes are even.
 fn close(nodes: usize, passes: &mut Vec<Pass>) {
     let mut part: Vec<usize> = (0..nodes).collect();
-    for pass in passes.iter() {
-        let (a, b) = (root(&mut part, pass.ends.0 as usize), root(&mut part, pass.ends.1 as usize));
-        part[a.max(b)] = a.min(b);
-    }
+    passes.iter().for_each(|pass| unite(&mut part, pass.ends));
     let odd = odd(nodes, passes);
     let mut waiting: FxHashMap<usize, usize> = FxHashMap::default();
     for node in (0..nodes).filter(|&node| odd[node]) {
@@ -330,6 +368,21 @@ mod tests {
         (square[2].must, square[3].must) = (false, false);
         let trails = walk(4, &square, 0.5);
         assert_eq!((trails.len(), times(&trails, 2), times(&trails, 3)), (1, 1, 0), "by the short way alone");
+    }
+
+    #[test]
+    fn closed_parts_are_joined_there_and_back_and_open_ones_are_not() {
+        let optional = |a, b, seconds| Link { must: false, ..link(a, b, seconds) };
+        let rings =
+            [link(0, 0, 3.0), link(1, 1, 3.0), link(2, 2, 3.0), optional(0, 1, 0.2), optional(1, 2, 2.0)];
+        let trails = walk(3, &rings, 1.0);
+        assert_eq!((trails.len(), times(&trails, 3), times(&trails, 4)), (2, 2, 0), "where it saves time");
+        let bars =
+            [link(0, 1, 3.0), link(2, 3, 3.0), optional(1, 4, 0.1), link(4, 4, 1.0), optional(0, 2, 9.0)];
+        let trails = walk(5, &bars, 5.0);
+        assert_eq!((trails.len(), times(&trails, 2)), (2, 2), "a ring and a bar, but not two bars");
+        let way_out = [link(0, 0, 3.0), optional(0, 1, 0.1)];
+        assert_eq!(walk(2, &way_out, 5.0).concat().len(), 1, "not where nothing is cut");
     }
 
     #[test]

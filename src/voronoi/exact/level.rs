@@ -69,7 +69,18 @@ struct Leg {
 }
 
 impl Crossings {
-    fn of(&self, edge: u32) -> std::ops::Range<usize> {
+    /// How many there are.
+    pub(super) const fn len(&self) -> usize {
+        self.all.len()
+    }
+
+    /// The clearance that is crossed, in nanometres.
+    pub(super) const fn level(&self) -> f64 {
+        self.level
+    }
+
+    /// Those of an edge, in its order.
+    pub(super) fn of(&self, edge: u32) -> std::ops::Range<usize> {
         self.starts[edge as usize]..self.starts[edge as usize + 1]
     }
 
@@ -113,7 +124,7 @@ impl Diagram {
     #[must_use]
     pub fn level_set(&self, level: f64) -> Option<Vec<LevelCurve>> {
         assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
-        let chains = self.level_chains(&self.crossings(level), false, NOBODY)?;
+        let chains = self.level_chains(&self.crossings(level), false, NOBODY, |_| true)?;
         let curve = |Chain { left: owner, samples, .. }| {
             let course = samples.into_iter().map(|Sample { at, .. }| (at.x, at.y)).collect();
             LevelCurve { owner, course }
@@ -263,9 +274,16 @@ impl Diagram {
     }
 
     /// The closed chains where copper is `level` nanometres away, with the copper on their left;
-    /// with `nodes`, cut where boundaries between owners cross them. None where the graph
-    /// contradicts itself: never, unless the program is at fault.
-    pub(super) fn level_chains(&self, crossings: &Crossings, nodes: bool, nobody: u32) -> Option<Vec<Chain>> {
+    /// with `nodes`, cut where boundaries between owners cross them. Of those without a node only
+    /// what `wanted` accepts, by a vertex above or a crossing behind all vertices. None where the
+    /// graph contradicts itself: never, unless the program is at fault.
+    fn level_chains(
+        &self,
+        crossings: &Crossings,
+        nodes: bool,
+        nobody: u32,
+        wanted: impl Fn(u32) -> bool,
+    ) -> Option<Vec<Chain>> {
         let mut chains = Vec::new();
         let is_node = |crossing: usize| {
             let edge = &self.edges[crossings.all[crossing].edge as usize];
@@ -284,7 +302,9 @@ impl Diagram {
                     break;
                 }
             }
-            if let Some(leg) = legs.first() {
+            if let Some(leg) = legs.first()
+                && wanted(self.node(first))
+            {
                 let ends = is_node(first).then(|| [first, at].map(|i| self.node(i)));
                 let left = self.owner(leg.generator);
                 let samples = self.leg_samples(&legs, crossings.level - ABOVE);
@@ -292,7 +312,7 @@ impl Diagram {
                 chains.push(Chain { left, right: nobody, samples, ends });
             }
         }
-        for legs in self.whole_faces(crossings)? {
+        for legs in self.whole_faces(crossings, wanted)? {
             let left = self.owner(legs[0].generator);
             let mut samples = self.leg_samples(&legs, crossings.level - ABOVE);
             if let Some(&Sample { at, .. }) = samples.first() {
@@ -304,12 +324,12 @@ impl Diagram {
     }
 
     /// The number of the node at a crossing.
-    fn node(&self, crossing: usize) -> u32 {
+    pub(super) fn node(&self, crossing: usize) -> u32 {
         u32::try_from(self.vertices.len() + crossing).expect("below 2³² nodes")
     }
 
-    /// The legs of the loops that cross no edge.
-    fn whole_faces(&self, crossings: &Crossings) -> Option<Vec<Vec<Leg>>> {
+    /// The legs of the loops that cross no edge, of those that are wanted.
+    fn whole_faces(&self, crossings: &Crossings, wanted: impl Fn(u32) -> bool) -> Option<Vec<Vec<Leg>>> {
         let mut found = Vec::new();
         let mut seen = vec![[false; 2]; self.edges.len()];
         let links = (0_u32..).take(self.edges.len()).flat_map(|edge| [(edge, false), (edge, true)]);
@@ -323,7 +343,7 @@ impl Diagram {
                 self.add_hollow(link, onward, &mut legs);
                 link = onward;
             }
-            if is_whole && !legs.is_empty() {
+            if is_whole && !legs.is_empty() && wanted(self.target(first)) {
                 // What begins within a generator's part ends there, too.
                 let turns = legs.windows(2).position(|pair| pair[0].generator != pair[1].generator);
                 legs.rotate_left(turns.map_or(0, |at| at + 1));
@@ -332,7 +352,7 @@ impl Diagram {
         }
         found.extend((0_u32..).zip(&self.leaving).filter(|(_, leaving)| leaving.is_empty()).filter_map(
             |(vertex, _)| {
-                let is_above = self.knot(vertex).clearance > crossings.level;
+                let is_above = self.knot(vertex).clearance > crossings.level && wanted(vertex);
                 is_above.then(|| self.rounds(vertex)).flatten()
             },
         ));
@@ -358,13 +378,20 @@ impl Diagram {
     }
 
     /// The boundaries between owners where copper is nearer than `level` nanometres, and the curves
-    /// where it is just so far from it, which have `nobody` on their right. None where the graph
-    /// contradicts itself.
-    pub(in crate::voronoi) fn limited_chains(&self, level: f64, nobody: u32) -> Option<Vec<Chain>> {
+    /// where it is just so far from it, which have `nobody` on their right; without `enclosed` not
+    /// those of space that one owner alone encloses. None where the graph contradicts itself.
+    pub(in crate::voronoi) fn limited_chains(
+        &self,
+        level: f64,
+        nobody: u32,
+        enclosed: bool,
+    ) -> Option<Vec<Chain>> {
         debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
         let crossings = self.crossings(level);
         let mut chains = self.chains_below(&crossings);
-        chains.extend(self.level_chains(&crossings, true, nobody)?);
+        let parts = (!enclosed).then(|| self.parts_above(&crossings));
+        let wanted = |place: u32| parts.as_ref().is_none_or(|parts| !parts.is_enclosed(place));
+        chains.extend(self.level_chains(&crossings, true, nobody, wanted)?);
         Some(chains)
     }
 

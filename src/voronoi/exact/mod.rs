@@ -58,6 +58,7 @@
 mod apollonius;
 mod certify;
 mod chain;
+mod enclosed;
 mod exposed;
 mod form;
 mod generator;
@@ -97,6 +98,8 @@ pub enum Kind {
     /// All, but those of one owner only where copper is farther away than this: what level sets
     /// need. Where copper of one owner leaves slits, nothing is walked.
     Above(Nm),
+    /// The same, without the space that one owner alone encloses: what parts owners.
+    Between(Nm),
 }
 
 /// Where the space is free.

@@ -40,7 +40,7 @@ impl Diagram {
             self.sow_window(growth);
             self.grow(growth);
         }
-        if self.kind != Kind::Owners {
+        if matches!(self.kind, Kind::MedialAxis | Kind::Above(_)) {
             self.sow_exposed(growth);
         }
     }
@@ -98,7 +98,9 @@ impl Diagram {
         };
         let at = foot + normal * s;
         let is_low = match self.kind {
-            Kind::Above(floor) => s < floor.to_f64() && self.owner(generator) == self.owner(other),
+            Kind::Above(floor) | Kind::Between(floor) => {
+                s < floor.to_f64() && self.owner(generator) == self.owner(other)
+            }
             Kind::Owners | Kind::MedialAxis => false,
         };
         if self.holds(at) && !is_low {

@@ -235,7 +235,7 @@ impl Diagram {
     pub(super) fn parts(&self, a: u32, b: u32) -> bool {
         match self.kind {
             Kind::Owners => self.owner(a) != self.owner(b),
-            Kind::MedialAxis | Kind::Above(_) => true,
+            Kind::MedialAxis | Kind::Above(_) | Kind::Between(_) => true,
         }
     }
 

@@ -165,10 +165,12 @@ impl Diagram {
     /// Nearer to copper an edge is not followed.
     fn floor(&self, pair: &Pair) -> f64 {
         match self.kind {
-            Kind::Above(floor) if pair.right != NOBODY && self.owner(pair.left) == self.owner(pair.right) => {
+            Kind::Above(floor) | Kind::Between(floor)
+                if pair.right != NOBODY && self.owner(pair.left) == self.owner(pair.right) =>
+            {
                 floor.to_f64()
             }
-            Kind::Owners | Kind::MedialAxis | Kind::Above(_) => 0.0,
+            Kind::Owners | Kind::MedialAxis | Kind::Above(_) | Kind::Between(_) => 0.0,
         }
     }
 

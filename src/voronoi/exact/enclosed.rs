@@ -1,0 +1,97 @@
+//! Free space that one owner alone encloses: where there is nothing to be parted.
+//!
+//! ```text
+//!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓        What lies above a level falls into parts. A part is one piece of the
+//!   ▓▓ ╭──────╮ ▓▓ ╭────────      medial axis, for the axis of connected space is connected; and who
+//!   ▓▓ │one A │ ▓▓ │ A and B      encloses the part is whose edges that piece runs between.
+//!   ▓▓ ╰──────╯ ▓▓ ╰────────
+//!   ▓▓▓▓▓▓ A ▓▓▓▓▓   ▓▓ B ▓▓
+//! ```
+
+use super::Diagram;
+use super::level::Crossings;
+
+/// Who encloses a part of the space above a level.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Around {
+    Nobody,
+    One(u32),
+    Several,
+}
+
+impl Around {
+    const fn and(self, owner: u32) -> Self {
+        match self {
+            Self::Nobody => Self::One(owner),
+            Self::One(known) if known == owner => self,
+            Self::One(_) | Self::Several => Self::Several,
+        }
+    }
+}
+
+/// The parts of the space above a level.
+pub(super) struct Parts {
+    /// The part of each vertex, then of each crossing.
+    part: Vec<usize>,
+    around: Vec<Around>,
+}
+
+impl Parts {
+    /// Whether a vertex above the level, or a crossing behind all vertices, lies in a part that one
+    /// owner alone encloses.
+    pub(super) fn is_enclosed(&self, place: u32) -> bool {
+        self.around[self.part[place as usize]] != Around::Several
+    }
+}
+
+impl Diagram {
+    /// The parts of the space above the level of `crossings`.
+    pub(super) fn parts_above(&self, crossings: &Crossings) -> Parts {
+        let mut part: Vec<usize> = (0..self.vertices.len() + crossings.len()).collect();
+        let mut above = Vec::new();
+        for number in (0_u32..).take(self.edges.len()) {
+            self.stretches_above(number, crossings, |from, to| above.push((number, from as usize, to)));
+        }
+        for &(_, from, to) in &above {
+            let (a, b) = (root(&mut part, from), root(&mut part, to as usize));
+            part[a.max(b)] = a.min(b);
+        }
+        for place in 0..part.len() {
+            part[place] = root(&mut part, place);
+        }
+        let mut around = vec![Around::Nobody; part.len()];
+        for (number, from, _) in above {
+            let edge = &self.edges[number as usize];
+            let known = &mut around[part[from]];
+            *known = known.and(self.owner(edge.left)).and(self.owner(edge.right));
+        }
+        Parts { part, around }
+    }
+
+    /// Shows the ends of the stretches of an edge that lie above a level: vertices, and crossings
+    /// behind them.
+    fn stretches_above(&self, number: u32, crossings: &Crossings, mut show: impl FnMut(u32, u32)) {
+        let edge = &self.edges[number as usize];
+        let is_above = |vertex: u32| self.vertices[vertex as usize].clearance > crossings.level();
+        let mut from = is_above(edge.from).then_some(edge.from);
+        for crossing in crossings.of(number) {
+            let here = self.node(crossing);
+            match from.take() {
+                Some(from) => show(from, here),
+                None => from = Some(here),
+            }
+        }
+        if let Some(from) = from {
+            show(from, edge.to);
+        }
+    }
+}
+
+/// The first place of the part that a place belongs to.
+fn root(part: &mut [usize], mut place: usize) -> usize {
+    while part[place] != place {
+        part[place] = part[part[place]];
+        place = part[place];
+    }
+    place
+}

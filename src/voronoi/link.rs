@@ -1,0 +1,277 @@
+//! Links: short ways from pass to pass on which the cutter stays down.
+//!
+//! ```text
+//!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
+//!   ━━━━━━━━━━━━━━━┯━━━━━━━━━ pass     What lies between neighbouring passes is cleared by them. A way from the one to the
+//!                  ┆ link              other that keeps off copper as they do costs its own time, there and back, and saves
+//!   ━━━━━━━━━━━┯━━━┷━━━━━━━━━ pass     a retract. Passes are parted where a link begins or ends.
+//! ```
+//!
+//! Nothing is lost where a link is cut, and nothing is missing where it is not: which ones are is
+//! for the trails to choose.
+
+use std::collections::BTreeMap;
+
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use crate::geometry::{Nm, Path, Point, Segment};
+
+use super::part::{Cut, foot_on, part, vertex};
+use super::plane::Spot;
+use super::{Boundaries, NodeId};
+
+/// A way between two nodes that may be cut, and need not be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Link {
+    /// The way.
+    pub path: Path,
+    /// Copper is nowhere nearer.
+    pub clearance: Nm,
+    /// The nodes it begins and ends at.
+    pub ends: (NodeId, NodeId),
+}
+
+/// What links must keep to.
+pub(super) struct Rules<'a> {
+    /// How far a place is from copper, in nanometres.
+    pub(super) clearance: &'a (dyn Fn(Spot) -> f64 + Sync),
+    /// How near to copper a cut may come.
+    pub(super) nearest: f64,
+    /// How long a link may be at first, in nanometres: about a step from pass to pass.
+    pub(super) short: f64,
+    /// How long it may be at most.
+    pub(super) longest: f64,
+}
+
+/// An end that hangs loose is linked to so many others at most. Chosen: the next pass, the one
+/// after it, and what ended both.
+const CHOICES: usize = 3;
+
+/// Ways shorter than this are not halved to find copper beside them, in nanometres.
+const FINE: f64 = 500.0;
+
+/// A way from a vertex of one edge to a place on another.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    length: f64,
+    /// The edge, and the index of its vertex.
+    from: (usize, usize),
+    /// The edge, the index of its segment, and the place.
+    to: (usize, usize, Point),
+}
+
+impl Rules<'_> {
+    /// Copper is no nearer to the straight way between two places than this, in nanometres; none
+    /// where it is too near.
+    fn keeps_off(&self, a: Spot, b: Spot) -> Option<f64> {
+        self.between((a, (self.clearance)(a)), (b, (self.clearance)(b)))
+    }
+
+    fn between(&self, (a, at_a): (Spot, f64), (b, at_b): (Spot, f64)) -> Option<f64> {
+        let length = (b - a).length();
+        if at_a.min(at_b) < self.nearest {
+            return None;
+        }
+        // Copper comes no faster than the way goes.
+        let least = f64::midpoint(at_a, at_b) - length / 2.0;
+        if least >= self.nearest || length < FINE {
+            return Some(least.max(self.nearest));
+        }
+        let middle = a.midpoint(b);
+        let there = (middle, (self.clearance)(middle));
+        Some(self.between((a, at_a), there)?.min(self.between(there, (b, at_b))?))
+    }
+}
+
+/// The edges of a graph by place, and which of them hang together.
+struct Web<'a> {
+    graph: &'a Boundaries,
+    /// The edge and the segment of each box.
+    segments: Vec<(usize, usize)>,
+    index: StaticAABB2DIndex<f64>,
+    /// The part of each edge.
+    part: Vec<usize>,
+}
+
+impl<'a> Web<'a> {
+    /// Those of what is cut; none where nothing is.
+    fn new(graph: &'a Boundaries) -> Option<Self> {
+        let mut segments = Vec::new();
+        let mut boxes = Vec::new();
+        for (number, edge) in graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border()) {
+            for (i, (from, segment)) in edge.path.steps().enumerate() {
+                segments.push((number, i));
+                boxes.push(Path { start: from, segments: vec![*segment] }.bounds());
+            }
+        }
+        let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
+        for bounds in boxes {
+            let [low, high] = [bounds.min(), bounds.max()].map(Spot::from);
+            builder.add(low.x, low.y, high.x, high.y);
+        }
+        let mut web = Self { graph, segments, index: builder.build().ok()?, part: Vec::new() };
+        web.part = (0..graph.edges.len()).collect();
+        let mut at_node: Vec<Option<usize>> = vec![None; graph.nodes.len()];
+        for (number, edge) in graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border()) {
+            for node in edge.ends.into_iter().flat_map(|(a, b)| [a, b]) {
+                let known = *at_node[node.0 as usize].get_or_insert(number);
+                web.unite(known, number);
+            }
+        }
+        Some(web)
+    }
+
+    fn root(&self, mut edge: usize) -> usize {
+        while self.part[edge] != edge {
+            edge = self.part[edge];
+        }
+        edge
+    }
+
+    /// Makes one part of those of two edges; whether they were two.
+    fn unite(&mut self, a: usize, b: usize) -> bool {
+        let (a, b) = (self.root(a), self.root(b));
+        self.part[a.max(b)] = a.min(b);
+        a != b
+    }
+
+    /// The shortest way from a vertex to each edge within `reach` that `wanted` accepts, the
+    /// nearest first.
+    fn ways(&self, from: (usize, usize), reach: f64, wanted: impl Fn(usize) -> bool) -> Vec<Way> {
+        let p = Spot::from(vertex(&self.graph.edges[from.0].path, from.1));
+        let mut nearest: BTreeMap<usize, Way> = BTreeMap::new();
+        self.index.visit_query(p.x - reach, p.y - reach, p.x + reach, p.y + reach, &mut |i: usize| {
+            let (edge, segment) = self.segments[i];
+            if !wanted(edge) {
+                return;
+            }
+            let at = foot_on(&self.graph.edges[edge].path, segment, p);
+            let length = (at - p).length();
+            let known = nearest.get(&edge).map_or(reach, |way| way.length);
+            if length < known {
+                nearest.insert(edge, Way { length, from, to: (edge, segment, at.rounded()) });
+            }
+        });
+        let mut ways: Vec<Way> = nearest.into_values().collect();
+        ways.sort_by(Way::compare);
+        ways
+    }
+
+    /// The vertices of all edges that are cut, by edge.
+    fn vertices(&self) -> Vec<(usize, usize)> {
+        let edges = self.graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border());
+        edges.flat_map(|(edge, of)| (0..=of.path.segments.len()).map(move |vertex| (edge, vertex))).collect()
+    }
+
+    /// The vertices at which an edge ends alone.
+    fn loose_ends(&self) -> Vec<(usize, usize)> {
+        let mut count = vec![0; self.graph.nodes.len()];
+        let cut = || self.graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border());
+        for (_, edge) in cut() {
+            edge.ends.into_iter().flat_map(|(a, b)| [a, b]).for_each(|node| count[node.0 as usize] += 1);
+        }
+        let alone = |node: NodeId| count[node.0 as usize] == 1;
+        let ends = cut().filter_map(|(edge, of)| of.ends.map(|ends| (edge, of.path.segments.len(), ends)));
+        let both = ends.flat_map(|(edge, last, (a, b))| [(edge, 0, a), (edge, last, b)]);
+        both.filter(|&(_, _, node)| alone(node)).map(|(edge, vertex, _)| (edge, vertex)).collect()
+    }
+}
+
+impl Way {
+    fn compare(&self, other: &Self) -> std::cmp::Ordering {
+        let key = |way: &Self| (way.from, way.to.0, way.to.1, way.to.2);
+        self.length.total_cmp(&other.length).then_with(|| key(self).cmp(&key(other)))
+    }
+}
+
+/// The links chosen so far, and where edges are parted for them.
+struct Chosen {
+    nodes: Vec<Point>,
+    known: FxHashMap<Point, NodeId>,
+    cuts: Vec<Vec<Cut>>,
+    links: Vec<Link>,
+}
+
+impl Chosen {
+    fn node(&mut self, at: Point) -> NodeId {
+        let next = NodeId(u32::try_from(self.nodes.len()).expect("below 2³² nodes"));
+        let node = *self.known.entry(at).or_insert(next);
+        if node == next {
+            self.nodes.push(at);
+        }
+        node
+    }
+
+    fn add(&mut self, graph: &Boundaries, way: &Way, clearance: f64) {
+        let (edge, at_vertex) = way.from;
+        let path = &graph.edges[edge].path;
+        let (from, to) = (vertex(path, at_vertex), way.to.2);
+        let ends = (self.node(from), self.node(to));
+        self.cuts[edge].push(Cut::new(path, at_vertex.min(path.segments.len() - 1), from, ends.0));
+        let (edge, segment, _) = way.to;
+        self.cuts[edge].push(Cut::new(&graph.edges[edge].path, segment, to, ends.1));
+        if from != to {
+            let path = Path { start: from, segments: vec![Segment::Line { to }] };
+            self.links.push(Link { path, clearance: Nm::from_f64(clearance.floor()), ends });
+        }
+    }
+}
+
+impl Boundaries {
+    /// The same with links between its parts, and from ends that hang loose.
+    pub(super) fn linked(mut self, rules: &Rules<'_>) -> Self {
+        self.merge_nodes();
+        let Some(mut web) = Web::new(&self) else { return self };
+        let nodes = self.nodes.clone();
+        let known = (0_u32..).zip(&nodes).map(|(node, &at)| (at, NodeId(node))).collect();
+        let mut chosen = Chosen { nodes, known, cuts: vec![Vec::new(); self.edges.len()], links: Vec::new() };
+        let place = |&(edge, at): &(usize, usize)| Spot::from(vertex(&self.edges[edge].path, at));
+        let keeps_off = |way: &Way| rules.keeps_off(place(&way.from), way.to.2.into());
+        let loose = web.loose_ends().into_par_iter().flat_map_iter(|from| {
+            let ways = web.ways(from, rules.short, |edge| edge != from.0).into_iter();
+            ways.filter_map(|way| keeps_off(&way).map(|clearance| (way, clearance))).take(CHOICES)
+        });
+        for (way, clearance) in loose.collect::<Vec<_>>() {
+            web.unite(way.from.0, way.to.0);
+            chosen.add(&self, &way, clearance);
+        }
+        let mut reach = rules.short;
+        loop {
+            let between = web.vertices().into_par_iter().flat_map_iter(|from| {
+                let home = web.root(from.0);
+                web.ways(from, reach, |edge| web.root(edge) != home)
+            });
+            let mut ways: Vec<Way> = between.collect();
+            ways.sort_by(Way::compare);
+            for way in ways {
+                if web.root(way.from.0) != web.root(way.to.0)
+                    && let Some(clearance) = keeps_off(&way)
+                {
+                    web.unite(way.from.0, way.to.0);
+                    chosen.add(&self, &way, clearance);
+                }
+            }
+            if reach >= rules.longest {
+                break;
+            }
+            reach = (reach * 2.0).min(rules.longest);
+        }
+        let Chosen { nodes, cuts, links, .. } = chosen;
+        let mut edges = Vec::with_capacity(self.edges.len());
+        for (edge, cuts) in self.edges.into_iter().zip(cuts) {
+            part(edge, cuts, &nodes, &mut edges);
+        }
+        Self { nodes, edges, links }
+    }
+
+    /// Makes one node of those that stand in one place.
+    fn merge_nodes(&mut self) {
+        let mut known: FxHashMap<Point, NodeId> = FxHashMap::default();
+        let numbers = (0_u32..).zip(&self.nodes);
+        let same: Vec<NodeId> = numbers.map(|(node, &at)| *known.entry(at).or_insert(NodeId(node))).collect();
+        let same = |node: NodeId| same[node.0 as usize];
+        self.edges.iter_mut().for_each(|edge| edge.ends = edge.ends.map(|(a, b)| (same(a), same(b))));
+    }
+}

@@ -1,0 +1,123 @@
+//! Boundaries parted at places along them, which become nodes.
+//!
+//! ```text
+//!   ╭──────────╮        ╭─────●────╮
+//!   │          │   ─▶   │     2    │   A loop without a node begins at its first cut.
+//!   ╰──────────╯        ╰──●───────╯
+//! ```
+
+use crate::geometry::{Path, Point, Segment};
+
+use super::plane::{Spot, nearest_on_chord};
+use super::site::foot_on_arc;
+use super::{Boundary, NodeId};
+
+/// A place on a boundary where it is to be parted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cut {
+    segment: usize,
+    /// How far along the segment, in nanometres.
+    along: f64,
+    node: NodeId,
+}
+
+impl Cut {
+    /// The place `at` on the segment of `path` with this index, where `node` stands.
+    pub(super) fn new(path: &Path, segment: usize, at: Point, node: NodeId) -> Self {
+        let from = vertex(path, segment);
+        let along = if at == from { 0.0 } else { with_end(path.segments[segment], at).length(from) };
+        Self { segment, along, node }
+    }
+}
+
+/// The point of `path` nearest to `p`: the index of its segment, the point, and how far it is, in
+/// nanometres.
+pub(super) fn foot(path: &Path, p: Spot) -> (usize, Spot, f64) {
+    let mut best = (0, path.start.into(), f64::INFINITY);
+    for index in 0..path.segments.len() {
+        let foot = foot_on(path, index, p);
+        let distance = (p - foot).length();
+        if distance < best.2 {
+            best = (index, foot, distance);
+        }
+    }
+    best
+}
+
+/// The point nearest to `p` of the segment of `path` with this index.
+pub(super) fn foot_on(path: &Path, index: usize, p: Spot) -> Spot {
+    let (from, segment) = (vertex(path, index), &path.segments[index]);
+    match segment.arc(from) {
+        Some(arc) => foot_on_arc(p, &arc),
+        None => nearest_on_chord(p, from.into(), segment.to().into()),
+    }
+}
+
+/// A segment that ends earlier.
+const fn with_end(segment: Segment, to: Point) -> Segment {
+    match segment {
+        Segment::Line { .. } => Segment::Line { to },
+        Segment::Arc { center, turn, .. } => Segment::Arc { to, center, turn },
+    }
+}
+
+/// Parts `edge` at its cuts into edges from node to node; one without a node is parted into a loop
+/// with one at least. Where nothing is cut it stays as it is.
+pub(super) fn part(mut edge: Boundary, mut cuts: Vec<Cut>, nodes: &[Point], parts: &mut Vec<Boundary>) {
+    cuts.sort_by(|a, b| a.segment.cmp(&b.segment).then(a.along.total_cmp(&b.along)));
+    if cuts.is_empty() {
+        return parts.push(edge);
+    }
+    let mut marks = mark(&mut edge, &cuts, nodes);
+    let ends = edge.ends.unwrap_or_else(|| {
+        let (first, node) = marks.remove(0);
+        begin_at(&mut edge, first);
+        marks.iter_mut().for_each(|(vertex, _)| *vertex -= first);
+        (node, node)
+    });
+    let mut start = (0, ends.0);
+    for end in marks.into_iter().chain([(edge.path.segments.len(), ends.1)]) {
+        if end.0 > start.0 {
+            let segments = edge.path.segments[start.0..end.0].to_vec();
+            let path = Path { start: vertex(&edge.path, start.0), segments };
+            let clearance = edge.clearance[start.0..=end.0].to_vec();
+            parts.push(Boundary { path, clearance, ends: Some((start.1, end.1)), ..edge.clone() });
+        }
+        start = end;
+    }
+}
+
+/// Gives the path a vertex at each cut; their indices, with the nodes.
+fn mark(edge: &mut Boundary, cuts: &[Cut], nodes: &[Point]) -> Vec<(usize, NodeId)> {
+    let mut marks = Vec::with_capacity(cuts.len());
+    let mut added = 0;
+    for cut in cuts {
+        let (at, index) = (nodes[cut.node.0 as usize], cut.segment + added);
+        let segment = edge.path.segments[index];
+        if at == vertex(&edge.path, index) {
+            marks.push((index, cut.node));
+        } else if at == segment.to() {
+            marks.push((index + 1, cut.node));
+        } else {
+            edge.path.segments.insert(index, with_end(segment, at));
+            edge.clearance.insert(index + 1, edge.clearance[index].min(edge.clearance[index + 1]));
+            marks.push((index + 1, cut.node));
+            added += 1;
+        }
+    }
+    marks
+}
+
+/// The vertex of `path` with this index: the start, then the ends of the segments.
+pub(super) fn vertex(path: &Path, index: usize) -> Point {
+    index.checked_sub(1).map_or(path.start, |before| path.segments[before].to())
+}
+
+/// Turns a loop so that it begins at the vertex with this index.
+fn begin_at(edge: &mut Boundary, first: usize) {
+    edge.path.start = vertex(&edge.path, first);
+    edge.path.segments.rotate_left(first);
+    edge.clearance.pop();
+    edge.clearance.rotate_left(first);
+    edge.clearance.push(edge.clearance[0]);
+}
