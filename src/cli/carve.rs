@@ -5,19 +5,15 @@ use std::process::ExitCode;
 
 use clap::Args;
 use serde::Serialize;
-use voromill::board::{Copper, FLATTEN, Feature, Side, polarity};
-use voromill::gcode::Input as Origin;
-use voromill::geometry::{Nm, Polygon};
-use voromill::import::{self, text::text};
-use voromill::job::{Art, Carving, Engraving, Length, OneTool, Settings, ToolChoice, carve};
+use voromill::job::{Carving, Engraving, Length, ToolChoice, carve};
 use voromill::report;
 use voromill::report::document::WarningEntry;
 use voromill::toolpath::Angle;
 use voromill::verify::carving::Carved;
 
+use super::art::{Cut, Entry, Shapes, WIDTH, borrowed, lines, programs, rounded, write};
 use super::config::Config;
-use super::input::{Colour, Input, dpi};
-use super::output::Output;
+use super::input::Input;
 use super::{Failure, Shared};
 
 /// Carve shapes with a V-bit, as deep as they are wide
@@ -30,25 +26,12 @@ use super::{Failure, Shared};
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Carve {
-    /// The file with the shapes
-    #[arg(required_unless_present = "text", conflicts_with = "text", value_name = "PATH")]
-    path: Option<PathBuf>,
+    #[command(flatten)]
+    shapes: Shapes,
 
     /// Program to write; `-` for stdout
     #[arg(long, short, value_name = "FILE", required_unless_present = "check")]
     output: Option<PathBuf>,
-
-    /// Letters instead of a file; \n begins a new line
-    #[arg(long, value_name = "TEXT", requires = "font", help_heading = "Text")]
-    text: Option<String>,
-
-    /// The font: a TrueType or OpenType file
-    #[arg(long, value_name = "FILE", help_heading = "Text")]
-    font: Option<PathBuf>,
-
-    /// How high capitals are
-    #[arg(long, value_name = "LENGTH", default_value = "6mm", help_heading = "Text")]
-    height: Length,
 
     /// No deeper than this; what is wider is followed along its middle, or cleared by --flat
     /// [default: as deep as it is wide]
@@ -75,18 +58,6 @@ pub(super) struct Carve {
     /// How far round the shapes that reaches
     #[arg(long, value_name = "LENGTH", default_value = "2mm", help_heading = "Carving")]
     margin: Length,
-
-    /// Pixels to the inch of a picture, whatever the file says
-    #[arg(long, value_name = "NUMBER", value_parser = dpi, help_heading = "Pictures")]
-    picture_dpi: Option<f64>,
-
-    /// The same as the width of the whole picture
-    #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
-    picture_width: Option<Length>,
-
-    /// Which part of a picture is carved [default: the rarer]
-    #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
-    ink: Option<Colour>,
 
     /// Judge this program, whoever made it, instead of writing one; with --flat two, that of the
     /// end mill first
@@ -118,19 +89,22 @@ Examples:
 
 impl Carve {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
-        let input = Input::artwork(self.path.clone(), self.picture_dpi, self.picture_width, self.ink);
+        let input = self.shapes.input();
         let settings = self.config.settings(&input)?;
-        let art = self.art(&input, &settings)?;
+        let art = self.shapes.art(&input, &settings)?;
         let engraving = carve(art, &settings, &self.how(&input)?)?;
         let judged = match self.check.as_slice() {
             [] if self.no_verify => None,
             [] => Some(engraving.verify(None)?),
-            paths => Some(judged(&engraving, paths)?),
+            paths => Some(engraving.judge(&borrowed(&programs(paths)?), None)?),
         };
         let warnings: Vec<WarningEntry> = engraving.warnings.iter().map(WarningEntry::from).collect();
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if let Some(output) = &self.output {
-            write(output, self.picture.as_deref(), &engraving)?;
+            let picture = self.picture.as_deref();
+            let picture =
+                picture.map(|path| Ok::<_, Failure>((path, engraving.picture(WIDTH)?))).transpose()?;
+            write(output, picture, &engraving.programs)?;
         }
         let to_stdout = self.output.as_deref() == Some(Path::new("-"));
         let account = Account::new(&engraving, judged.as_ref(), &warnings);
@@ -160,126 +134,6 @@ impl Carve {
             flat: flat.transpose()?,
         })
     }
-
-    /// The shapes.
-    fn art(&self, input: &Input, settings: &Settings) -> Result<Art, Failure> {
-        match (&self.text, &self.font, &self.path) {
-            (Some(words), Some(font), _) => lettering(words, font, self.height.nm()),
-            (_, _, Some(path)) => drawn(path, input, settings),
-            (..) => Err(Failure::new("there is nothing to carve", "name a file, or --text and --font")),
-        }
-    }
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
-fn read_text(path: &Path) -> Result<String, Failure> {
-    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
-}
-
-/// Judges programs of files.
-fn judged(engraving: &Engraving, paths: &[PathBuf]) -> Result<Carved, Failure> {
-    let texts: Vec<(String, String)> =
-        paths.iter().map(|path| Ok((name_of(path), read_text(path)?))).collect::<Result<_, Failure>>()?;
-    let texts: Vec<(&str, &str)> = texts.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect();
-    Ok(engraving.judge(&texts, None)?)
-}
-
-/// How many pixels a picture is wide.
-const WIDTH: u32 = 1600;
-
-/// Writes a file for each tool: that of the V-bit is called as asked for.
-fn write(output: &Path, picture: Option<&Path>, engraving: &Engraving) -> Result<(), Failure> {
-    let picture = picture.map(|path| Ok::<_, Failure>((path, engraving.picture(WIDTH)?))).transpose()?;
-    let mut staged = Output::new();
-    if let Some((path, bytes)) = &picture {
-        staged.stage(path, bytes)?;
-    }
-    if output == Path::new("-") {
-        let [one] = engraving.programs.as_slice() else {
-            let cause = format!(
-                "each of {} tools has a program of its own, and stdout takes one",
-                engraving.programs.len()
-            );
-            return Err(Failure::new(cause, "name a file: -o NAME.ngc"));
-        };
-        staged.commit()?;
-        return super::print(&one.text);
-    }
-    for one in &engraving.programs {
-        staged.stage(&tagged(output, one.tag), one.text.as_bytes())?;
-    }
-    staged.commit()
-}
-
-/// The name with a tag before its ending.
-fn tagged(path: &Path, tag: &str) -> PathBuf {
-    if tag.is_empty() {
-        return path.to_path_buf();
-    }
-    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-    let ending = path.extension().map_or(String::new(), |ending| format!(".{}", ending.to_string_lossy()));
-    path.with_file_name(format!("{stem}-{tag}{ending}"))
-}
-
-/// A text in a font.
-fn lettering(words: &str, font: &Path, height: Nm) -> Result<Art, Failure> {
-    let bytes = std::fs::read(font).map_err(|error| Failure::io("read", font, &error))?;
-    let file = name_of(font);
-    let areas = text(&bytes, &words.replace("\\n", "\n"), height).map_err(|error| {
-        Failure::new(format!("{file}: {error}"), "choose another --font, --text or --height")
-    })?;
-    let inputs = vec![Origin { file, design: import::sha256(&bytes) }];
-    // It stands in comments and names no file.
-    let name: String = words.chars().filter(char::is_ascii_alphanumeric).collect();
-    let name = if name.is_empty() { "text".to_owned() } else { name };
-    Ok(Art { name, areas, inputs, warnings: Vec::new() })
-}
-
-/// Kinds of files that say by themselves what they are; any other is one Gerber layer.
-const BOARDS: [&str; 14] = [
-    "zip",
-    "kicad_pcb",
-    "svg",
-    "dxf",
-    "png",
-    "jpg",
-    "jpeg",
-    "bmp",
-    "gif",
-    "tif",
-    "tiff",
-    "webp",
-    "pnm",
-    "pbm",
-];
-
-/// The shapes of a file.
-fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    let is_board = path.is_dir() || ending.is_some_and(|ending| BOARDS.contains(&ending.as_str()));
-    let loaded = if is_board { input.load(settings)? } else { import::load_copper(path, Side::Front)? };
-    let copper = [&loaded.board.front, &loaded.board.back].into_iter().find_map(Option::as_ref);
-    let areas = copper.map_or_else(Vec::new, areas);
-    let inputs = loaded
-        .sources
-        .iter()
-        .filter(|source| !source.role.starts_with("ignored"))
-        .map(|source| Origin { file: source.file.clone(), design: source.design.clone() });
-    // What is said of boards and their outlines is of no use here.
-    let warnings = loaded.warnings.into_iter().filter(|warning| !warning.code.starts_with("outline"));
-    Ok(Art { name: loaded.board.name, areas, inputs: inputs.collect(), warnings: warnings.collect() })
-}
-
-/// What a layer covers.
-fn areas(copper: &Copper) -> Vec<Polygon> {
-    let shape = |feature: &Feature| feature.shape.polygon(FLATTEN);
-    let rings: Vec<_> =
-        copper.features.iter().filter_map(shape).flat_map(|polygon| polygon.contours().to_vec()).collect();
-    polarity::clean(&rings)
 }
 
 /// What was made and found, as data.
@@ -293,15 +147,6 @@ struct Account<'a> {
     warnings: &'a [WarningEntry],
 }
 
-/// What one tool does.
-#[derive(Serialize)]
-struct Cut {
-    tool: String,
-    cut_mm: f64,
-    lifts: u64,
-    seconds: f64,
-}
-
 /// What came of comparing it with the ideal; micrometres.
 #[derive(Serialize)]
 struct Verification {
@@ -311,16 +156,6 @@ struct Verification {
     too_shallow_um: f64,
     left_wide_mm2: f64,
     findings: Vec<Entry>,
-}
-
-#[derive(Serialize)]
-struct Entry {
-    name: &'static str,
-    message: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    at_mm: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<u32>,
 }
 
 impl<'a> Account<'a> {
@@ -339,37 +174,15 @@ impl<'a> Account<'a> {
     }
 }
 
-impl Cut {
-    fn new(one: &OneTool) -> Self {
-        Self {
-            tool: one.program.sections[0].tool.kind.to_string(),
-            cut_mm: one.statistics.cut_length.to_mm(),
-            lifts: one.statistics.lifts,
-            seconds: rounded(one.statistics.seconds),
-        }
-    }
-}
-
-/// To a thousandth.
-fn rounded(number: f64) -> f64 {
-    (number * 1_000.0).round() / 1_000.0
-}
-
 impl Verification {
     fn new(judged: &Carved) -> Self {
-        let findings = judged.findings.iter().map(|finding| Entry {
-            name: finding.name,
-            message: finding.message.clone(),
-            at_mm: finding.at.map(|at| [at.x.to_mm(), at.y.to_mm()]),
-            line: finding.line,
-        });
         Self {
             places: judged.places,
             surface_p99_um: rounded(judged.p99 / 1e3),
             too_deep_um: rounded(judged.over / 1e3),
             too_shallow_um: rounded(judged.under / 1e3),
             left_wide_mm2: rounded(judged.left_mm2),
-            findings: findings.collect(),
+            findings: judged.findings.iter().map(Entry::new).collect(),
         }
     }
 }
@@ -377,18 +190,12 @@ impl Verification {
 /// What judging found, for a person.
 fn to_text(judged: &Carved) -> String {
     let micrometres = |nm: f64| nm / 1_000.0;
-    let mut text = format!(
+    let text = format!(
         "verified at {} places: the surface is off by {:.1} µm at most at 99 of 100, {:.1} µm too deep and {:.1} µm too shallow at worst\n",
         judged.places,
         micrometres(judged.p99),
         micrometres(judged.over),
         micrometres(judged.under)
     );
-    for finding in &judged.findings {
-        let place =
-            finding.at.map_or(String::new(), |at| format!(" at x = {:.3} mm, y = {:.3} mm", at.x, at.y));
-        let line = finding.line.map_or(String::new(), |line| format!(" (line {line})"));
-        text += &format!("{}: {}{place}{line}\n", finding.name, finding.message);
-    }
-    text
+    text + &lines(&judged.findings)
 }

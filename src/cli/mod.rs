@@ -1,5 +1,6 @@
 //! The command line: one file a subcommand, and all that prints.
 
+mod art;
 mod carve;
 mod colour;
 mod config;
@@ -18,6 +19,7 @@ mod machine;
 mod mask;
 mod mill;
 mod output;
+mod pocket;
 mod probe;
 mod progress;
 mod scope;
@@ -60,6 +62,8 @@ Examples:
   voromill mask board/ -o front.png --dpi 1200 a mask for etching, lasers or UV light
   voromill carve logo.png -o logo.ngc --tool vbit:0.1mm:60deg --picture-dpi 600
                                                a V-bit into shapes, as deep as they are wide
+  voromill pocket plate.svg -o plate.ngc --tool endmill:3mm --depth 4mm --depth-pass 1mm
+                                               shapes milled to a flat floor
   voromill probe board/ -o probe.ngc           probe the surface of the board on the machine
   voromill level front.ngc --map probe.txt     adapt a program to the probed surface
   voromill tools                               the tools, and how wide they cut at which depth
@@ -78,6 +82,7 @@ enum Command {
     Draw(draw::Draw),
     Mask(mask::Mask),
     Carve(carve::Carve),
+    Pocket(pocket::Pocket),
     Inspect(inspect::Inspect),
     Verify(verify::Verify),
     Diff(diff::Diff),
@@ -127,6 +132,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Draw(draw) => draw.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Mask(mask) => mask.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Carve(carve) => carve.run(cli.shared),
+        Command::Pocket(pocket) => pocket.run(cli.shared),
         Command::Inspect(inspect) => inspect.run(cli.shared).map(|()| ExitCode::SUCCESS),
         Command::Verify(verify) => verify.run(cli.shared),
         Command::Diff(diff) => diff.run(cli.shared),

@@ -7,7 +7,7 @@
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
-use voromill::job::{CARVING_OPTIONS, Options, Part};
+use voromill::job::{CARVING_OPTIONS, Options, POCKETING_OPTIONS, Part};
 
 use super::Failure;
 
@@ -65,6 +65,7 @@ fn takes(subcommand: &str, option: &str) -> bool {
                 )
         }
         "carve" => CARVING_OPTIONS.contains(&option),
+        "pocket" => CARVING_OPTIONS.contains(&option) || POCKETING_OPTIONS.contains(&option),
         // The kerf and the board's thickness decide how strongly nets are coupled.
         "inspect" => {
             matches!(option, "topology" | "outline-gap" | "tool" | "depth" | "kerf" | "thickness")

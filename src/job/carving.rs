@@ -1,33 +1,15 @@
 //! Artwork → the program that carves it, and what that does.
 
 use crate::board::Warning;
-use crate::board::polarity::{difference, offset};
-use crate::gcode::{self, Header, Input};
+use crate::board::polarity::offset;
 use crate::geometry::{Nm, Polygon, Rect};
-use crate::report::relief::relief;
 use crate::toolpath::strategy;
-use crate::toolpath::{
-    Angle, Heights, Order, Placement, Program, Section, Statistics, Tool, ToolKind, measure,
-};
+use crate::toolpath::{Angle, Heights, Order, Placement, Section, Tool, ToolKind};
 use crate::verify::carving::{self, Carved, Ideal, Text};
-use crate::verify::{Cutter, CutterKind};
 use crate::voronoi::medial::{MedialAxis, Pruning};
 
-use super::pipeline::{GENERATOR, zero};
+use super::art::{self, Art, OneTool, placed, round, written};
 use super::{Error, Settings};
-
-/// What is carved.
-#[derive(Clone, Debug, Default)]
-pub struct Art {
-    /// What it is called.
-    pub name: String,
-    /// Its areas, simple polygons.
-    pub areas: Vec<Polygon>,
-    /// The files it was read from.
-    pub inputs: Vec<Input>,
-    /// What reading it had to warn of.
-    pub warnings: Vec<Warning>,
-}
 
 /// How it is carved.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,19 +45,6 @@ pub struct Engraving {
     pub warnings: Vec<Warning>,
 }
 
-/// A program with one tool.
-#[derive(Clone, Debug)]
-pub struct OneTool {
-    /// What its file's name ends in; empty for the V-bit's.
-    pub tag: &'static str,
-    /// What was planned.
-    pub program: Program,
-    /// What it amounts to.
-    pub statistics: Statistics,
-    /// What the machine reads.
-    pub text: String,
-}
-
 /// The narrowest tip that clears corners of a floor. Chosen: finer loops would take days.
 const BLUNTEST: Nm = Nm::from_um(20);
 
@@ -88,9 +57,6 @@ const SHARE: f64 = 0.3;
 /// What is off by less than this is right, when a program is judged. Chosen: five times the
 /// tolerance of the cut.
 const TOLERATED: Nm = Nm::from_um(10);
-
-/// What lies round the areas in a picture. Chosen: a little of the top.
-const MARGIN: Nm = Nm::from_mm(2);
 
 /// Places are looked at so far apart at least, and so many of them at most.
 const FINEST: Nm = Nm::from_um(10);
@@ -179,7 +145,8 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     let areas: Vec<Polygon> = areas.iter().map(|area| placed(area, &placement)).collect();
     let mut programs = Vec::new();
     for (number, (tag, section)) in (1..).zip(sections) {
-        let (one, found) = written(&art, (tag, number, section), settings, how);
+        let what = if tag.is_empty() { "carving" } else { "floor" };
+        let (one, found) = written(&art, (tag, what, number), section, settings, said(settings, how));
         programs.push(one);
         warnings.extend(found);
     }
@@ -240,18 +207,6 @@ fn judge(how: &Carving, tool: &Tool) -> Result<(), Error> {
     Ok(())
 }
 
-/// What lies round areas, up to `margin` from the rectangle that holds them.
-fn round(areas: &[Polygon], margin: Nm) -> Vec<Polygon> {
-    let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
-    let frame = bounds.map(|bounds| Polygon::rectangle(bounds.inflate(margin)));
-    frame.map_or_else(Vec::new, |frame| difference(&frame, areas))
-}
-
-fn placed(area: &Polygon, placement: &Placement) -> Polygon {
-    let rings = area.contours().iter().map(|ring| ring.iter().map(|&p| placement.point(p)).collect());
-    Polygon::new(rings.collect()).expect("as many corners as before")
-}
-
 /// What the tool cannot do of the areas.
 fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Vec<Warning> {
     let mut warnings = Vec::new();
@@ -286,34 +241,6 @@ fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Ve
 /// What is wider by less is no flat place, in mm².
 const LEAST_WIDE: f64 = 1e-3;
 
-/// A section as a program of its own, with its tag and the number of its tool.
-fn written(
-    art: &Art,
-    (tag, number, section): (&'static str, u32, Section),
-    settings: &Settings,
-    how: &Carving,
-) -> (OneTool, Vec<Warning>) {
-    let what = if tag.is_empty() { "carving" } else { "floor" };
-    let mut program = Program {
-        title: format!("{} {what}", art.name),
-        notes: vec![zero(settings)],
-        safe: settings.safe,
-        sections: vec![section],
-    };
-    let mut warnings = settings.machine.restrain(&mut program);
-    program.sections[0].tool.number = number;
-    let statistics = measure(&program, &settings.machine);
-    let header = Header {
-        generator: GENERATOR.to_owned(),
-        inputs: art.inputs.clone(),
-        settings: said(settings, how),
-        seconds: Some(statistics.seconds),
-    };
-    let text = gcode::write(&program, &settings.dialect, &header);
-    warnings.extend(program.check_travel(&settings.machine));
-    (OneTool { tag, program, statistics, text }, warnings)
-}
-
 /// The settings that matter, for the header.
 fn said(settings: &Settings, how: &Carving) -> Vec<(String, String)> {
     let mut listed = settings.options().listed();
@@ -341,10 +268,7 @@ impl Engraving {
     ///
     /// [`Error::Verify`] for a text that cannot be followed.
     pub fn verify(&self, pitch: Option<Nm>) -> Result<Carved, Error> {
-        let texts: Vec<(String, &str)> =
-            self.programs.iter().map(|one| (one.program.title.clone(), one.text.as_str())).collect();
-        let texts: Vec<(&str, &str)> = texts.iter().map(|(file, text)| (file.as_str(), *text)).collect();
-        self.judge(&texts, pitch)
+        self.compare(&art::texts(&self.programs), pitch)
     }
 
     /// The same of other programs, each with its name, in place of these.
@@ -354,17 +278,10 @@ impl Engraving {
     /// [`Error::Value`] for more or fewer programs than there are tools, [`Error::Verify`] for a
     /// text that cannot be followed.
     pub fn judge(&self, texts: &[(&str, &str)], pitch: Option<Nm>) -> Result<Carved, Error> {
-        if texts.len() != self.programs.len() {
-            let problem = format!(
-                "expected a program for each of {} tools, and here are {}",
-                self.programs.len(),
-                texts.len()
-            );
-            return Err(Error::Value { key: "check", problem });
-        }
-        let cutters = self.programs.iter().map(|one| cutter(one.program.sections[0].tool.kind));
-        let programs: Vec<Text<'_>> =
-            texts.iter().zip(cutters).map(|(&(file, text), cutter)| Text { file, text, cutter }).collect();
+        self.compare(&art::others(&self.programs, texts)?, pitch)
+    }
+
+    fn compare(&self, programs: &[Text<'_>], pitch: Option<Nm>) -> Result<Carved, Error> {
         let around = self.areas.iter().map(Polygon::bounds).reduce(Rect::union);
         let area = around.map_or(0.0, |around| around.width().to_f64() * around.height().to_f64());
         let pitch = pitch.unwrap_or_else(|| Nm::from_f64((area / MOST_PLACES).sqrt()).max(FINEST));
@@ -372,7 +289,7 @@ impl Engraving {
         let clears = self.clears;
         let ideal =
             Ideal { areas: &self.areas, v_bit, clears, most: self.max_depth, tolerance: TOLERATED, pitch };
-        Ok(carving::carving(&programs, &ideal)?)
+        Ok(carving::carving(programs, &ideal)?)
     }
 
     /// What its programs mill, as a picture at a slant: a PNG so many pixels wide.
@@ -382,41 +299,12 @@ impl Engraving {
     /// [`Error::Verify`] for a program that cannot be followed, [`Error::Grid`] for a picture that
     /// cannot be drawn.
     pub fn picture(&self, width: u32) -> Result<Vec<u8>, Error> {
-        let texts: Vec<Text<'_>> = self
-            .programs
-            .iter()
-            .map(|one| Text {
-                file: &one.program.title,
-                text: &one.text,
-                cutter: cutter(one.program.sections[0].tool.kind),
-            })
-            .collect();
-        let milled = carving::milled(&texts)?;
-        let around = self.areas.iter().map(Polygon::bounds).reduce(Rect::union);
-        let around = around.ok_or_else(|| Error::NoCopper("to show".to_owned()))?.inflate(MARGIN);
-        let pitch = around.width() / i64::from(width.max(1)) + Nm::new(1);
-        Ok(relief(|at| milled.depth(at), around, pitch)?)
+        art::picture(&self.programs, &self.areas, width)
     }
 
     /// What it is, for a person.
     #[must_use]
     pub fn summary(&self) -> String {
-        let mut text = format!("{}: carved down to {:.3} mm\n", self.name, self.deepest);
-        for OneTool { program, statistics, .. } in &self.programs {
-            let Statistics { cut_length, lifts, seconds, .. } = statistics;
-            let tool = program.sections[0].tool.kind;
-            let time = crate::toolpath::duration(*seconds);
-            text += &format!("  {tool}: {:.1} mm cut, {lifts} lifts, {time}\n", cut_length.to_mm());
-        }
-        text
-    }
-}
-
-/// The tool as the judge sees it.
-fn cutter(kind: ToolKind) -> Cutter {
-    match kind {
-        ToolKind::VBit { tip, angle } => Cutter { kind: CutterKind::VBit, tip, degrees: angle.degrees() },
-        ToolKind::EndMill { diameter } => Cutter { kind: CutterKind::EndMill, tip: diameter, degrees: 0.0 },
-        ToolKind::Drill { diameter } => Cutter { kind: CutterKind::Drill, tip: diameter, degrees: 0.0 },
+        format!("{}: carved down to {:.3} mm\n", self.name, self.deepest) + &art::lines(&self.programs)
     }
 }

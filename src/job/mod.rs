@@ -4,6 +4,7 @@
 //! those and the defaults, complete and checked; [`mill`] does the work, in memory. Who calls it
 //! decides what becomes a file.
 
+mod art;
 mod by_net;
 mod cache_key;
 mod carving;
@@ -30,6 +31,7 @@ mod page;
 mod paper;
 mod pattern;
 mod pipeline;
+mod pocketing;
 mod probing;
 mod quantity;
 mod rivet;
@@ -44,9 +46,10 @@ mod turns;
 mod verification;
 mod written;
 
+pub use art::{Art, OneTool};
 pub use by_net::{ParseStrategyForError, StrategyFor};
 pub use cache_key::cache_key;
-pub use carving::{Art, CARVING_OPTIONS, Carving, Engraving, OneTool, carve};
+pub use carving::{CARVING_OPTIONS, Carving, Engraving, carve};
 pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
 pub use coupling::coupling;
 pub use cutting::Cutting;
@@ -67,6 +70,7 @@ pub use own_lines::{OwnLines, ParseOwnLinesError};
 pub use paper::paper;
 pub use pattern::Pattern;
 pub use pipeline::{Job, mill};
+pub use pocketing::{POCKETING_OPTIONS, Pocket, Pocketing, pocket};
 pub use probing::{ParseProbeGridError, ProbeGrid, Probing, probe};
 pub use quantity::{
     DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, ParseWaitError, Place, Tiles,

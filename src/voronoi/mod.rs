@@ -37,6 +37,7 @@ mod measure;
 pub mod medial;
 mod mixed;
 mod near;
+pub mod nest;
 mod overlooked;
 pub mod paper;
 mod part;

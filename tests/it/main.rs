@@ -42,6 +42,7 @@ mod page;
 mod paper;
 mod pictures;
 mod planner;
+mod pocket;
 mod programs;
 mod random_boards;
 mod raster;

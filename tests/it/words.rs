@@ -11,9 +11,9 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).to_owned()
 }
 
-const COMMANDS: [&str; 14] = [
-    "mill", "isolate", "draw", "mask", "carve", "inspect", "verify", "diff", "probe", "level", "tools",
-    "machine", "explain", "init",
+const COMMANDS: [&str; 15] = [
+    "mill", "isolate", "draw", "mask", "carve", "pocket", "inspect", "verify", "diff", "probe", "level",
+    "tools", "machine", "explain", "init",
 ];
 
 fn help(arguments: &[&str]) -> String {

@@ -5,10 +5,12 @@ mod carve;
 mod cutout;
 mod drill;
 mod isolate;
+mod pocket;
 mod share;
 
 pub use carve::{Carving, Floor, carve};
 pub use cutout::{Cutout, TabPlaces, Tabs, cutout};
 pub use drill::{Drilling, drill};
 pub use isolate::{Isolation, Narrow, Role, isolate};
+pub use pocket::{Entries, Levels, Pocketing, Sequence, pocket};
 pub use share::share;

@@ -5,8 +5,7 @@ use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 use crate::gcode::read::{Listing, Motion, Way};
 use crate::geometry::{Arc, Nm, Rect};
 use crate::verify::cutter::Cutter;
-
-use super::area::length;
+use crate::verify::edges::length;
 
 /// A point in nanometres.
 type Spot = (f64, f64);

@@ -11,18 +11,17 @@
 //! Distances are measured to the edges themselves, and what is milled to the motions that the text
 //! is read back as: no medial axis, no diagram, nothing of the planner.
 
-mod area;
 mod milled;
 
 use rayon::prelude::*;
 
 use super::cutter::Cutter;
+use super::edges::Edges;
 use super::report::{Finding, Severity};
 use super::{Error, ReadError};
 use crate::gcode::read::{self, Listing, Way};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 
-use area::Edges;
 pub use milled::Milled;
 
 /// What should be carved, on the machine.
@@ -120,7 +119,7 @@ pub fn milled(programs: &[Text<'_>]) -> Result<Milled, Error> {
 }
 
 /// What programs do, each with its tool.
-fn followed(programs: &[Text<'_>]) -> Result<Vec<(Listing, Cutter)>, Error> {
+pub(super) fn followed(programs: &[Text<'_>]) -> Result<Vec<(Listing, Cutter)>, Error> {
     let follow = |program: &Text<'_>| {
         let failed = |reason: ReadError| Error::Read { file: program.file.to_owned(), reason };
         let listing = read::read(&read::without_own_code(program.text)).map_err(failed)?;
@@ -130,7 +129,7 @@ fn followed(programs: &[Text<'_>]) -> Result<Vec<(Listing, Cutter)>, Error> {
 }
 
 /// What harms the machine or the work whatever is carved.
-fn harm(listing: &Listing) -> Vec<Finding> {
+pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
     let mut findings: Vec<Finding> = Vec::new();
     let mut say = |name: &'static str, message: &str, line: u32, at: Option<Point>| {
         if findings.iter().all(|finding| finding.name != name) {

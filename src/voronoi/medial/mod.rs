@@ -107,7 +107,7 @@ impl MedialAxis {
 }
 
 /// The diagram of an area with the fewest faults: of the area as it is, unless that has any.
-fn flawless(area: &Polygon) -> Diagram {
+pub(super) fn flawless(area: &Polygon) -> Diagram {
     let mut best = inside(area);
     for attempt in 1..=ATTEMPTS {
         if best.faults().is_empty() {

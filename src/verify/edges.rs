@@ -50,6 +50,27 @@ impl Edges {
         }
     }
 
+    /// Whether a place lies within the areas.
+    pub(super) fn hold(&self, p: Spot) -> bool {
+        self.crossings(p.1).into_iter().filter(|&x| x < p.0).count() % 2 == 1
+    }
+
+    /// How near a straight way comes to an edge, if nearer than `reach`; zero where it crosses one.
+    pub(super) fn nearest_to_way(&self, [a, b]: [Spot; 2], reach: f64) -> Option<f64> {
+        let mut best = reach;
+        let (left, right) = (a.0.min(b.0) - reach, a.0.max(b.0) + reach);
+        let (bottom, top) = (a.1.min(b.1) - reach, a.1.max(b.1) + reach);
+        self.visit([left, bottom, right, top], |(c, d)| {
+            let off = |p: Spot, a: Spot, b: Spot| {
+                let foot = foot(p, a, b);
+                length((p.0 - foot.0, p.1 - foot.1))
+            };
+            let ends = off(a, c, d).min(off(b, c, d)).min(off(c, a, b)).min(off(d, a, b));
+            best = best.min(if cross([a, b], [c, d]) { 0.0 } else { ends });
+        });
+        (best < reach).then_some(best)
+    }
+
     /// The distance to the nearest edge, and its nearest point.
     pub(super) fn nearest(&self, p: Spot) -> (f64, Spot) {
         let mut reach = FIRST;
@@ -108,6 +129,12 @@ fn foot(p: Spot, a: Spot, b: Spot) -> Spot {
     let along = (p.0 - a.0) * way.0 + (p.1 - a.1) * way.1;
     let part = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
     (a.0 + way.0 * part, a.1 + way.1 * part)
+}
+
+/// Whether two lines cross between their ends.
+fn cross([a, b]: [Spot; 2], [c, d]: [Spot; 2]) -> bool {
+    let side = |p: Spot, q: Spot, r: Spot| (q.0 - p.0) * (r.1 - p.1) - (q.1 - p.1) * (r.0 - p.0);
+    side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
 }
 
 pub(super) fn length((x, y): Spot) -> f64 {

@@ -1,0 +1,134 @@
+//! What artwork becomes programs of: its areas, one program for each tool, and what they have in
+//! common.
+
+use crate::board::Warning;
+use crate::board::polarity::difference;
+use crate::gcode::{self, Header, Input};
+use crate::geometry::{Nm, Polygon, Rect};
+use crate::report::relief::relief;
+use crate::toolpath::{Placement, Program, Section, Statistics, ToolKind, measure};
+use crate::verify::carving::{self, Text};
+use crate::verify::{Cutter, CutterKind};
+
+use super::pipeline::{GENERATOR, zero};
+use super::{Error, Settings};
+
+/// What is milled.
+#[derive(Clone, Debug, Default)]
+pub struct Art {
+    /// What it is called.
+    pub name: String,
+    /// Its areas, simple polygons.
+    pub areas: Vec<Polygon>,
+    /// The files it was read from.
+    pub inputs: Vec<Input>,
+    /// What reading it had to warn of.
+    pub warnings: Vec<Warning>,
+}
+
+/// A program with one tool.
+#[derive(Clone, Debug)]
+pub struct OneTool {
+    /// What its file's name ends in; empty for the V-bit's.
+    pub tag: &'static str,
+    /// What was planned.
+    pub program: Program,
+    /// What it amounts to.
+    pub statistics: Statistics,
+    /// What the machine reads.
+    pub text: String,
+}
+
+/// What lies round the areas in a picture. Chosen: a little of the top.
+const MARGIN: Nm = Nm::from_mm(2);
+
+/// What lies round areas, up to `margin` from the rectangle that holds them.
+pub(super) fn round(areas: &[Polygon], margin: Nm) -> Vec<Polygon> {
+    let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
+    let frame = bounds.map(|bounds| Polygon::rectangle(bounds.inflate(margin)));
+    frame.map_or_else(Vec::new, |frame| difference(&frame, areas))
+}
+
+/// An area on the machine.
+pub(super) fn placed(area: &Polygon, placement: &Placement) -> Polygon {
+    let rings = area.contours().iter().map(|ring| ring.iter().map(|&p| placement.point(p)).collect());
+    Polygon::new(rings.collect()).expect("as many corners as before")
+}
+
+/// A section as a program of its own: what its file's name ends in, what it does, the number of its
+/// tool, and the settings that its header says.
+pub(super) fn written(
+    art: &Art,
+    (tag, what, number): (&'static str, &str, u32),
+    section: Section,
+    settings: &Settings,
+    said: Vec<(String, String)>,
+) -> (OneTool, Vec<Warning>) {
+    let mut program = Program {
+        title: format!("{} {what}", art.name),
+        notes: vec![zero(settings)],
+        safe: settings.safe,
+        sections: vec![section],
+    };
+    let mut warnings = settings.machine.restrain(&mut program);
+    program.sections[0].tool.number = number;
+    let statistics = measure(&program, &settings.machine);
+    let header = Header {
+        generator: GENERATOR.to_owned(),
+        inputs: art.inputs.clone(),
+        settings: said,
+        seconds: Some(statistics.seconds),
+    };
+    let text = gcode::write(&program, &settings.dialect, &header);
+    warnings.extend(program.check_travel(&settings.machine));
+    (OneTool { tag, program, statistics, text }, warnings)
+}
+
+/// The programs as the judge takes them.
+pub(super) fn texts(programs: &[OneTool]) -> Vec<Text<'_>> {
+    fn text(one: &OneTool) -> Text<'_> {
+        let kind = one.program.sections[0].tool.kind;
+        Text { file: &one.program.title, text: &one.text, cutter: cutter(kind) }
+    }
+    programs.iter().map(text).collect()
+}
+
+/// Programs of files, each with its name, in place of those that were made.
+pub(super) fn others<'a>(programs: &[OneTool], texts: &[(&'a str, &'a str)]) -> Result<Vec<Text<'a>>, Error> {
+    if texts.len() != programs.len() {
+        let problem =
+            format!("expected a program for each of {} tools, and here are {}", programs.len(), texts.len());
+        return Err(Error::Value { key: "check", problem });
+    }
+    let cutters = programs.iter().map(|one| cutter(one.program.sections[0].tool.kind));
+    Ok(texts.iter().zip(cutters).map(|(&(file, text), cutter)| Text { file, text, cutter }).collect())
+}
+
+/// What programs mill of areas, as a picture at a slant: a PNG so many pixels wide.
+pub(super) fn picture(programs: &[OneTool], areas: &[Polygon], width: u32) -> Result<Vec<u8>, Error> {
+    let milled = carving::milled(&texts(programs))?;
+    let around = areas.iter().map(Polygon::bounds).reduce(Rect::union);
+    let around = around.ok_or_else(|| Error::NoCopper("to show".to_owned()))?.inflate(MARGIN);
+    let pitch = around.width() / i64::from(width.max(1)) + Nm::new(1);
+    Ok(relief(|at| milled.depth(at), around, pitch)?)
+}
+
+/// What programs do, a line for each.
+pub(super) fn lines(programs: &[OneTool]) -> String {
+    let line = |OneTool { program, statistics, .. }: &OneTool| {
+        let Statistics { cut_length, lifts, seconds, .. } = statistics;
+        let tool = program.sections[0].tool.kind;
+        let time = crate::toolpath::duration(*seconds);
+        format!("  {tool}: {:.1} mm cut, {lifts} lifts, {time}\n", cut_length.to_mm())
+    };
+    programs.iter().map(line).collect()
+}
+
+/// The tool as the judge sees it.
+pub(super) fn cutter(kind: ToolKind) -> Cutter {
+    match kind {
+        ToolKind::VBit { tip, angle } => Cutter { kind: CutterKind::VBit, tip, degrees: angle.degrees() },
+        ToolKind::EndMill { diameter } => Cutter { kind: CutterKind::EndMill, tip: diameter, degrees: 0.0 },
+        ToolKind::Drill { diameter } => Cutter { kind: CutterKind::Drill, tip: diameter, degrees: 0.0 },
+    }
+}

@@ -1,0 +1,352 @@
+//! What programs mill of pockets beside what they should.
+//!
+//! ```text
+//!   ┌─────────────────╮     Where a mill fits is the area less a strip of its radius along the edge; what it can clear there is that
+//!   │ ╭─────────────╮ │     much wider again. All of it must be swept at the full depth (*residue*), no motion may come nearer to
+//!   │ │ where its   │ │     an edge than the radius (*overcut*), no pass may take more than it is allowed to, and the tool comes
+//!   │ │ middle fits │ │     down no more often than there are places farthest from the edge: counted as pieces of the area, offset
+//!   │ ╰─────────────╯ │     inwards level by level, within which no piece of the next level lies.
+//!   └─────────────────╯
+//! ```
+//!
+//! Offsets are exact integer booleans, distances are measured to the edges themselves, and what is
+//! swept is asked of the motions that the text is read back as: no Voronoi diagram, nothing of the
+//! planner.
+
+mod runs;
+
+use crate::board::FLATTEN;
+use crate::board::polarity::offset;
+use crate::gcode::read::{Listing, Motion, Way};
+use crate::geometry::{Arc, Nm, Point, Polygon};
+
+use super::Error;
+use super::carving::{Text, followed, harm};
+use super::cutter::Cutter;
+use super::edges::Edges;
+use super::report::{Finding, Severity};
+
+use runs::{Piece, Spot, Sweep, Sweeps, left};
+
+/// What should be milled, on the machine.
+#[derive(Clone, Debug)]
+pub struct Floor<'a> {
+    /// The areas, simple polygons.
+    pub areas: &'a [Polygon],
+    /// How deep.
+    pub depth: Nm,
+    /// The most that one pass may take; none for all at once.
+    pub step: Option<Nm>,
+    /// How steeply the tool may go down into material, in units of depth for one of way, where
+    /// there is room; none for any way.
+    pub steepest: Option<f64>,
+    /// How far from the edge loops of the first tool are, in nanometres and rising, and in how many
+    /// passes they are milled: for how often the tool may come down. None for as often as it likes.
+    pub plunges: Option<(&'a [f64], usize)>,
+    /// What is less off is right.
+    pub tolerance: Nm,
+    /// The distance of the rows that are looked at.
+    pub pitch: Nm,
+}
+
+/// What came of it.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Pocketed {
+    /// How much the finest tool can clear, in mm².
+    pub reachable_mm2: f64,
+    /// How much of the areas no tool reaches, in corners and narrow places.
+    pub unreachable_mm2: f64,
+    /// How much of what can be cleared was left, all pieces together.
+    pub residue_mm2: f64,
+    /// The most that a tool cuts beyond an edge, in nanometres; zero if none does.
+    pub overcut: f64,
+    /// How often a tool comes down into the material.
+    pub plunges: usize,
+    /// How many places there are from which all round it only comes nearer to the edge, times the
+    /// passes; none where nobody asks.
+    pub maxima: Option<usize>,
+    /// What is wrong.
+    pub findings: Vec<Finding>,
+}
+
+/// A smaller piece left is none, in mm². Chosen: a square of 32 µm, less than a burr.
+const SPECK: f64 = 1e-3;
+
+/// Arcs become chords within this of them. Chosen: far below what is tolerated.
+const CHORD: Nm = Nm::new(100);
+
+/// Heights that differ by less are one, in nanometres: the last digit of a program, and rounding.
+const LEVEL: f64 = 1_500.0;
+
+/// So many findings of one kind are listed.
+const MOST_LISTED: usize = 50;
+
+/// With less room than this part of its radius a tool may go straight down.
+const ROOM: f64 = 0.25;
+
+/// How much steeper than asked for is too steep: arcs are measured by their chords.
+const STEEPER: f64 = 1.05;
+
+/// A straight part of a motion, of which some is below the surface.
+#[derive(Clone, Copy, Debug)]
+struct Step {
+    ends: [Spot; 2],
+    /// How deep the tip is at either end, downwards.
+    depths: [f64; 2],
+    radius: f64,
+    order: usize,
+    line: u32,
+    program: usize,
+}
+
+/// Reads programs and compares what they mill together with the pockets.
+///
+/// # Errors
+///
+/// [`Error::Read`] for a text that cannot be followed.
+pub fn pocketing(programs: &[Text<'_>], floor: &Floor<'_>) -> Result<Pocketed, Error> {
+    let listings = followed(programs)?;
+    let mut steps = Vec::new();
+    for (program, (listing, cutter)) in listings.iter().enumerate() {
+        all_steps(listing, cutter, program, &mut steps);
+    }
+    let level = steps.iter().filter(|step| (step.depths[0] - step.depths[1]).abs() < LEVEL);
+    let sweep = |step: &Step| Sweep {
+        from: step.ends[0],
+        to: step.ends[1],
+        radius: step.radius,
+        depth: step.depths[0].min(step.depths[1]),
+        order: step.order,
+    };
+    let sweeps = Sweeps::new(level.map(sweep).collect());
+    let edges = Edges::new(floor.areas);
+    let mut judge = Judge { floor, programs, pocketed: Pocketed::default() };
+    judge.harm(&listings);
+    judge.overcut(&steps, &edges);
+    judge.depths(&steps, &sweeps, &edges);
+    judge.residue(&sweeps);
+    judge.plunges(&listings);
+    Ok(judge.pocketed)
+}
+
+/// The steps of a program below the surface.
+fn all_steps(listing: &Listing, cutter: &Cutter, program: usize, steps: &mut Vec<Step>) {
+    for motion in &listing.motions {
+        let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { continue };
+        let (Some(top), Some(bottom)) = (motion.from.z, motion.to.z) else { continue };
+        if top >= Nm::ZERO && bottom >= Nm::ZERO {
+            continue;
+        }
+        let places = places(motion, from, to);
+        let parts = f64::from(u32::try_from(places.len() - 1).unwrap_or(u32::MAX));
+        let depth = |part: f64| -(top.to_f64() + (bottom - top).to_f64() * part / parts);
+        let mut part = 0.0;
+        for pair in places.windows(2) {
+            steps.push(Step {
+                ends: [pair[0], pair[1]],
+                depths: [depth(part), depth(part + 1.0)],
+                radius: cutter.cone()[0],
+                order: steps.len(),
+                line: motion.line,
+                program,
+            });
+            part += 1.0;
+        }
+    }
+}
+
+/// Places along a motion, arcs as chords.
+fn places(motion: &Motion, from: Point, to: Point) -> Vec<Spot> {
+    let mut places = vec![from.to_f64()];
+    match motion.way {
+        Way::Rapid | Way::Feed => places.push(to.to_f64()),
+        Way::Arc { center, turn } => {
+            let arc = Arc { start: from, end: to, center, turn };
+            let count = u32::try_from(arc.chords(CHORD)).unwrap_or(u32::MAX).max(1);
+            places.extend((1..=count).map(|i| arc.at(f64::from(i) / f64::from(count))));
+        }
+    }
+    places
+}
+
+struct Judge<'a> {
+    floor: &'a Floor<'a>,
+    programs: &'a [Text<'a>],
+    pocketed: Pocketed,
+}
+
+impl Judge<'_> {
+    fn harm(&mut self, listings: &[(Listing, Cutter)]) {
+        for (program, (listing, _)) in self.programs.iter().zip(listings) {
+            let found = harm(listing).into_iter();
+            let file = || Some(program.file.to_owned());
+            self.pocketed.findings.extend(found.map(|found| Finding { program: file(), ..found }));
+        }
+    }
+
+    /// Lists the worst of some steps, one for each line.
+    fn list(&mut self, name: &'static str, mut worst: Vec<(f64, &Step)>, what: impl Fn(f64) -> String) {
+        worst.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.order.cmp(&b.1.order)));
+        let mut listed: Vec<(usize, u32)> = Vec::new();
+        for (by, step) in worst {
+            if listed.contains(&(step.program, step.line)) {
+                continue;
+            }
+            listed.push((step.program, step.line));
+            let found = Finding::new(name, Severity::Error, what(by));
+            let (x, y) = step.ends[1];
+            self.pocketed.findings.push(Finding {
+                at: Some(Point::from_f64(x, y)),
+                line: Some(step.line),
+                program: Some(self.programs[step.program].file.to_owned()),
+                ..found
+            });
+            if listed.len() == MOST_LISTED {
+                break;
+            }
+        }
+    }
+
+    /// Motions that come nearer to an edge than the tool is wide, or lie outside.
+    fn overcut(&mut self, steps: &[Step], edges: &Edges) {
+        let tolerance = self.floor.tolerance.to_f64();
+        let mut found = Vec::new();
+        for (number, step) in steps.iter().enumerate() {
+            let is_new = number.checked_sub(1).is_none_or(|before| steps[before].ends[1] != step.ends[0]);
+            // Whoever crosses no edge stays on its side of all.
+            let near = edges.nearest_to_way(step.ends, step.radius);
+            let is_out =
+                (is_new || near.is_some_and(|near| near < step.radius / 2.0)) && !edges.hold(step.ends[1]);
+            let by = if is_out { step.radius } else { near.map_or(0.0, |near| step.radius - near) };
+            self.pocketed.overcut = self.pocketed.overcut.max(by);
+            if by > tolerance {
+                found.push((by, step));
+            }
+        }
+        self.list("pocket-overcut", found, |by| {
+            format!("the tool cuts {:.1} µm beyond the edge of the area", by / 1e3)
+        });
+    }
+
+    /// Motions that go too deep, take too much at once, or go down too steeply.
+    fn depths(&mut self, steps: &[Step], sweeps: &Sweeps, edges: &Edges) {
+        let tolerance = self.floor.tolerance.to_f64();
+        let depth = self.floor.depth.to_f64();
+        let (mut deep, mut thick, mut steep) = (Vec::new(), Vec::new(), Vec::new());
+        for step in steps {
+            let bottom = step.depths[0].max(step.depths[1]);
+            if bottom > depth + tolerance {
+                deep.push((bottom - depth, step));
+            }
+            let most = self.floor.step.map_or(f64::INFINITY, Nm::to_f64) + tolerance;
+            if bottom > most && !is_clear(step, bottom - most, sweeps) {
+                thick.push((bottom, step));
+            }
+            let way = (step.ends[1].0 - step.ends[0].0, step.ends[1].1 - step.ends[0].1);
+            let drop = step.depths[1] - step.depths[0].max(0.0);
+            let slope = drop / (way.0 * way.0 + way.1 * way.1).sqrt().max(1.0);
+            let is_steep = self.floor.steepest.is_some_and(|steepest| slope > steepest * STEEPER);
+            if is_steep
+                && drop > tolerance
+                && !is_clear(step, bottom - tolerance, sweeps)
+                && edges.nearest(step.ends[1]).0 - step.radius >= step.radius * ROOM
+            {
+                steep.push((slope, step));
+            }
+        }
+        self.list("pocket-too-deep", deep, |by| format!("it mills {:.1} µm below the floor", by / 1e3));
+        self.list("pocket-pass-too-thick", thick, |by| {
+            format!("it mills at a depth of {:.3} mm what no pass above it has cleared", by / 1e6)
+        });
+        self.list("pocket-plunge-too-steep", steep, |_| {
+            "it goes down steeply into material where there is room for a ramp".to_owned()
+        });
+    }
+
+    /// What the finest tool could clear and none does.
+    fn residue(&mut self, sweeps: &Sweeps) {
+        let radius = self.programs.iter().map(|program| program.cutter.tip / 2).min().unwrap_or(Nm::ZERO);
+        let tolerance = self.floor.tolerance;
+        let fits: Vec<Polygon> =
+            self.floor.areas.iter().flat_map(|area| offset(area, -radius, FLATTEN)).collect();
+        let wide = |by: Nm| fits.iter().flat_map(|fit| offset(fit, by, FLATTEN)).collect::<Vec<Polygon>>();
+        let area = |polygons: &[Polygon]| polygons.iter().map(Polygon::area_mm2).sum::<f64>();
+        self.pocketed.reachable_mm2 = area(&crate::board::polarity::union(&wide(radius)));
+        self.pocketed.unreachable_mm2 = area(self.floor.areas) - self.pocketed.reachable_mm2;
+        let least = (self.floor.depth - tolerance).to_f64();
+        let wanted = crate::board::polarity::union(&wide(radius - tolerance));
+        let pieces: Vec<Piece> = left(&wanted, sweeps, least, self.floor.pitch.to_f64());
+        self.pocketed.residue_mm2 = pieces.iter().fold(0.0, |sum, piece| sum + piece.mm2);
+        for piece in pieces.iter().take_while(|piece| piece.mm2 > SPECK).take(MOST_LISTED) {
+            let message = format!("{:.4} mm² are left where the tool fits", piece.mm2);
+            let found = Finding::new("pocket-residue", Severity::Error, message);
+            self.pocketed.findings.push(Finding { at: Some(piece.at), ..found });
+        }
+    }
+
+    /// How often the first tool comes down, and how often it need.
+    fn plunges(&mut self, listings: &[(Listing, Cutter)]) {
+        let comes_down = |motion: &&Motion| {
+            let (Some(from), Some(to)) = (motion.from.z, motion.to.z) else { return false };
+            from >= Nm::ZERO && to < Nm::ZERO
+        };
+        let count = |listing: &Listing| listing.motions.iter().filter(comes_down).count();
+        self.pocketed.plunges = listings.iter().map(|(listing, _)| count(listing)).sum();
+        let Some((levels, passes)) = self.floor.plunges else { return };
+        let maxima = maxima(self.floor.areas, levels) * passes;
+        self.pocketed.maxima = Some(maxima);
+        let first = listings.first().map_or(0, |(listing, _)| count(listing));
+        if first > maxima {
+            let message = format!(
+                "the tool comes down {first} times, and {maxima} would do: once in each pass where the area is widest"
+            );
+            self.pocketed.findings.push(Finding::new("pocket-plunges", Severity::Warning, message));
+        }
+    }
+}
+
+/// Whether where a step ends all under the tool was swept before, no less deep than `least`.
+fn is_clear(step: &Step, least: f64, sweeps: &Sweeps) -> bool {
+    let (x, y) = step.ends[1];
+    let off = step.radius * 0.97;
+    let slant = off * std::f64::consts::FRAC_1_SQRT_2;
+    let round = [
+        (0.0, 0.0),
+        (off, 0.0),
+        (slant, slant),
+        (0.0, off),
+        (-slant, slant),
+        (-off, 0.0),
+        (-slant, -slant),
+        (0.0, -off),
+        (slant, -slant),
+    ];
+    round.into_iter().all(|(right, up)| sweeps.clear((x + right, y + up), least, step.order))
+}
+
+/// A piece that is smaller is none, in nanometres.
+const SMALL: Nm = Nm::from_um(4);
+
+/// How many pieces of areas, offset inwards to rising levels, have none of the next level in them.
+fn maxima(areas: &[Polygon], levels: &[f64]) -> usize {
+    let mut count = 0;
+    for area in areas {
+        let mut before: Vec<Polygon> = Vec::new();
+        for (number, &level) in levels.iter().enumerate() {
+            let mut pieces = offset(area, -Nm::from_f64(level), FLATTEN);
+            pieces.retain(|piece| {
+                let bounds = piece.bounds();
+                number == 0 || bounds.width().max(bounds.height()) >= SMALL
+            });
+            let holds = |outer: &Polygon| pieces.iter().any(|piece| outer.contains(piece.contours()[0][0]));
+            count += before.iter().filter(|outer| !holds(outer)).count();
+            if pieces.is_empty() {
+                before.clear();
+                break;
+            }
+            before = pieces;
+        }
+        count += before.len();
+    }
+    count
+}

@@ -1,0 +1,370 @@
+//! Pockets: what programs leave and cut beside areas, how often the tool comes down, and spoilt
+//! programs that are found out.
+
+use std::path::PathBuf;
+
+use voromill::board::polarity::{difference, offset, union};
+use voromill::geometry::{Nm, Point, Polygon, Rect};
+use voromill::import::text::text;
+use voromill::job::{Art, Options, Pocket, Pocketing, Settings, pocket};
+use voromill::toolpath::Angle;
+use voromill::toolpath::strategy::Sequence;
+
+use crate::medial_axis::{capitals, random_areas};
+
+/// How far apart rows are looked at.
+const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 20 } else { 5 }));
+
+fn how() -> Pocketing {
+    Pocketing {
+        step: None,
+        stepover: "40%".parse().expect("a part"),
+        stock: Nm::ZERO,
+        sequence: Sequence::InsideOut,
+        ramp: Angle::from_degrees(3),
+        raised: None,
+    }
+}
+
+fn settings(tool: &str, depth: &str) -> Settings {
+    let tool = vec![tool.parse().expect("a tool")];
+    let depth = Some(depth.parse().expect("a length"));
+    Settings::resolve(Options { tool, depth, ..Options::default() }).expect("settings")
+}
+
+fn pocketed(name: &str, areas: Vec<Polygon>, tool: &str, how: &Pocketing) -> Pocket {
+    let art = Art { name: name.to_owned(), areas, ..Art::default() };
+    pocket(art, &settings(tool, "1mm"), how).expect("a program")
+}
+
+fn rectangle([left, bottom, right, top]: [i64; 4]) -> Polygon {
+    let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
+    Polygon::rectangle(Rect::new(at(left, bottom), at(right, top)))
+}
+
+fn disc(radius: i64) -> Polygon {
+    Polygon::disc(Point::default(), Nm::from_um(radius), Nm::new(250)).expect("a disc")
+}
+
+/// Two squares with a passage between them, and an island in one.
+fn dumbbell() -> Vec<Polygon> {
+    let whole = union(&[
+        rectangle([0, 0, 8000, 8000]),
+        rectangle([12_000, 0, 20_000, 8000]),
+        rectangle([7900, 3000, 12_100, 5000]),
+    ]);
+    whole.iter().flat_map(|area| difference(area, &[rectangle([3000, 3500, 4200, 4700])])).collect()
+}
+
+/// Nothing is found, and the tool comes down as often as it need.
+fn check(name: &str, made: &Pocket) {
+    let judged = made.verify(PITCH).expect("a program");
+    assert_eq!(judged.findings, [], "{name}");
+    assert_eq!(made.entries.unlinked, 0, "{name}: all loops are linked");
+    assert_eq!(Some(judged.plunges), judged.maxima, "{name}: plunges");
+    assert_eq!(judged.plunges, made.entries.all, "{name}: plunges are told");
+    assert!(judged.overcut <= 2_000.0, "{name}: {} nm beyond an edge", judged.overcut);
+}
+
+#[test]
+fn letters_are_milled_without_residue() {
+    let every = if cfg!(debug_assertions) { 29 } else { 1 };
+    for (number, (name, areas)) in capitals().step_by(every).enumerate() {
+        let stepover = ["40%", "25%", "50%"][number % 3].parse().expect("a part");
+        check(&name, &pocketed(&name, areas, "endmill:0.3mm", &Pocketing { stepover, ..how() }));
+    }
+}
+
+#[test]
+fn random_areas_are_milled_without_residue() {
+    let seeds = if cfg!(debug_assertions) { 6 } else { 200 };
+    for seed in 0..seeds {
+        let areas = random_areas(seed, if seed % 2 == 0 { 1 } else { 250_000 });
+        let sequence = if seed % 3 == 2 { Sequence::OutsideIn } else { Sequence::InsideOut };
+        let stock = if seed % 2 == 0 { Nm::ZERO } else { Nm::from_um(50) };
+        let how = Pocketing { sequence, stock, ..how() };
+        check(&format!("seed {seed}"), &pocketed("random", areas, "endmill:0.5mm", &how));
+    }
+}
+
+/// How many places of areas are farther from the edge than all round them, by offsets 100 µm apart.
+fn summits(areas: &[Polygon], wall: i64) -> usize {
+    let mut levels: Vec<Vec<Polygon>> = Vec::new();
+    loop {
+        let by = Nm::from_um(wall) + Nm::from_um(100) * i64::try_from(levels.len()).expect("few");
+        let pieces: Vec<Polygon> = areas.iter().flat_map(|area| offset(area, -by, Nm::new(250))).collect();
+        if pieces.is_empty() {
+            break;
+        }
+        levels.push(pieces);
+    }
+    let none = Vec::new();
+    let above = levels.iter().skip(1).chain([&none]);
+    let is_top = |piece: &Polygon, above: &[Polygon]| {
+        above.iter().all(|higher| !piece.contains(higher.contours()[0][0]))
+    };
+    levels
+        .iter()
+        .zip(above)
+        .map(|(level, above)| level.iter().filter(|piece| is_top(piece, above)).count())
+        .sum()
+}
+
+#[test]
+fn the_tool_comes_down_once_for_each_place_that_is_farthest_from_the_edge() {
+    let ring = difference(&disc(5000), &[disc(2000)]);
+    let shapes: [(&str, Vec<Polygon>, usize); 5] = [
+        ("a square", vec![rectangle([0, 0, 8000, 8000])], 1),
+        ("a long one", vec![rectangle([0, 0, 18_000, 4000])], 1),
+        ("a disc", vec![disc(4000)], 1),
+        ("a ring", ring, 1),
+        (
+            "two discs and a passage",
+            union(&[disc(4000), rectangle([0, -700, 12_000, 700]), rectangle([9000, -3000, 15_000, 3000])]),
+            2,
+        ),
+    ];
+    for (name, areas, expected) in shapes {
+        assert_eq!(summits(&areas, 537), expected, "{name}: what brute force counts");
+        let made = pocketed(name, areas, "endmill:1mm", &how());
+        check(name, &made);
+        assert_eq!(made.entries.all, expected, "{name}");
+    }
+    // Two places may lie so near that one loop runs round both.
+    let made = pocketed("a dumbbell", dumbbell(), "endmill:1mm", &how());
+    check("a dumbbell", &made);
+    assert!((2..=summits(&dumbbell(), 537)).contains(&made.entries.all), "{} plunges", made.entries.all);
+}
+
+#[test]
+fn what_is_just_as_wide_as_the_tool_is_milled() {
+    let slot = pocketed("slot", vec![rectangle([0, 0, 9000, 1000])], "endmill:1mm", &how());
+    check("slot", &slot);
+    assert_eq!((slot.entries.all, slot.entries.straight), (1, 0), "down along it");
+    let hole = pocketed("hole", vec![disc(500)], "endmill:1mm", &how());
+    check("hole", &hole);
+    assert_eq!(hole.entries.straight, 1, "no room but to go straight down");
+    assert_eq!(hole.warnings.iter().map(|found| found.code).collect::<Vec<_>>(), ["plunge-straight-down"]);
+}
+
+#[test]
+fn passes_and_both_orders_end_at_the_same_floor() {
+    for (sequence, stock) in [
+        (Sequence::InsideOut, Nm::ZERO),
+        (Sequence::InsideOut, Nm::from_um(100)),
+        (Sequence::OutsideIn, Nm::ZERO),
+        (Sequence::OutsideIn, Nm::from_um(100)),
+    ] {
+        let once = Pocketing { sequence, stock, ..how() };
+        let [once, thrice] = [once.clone(), Pocketing { step: Some(Nm::from_um(400)), ..once }]
+            .map(|how| pocketed("dumbbell", dumbbell(), "endmill:1mm", &how));
+        check(&format!("{sequence:?} with {stock:?}"), &thrice);
+        assert_eq!(thrice.entries.all, 3 * once.entries.all, "{sequence:?} with {stock:?}");
+        assert!(sequence == Sequence::InsideOut || once.entries.all == 1, "once for each area");
+    }
+}
+
+#[test]
+fn what_stands_is_left() {
+    let letter = text(dejavu::sans::bold(), "A", Nm::from_mm(6)).expect("a letter");
+    let made = pocketed("A", letter, "endmill:0.5mm", &Pocketing { raised: Some(Nm::from_mm(2)), ..how() });
+    check("round a letter", &made);
+}
+
+/// Which way a tool goes round: the area that its cuts at full depth enclose, counter-clockwise
+/// positive.
+fn turning(direction: &str, sequence: Sequence) -> f64 {
+    let direction = Some(clap::ValueEnum::from_str(direction, false).expect("a direction"));
+    let tool = vec!["endmill:1mm".parse().expect("a tool")];
+    let settings = Settings::resolve(Options { tool, direction, ..Options::default() }).expect("settings");
+    let art = Art { name: "square".to_owned(), areas: vec![rectangle([0, 0, 6000, 6000])], ..Art::default() };
+    let made = pocket(art, &settings, &Pocketing { sequence, ..how() }).expect("a program");
+    let moves = made.programs[0].program.sections[0].moves.iter();
+    let places: Vec<(f64, f64)> = moves.filter_map(|step| step.to()).map(|to| to.point().to_f64()).collect();
+    // The last loop ends the program.
+    let last = &places[places.len() - 6..];
+    last.windows(2).map(|pair| pair[0].0 * pair[1].1 - pair[1].0 * pair[0].1).sum()
+}
+
+#[test]
+fn climb_has_the_wall_on_the_right() {
+    assert!(turning("climb", Sequence::InsideOut) > 0.0, "counter-clockwise along the edge");
+    assert!(turning("conventional", Sequence::InsideOut) < 0.0, "clockwise");
+}
+
+/// Changes every line of a program that `change` does not leave as it is, told how many cuts came
+/// before.
+fn lines(text: &str, mut change: impl FnMut(&str, usize) -> Option<String>) -> String {
+    let mut cut = 0;
+    let line = |line: &str| {
+        cut += usize::from(is_cut(line));
+        change(line, cut).map(|line| line + "\n").unwrap_or_default()
+    };
+    text.lines().map(line).collect()
+}
+
+fn is_cut(line: &str) -> bool {
+    ["G1 X", "G1 Y", "G2 ", "G3 "].iter().any(|start| line.starts_with(start))
+}
+
+/// The number after a letter of a line, changed.
+fn word(line: &str, letter: char, change: impl Fn(f64) -> f64) -> String {
+    let code = !line.starts_with('(') && !line.starts_with(';');
+    let Some(at) = line.find(letter).filter(|_| code) else { return line.to_owned() };
+    let rest = &line[at + 1..];
+    let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(rest.len());
+    let Ok(number) = rest[..end].parse::<f64>() else { return line.to_owned() };
+    format!("{}{letter}{:.4}{}", &line[..at], change(number), &rest[end..])
+}
+
+#[test]
+fn kinds_of_spoiling_are_found() {
+    let how = Pocketing { step: Some(Nm::from_um(500)), ..how() };
+    let made = pocketed("dumbbell", dumbbell(), "endmill:1mm", &how);
+    let judge = |text: &str| {
+        let judged = made.judge(&[("it", text)], PITCH);
+        judged.map_or(vec!["unreadable"], |judged| judged.findings.iter().map(|found| found.name).collect())
+    };
+    let text = made.programs[0].text.as_str();
+    assert_eq!(judge(text), [""; 0], "nothing is wrong with it as it is");
+    let each = |letter: char, change: fn(f64) -> f64| lines(text, |line, _| Some(word(line, letter, change)));
+    let all = text.lines().filter(|line| is_cut(line)).count();
+    let half = all / 2;
+    let spoilt: [(&str, String, &str); 19] = [
+        ("moved to the right", each('X', |x| x + 0.02), "pocket-overcut"),
+        ("moved down", each('Y', |y| y - 0.02), "pocket-overcut"),
+        ("a hundredth larger", each('X', |x| x * 1.01), ""),
+        ("a hundredth smaller", each('X', |x| x * 0.99), ""),
+        ("mirrored", each('X', |x| -x), ""),
+        ("zero too high", each('Z', |z| if z < 0.0 { z + 0.03 } else { z }), "pocket-residue"),
+        ("zero too low", each('Z', |z| if z < 0.0 { z - 0.03 } else { z }), "pocket-too-deep"),
+        ("twice as deep", each('Z', |z| if z < 0.0 { 2.0 * z } else { z }), "pocket-too-deep"),
+        (
+            "the first pass left out",
+            text.lines().map(|line| word(line, 'Z', |z| if z < 0.0 { -1.0 } else { z }) + "\n").collect(),
+            "pocket-pass-too-thick",
+        ),
+        ("never below the surface", each('Z', |z| z.max(0.0)), "pocket-residue"),
+        (
+            "a stretch above the work",
+            lines(text, |line, n| {
+                let turns = is_cut(line) && (n == all - 40 || n == all - 30);
+                let z = if n == all - 40 { "G1 Z1" } else { "G1 Z-1" };
+                Some(if turns { format!("{z}\n{line}") } else { line.to_owned() })
+            }),
+            "pocket-residue",
+        ),
+        (
+            "the second half left out",
+            lines(text, |line, n| (n <= half || !is_cut(line)).then(|| line.to_owned())),
+            "pocket-residue",
+        ),
+        (
+            "a link through the island",
+            text.replacen("G0 Z2\nG0 X", "G1 X3.6 Y4.1\nG0 Z2\nG0 X", 6),
+            "pocket-overcut",
+        ),
+        ("arcs the other way", text.replace("G2 ", "G9 ").replace("G3 ", "G2 ").replace("G9 ", "G3 "), ""),
+        (
+            "a plunge instead of a helix",
+            lines(text, |line, _| {
+                let is_helix = line.starts_with("G3 ") && line.contains('Z');
+                let depth = line.split('Z').nth(1).and_then(|rest| rest.split(' ').next());
+                Some(if is_helix { format!("G1 Z{}", depth.unwrap_or_default()) } else { line.to_owned() })
+            }),
+            "pocket-plunge-too-steep",
+        ),
+        (
+            "lifted for nothing",
+            lines(text, |line, n| {
+                let lifts = is_cut(line) && !line.contains('Z') && n % 50 == 0;
+                Some(if lifts { format!("{line}\nG0 Z2\nG1 Z-1") } else { line.to_owned() })
+            }),
+            "pocket-plunges",
+        ),
+        (
+            "a lift left out",
+            {
+                let mut seen = 0;
+                lines(text, |line, _| {
+                    seen += usize::from(line == "G0 Z2");
+                    (line != "G0 Z2" || seen != 3).then(|| line.to_owned())
+                })
+            },
+            "rapid-in-material",
+        ),
+        (
+            "the spindle off",
+            lines(text, |line, _| (!line.starts_with("M3")).then(|| line.to_owned())),
+            "plunge-spindle-off",
+        ),
+        ("inches", text.replace("G21", "G20"), "pocket-overcut"),
+    ];
+    for (how, spoilt, expected) in spoilt {
+        assert_ne!(spoilt, text, "{how}: it is changed");
+        let found = judge(&spoilt);
+        assert!(
+            if expected.is_empty() { !found.is_empty() } else { found.contains(&expected) },
+            "{how}: {expected} is not among {found:?}"
+        );
+    }
+}
+
+#[test]
+fn another_tool_than_the_one_planned_for_is_found() {
+    let planned = pocketed("dumbbell", dumbbell(), "endmill:1mm", &how());
+    for (other, expected) in [("endmill:0.9mm", "pocket-residue"), ("endmill:1.1mm", "pocket-overcut")] {
+        let fitted = pocketed("dumbbell", dumbbell(), other, &how());
+        let found =
+            fitted.judge(&[("it", planned.programs[0].text.as_str())], PITCH).expect("a program").findings;
+        assert!(found.iter().any(|found| found.name == expected), "{other}: {found:?}");
+    }
+}
+
+fn voromill(arguments: &[&str]) -> std::process::Output {
+    let program = PathBuf::from(env!("CARGO_BIN_EXE_voromill"));
+    std::process::Command::new(program).args(arguments).output().expect("it runs")
+}
+
+#[test]
+fn a_drawing_becomes_a_program_that_passes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let drawing = "<svg xmlns='http://www.w3.org/2000/svg' width='12mm' height='8mm' viewBox='0 0 12 8'>\
+        <path fill='black' d='M0 0H12V8H0Z'/></svg>";
+    std::fs::write(path("plate.svg"), drawing).expect("a drawing");
+    let (plate, program, picture) = (path("plate.svg"), path("plate.ngc"), path("plate.png"));
+    let wanted = ["pocket", &plate, "--tool", "endmill:2mm", "--depth", "1mm"];
+    let made = voromill(&[&wanted[..], &["-o", &program, "--picture", &picture]].concat());
+    let said = String::from_utf8_lossy(&made.stdout).into_owned();
+    assert!(made.status.success(), "{said}{}", String::from_utf8_lossy(&made.stderr));
+    assert!(said.contains("1 plunge") && said.contains("0.0000 mm² are left"), "{said}");
+    assert_eq!(std::fs::read(&picture).expect("a picture")[1..4], *b"PNG", "what it looks like");
+    let checked = voromill(&[&wanted[..], &["--check", &program]].concat());
+    assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stdout));
+    let text = std::fs::read_to_string(&program).expect("a program");
+    std::fs::write(&program, text.replace("Z-1", "Z-1.1")).expect("spoilt");
+    let checked = voromill(&[&wanted[..], &["--check", &program, "--json"]].concat());
+    let said = String::from_utf8_lossy(&checked.stdout).into_owned();
+    assert_eq!(checked.status.code(), Some(1), "{said}");
+    assert!(said.contains("pocket-too-deep"), "{said}");
+}
+
+#[test]
+fn what_makes_no_sense_is_refused() {
+    let layer = "fixtures/gerber/clear_polarity.gbr";
+    for (arguments, expected) in [
+        (&["--tool", "vbit:0.1mm:30deg"][..], "is no end mill"),
+        (&["--tool", "endmill:1mm", "--stepover", "60%"], "half the tool's diameter"),
+        (&["--tool", "endmill:1mm", "--stepover", "0mm"], "half the tool's diameter"),
+        (&["--tool", "endmill:1mm", "--stock", "0.6mm"], "half the tool's diameter"),
+        (&["--tool", "endmill:1mm", "--ramp", "0deg"], "above 0deg"),
+        (&["--tool", "endmill:1mm", "--depth-pass", "0mm"], "above zero"),
+        (&["--tool", "endmill:9.8mm"], "narrower than"),
+        (&["--tool", "endmill:1mm", "--width", "1mm"], "changes nothing"),
+    ] {
+        let refused = voromill(&[&["pocket", layer, "-o", "-"], arguments].concat());
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(refused.status.code() == Some(2) && said.contains(expected), "{arguments:?}: {said}");
+    }
+}
