@@ -87,7 +87,7 @@ fn random_areas_are_milled_without_residue() {
     }
 }
 
-/// How many places of areas are farther from the edge than all round them, by offsets 100 µm apart.
+/// How many places of areas are farther from the edge than all round them, by offsets 0.1 mm apart.
 fn summits(areas: &[Polygon], wall: i64) -> usize {
     let mut levels: Vec<Vec<Polygon>> = Vec::new();
     loop {
