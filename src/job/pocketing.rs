@@ -7,7 +7,7 @@ use crate::toolpath::strategy::{self, Entries, Levels, Sequence};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Tool, ToolKind};
 use crate::verify::carving::Text;
 use crate::verify::pocketing::{self, Floor, Pocketed};
-use crate::voronoi::nest::Nest;
+use crate::voronoi::medial::nest::Nest;
 
 use super::art::{self, Art, OneTool, placed, round, written};
 use super::{CARVING_OPTIONS, Error, Length, Overlap, Settings};

@@ -37,7 +37,6 @@ mod measure;
 pub mod medial;
 mod mixed;
 mod near;
-pub mod nest;
 mod overlooked;
 pub mod paper;
 mod part;

@@ -16,6 +16,7 @@
 //! disc at its root does not cover the discs along it.
 
 mod joining;
+pub mod nest;
 mod pruning;
 
 use rayon::prelude::*;
@@ -107,7 +108,7 @@ impl MedialAxis {
 }
 
 /// The diagram of an area with the fewest faults: of the area as it is, unless that has any.
-pub(super) fn flawless(area: &Polygon) -> Diagram {
+fn flawless(area: &Polygon) -> Diagram {
     let mut best = inside(area);
     for attempt in 1..=ATTEMPTS {
         if best.faults().is_empty() {

@@ -12,7 +12,7 @@ use std::collections::BinaryHeap;
 
 use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
-use crate::voronoi::nest::Nest;
+use crate::voronoi::medial::nest::Nest;
 
 use super::course::{Course, Spot, between, distance, part_nearest};
 

@@ -26,7 +26,7 @@ use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Angle, Direction, Heights, Position, Section, Tool};
 use crate::voronoi::fit_points;
-use crate::voronoi::nest::Nest;
+use crate::voronoi::medial::nest::Nest;
 
 use course::Spot;
 use links::Links;

@@ -9,7 +9,7 @@
 //!   └───────────────────────────┘
 //! ```
 //!
-//! The loops are those of the certified [diagram](super::exact) ([`Diagram::level_set`]), and the
+//! The loops are those of the certified [diagram](crate::voronoi::exact) ([`Diagram::level_set`]), and the
 //! summits its vertices. Who goes from a place of a loop straight to the nearest edge comes to a
 //! loop of the level below: on such spokes loops are linked. Where the diagram of an area has a
 //! flaw, its loops are offsets by exact booleans instead.
@@ -19,11 +19,11 @@
 
 use rayon::prelude::*;
 
-use super::exact::Diagram;
-use super::medial::{Place, flawless};
+use super::{Place, flawless};
 use crate::board::FLATTEN;
 use crate::board::polarity::offset;
 use crate::geometry::{Nm, Point, Polygon};
+use crate::voronoi::exact::Diagram;
 
 /// A closed curve along which the clearance is that of a level.
 #[derive(Clone, Debug, PartialEq)]
