@@ -9,10 +9,10 @@
 //!   └───────────────────────────┘
 //! ```
 //!
-//! The loops are those of the certified [diagram](crate::voronoi::exact) ([`Diagram::level_set`]), and the
-//! summits its vertices. Who goes from a place of a loop straight to the nearest edge comes to a
-//! loop of the level below: on such spokes loops are linked. Where the diagram of an area has a
-//! flaw, its loops are offsets by exact booleans instead.
+//! The loops are those of the certified [diagram](crate::voronoi::exact)
+//! ([`Diagram::level_set`]), and the summits its vertices. Who goes from a place of a loop straight
+//! to the nearest edge comes to a loop of the level below: on such spokes loops are linked. Where
+//! the diagram of an area has a flaw, its loops are offsets by exact booleans instead.
 //!
 //! M. Held, *On the Computational Geometry of Pocket Machining*, LNCS 500, Springer 1991, ch. 4 and
 //! 5 (offset loops, their tree, and what links them).
