@@ -7,7 +7,7 @@ use voromill::artwork::Figure;
 use voromill::board::{Board, Shape};
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::drawing::{self, Drawing, Options, Unit};
-use voromill::import::{Loaded, Selection, load};
+use voromill::import::{Loaded, Selection, load, svg};
 use voromill::job::{self, Options as JobOptions, Settings};
 
 fn fixture(name: &str) -> PathBuf {
@@ -203,6 +203,35 @@ fn what_is_damaged_says_where() {
     let broken = b"<svg xmlns='http://www.w3.org/2000/svg'><g></svg>";
     let error = drawing::read("x.svg", broken, &Options::default()).expect_err("not closed").to_string();
     assert!(error.starts_with("x.svg:1:"), "{error}");
+    for (text, place) in [("", "x.svg:1:1:"), ("\n", "x.svg:1:1:"), ("<svg>\r\n <g></b>", "x.svg:2:5:")] {
+        let error = svg::read("x.svg", text.as_bytes(), &Options::default()).expect_err("no drawing");
+        assert!(error.to_string().starts_with(place), "where {text:?} ends: {error}");
+    }
+}
+
+#[test]
+fn a_block_in_itself_is_drawn_once() {
+    let drawing = read(&fixture("block_in_itself.dxf"), &Options::default()).expect("read");
+    assert_eq!(drawing.source.counts["figures"], 1, "the pad of the one insert in the model");
+    let told = format!("{:?}", drawing.warnings);
+    assert!(told.contains("2 inserts in a block that is in itself"), "{told}");
+    // Each block inserts the one before twice: a million pads, each as wide as it is long.
+    let text = std::fs::read_to_string(fixture("block_in_itself.dxf")).expect("readable");
+    let insert = |name: &str| format!("0\nINSERT\n8\nF.Cu\n2\n{name}\n10\n1\n20\n1\n");
+    let blocks: String = (0..20)
+        .map(|n| {
+            let block = format!("0\nBLOCK\n8\n0\n2\nB{}\n70\n0\n10\n0\n20\n0\n30\n0\n", n + 1);
+            let inner = if n == 0 { insert("PAD") } else { insert(&format!("B{n}")).repeat(2) };
+            format!("{block}{inner}0\nENDBLK\n8\n0\n")
+        })
+        .collect();
+    let many = text.replacen(
+        "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
+        &format!("{blocks}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}", insert("B20")),
+        1,
+    );
+    let error = drawing::read("many.dxf", many.as_bytes(), &Options::default()).expect_err("too many");
+    assert!(error.to_string().contains("four million lines and arcs"), "{error}");
 }
 
 #[test]

@@ -17,8 +17,10 @@ use crate::import::drawing::{Contour, Place};
 /// How deep inserts may lie in each other.
 const DEEPEST: usize = 24;
 
-/// The most entities, inserted ones each time they are. Chosen: a gigabyte of them.
+/// The most entities, inserted ones each time they are, and the most lines and arcs of them all.
+/// Chosen: some hundred megabytes of them.
 const MOST: usize = 2_000_000;
+const MOST_STEPS: usize = 4_000_000;
 
 /// Why a drawing is not read.
 #[derive(Debug)]
@@ -42,6 +44,7 @@ pub(super) struct Sheet {
     /// What was not, by what it is.
     pub(super) left_out: BTreeMap<String, u64>,
     drawn: usize,
+    steps: usize,
 }
 
 /// Where an entity stands.
@@ -50,13 +53,14 @@ struct Scope {
     frame: Frame,
     /// The layer of the insert, which what is on layer 0 of a block takes.
     layer: String,
-    depth: usize,
+    /// The blocks that it lies in.
+    within: Vec<String>,
 }
 
 /// The figures of all entities.
 pub(super) fn drawn(dxf: &Dxf<'_>, nanometres: f64) -> Result<Sheet, Refusal> {
     let mut drawn = Sheet::default();
-    let scope = Scope { frame: Frame::scale(nanometres), layer: "0".to_owned(), depth: 0 };
+    let scope = Scope { frame: Frame::scale(nanometres), layer: "0".to_owned(), within: Vec::new() };
     for entity in &dxf.entities {
         if entity.whole(67)? == 1 {
             drawn.leave("entities of the paper's space");
@@ -87,7 +91,7 @@ impl Sheet {
             return Ok(());
         };
         if entity.kind == "INSERT" {
-            return self.insert(dxf, entity, &frame, layer, scope.depth);
+            return self.insert(dxf, entity, &frame, layer, &scope.within);
         }
         if entity.kind == "HATCH" && entity.whole(70)? == 0 {
             self.leave("patterns of hatches, which are filled instead");
@@ -106,6 +110,10 @@ impl Sheet {
         for figure in figures {
             let drawn = figure.map_err(|Beyond| Refusal::Beyond(entity.at))?;
             let figure = Figure { drawn, polarity: Polarity::Dark, line: entity.line };
+            self.steps += steps(&figure);
+            if self.steps > MOST_STEPS {
+                return Err(Refusal::TooMany);
+            }
             self.layer(&layer).push(figure);
         }
         Ok(())
@@ -118,7 +126,7 @@ impl Sheet {
         entity: &Entity<'_>,
         frame: &Frame,
         layer: String,
-        depth: usize,
+        within: &[String],
     ) -> Result<(), Refusal> {
         for part in &entity.parts {
             self.leave(&part.kind);
@@ -128,10 +136,11 @@ impl Sheet {
             self.leave("inserts of a block that the file lacks");
             return Ok(());
         };
-        if depth >= DEEPEST {
+        if within.len() >= DEEPEST || within.contains(&name) {
             self.leave("inserts in a block that is in itself");
             return Ok(());
         }
+        let within = [within, &[name]].concat();
         let at = entity.point(10)?;
         let scale = (entity.real_or(41, 1.0)?, entity.real_or(42, 1.0)?);
         let angle = entity.real_or(50, 0.0)?;
@@ -148,7 +157,7 @@ impl Sheet {
                 let (dx, dy) = (column as f64 * across, row as f64 * up);
                 let place = (at.0 + dx * cos - dy * sin, at.1 + dx * sin + dy * cos);
                 let frame = frame.inserted(place, scale, angle, block.base);
-                let scope = Scope { frame, layer: layer.clone(), depth: depth + 1 };
+                let scope = Scope { frame, layer: layer.clone(), within: within.clone() };
                 for entity in &block.entities {
                     self.entity(dxf, entity, &scope)?;
                 }
@@ -164,6 +173,15 @@ impl Sheet {
         });
         &mut self.layers[at].figures
     }
+}
+
+/// Of how many lines and arcs a figure is made.
+fn steps(figure: &Figure) -> usize {
+    let painted = match &figure.drawn {
+        Drawn::Line(line) => line.painted.as_ref().map_or(&[][..], |area| &area.contours),
+        Drawn::Area(_) => &[],
+    };
+    figure.paths().iter().chain(painted).map(|path| path.segments.len()).sum()
 }
 
 /// A place that lies beyond the range of coordinates.

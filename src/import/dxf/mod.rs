@@ -76,7 +76,8 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
             Error::syntax(name, bytes, at..at + 1, what, "a place within 1073 mm", hint)
         }
         Refusal::TooMany => {
-            Error::content(name, "the drawing has more than two million entities", "insert fewer blocks")
+            let what = "the drawing has more than two million entities, or four million lines and arcs";
+            Error::content(name, what, "insert fewer blocks")
         }
     })?;
     let left_out: Vec<String> =

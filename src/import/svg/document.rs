@@ -172,8 +172,9 @@ fn parse<'a>(name: &str, text: &'a str) -> Result<roxmltree::Document<'a>, Error
     };
     roxmltree::Document::parse_with_options(text, options).map_err(|error| {
         let place = error.pos();
-        let line = text.lines().nth(place.row.saturating_sub(1) as usize).unwrap_or_default();
-        let start = line.as_ptr() as usize - text.as_ptr() as usize;
+        let before = text.split_inclusive('\n').take(place.row.saturating_sub(1) as usize);
+        let start: usize = before.map(str::len).sum();
+        let line = text[start..].lines().next().unwrap_or_default();
         let column = line.char_indices().nth(place.col.saturating_sub(1) as usize).map_or(0, |(at, _)| at);
         let at = start + column;
         let what = format!("the XML is broken: {error}");
