@@ -86,7 +86,7 @@ fn crowd(kind: &str, count: u32, board: &Path) -> String {
         from + (to - from) * share
     };
     let mut text =
-        "(front isolation)\n(origin keep)\n(tool endmill:0.2mm)\nG21 G90 G17 F100\nM3 S1000\nG0 Z2\n"
+        "(crowd front isolation)\n(origin keep)\n(tool endmill:0.2mm)\nG21 G90 G17 F100\nM3 S1000\nG0 Z2\n"
             .to_owned();
     for _ in 0..count {
         let ends = [0, 1].map(|_| {

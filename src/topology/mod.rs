@@ -25,6 +25,7 @@
 
 mod coincidence;
 mod contact;
+mod density;
 mod differences;
 mod electrical;
 mod extent;

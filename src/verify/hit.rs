@@ -38,7 +38,15 @@ pub(super) struct Hits {
     pub(super) faint: usize,
     /// Of nets that more cuts reach into than are looked at one by one, how many do; the deepest
     /// are among `all`.
-    pub(super) many: BTreeMap<NetId, usize>,
+    pub(super) many: BTreeMap<NetId, Many>,
+}
+
+/// How many cuts reach into a net.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Many {
+    pub(super) count: usize,
+    /// Whether there may be more: of a net of which nothing is left it does not matter.
+    pub(super) or_more: bool,
 }
 
 /// Cuts into a net that are looked at one by one: of a net of which nothing is left, and of one of
@@ -53,9 +61,16 @@ impl Hits {
     pub(super) fn new(sheet: &Sheet<'_>, lost: &BTreeSet<NetId>, tolerance: Nm) -> Self {
         let mut hits = Self::default();
         let mut nets: BTreeMap<NetId, (usize, Vec<Hit>)> = BTreeMap::new();
+        // Lost nets that many cuts reach into: how many more do is not asked.
+        let mut closed: BTreeSet<NetId> = BTreeSet::new();
         for first in (0..sheet.cuts.len()).step_by(CHUNK) {
+            let enough = |(net, (count, _)): (&NetId, &(usize, _))| lost.contains(net) && *count > MANY[0];
+            closed.extend(nets.iter().filter(|net| enough(*net)).map(|(net, _)| *net));
+            if closed.len() == sheet.nets.nets().len() {
+                break;
+            }
             let chunk = first..(first + CHUNK).min(sheet.cuts.len());
-            let taken = |index: usize| taken(sheet, index, &sheet.cuts[index], tolerance);
+            let taken = |index: usize| taken(sheet, index, &closed, tolerance);
             let found: Vec<Hit> = chunk.into_par_iter().flat_map_iter(taken).collect();
             for hit in found {
                 let kerf = sheet.cuts[hit.cut].swept.half().to_f64() * 2.0;
@@ -77,7 +92,7 @@ impl Hits {
             if count > most {
                 // Where nothing is left one is enough.
                 deepest(&mut own, if lost.contains(&net) { 1 } else { most });
-                hits.many.insert(net, count);
+                hits.many.insert(net, Many { count, or_more: closed.contains(&net) });
             }
             hits.all.extend(own);
         }
@@ -105,11 +120,14 @@ pub(super) fn clusters(hits: &[Hit]) -> impl Iterator<Item = &[Hit]> {
     })
 }
 
-/// The nets that a piece of a cut takes copper of, each once, at its deepest.
-fn taken(sheet: &Sheet<'_>, index: usize, cut: &Cut<'_>, tolerance: Nm) -> Vec<Hit> {
+/// The nets that a piece of a cut takes copper of, each once, at its deepest; those that are
+/// `closed` are not looked at.
+fn taken(sheet: &Sheet<'_>, index: usize, closed: &BTreeSet<NetId>, tolerance: Nm) -> Vec<Hit> {
+    let cut = sheet.cuts[index];
     let half = cut.swept.half();
     let mut hits: Vec<Hit> = Vec::new();
-    for near in sheet.proximity.near(&cut.swept.axis(), half - tolerance) {
+    let is_open = |feature: usize| closed.is_empty() || !closed.contains(&sheet.nets.of(feature));
+    for near in sheet.proximity.near_of(&cut.swept.axis(), half - tolerance, is_open) {
         let net = sheet.nets.of(near.feature);
         let depth = half.to_f64() - near.width;
         let known = hits.iter().position(|other| other.net == net);

@@ -75,15 +75,34 @@ impl Ruling {
         match shape {
             Shape::Disc { center, radius } => {
                 let disc = Disc { center: self.local(*center), radius: radius.to_f64() };
-                self.each(lines, |v, found| found(disc.chord(v)), chord);
+                self.one_each(lines, |v| disc.chord(v), chord);
             }
             Shape::Stroke { from, to, radius } => {
                 let capsule = Capsule::new(self.local(*from), self.local(*to), radius.to_f64());
-                self.each(lines, |v, found| found(capsule.chord(v)), chord);
+                self.one_each(lines, |v| capsule.chord(v), chord);
             }
             Shape::Arc { arc, radius } => self.arc(arc, *radius, lines, chord),
             Shape::Polygon(polygon) => self.polygon(polygon, lines, chord),
         }
+    }
+
+    /// From where to where along them `lines` may run through a shape, in nanometres; none where
+    /// they run past it.
+    pub(super) fn reach(&self, shape: &Shape, lines: Range<i64>) -> Option<(f64, f64)> {
+        let Shape::Stroke { from, to, radius } = shape else {
+            let along = shape.bounds().corners().map(|corner| self.local(corner).0);
+            return Some((
+                along.into_iter().fold(f64::INFINITY, f64::min),
+                along.into_iter().fold(f64::NEG_INFINITY, f64::max),
+            ));
+        };
+        let (a, b, room) = (self.local(*from), self.local(*to), radius.to_f64() + 1.0);
+        let share = |off: f64| (off - a.1) / (b.1 - a.1);
+        let (low, high) = (self.off(lines.start) - room, self.off(lines.end - 1) + room);
+        let (first, last) = if a.1 == b.1 { (0.0, 1.0) } else { (share(low), share(high)) };
+        let (first, last) = (first.min(last).max(0.0), first.max(last).min(1.0));
+        let [one, other] = [first, last].map(|share| a.0 + (b.0 - a.0) * share);
+        (first <= last).then_some((one.min(other) - room, one.max(other) + room))
     }
 
     fn local(&self, p: Point) -> Local {
@@ -96,6 +115,20 @@ impl Ruling {
     fn off(&self, line: i64) -> f64 {
         // A single line has no pitch.
         if line == 0 { 0.0 } else { line as f64 * self.pitch }
+    }
+
+    /// Asks for the one chord of each line.
+    fn one_each(
+        &self,
+        lines: Range<i64>,
+        stretch: impl Fn(f64) -> Option<(f64, f64)>,
+        chord: &mut impl FnMut(i64, f64, f64),
+    ) {
+        for line in lines {
+            if let Some((from, to)) = stretch(self.off(line)) {
+                chord(line, from, to);
+            }
+        }
     }
 
     /// Asks `chords` of each line.
@@ -217,9 +250,12 @@ impl Capsule {
     /// Both ends and what is between them are convex together, so that it is from the first of them
     /// to the last.
     fn chord(&self, v: f64) -> Option<(f64, f64)> {
-        let hull = |a: (f64, f64), b: (f64, f64)| (a.0.min(b.0), a.1.max(b.1));
         let [one, other] = self.ends.map(|end| end.chord(v));
-        one.into_iter().chain(other).chain(self.between(v)).reduce(hull)
+        let (mut from, mut to) = (f64::INFINITY, f64::NEG_INFINITY);
+        for (first, last) in [one, other, self.between(v)].into_iter().flatten() {
+            (from, to) = (from.min(first), to.max(last));
+        }
+        (from <= to).then_some((from, to))
     }
 
     /// Along the line, the distance along the way and that from it change evenly.

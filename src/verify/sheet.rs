@@ -141,10 +141,20 @@ impl<'a> Sheet<'a> {
         sheet.parts = milled::pieces(&sheet, &sheet.grid, narrower(sheet.pitch()));
         let lost = sheet.lost(settings);
         sheet.hits = Hits::new(&sheet, &lost, settings.gouge);
-        let crowded = |cut| sheet.walls.count(cut, settings.sliver, CROWD) >= CROWD;
-        sheet.crowded = (0..sheet.cuts.len()).into_par_iter().map(crowded).collect();
+        sheet.crowded = sheet.crowded(settings);
         sheet.remains = Remains::new(&sheet, &lost, settings);
         Ok(sheet)
+    }
+
+    /// Beside which cuts more than a [`CROWD`] of others run.
+    fn crowded(&self, settings: &Settings) -> Vec<bool> {
+        let mut order = self.walls.order();
+        order.retain(|&wall| wall < self.cuts.len());
+        let is_crowded = |&cut: &usize| self.walls.count(cut, settings.sliver, CROWD) >= CROWD;
+        let found: Vec<bool> = order.par_iter().map(is_crowded).collect();
+        let mut crowded = vec![false; self.cuts.len()];
+        order.into_iter().zip(found).for_each(|(cut, is_crowded)| crowded[cut] = is_crowded);
+        crowded
     }
 
     /// The nets of which nothing is left beyond doubt: no piece that the picture shows, which shows

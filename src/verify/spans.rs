@@ -15,7 +15,22 @@ pub(super) struct Spans {
     width: u32,
     first: u32,
     rows: Vec<Row>,
+    /// How many shapes were added.
+    added: u32,
+    full: Full,
 }
+
+/// Where shapes of one label have covered all rows: others of that label add nothing there.
+#[derive(Default)]
+struct Full {
+    label: u32,
+    /// By words of 64 columns; none where no word is full.
+    words: Vec<bool>,
+}
+
+/// After so many shapes it is looked where rows are full. Chosen: looking takes as long as adding a
+/// few.
+const LOOK: u32 = 256;
 
 impl Spans {
     /// Nothing yet, in `rows` of `grid`.
@@ -26,19 +41,60 @@ impl Spans {
             width: grid.width(),
             first: rows.start,
             rows: rows.map(|_| Row::default()).collect(),
+            added: 0,
+            full: Full::default(),
         }
     }
 
     /// Adds the pixels of a shape.
     pub(super) fn add(&mut self, shape: &Shape, label: u32) {
-        let Self { ruling, pitch, width, first, rows } = self;
-        let lines = i64::from(*first)..i64::from(*first) + i64::try_from(rows.len()).unwrap_or(0);
+        let lines =
+            i64::from(self.first)..i64::from(self.first) + i64::try_from(self.rows.len()).unwrap_or(0);
+        self.added += 1;
+        if self.added.is_multiple_of(LOOK) {
+            self.full = self.full();
+        }
+        if self.full.label == label && !self.full.words.is_empty() && self.is_full(shape, lines.clone()) {
+            return;
+        }
+        let Self { ruling, pitch, width, rows, .. } = self;
         ruling.rule(shape, lines.clone(), &mut |line, from, to| {
             let row = usize::try_from(line - lines.start).expect("one of these lines");
             if let Some(run) = run(from / *pitch, to / *pitch, *width) {
                 rows[row].add(Run { label, ..run }, *width);
             }
         });
+    }
+
+    /// Where all rows are full.
+    fn full(&self) -> Full {
+        let crowd = |row: &Row| row.crowd.as_ref().map(|crowd| crowd.label);
+        let Some(label) = self.rows.first().and_then(crowd) else { return Full::default() };
+        if self.rows.iter().any(|row| crowd(row) != Some(label)) {
+            return Full::default();
+        }
+        let count = (self.width as usize).div_ceil(64);
+        let whole = |word: usize| match word + 1 == count {
+            true => u64::MAX >> (63 - (self.width - 1) % 64),
+            false => u64::MAX,
+        };
+        let is_full = |word: usize| {
+            self.rows
+                .iter()
+                .filter_map(|row| row.crowd.as_ref())
+                .all(|crowd| crowd.words[word] == whole(word))
+        };
+        let words: Vec<bool> = (0..count).map(is_full).collect();
+        if words.contains(&true) { Full { label, words } } else { Full::default() }
+    }
+
+    /// Whether all pixels that a shape may have in these rows are full.
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the row")]
+    fn is_full(&self, shape: &Shape, lines: Range<i64>) -> bool {
+        let Some((from, to)) = self.ruling.reach(shape, lines) else { return false };
+        let last = f64::from(self.width - 1);
+        let word = |at: f64| (at / self.pitch).clamp(0.0, last) as usize / 64;
+        self.full.words[word(from)..=word(to)].iter().all(|&full| full)
     }
 
     /// Adds all pixels.
@@ -291,6 +347,41 @@ mod tests {
         let holes = [(1, 2, 1), (5, 7, 1)].map(run);
         let left = less(&runs, &holes);
         assert_eq!(told(left), [(0, 1, 5), (2, 5, 5), (7, 8, 6), (8, 9, 5)], "with holes in them");
+    }
+
+    #[test]
+    fn what_full_rows_hide_is_not_missed() {
+        let mut seed = 9_u32;
+        let mut chance = |most: u32| {
+            seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            i64::from((seed >> 8) % most)
+        };
+        let grid = Grid::covering(Rect::new(at(0, 0), at(20_000, 3_000)), Nm::from_um(50)).expect("small");
+        let rows = 10..40;
+        let (mut spans, mut single) = (Spans::new(&grid, rows.clone()), Vec::new());
+        for _ in 0..6_000 {
+            // All but the last fifth of the rows fill up.
+            let mut end = || at(chance(16_000), chance(3_000));
+            let stroke = Shape::Stroke { from: end(), to: end(), radius: Nm::from_um(70) };
+            spans.add(&stroke, 4);
+            let mut alone = Spans::new(&grid, rows.clone());
+            alone.add(&stroke, 4);
+            single.push(alone);
+        }
+        assert!(spans.full.words.iter().filter(|full| **full).count() >= 3, "some words are full");
+        let far = Shape::Stroke { from: at(9_000, 1_500), to: at(19_900, 1_500), radius: Nm::from_um(70) };
+        spans.add(&far, 4);
+        let told = |runs: &[Run]| runs.iter().map(|run| (run.start, run.end)).collect::<Vec<_>>();
+        let mut all: Vec<Vec<Run>> = vec![Vec::new(); rows.len()];
+        let mut alone = Spans::new(&grid, rows.clone());
+        alone.add(&far, 4);
+        single.push(alone);
+        for alone in single {
+            all.iter_mut().zip(alone.into_rows()).for_each(|(all, runs)| all.extend(runs));
+        }
+        for (row, (full, all)) in spans.into_rows().zip(all).enumerate() {
+            assert_eq!(told(&full), told(&apart(all)), "row {row}");
+        }
     }
 
     #[test]

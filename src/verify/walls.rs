@@ -104,6 +104,11 @@ impl Walls {
         self.near.count(&self.axes[index], self.halves[index] + self.widest + reach, most)
     }
 
+    /// The indices of all walls, neighbours close to each other.
+    pub(super) fn order(&self) -> Vec<usize> {
+        self.near.order()
+    }
+
     fn wall(&self, p: Point, near: &Near) -> Wall {
         Wall {
             index: near.feature,

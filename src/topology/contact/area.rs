@@ -110,7 +110,7 @@ impl Area {
             let window = Rect::new(edge.0, edge.1).inflate(limit);
             let way = other.way_from(edge, window, facing);
             best = [best, way].into_iter().flatten().reduce(|best, way| nearest::shortest(best, [way]));
-            false
+            is_least(best)
         });
         best
     }
@@ -121,8 +121,13 @@ impl Area {
         self.any_edge(window, stack, |edge| {
             let way = nearest::segments(from, edge);
             best = Some(best.map_or(way, |best| nearest::shortest(best, [way])));
-            false
+            is_least(best)
         });
         best
     }
+}
+
+/// Whether no way is shorter: of equals the first counts, so that no other need be looked at.
+fn is_least(way: Option<Way>) -> bool {
+    way.is_some_and(|way| way.length <= 0.0)
 }

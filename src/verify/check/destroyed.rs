@@ -38,7 +38,10 @@ fn destroyed(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
     let deepest = hits.reduce(|a, b| if b.depth > a.depth { b } else { a });
     let cut = deepest.map(|hit| sheet.cuts[hit.cut]);
     let many = sheet.hits.many.get(&net);
-    let many = many.map_or(String::new(), |count| format!(": {count} cuts reach into it"));
+    let many = many.map_or(String::new(), |many| {
+        let or_more = if many.or_more { " or more" } else { "" };
+        format!(": {}{or_more} cuts reach into it", many.count)
+    });
     // What lies beyond the outline was never on the board.
     (rest.parts.is_empty() && area > 0.0).then(|| Finding {
         at: Some(sheet.copper.features[first].shape.anchor()),

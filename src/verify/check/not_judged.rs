@@ -44,7 +44,8 @@ fn unsure(sheet: &Sheet<'_>) -> Option<Finding> {
 /// Nets of which the deepest cuts alone were looked at.
 fn many(sheet: &Sheet<'_>) -> Option<Finding> {
     let looked_at = |net| sheet.hits.all.iter().filter(|hit| hit.net == net).count();
-    let left_out = sheet.hits.many.iter().map(|(&net, count)| (net, count - looked_at(net).min(*count)));
+    let left_out =
+        sheet.hits.many.iter().map(|(&net, many)| (net, many.count.saturating_sub(looked_at(net))));
     let left_out: Vec<_> = left_out
         .filter(|(net, _)| sheet.remains.nets.get(net).is_none_or(|rest| !rest.parts.is_empty()))
         .collect();

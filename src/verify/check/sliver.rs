@@ -63,13 +63,16 @@ fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
 
 /// The thin places between a cut and those before it, or the board's edge.
 fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
-    let near = sheet.walls.beside(cut, sliver, |other| other < cut || other >= sheet.cuts.len());
     // Of ways that follow one another one touches the other: what is between the first and the
     // third is no strip.
+    let own = ends(&sheet.cuts[cut].swept.shape);
+    let follows = |other: usize| ends(&sheet.cuts[other].swept.shape).iter().any(|end| own.contains(end));
+    let count = sheet.cuts.len();
+    let near = sheet.walls.beside(cut, sliver, |other| (other < cut && !follows(other)) || other >= count);
     let apart = near.into_iter().filter(|(_, neck)| neck.width > FAINT);
     let is_clad = |neck: &Neck| {
         let spot = Shape::Disc { center: neck.at, radius: Nm::ZERO };
-        let covered = sheet.walls.around(neck.at, Nm::ZERO).iter().any(|wall| wall.distance < 0.0);
+        let covered = sheet.walls.any(neck.at, Nm::ZERO, usize::MAX, |wall| wall.distance < 0.0);
         !covered && sheet.holds(neck.at) && sheet.proximity.near(&spot, Nm::ZERO).is_empty()
     };
     let edge = |(other, neck): (usize, Neck)| {
@@ -79,6 +82,16 @@ fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
     };
     let strips = apart.filter_map(edge).filter(|(_, neck)| is_clad(neck));
     strips.map(|(other, neck)| Thin { cut, neck, length: length(sheet, cut, other, sliver) }).collect()
+}
+
+/// Where a cut begins and ends.
+fn ends(way: &Shape) -> [Point; 2] {
+    match way {
+        Shape::Disc { center, .. } => [*center; 2],
+        Shape::Stroke { from, to, .. } => [*from, *to],
+        Shape::Arc { arc, .. } => [arc.start, arc.end],
+        Shape::Polygon(_) => [way.anchor(); 2],
+    }
 }
 
 /// The middle of what is left between a cut and the edge: the middle between the edge and the
