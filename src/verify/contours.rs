@@ -62,6 +62,8 @@ pub(super) struct Stretch {
     pub(super) length: f64,
     /// The spot where most is left.
     pub(super) at: Point,
+    /// The spot in the middle of it.
+    pub(super) middle: Point,
     /// How far the board goes on beyond its edge there, in nanometres; infinite where nothing near
     /// is cut through.
     pub(super) left: f64,
@@ -71,6 +73,17 @@ pub(super) struct Stretch {
     pub(super) mean: f64,
     /// How deep it is cut where that is least.
     pub(super) depth: Nm,
+}
+
+/// The way from a tab to the next.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Way {
+    /// How long, in nanometres.
+    pub(super) length: f64,
+    /// How long the longest stretch of it is.
+    longest: f64,
+    /// The middle of that stretch.
+    pub(super) at: Point,
 }
 
 /// A piece of a cut that reaches into the board.
@@ -170,6 +183,26 @@ impl<'a> Contours<'a> {
         settings: &'b Settings,
     ) -> impl Iterator<Item = &'b Stretch> {
         ring.stretches.iter().filter(move |stretch| self.is_tab(stretch, ring, settings))
+    }
+
+    /// The ways from each tab of a contour to the next, all the way round; none where it has no
+    /// tab.
+    pub(super) fn ways(&self, ring: &Ring, settings: &Settings) -> Vec<Way> {
+        let is_tab = |stretch: &Stretch| self.is_tab(stretch, ring, settings);
+        let first = ring.stretches.iter().position(is_tab);
+        let (before, after) = ring.stretches.split_at(first.unwrap_or(0));
+        let mut ways: Vec<Way> = Vec::new();
+        for stretch in after.iter().chain(before) {
+            if is_tab(stretch) {
+                ways.push(Way { length: 0.0, longest: 0.0, at: stretch.middle });
+            } else if let Some(way) = ways.last_mut() {
+                way.length += stretch.length;
+                if stretch.length > way.longest {
+                    (way.longest, way.at) = (stretch.length, stretch.middle);
+                }
+            }
+        }
+        ways
     }
 
     /// A program and a line of it for findings about what is not cut: the last.
@@ -282,7 +315,8 @@ fn stretches(spots: &[Spot], seen: &[Seen]) -> Vec<Stretch> {
     // It may begin in the middle of one.
     let first = (1..seen.len()).find(|&i| seen[i].state != seen[i - 1].state).unwrap_or(0);
     let mut found: Vec<Stretch> = Vec::new();
-    for i in (first..seen.len()).chain(0..first) {
+    let mut begun = 0;
+    for (step, i) in (first..seen.len()).chain(0..first).enumerate() {
         let (Spot { at, length, .. }, &Seen { state, left, depth }) = (&spots[i], &seen[i]);
         let off = if left > NOTABLE.to_f64() { *length } else { 0.0 };
         match found.last_mut().filter(|last| last.state == state) {
@@ -296,8 +330,13 @@ fn stretches(spots: &[Spot], seen: &[Seen]) -> Vec<Stretch> {
                     (last.at, last.left) = (*at, left);
                 }
                 last.depth = last.depth.min(depth);
+                last.middle = spots[(first + usize::midpoint(begun, step)) % spots.len()].at;
             }
-            None => found.push(Stretch { state, length: *length, at: *at, left, off, mean: left, depth }),
+            None => {
+                begun = step;
+                let (at, middle) = (*at, *at);
+                found.push(Stretch { state, length: *length, at, middle, left, off, mean: left, depth });
+            }
         }
     }
     found

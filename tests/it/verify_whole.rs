@@ -288,3 +288,47 @@ fn holes_for_pins_lie_beside_the_board_and_go_deep_enough() {
     let only = program("25", "5").replace("G0 X15 Y25\nG1 Z-5\n", "");
     assert_eq!(names(&judge(&board, None, &only), Severity::Error), ["alignment-hole"], "one alone");
 }
+
+/// A cutout of the plate by a cutter of 1 mm: tabs of 2 mm on the bottom and the top edge, each
+/// from this x.
+fn held_at(bottom: &[i64], top: &[i64]) -> String {
+    let mut text =
+        "(tool 1: endmill:1mm)\nG21 G90\nM3 S9000\nG0 Z2\nG0 X-0.5 Y-0.5\nG1 Z-1.8 F60\n".to_owned();
+    let mut leave_out = |from: i64, to: i64| {
+        text += &format!("X{from} F90\nG0 Z2\nX{to}\nG1 Z-1.8 F60\n");
+    };
+    bottom.iter().for_each(|&x| leave_out(x, x + 3));
+    let mut rest = "X30.5 F90\nY20.5\n".to_owned();
+    for x in top.iter().rev() {
+        rest += &format!("X{} F90\nG0 Z2\nX{x}\nG1 Z-1.8 F60\n", x + 3);
+    }
+    text + &rest + "X-0.5 F90\nY-0.5\nG0 Z2\nM5\nM2\n"
+}
+
+#[test]
+fn a_board_that_is_held_at_one_side_is_told() {
+    let plate = board(hole((10_000, 10_000), None, 3000));
+    let judged = |bottom: &[i64], top: &[i64], tabs: Option<u32>| {
+        let settings = Settings { tabs, ..Settings::default() };
+        let text = held_at(bottom, top);
+        let program =
+            Program { file: "plate.ngc".to_owned(), text, role: Some(Role::Cutout), ..Program::default() };
+        verify(&[program], &plate, &[], &settings).expect("it can be judged").findings
+    };
+    for (bottom, top, tabs) in
+        [(&[13][..], &[13][..], None), (&[5, 22], &[13], None), (&[5, 12, 22], &[5, 12, 22], Some(6))]
+    {
+        assert_eq!(judged(bottom, top, tabs), [], "on both sides: {bottom:?}, {top:?}");
+    }
+    for (bottom, tabs) in
+        [(&[8, 18][..], None), (&[3, 8, 13, 18, 23], None), (&[8, 18], Some(2)), (&[13], None)]
+    {
+        let findings = judged(bottom, &[], tabs);
+        assert_eq!(names(&findings, Severity::Warning), ["tab-spread"], "{bottom:?}: {findings:?}");
+        let at = findings[0].at.expect("a place");
+        assert_eq!(at.y, Nm::from_mm(20), "{bottom:?}: in the middle of the way without a tab: {at:?}");
+        let size = findings[0].size.expect("how long");
+        assert!(size > Nm::from_mm(70) && size < Nm::from_mm(100), "{bottom:?}: {size} have no tab");
+    }
+    assert_eq!(judged(&[13], &[], Some(1)), [], "one was asked for");
+}

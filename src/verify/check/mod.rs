@@ -26,6 +26,7 @@ mod short;
 mod sliver;
 mod tab_extra;
 mod tab_missing;
+mod tab_spread;
 mod tab_thin;
 mod too_deep;
 mod unclear;
@@ -102,6 +103,7 @@ pub const ALL: &[Check] = &[
     unclear::CHECK,
     tab_extra::CHECK,
     tab_thin::CHECK,
+    tab_spread::CHECK,
     program_missing::CHECK,
 ];
 

@@ -12,7 +12,8 @@
 //! # What it can miss
 //!
 //! Boards held by tape, which need none (ask for `--tabs 0`). Whether tabs are strong enough is for
-//! `tab-thin` to say. Cut-outs without any tab: what falls out of a small one needs none.
+//! `tab-thin` to say, whether they lie on several sides for `tab-spread`. Cut-outs without any tab:
+//! what falls out of a small one needs none.
 
 use super::{Check, Run, Severity};
 use crate::board::{Board, Shape};
@@ -85,28 +86,16 @@ const UNEVEN: f64 = 1.7;
 /// evenly, and one alone holds nothing level.
 fn uneven(contours: &Contours<'_>, ring: &Ring, settings: &Settings) -> Option<(Point, String)> {
     let wanted = settings.tabs.and_then(|wanted| usize::try_from(wanted).ok())?;
-    let count = ring.stretches.len();
-    let is_tab = |at: &usize| contours.is_tab(&ring.stretches[*at], ring, settings);
-    let tabs: Vec<usize> = (0..count).filter(is_tab).collect();
-    let first = *tabs.first().filter(|_| tabs.len() < wanted)?;
-    // The ways from each tab to the next, with the longest stretch of each.
-    let mut ways: Vec<(f64, f64, Point)> = Vec::new();
-    for at in (first..first + count).map(|at| at % count) {
-        let stretch = &ring.stretches[at];
-        if tabs.contains(&at) {
-            ways.push((0.0, 0.0, stretch.at));
-        } else if let Some((all, longest, place)) = ways.last_mut() {
-            *all += stretch.length;
-            if stretch.length > *longest {
-                (*longest, *place) = (stretch.length, stretch.at);
-            }
-        }
+    let mut ways = contours.ways(ring, settings);
+    if ways.is_empty() || ways.len() >= wanted {
+        return None;
     }
-    ways.sort_by(|a, b| b.0.total_cmp(&a.0));
-    let is_uneven = ways.get(1).is_none_or(|next| ways[0].0 > next.0 * UNEVEN);
-    let held = if tabs.len() == 1 { "one tab".to_owned() } else { format!("{} tabs", tabs.len()) };
+    let tabs = ways.len();
+    ways.sort_by(|a, b| b.length.total_cmp(&a.length));
+    let is_uneven = ways.get(1).is_none_or(|next| ways[0].length > next.length * UNEVEN);
+    let held = if tabs == 1 { "one tab".to_owned() } else { format!("{tabs} tabs") };
     let message = format!("what falls out of a cut-out is held by {held}: one is not there");
-    is_uneven.then(|| (ways[0].2, message))
+    is_uneven.then(|| (ways[0].at, message))
 }
 
 /// In mm², what is a board and no crumb. Chosen.
