@@ -29,6 +29,7 @@
 //! | [`topology`] | which features conduct to each other: [`Nets`](topology::Nets) | geometry, raster, board, grid |
 //! | [`voronoi`] | nets → regions → a planar graph of [`Boundaries`](voronoi::Boundaries), placed exactly | all above but import |
 //! | [`coupling`] | how near nets lie to each other for how long, and what capacitance that makes | geometry, topology, voronoi |
+//! | [`prediction`] | how long toolpaths will be, before they are found | geometry, board, topology |
 //! | [`toolpath`] | boundaries, holes, outline and a tool → a [`Program`](toolpath::Program) | geometry, board, topology, voronoi |
 //! | [`gcode`] | program ↔ text; dialects are data; the reader shares nothing with the writer | geometry, toolpath |
 //! | [`verify`] | text and a board → what is wrong; uses neither voronoi nor toolpath | geometry, raster, board, grid, topology, the reader |
@@ -85,6 +86,7 @@ pub mod geometry;
 pub mod grid;
 pub mod import;
 pub mod job;
+pub mod prediction;
 pub mod raster;
 pub mod report;
 pub mod toolpath;

@@ -22,7 +22,9 @@ pub struct StrategyFor {
 
 /// Text that gives no strategy to nets.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` gives nets no strategy: expected a pattern and voronoi or outline, such as GND*=outline")]
+#[error(
+    "`{0}` gives nets no strategy: expected a pattern and voronoi, outline or auto, such as GND*=outline"
+)]
 pub struct ParseStrategyForError(String);
 
 impl FromStr for StrategyFor {
@@ -43,6 +45,7 @@ impl fmt::Display for StrategyFor {
         let strategy = match self.strategy {
             Strategy::Voronoi => "voronoi",
             Strategy::Outline => "outline",
+            Strategy::Auto => "auto",
         };
         write!(f, "{}={strategy}", self.nets)
     }
@@ -63,9 +66,9 @@ pub(super) fn names(copper: &Copper, nets: &Nets, id: NetId) -> Vec<String> {
     names
 }
 
-/// The nets that have a loop of their own: the first pattern that means a net decides, and else the
+/// The strategy of each net, by number: the first pattern that means a net decides, and else the
 /// strategy of all.
-pub(super) fn looped(copper: &Copper, nets: &Nets, settings: &Settings) -> Vec<NetId> {
+pub(super) fn strategies(copper: &Copper, nets: &Nets, settings: &Settings) -> Vec<Strategy> {
     let strategy = |id: NetId| {
         let chosen = &settings.strategy_for;
         if chosen.is_empty() {
@@ -75,8 +78,13 @@ pub(super) fn looped(copper: &Copper, nets: &Nets, settings: &Settings) -> Vec<N
         let own = chosen.iter().find(|own| own.nets.matches_any(&names));
         own.map_or(settings.strategy, |own| own.strategy)
     };
-    let all = (0..).map(NetId).take(nets.nets().len());
-    all.filter(|&id| strategy(id) == Strategy::Outline).collect()
+    (0..).map(NetId).take(nets.nets().len()).map(strategy).collect()
+}
+
+/// The nets that have a loop of their own.
+pub(super) fn looped(strategies: &[Strategy]) -> Vec<NetId> {
+    let nets = (0..).map(NetId).zip(strategies);
+    nets.filter(|(_, strategy)| **strategy == Strategy::Outline).map(|(id, _)| id).collect()
 }
 
 /// A `pattern-without-net` for each pattern that means no net of any layer.
@@ -105,7 +113,7 @@ mod tests {
 
     #[test]
     fn what_is_written_is_read_back() {
-        for text in ["GND*=outline", "a=b=voronoi"] {
+        for text in ["GND*=outline", "a=b=voronoi", "N?=auto"] {
             assert_eq!(text.parse::<StrategyFor>().expect(text).to_string(), text, "as it was");
         }
         let own: StrategyFor = "a=b=voronoi".parse().expect("a strategy");

@@ -7,6 +7,7 @@ use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::gcode::dialect::{Dialect, DialectError};
+use crate::voronoi::paper::Way;
 
 /// How copper is isolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
@@ -16,6 +17,19 @@ pub enum Strategy {
     Voronoi,
     /// A loop round each net.
     Outline,
+    /// For each net whichever costs less machine time.
+    Auto,
+}
+
+impl Strategy {
+    /// Which of the paper's toolpaths that is.
+    #[must_use]
+    pub const fn paper(self) -> Way {
+        match self {
+            Self::Outline => Way::Outline,
+            Self::Voronoi | Self::Auto => Way::Voronoi,
+        }
+    }
 }
 
 /// What a cut is midway between.

@@ -126,13 +126,14 @@ fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
 /// What cuts are midway between.
 pub(super) fn sites(options: &Options) -> Result<Sites, Error> {
     let sites = options.sites.expect("the defaults leave nothing open");
-    let is_outline = |strategy: Strategy| strategy == Strategy::Outline;
+    let has_loops = |strategy: Strategy| strategy != Strategy::Voronoi;
     let beside_copper = [
         ("--width", options.width.is_some()),
         ("--passes", options.passes.is_some()),
         ("--clear", options.clear == Some(true)),
-        ("--strategy outline", options.strategy.is_some_and(is_outline)),
-        ("--strategy-for", options.strategy_for.iter().any(|some| is_outline(some.strategy))),
+        ("--strategy outline", options.strategy == Some(Strategy::Outline)),
+        ("--strategy auto", options.strategy == Some(Strategy::Auto)),
+        ("--strategy-for", options.strategy_for.iter().any(|some| has_loops(some.strategy))),
     ];
     match (sites, beside_copper.into_iter().find(|(_, is_asked)| *is_asked)) {
         (Sites::Core, Some((other, _))) => {

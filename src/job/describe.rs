@@ -7,13 +7,13 @@ use crate::geometry::Nm;
 use crate::report::colours::ColoursEntry;
 use crate::report::document::{
     Document, DrillEntry, Figures, GapEntry, LayerEntry, Millimetres, NetEntry, ProgramEntry, SCHEMA_VERSION,
-    ToolChanges, WarningEntry,
+    StrategyEntry, ToolChanges, WarningEntry,
 };
 use crate::topology::{Gap, NetId, Nets};
 
 use super::inspect::size;
 use super::pipeline::GENERATOR;
-use super::{Job, Layer, Settings, Written};
+use super::{Chosen, Job, Layer, Settings, Written};
 
 impl Job {
     /// The report on it.
@@ -67,6 +67,7 @@ impl Layer {
             boundary_length_mm: Millimetres(self.boundary_length()),
             frame_length_mm: self.lap.as_ref().map(|lap| Millimetres(Nm::from_f64(lap.length()))),
             slight_gaps: 0,
+            strategy: self.chosen.as_ref().map(strategy_entry),
             coupling: None,
         }
     }
@@ -80,6 +81,21 @@ impl Written {
             tools: self.program.sections.iter().map(|section| section.tool.kind.to_string()).collect(),
             figures: Figures::from(&self.statistics),
         }
+    }
+}
+
+/// What was chosen between strategies.
+fn strategy_entry(chosen: &Chosen) -> StrategyEntry {
+    let seconds = |index: usize| {
+        let tried = chosen.tried.get(index).or(chosen.tried.first());
+        (tried.map_or(0.0, |tried| tried.seconds) * 10.0).round() / 10.0
+    };
+    StrategyEntry {
+        loops: chosen.tried[chosen.taken].loops,
+        seconds: seconds(chosen.taken),
+        voronoi_seconds: seconds(0),
+        outline_seconds: seconds(1),
+        tried: chosen.tried.len(),
     }
 }
 

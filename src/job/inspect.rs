@@ -1,11 +1,12 @@
 //! What is known of a board before anything is planned: sizes, nets, gaps, holes.
 
-use crate::board::{Board, Copper, Side};
+use crate::board::{Board, Copper, Outline, Side};
 use crate::import::Loaded;
 use crate::report::Inspection;
 use crate::report::document::{Millimetres, SCHEMA_VERSION, WarningEntry};
 use crate::report::inspection::InspectedLayer;
 use crate::report::methods::MethodsEntry;
+use crate::report::prediction::PredictionEntry;
 use crate::topology::{self, Electrical, Nets, Sampling};
 
 use super::Settings;
@@ -42,7 +43,10 @@ pub fn inspect(loaded: &Loaded, settings: &Settings) -> Inspection {
         outline: board.outline.is_some(),
         sources: loaded.sources.clone(),
         ignored: loaded.ignored.clone(),
-        layers: layers.into_iter().map(|(copper, nets)| inspected(copper, nets, settings)).collect(),
+        layers: layers
+            .into_iter()
+            .map(|(copper, nets)| inspected(copper, nets, board.outline.as_ref(), settings))
+            .collect(),
         electrical_nets: electrical.map(|electrical| electrical.nets.len()),
         drills: drills(&board.holes),
         warnings,
@@ -54,7 +58,7 @@ pub(super) fn size(board: &Board) -> Option<[Millimetres; 2]> {
     board.bounds().map(|bounds| [Millimetres(bounds.width()), Millimetres(bounds.height())])
 }
 
-fn inspected(copper: &Copper, nets: &Nets, settings: &Settings) -> InspectedLayer {
+fn inspected(copper: &Copper, nets: &Nets, outline: Option<&Outline>, settings: &Settings) -> InspectedLayer {
     let differences = (settings.topology == Topology::All).then(|| {
         topology::differences(copper, Sampling::default()).expect("500 DPI is within the raster's limits")
     });
@@ -64,6 +68,7 @@ fn inspected(copper: &Copper, nets: &Nets, settings: &Settings) -> InspectedLaye
         nets: net_entries(nets),
         smallest_gap: topology::smallest_gap(copper, nets).map(|gap| gap_entry(gap, nets)),
         methods: differences.map(|differences| MethodsEntry::new(copper, &differences)),
+        prediction: PredictionEntry::new(copper, nets, outline, settings.kerf() / 2),
         coupling: None,
         paper: None,
     }

@@ -4,10 +4,11 @@ use crate::board::{Board, Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate, share};
-use crate::toolpath::{Order, Placement, Section};
-use crate::topology::{self, Gap, Method, Nets, Translucency};
+use crate::toolpath::{Order, Placement, Program, Section, measure};
+use crate::topology::{self, Gap, Method, NetId, Nets, Translucency};
 use crate::voronoi::{self, Boundaries, Boundary, Diagram, Frame, Loops, Owner, SiteKind};
 
+use super::auto::{self, Chosen, Tried};
 use super::choice::{self, Sites, Topology};
 use super::{Cutting, Error, Settings, by_net};
 
@@ -31,6 +32,8 @@ pub struct Layer {
     pub placement: Placement,
     /// What the machine does to it, a section for each tool that has something to cut.
     pub sections: Vec<Section>,
+    /// Which nets have loops, where that was left open.
+    pub chosen: Option<Chosen>,
     /// What a person must know.
     pub warnings: Vec<Warning>,
     /// Where the time went.
@@ -59,10 +62,74 @@ impl Layer {
         );
         let gap =
             stages.run(format!("{side}: smallest gap"), || topology::smallest_gap(copper, &nets), |_| []);
+        let strategies = by_net::strategies(copper, &nets, settings);
+        let plan = |looped: Vec<NetId>| {
+            let planned = Planned { copper, nets: &nets, gap: gap.as_ref(), placement: &placement, settings };
+            planned.plan(board, looped)
+        };
+        let (plan, chosen) = if strategies.contains(&choice::Strategy::Auto) {
+            let extents = topology::extents(copper, &nets);
+            let (plan, chosen) = auto::fastest(&strategies, &extents, settings, plan)?;
+            (plan, Some(chosen))
+        } else {
+            (plan(by_net::looped(&strategies))?, None)
+        };
+        stages.extend(&plan.stages);
+        let Plan { diagram, boundaries, lap, sections, warnings: found, .. } = plan;
+        let mut warnings = topology::names_check(copper, &nets);
+        warnings.extend(found);
+        Ok(Self {
+            side,
+            nets,
+            translucency,
+            gap,
+            diagram,
+            boundaries,
+            lap,
+            placement,
+            sections,
+            chosen,
+            warnings,
+            stages,
+        })
+    }
+
+    /// The length of the boundaries that isolate something.
+    #[must_use]
+    pub fn boundary_length(&self) -> Nm {
+        let inner = self.boundaries.edges.iter().filter(|edge| !edge.is_border());
+        Nm::from_f64(inner.map(|edge| edge.path.length()).sum())
+    }
+}
+
+/// What the plans of a side have in common.
+struct Planned<'a> {
+    copper: &'a Copper,
+    nets: &'a Nets,
+    gap: Option<&'a Gap>,
+    placement: &'a Placement,
+    settings: &'a Settings,
+}
+
+/// How a side is isolated when some of its nets have loops.
+pub(super) struct Plan {
+    diagram: Diagram,
+    pub(super) boundaries: Boundaries,
+    lap: Option<Path>,
+    sections: Vec<Section>,
+    warnings: Vec<Warning>,
+    stages: Stages,
+}
+
+impl Planned<'_> {
+    fn plan(&self, board: &Board, looped: Vec<NetId>) -> Result<Plan, Error> {
+        let Self { copper, nets, gap, placement, settings } = *self;
+        let side = copper.side;
+        let mut stages = Stages::default();
         let diagram = stages
             .run(
                 format!("{side}: Voronoi diagram"),
-                || diagram(copper, &nets, board.outline.as_ref(), gap.as_ref(), settings),
+                || diagram(copper, nets, board.outline.as_ref(), gap, looped, settings),
                 |_| [],
             )
             .map_err(|reason| Error::Voronoi { side, reason })?;
@@ -80,38 +147,37 @@ impl Layer {
         );
         let (sections, narrow) = stages.run(
             format!("{side}: moves"),
-            || cut(side, &nets, &shares, lap, &placement, settings),
+            || cut(side, nets, &shares, lap, placement, settings),
             |(sections, _)| [("moves", sections.iter().map(|section| section.moves.len()).sum())],
         );
-        let mut warnings = topology::names_check(copper, &nets);
-        warnings.extend_from_slice(diagram.warnings());
+        let mut warnings = diagram.warnings().to_vec();
         warnings.extend(unplaced.into_iter().chain(passes).chain(narrow).map(|warning| warning.on(side)));
         if frame.is_some() && lap.is_none() {
-            warnings.push(Warning::new("frame-not-cut", FRAME_NOT_CUT).on(side));
+            warnings.push(Warning::new(FRAME, FRAME_NOT_CUT).on(side));
         }
         let lap = lap.cloned();
-        Ok(Self {
-            side,
-            nets,
-            translucency,
-            gap,
-            diagram,
-            boundaries,
-            lap,
-            placement,
-            sections,
-            warnings,
-            stages,
-        })
-    }
-
-    /// The length of the boundaries that isolate something.
-    #[must_use]
-    pub fn boundary_length(&self) -> Nm {
-        let inner = self.boundaries.edges.iter().filter(|edge| !edge.is_border());
-        Nm::from_f64(inner.map(|edge| edge.path.length()).sum())
+        Ok(Plan { diagram, boundaries, lap, sections, warnings, stages })
     }
 }
+
+impl Plan {
+    /// What the plan costs, with loops round so many nets.
+    pub(super) fn tried(&self, loops: usize, settings: &Settings) -> Tried {
+        let sections = self.sections.clone();
+        let program = Program { title: String::new(), notes: Vec::new(), safe: settings.safe, sections };
+        let measured = measure(&program, &settings.machine);
+        let changes = f64::from(measured.tool_changes) * f64::from(settings.machine.tool_change) / 1000.0;
+        let skips = settings.narrow == choice::Narrow::Skip;
+        let joins = |warning: &&Warning| warning.code == FRAME || (skips && warning.code == NARROW);
+        let joined = self.warnings.iter().filter(joins).count();
+        Tried { loops, seconds: measured.seconds + changes, joined }
+    }
+}
+
+/// What is said where the lap is left out.
+const FRAME: &str = "frame-not-cut";
+/// What is said where the cut does not fit.
+const NARROW: &str = "gap-narrower-than-tool";
 
 /// The lap without which nets that reach the frame stay joined; none where there is no frame, or
 /// none reaches it.
@@ -185,15 +251,15 @@ fn pitch(settings: &Settings, gap: Option<&Gap>, has_loops: bool) -> Nm {
     gap.map_or(asked, |gap| asked.min((gap.width / PIXELS_A_GAP).max(FINEST)))
 }
 
-/// The diagram in which every net has its own strategy.
+/// The diagram in which some nets have a loop.
 fn diagram(
     copper: &Copper,
     nets: &Nets,
     outline: Option<&Outline>,
     gap: Option<&Gap>,
+    looped: Vec<NetId>,
     settings: &Settings,
 ) -> Result<Diagram, voronoi::Error> {
-    let looped = by_net::looped(copper, nets, settings);
     let plain = diagram_settings(settings, pitch(settings, gap, !looped.is_empty()));
     // Half the kerf, and what fitting may take of it: a loop never touches the copper it goes
     // round.

@@ -5,6 +5,7 @@
 //! decides what becomes a file.
 
 mod art;
+mod auto;
 mod by_net;
 mod cache_key;
 mod carving;
@@ -47,6 +48,7 @@ mod verification;
 mod written;
 
 pub use art::{Art, OneTool};
+pub use auto::{Chosen, Tried};
 pub use by_net::{ParseStrategyForError, StrategyFor};
 pub use cache_key::cache_key;
 pub use carving::{CARVING_OPTIONS, Carving, Engraving, carve};
@@ -67,7 +69,7 @@ pub use options::Options;
 pub use output_name::{OutputName, ParseOutputNameError};
 pub use overlap::{Overlap, ParseOverlapError};
 pub use own_lines::{OwnLines, ParseOwnLinesError};
-pub use paper::paper;
+pub use paper::{paper, paper_picture, paper_program};
 pub use pattern::Pattern;
 pub use pipeline::{Job, mill};
 pub use pocketing::{POCKETING_OPTIONS, Pocket, Pocketing, pocket};

@@ -45,7 +45,8 @@ pub struct Options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub kerf: Option<Length>,
 
-    /// One cut midway between nets (voronoi) or a loop round each net (outline)
+    /// One cut midway between nets (voronoi), a loop round each net (outline), or for each net
+    /// whichever takes less time (auto)
     #[arg(
         long,
         value_enum,

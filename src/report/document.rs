@@ -116,6 +116,9 @@ pub struct LayerEntry {
     /// Gaps that the kerf does not fit by so little that nobody minds.
     #[serde(skip_serializing_if = "is_none")]
     pub slight_gaps: usize,
+    /// What `--strategy auto` tried, and took.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub strategy: Option<StrategyEntry>,
     /// Which nets are coupled most, where regions part them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<CouplingEntry>,
@@ -124,6 +127,21 @@ pub struct LayerEntry {
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "as serde asks")]
 const fn is_none(count: &usize) -> bool {
     *count == 0
+}
+
+/// Plans that were made of a layer, and the fastest.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StrategyEntry {
+    /// How many nets have a loop.
+    pub loops: usize,
+    /// How long the machine runs for this side, to a tenth.
+    pub seconds: f64,
+    /// The same with a region for every net that was free to have one.
+    pub voronoi_seconds: f64,
+    /// The same with a loop round each of them.
+    pub outline_seconds: f64,
+    /// How many plans were made.
+    pub tried: usize,
 }
 
 /// One island of copper.

@@ -10,6 +10,7 @@ use super::coupling::CouplingEntry;
 use super::document::{DrillEntry, GapEntry, Millimetres, NetEntry, WarningEntry};
 use super::methods::MethodsEntry;
 use super::paper::PaperEntry;
+use super::prediction::PredictionEntry;
 use super::summary::{count, warnings};
 
 /// What `voromill inspect` says.
@@ -51,6 +52,9 @@ pub struct InspectedLayer {
     /// How the three ways to find nets compare, where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub methods: Option<MethodsEntry>,
+    /// How long toolpaths will be, where there are nets to part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub prediction: Option<PredictionEntry>,
     /// How strongly neighbouring nets are coupled, where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<CouplingEntry>,
@@ -152,6 +156,7 @@ fn layer(layer: &InspectedLayer, verbose: bool) -> String {
         let _ = writeln!(text, "  {}{more}", named[..named.len() - rest].join(", "));
     }
     text.extend(layer.methods.as_ref().map(|methods| methods.to_text(verbose)));
+    text.extend(layer.prediction.as_ref().map(PredictionEntry::to_text));
     text.extend(layer.coupling.as_ref().map(|coupling| coupling.to_text(verbose)));
     text.extend(layer.paper.as_ref().map(PaperEntry::to_text));
     text

@@ -31,6 +31,20 @@ impl Document {
                 layer.side,
                 count(layer.nets.len(), "net")
             );
+            if let Some(strategy) = &layer.strategy {
+                let time =
+                    [strategy.seconds, strategy.voronoi_seconds, strategy.outline_seconds].map(duration);
+                let _ = writeln!(
+                    text,
+                    "  {}: loops round {} of {}, regions for the others: {}; {} with regions alone, {} with loops alone",
+                    layer.side,
+                    strategy.loops,
+                    count(layer.nets.len(), "net"),
+                    time[0],
+                    time[1],
+                    time[2]
+                );
+            }
             if let Some(colours) = layer.translucency.as_ref().filter(|_| verbose) {
                 let _ = write!(text, "  {}", colours.to_text());
             }
@@ -188,6 +202,7 @@ mod tests {
             boundary_length_mm: Millimetres(Nm::from_mm(208)),
             frame_length_mm,
             slight_gaps: 0,
+            strategy: None,
             coupling: None,
         };
         assert_eq!(layer(None).lengths(), "boundaries 208 mm", "an outline is no frame cut");
