@@ -68,6 +68,36 @@ pub fn tints(count: usize, boundaries: &Boundaries) -> Vec<Rgb> {
     chosen.into_iter().map(|tint| TINTS[tint.unwrap_or_default()]).collect()
 }
 
+/// A colour number for each of what has these `neighbours`, by index, so that neighbours differ.
+///
+/// What has the fewest neighbours left is set aside, again and again, and coloured last to first:
+/// regions on a plane always leave one with five at most, so six colours do (Matula and Beck:
+/// *Smallest-last ordering and clustering and graph coloring algorithms*, J. ACM 30, 1983). Of the
+/// free ones the least used is taken.
+#[must_use]
+pub(super) fn colouring(neighbours: &[Vec<usize>]) -> Vec<usize> {
+    let mut left: Vec<Option<usize>> = neighbours.iter().map(|others| Some(others.len())).collect();
+    let mut order = Vec::with_capacity(neighbours.len());
+    while let Some((_, next)) = (0..left.len()).filter_map(|i| Some((left[i]?, i))).min() {
+        left[next] = None;
+        order.push(next);
+        neighbours[next].iter().for_each(|&other| left[other] = left[other].map(|count| count - 1));
+    }
+    let mut chosen: Vec<Option<usize>> = vec![None; neighbours.len()];
+    let mut used = vec![0_usize; 6];
+    for &next in order.iter().rev() {
+        let taken: Vec<usize> = neighbours[next].iter().filter_map(|&other| chosen[other]).collect();
+        let free = (0..used.len()).filter(|colour| !taken.contains(colour)).min_by_key(|&c| (used[c], c));
+        let colour = free.unwrap_or(used.len());
+        if colour == used.len() {
+            used.push(0);
+        }
+        used[colour] += 1;
+        chosen[next] = Some(colour);
+    }
+    chosen.into_iter().map(Option::unwrap_or_default).collect()
+}
+
 /// A bright colour for a net, distinct from that of the nets numbered near it: the hue goes round
 /// by the golden angle, the lightness steps.
 #[must_use]
@@ -109,6 +139,21 @@ mod tests {
         let (a, b) = (Rgb(0, 10, 255), Rgb(255, 20, 0));
         assert_eq!(a.towards(b, 0), a, "no way");
         assert_eq!(a.towards(b, 255), b, "all the way");
+    }
+
+    #[test]
+    fn six_colours_tell_all_neighbours_on_a_plane_apart() {
+        // Two wheels on one rim: a ring of 30, each beside the next and beside both hubs.
+        let rim = 30;
+        let mut neighbours: Vec<Vec<usize>> =
+            (0..rim).map(|i| vec![(i + 1) % rim, (i + rim - 1) % rim, rim, rim + 1]).collect();
+        neighbours.push((0..rim).collect());
+        neighbours.push((0..rim).collect());
+        let colours = colouring(&neighbours);
+        assert!(colours.iter().all(|&colour| colour < 6), "{colours:?}");
+        for (one, others) in neighbours.iter().enumerate() {
+            assert!(others.iter().all(|&other| colours[one] != colours[other]), "{one} of {colours:?}");
+        }
     }
 
     #[test]

@@ -9,6 +9,9 @@ use crate::grid::Grid;
 
 use super::Canvas;
 
+/// Why writing does not fail.
+const MEMORY: &str = "memory takes any bytes, and there are as many pixels as the grid has";
+
 /// Rows that are drawn at a time. Chosen: a band of a large picture takes two megabytes, and there
 /// are few of them.
 const BAND: u32 = 240;
@@ -45,6 +48,21 @@ pub fn rgb(canvas: Canvas) -> Vec<u8> {
     encode(&grid, ColorType::Rgb, |file| file(&canvas.into_rgb()))
 }
 
+/// Pixels of three bytes, `width` to a row and row 0 on top, as the bytes of a PNG file as small as
+/// it can be.
+pub fn pixels(width: u32, pixels: &[[u8; 3]]) -> Vec<u8> {
+    let height = u32::try_from(pixels.len()).unwrap_or(u32::MAX) / width.max(1);
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_compression(Compression::High);
+    let mut writer = encoder.write_header().expect(MEMORY);
+    writer.write_image_data(pixels.as_flattened()).expect(MEMORY);
+    writer.finish().expect(MEMORY);
+    bytes
+}
+
 /// Parts of `grid` as wide as it is, from the top.
 pub(super) fn each_band(grid: &Grid, mut take: impl FnMut(Grid)) {
     for top in (0..grid.height()).step_by(BAND as usize) {
@@ -54,7 +72,6 @@ pub(super) fn each_band(grid: &Grid, mut take: impl FnMut(Grid)) {
 
 /// A file into which `paint` puts its pixels from the top.
 fn encode(grid: &Grid, colour: ColorType, paint: impl FnOnce(&mut dyn FnMut(&[u8]))) -> Vec<u8> {
-    const MEMORY: &str = "memory takes any bytes, and there are as many pixels as the grid has";
     let mut bytes = Vec::new();
     let mut encoder = Encoder::new(&mut bytes, grid.width(), grid.height());
     encoder.set_color(colour);

@@ -19,7 +19,7 @@ use crate::board::{Axis, Copper, Feature, Shape};
 use crate::geometry::{Arc, Nm, Point, Rect};
 use crate::grid::Grid;
 use crate::raster::{FillRule, Label, PixelPoint, Scene, Surface, mesh};
-use crate::topology::Nets;
+use crate::topology::{NetId, Nets};
 use crate::voronoi::plane::Spot;
 use crate::voronoi::seed;
 
@@ -43,7 +43,9 @@ const ARC_STEP: f64 = PI / 128.0;
 pub(super) struct Mesh<'a> {
     pub(super) copper: &'a Copper,
     pub(super) nets: &'a Nets,
-    grid: Grid,
+    pub(super) grid: Grid,
+    /// How far slopes reach.
+    reach: Nm,
 }
 
 /// What a net's axes are made of: strokes by their ends, and points where no stroke ends.
@@ -55,7 +57,14 @@ struct Skeleton {
 
 impl<'a> Mesh<'a> {
     pub(super) const fn new(copper: &'a Copper, nets: &'a Nets, grid: Grid) -> Self {
-        Self { copper, nets, grid }
+        Self { copper, nets, grid, reach: REACH }
+    }
+
+    /// The slopes of a net's axes alone, as far as `reach`.
+    pub(super) fn slopes(self, net: NetId, reach: Nm) -> Vec<Surface> {
+        let skeletons = self.skeletons();
+        let mesh = Self { reach, ..self };
+        skeletons.get(&net.0).map_or_else(Vec::new, |skeleton| mesh.skeleton(skeleton))
     }
 
     /// The copper alone.
@@ -132,7 +141,7 @@ impl<'a> Mesh<'a> {
                 surfaces.extend(self.fan(vertex.into(), from + PI / 2.0, to - PI / 2.0));
             }
         }
-        let reach = f64::from(self.grid.pixels(REACH));
+        let reach = f64::from(self.grid.pixels(self.reach));
         // A hair more than the error of 16 sides, so that rounding does not make them 17.
         let error = reach * (1.0 - libm::cos(PI / f64::from(CORNERS))) * (1.0 + 1e-9);
         for &flash in skeleton.flashes.iter().filter(|flash| !ways.contains_key(flash)) {
@@ -168,7 +177,7 @@ impl<'a> Mesh<'a> {
     /// The far end of a slope that begins at `from`, with its depth.
     fn slope(&self, from: Spot, angle: f64) -> (PixelPoint, f32) {
         let (sin, cos) = libm::sincos(angle);
-        (self.at(from + Spot::new(cos, sin) * REACH.to_f64()), self.grid.pixels(REACH))
+        (self.at(from + Spot::new(cos, sin) * self.reach.to_f64()), self.grid.pixels(self.reach))
     }
 }
 

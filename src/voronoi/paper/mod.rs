@@ -21,16 +21,24 @@ mod paths;
 mod simplify;
 
 use crate::board::{Axis, Copper};
-use crate::geometry::{Nm, Rect, Vector};
+use crate::geometry::{Nm, Point, Rect, Vector};
 use crate::grid::{Grid, GridError};
-use crate::raster::{self, Buffers, Scene};
-use crate::topology::Nets;
+use crate::raster::{self, Buffers, Scene, Surface};
+use crate::topology::{NetId, Nets};
 
 use mesh::Mesh;
 use paths::Labels;
 
 /// The side of a pixel: 500 dots an inch.
 pub const PITCH: Nm = Nm::new(50_800);
+
+/// The triangles that the paper draws for the core axes of a net, as far as `reach`: roofs along
+/// strokes, fans where they turn or end, cones round lone flashes (§III-D). Depths are distances in
+/// pixels of `grid`.
+#[must_use]
+pub fn slopes(copper: &Copper, nets: &Nets, net: NetId, grid: Grid, reach: Nm) -> Vec<Surface> {
+    Mesh::new(copper, nets, grid).slopes(net, reach)
+}
 
 /// Toolpaths of one kind over the whole board.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -44,6 +52,15 @@ pub struct Toolpaths {
     pub simplified: f64,
     /// How many segments those are.
     pub segments: usize,
+}
+
+/// Which of its toolpaths.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// Round every net.
+    Outline,
+    /// Between Voronoi regions, and once round the frame.
+    Voronoi,
 }
 
 /// A layer, to be drawn and measured as the paper did.
@@ -81,13 +98,37 @@ impl<'a> Paper<'a> {
     /// The paths round every net (Algorithm 3).
     #[must_use]
     pub fn outline(&self) -> Toolpaths {
-        toolpaths(&self.draw(&self.mesh.outline()))
+        toolpaths(&self.draw(&self.scene(Way::Outline)))
     }
 
     /// The paths between Voronoi regions and once round the frame, as the paper counts them.
     #[must_use]
     pub fn voronoi(&self) -> Toolpaths {
-        toolpaths(&self.draw(&self.mesh.voronoi(Some(self.board))))
+        toolpaths(&self.draw(&self.scene(Way::Voronoi)))
+    }
+
+    /// The pixels of the picture whose borders are cut, row by row: 0 for nobody, 1 for the frame,
+    /// from 2 on the nets by number.
+    #[must_use]
+    pub fn labels(&self, way: Way) -> (Grid, Vec<u32>) {
+        (self.mesh.grid, self.draw(&self.scene(way)).labels)
+    }
+
+    /// The simplified paths of [`Paper::outline`] or [`Paper::voronoi`] on the board, in the order
+    /// in which they are found.
+    #[must_use]
+    pub fn paths(&self, way: Way) -> Vec<Vec<Point>> {
+        let grid = &self.mesh.grid;
+        let place = |(column, row): (i32, i32)| grid.corner(i64::from(column), i64::from(row));
+        let on_board = |path: &Vec<(i32, i32)>| simplify::simplify(path).into_iter().map(place).collect();
+        paths::paths(&self.draw(&self.scene(way))).iter().map(on_board).collect()
+    }
+
+    fn scene(&self, way: Way) -> Scene {
+        match way {
+            Way::Outline => self.mesh.outline(),
+            Way::Voronoi => self.mesh.voronoi(Some(self.board)),
+        }
     }
 
     /// The area of each net's copper in square nanometres, by net: its pixels.
