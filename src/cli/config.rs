@@ -32,6 +32,14 @@ impl Config {
         self.resolved(input, Options { thickness, ..Options::default() })
     }
 
+    /// Fails for an option given here that the paper's program does not know.
+    pub(super) fn judge_paper(&self) -> Result<(), Failure> {
+        let given = self.options.listed();
+        let Some((option, _)) = given.iter().find(|(option, _)| *option != "strategy") else { return Ok(()) };
+        let cause = format!("--{option} changes nothing of what the paper's program makes");
+        Err(Failure::new(cause, "leave it out, or --paper; --strategy outline is taken"))
+    }
+
     /// The tools that the settings know.
     pub(super) fn workbench(&self, input: &Input) -> Result<Workbench, Failure> {
         let from_file = Self::found(self.config.as_deref(), &input.paths())?;

@@ -56,6 +56,11 @@ pub(super) struct Draw {
     #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true)]
     window: Option<Window>,
 
+    /// The picture from which the paper's own program takes its paths, and these: core axes as
+    /// triangles of 16 sides, 500 DPI; --strategy outline for its outlines
+    #[arg(long, conflicts_with_all = ["stage", "window"])]
+    paper: bool,
+
     #[command(flatten)]
     config: Config,
 }
@@ -138,6 +143,11 @@ impl Draw {
         let loaded = self.input.load(&settings)?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let side = chosen_side(self.side, loaded.board.front.is_some(), loaded.board.back.is_some())?;
+        if self.paper {
+            self.config.judge_paper()?;
+            let canvas = job::paper_picture(&loaded.board, side, settings.strategy.paper())?;
+            return self.write(&png::rgb(canvas.ok_or_else(|| no_copper(side))?));
+        }
         let area = self.window.map(|Window(rect)| rect);
         let format = self.format.unwrap_or_else(|| Format::of(&self.output));
         let rim = if self.stage.shows_frame() && settings.frame && loaded.board.outline.is_none() {

@@ -33,6 +33,11 @@ pub(super) struct Isolate {
     #[arg(long, value_enum)]
     side: Option<SideName>,
 
+    /// The program that the paper's own program writes: pixels of 500 DPI, its simplified paths in
+    /// its order; to compare with, not to mill
+    #[arg(long)]
+    paper: bool,
+
     #[command(flatten)]
     config: Config,
 }
@@ -52,6 +57,14 @@ impl Isolate {
         if loaded.board.front.is_none() && loaded.board.back.is_none() {
             return Err(job::Error::NoCopper("in these files".to_owned()).into());
         }
+        if self.paper {
+            self.config.judge_paper()?;
+            let side = if loaded.board.front.is_some() { Side::Front } else { Side::Back };
+            let text =
+                job::paper_program(&loaded.board, side, settings.strategy.paper())?.unwrap_or_default();
+            drop(progress);
+            return self.write(&text);
+        }
         let mut job = job::mill(loaded, &settings)?;
         // No other is written, so no other is told of.
         job.programs.retain(|program| matches!(program.part, Part::Front | Part::Back));
@@ -68,10 +81,17 @@ impl Isolate {
             shared.say(&document.summary(shared.is_verbose()));
             return super::print(text);
         }
+        self.write(text)?;
+        shared.report(&document.summary(shared.is_verbose()))
+    }
+
+    fn write(&self, text: &str) -> Result<(), Failure> {
+        if self.output == Path::new("-") {
+            return super::print(text);
+        }
         let mut output = Output::new();
         output.stage(&self.output, text.as_bytes())?;
-        output.commit()?;
-        shared.report(&document.summary(shared.is_verbose()))
+        output.commit()
     }
 }
 

@@ -8,6 +8,7 @@
 pub mod dialect;
 mod header;
 pub mod level;
+pub mod paper;
 mod probe;
 pub mod read;
 mod write;

@@ -3,10 +3,13 @@
 use std::time::Instant;
 
 use crate::board::{Board, Copper, Side};
-use crate::geometry::Nm;
+use crate::gcode;
+use crate::geometry::{Nm, Path};
+use crate::report::figures::flat;
 use crate::report::paper::{Columns, PaperEntry, Paths};
+use crate::report::{Canvas, Rgb};
 use crate::topology::{self, Method, Nets, Sampling};
-use crate::voronoi::paper::{Paper, Toolpaths, mean_width};
+use crate::voronoi::paper::{Paper, Toolpaths, Way, mean_width};
 use crate::voronoi::{self, Diagram, Frame};
 
 use super::Error;
@@ -43,6 +46,41 @@ pub fn paper(board: &Board, side: Side) -> Result<Option<PaperEntry>, Error> {
         },
         exact: exact(copper, &nets, &drawn, &strokes)?,
     }))
+}
+
+/// What the paper's program makes of a side: traces by Algorithms 1 and 2, paths from its picture.
+fn traces(copper: &Copper) -> Result<Nets, Error> {
+    let coincident = topology::recover(copper, Method::Coincidence);
+    Ok(topology::translucency(copper, &coincident, Sampling::default())?.nets)
+}
+
+/// The G-code that the paper's program writes for a side; none where there is no copper.
+///
+/// # Errors
+///
+/// [`Error`] for a board too large to be drawn.
+pub fn paper_program(board: &Board, side: Side, way: Way) -> Result<Option<String>, Error> {
+    let Some(copper) = board.copper(side) else { return Ok(None) };
+    let nets = traces(copper)?;
+    Ok(Paper::new(copper, &nets)?.map(|paper| gcode::paper::program(paper.paths(way))))
+}
+
+/// The picture from which the paper's program takes its paths, a colour for each net and the paths
+/// in black; none where there is no copper.
+///
+/// # Errors
+///
+/// [`Error`] for a board too large to be drawn.
+pub fn paper_picture(board: &Board, side: Side, way: Way) -> Result<Option<Canvas>, Error> {
+    let Some(copper) = board.copper(side) else { return Ok(None) };
+    let nets = traces(copper)?;
+    let Some(paper) = Paper::new(copper, &nets)? else { return Ok(None) };
+    let (grid, labels) = paper.labels(way);
+    let owners: Vec<u32> = labels.into_iter().map(|label| label.saturating_sub(1)).collect();
+    let mut canvas = flat(&owners, grid);
+    let lines: Vec<Path> = paper.paths(way).into_iter().filter_map(Path::polyline).collect();
+    canvas.strokes(&lines, Nm::ZERO, Rgb(0, 0, 0), 1.0);
+    Ok(Some(canvas))
 }
 
 /// An inch in nanometres.

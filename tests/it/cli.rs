@@ -552,6 +552,26 @@ fn inspect_lists_files_nets_and_holes() {
 }
 
 #[test]
+fn the_papers_own_program_and_picture_are_to_be_had() {
+    let out = folder();
+    let board = fixture("boards/blinker/blinker-B_Cu.gbr");
+    let board = board.to_string_lossy();
+    let program = stdout(&voromill(out.path(), &["isolate", &board, "--paper", "-o", "-"]));
+    assert!(program.starts_with("G21\nG17\nG40\nG49\nG80\nG90\nG0 Z1\nG0 X"), "{program:.80}");
+    assert!(program.ends_with("G0 Z1\nM5\nM2\n") && program.contains("G1 Z-0.1 F60"), "{program:.80}");
+    let loops =
+        stdout(&voromill(out.path(), &["isolate", &board, "--paper", "--strategy", "outline", "-o", "-"]));
+    assert_eq!(loops.matches("G0 X").count(), 17, "a path round each net");
+    let done = voromill(out.path(), &["draw", &board, "--paper", "-o", "paper.png"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let picture = image::open(out.path().join("paper.png")).expect("a PNG");
+    assert!(picture.width() > 600, "500 dots an inch");
+    fs::remove_file(out.path().join("paper.png")).expect("it was there");
+    let other = ["isolate", &board, "--paper", "--depth", "0.2mm", "-o", "-"];
+    fails(&out, &other, &["--depth changes nothing of what the paper's program makes"], &[]);
+}
+
+#[test]
 fn inspect_says_which_nets_are_coupled_and_what_a_limit_helps() {
     let out = folder();
     let board = fixture("boards/blinker");
