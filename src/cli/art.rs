@@ -7,7 +7,8 @@ use serde::Serialize;
 use voromill::board::{Copper, FLATTEN, Feature, Side, polarity};
 use voromill::gcode::Input as Origin;
 use voromill::geometry::{Nm, Polygon};
-use voromill::import::{self, text::text};
+use voromill::import::drawing::Unit;
+use voromill::import::{self, Loaded, text::text};
 use voromill::job::{Art, Length, OneTool, Settings};
 use voromill::verify::Finding;
 
@@ -45,12 +46,17 @@ pub(super) struct Shapes {
     /// Which part of a picture is milled [default: the rarer]
     #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
     ink: Option<Colour>,
+
+    /// How long one unit of a drawing (SVG, DXF) is, whatever the file says: mm, in, 0.1mm, or
+    /// 90dpi for a 90th inch
+    #[arg(long, value_name = "UNIT", help_heading = "Drawings")]
+    unit: Option<Unit>,
 }
 
 impl Shapes {
     /// The file, as a board is read.
     pub(super) fn input(&self) -> Input {
-        Input::artwork(self.path.clone(), self.picture_dpi, self.picture_width, self.ink)
+        Input::artwork(self.path.clone(), self.picture_dpi, self.picture_width, self.ink, self.unit)
     }
 
     /// The shapes.
@@ -105,7 +111,7 @@ pub(super) fn write(
         return super::print(&one.text);
     }
     for one in programs {
-        staged.stage(&tagged(output, one.tag), one.text.as_bytes())?;
+        staged.stage(&tagged(output, &one.tag), one.text.as_bytes())?;
     }
     staged.commit()
 }
@@ -155,10 +161,21 @@ const BOARDS: [&str; 14] = [
 /// The shapes of a file.
 fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    let is_board = path.is_dir() || ending.is_some_and(|ending| BOARDS.contains(&ending.as_str()));
-    let loaded = if is_board { input.load(settings)? } else { import::load_copper(path, Side::Front)? };
-    let copper = [&loaded.board.front, &loaded.board.back].into_iter().find_map(Option::as_ref);
-    let areas = copper.map_or_else(Vec::new, areas);
+    let is_board = path.is_dir() || ending.as_ref().is_some_and(|ending| BOARDS.contains(&ending.as_str()));
+    let is_drawing = ending.is_some_and(|ending| ["svg", "dxf"].contains(&ending.as_str()));
+    let filled = |loaded: &Loaded| {
+        let copper = [&loaded.board.front, &loaded.board.back].into_iter().find_map(Option::as_ref);
+        copper.map_or_else(Vec::new, areas)
+    };
+    let loaded = if is_board { input.load(settings) } else { Ok(import::load_copper(path, Side::Front)?) };
+    let (loaded, areas) = match loaded {
+        Ok(loaded) => {
+            let areas = filled(&loaded);
+            if areas.is_empty() && is_drawing { enclosed(input, settings)? } else { (loaded, areas) }
+        }
+        Err(failure) if is_drawing => enclosed(input, settings).map_err(|_| failure)?,
+        Err(failure) => return Err(failure),
+    };
     let inputs = loaded
         .sources
         .iter()
@@ -167,6 +184,14 @@ fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure
     // What is said of boards and their outlines is of no use here.
     let warnings = loaded.warnings.into_iter().filter(|warning| !warning.code.starts_with("outline"));
     Ok(Art { name: loaded.board.name, areas, inputs: inputs.collect(), warnings: warnings.collect() })
+}
+
+/// What the lines of a drawing enclose that fills nothing, and what is read so.
+fn enclosed(input: &Input, settings: &Settings) -> Result<(Loaded, Vec<Polygon>), Failure> {
+    let loaded = input.as_outline().survey(settings)?;
+    let outline = loaded.board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
+    let areas = outline.map_or_else(Vec::new, |outline| polarity::clean(outline.contours()));
+    Ok((loaded, areas))
 }
 
 /// What a layer covers.

@@ -119,20 +119,27 @@ fn pixels(text: &str) -> Result<[u32; 4], String> {
 }
 
 impl Input {
-    /// A file that is no board, and what is said of it if it is a picture.
+    /// A file that is no board, and what is said of it if it is a picture or a drawing.
     pub(super) fn artwork(
         path: Option<PathBuf>,
         dpi: Option<f64>,
         width: Option<Length>,
         ink: Option<Colour>,
+        unit: Option<Unit>,
     ) -> Self {
         Self {
             paths: path.into_iter().collect(),
             picture_dpi: dpi,
             picture_width: width,
             copper: ink,
+            unit,
             ..Self::default()
         }
+    }
+
+    /// The same file as an outline alone.
+    pub(super) fn as_outline(&self) -> Self {
+        Self { outline: self.paths.first().cloned(), unit: self.unit, ..Self::default() }
     }
 
     /// The board to be milled: without copper it is none.

@@ -29,7 +29,8 @@ pub(super) struct Pocket {
     #[command(flatten)]
     shapes: Shapes,
 
-    /// Program to write; `-` for stdout
+    /// Program to write; `-` for stdout. With several tools NAME-1, NAME-2 and so on, the widest
+    /// first
     #[arg(long, short, value_name = "FILE", required_unless_present = "check")]
     output: Option<PathBuf>,
 
@@ -70,7 +71,8 @@ pub(super) struct Pocket {
     #[arg(long, value_name = "LENGTH", default_value = "5mm", help_heading = "Pocketing")]
     margin: Length,
 
-    /// Judge this program, whoever made it, instead of writing one
+    /// Judge this program, whoever made it, instead of writing one; with several tools one for
+    /// each, the widest first
     #[arg(long, value_name = "PROGRAM", conflicts_with_all = ["output", "no_verify"], help_heading = "Output")]
     check: Vec<PathBuf>,
 

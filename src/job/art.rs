@@ -29,8 +29,8 @@ pub struct Art {
 /// A program with one tool.
 #[derive(Clone, Debug)]
 pub struct OneTool {
-    /// What its file's name ends in; empty for the V-bit's.
-    pub tag: &'static str,
+    /// What its file's name ends in; empty for the V-bit's, and for a pocket's one tool.
+    pub tag: String,
     /// What was planned.
     pub program: Program,
     /// What it amounts to.
@@ -59,7 +59,7 @@ pub(super) fn placed(area: &Polygon, placement: &Placement) -> Polygon {
 /// tool, and the settings that its header says.
 pub(super) fn written(
     art: &Art,
-    (tag, what, number): (&'static str, &str, u32),
+    (tag, what, number): (&str, &str, u32),
     section: Section,
     settings: &Settings,
     said: Vec<(String, String)>,
@@ -81,7 +81,7 @@ pub(super) fn written(
     };
     let text = gcode::write(&program, &settings.dialect, &header);
     warnings.extend(program.check_travel(&settings.machine));
-    (OneTool { tag, program, statistics, text }, warnings)
+    (OneTool { tag: tag.to_owned(), program, statistics, text }, warnings)
 }
 
 /// The programs as the judge takes them.

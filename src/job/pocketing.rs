@@ -1,7 +1,10 @@
 //! Artwork → the programs that mill it as pockets, and what they do.
 
+use rayon::prelude::*;
+
+use crate::board::FLATTEN;
 use crate::board::Warning;
-use crate::board::polarity::offset;
+use crate::board::polarity::{difference, intersection, offset, union};
 use crate::geometry::{Nm, Polygon, Rect};
 use crate::toolpath::strategy::{self, Entries, Levels, Sequence};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Tool, ToolKind};
@@ -10,7 +13,7 @@ use crate::verify::pocketing::{self, Floor, Pocketed};
 use crate::voronoi::medial::nest::Nest;
 
 use super::art::{self, Art, OneTool, placed, round, written};
-use super::{CARVING_OPTIONS, Error, Length, Overlap, Settings};
+use super::{CARVING_OPTIONS, Cutting, Error, Length, Overlap, Settings};
 
 /// How pockets are milled.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,7 +44,7 @@ pub struct Pocket {
     pub depth: Nm,
     /// A program for each tool, in the order in which they are run.
     pub programs: Vec<OneTool>,
-    /// How the first tool comes down.
+    /// How the tools come down.
     pub entries: Entries,
     /// What a person must know.
     pub warnings: Vec<Warning>,
@@ -71,9 +74,8 @@ pub const POCKETING_OPTIONS: &[&str] = &["depth", "direction"];
 /// [`Error::Value`] for a tool that is no end mill and lengths that make no sense, and for areas
 /// that are all narrower than the tool.
 pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, Error> {
-    let (tool, heights) = end_mill(settings)?;
-    let heights = Heights { step: how.step, ..heights };
-    let levels = levels(tool, settings, how)?;
+    let mills = end_mills(settings)?;
+    judge(how)?;
     let areas = match how.raised {
         None => art.areas.clone(),
         Some(margin) => round(&art.areas, margin),
@@ -82,48 +84,142 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
     let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to mill".to_owned()))?;
     let placement = Placement::front(settings.origin, bounds, settings.rotate, settings.offset);
     let areas: Vec<Polygon> = areas.iter().map(|area| placed(area, &placement)).collect();
-    let nest = Nest::new(&areas, |level| levels.at(level));
-    if nest.roots.is_empty() {
-        let problem = format!("everything is narrower than `{}`: nothing is milled", tool.kind);
+    let mut made = Pocket {
+        name: art.name.clone(),
+        areas,
+        depth: mills[0].1.cut,
+        programs: Vec::new(),
+        entries: Entries::default(),
+        warnings: art.warnings.clone(),
+        how: how.clone(),
+        levels: Vec::new(),
+    };
+    let mut before: Option<Nm> = None;
+    for &(tool, heights) in &mills {
+        let radius = tool.width_at(Nm::ZERO) / 2;
+        let areas = match before {
+            None => made.areas.clone(),
+            Some(coarser) => rest(&made.areas, coarser, radius),
+        };
+        if made.mill(&art, &areas, (tool, heights), settings, mills.len() > 1)? {
+            before = Some(radius);
+        }
+    }
+    let finest = mills[mills.len() - 1].0;
+    if made.programs.is_empty() {
+        let problem = format!("everything is narrower than `{}`: nothing is milled", finest.kind);
         return Err(Error::Value { key: "tool", problem });
     }
-    let mut warnings = art.warnings.clone();
-    let plan = strategy::Pocketing {
-        tool,
-        heights,
-        levels,
-        sequence: how.sequence,
-        direction: settings.direction.unwrap_or(Direction::Climb),
-        ramp: how.ramp,
-        tolerance: settings.tolerance,
-    };
-    let (section, entries) = strategy::pocket(format!("pocket {}", art.name), &nest, &plan);
-    warnings.extend(flaws(&areas, tool, &nest, entries));
-    let (one, found) = written(&art, ("", "pocket", 1), section, settings, said(settings, how));
-    warnings.extend(found);
-    let deepest = nest.loops.iter().map(|one| one.level).max().unwrap_or(0);
-    Ok(Pocket {
-        name: art.name,
-        areas,
-        depth: heights.cut,
-        programs: vec![one],
-        entries,
-        warnings,
-        how: how.clone(),
-        levels: (0..=deepest + 1).map(|level| levels.at(level)).collect(),
-    })
+    let found = flaws(&made.areas, finest, made.entries);
+    made.warnings.extend(found);
+    Ok(made)
 }
 
-/// The one tool, which must be an end mill, and how it goes.
-fn end_mill(settings: &Settings) -> Result<(&Tool, Heights), Error> {
-    let wrong = |problem: String| Err(Error::Value { key: "tool", problem });
-    match settings.isolation.as_slice() {
-        [one] if matches!(one.tool.kind, ToolKind::EndMill { .. }) => Ok((&one.tool, one.heights)),
-        [one] => {
-            wrong(format!("`{}` is no end mill: a flat floor needs one, such as endmill:1mm", one.tool.kind))
+impl Pocket {
+    /// Adds the program of a tool for what it is to clear; false where it fits nowhere.
+    fn mill(
+        &mut self,
+        art: &Art,
+        areas: &[Polygon],
+        (tool, heights): (&Tool, Heights),
+        settings: &Settings,
+        is_one_of_several: bool,
+    ) -> Result<bool, Error> {
+        let levels = levels(tool, settings, &self.how)?;
+        let nest = Nest::new(areas, |level| levels.at(level));
+        if nest.flaws > 0 {
+            let message = format!(
+                "the Voronoi diagram of {} areas has a flaw: their loops are offset polygons instead",
+                nest.flaws
+            );
+            self.warnings.push(Warning::new("loops-by-offsets", message));
         }
-        several => wrong(format!("a pocket takes one end mill, and here are {} tools", several.len())),
+        if nest.roots.is_empty() {
+            if is_one_of_several {
+                let message = format!(
+                    "`{}` cuts nothing: it fits nowhere, or the other tools leave it nothing",
+                    tool.name
+                );
+                self.warnings.push(Warning::new("tool-cuts-nothing", message));
+            }
+            return Ok(false);
+        }
+        let plan = strategy::Pocketing {
+            tool,
+            heights: Heights { step: self.how.step, ..heights },
+            levels,
+            sequence: self.how.sequence,
+            direction: settings.direction.unwrap_or(Direction::Climb),
+            ramp: self.how.ramp,
+            tolerance: settings.tolerance,
+        };
+        let number = self.programs.len() + 1;
+        let what = if number == 1 { "pocket" } else { "rest" };
+        let (section, entries) = strategy::pocket(format!("{what} {}", art.name), &nest, &plan);
+        let tag = if is_one_of_several { number.to_string() } else { String::new() };
+        let number = u32::try_from(number).unwrap_or(u32::MAX);
+        let (one, found) = written(art, (&tag, what, number), section, settings, said(settings, &self.how));
+        self.warnings.extend(found);
+        if self.programs.is_empty() {
+            let deepest = nest.loops.iter().map(|one| one.level).max().unwrap_or(0);
+            self.levels = (0..=deepest + 1).map(|level| levels.at(level)).collect();
+        }
+        self.programs.push(one);
+        self.entries.all += entries.all;
+        self.entries.straight += entries.straight;
+        self.entries.unlinked += entries.unlinked;
+        Ok(true)
     }
+}
+
+/// What a finer tool is to clear of areas that a coarser one has cleared as far as it fits: round
+/// what is left as far as any disc of the finer tool that touches it, so that the loops of that are
+/// those that clear it.
+fn rest(areas: &[Polygon], coarser: Nm, finer: Nm) -> Vec<Polygon> {
+    let opened = |area: &Polygon, radius: Nm| -> Vec<Polygon> {
+        let fits = offset(area, -radius, FLATTEN);
+        union(&fits.iter().flat_map(|fit| offset(fit, radius, FLATTEN)).collect::<Vec<_>>())
+    };
+    let of_area = |area: &Polygon| -> Vec<Polygon> {
+        let cleared = opened(area, coarser);
+        let left = opened(area, finer).into_iter().flat_map(|open| difference(&open, &cleared));
+        let thick = left.flat_map(|piece| offset(&piece, -THIN, FLATTEN));
+        let near = thick.flat_map(|piece| offset(&piece, finer * 2 + THIN * 5, FLATTEN));
+        let near = union(&near.collect::<Vec<_>>());
+        near.iter().flat_map(|near| intersection(near, area)).collect()
+    };
+    areas.par_iter().flat_map_iter(of_area).collect()
+}
+
+/// What is left in strips of twice this width is nothing. Chosen: what a cut may be off.
+const THIN: Nm = Nm::from_um(2);
+
+/// The tools, which must be end mills, the widest first, and how they go.
+fn end_mills(settings: &Settings) -> Result<Vec<(&Tool, Heights)>, Error> {
+    let end_mill = |cutting: &'_ Cutting| match cutting.tool.kind {
+        ToolKind::EndMill { .. } => Ok(()),
+        kind @ (ToolKind::VBit { .. } | ToolKind::Drill { .. }) => {
+            let problem = format!("`{kind}` is no end mill: a flat floor needs one, such as endmill:1mm");
+            Err(Error::Value { key: "tool", problem })
+        }
+    };
+    settings.isolation.iter().try_for_each(end_mill)?;
+    Ok(settings.isolation.iter().map(|cutting| (&cutting.tool, cutting.heights)).collect())
+}
+
+/// Fails for what makes no sense with any tool.
+fn judge(how: &Pocketing) -> Result<(), Error> {
+    let wrong = |key: &'static str, problem: String| Err(Error::Value { key, problem });
+    if how.step.is_some_and(|step| step <= Nm::ZERO) {
+        return wrong("depth-pass", "a pass of nothing makes no sense: it must be above zero".to_owned());
+    }
+    if how.ramp <= Angle::ZERO || how.ramp >= Angle::from_degrees(90) {
+        return wrong("ramp", format!("{} makes no sense: expected above 0deg and below 90deg", how.ramp));
+    }
+    if how.raised.is_some_and(|margin| margin <= Nm::ZERO) {
+        return wrong("margin", "a margin of nothing makes no sense: it must be above zero".to_owned());
+    }
+    Ok(())
 }
 
 /// How far loops are from the edge.
@@ -140,18 +236,9 @@ fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, E
             ),
         );
     }
-    if how.step.is_some_and(|step| step <= Nm::ZERO) {
-        return wrong("depth-pass", "a pass of nothing makes no sense: it must be above zero".to_owned());
-    }
     if how.stock < Nm::ZERO || how.stock > diameter / 2 {
         let problem = format!("{} is not between nothing and half the tool's diameter", Length(how.stock));
         return wrong("stock", problem);
-    }
-    if how.ramp <= Angle::ZERO || how.ramp >= Angle::from_degrees(90) {
-        return wrong("ramp", format!("{} makes no sense: expected above 0deg and below 90deg", how.ramp));
-    }
-    if how.raised.is_some_and(|margin| margin <= Nm::ZERO) {
-        return wrong("margin", "a margin of nothing makes no sense: it must be above zero".to_owned());
     }
     // Each loop may be off its place by the tolerance.
     let most = diameter.to_f64() / 2.0 - 2.0 * settings.tolerance.to_f64();
@@ -163,7 +250,7 @@ fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, E
 }
 
 /// What the tool cannot do of the areas.
-fn flaws(areas: &[Polygon], tool: &Tool, nest: &Nest, entries: Entries) -> Vec<Warning> {
+fn flaws(areas: &[Polygon], tool: &Tool, entries: Entries) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let radius = tool.width_at(Nm::ZERO) / 2;
     let narrow =
@@ -173,13 +260,6 @@ fn flaws(areas: &[Polygon], tool: &Tool, nest: &Nest, entries: Entries) -> Vec<W
         let message =
             format!("{narrow} of {} areas are narrower than `{}`: they are left", areas.len(), tool.kind);
         warnings.push(Warning::new("narrower-than-tool", message));
-    }
-    if nest.flaws > 0 {
-        let message = format!(
-            "the Voronoi diagram of {} areas has a flaw: their loops are offset polygons instead",
-            nest.flaws
-        );
-        warnings.push(Warning::new("loops-by-offsets", message));
     }
     if entries.straight > 0 {
         let message = format!(

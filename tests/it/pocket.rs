@@ -27,11 +27,12 @@ fn how() -> Pocketing {
 }
 
 fn settings(tool: &str, depth: &str) -> Settings {
-    let tool = vec![tool.parse().expect("a tool")];
+    let tool = tool.split(',').map(|tool| tool.parse().expect("a tool")).collect();
     let depth = Some(depth.parse().expect("a length"));
     Settings::resolve(Options { tool, depth, ..Options::default() }).expect("settings")
 }
 
+/// With one tool, or several with commas between them.
 fn pocketed(name: &str, areas: Vec<Polygon>, tool: &str, how: &Pocketing) -> Pocket {
     let art = Art { name: name.to_owned(), areas, ..Art::default() };
     pocket(art, &settings(tool, "1mm"), how).expect("a program")
@@ -161,6 +162,27 @@ fn passes_and_both_orders_end_at_the_same_floor() {
         check(&format!("{sequence:?} with {stock:?}"), &thrice);
         assert_eq!(thrice.entries.all, 3 * once.entries.all, "{sequence:?} with {stock:?}");
         assert!(sequence == Sequence::InsideOut || once.entries.all == 1, "once for each area");
+    }
+}
+
+#[test]
+fn a_finer_tool_clears_what_a_coarser_one_left() {
+    let seeds = if cfg!(debug_assertions) { 2 } else { 50 };
+    let random = (0..seeds).map(|seed| random_areas(seed, 1));
+    for areas in random.chain([dumbbell()]) {
+        let how = Pocketing { step: Some(Nm::from_um(600)), ..how() };
+        let both = pocketed("both", areas.clone(), "endmill:2.2mm,endmill:0.6mm", &how);
+        let judged = both.verify(PITCH).expect("programs");
+        assert_eq!(judged.findings, [], "with both");
+        assert_eq!((judged.plunges, both.entries.unlinked), (both.entries.all, 0), "plunges");
+        let alone = pocketed("alone", areas, "endmill:0.6mm", &how);
+        let same = alone.verify(PITCH).expect("a program").reachable_mm2 - judged.reachable_mm2;
+        assert!(same.abs() < 1e-6, "in the end it is the same: {same} mm²");
+        let [coarse, rest] = both.programs.as_slice() else { continue };
+        let texts = [("coarse", coarse.text.as_str()), ("rest", coarse.text.as_str())];
+        assert_eq!((coarse.tag.as_str(), rest.tag.as_str()), ("1", "2"), "files by their order");
+        let found = both.judge(&texts, PITCH).expect("programs").findings;
+        assert!(!found.is_empty(), "without the finer one's program much is left");
     }
 }
 
@@ -348,6 +370,32 @@ fn a_drawing_becomes_a_program_that_passes() {
     let said = String::from_utf8_lossy(&checked.stdout).into_owned();
     assert_eq!(checked.status.code(), Some(1), "{said}");
     assert!(said.contains("pocket-too-deep"), "{said}");
+}
+
+/// Lines that fill nothing are the edge of what they enclose, but for what others enclose in it.
+#[test]
+fn closed_lines_of_a_drawing_are_a_shape() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let corners = |x: i32, y: i32, w: i32, h: i32| [(x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y)];
+    let mut drawing =
+        "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n".to_owned();
+    for ring in [corners(0, 0, 30, 20), corners(12, 8, 5, 5)] {
+        for pair in ring.windows(2) {
+            let [(a, b), (c, d)] = [pair[0], pair[1]];
+            drawing += &format!("0\nLINE\n8\n0\n10\n{a}\n20\n{b}\n11\n{c}\n21\n{d}\n");
+        }
+    }
+    drawing += "0\nENDSEC\n0\nEOF\n";
+    std::fs::write(path("plate.dxf"), drawing).expect("a drawing");
+    let made =
+        voromill(&["pocket", &path("plate.dxf"), "-o", &path("p.ngc"), "--tool", "endmill:2mm", "--json"]);
+    let said = String::from_utf8_lossy(&made.stdout).into_owned();
+    assert!(made.status.success(), "{said}{}", String::from_utf8_lossy(&made.stderr));
+    let reachable = said.split("\"reachable_mm2\": ").nth(1).and_then(|rest| rest.split(',').next());
+    let reachable: f64 = reachable.expect("an area").parse().expect("a number");
+    let corners = (4.0 - std::f64::consts::PI) * 1.0;
+    assert!((reachable - (600.0 - 25.0 - corners)).abs() < 0.01, "{reachable} mm²");
 }
 
 #[test]

@@ -10,8 +10,12 @@ use crate::verify::edges::length;
 /// A point in nanometres.
 type Spot = (f64, f64);
 
-/// Arcs become chords within this of them. Chosen: far below what is tolerated.
-const CHORD: Nm = Nm::new(50);
+/// Arcs become chords within this of them where that is measured. Chosen: far below what is
+/// tolerated.
+pub(super) const CHORD: Nm = Nm::new(50);
+
+/// The same for pictures. Chosen: a tenth of a pixel.
+pub(super) const COARSE: Nm = Nm::from_um(2);
 
 /// A straight motion of a tool below the surface.
 #[derive(Clone, Copy, Debug)]
@@ -32,11 +36,11 @@ pub struct Milled {
 }
 
 impl Milled {
-    /// All that the motions of programs mill, each with its tool.
-    pub(super) fn new(programs: &[(Listing, Cutter)]) -> Self {
+    /// All that the motions of programs mill, each with its tool; arcs as chords within `chord`.
+    pub(super) fn new(programs: &[(Listing, Cutter)], chord: Nm) -> Self {
         let mut sweeps = Vec::new();
         for (listing, cutter) in programs {
-            listing.motions.iter().for_each(|motion| swept(motion, cutter, &mut sweeps));
+            listing.motions.iter().for_each(|motion| swept(motion, cutter, chord, &mut sweeps));
         }
         let mut builder = StaticAABB2DIndexBuilder::new(sweeps.len());
         for sweep in &sweeps {
@@ -68,7 +72,7 @@ impl Milled {
 }
 
 /// The straight sweeps of a motion that reaches below the surface.
-fn swept(motion: &Motion, cutter: &Cutter, sweeps: &mut Vec<Sweep>) {
+fn swept(motion: &Motion, cutter: &Cutter, chord: Nm, sweeps: &mut Vec<Sweep>) {
     let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { return };
     let (Some(top), Some(bottom)) = (motion.from.z, motion.to.z) else { return };
     if top >= Nm::ZERO && bottom >= Nm::ZERO {
@@ -80,7 +84,7 @@ fn swept(motion: &Motion, cutter: &Cutter, sweeps: &mut Vec<Sweep>) {
         Way::Rapid | Way::Feed => places.push(to.to_f64()),
         Way::Arc { center, turn } => {
             let arc = Arc { start: from, end: to, center, turn };
-            let count = u32::try_from(arc.chords(CHORD)).unwrap_or(u32::MAX).max(1);
+            let count = u32::try_from(arc.chords(chord)).unwrap_or(u32::MAX).max(1);
             places.extend((1..=count).map(|i| arc.at(f64::from(i) / f64::from(count))));
         }
     }

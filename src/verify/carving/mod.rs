@@ -101,7 +101,7 @@ struct Off {
 /// [`Error::Read`] for a text that cannot be followed.
 pub fn carving(programs: &[Text<'_>], ideal: &Ideal<'_>) -> Result<Carved, Error> {
     let listings = followed(programs)?;
-    let mut carved = compare(&Milled::new(&listings), ideal);
+    let mut carved = compare(&Milled::new(&listings, milled::CHORD), ideal);
     let harm = programs.iter().zip(&listings).flat_map(|(program, (listing, _))| {
         harm(listing).into_iter().map(|found| Finding { program: Some(program.file.to_owned()), ..found })
     });
@@ -115,7 +115,7 @@ pub fn carving(programs: &[Text<'_>], ideal: &Ideal<'_>) -> Result<Carved, Error
 ///
 /// [`Error::Read`] for a text that cannot be followed.
 pub fn milled(programs: &[Text<'_>]) -> Result<Milled, Error> {
-    Ok(Milled::new(&followed(programs)?))
+    Ok(Milled::new(&followed(programs)?, milled::COARSE))
 }
 
 /// What programs do, each with its tool.

@@ -91,8 +91,8 @@ impl Nest {
     }
 
     fn of_area(area: &Polygon, level: &impl Fn(usize) -> f64) -> Self {
-        let least = Nm::from_f64(level(0));
-        if offset(area, -least, FLATTEN).is_empty() {
+        let least = Nm::from_f64(2.0 * level(0)) - Nm::from_um(1);
+        if area.bounds().width().min(area.bounds().height()) < least {
             return Self::default();
         }
         // Of a part of it that narrow places cut off no seed may be known, so all is walked.
