@@ -21,6 +21,11 @@ impl Random {
         low + i64::try_from(self.next() % span).expect("below the span")
     }
 
+    fn one_of<T: Copy>(&mut self, choices: &[T]) -> T {
+        let last = i64::try_from(choices.len()).expect("a few") - 1;
+        choices[usize::try_from(self.within(0, last)).expect("an index")]
+    }
+
     fn chance(&mut self, percent: i64) -> bool {
         self.within(1, 100) <= percent
     }
@@ -32,12 +37,14 @@ const CELL: i64 = 250;
 /// What stands on a cell: nothing, or a net.
 type Cell = Option<u32>;
 
+/// A pad: its place in cells, its size in micrometres, and whether it is round.
+type Pad = ((i64, i64), (i64, i64), bool);
+
 struct Board {
     cells: Vec<Cell>,
     width: i64,
     height: i64,
-    /// Pads: place in cells, size in micrometres, round or not.
-    pads: Vec<((i64, i64), (i64, i64), bool)>,
+    pads: Vec<Pad>,
     /// Traces: corners in cells, width in micrometres.
     traces: Vec<(Vec<(i64, i64)>, i64)>,
 }
@@ -90,14 +97,13 @@ impl Board {
     /// Rows of pads, one or two, lying or standing, where there is room.
     fn part(&mut self, random: &mut Random) {
         let fine = random.chance(40);
-        let pitch = if fine { random.within(4, 6) } else { [8, 10, 10, 20][random.within(0, 3) as usize] };
+        let pitch = if fine { random.within(4, 6) } else { random.one_of(&[8, 10, 10, 20]) };
         let pads = if random.chance(50) { 2 } else { random.within(3, 14) };
         let rows = if pads > 3 && random.chance(60) { 2 } else { 1 };
         let apart = random.within(16, 40);
         let at = (random.within(4, self.width - 4), random.within(4, self.height - 4));
         let lies = random.chance(50);
-        let size =
-            if fine { (600, 1200) } else { [(1600, 1600), (1800, 1400)][random.within(0, 1) as usize] };
+        let size = if fine { (600, 1200) } else { random.one_of(&[(1600, 1600), (1800, 1400)]) };
         let round = !fine && random.chance(60);
         let size = if lies { size } else { (size.1, size.0) };
         let half = (size.0 / 2 / CELL, size.1 / 2 / CELL);
@@ -124,7 +130,7 @@ impl Board {
         if near.is_empty() {
             return;
         }
-        let to = near[usize::try_from(random.within(0, near.len() as i64 - 1)).expect("an index")];
+        let to = random.one_of(&near);
         let end = self.pads[to].0;
         let [own, other] = [start, end].map(|place| self.cell(place).and_then(|cell| self.cells[cell]));
         let corner = if random.chance(50) { (start.0, end.1) } else { (end.0, start.1) };

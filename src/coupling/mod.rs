@@ -42,6 +42,9 @@ pub enum Layout {
     Limited(Nm),
 }
 
+/// The length of a part of a boundary, and the clearance in its middle, in millimetres.
+type Stretch = (f64, f64);
+
 /// Two nets whose regions meet.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pair {
@@ -49,8 +52,7 @@ pub struct Pair {
     pub nets: [NetId; 2],
     /// The length of the boundary between them, in nanometres.
     pub length: f64,
-    /// Stretches of it with the clearance in their middle, both in millimetres.
-    stretches: Vec<(f64, f64)>,
+    stretches: Vec<Stretch>,
 }
 
 /// What two nets are to each other in a layout.
@@ -93,7 +95,7 @@ impl Coupling {
         substrate: Substrate,
     ) -> Self {
         let mut perimeters = vec![0.0; extents.len()];
-        let mut pairs: BTreeMap<[NetId; 2], (f64, Vec<(f64, f64)>)> = BTreeMap::new();
+        let mut pairs: BTreeMap<[NetId; 2], (f64, Vec<Stretch>)> = BTreeMap::new();
         for edge in &boundaries.edges {
             for owner in [edge.left, edge.right] {
                 if let Owner::Net(net) = owner {
@@ -179,7 +181,7 @@ const LIMITS: [i64; 12] = [5000, 3000, 2000, 1500, 1000, 800, 600, 500, 400, 300
 
 /// Stretches of a boundary with the clearance in their middle, in millimetres: between the vertices
 /// of a path it may be more than at both.
-fn along(edge: &Boundary, diagram: &Diagram) -> Vec<(f64, f64)> {
+fn along(edge: &Boundary, diagram: &Diagram) -> Vec<Stretch> {
     let mut found = Vec::new();
     for (from, segment) in edge.path.steps() {
         let length = segment.length(from) / 1e6;

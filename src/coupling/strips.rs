@@ -101,10 +101,10 @@ mod tests {
     fn potential(x: f64, substrate: Substrate) -> f64 {
         let e = substrate.permittivity;
         let fainter = (e - 1.0) / (e + 1.0);
-        let (mut sum, mut strength, mut depth) = (x.ln(), 1.0, 0.0);
+        let (mut sum, mut strength, mut depth) = (libm::log(x), 1.0, 0.0);
         for _ in 0..60 {
             depth += 2.0 * substrate.thickness;
-            let far = (x * x + depth * depth).sqrt().ln();
+            let far = libm::log((x * x + depth * depth).sqrt());
             sum += strength * fainter * (1.0 + fainter) * far;
             strength *= fainter * fainter;
         }
@@ -119,7 +119,7 @@ mod tests {
             (0..LINES).map(move |i| {
                 let at = |i: usize| {
                     let part = std::f64::consts::PI * f64::from(u32::try_from(i).unwrap()) / 60.0;
-                    from + width * (1.0 - part.cos()) / 2.0
+                    from + width * (1.0 - libm::cos(part)) / 2.0
                 };
                 (f64::midpoint(at(i), at(i + 1)), at(i + 1) - at(i))
             })
