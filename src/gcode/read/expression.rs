@@ -96,10 +96,8 @@ impl Parser<'_, '_> {
     }
 
     fn number(&mut self) -> Result<f64, ReadError> {
-        let before = self.code.clone();
-        let text = self.code.take_while(|byte| byte.is_ascii_digit() || byte == b'.');
-        let number = text.parse::<f64>().ok().filter(|_| text.contains(|c: char| c.is_ascii_digit()));
-        number.ok_or_else(|| before.error("expected a number"))
+        let (pointer, column) = (self.code.pointer, self.code.column());
+        self.code.take_number().ok_or_else(|| pointer.error(column, "expected a number"))
     }
 
     /// Behind a `#`: a number, `<a name>`, or a value that gives the number.

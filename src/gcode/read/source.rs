@@ -57,7 +57,9 @@ pub(super) struct Code<'a> {
 
 impl<'a> Code<'a> {
     pub(super) fn new(pointer: Pointer<'a>) -> Self {
-        let mut code = Self { pointer, bytes: Vec::new(), columns: Vec::new(), at: 0, open_comment: false };
+        let most = pointer.source.len();
+        let (bytes, columns) = (Vec::with_capacity(most), Vec::with_capacity(most));
+        let mut code = Self { pointer, bytes, columns, at: 0, open_comment: false };
         let mut depth = 0_u32;
         for (column, byte) in (1_u32..).zip(pointer.source.bytes()) {
             match byte {
@@ -104,6 +106,15 @@ impl<'a> Code<'a> {
         let taken = String::from_utf8_lossy(&rest[..count]).into_owned();
         self.at += count;
         taken
+    }
+
+    /// Takes digits and points; the number they are, if they are one.
+    pub(super) fn take_number(&mut self) -> Option<f64> {
+        let rest = &self.bytes[self.at..];
+        let count = rest.iter().take_while(|byte| byte.is_ascii_digit() || **byte == b'.').count();
+        let text = str::from_utf8(&rest[..count]).unwrap_or_default();
+        self.at += count;
+        text.parse::<f64>().ok()
     }
 
     /// Drops the rest.

@@ -92,10 +92,13 @@ fn samples(cut: &Cut<'_>) -> Vec<(Point, f64)> {
 }
 
 /// How many they are.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
 fn count(cut: &Cut<'_>) -> u32 {
     let length: f64 = along(&cut.swept.shape, 1).iter().map(|(_, length)| length).sum();
     let kerf = cut.swept.half().to_f64() * 2.0;
-    (1..1000).find(|&count| length <= kerf * f64::from(count)).unwrap_or(1000)
+    // Not all from the first: a long cut has hundreds.
+    let first = ((length / kerf) as u32).clamp(2, 1000) - 1;
+    (first..1000).find(|&count| length <= kerf * f64::from(count)).unwrap_or(1000)
 }
 
 /// Whether an earlier cut, at least as deep, passes beside a point.
