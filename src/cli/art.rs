@@ -181,8 +181,11 @@ fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure
         .iter()
         .filter(|source| !source.role.starts_with("ignored"))
         .map(|source| Origin { file: source.file.clone(), design: source.design.clone() });
-    // What is said of boards and their outlines is of no use here.
-    let warnings = loaded.warnings.into_iter().filter(|warning| !warning.code.starts_with("outline"));
+    // What is said of boards and their outlines is of no use here; and what a solder mask calls
+    // negative, what it draws, are its openings.
+    let is_of_use =
+        |code: &str| !code.starts_with("outline") && !["negative-file", "copper-missing"].contains(&code);
+    let warnings = loaded.warnings.into_iter().filter(|warning| is_of_use(warning.code));
     Ok(Art { name: loaded.board.name, areas, inputs: inputs.collect(), warnings: warnings.collect() })
 }
 

@@ -120,7 +120,8 @@ impl Pocket {
         let to_stdout = self.output.as_deref() == Some(Path::new("-"));
         let account = Account::new(&pocket, judged.as_ref(), &warnings);
         let said = if self.output.is_none() { String::new() } else { pocket.summary() };
-        let told = said + &judged.as_ref().map_or(String::new(), to_text);
+        let told = said
+            + &judged.as_ref().map_or(String::new(), |judged| to_text(judged, pocket.programs.len() > 1));
         if self.json && !to_stdout {
             super::print(&account.to_json())?;
         } else if to_stdout {
@@ -202,9 +203,10 @@ impl Verification {
     }
 }
 
-/// What judging found, for a person.
-fn to_text(judged: &Pocketed) -> String {
-    let need = judged.maxima.map_or(String::new(), |maxima| format!(" ({maxima} are needed)"));
+/// What judging found, for a person; how often the tool need come down is known of one alone.
+fn to_text(judged: &Pocketed, several: bool) -> String {
+    let need =
+        judged.maxima.filter(|_| !several).map_or(String::new(), |maxima| format!(" ({maxima} are needed)"));
     let text = format!(
         "verified: of {:.2} mm² that the tool reaches {:.4} mm² are left, it cuts at most {:.1} µm beyond an edge, and comes down {} times{need}; {:.2} mm² in corners and narrow places are out of its reach\n",
         judged.reachable_mm2,

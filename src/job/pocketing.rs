@@ -5,7 +5,7 @@ use rayon::prelude::*;
 use crate::board::FLATTEN;
 use crate::board::Warning;
 use crate::board::polarity::{difference, intersection, offset, union};
-use crate::geometry::{Nm, Polygon, Rect};
+use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::toolpath::strategy::{self, Entries, Levels, Sequence};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Tool, ToolKind};
 use crate::verify::carving::Text;
@@ -97,11 +97,8 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
     let mut before: Option<Nm> = None;
     for &(tool, heights) in &mills {
         let radius = tool.width_at(Nm::ZERO) / 2;
-        let areas = match before {
-            None => made.areas.clone(),
-            Some(coarser) => rest(&made.areas, coarser, radius),
-        };
-        if made.mill(&art, &areas, (tool, heights), settings, mills.len() > 1)? {
+        let left = before.map(|coarser| rest(&made.areas, coarser, radius));
+        if made.mill(&art, left.as_deref(), (tool, heights), settings, mills.len() > 1)? {
             before = Some(radius);
         }
     }
@@ -120,11 +117,16 @@ impl Pocket {
     fn mill(
         &mut self,
         art: &Art,
-        areas: &[Polygon],
+        left: Option<&[Polygon]>,
         (tool, heights): (&Tool, Heights),
         settings: &Settings,
         is_one_of_several: bool,
     ) -> Result<bool, Error> {
+        let areas = match left {
+            None => self.areas.clone(),
+            Some(left) => round_what_is_left(&self.areas, left, tool.width_at(Nm::ZERO)),
+        };
+        let areas = areas.as_slice();
         let levels = levels(tool, settings, &self.how)?;
         let nest = Nest::new(areas, |level| levels.at(level));
         if nest.flaws > 0 {
@@ -144,6 +146,8 @@ impl Pocket {
             }
             return Ok(false);
         }
+        // Its areas lie round what is left; what is farther off than the tool reaches is cleared.
+        let done = left.map_or_else(Vec::new, |left| done(&nest, left, tool.width_at(Nm::ZERO) / 2));
         let plan = strategy::Pocketing {
             tool,
             heights: Heights { step: self.how.step, ..heights },
@@ -152,6 +156,7 @@ impl Pocket {
             direction: settings.direction.unwrap_or(Direction::Climb),
             ramp: self.how.ramp,
             tolerance: settings.tolerance,
+            done: &done,
         };
         let number = self.programs.len() + 1;
         let what = if number == 1 { "pocket" } else { "rest" };
@@ -172,9 +177,7 @@ impl Pocket {
     }
 }
 
-/// What a finer tool is to clear of areas that a coarser one has cleared as far as it fits: round
-/// what is left as far as any disc of the finer tool that touches it, so that the loops of that are
-/// those that clear it.
+/// What a finer tool can clear of areas that a coarser one has cleared as far as it fits.
 fn rest(areas: &[Polygon], coarser: Nm, finer: Nm) -> Vec<Polygon> {
     let opened = |area: &Polygon, radius: Nm| -> Vec<Polygon> {
         let fits = offset(area, -radius, FLATTEN);
@@ -184,11 +187,44 @@ fn rest(areas: &[Polygon], coarser: Nm, finer: Nm) -> Vec<Polygon> {
         let cleared = opened(area, coarser);
         let left = opened(area, finer).into_iter().flat_map(|open| difference(&open, &cleared));
         let thick = left.flat_map(|piece| offset(&piece, -THIN, FLATTEN));
-        let near = thick.flat_map(|piece| offset(&piece, finer * 2 + THIN * 5, FLATTEN));
-        let near = union(&near.collect::<Vec<_>>());
-        near.iter().flat_map(|near| intersection(near, area)).collect()
+        thick.flat_map(|piece| offset(&piece, THIN * 5, FLATTEN)).collect()
     };
     areas.par_iter().flat_map_iter(of_area).collect()
+}
+
+/// What lies in areas within a tool's diameter of what is left: it holds every disc of that tool
+/// that touches it, so its loops are those that clear it.
+fn round_what_is_left(areas: &[Polygon], left: &[Polygon], diameter: Nm) -> Vec<Polygon> {
+    let near = left.iter().flat_map(|piece| offset(piece, diameter, FLATTEN));
+    let near = union(&near.collect::<Vec<_>>());
+    let meets = |area: &Polygon, near: &Polygon| area.bounds().touches(near.bounds());
+    let within = |area: &Polygon| -> Vec<Polygon> {
+        near.iter().filter(|near| meets(area, near)).flat_map(|near| intersection(near, area)).collect()
+    };
+    areas.par_iter().flat_map_iter(within).collect()
+}
+
+/// Of each loop whether a tool of this radius meets nothing of what is left along it.
+fn done(nest: &Nest, left: &[Polygon], radius: Nm) -> Vec<bool> {
+    let near = left.iter().flat_map(|piece| offset(piece, radius + THIN * 5, FLATTEN));
+    let near: Vec<(Rect, Polygon)> = near.map(|near| (near.bounds(), near)).collect();
+    let apart = radius.to_f64() / 8.0;
+    let meets = |(x, y): (f64, f64)| {
+        let at = Point::from_f64(x, y);
+        near.iter().any(|(bounds, near)| bounds.contains(at) && near.contains(at))
+    };
+    let is_done = |ring: &[(f64, f64)]| {
+        let next = ring.iter().cycle().skip(1);
+        !ring.iter().zip(next).any(|(&(ax, ay), &(bx, by))| {
+            let count = (((bx - ax) * (bx - ax) + (by - ay) * (by - ay)).sqrt() / apart).ceil().max(1.0);
+            let mut part = 0.0;
+            while part < count && !meets((ax + (bx - ax) * part / count, ay + (by - ay) * part / count)) {
+                part += 1.0;
+            }
+            part < count
+        })
+    };
+    nest.loops.iter().map(|one| is_done(&one.ring)).collect()
 }
 
 /// What is left in strips of twice this width is nothing. Chosen: what a cut may be off.

@@ -26,7 +26,7 @@ use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Angle, Direction, Heights, Position, Section, Tool};
 use crate::voronoi::fit_points;
-use crate::voronoi::medial::nest::Nest;
+use crate::voronoi::medial::nest::{Nest, Region};
 
 use course::Spot;
 use links::Links;
@@ -82,6 +82,9 @@ pub struct Pocketing<'a> {
     pub ramp: Angle,
     /// How far a loop may be off its place.
     pub tolerance: Nm,
+    /// Of each loop whether all along it is cleared already, so that it need not be milled; empty
+    /// for none.
+    pub done: &'a [bool],
 }
 
 /// How the tool came down into the material.
@@ -181,16 +184,11 @@ impl Miller<'_> {
         for &child in &self.nest.regions[region].children {
             self.outwards(child);
         }
-        let loops = &self.nest.regions[region].loops;
-        if self.nest.regions[region].children.is_empty() {
+        let Region { loops, children, .. } = &self.nest.regions[region];
+        if children.is_empty() && !loops.iter().any(|&one| self.is_done(one)) {
             self.enter_region(region);
         }
-        while let Some(&next) = loops.iter().find(|&&one| !self.is_cut(one)) {
-            if !self.advance(loops, true) {
-                self.entries.unlinked += 1;
-                self.enter_along(next, 0.0, true);
-            }
-        }
+        self.finish(loops, &[]);
     }
 
     /// Mills a region from its outer loop inwards.
@@ -201,14 +199,21 @@ impl Miller<'_> {
         let (finish, rough): (Vec<usize>, Vec<usize>) = all.into_iter().partition(|&one| is_finish(one));
         let outer =
             |loops: &[usize]| loops.iter().copied().min_by_key(|&one| (self.nest.loops[one].level, one));
-        let Some(first) = outer(&rough).or_else(|| outer(&finish)) else { return };
-        self.enter_along(first, 0.0, true);
-        loop {
-            if self.advance(&rough, false) || self.advance(&finish, true) {
+        if let Some(first) = outer(&rough).or_else(|| outer(&finish)).filter(|&first| !self.is_cut(first)) {
+            self.enter_along(first, 0.0, true);
+        }
+        self.finish(&rough, &finish);
+    }
+
+    /// Mills what is not milled yet of loops, and then of others.
+    fn finish(&mut self, loops: &[usize], last: &[usize]) {
+        let outwards = self.settings.sequence == Sequence::InsideOut;
+        while let Some(&next) = loops.iter().chain(last).find(|&&one| !self.is_cut(one)) {
+            if self.advance(loops, outwards) || self.advance(last, true) {
                 continue;
             }
-            let Some(&next) = rough.iter().chain(&finish).find(|&&one| !self.is_cut(one)) else { break };
-            self.entries.unlinked += 1;
+            // Beside what was cleared before there may be no loop yet.
+            self.entries.unlinked += usize::from(self.at.is_some() && self.settings.done.is_empty());
             self.enter_along(next, 0.0, true);
         }
     }
@@ -224,7 +229,12 @@ impl Miller<'_> {
     }
 
     fn is_cut(&self, one: usize) -> bool {
-        self.cut[one] == self.pass
+        self.cut[one] == self.pass || self.is_done(one)
+    }
+
+    /// Whether all along a loop was cleared before.
+    fn is_done(&self, one: usize) -> bool {
+        self.settings.done.get(one).is_some_and(|&is_done| is_done)
     }
 
     /// Goes to the nearest of `loops` that is not milled yet, through what is, and mills it; false
@@ -272,8 +282,9 @@ impl Miller<'_> {
             let reach = 2.0 * (self.settings.levels.at(level + 1) - self.settings.levels.at(level)) + SLACK;
             let ours: Vec<usize> =
                 open.iter().copied().filter(|&one| self.region_of[one] == region).collect();
-            let (cut, pass, region_of) = (&self.cut, self.pass, &self.region_of);
-            let is_cut = |one: usize| cut[one] == pass && region_of[one] == region;
+            let is_cut: Vec<bool> = (0..self.cut.len()).map(|one| self.is_cut(one)).collect();
+            let region_of = &self.region_of;
+            let is_cut = |one: usize| is_cut[one] && region_of[one] == region;
             is_joined |= self.links.join(level, reach, is_cut, &ours);
         }
         is_joined
