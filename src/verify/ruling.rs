@@ -99,7 +99,9 @@ impl Ruling {
         let (a, b, room) = (self.local(*from), self.local(*to), radius.to_f64() + 1.0);
         let share = |off: f64| (off - a.1) / (b.1 - a.1);
         let (low, high) = (self.off(lines.start) - room, self.off(lines.end - 1) + room);
-        let (first, last) = if a.1 == b.1 { (0.0, 1.0) } else { (share(low), share(high)) };
+        // Along the lines it is all in reach, or none.
+        let is_level = (a.1 - b.1).abs() < 1.0;
+        let (first, last) = if is_level { (0.0, 1.0) } else { (share(low), share(high)) };
         let (first, last) = (first.min(last).max(0.0), first.max(last).min(1.0));
         let [one, other] = [first, last].map(|share| a.0 + (b.0 - a.0) * share);
         (first <= last).then_some((one.min(other) - room, one.max(other) + room))

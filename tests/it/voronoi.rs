@@ -446,7 +446,7 @@ fn passes_round_a_pad_are_cut_in_one_go() {
     let rings = cuts.edges.iter().filter(|edge| edge.is_bare());
     assert_eq!(rings.count(), 12, "four round each, the middle ones in halves from link to link");
     let mut lengths: Vec<i64> =
-        cuts.links.iter().map(|link| link.path.start.distance(link.path.end()).round() as i64).collect();
+        cuts.links.iter().map(|link| Nm::from_f64(link.path.start.distance(link.path.end())).get()).collect();
     lengths.sort_unstable();
     assert_eq!(lengths.len(), 6, "three steps round each, but none across the board: {lengths:?}");
     assert!(lengths.iter().all(|length| (160_000..180_000).contains(length)), "straight out: {lengths:?}");
