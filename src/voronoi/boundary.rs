@@ -26,10 +26,6 @@ const NOBODY: u32 = u32::MAX;
 impl Diagram {
     /// The boundaries of the certified diagram, and where it contradicts itself.
     pub(super) fn certified_boundaries(&self, diagram: &exact::Diagram) -> (Boundaries, Vec<Point>) {
-        let number = |net: u32| match net {
-            NOBODY => BACKGROUND,
-            net => Owner::Net(crate::topology::NetId(net)).number(),
-        };
         let (chains, level) = match self.settings.limit {
             None => (Some(diagram.chains()), f64::INFINITY),
             Some(limit) => {
@@ -37,16 +33,38 @@ impl Diagram {
             }
         };
         let is_whole = chains.is_some();
-        let mut chains = chains.unwrap_or_default();
-        chains.retain(|chain| ![chain.left, chain.right].contains(&exact::WALL));
-        let owner = |p: Spot| diagram.owner_near(p, level, NOBODY);
-        let (mut pieces, mut torn) = super::clip::within(&self.border, chains, owner, number);
+        let (mut pieces, mut torn) = self.on_board(diagram, chains.unwrap_or_default(), level);
         if !is_whole {
             torn.push(Spot::from(self.border.window.min()));
         }
         let faults = diagram.faults().iter().copied().chain(torn.iter().map(|at| at.rounded())).collect();
         merge_stubs(&mut pieces, self.settings.tolerance.to_f64() / 2.0);
         (self.fitted(&pieces), faults)
+    }
+
+    /// The pieces on the board where copper is just so many nanometres away, and where they
+    /// contradict the border; none where the diagram contradicts itself.
+    pub(super) fn level_pieces(
+        &self,
+        diagram: &exact::Diagram,
+        level: f64,
+    ) -> Option<(Vec<Piece>, Vec<Spot>)> {
+        Some(self.on_board(diagram, diagram.curves_at(level, NOBODY)?, level))
+    }
+
+    /// What of chains lies on the board, and what contradicts the border.
+    fn on_board(
+        &self,
+        diagram: &exact::Diagram,
+        mut chains: Vec<exact::Chain>,
+        level: f64,
+    ) -> (Vec<Piece>, Vec<Spot>) {
+        chains.retain(|chain| ![chain.left, chain.right].contains(&exact::WALL));
+        let owner = |p: Spot| diagram.owner_near(p, level, NOBODY);
+        super::clip::within(&self.border, chains, owner, |net| match net {
+            NOBODY => BACKGROUND,
+            net => Owner::Net(crate::topology::NetId(net)).number(),
+        })
     }
 
     /// Pieces fitted, with nodes in the order in which they are met.

@@ -253,6 +253,8 @@ pub struct Diagram {
     grid: Grid,
     settings: Settings,
     side: Side,
+    /// The box round all copper.
+    copper: Rect,
     warnings: Vec<Warning>,
     /// What makes it one of loops and of boundaries midway, where nets differ.
     mixed: Option<Box<Mixed>>,
@@ -327,8 +329,22 @@ impl Diagram {
             })
         });
         let (owners, settings, side) = (sites.owners(), settings.clone(), copper.side);
+        let copper = copper.bounds().unwrap_or(border.window);
         let (warnings, mixed) = (Vec::new(), None);
-        Ok(Self { sites, owners, near, edges, border, grid, settings, side, warnings, mixed, certified })
+        Ok(Self {
+            sites,
+            owners,
+            near,
+            edges,
+            border,
+            grid,
+            settings,
+            side,
+            copper,
+            warnings,
+            mixed,
+            certified,
+        })
     }
 
     /// The grid on which boundaries are found.

@@ -44,13 +44,19 @@ pub(super) fn foot(path: &Path, p: Spot) -> (usize, Spot, f64) {
     best
 }
 
+/// What lies so near to an end of a segment is that end, in nanometres: of the rest of an arc, a
+/// nanometre long, rounding would make all of a circle.
+const SAME: f64 = 1_000.0;
+
 /// The point nearest to `p` of the segment of `path` with this index.
 pub(super) fn foot_on(path: &Path, index: usize, p: Spot) -> Spot {
     let (from, segment) = (vertex(path, index), &path.segments[index]);
-    match segment.arc(from) {
+    let foot = match segment.arc(from) {
         Some(arc) => foot_on_arc(p, &arc),
         None => nearest_on_chord(p, from.into(), segment.to().into()),
-    }
+    };
+    let ends = [from, segment.to()].map(Spot::from);
+    ends.into_iter().find(|&end| (end - foot).length() < SAME).unwrap_or(foot)
 }
 
 /// A segment that ends earlier.

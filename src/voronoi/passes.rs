@@ -1,4 +1,4 @@
-//! Further passes beside the first cut: level sets of the distance, in the same picture.
+//! Further passes beside the first cut: level sets of the clearance.
 //!
 //! ```text
 //!   copper │←─ width ─→│                  each pass runs at one distance from copper, on both sides of the
@@ -6,11 +6,14 @@
 //!          ╰─kerf─╯    boundary                     as far as there is room
 //! ```
 //!
-//! What the first cut has cleared is drawn above everything, as wide as passes overlap: where a
-//! pass would run nearer than that to it, it clears nothing that its neighbours do not, and is left
-//! out; and what lies between two passes that do run is never wider than a kerf, so one more cut
-//! clears it ([`super::speck`]). Passes need not mind each other: a step apart in their distance
-//! from copper, they are no nearer anywhere.
+//! The level sets are those of the certified diagram. Where a pass would run nearer to the first
+//! cut than passes overlap it clears nothing that its neighbours do not, and is left out
+//! ([`super::groove`]); and what lies between two passes that do run is never wider than a kerf, so
+//! one more cut clears it ([`super::speck`]). Passes need not mind each other: a step apart in
+//! their distance from copper, they are no nearer anywhere.
+//!
+//! Where there is no certified diagram they are traced from the picture, in which what is cleared
+//! is drawn above everything.
 
 use rayon::prelude::*;
 
@@ -18,15 +21,18 @@ use crate::board::Warning;
 use crate::geometry::{Nm, Point};
 use crate::raster;
 
-use super::groove::Grooves;
+use super::clip::Piece;
+use super::exact;
+use super::groove::{END, Grooves};
 use super::link::Rules;
 use super::near::Insides;
 use super::place::Unplaced;
+use super::span::{Sample, Vertex};
 use super::speck::Specks;
 use super::spike::Spikes;
 use super::stitch::Line;
 use super::tip::MISPLACED;
-use super::{Boundaries, Boundary, Diagram, Owner};
+use super::{BEYOND, Boundaries, Boundary, Diagram, FLOOR, Owner};
 
 /// How much farther than the last pass is drawn, in pixels: what tracing looks at beyond a tile,
 /// and one.
@@ -77,39 +83,32 @@ impl Diagram {
         let levels = widening.levels(first, picture.width() + picture.height());
         let step = levels.get(1).map_or(widening.kerf - widening.overlap, |&second| second - levels[0]);
         let levels: Vec<Nm> = levels.into_iter().filter(|&level| !self.has_loops_of_all_at(level)).collect();
-        let Some(&last) = levels.last() else { return (base, Vec::new()) };
-        let mut scene = self.sites.scene(&self.grid, &self.border, Some(self.grid.pixels(last) + SPARE));
+        if levels.is_empty() {
+            return (base, Vec::new());
+        }
         let reach = widening.kerf - step;
         // Loops at the first level are passes themselves.
         let is_pass = |edge: &Boundary| self.settings.limit == Some(first) && edge.is_bare();
-        let cleared = || base.edges.iter().filter(|edge| !is_pass(edge));
-        if reach > self.grid.pitch() {
-            self.add_grooves(&mut scene, cleared(), self.grid.pixels(reach - self.grid.pitch()));
-        }
-        let grooves = Grooves::new(cleared(), reach);
-        self.add_wider(&mut scene, widening.kerf, before);
+        let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), reach);
         let spikes = Spikes {
             kerf: widening.kerf.to_f64(),
             step: step.to_f64(),
             clearance: &|at| self.clearance(at),
             nearest: first.to_f64(),
         };
-        let insides = Insides::new(&self.sites);
         let first_pass = base.edges.len();
-        let (mut all, mut unplaced, mut torn) = (base, Unplaced::default(), Unplaced::default());
+        let found = self.certified_passes(&levels, widening.kerf, before);
+        let cleared = || base.edges.iter().filter(|edge| !is_pass(edge));
+        let (found, unplaced, torn) = match found {
+            Some(lines) => (lines, Unplaced::default(), Unplaced::default()),
+            None => self.traced_passes(&levels, widening.kerf, reach, cleared(), before),
+        };
+        let mut all = base;
         let mut last_pass = first_pass;
-        for (&level, passes) in levels.iter().zip(self.trace_levels(&scene, &levels)) {
-            torn = torn.join(passes.torn());
-            let mut lines = passes.lines();
-            lines.retain(|line| !self.has_loop_at(level, line));
-            if let Some(tips) = self.tips(Some(&insides), level.to_f64()) {
-                tips.extend_level(&mut lines);
-            }
-            self.keep_off(&mut lines, level);
+        for (&level, mut lines) in levels.iter().zip(found) {
             if let Some(grooves) = &grooves {
                 lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
             }
-            unplaced = unplaced.join(self.off_level(&lines, level));
             let mut passes = self.graph(lines);
             if level > first {
                 passes.edges.par_iter_mut().for_each(|pass| spikes.add(pass));
@@ -139,6 +138,80 @@ impl Diagram {
             longest: widening.width.to_f64(),
         };
         (all.linked(&rules), warnings.collect())
+    }
+
+    /// The passes at each level of the certified diagram, less what wider tools have cut; none
+    /// where there is no such diagram, or it contradicts itself.
+    fn certified_passes(
+        &self,
+        levels: &[Nm],
+        kerf: Nm,
+        before: &[(Nm, Boundaries)],
+    ) -> Option<Vec<Vec<Line>>> {
+        let certified = self.certified.as_deref().filter(|_| self.mixed.is_none())?;
+        let (first, last) = (*levels.first()?, *levels.last()?);
+        let diagram = certified.above(FLOOR.min(first / 2), self.copper.inflate(last * 3 + BEYOND))?;
+        // A pass along the very edge of what is cut already would come and go.
+        let spare = kerf / 8;
+        let reach = |wide: Nm| (wide - kerf) / 2 + spare;
+        let wider: Vec<Grooves> =
+            before.iter().filter_map(|(wide, cuts)| Grooves::new(cuts.edges.iter(), reach(*wide))).collect();
+        let passes = levels.par_iter().map(|&level| {
+            let mut lines = self.level_lines(&diagram, level)?;
+            for grooves in &wider {
+                lines = lines.into_iter().flat_map(|line| grooves.take_out(line)).collect();
+            }
+            Some(lines)
+        });
+        passes.collect()
+    }
+
+    /// Where copper is just so far away on the board.
+    fn level_lines(&self, diagram: &exact::Diagram, level: Nm) -> Option<Vec<Line>> {
+        let (pieces, faults) = self.level_pieces(diagram, level.to_f64())?;
+        let line = |Piece { samples, left, right, ends }: Piece| {
+            let vertex = |sample: &Sample| Vertex::new(sample.at, sample.clearance);
+            Line {
+                vertices: samples.iter().map(vertex).collect(),
+                left,
+                right,
+                ends: ends.map(|_| (END, END)),
+            }
+        };
+        faults.is_empty().then(|| pieces.into_iter().map(line).filter(|line| !line.is_border()).collect())
+    }
+
+    /// The passes at each level as the picture has them, with what could not be placed and what
+    /// hangs loose.
+    fn traced_passes<'a>(
+        &self,
+        levels: &[Nm],
+        kerf: Nm,
+        reach: Nm,
+        cleared: impl Iterator<Item = &'a Boundary>,
+        before: &[(Nm, Boundaries)],
+    ) -> (Vec<Vec<Line>>, Unplaced, Unplaced) {
+        let last = levels.last().copied().unwrap_or_default();
+        let mut scene = self.sites.scene(&self.grid, &self.border, Some(self.grid.pixels(last) + SPARE));
+        if reach > self.grid.pitch() {
+            self.add_grooves(&mut scene, cleared, self.grid.pixels(reach - self.grid.pitch()));
+        }
+        self.add_wider(&mut scene, kerf, before);
+        let insides = Insides::new(&self.sites);
+        let (mut unplaced, mut torn) = (Unplaced::default(), Unplaced::default());
+        let mut found = Vec::with_capacity(levels.len());
+        for (&level, passes) in levels.iter().zip(self.trace_levels(&scene, levels)) {
+            torn = torn.join(passes.torn());
+            let mut lines = passes.lines();
+            lines.retain(|line| !self.has_loop_at(level, line));
+            if let Some(tips) = self.tips(Some(&insides), level.to_f64()) {
+                tips.extend_level(&mut lines);
+            }
+            self.keep_off(&mut lines, level);
+            unplaced = unplaced.join(self.off_level(&lines, level));
+            found.push(lines);
+        }
+        (found, unplaced, torn)
     }
 
     /// The vertices that are not so far from copper. Those that were placed have a course, and are.

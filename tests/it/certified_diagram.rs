@@ -257,6 +257,39 @@ fn level_sets_are_where_brute_force_has_them() {
     }
 }
 
+/// A level of half a gap, but for a nanometre, crosses the edge in the gap anywhere.
+#[test]
+fn a_level_that_all_but_touches_an_edge_goes_round_no_corner_again() {
+    let half = 200_000.0;
+    let um = |x: i64, y: i64| at(1_000, x, y);
+    let squares = [(0, -1_000), (0, 400), (1_400, -1_000), (1_400, 400)]
+        .map(|(x, y)| [um(x, y), um(x + 1_000, y + 1_000)]);
+    let mut generators = Generators::new();
+    for (owner, corners) in (0_u32..).zip(squares) {
+        generators.polygon(&Polygon::rectangle(Rect::new(corners[0], corners[1])), owner);
+    }
+    generators.wall(Rect::new(um(-1_000, -2_000), um(3_400, 2_400)));
+    let diagram = Diagram::new(generators, Kind::Above(Nm::from_um(10)), Space::Within);
+    assert_eq!(diagram.faults(), [], "no end is loose");
+    let reach = |(x, y): (f64, f64)| {
+        let off = squares.map(|[low, high]| {
+            let ((a, b), (c, d)) = (low.to_f64(), high.to_f64());
+            let (off_x, off_y) = ((a - x).max(x - c).max(0.0), (b - y).max(y - d).max(0.0));
+            (off_x * off_x + off_y * off_y).sqrt()
+        });
+        off.into_iter().fold(f64::INFINITY, f64::min)
+    };
+    for step in 0..40_i32 {
+        let level = half - 2.0 + f64::from(step) * 0.1;
+        for curve in diagram.level_set(level).expect("faces that close") {
+            for &p in curve.course.iter().filter(|_| curve.owner < 1000) {
+                let off = (reach(p) - level).abs();
+                assert!(off <= OFF, "{off} nm off {level} nm at {p:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn an_edge_between_two_discs_is_a_hyperbola_with_its_clearance() {
     let disc = |x: i64, radius: i64| Shape::Disc { center: at(1_000, x, 0), radius: Nm::from_um(radius) };

@@ -141,6 +141,19 @@ impl Generators {
         self.inside(&Polygon::rectangle(rect), |_| WALL);
     }
 
+    /// The same without walls, which were added last.
+    pub(super) fn without_wall(&self) -> Self {
+        let mut copper = self.clone();
+        let first = self.owners.iter().position(|&owner| owner == WALL).unwrap_or(self.len());
+        copper.forms.truncate(first);
+        copper.owners.truncate(first);
+        copper.ends.truncate(first);
+        copper
+            .bodies
+            .retain(|body| !matches!(body, Body::Rings { edges, .. } if edges.start as usize >= first));
+        copper
+    }
+
     /// The number of the next one.
     fn number(&self) -> u32 {
         u32::try_from(self.forms.len()).expect("below 2³² generators")

@@ -30,6 +30,11 @@ const COURSE: [f64; 2] = [CHORD, CLEARANCE_CHORD];
 /// Directions are one if their cosine is no less. Chosen: a hundredth of a degree.
 const SAME: f64 = 1.0 - 1e-8;
 
+/// Ends of a parallel that are so near to each other the wrong way round, in nanometres, are one:
+/// where a level all but touches an edge, it crosses anywhere near.
+/// Chosen: more than rounding leaves; no net is open by so little.
+const BACK: f64 = 2_000.0;
+
 /// An edge is looked at in so many halvings for where its clearance turns. Derived: a conic's turns
 /// at most twice in a turn round it, and generators end there.
 const HALVINGS: u32 = 2;
@@ -236,7 +241,7 @@ impl Diagram {
             let generator = self.left_of(link);
             if let Some(end) = crossings.next(link, after) {
                 legs.push(Leg { generator, from: at, to: crossings.all[end].at, crossing: Some(end) });
-                return Some(joined(legs));
+                return Some(joined(legs, self.forms()));
             }
             let to = self.knot(self.target(link)).at;
             legs.push(Leg { generator, from: at, to, crossing: None });
@@ -307,14 +312,14 @@ impl Diagram {
             {
                 let ends = is_node(first).then(|| [first, at].map(|i| self.node(i)));
                 let left = self.owner(leg.generator);
-                let samples = self.leg_samples(&legs, crossings.level - ABOVE);
+                let samples = self.leg_samples(&legs, crossings.level - ABOVE, first == at);
                 let samples = between(samples, [first, at].map(|i| crossings.all[i].at));
                 chains.push(Chain { left, right: nobody, samples, ends });
             }
         }
         for legs in self.whole_faces(crossings, wanted)? {
             let left = self.owner(legs[0].generator);
-            let mut samples = self.leg_samples(&legs, crossings.level - ABOVE);
+            let mut samples = self.leg_samples(&legs, crossings.level - ABOVE, true);
             if let Some(&Sample { at, .. }) = samples.first() {
                 samples = between(samples, [at, at]);
             }
@@ -347,7 +352,7 @@ impl Diagram {
                 // What begins within a generator's part ends there, too.
                 let turns = legs.windows(2).position(|pair| pair[0].generator != pair[1].generator);
                 legs.rotate_left(turns.map_or(0, |at| at + 1));
-                found.push(joined(legs));
+                found.push(joined(legs, self.forms()));
             }
         }
         found.extend((0_u32..).zip(&self.leaving).filter(|(_, leaving)| leaving.is_empty()).filter_map(
@@ -393,6 +398,13 @@ impl Diagram {
         let wanted = |place: u32| parts.as_ref().is_none_or(|parts| !parts.is_enclosed(place));
         chains.extend(self.level_chains(&crossings, true, nobody, wanted)?);
         Some(chains)
+    }
+
+    /// The curves where copper is `level` nanometres away, cut where owners meet, with the copper on
+    /// their left and `nobody` on their right. None where the graph contradicts itself.
+    pub(in crate::voronoi) fn curves_at(&self, level: f64, nobody: u32) -> Option<Vec<Chain>> {
+        debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
+        self.level_chains(&self.crossings(level), true, nobody, |_| true)
     }
 
     /// The chains between owners, as far as they lie below the level.
@@ -460,8 +472,9 @@ impl Diagram {
         samples.push(to);
     }
 
-    /// Places along the parallels of generators, `level` nanometres away.
-    fn leg_samples(&self, legs: &[Leg], level: f64) -> Vec<Sample> {
+    /// Places along the parallels of generators, `level` nanometres away; if it `returns` to where
+    /// it begins, a single one goes all the way round, and none else that ends where it begins.
+    fn leg_samples(&self, legs: &[Leg], level: f64, returns: bool) -> Vec<Sample> {
         let mut samples: Vec<Sample> = Vec::new();
         let mut add = |at: Spot| {
             if samples.last().is_none_or(|last| (last.at - at).length() > 1.0) {
@@ -478,7 +491,15 @@ impl Diagram {
                 (Form::Circle { center, radius, hollow, .. }, Place::Toward(u), Place::Toward(v)) => {
                     let out = if hollow { radius - level } else { radius + level };
                     add(center + u * out);
-                    let closed = leg.from == leg.to && !matches!(form.around(leg.from), Some(Some(_)));
+                    let closed = leg.from == leg.to
+                        && match form.around(leg.from) {
+                            Some(sector) => sector.is_none(),
+                            None => returns && legs.len() == 1,
+                        };
+                    let is_back = (u - v).length() * out < BACK && swept(form.sense_on_left(), u, v) > 2.0;
+                    if is_back && !closed {
+                        continue;
+                    }
                     arc(center, out, [u, v], form.sense_on_left(), closed, &mut add);
                 }
                 (_, from, to) => {
@@ -512,12 +533,17 @@ fn between(mut samples: Vec<Sample>, [from, to]: [Spot; 2]) -> Vec<Sample> {
     samples
 }
 
-/// Legs along the same generator made one.
-fn joined(legs: Vec<Leg>) -> Vec<Leg> {
+/// Legs along the same generator made one. Round a circle each stays apart: of one that goes back
+/// by rounding nobody could tell that it does not go all the way round.
+fn joined(legs: Vec<Leg>, forms: &[Form]) -> Vec<Leg> {
     let mut joined: Vec<Leg> = Vec::with_capacity(legs.len());
     for leg in legs {
         match joined.last_mut() {
-            Some(last) if last.generator == leg.generator && last.crossing.is_none() => {
+            Some(last)
+                if last.generator == leg.generator
+                    && last.crossing.is_none()
+                    && matches!(forms[leg.generator as usize], Form::Line { .. }) =>
+            {
                 (last.to, last.crossing) = (leg.to, leg.crossing);
             }
             _ => joined.push(leg),
@@ -526,9 +552,14 @@ fn joined(legs: Vec<Leg>) -> Vec<Leg> {
     joined
 }
 
+/// How far an arc turns from one direction to another, as [`turn`] measures.
+fn swept(sense: f64, u: Spot, v: Spot) -> f64 {
+    if sense > 0.0 { turn(u, v) } else { turn(v, u) }
+}
+
 /// Shows places along an arc behind its first, so dense that chords follow it.
 fn arc(center: Spot, radius: f64, [u, v]: [Spot; 2], sense: f64, closed: bool, add: &mut impl FnMut(Spot)) {
-    let swept = if sense > 0.0 { turn(u, v) } else { turn(v, u) };
+    let swept = swept(sense, u, v);
     if closed || (1e-9..4.0 - 1e-9).contains(&swept) {
         let left = unit(Spot::new(-u.y, u.x)) * sense;
         let (half, straight) = (unit(u + v), u.dot(v));

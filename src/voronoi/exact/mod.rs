@@ -179,6 +179,18 @@ impl Diagram {
         diagram
     }
 
+    /// The diagram of the same copper within a wall, for level sets ([`Kind::Above`]); none where
+    /// either contradicts itself.
+    pub(super) fn above(&self, floor: Nm, wall: Rect) -> Option<Self> {
+        if !self.faults.is_empty() {
+            return None;
+        }
+        let mut generators = self.generators.without_wall();
+        generators.wall(wall);
+        let diagram = Self::new(generators, Kind::Above(floor), Space::Within);
+        diagram.faults.is_empty().then_some(diagram)
+    }
+
     /// The diagram before any edge is known.
     fn unwalked(generators: Generators, kind: Kind, space: Space) -> Self {
         let index = Index::new(&generators);
