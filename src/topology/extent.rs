@@ -1,8 +1,9 @@
 //! How much copper each net has, and how long its edge is.
 
 use rayon::prelude::*;
+use rustc_hash::FxHashSet;
 
-use crate::board::{Copper, polarity};
+use crate::board::{Copper, Shape, polarity};
 use crate::geometry::{Nm, Polygon};
 
 use super::{Net, Nets};
@@ -37,16 +38,29 @@ impl Extent {
 /// perimeter right to one part in a thousand.
 const CHORDS: Nm = Nm::from_um(2);
 
-/// The size of each net's copper, by number. Features that overlap count once.
+/// Features that are joined at a time, so that not all of a large net's are polygons at once.
+const PART: usize = 1024;
+
+/// The size of each net's copper, by number. Features that overlap count once,
+/// but for those of thousands that cross each other so often that no boolean is tried.
 #[must_use]
 pub fn extents(copper: &Copper, nets: &Nets) -> Vec<Extent> {
     nets.nets().par_iter().map(|net| extent(copper, net)).collect()
 }
 
 fn extent(copper: &Copper, net: &Net) -> Extent {
+    // What is drawn a million times in one place counts once.
+    let mut seen = FxHashSet::default();
     let shapes = net.features.iter().map(|&feature| &copper.features[feature as usize].shape);
-    let polygons: Vec<Polygon> = shapes.filter_map(|shape| shape.polygon(CHORDS)).collect();
-    let pieces = if let [one] = polygons.as_slice() { vec![one.clone()] } else { polarity::union(&polygons) };
+    let shapes: Vec<&Shape> = shapes.filter(|&shape| seen.insert(shape)).collect();
+    let joined = |polygons: Vec<Polygon>| {
+        let mut contours = polygons.iter().flat_map(Polygon::contours);
+        let is_easy = polygons.len() > 1 && !polarity::is_tangled(&mut contours);
+        if is_easy { polarity::union(&polygons) } else { polygons }
+    };
+    let polygons = |shapes: &[&Shape]| shapes.iter().filter_map(|shape| shape.polygon(CHORDS)).collect();
+    let mut parts: Vec<Vec<Polygon>> = shapes.chunks(PART).map(|part| joined(polygons(part))).collect();
+    let pieces = if parts.len() > 1 { joined(parts.concat()) } else { parts.pop().unwrap_or_default() };
     pieces.iter().fold(Extent::default(), |sum, piece| {
         let holes = u32::try_from(piece.contours().len() - 1).unwrap_or(u32::MAX);
         Extent {
@@ -60,7 +74,7 @@ fn extent(copper: &Copper, net: &Net) -> Extent {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::board::{Attributes, Axis, Feature, Shape, Side};
+    use crate::board::{Attributes, Axis, Feature, Side};
     use crate::geometry::Point;
     use crate::topology::{Method, recover};
 
@@ -73,7 +87,9 @@ mod tests {
             attributes: 0,
             line: 1,
         };
-        let features = vec![stroke(at(0, 0), at(6000, 0)), stroke(at(4000, 0), at(10_000, 0))];
+        // Many times over, which must not take longer.
+        let mut features = vec![stroke(at(0, 0), at(6000, 0)); 500];
+        features.push(stroke(at(4000, 0), at(10_000, 0)));
         let copper = Copper { side: Side::Front, features, attributes: vec![Attributes::default()] };
         let [extent] = extents(&copper, &recover(&copper, Method::Contact))[..] else { panic!("one net") };
         // A stadium of 10 mm between the middles of its ends, 1 mm wide.
