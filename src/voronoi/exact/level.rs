@@ -400,8 +400,8 @@ impl Diagram {
         Some(chains)
     }
 
-    /// The curves where copper is `level` nanometres away, cut where owners meet, with the copper on
-    /// their left and `nobody` on their right. None where the graph contradicts itself.
+    /// The curves where copper is `level` nanometres away, cut where owners meet, with the copper
+    /// on their left and `nobody` on their right. None where the graph contradicts itself.
     pub(in crate::voronoi) fn curves_at(&self, level: f64, nobody: u32) -> Option<Vec<Chain>> {
         debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
         self.level_chains(&self.crossings(level), true, nobody, |_| true)
