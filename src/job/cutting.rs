@@ -22,6 +22,12 @@ pub struct Cutting {
 }
 
 impl Cutting {
+    /// Whether all copper goes that is none of a net's.
+    #[must_use]
+    pub fn clears_everything(&self) -> bool {
+        self.widening.is_some_and(|widening| widening.width == EVERYTHING)
+    }
+
     /// The width of its cut at the surface.
     #[must_use]
     pub fn kerf(&self) -> Nm {

@@ -281,8 +281,8 @@ fn diagram_settings(settings: &Settings, pitch: Nm) -> voronoi::Settings {
             Sites::Core => SiteKind::Core,
         },
         limit: settings.limit,
-        // Nothing is to be isolated there; passes beside loops go on from them.
-        enclosed: settings.isolation.iter().any(|cutting| cutting.widening.is_some()),
+        // Nothing is to be isolated there: it is cleared with everything alone.
+        enclosed: settings.isolation.iter().any(Cutting::clears_everything),
         // A cut along the edge of a region then leaves the copper alone, where there is room.
         min_width: settings.min_width.then(|| settings.finest_kerf() / 2 + settings.tolerance),
         tolerance: settings.tolerance,

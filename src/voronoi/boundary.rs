@@ -49,7 +49,7 @@ impl Diagram {
         diagram: &exact::Diagram,
         level: f64,
     ) -> Option<(Vec<Piece>, Vec<Spot>)> {
-        Some(self.on_board(diagram, diagram.curves_at(level, NOBODY)?, level))
+        Some(self.on_board(diagram, diagram.curves_at(level, NOBODY, self.settings.enclosed)?, level))
     }
 
     /// What of chains lies on the board, and what contradicts the border.

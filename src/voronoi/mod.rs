@@ -194,8 +194,8 @@ pub struct Settings {
     /// How far regions reach (§III-D.1); none for as far as there is room. The outline strategy is
     /// `copper` sites with the cutter's radius here (§III-C).
     pub limit: Option<Nm>,
-    /// Whether regions with a limit end in space that one net alone encloses, too, where nothing is
-    /// to be isolated. The paper's outlines do.
+    /// Whether regions with a limit, and further passes, end in space that one net alone encloses,
+    /// too, where nothing is to be isolated. The paper's outlines do.
     pub enclosed: bool,
     /// With [`SiteKind::Core`], what every region holds at least: its net's copper (§III-D.2),
     /// fattened by so much (§III-C), but no more than half of the gap; none for no such minimum.
@@ -208,6 +208,13 @@ pub struct Settings {
     pub overlap: Nm,
     /// What boundaries run out to where no outline is known.
     pub frame: Frame,
+}
+
+impl Settings {
+    /// The edges that level sets need where copper is farther away than `floor`.
+    const fn kind(&self, floor: Nm) -> exact::Kind {
+        if self.enclosed { exact::Kind::Above(floor) } else { exact::Kind::Between(floor) }
+    }
 }
 
 impl Default for Settings {
@@ -315,12 +322,7 @@ impl Diagram {
                     // Where copper is nearer than the limit, the wall is not.
                     generators.wall(bounds.inflate(limit.min(FARTHEST) * 3 + BEYOND));
                     let floor = FLOOR.min(limit / 2);
-                    let kind = if settings.enclosed {
-                        exact::Kind::Above(floor)
-                    } else {
-                        exact::Kind::Between(floor)
-                    };
-                    exact::Diagram::new(generators, kind, exact::Space::Within)
+                    exact::Diagram::new(generators, settings.kind(floor), exact::Space::Within)
                 }
                 _ => {
                     let space = exact::Space::Window(border.bounds().unwrap_or(border.window));

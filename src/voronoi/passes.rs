@@ -38,6 +38,9 @@ use super::{BEYOND, Boundaries, Boundary, Diagram, FLOOR, Owner};
 /// and one.
 const SPARE: f32 = 3.0;
 
+/// Links are no longer. Chosen: there and back they cost as much as a retract.
+const LONGEST: Nm = Nm::from_mm(3);
+
 /// How the gap beside copper is widened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Widening {
@@ -135,7 +138,7 @@ impl Diagram {
             clearance: &|at| self.clearance(at.rounded()),
             nearest: (widening.kerf / 2).to_f64(),
             short: (widening.kerf * 3 / 2).to_f64(),
-            longest: widening.width.to_f64(),
+            longest: widening.width.min(LONGEST).to_f64(),
         };
         (all.linked(&rules), warnings.collect())
     }
@@ -150,7 +153,8 @@ impl Diagram {
     ) -> Option<Vec<Vec<Line>>> {
         let certified = self.certified.as_deref().filter(|_| self.mixed.is_none())?;
         let (first, last) = (*levels.first()?, *levels.last()?);
-        let diagram = certified.above(FLOOR.min(first / 2), self.copper.inflate(last * 3 + BEYOND))?;
+        let diagram = certified
+            .within_wall(self.copper.inflate(last * 3 + BEYOND), self.settings.kind(FLOOR.min(first / 2)))?;
         // A pass along the very edge of what is cut already would come and go.
         let spare = kerf / 8;
         let reach = |wide: Nm| (wide - kerf) / 2 + spare;

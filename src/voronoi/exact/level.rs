@@ -400,11 +400,20 @@ impl Diagram {
         Some(chains)
     }
 
-    /// The curves where copper is `level` nanometres away, cut where owners meet, with the copper
-    /// on their left and `nobody` on their right. None where the graph contradicts itself.
-    pub(in crate::voronoi) fn curves_at(&self, level: f64, nobody: u32) -> Option<Vec<Chain>> {
+    /// The curves where copper is `level` nanometres away, cut where owners meet, with copper on
+    /// their left and `nobody` on their right; without `enclosed` not those of space that one owner
+    /// alone encloses. None where the graph contradicts itself.
+    pub(in crate::voronoi) fn curves_at(
+        &self,
+        level: f64,
+        nobody: u32,
+        enclosed: bool,
+    ) -> Option<Vec<Chain>> {
         debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
-        self.level_chains(&self.crossings(level), true, nobody, |_| true)
+        let crossings = self.crossings(level);
+        let parts = (!enclosed).then(|| self.parts_above(&crossings));
+        let wanted = |place: u32| parts.as_ref().is_none_or(|parts| !parts.is_enclosed(place));
+        self.level_chains(&crossings, true, nobody, wanted)
     }
 
     /// The chains between owners, as far as they lie below the level.

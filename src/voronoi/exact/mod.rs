@@ -179,15 +179,15 @@ impl Diagram {
         diagram
     }
 
-    /// The diagram of the same copper within a wall, for level sets ([`Kind::Above`]); none where
-    /// either contradicts itself.
-    pub(super) fn above(&self, floor: Nm, wall: Rect) -> Option<Self> {
+    /// The diagram of the same copper within a wall, for level sets: a [`Kind::Above`] or
+    /// [`Kind::Between`]; none where either contradicts itself.
+    pub(super) fn within_wall(&self, wall: Rect, kind: Kind) -> Option<Self> {
         if !self.faults.is_empty() {
             return None;
         }
         let mut generators = self.generators.without_wall();
         generators.wall(wall);
-        let diagram = Self::new(generators, Kind::Above(floor), Space::Within);
+        let diagram = Self::new(generators, kind, Space::Within);
         diagram.faults.is_empty().then_some(diagram)
     }
 
