@@ -342,7 +342,7 @@ fn nets_may_have_a_strategy_of_their_own() {
 
 #[test]
 fn tabs_stand_where_they_are_asked_for() {
-    let (job, settings) = job("regulator", "tab-at = [\"110mm,-60mm\", \"110mm,-100mm\", \"100mm,100mm\"]");
+    let (job, settings) = job("regulator", "tab-at = [\"110mm,-60mm\", \"150mm,-100mm\", \"100mm,100mm\"]");
     assert!(warned(&job, "tab-off-the-outline"), "far away: {:?}", job.warnings);
     assert!(is_clean(&job, &settings), "the board is cut out");
 }
