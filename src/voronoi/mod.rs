@@ -8,12 +8,12 @@
 //!        ╰─ seed ──▶ sites ── raster ──▶ tiles ── trace ──▶ pieces ── stitch ──▶ lines ── fit ──▶ Boundaries
 //! ```
 //!
-//! Boundaries between nets, and the loops round them where regions have a limit, come from the
-//! certified diagram of [`exact`], which no pixel has a part in. What it does not answer for comes
-//! from a picture: the passes of wide isolation, core axes as sites, nets that touch, as
-//! Algorithm 1 alone may leave them, and layers on which the diagram contradicts itself. There the
-//! picture says which regions meet and where boundaries branch, and the exact distances of the
-//! features say where the boundary runs ([`place`](self)).
+//! Boundaries between nets, the loops round them where regions have a limit, and further passes
+//! beside them come from the certified diagram of [`exact`], which no pixel has a part in. What it
+//! does not answer for comes from a picture: core axes as sites, nets that touch, as Algorithm 1
+//! alone may leave them, loops round some nets and not others, and layers on which the diagram
+//! contradicts itself. There the picture says which regions meet and where boundaries branch, and
+//! the exact distances of the features say where the boundary runs ([`place`](self)).
 //!
 //! Of a picture only tiles that a boundary may cross are drawn, each on a worker that at once
 //! traces and places what it sees; no stage holds a picture of the whole board. Labels are sites,

@@ -43,8 +43,10 @@
 //! # Level sets
 //!
 //! Where copper is equally far away, curves run from cell to cell ([`Diagram::level_set`]): the
-//! loops of the outline strategy and of regions with a limit. They need the edges between one
-//! owner's own generators, too, but only above the level ([`Kind::Above`]).
+//! loops of the outline strategy and of regions with a limit, and the passes of wide isolation.
+//! They need the edges between one owner's own generators, too, but only above the level
+//! ([`Kind::Above`]), and where it is owners that are to be parted not in space that one of them
+//! alone encloses ([`Kind::Between`]).
 //!
 //! # Sources
 //!
