@@ -18,6 +18,9 @@ const DIP: f64 = 2_000.0;
 /// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight.
 /// Chosen.
 const RADII: std::ops::Range<f64> = 5_000.0..2e8;
+/// Shorter arcs are left to lines, in nanometres. Chosen: a few of the last digits of any dialect,
+/// so that none begins and ends on the same and goes all the way round.
+const SHORTEST: f64 = 5_000.0;
 /// The part of the tolerance that fitting uses. Chosen: with less than half, paths from two
 /// pictures of the same board differ by no more than the tolerance, and so do the distances to
 /// either side, for a point off the middle by t is nearer to one side than to the other by 2 t. At
@@ -79,7 +82,7 @@ impl Fitter<'_> {
         let arc = farthest((i + 2).min(end), end, |j| self.arc(i, j).is_some());
         let reach = |j: usize| (self.vertices[j].at - self.vertices[i].at).length();
         match self.arc(i, arc) {
-            Some(segment) if arc > line && reach(arc) > 1.5 * reach(line) => (arc, segment),
+            Some(segment) if arc > line && reach(arc) > (1.5 * reach(line)).max(SHORTEST) => (arc, segment),
             _ => (line, straight),
         }
     }

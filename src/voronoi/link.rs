@@ -52,6 +52,10 @@ const CHOICES: usize = 3;
 /// Ways shorter than this are not halved to find copper beside them, in nanometres.
 const FINE: f64 = 500.0;
 
+/// A link that would part a segment so near to its end goes to the end, in nanometres. Chosen:
+/// pieces as short are more words than work.
+const AT_END: f64 = 10_000.0;
+
 /// A way from a vertex of one edge to a place on another.
 #[derive(Clone, Copy, Debug)]
 struct Way {
@@ -147,7 +151,7 @@ impl<'a> Web<'a> {
             if !wanted(edge) {
                 return;
             }
-            let at = foot_on(&self.graph.edges[edge].path, segment, p);
+            let at = self.place_on((edge, segment), p);
             let length = (at - p).length();
             let known = nearest.get(&edge).map_or(reach, |way| way.length);
             if length < known {
@@ -157,6 +161,14 @@ impl<'a> Web<'a> {
         let mut ways: Vec<Way> = nearest.into_values().collect();
         ways.sort_by(Way::compare);
         ways
+    }
+
+    /// The place on a segment that is nearest to `p`, or its end nearby.
+    fn place_on(&self, (edge, segment): (usize, usize), p: Spot) -> Spot {
+        let path = &self.graph.edges[edge].path;
+        let foot = foot_on(path, segment, p);
+        let ends = [vertex(path, segment), vertex(path, segment + 1)].map(Spot::from);
+        ends.into_iter().find(|&end| (end - foot).length() < AT_END).unwrap_or(foot)
     }
 
     /// The vertices of all edges that are cut, by edge.

@@ -41,6 +41,8 @@ struct Follower<'a> {
     /// One unit of the last digit.
     unit: i64,
     at: Option<Position>,
+    /// Where the last move that was planned ends, before it is rounded.
+    planned: Option<Position>,
     what: &'a str,
 }
 
@@ -80,7 +82,7 @@ impl Follower<'_> {
         let (from, wanted) = (self.at, self.rounded(planned));
         match *step {
             // What stays where it is is not written.
-            Move::Rapid { .. } | Move::Feed { .. } if from == Some(wanted) => return,
+            Move::Rapid { .. } | Move::Feed { .. } if from == Some(wanted) => {}
             Move::Rapid { .. } | Move::Feed { .. } => {
                 let (motion, to) = self.next(wanted);
                 assert_eq!(to, wanted, "{} line {}", self.what, motion.line);
@@ -92,11 +94,19 @@ impl Follower<'_> {
             }
             Move::Arc { center, turn, .. } => {
                 let from = from.expect("an arc follows a move");
+                let start = self.planned.map_or(from.point(), Position::point);
+                let exact = Arc { start, end: planned.point(), center, turn };
+                if from == wanted && exact.length() < Nm::new(2 * self.unit).to_f64() {
+                    // So short an arc that it ends on the digit it began on.
+                    self.planned = Some(planned);
+                    return;
+                }
                 self.round(Arc { start: from.point(), end: wanted.point(), center, turn }, wanted);
             }
             Move::Dwell { .. } => {}
         }
         self.at = Some(wanted);
+        self.planned = Some(planned);
     }
 
     /// An arc, whole, in parts, or as chords: never off it, the same way round, to its end.
@@ -105,13 +115,6 @@ impl Follower<'_> {
         let most = Nm::new(4 * self.unit).to_f64() + 1_000.0;
         let mut parts = 0;
         while parts == 0 || self.at != Some(wanted) {
-            if parts == 0
-                && self.at == Some(wanted)
-                && self.motions.peek().is_some_and(|m| m.way == Way::Rapid)
-            {
-                // So short an arc that it ends on the digit it began on.
-                return;
-            }
             let (motion, to) = self.next(wanted);
             assert!(off(to.point()) <= most, "{} line {}: off the arc", self.what, motion.line);
             match motion.way {
@@ -140,7 +143,8 @@ impl Follower<'_> {
 fn assert_does_as_planned(text: &str, program: &Program, dialect: &Dialect, what: &str) {
     let listing = read(text).unwrap_or_else(|error| panic!("{what}: {error}"));
     let unit = 10_i64.pow(u32::try_from(6 - dialect.decimals).expect("at most six"));
-    let mut follower = Follower { motions: listing.motions.iter().peekable(), unit, at: None, what };
+    let mut follower =
+        Follower { motions: listing.motions.iter().peekable(), unit, at: None, planned: None, what };
     for section in &program.sections {
         follower.skip_lifts(program.safe);
         section.moves.iter().for_each(|step| follower.follow(step));
