@@ -99,6 +99,17 @@ struct Step {
     program: usize,
 }
 
+impl Step {
+    /// What it clears for certain: a level way all along, and straight down as deep as it comes.
+    fn sweep(&self) -> Option<Sweep> {
+        let [from, to] = self.ends;
+        let [low, high] = [self.depths[0].min(self.depths[1]), self.depths[0].max(self.depths[1])];
+        let depth = if from == to { high } else { low };
+        let Self { radius, order, .. } = *self;
+        (from == to || high - low < LEVEL).then_some(Sweep { from, to, radius, depth, order })
+    }
+}
+
 /// Reads programs and compares what they mill together with the pockets.
 ///
 /// # Errors
@@ -110,15 +121,7 @@ pub fn pocketing(programs: &[Text<'_>], floor: &Floor<'_>) -> Result<Pocketed, E
     for (program, (listing, cutter)) in listings.iter().enumerate() {
         all_steps(listing, cutter, program, &mut steps);
     }
-    let level = steps.iter().filter(|step| (step.depths[0] - step.depths[1]).abs() < LEVEL);
-    let sweep = |step: &Step| Sweep {
-        from: step.ends[0],
-        to: step.ends[1],
-        radius: step.radius,
-        depth: step.depths[0].min(step.depths[1]),
-        order: step.order,
-    };
-    let sweeps = Sweeps::new(level.map(sweep).collect());
+    let sweeps = Sweeps::new(steps.iter().filter_map(Step::sweep).collect());
     let edges = Edges::new(floor.areas);
     let mut judge = Judge { floor, programs, pocketed: Pocketed::default() };
     judge.harm(&listings);
