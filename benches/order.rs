@@ -15,7 +15,7 @@ use voromill::toolpath::strategy::{Drilling, Isolation, Narrow, Role, drill, iso
 use voromill::toolpath::{
     DrillSpeeds, Heights, Machine, Order, POINT, Placement, Program, Section, Tool, measure,
 };
-use voromill::topology::NetId;
+use voromill::topology::{DisjointSets, NetId};
 use voromill::voronoi::{Boundaries, Boundary, NodeId, Owner};
 
 fn main() {
@@ -227,12 +227,11 @@ impl Bound {
         let mut sorted: Vec<(f64, usize, usize)> =
             ways.iter().map(|&(a, b)| (self.length(a, b), a, b)).collect();
         sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        let mut part: Vec<usize> = (0..self.ends.len() / 2).collect();
-        let mut joins = Vec::with_capacity(part.len());
+        let mut parts = DisjointSets::new(self.ends.len() / 2);
+        let trail = |end: usize| u32::try_from(end / 2).expect("few trails");
+        let mut joins = Vec::with_capacity(self.ends.len() / 2);
         for (_, a, b) in sorted {
-            let (x, y) = (root(&mut part, a / 2), root(&mut part, b / 2));
-            if x != y {
-                part[x] = y;
+            if parts.union(trail(a), trail(b)) {
                 joins.push((a, b));
             }
         }
@@ -305,12 +304,3 @@ impl Bound {
 /// twice as many raise the bound by less than a tenth of a percent.
 const STEPS: usize = 1500;
 const PATIENCE: usize = 12;
-
-/// The representative of `trail`'s part, halving the way to it.
-fn root(part: &mut [usize], mut trail: usize) -> usize {
-    while part[trail] != trail {
-        part[trail] = part[part[trail]];
-        trail = part[trail];
-    }
-    trail
-}

@@ -47,6 +47,7 @@ pub(crate) use index::RectIndex;
 pub use names::{islands_of_names, names_check};
 pub use nets::{Net, NetId, Nets};
 pub use proximity::{Near, Proximity};
+pub use sets::DisjointSets;
 pub(crate) use surface::surface;
 pub use translucency::{Colour, Odds, Overlap, Sampling, Translucency, translucency};
 

@@ -10,6 +10,7 @@
 
 use crate::geometry::{Nm, Point, Rect};
 use crate::grid::Grid;
+use crate::topology::DisjointSets;
 
 use super::sheet::{OUTSIDE, Sheet, Show};
 
@@ -32,7 +33,7 @@ pub(super) struct Basin {
 pub(super) struct Join {
     /// The pixel that joins them.
     pub(super) pixel: usize,
-    /// The roots of both before: the first is the root of both from then on.
+    /// What stood for each before: the first, which is smaller, stands for both from then on.
     pub(super) roots: (u32, u32),
 }
 
@@ -108,36 +109,22 @@ impl Basin {
 /// Which pixels have come back, and in which connected parts.
 pub(super) struct Water {
     dry: Vec<bool>,
-    parent: Vec<u32>,
+    parts: DisjointSets,
 }
 
 impl Water {
     pub(super) fn new(pixels: usize) -> Self {
-        let count = u32::try_from(pixels).expect("a small picture");
-        Self { dry: vec![false; pixels], parent: (0..count).collect() }
+        Self { dry: vec![false; pixels], parts: DisjointSets::new(pixels) }
     }
 
-    /// Takes two pixels for one part from the beginning; the root is the first one's.
-    pub(super) fn tie(&mut self, root: u32, other: u32) {
-        self.parent[other as usize] = root;
-    }
-
-    pub(super) fn find(&mut self, mut at: u32) -> u32 {
-        while self.parent[at as usize] != at {
-            let above = self.parent[self.parent[at as usize] as usize];
-            self.parent[at as usize] = above;
-            at = above;
-        }
-        at
+    /// Takes two pixels for one part from the beginning.
+    pub(super) fn tie(&mut self, one: u32, other: u32) {
+        self.parts.union(one, other);
     }
 
     /// Joins the parts of two pixels; their roots where they were two.
     fn join(&mut self, a: usize, b: usize) -> Option<(u32, u32)> {
-        let [a, b] = [a, b].map(|at| self.find(u32::try_from(at).unwrap_or(0)));
-        if a == b {
-            return None;
-        }
-        self.parent[b as usize] = a;
-        Some((a, b))
+        let [a, b] = [a, b].map(|at| self.parts.find(u32::try_from(at).unwrap_or(0)));
+        self.parts.union(a, b).then_some((a.min(b), a.max(b)))
     }
 }

@@ -3,6 +3,8 @@
 //! A row of pixels is kept as runs of one label; only the row above is remembered. Runs that share
 //! an edge are joined (union-find), so memory follows the number of regions, not of pixels.
 
+use crate::topology::DisjointSets;
+
 /// A label's share of a connected piece.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Part {
@@ -44,8 +46,6 @@ pub(super) struct Run {
 
 /// Pixels of one label that hang together, as far as is known.
 struct Node {
-    /// Itself, or one before it in the same piece.
-    parent: u32,
     label: u32,
     pixels: u64,
     extent: Extent,
@@ -55,6 +55,8 @@ struct Node {
 #[derive(Default)]
 pub(super) struct Joiner {
     nodes: Vec<Node>,
+    /// Which nodes are of one piece.
+    pieces: DisjointSets,
     /// The row above: its runs and their nodes.
     above: Vec<(Run, u32)>,
 }
@@ -83,10 +85,10 @@ impl Joiner {
             own.pixels += u64::from(run.end - run.start);
             own.extent = own.extent.union(extent);
             for (_, other) in touching() {
-                self.union(node, *other);
+                self.pieces.union(node, *other);
             }
             if let Some((_, left)) = now.last().filter(|(left, _)| left.end == run.start) {
-                self.union(node, *left);
+                self.pieces.union(node, *left);
             }
             now.push((run, node));
         }
@@ -94,35 +96,20 @@ impl Joiner {
     }
 
     fn node(&mut self, label: u32, extent: Extent) -> u32 {
-        let own = u32::try_from(self.nodes.len()).expect("fewer than 2³² regions");
-        self.nodes.push(Node { parent: own, label, pixels: 0, extent });
-        own
+        self.nodes.push(Node { label, pixels: 0, extent });
+        self.pieces.push()
     }
 
     /// The piece that a region belongs to, as far as rows were taken.
-    pub(super) fn find(&mut self, mut node: u32) -> u32 {
-        while self.nodes[node as usize].parent != node {
-            let above = self.nodes[self.nodes[node as usize].parent as usize].parent;
-            self.nodes[node as usize].parent = above;
-            node = above;
-        }
-        node
-    }
-
-    fn union(&mut self, a: u32, b: u32) {
-        let (a, b) = (self.find(a), self.find(b));
-        self.nodes[a.max(b) as usize].parent = a.min(b);
+    pub(super) fn find(&mut self, node: u32) -> u32 {
+        self.pieces.find(node)
     }
 
     /// All nodes of a label in a piece as one part.
-    pub(super) fn parts(mut self) -> Vec<Part> {
-        let count = u32::try_from(self.nodes.len()).expect("fewer than 2³² regions");
-        for node in 0..count {
-            self.nodes[node as usize].parent = self.find(node);
-        }
-        // Where the nodes were: there are many.
-        let part = |Node { parent, label, pixels, extent }| Part { piece: parent, label, pixels, extent };
-        let mut parts: Vec<Part> = self.nodes.into_iter().map(part).collect();
+    pub(super) fn parts(self) -> Vec<Part> {
+        let part = |(Node { label, pixels, extent }, piece)| Part { piece, label, pixels, extent };
+        let mut parts: Vec<Part> =
+            self.nodes.into_iter().zip(self.pieces.representatives()).map(part).collect();
         parts.sort_unstable_by_key(|part| (part.piece, part.label));
         parts.dedup_by(|next, part| {
             let same = (next.piece, next.label) == (part.piece, part.label);

@@ -17,6 +17,7 @@ use rustc_hash::FxHashMap;
 use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use crate::geometry::{Nm, Path, Point, Segment};
+use crate::topology::DisjointSets;
 
 use super::part::{Cut, foot_on, part, vertex};
 use super::plane::Spot;
@@ -95,8 +96,8 @@ struct Web<'a> {
     /// The edge and the segment of each box.
     segments: Vec<(usize, usize)>,
     index: StaticAABB2DIndex<f64>,
-    /// The part of each edge.
-    part: Vec<usize>,
+    /// Which edges are of one part.
+    parts: DisjointSets,
 }
 
 impl<'a> Web<'a> {
@@ -115,8 +116,8 @@ impl<'a> Web<'a> {
             let [low, high] = [bounds.min(), bounds.max()].map(Spot::from);
             builder.add(low.x, low.y, high.x, high.y);
         }
-        let mut web = Self { graph, segments, index: builder.build().ok()?, part: Vec::new() };
-        web.part = (0..graph.edges.len()).collect();
+        let parts = DisjointSets::new(graph.edges.len());
+        let mut web = Self { graph, segments, index: builder.build().ok()?, parts };
         let mut at_node: Vec<Option<usize>> = vec![None; graph.nodes.len()];
         for (number, edge) in graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border()) {
             for node in edge.ends.into_iter().flat_map(|(a, b)| [a, b]) {
@@ -127,18 +128,14 @@ impl<'a> Web<'a> {
         Some(web)
     }
 
-    fn root(&self, mut edge: usize) -> usize {
-        while self.part[edge] != edge {
-            edge = self.part[edge];
-        }
-        edge
+    /// What stands for the part of an edge.
+    fn root(&mut self, edge: usize) -> u32 {
+        self.parts.find(member(edge))
     }
 
-    /// Makes one part of those of two edges; whether they were two.
-    fn unite(&mut self, a: usize, b: usize) -> bool {
-        let (a, b) = (self.root(a), self.root(b));
-        self.part[a.max(b)] = a.min(b);
-        a != b
+    /// Makes one part of those of two edges.
+    fn unite(&mut self, a: usize, b: usize) {
+        self.parts.union(member(a), member(b));
     }
 
     /// The shortest way from a vertex to each edge within `reach` that `wanted` accepts, the
@@ -189,6 +186,10 @@ impl<'a> Web<'a> {
         let both = ends.flat_map(|(edge, last, (a, b))| [(edge, 0, a), (edge, last, b)]);
         both.filter(|&(_, _, node)| alone(node)).map(|(edge, vertex, _)| (edge, vertex)).collect()
     }
+}
+
+fn member(edge: usize) -> u32 {
+    u32::try_from(edge).expect("below 2³² edges")
 }
 
 impl Way {
@@ -251,9 +252,10 @@ impl Boundaries {
         }
         let mut reach = rules.short;
         loop {
+            let part = web.parts.clone().representatives();
             let between = web.vertices().into_par_iter().flat_map_iter(|from| {
-                let home = web.root(from.0);
-                web.ways(from, reach, |edge| web.root(edge) != home)
+                let home = part[from.0];
+                web.ways(from, reach, |edge| part[edge] != home)
             });
             let mut ways: Vec<Way> = between.collect();
             ways.sort_by(Way::compare);

@@ -3,7 +3,7 @@
 
 use voromill::board::{Attributes, Axis, Copper, Feature, Shape, Side};
 use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
-use voromill::topology::{self, Method, Nets};
+use voromill::topology::{self, DisjointSets, Method, Nets};
 use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
 
 use crate::oracle::distance::distances;
@@ -145,26 +145,20 @@ fn check_complete(name: &str, copper: &Copper, nets: &Nets, diagram: &Diagram, r
 fn check_euler(name: &str, nets: &Nets, diagram: &Diagram) {
     // What leaves the window ends at one place beyond it.
     let (n, mut degree) = (diagram.vertices().len(), vec![0; diagram.vertices().len()]);
-    let mut parent: Vec<usize> = (0..=n).collect();
-    fn root(parent: &[usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            i = parent[i];
-        }
-        i
-    }
+    let mut sets = DisjointSets::new(n + 1);
     let ends = |i: u32| usize::try_from(i).expect("an index");
     for edge in diagram.edges() {
         [edge.from, edge.to].into_iter().for_each(|i| degree[ends(i)] += 1);
     }
-    let beyond = |i: u32| if degree[ends(i)] == 1 { n } else { ends(i) };
+    let outside = u32::try_from(n).expect("few vertices");
+    let beyond = |i: u32| if degree[ends(i)] == 1 { outside } else { i };
     for edge in diagram.edges() {
-        let (a, b) = (root(&parent, beyond(edge.from)), root(&parent, beyond(edge.to)));
-        parent[a] = b;
+        sets.union(beyond(edge.from), beyond(edge.to));
     }
     let leave = degree.iter().filter(|&&degree| degree == 1).count();
     let vertices = n - leave + usize::from(leave > 0);
-    let used = (0..=n).filter(|&i| if i == n { leave > 0 } else { degree[i] != 1 });
-    let pieces = used.filter(|&i| root(&parent, i) == i).count();
+    let used = (0..=outside).filter(|&i| if i == outside { leave > 0 } else { degree[ends(i)] != 1 });
+    let pieces = used.filter(|&i| sets.find(i) == i).count();
     let faces = diagram.edges().len() + 1 + pieces - vertices;
     assert_eq!(faces, nets.nets().len(), "{name}: one region for each net");
 }

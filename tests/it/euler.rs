@@ -10,7 +10,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use voromill::geometry::{Nm, Path};
-use voromill::topology::{self, Method};
+use voromill::topology::{self, DisjointSets, Method};
 use voromill::voronoi::{Boundaries, Boundary, Diagram, Owner, Settings};
 
 use crate::real_boards::{self, Layer};
@@ -67,13 +67,7 @@ fn onward(found: &Boundaries, leaving: &BTreeMap<u32, Vec<Walk>>, walk: Walk) ->
 /// What is wrong with the graph of a layer.
 pub(crate) fn wrong(found: &Boundaries) -> Option<String> {
     let mut leaving: BTreeMap<u32, Vec<Walk>> = BTreeMap::new();
-    let mut parent: Vec<usize> = (0..found.nodes.len()).collect();
-    fn root(parent: &[usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            i = parent[i];
-        }
-        i
-    }
+    let mut sets = DisjointSets::new(found.nodes.len());
     for (i, edge) in found.edges.iter().enumerate() {
         if edge.left == edge.right {
             return Some(format!("{:?} on both hands at {:?}", edge.left, edge.path.start));
@@ -81,17 +75,16 @@ pub(crate) fn wrong(found: &Boundaries) -> Option<String> {
         if let Some((from, to)) = edge.ends {
             leaving.entry(from.0).or_default().push((i, false));
             leaving.entry(to.0).or_default().push((i, true));
-            let (from, to) = (root(&parent, from.0 as usize), root(&parent, to.0 as usize));
-            parent[from] = to;
+            sets.union(from.0, to.0);
         }
     }
     // Nodes, boundaries and borders of each connected part.
-    let mut parts: BTreeMap<usize, [i64; 3]> = BTreeMap::new();
-    (0..found.nodes.len()).for_each(|i| parts.entry(root(&parent, i)).or_default()[0] += 1);
+    let mut parts: BTreeMap<u32, [i64; 3]> = BTreeMap::new();
+    sets.clone().representatives().into_iter().for_each(|i| parts.entry(i).or_default()[0] += 1);
     let mut walked: BTreeSet<Walk> = BTreeSet::new();
     for (i, edge) in found.edges.iter().enumerate() {
         let Some((node, _)) = edge.ends else { continue };
-        let part = root(&parent, node.0 as usize);
+        let part = sets.find(node.0);
         parts.entry(part).or_default()[1] += 1;
         for start in [(i, false), (i, true)] {
             if walked.contains(&start) {
@@ -120,7 +113,7 @@ pub(crate) fn wrong(found: &Boundaries) -> Option<String> {
     }
     let uneven = parts.iter().find(|(_, [nodes, edges, borders])| nodes - edges + borders != 2);
     uneven.map(|(&node, counts)| {
-        format!("{counts:?} nodes, boundaries and borders round {:?}", found.nodes[node])
+        format!("{counts:?} nodes, boundaries and borders round {:?}", found.nodes[node as usize])
     })
 }
 

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 use voromill::board::{Axis, Copper, Feature, Outline, Shape, Side};
 use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn, Vector};
-use voromill::topology::{self, Method, Nets};
+use voromill::topology::{self, DisjointSets, Method, Nets};
 use voromill::voronoi::{Boundaries, Boundary, Diagram, Owner, Settings, SiteKind, Widening};
 
 use crate::cli::{stderr, stdout, voromill};
@@ -114,25 +114,18 @@ fn assert_euler(boundaries: &Boundaries, regions: usize) {
 /// How many faces the graph has, the outside among them.
 fn faces(boundaries: &Boundaries) -> usize {
     let nodes = boundaries.nodes.len();
-    let mut parent: Vec<usize> = (0..nodes).collect();
-    fn root(parent: &[usize], mut i: usize) -> usize {
-        while parent[i] != i {
-            i = parent[i];
-        }
-        i
-    }
+    let mut sets = DisjointSets::new(nodes);
     let (mut loops, mut arcs) = (0, 0);
     for edge in &boundaries.edges {
         match edge.ends {
             None => loops += 1,
             Some((a, b)) => {
                 arcs += 1;
-                let (a, b) = (root(&parent, a.0 as usize), root(&parent, b.0 as usize));
-                parent[a] = b;
+                sets.union(a.0, b.0);
             }
         }
     }
-    let components = (0..nodes).filter(|&i| parent[i] == i).count();
+    let components = (0..).zip(sets.representatives()).filter(|(i, root)| i == root).count();
     arcs + 1 + components - nodes + loops
 }
 

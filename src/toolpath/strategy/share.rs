@@ -13,6 +13,7 @@
 //! ```
 
 use crate::geometry::{Nm, Path, Point};
+use crate::topology::DisjointSets;
 use crate::voronoi::{Boundaries, Boundary, NodeId};
 
 /// How long what a tool cuts in one piece must be, as a multiple of its kerf. Chosen.
@@ -79,36 +80,26 @@ fn split(edge: &Boundary, kerfs: &[Nm], nodes: &mut Vec<Point>, parts: &mut Vec<
 
 /// Gives what `tool` would cut in pieces shorter than `least` to the next.
 fn demote(parts: &mut [(usize, Boundary)], nodes: usize, tool: usize, least: f64) {
-    let mut piece: Vec<usize> = (0..nodes).collect();
+    let mut pieces = DisjointSets::new(nodes);
     let own = |part: &(usize, Boundary)| part.0 == tool;
     for (_, part) in parts.iter().filter(|part| own(part)) {
         if let Some((a, b)) = part.ends {
-            let (a, b) = (root(&mut piece, a.0 as usize), root(&mut piece, b.0 as usize));
-            piece[a.max(b)] = a.min(b);
+            pieces.union(a.0, b.0);
         }
     }
     let mut lengths = vec![0.0; nodes];
     for (_, part) in parts.iter().filter(|part| own(part)) {
         if let Some((a, _)) = part.ends {
-            lengths[root(&mut piece, a.0 as usize)] += part.path.length();
+            lengths[pieces.find(a.0) as usize] += part.path.length();
         }
     }
     for part in parts.iter_mut().filter(|part| part.0 == tool) {
         let length = match part.1.ends {
-            Some((a, _)) => lengths[root(&mut piece, a.0 as usize)],
+            Some((a, _)) => lengths[pieces.find(a.0) as usize],
             None => part.1.path.length(),
         };
         part.0 += usize::from(length < least);
     }
-}
-
-/// The representative of the piece that `node` belongs to.
-fn root(piece: &mut [usize], mut node: usize) -> usize {
-    while piece[node] != node {
-        piece[node] = piece[piece[node]];
-        node = piece[node];
-    }
-    node
 }
 
 #[cfg(test)]

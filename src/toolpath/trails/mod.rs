@@ -12,6 +12,8 @@ use std::collections::{BTreeMap, BinaryHeap};
 
 use rustc_hash::FxHashMap;
 
+use crate::topology::DisjointSets;
+
 use matching::Candidate;
 
 /// An edge of the graph.
@@ -101,10 +103,10 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> (Vec<usize
     let mut joined = vec![false; nodes];
     chosen.iter().for_each(|pair| (joined[pair.from], joined[pair.to]) = (true, true));
     let alone: Vec<bool> = odd.iter().zip(&joined).map(|(odd, joined)| *odd && !joined).collect();
-    let mut part: Vec<usize> = (0..nodes).collect();
+    let mut part = DisjointSets::new(nodes);
     for (link, _) in links.iter().zip(&again).filter(|(link, again)| link.must || **again) {
-        if let Some(ends) = link.ends {
-            unite(&mut part, ends);
+        if let Some((a, b)) = link.ends {
+            part.union(a, b);
         }
     }
     let there_and_back = bridges(links, &again, &alone, &mut part, lift);
@@ -114,16 +116,16 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> (Vec<usize
 
 /// The links that need not be cut and, passed there and back, make one trail of what is closed and
 /// another part; the shortest first. `alone` are the odd nodes that are not joined.
-fn bridges(links: &[Link], again: &[bool], alone: &[bool], part: &mut [usize], lift: f64) -> Vec<usize> {
-    let mut is_cut = vec![false; part.len()];
+fn bridges(links: &[Link], again: &[bool], alone: &[bool], part: &mut DisjointSets, lift: f64) -> Vec<usize> {
+    let mut is_cut = vec![false; alone.len()];
     for link in links.iter().filter(|link| link.must) {
         if let Some((a, _)) = link.ends {
-            is_cut[root(part, a as usize)] = true;
+            is_cut[part.find(a) as usize] = true;
         }
     }
-    let mut is_open = vec![false; part.len()];
-    for node in (0..alone.len()).filter(|&node| alone[node]) {
-        is_open[root(part, node)] = true;
+    let mut is_open = vec![false; alone.len()];
+    for (node, _) in (0..).zip(alone).filter(|(_, alone)| **alone) {
+        is_open[part.find(node) as usize] = true;
     }
     let free = |&link: &usize| !links[link].must && !again[link] && 2.0 * links[link].seconds < lift;
     let mut short: Vec<usize> = (0..links.len()).filter(free).collect();
@@ -131,10 +133,10 @@ fn bridges(links: &[Link], again: &[bool], alone: &[bool], part: &mut [usize], l
     let mut chosen = Vec::new();
     for link in short {
         let Some(ends) = links[link].ends else { continue };
-        let (a, b) = (root(part, ends.0 as usize), root(part, ends.1 as usize));
+        let (a, b) = (part.find(ends.0) as usize, part.find(ends.1) as usize);
         // Two parts with loose ends take as many trails together as apart.
         if a != b && is_cut[a] && is_cut[b] && !(is_open[a] && is_open[b]) {
-            unite(part, ends);
+            part.union(ends.0, ends.1);
             is_open[a.min(b)] |= is_open[a.max(b)];
             chosen.push(link);
         }
@@ -142,28 +144,25 @@ fn bridges(links: &[Link], again: &[bool], alone: &[bool], part: &mut [usize], l
     chosen
 }
 
-/// Makes one part of those of two nodes.
-fn unite(part: &mut [usize], (a, b): (u32, u32)) {
-    let (a, b) = (root(part, a as usize), root(part, b as usize));
-    part[a.max(b)] = a.min(b);
-}
-
 /// Takes back the dearest join of each part whose odd nodes are all joined: with the last two left,
 /// it is still one trail.
 ///
 /// A way over links that must be cut anyway can be taken back without the part falling apart.
-fn spare(links: &[Link], alone: &[bool], chosen: &[&Pair], part: &mut [usize], again: &mut [bool]) {
-    let mut is_open = vec![false; part.len()];
-    for node in (0..alone.len()).filter(|&node| alone[node]) {
-        is_open[root(part, node)] = true;
+fn spare(links: &[Link], alone: &[bool], chosen: &[&Pair], part: &mut DisjointSets, again: &mut [bool]) {
+    let mut is_open = vec![false; alone.len()];
+    for (node, _) in (0..).zip(alone).filter(|(_, alone)| **alone) {
+        is_open[part.find(node) as usize] = true;
     }
-    let mut dearest: BTreeMap<usize, (f64, &Pair)> = BTreeMap::new();
+    let mut dearest: BTreeMap<u32, (f64, &Pair)> = BTreeMap::new();
     for pair in chosen.iter().filter(|pair| pair.way.iter().all(|&link| links[link].must)) {
         // What ways share is passed neither time, and would have to be again.
         let saved =
             pair.way.iter().map(|&link| if again[link] { links[link].seconds } else { -links[link].seconds });
-        let (saved, part) = (saved.sum::<f64>(), root(part, pair.from));
-        if !is_open[part] && saved > 0.0 && dearest.get(&part).is_none_or(|&(before, _)| saved > before) {
+        let (saved, part) = (saved.sum::<f64>(), part.find(number(pair.from)));
+        if !is_open[part as usize]
+            && saved > 0.0
+            && dearest.get(&part).is_none_or(|&(before, _)| saved > before)
+        {
             dearest.insert(part, (saved, pair));
         }
     }
@@ -256,30 +255,23 @@ impl Adjacency {
 
 /// Adds lifts between the odd nodes of each connected part, so that all nodes are even.
 fn close(nodes: usize, passes: &mut Vec<Pass>) {
-    let mut part: Vec<usize> = (0..nodes).collect();
-    passes.iter().for_each(|pass| unite(&mut part, pass.ends));
+    let mut part = DisjointSets::new(nodes);
+    for pass in passes.iter() {
+        part.union(pass.ends.0, pass.ends.1);
+    }
     let odd = odd(nodes, passes);
-    let mut waiting: FxHashMap<usize, usize> = FxHashMap::default();
-    for node in (0..nodes).filter(|&node| odd[node]) {
-        let part = root(&mut part, node);
+    let mut waiting: FxHashMap<u32, u32> = FxHashMap::default();
+    for (node, _) in (0..).zip(&odd).filter(|(_, odd)| **odd) {
+        let part = part.find(node);
         match waiting.remove(&part) {
             None => _ = waiting.insert(part, node),
-            Some(other) => {
-                let ends =
-                    [other, node].map(|node| u32::try_from(node).expect("nodes are numbered in 32 bits"));
-                passes.push(Pass { link: None, ends: (ends[0], ends[1]) });
-            }
+            Some(other) => passes.push(Pass { link: None, ends: (other, node) }),
         }
     }
 }
 
-/// The representative of `node`'s part, halving the way to it.
-fn root(part: &mut [usize], mut node: usize) -> usize {
-    while part[node] != node {
-        part[node] = part[part[node]];
-        node = part[node];
-    }
-    node
+fn number(node: usize) -> u32 {
+    u32::try_from(node).expect("nodes are numbered in 32 bits")
 }
 
 /// A pass in a circuit: its index, and whether from its second end to its first.

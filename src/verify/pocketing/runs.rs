@@ -9,6 +9,7 @@ use rayon::prelude::*;
 use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use crate::geometry::{Point, Polygon};
+use crate::topology::DisjointSets;
 use crate::verify::edges::{Edges, length};
 
 /// A point in nanometres.
@@ -182,48 +183,37 @@ fn remaining(inside: &[[f64; 2]], swept: &[(f64, f64)]) -> Vec<(f64, f64)> {
 /// Pieces while rows are added.
 #[derive(Default)]
 struct Pieces {
-    /// To which other piece each belongs, or itself.
-    parents: Vec<usize>,
+    /// Which of them are one.
+    sets: DisjointSets,
     /// The area, the longest run and its middle, of each.
     sizes: Vec<(f64, f64, Spot)>,
     /// The runs of the row before, with their pieces.
-    before: Vec<(f64, f64, usize)>,
+    before: Vec<(f64, f64, u32)>,
 }
 
 impl Pieces {
-    fn root(&mut self, mut i: usize) -> usize {
-        while self.parents[i] != i {
-            self.parents[i] = self.parents[self.parents[i]];
-            i = self.parents[i];
-        }
-        i
-    }
-
     fn add(&mut self, y: f64, runs: &[(f64, f64)], pitch: f64) {
         let before = std::mem::take(&mut self.before);
         let mut first = 0;
         for &(low, high) in runs {
-            let piece = self.parents.len();
-            self.parents.push(piece);
+            let piece = self.sets.push();
             self.sizes.push(((high - low) * pitch, high - low, (f64::midpoint(low, high), y)));
             while first < before.len() && before[first].1 < low {
                 first += 1;
             }
             for &(_, _, other) in before[first..].iter().take_while(|run| run.0 <= high) {
-                let (a, b) = (self.root(piece), self.root(other));
-                self.parents[a.max(b)] = a.min(b);
+                self.sets.union(piece, other);
             }
             self.before.push((low, high, piece));
         }
     }
 
-    fn finish(mut self) -> Vec<Piece> {
+    fn finish(self) -> Vec<Piece> {
         let mut whole: Vec<(f64, f64, Spot)> = vec![(0.0, 0.0, (0.0, 0.0)); self.sizes.len()];
-        for i in 0..self.sizes.len() {
-            let root = self.root(i);
-            let (area, run, at) = self.sizes[i];
-            let (sum, longest, place) = whole[root];
-            whole[root] = (sum + area, longest.max(run), if run > longest { at } else { place });
+        for (root, (area, run, at)) in self.sets.representatives().into_iter().zip(self.sizes) {
+            let known = &mut whole[root as usize];
+            let (sum, longest, place) = *known;
+            *known = (sum + area, longest.max(run), if run > longest { at } else { place });
         }
         let mut found: Vec<Piece> = whole
             .into_iter()

@@ -8,6 +8,8 @@
 //!   ▓▓▓▓▓▓ A ▓▓▓▓▓   ▓▓ B ▓▓
 //! ```
 
+use crate::topology::DisjointSets;
+
 use super::Diagram;
 use super::level::Crossings;
 
@@ -32,7 +34,7 @@ impl Around {
 /// The parts of the space above a level.
 pub(super) struct Parts {
     /// The part of each vertex, then of each crossing.
-    part: Vec<usize>,
+    part: Vec<u32>,
     around: Vec<Around>,
 }
 
@@ -40,29 +42,26 @@ impl Parts {
     /// Whether a vertex above the level, or a crossing behind all vertices, lies in a part that one
     /// owner alone encloses.
     pub(super) fn is_enclosed(&self, place: u32) -> bool {
-        self.around[self.part[place as usize]] != Around::Several
+        self.around[self.part[place as usize] as usize] != Around::Several
     }
 }
 
 impl Diagram {
     /// The parts of the space above the level of `crossings`.
     pub(super) fn parts_above(&self, crossings: &Crossings) -> Parts {
-        let mut part: Vec<usize> = (0..self.vertices.len() + crossings.len()).collect();
+        let mut parts = DisjointSets::new(self.vertices.len() + crossings.len());
         let mut above = Vec::new();
         for number in (0_u32..).take(self.edges.len()) {
-            self.stretches_above(number, crossings, |from, to| above.push((number, from as usize, to)));
+            self.stretches_above(number, crossings, |from, to| above.push((number, from, to)));
         }
         for &(_, from, to) in &above {
-            let (a, b) = (root(&mut part, from), root(&mut part, to as usize));
-            part[a.max(b)] = a.min(b);
+            parts.union(from, to);
         }
-        for place in 0..part.len() {
-            part[place] = root(&mut part, place);
-        }
+        let part = parts.representatives();
         let mut around = vec![Around::Nobody; part.len()];
         for (number, from, _) in above {
             let edge = &self.edges[number as usize];
-            let known = &mut around[part[from]];
+            let known = &mut around[part[from as usize] as usize];
             *known = known.and(self.owner(edge.left)).and(self.owner(edge.right));
         }
         Parts { part, around }
@@ -85,13 +84,4 @@ impl Diagram {
             show(from, edge.to);
         }
     }
-}
-
-/// The first place of the part that a place belongs to.
-fn root(part: &mut [usize], mut place: usize) -> usize {
-    while part[place] != place {
-        part[place] = part[part[place]];
-        place = part[place];
-    }
-    place
 }
