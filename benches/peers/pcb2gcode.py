@@ -2,7 +2,7 @@
 """Voronoi toolpaths and what making them takes beside pcb2gcode's: benches/peers/pcb2gcode.py FOLDER...
 
 FOLDER holds the copper files named below, at any depth; they are public (gerbv's and pcb2gcode's own examples). Prints the table of
-docs/millproject.md (lifts, travel, length and time of the cuts), and that of benches/README.md (CPU time and memory of making them).
+docs/millproject.md (retracts, travel, length and time of the cuts), and that of benches/README.md (CPU time and memory of making them).
 pcb2gcode 2.5.0 needs a desktop's libraries, so its figures were taken once and are kept here: each file as `--front` alone, with
 `--voronoi --mill-diameters 0.2mm`, counted from its program. voromill's are those of target/release/voromill, as of its JSON report.
 """
@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 VOROMILL = Path("target/release/voromill")
-# Name, file, what pcb2gcode makes of it (lifts, travel in mm, cut in mm), and what it takes (CPU seconds, the least of four runs; peak MiB).
+# Name, file, what pcb2gcode makes of it (retracts, travel in mm, cut in mm), and what it takes (CPU seconds, the least of four runs; peak MiB).
 BOARDS = [
     ("numpres", "numpres.pcb.output_group1.grb", 13, 193, 1026, 0.27, 24),
     ("rs232, bottom", "rs232_cm.bot", 6, 36, 240, 0.06, 18),
@@ -38,10 +38,10 @@ def hop(way, speed):
     return way / speed + speed / ACCELERATION if way > ramp else 2 * math.sqrt(way / ACCELERATION)
 
 
-def seconds(lifts, travel, cut):
-    """The same sum for both programs; the way between lifts is taken for evenly long."""
+def seconds(retracts, travel, cut):
+    """The same sum for both programs; the way between retracts is taken for evenly long."""
     lift = hop(SAFE + DEPTH, RAPID_Z) + hop(SAFE - APPROACH, RAPID_Z) + hop(APPROACH + DEPTH, PLUNGE)
-    return cut / FEED + lifts * (lift + hop(travel / lifts, RAPID))
+    return cut / FEED + retracts * (lift + hop(travel / retracts, RAPID))
 
 
 def ours(path):
@@ -50,7 +50,7 @@ def ours(path):
         subprocess.run([VOROMILL, "mill", path, *options], check=True, stderr=subprocess.DEVNULL)
         report = next(Path(out).glob("*.json"))
         program = json.loads(report.read_text())["programs"][0]
-    return program["lifts"], program["rapid_mm"], program["cut_mm"]
+    return program["retracts"], program["rapid_mm"], program["cut_mm"]
 
 
 def usage(path):
@@ -75,7 +75,7 @@ def main():
             print(f"{file} is in none of these folders", file=sys.stderr)
         else:
             found.append((name, path, theirs))
-    print("| board | lifts | travel | cut | seconds |\n|---|---|---|---|---|")
+    print("| board | retracts | travel | cut | seconds |\n|---|---|---|---|---|")
     for name, path, (*theirs, _, _) in found:
         pairs = zip(*((*figures, seconds(*figures)) for figures in (ours(path), theirs)))
         print(f"| {name} |", " | ".join(f"{a:.0f} : {b:.0f}" for a, b in pairs), "|")

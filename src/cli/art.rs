@@ -1,24 +1,232 @@
 //! Shapes to be milled, and what becomes of them: what `carve` and `pocket` have in common.
 
 use std::path::{Path, PathBuf};
+use std::process::ExitCode;
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use serde::Serialize;
-use voromill::board::{Copper, FLATTEN, Feature, Side, polarity};
+use voromill::board::{Copper, FLATTEN, Feature, Side, Warning, polarity};
 use voromill::gcode::Input as Origin;
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::drawing::Unit;
 use voromill::import::{self, Loaded, text::text};
-use voromill::job::{Art, Length, OneTool, Settings};
+use voromill::job::{self, Art, Length, OneTool, Settings};
+use voromill::report;
+use voromill::report::document::{Figures, ProgramEntry, SCHEMA_VERSION, WarningEntry};
+use voromill::report::verdict::FindingEntry;
 use voromill::verify::Finding;
 
-use super::Failure;
+use super::config::Config;
 use super::input::{Colour, Input, dpi};
 use super::output::Output;
+use super::{Failure, Shared};
+
+/// What both take.
+#[derive(Args)]
+pub(super) struct Work {
+    #[command(flatten)]
+    shapes: Shapes,
+
+    /// Program to write; `-` for stdout. Where several tools work, each has a program of its own:
+    /// NAME-1, NAME-2 and so on, the widest first; NAME-flat for the end mill of `carve --flat`
+    #[arg(long, short, value_name = "FILE", required_unless_present = "check")]
+    output: Option<PathBuf>,
+
+    /// The greatest depth of one pass, for hard material or a thin tool [default: all of the depth
+    /// at once]
+    #[arg(long, value_name = "LENGTH", help_heading = "Shapes")]
+    depth_pass: Option<Length>,
+
+    /// Leave the shapes standing and mill the area round them, as for a stamp
+    #[arg(long, help_heading = "Shapes")]
+    invert: bool,
+
+    /// With --invert: how far beyond the shapes is milled [default: 2mm for carve, 5mm for pocket]
+    #[arg(long, value_name = "LENGTH", help_heading = "Shapes")]
+    margin: Option<Length>,
+
+    /// Simulate this program, from any CAM, and compare it with the shapes instead of writing one;
+    /// where several tools work one for each, in the order in which they run
+    #[arg(long, value_name = "PROGRAM", conflicts_with_all = ["output", "no_verify"], help_heading = "Output")]
+    check: Vec<PathBuf>,
+
+    /// Write a picture of the milled surface too, seen at a slant: a PNG, 1600 pixels wide
+    #[arg(long, value_name = "FILE", requires = "output", help_heading = "Output")]
+    picture: Option<PathBuf>,
+
+    /// Do not verify: the program is otherwise read back, simulated and compared with the shapes
+    #[arg(long, help_heading = "Output")]
+    no_verify: bool,
+
+    /// What is printed: the summary for people, or the report for programs
+    #[arg(long, value_enum, default_value = "text", help_heading = "Output")]
+    format: Format,
+
+    /// The same as --format json
+    #[arg(long, hide = true, help_heading = "Output")]
+    json: bool,
+
+    #[command(flatten)]
+    config: Config,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Format {
+    Text,
+    Json,
+}
+
+/// The programs of one command, as all of its run that is common needs them.
+pub(super) trait Milled {
+    /// What comparing them with the shapes comes to.
+    type Judged;
+
+    /// A program for each tool, in the order in which they run.
+    fn programs(&self) -> &[OneTool];
+
+    /// What a person must know.
+    fn warnings(&self) -> &[Warning];
+
+    /// Judges its own programs, or others in their place, each with its name.
+    fn judge(&self, others: Option<&[(&str, &str)]>) -> Result<Self::Judged, job::Error>;
+
+    /// What judging found.
+    fn findings(judged: &Self::Judged) -> &[Finding];
+
+    /// What is milled, as a PNG so many pixels wide.
+    fn picture(&self, width: u32) -> Result<Vec<u8>, job::Error>;
+
+    /// What the programs do, for a person.
+    fn summary(&self) -> String;
+
+    /// What judging came to, for a person: a line.
+    fn verdict(&self, judged: &Self::Judged) -> String;
+
+    /// What is said of them in the report: its own keys.
+    fn figures(&self) -> impl Serialize;
+
+    /// What is said of their judgement in the report: its own keys.
+    fn verification(judged: &Self::Judged) -> impl Serialize;
+}
+
+/// What was made and found, as data.
+#[derive(Serialize)]
+struct Account<'a, F, V> {
+    schema_version: u32,
+    name: &'a str,
+    #[serde(flatten)]
+    figures: F,
+    programs: Vec<ProgramEntry>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    verification: Option<Verification<V>>,
+    warnings: &'a [WarningEntry],
+}
+
+/// What came of comparing the programs with the shapes.
+#[derive(Serialize)]
+struct Verification<V> {
+    #[serde(flatten)]
+    figures: V,
+    findings: Vec<FindingEntry>,
+}
+
+impl Work {
+    /// Reads the shapes, has programs planned for them, judges, writes and reports them.
+    pub(super) fn run<M: Milled>(
+        &self,
+        shared: Shared,
+        plan: impl FnOnce(Art, &Settings, &Self) -> Result<M, Failure>,
+    ) -> Result<ExitCode, Failure> {
+        let input = self.input();
+        let settings = self.config.settings(&input)?;
+        let art = self.shapes.art(&input, &settings)?;
+        let name = art.name.clone();
+        let made = plan(art, &settings, self)?;
+        let judged = match self.check.as_slice() {
+            [] if self.no_verify => None,
+            [] => Some(made.judge(None)?),
+            paths => Some(made.judge(Some(&borrowed(&programs(paths)?)))?),
+        };
+        let warnings: Vec<WarningEntry> = made.warnings().iter().map(WarningEntry::from).collect();
+        shared.say(&report::warnings(&warnings, shared.is_verbose()));
+        if let Some(output) = &self.output {
+            let picture = self.picture.as_deref();
+            let picture = picture.map(|path| Ok::<_, Failure>((path, made.picture(WIDTH)?))).transpose()?;
+            write(output, picture, made.programs())?;
+        }
+        let findings = judged.as_ref().map_or(&[][..], M::findings);
+        let to_stdout = self.output.as_deref() == Some(Path::new("-"));
+        if (self.json || self.format == Format::Json) && !to_stdout {
+            super::print(&self.to_json(&name, &made, judged.as_ref(), &warnings))?;
+        } else {
+            let mut told = if self.output.is_some() { made.summary() } else { String::new() };
+            told.extend(judged.as_ref().map(|judged| made.verdict(judged)));
+            told += &lines(findings);
+            if to_stdout { shared.say(&told) } else { shared.report(&told)? }
+        }
+        Ok(if findings.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+    }
+
+    /// The file with the shapes, as a board is read.
+    pub(super) fn input(&self) -> Input {
+        self.shapes.input()
+    }
+
+    /// Where tools of one's own come from.
+    pub(super) fn config(&self) -> &Config {
+        &self.config
+    }
+
+    /// The greatest depth of one pass.
+    pub(super) fn depth_pass(&self) -> Option<Nm> {
+        self.depth_pass.map(Length::nm)
+    }
+
+    /// How far round the shapes is milled where they are to stand, `usual` unless that is said.
+    pub(super) fn raised(&self, usual: Nm) -> Option<Nm> {
+        self.invert.then(|| self.margin.map_or(usual, Length::nm))
+    }
+
+    fn to_json<M: Milled>(
+        &self,
+        name: &str,
+        made: &M,
+        judged: Option<&M::Judged>,
+        warnings: &[WarningEntry],
+    ) -> String {
+        let verification = judged.map(|judged| Verification {
+            figures: M::verification(judged),
+            findings: M::findings(judged).iter().map(FindingEntry::from).collect(),
+        });
+        let programs = made.programs().iter().enumerate();
+        let account = Account {
+            schema_version: SCHEMA_VERSION,
+            name,
+            figures: made.figures(),
+            programs: programs.map(|(number, one)| self.entry(number, one)).collect(),
+            verification,
+            warnings,
+        };
+        serde_json::to_string_pretty(&account).expect("numbers and texts") + "\n"
+    }
+
+    /// A program in the report: under the name it is written to, or that of the one that is judged
+    /// in its place.
+    fn entry(&self, number: usize, one: &OneTool) -> ProgramEntry {
+        let written = self.output.as_ref().map(|output| tagged(output, &one.tag));
+        let file = written.as_deref().or(self.check.get(number).map(PathBuf::as_path));
+        ProgramEntry {
+            file: file.map_or_else(String::new, name_of),
+            title: one.program.title.clone(),
+            tools: vec![one.program.sections[0].tool.kind.to_string()],
+            figures: Figures::from(&one.statistics),
+        }
+    }
+}
 
 /// Where the shapes come from.
 #[derive(Args)]
-pub(super) struct Shapes {
+struct Shapes {
     /// The file with the shapes
     #[arg(required_unless_present = "text", conflicts_with = "text", value_name = "PATH")]
     path: Option<PathBuf>,
@@ -55,12 +263,12 @@ pub(super) struct Shapes {
 
 impl Shapes {
     /// The file, as a board is read.
-    pub(super) fn input(&self) -> Input {
+    fn input(&self) -> Input {
         Input::artwork(self.path.clone(), self.picture_dpi, self.picture_width, self.ink, self.unit)
     }
 
     /// The shapes.
-    pub(super) fn art(&self, input: &Input, settings: &Settings) -> Result<Art, Failure> {
+    fn art(&self, input: &Input, settings: &Settings) -> Result<Art, Failure> {
         match (&self.text, &self.font, &self.path) {
             (Some(words), Some(font), _) => lettering(words, font, self.height.nm()),
             (_, _, Some(path)) => drawn(path, input, settings),
@@ -79,24 +287,20 @@ fn read_text(path: &Path) -> Result<String, Failure> {
 }
 
 /// The programs of files, each with its name.
-pub(super) fn programs(paths: &[PathBuf]) -> Result<Vec<(String, String)>, Failure> {
+fn programs(paths: &[PathBuf]) -> Result<Vec<(String, String)>, Failure> {
     paths.iter().map(|path| Ok((name_of(path), read_text(path)?))).collect()
 }
 
 /// Those as they are judged.
-pub(super) fn borrowed(texts: &[(String, String)]) -> Vec<(&str, &str)> {
+fn borrowed(texts: &[(String, String)]) -> Vec<(&str, &str)> {
     texts.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect()
 }
 
 /// How many pixels a picture is wide.
-pub(super) const WIDTH: u32 = 1600;
+const WIDTH: u32 = 1600;
 
 /// Writes a file for each tool, called as asked for but for its tag, and a picture.
-pub(super) fn write(
-    output: &Path,
-    picture: Option<(&Path, Vec<u8>)>,
-    programs: &[OneTool],
-) -> Result<(), Failure> {
+fn write(output: &Path, picture: Option<(&Path, Vec<u8>)>, programs: &[OneTool]) -> Result<(), Failure> {
     let mut staged = Output::new();
     if let Some((path, bytes)) = &picture {
         staged.stage(path, bytes)?;
@@ -205,55 +409,13 @@ fn areas(copper: &Copper) -> Vec<Polygon> {
     polarity::clean(&rings)
 }
 
-/// What one tool does.
-#[derive(Serialize)]
-pub(super) struct Cut {
-    tool: String,
-    cut_mm: f64,
-    lifts: u64,
-    seconds: f64,
-}
-
-impl Cut {
-    pub(super) fn new(one: &OneTool) -> Self {
-        Self {
-            tool: one.program.sections[0].tool.kind.to_string(),
-            cut_mm: one.statistics.cut_length.to_mm(),
-            lifts: one.statistics.lifts,
-            seconds: rounded(one.statistics.seconds),
-        }
-    }
-}
-
-/// Something that is wrong.
-#[derive(Serialize)]
-pub(super) struct Entry {
-    name: &'static str,
-    message: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    at_mm: Option<[f64; 2]>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<u32>,
-}
-
-impl Entry {
-    pub(super) fn new(finding: &Finding) -> Self {
-        Self {
-            name: finding.name,
-            message: finding.message.clone(),
-            at_mm: finding.at.map(|at| [at.x.to_mm(), at.y.to_mm()]),
-            line: finding.line,
-        }
-    }
-}
-
 /// To a thousandth.
 pub(super) fn rounded(number: f64) -> f64 {
     (number * 1_000.0).round() / 1_000.0
 }
 
 /// What is wrong, a line for each.
-pub(super) fn lines(findings: &[Finding]) -> String {
+fn lines(findings: &[Finding]) -> String {
     let line = |finding: &Finding| {
         let place =
             finding.at.map_or(String::new(), |at| format!(" at x = {:.3} mm, y = {:.3} mm", at.x, at.y));

@@ -116,10 +116,10 @@ pub(super) fn picture(programs: &[OneTool], areas: &[Polygon], width: u32) -> Re
 /// What programs do, a line for each.
 pub(super) fn lines(programs: &[OneTool]) -> String {
     let line = |OneTool { program, statistics, .. }: &OneTool| {
-        let Statistics { cut_length, lifts, seconds, .. } = statistics;
+        let Statistics { cut_length, retracts, seconds, .. } = statistics;
         let tool = program.sections[0].tool.kind;
         let time = crate::toolpath::duration(*seconds);
-        format!("  {tool}: {:.1} mm cut, {lifts} lifts, {time}\n", cut_length.to_mm())
+        format!("  {tool}: {:.1} mm cut, {retracts} retracts, {time}\n", cut_length.to_mm())
     };
     programs.iter().map(line).collect()
 }

@@ -63,10 +63,10 @@ impl Layer {
             translucency: self.translucency.as_ref().map(ColoursEntry::new),
             smallest_gap: self.gap.map(|gap| gap_entry(gap, &self.nets)),
             boundaries: self.boundaries.edges.len(),
-            junctions: self.boundaries.nodes.len(),
+            vertices: self.boundaries.nodes.len(),
             boundary_length_mm: Millimetres(self.boundary_length()),
             frame_length_mm: self.lap.as_ref().map(|lap| Millimetres(Nm::from_f64(lap.length()))),
-            slight_gaps: 0,
+            negligible_gaps: 0,
             strategy: self.chosen.as_ref().map(strategy_entry),
             coupling: None,
         }
@@ -91,11 +91,11 @@ fn strategy_entry(chosen: &Chosen) -> StrategyEntry {
         (tried.map_or(0.0, |tried| tried.seconds) * 10.0).round() / 10.0
     };
     StrategyEntry {
-        loops: chosen.tried[chosen.taken].loops,
+        outlined_nets: chosen.tried[chosen.taken].loops,
         seconds: seconds(chosen.taken),
         voronoi_seconds: seconds(0),
         outline_seconds: seconds(1),
-        tried: chosen.tried.len(),
+        plans: chosen.tried.len(),
     }
 }
 

@@ -37,7 +37,7 @@ pub fn paper(board: &Board, side: Side) -> Result<Option<PaperEntry>, Error> {
         area_in2: drawn.board().width().to_f64() * drawn.board().height().to_f64() / (INCH * INCH),
         overlap_s: overlap.as_secs_f64(),
         toolpaths_s: toolpaths.as_secs_f64(),
-        lap_in: drawn.lap() / INCH,
+        frame_in: drawn.lap() / INCH,
         paper: Columns {
             outline: paths(drawn.outline()),
             voronoi: paths(voronoi),
@@ -88,7 +88,7 @@ const INCH: f64 = 25_400_000.0;
 
 fn paths(toolpaths: Toolpaths) -> Paths {
     let Toolpaths { paths, raw, simplified, segments } = toolpaths;
-    Paths { paths, raw_in: Some(raw / INCH), length_in: simplified / INCH, segments }
+    Paths { paths, staircase_in: Some(raw / INCH), length_in: simplified / INCH, segments }
 }
 
 /// The same by exact boundaries: copper edges as sites, and the frame where the paper has it.
@@ -106,7 +106,7 @@ fn exact(copper: &Copper, nets: &Nets, drawn: &Paper<'_>, strokes: &[f64]) -> Re
         let cut = || found.edges.iter().filter(|edge| !edge.is_border());
         Paths {
             paths: cut().count(),
-            raw_in: None,
+            staircase_in: None,
             length_in: (found.length() + lap) / INCH,
             segments: cut().map(|edge| edge.path.segments.len()).sum(),
         }

@@ -17,7 +17,7 @@ pub struct ColoursEntry {
     /// Pixels at which traces were picked and merged.
     pub picks: usize,
     /// The most traces on one pixel.
-    pub deepest: usize,
+    pub most_on_a_pixel: usize,
     /// How likely it was to miss an overlap by a confusion of colours.
     pub odds: Odds,
 }
@@ -30,7 +30,7 @@ impl ColoursEntry {
             pixel_mm: Millimetres(found.sampling.pitch),
             seed: found.sampling.seed,
             picks: found.overlaps.len(),
-            deepest: found.deepest,
+            most_on_a_pixel: found.deepest,
             odds: found.odds,
         }
     }
@@ -41,7 +41,7 @@ impl ColoursEntry {
         format!(
             "  seed {}, at most {} on a pixel; odds of a confusion with one trace's colour {base:.1e}, of two mixes {mixed:.1e}\n",
             self.seed,
-            count(self.deepest, "trace")
+            count(self.most_on_a_pixel, "trace")
         )
     }
 }

@@ -9,7 +9,7 @@ use crate::grid::Grid;
 use crate::verify::{Change, Comparison, Error, Region, Spot};
 
 use super::Canvas;
-use super::document::{Millimetres, Place, json};
+use super::document::{Millimetres, Place, SCHEMA_VERSION, json};
 use super::palette::{COPPER, CUT, GROUND, Rgb};
 
 /// What is cut now and was not.
@@ -30,11 +30,11 @@ pub struct Compared {
     /// Whether both cut the same.
     pub same: bool,
     /// How much is cut now that was not.
-    pub cut: Amount,
+    pub more_cut: Amount,
     /// How much is left now that was cut.
-    pub left: Amount,
+    pub less_cut: Amount,
     /// The pixel of the picture in which they were compared.
-    pub resolution_mm: Millimetres,
+    pub pixel_mm: Millimetres,
     /// Where, the largest first.
     pub places: Vec<Difference>,
 }
@@ -72,9 +72,9 @@ impl Compared {
         Self {
             file: file.to_owned(),
             same: comparison.is_same(),
-            cut: amount(Change::Cut),
-            left: amount(Change::Left),
-            resolution_mm: Millimetres(comparison.resolution),
+            more_cut: amount(Change::Cut),
+            less_cut: amount(Change::Left),
+            pixel_mm: Millimetres(comparison.resolution),
             places: comparison.regions.iter().map(Difference::new).collect(),
         }
     }
@@ -85,19 +85,19 @@ impl Compared {
         if self.same {
             return format!("{}: the same copper\n", self.file);
         }
-        let Self { cut, left, .. } = self;
+        let Self { more_cut: more, less_cut: less, .. } = self;
         let places = |amount: &Amount| super::summary::count(amount.places, "place");
         let mut text = format!(
             "{}: {:.4} mm² more cut away in {}, {:.4} mm² less in {}\n",
             self.file,
-            cut.area_mm2,
-            places(cut),
-            left.area_mm2,
-            places(left)
+            more.area_mm2,
+            places(more),
+            less.area_mm2,
+            places(less)
         );
         let shown = if verbose { usize::MAX } else { SHOWN };
         for place in self.places.iter().take(shown) {
-            let sign = if place.change == "cut" { "more" } else { "less" };
+            let sign = if place.change == "more" { "more" } else { "less" };
             let (at, [width, height]) = (&place.at, &place.size_mm);
             let _ = writeln!(
                 text,
@@ -116,8 +116,8 @@ impl Difference {
     fn new(region: &Region) -> Self {
         Self {
             change: match region.change {
-                Change::Cut => "cut",
-                Change::Left => "left",
+                Change::Cut => "more",
+                Change::Left => "less",
             },
             at: Place::from(region.middle()),
             size_mm: [region.rect.width(), region.rect.height()].map(Millimetres),
@@ -126,10 +126,15 @@ impl Difference {
     }
 }
 
-/// Several comparisons as JSON text.
+/// What differs, as JSON text.
 #[must_use]
 pub fn to_json(compared: &[Compared]) -> String {
-    json(&compared)
+    #[derive(Serialize)]
+    struct All<'a> {
+        schema_version: u32,
+        programs: &'a [Compared],
+    }
+    json(&All { schema_version: SCHEMA_VERSION, programs: compared })
 }
 
 fn rounded(area: f64) -> f64 {

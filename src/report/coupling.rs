@@ -22,9 +22,9 @@ pub struct CouplingEntry {
     /// How thick the board is.
     pub thickness_mm: f64,
     /// How many pairs of nets have regions that meet.
-    pub neighbours: usize,
+    pub pair_count: usize,
     /// All of them together, as they are cut and as they were drawn.
-    pub picofarads: Layouts,
+    pub capacitance_pf: Layouts,
     /// Pairs, those with the most capacitance as cut first.
     pub pairs: Vec<PairEntry>,
     /// The nets that were asked for.
@@ -36,9 +36,9 @@ pub struct CouplingEntry {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Layouts {
     /// Voronoi regions, a cut apart.
-    pub regions: f64,
+    pub voronoi: f64,
     /// The copper as it was drawn, which outlines leave.
-    pub drawn: f64,
+    pub as_drawn: f64,
 }
 
 /// Two nets whose regions meet.
@@ -51,7 +51,7 @@ pub struct PairEntry {
     /// The integral of one by the gap along it.
     pub length_over_gap: Layouts,
     /// Their capacitance.
-    pub picofarads: Layouts,
+    pub capacitance_pf: Layouts,
 }
 
 /// A net with all its neighbours.
@@ -60,11 +60,11 @@ pub struct CoupledNetEntry {
     /// Its name.
     pub net: String,
     /// Its capacitance with them.
-    pub picofarads: Layouts,
+    pub capacitance_pf: Layouts,
     /// The `--limit` that takes four fifths of what regions add, where one does.
     pub limit_mm: Option<Millimetres>,
     /// What it then has.
-    pub limited_picofarads: Option<f64>,
+    pub limited_pf: Option<f64>,
 }
 
 impl CouplingEntry {
@@ -85,22 +85,22 @@ impl CouplingEntry {
                 between: pair.nets.map(|net| nets.label(net)),
                 boundary_mm: Millimetres(Nm::from_f64(pair.length)),
                 length_over_gap: layouts(|coupled| coupled.length_over_gap),
-                picofarads: layouts(|coupled| coupled.picofarads),
+                capacitance_pf: layouts(|coupled| coupled.picofarads),
             }
         };
         let mut pairs: Vec<PairEntry> = coupling.pairs.iter().map(entry).collect();
-        let sum = |figure: fn(&Layouts) -> f64| pairs.iter().map(|pair| figure(&pair.picofarads)).sum();
-        let picofarads = Layouts::new(sum(|pair| pair.regions), sum(|pair| pair.drawn));
+        let sum = |figure: fn(&Layouts) -> f64| pairs.iter().map(|pair| figure(&pair.capacitance_pf)).sum();
+        let capacitance_pf = Layouts::new(sum(|pair| pair.voronoi), sum(|pair| pair.as_drawn));
         // Sorting is stable: equals stay by number.
-        pairs.sort_by(|a, b| b.picofarads.regions.total_cmp(&a.picofarads.regions));
-        let neighbours = pairs.len();
+        pairs.sort_by(|a, b| b.capacitance_pf.voronoi.total_cmp(&a.capacitance_pf.voronoi));
+        let pair_count = pairs.len();
         pairs.truncate(most.unwrap_or(usize::MAX));
         Self {
             kerf_mm: Millimetres(kerf),
             permittivity: substrate.permittivity,
             thickness_mm: substrate.thickness,
-            neighbours,
-            picofarads,
+            pair_count,
+            capacitance_pf,
             pairs,
             nets: asked.iter().map(|&net| CoupledNetEntry::new(coupling, nets, net)).collect(),
         }
@@ -109,13 +109,13 @@ impl CouplingEntry {
     /// As a person reads it: the ten strongest, or all where `verbose`.
     #[must_use]
     pub fn to_text(&self, verbose: bool) -> String {
-        let Layouts { regions, drawn } = self.picofarads;
+        let Layouts { voronoi, as_drawn } = self.capacitance_pf;
         let mut text = format!(
-            "  coupling of regions {:.3} mm apart, on {:.1} mm of permittivity {:.1}: {regions:.1} pF in {}, as drawn {drawn:.1} pF\n",
+            "  coupling of regions {:.3} mm apart, on {:.1} mm of permittivity {:.1}: {voronoi:.1} pF in {}, as drawn {as_drawn:.1} pF\n",
             self.kerf_mm.0,
             self.thickness_mm,
             self.permittivity,
-            count(self.neighbours, "pair"),
+            count(self.pair_count, "pair"),
         );
         let shown = if verbose { self.pairs.len() } else { SHOWN.min(self.pairs.len()) };
         let name = |pair: &PairEntry| format!("{} and {}", pair.between[0], pair.between[1]);
@@ -128,16 +128,16 @@ impl CouplingEntry {
             );
         }
         for pair in &self.pairs[..shown] {
-            let (over, farads) = (pair.length_over_gap, pair.picofarads);
+            let (over, farads) = (pair.length_over_gap, pair.capacitance_pf);
             let _ = writeln!(
                 text,
                 "    {:widest$}  {:>9.2} mm  {:>10.0} {:>9.0}  {:>9.2} {:>9.2}",
                 name(pair),
                 pair.boundary_mm.0,
-                over.regions,
-                over.drawn,
-                farads.regions,
-                farads.drawn
+                over.voronoi,
+                over.as_drawn,
+                farads.voronoi,
+                farads.as_drawn
             );
         }
         if self.pairs.len() > shown {
@@ -157,25 +157,25 @@ impl CoupledNetEntry {
         let limit = coupling.limit_for(net);
         Self {
             net: nets.label(net),
-            picofarads: Layouts::new(of(Layout::Regions), of(Layout::Drawn)),
+            capacitance_pf: Layouts::new(of(Layout::Regions), of(Layout::Drawn)),
             limit_mm: limit.map(Millimetres),
-            limited_picofarads: limit.map(|limit| rounded(of(Layout::Limited(limit)))),
+            limited_pf: limit.map(|limit| rounded(of(Layout::Limited(limit)))),
         }
     }
 
     fn to_text(&self) -> String {
-        let (net, Layouts { regions, drawn }) = (&self.net, self.picofarads);
-        let advice = match (self.limit_mm, self.limited_picofarads) {
+        let (net, Layouts { voronoi, as_drawn }) = (&self.net, self.capacitance_pf);
+        let advice = match (self.limit_mm, self.limited_pf) {
             (Some(limit), Some(limited)) => format!("with --limit {}mm {limited:.2} pF", limit.0.to_mm()),
             _ => "no --limit changes that by much".to_owned(),
         };
-        format!("  {net}: {regions:.2} pF with its neighbours, as drawn {drawn:.2} pF; {advice}\n")
+        format!("  {net}: {voronoi:.2} pF with its neighbours, as drawn {as_drawn:.2} pF; {advice}\n")
     }
 }
 
 impl Layouts {
     fn new(regions: f64, drawn: f64) -> Self {
-        Self { regions: rounded(regions), drawn: rounded(drawn) }
+        Self { voronoi: rounded(regions), as_drawn: rounded(drawn) }
     }
 }
 

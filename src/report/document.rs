@@ -105,17 +105,17 @@ pub struct LayerEntry {
     pub translucency: Option<ColoursEntry>,
     /// The narrowest place between two of them.
     pub smallest_gap: Option<GapEntry>,
-    /// Lines between regions, as the diagram has them.
+    /// Boundaries between the regions of two nets: Voronoi edges in a row.
     pub boundaries: usize,
-    /// Points where three or more meet, or where they end.
-    pub junctions: usize,
+    /// Voronoi vertices: where three or more of them meet, or where one ends.
+    pub vertices: usize,
     /// Their length, without what runs along the board's edge.
     pub boundary_length_mm: Millimetres,
-    /// The lap round the frame, where it was cut.
+    /// The frame cut round the copper, where there is no outline.
     pub frame_length_mm: Option<Millimetres>,
-    /// Gaps that the kerf does not fit by so little that nobody minds.
+    /// Gaps narrower than the kerf by a negligible amount: a hundredth of it at most.
     #[serde(skip_serializing_if = "is_none")]
-    pub slight_gaps: usize,
+    pub negligible_gaps: usize,
     /// What `--strategy auto` tried, and took.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub strategy: Option<StrategyEntry>,
@@ -133,7 +133,7 @@ const fn is_none(count: &usize) -> bool {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StrategyEntry {
     /// How many nets have a loop.
-    pub loops: usize,
+    pub outlined_nets: usize,
     /// How long the machine runs for this side, to a tenth.
     pub seconds: f64,
     /// The same with a region for every net that was free to have one.
@@ -141,7 +141,7 @@ pub struct StrategyEntry {
     /// The same with a loop round each of them.
     pub outline_seconds: f64,
     /// How many plans were made.
-    pub tried: usize,
+    pub plans: usize,
 }
 
 /// One island of copper.
@@ -194,12 +194,12 @@ pub struct ProgramEntry {
 /// What programs amount to.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Figures {
-    /// The way that is cut.
+    /// The length of all cuts.
     pub cut_mm: Millimetres,
-    /// The way through the air.
+    /// The length of all rapids.
     pub rapid_mm: Millimetres,
-    /// How often the tool rises.
-    pub lifts: u64,
+    /// How often the tool retracts to the safe height.
+    pub retracts: u64,
     /// How long the machine runs, to a tenth; a program's without tool changes.
     pub seconds: f64,
 }
@@ -266,7 +266,7 @@ impl From<&Statistics> for Figures {
         Self {
             cut_mm: Millimetres(statistics.cut_length),
             rapid_mm: Millimetres(statistics.rapid_length),
-            lifts: statistics.lifts,
+            retracts: statistics.retracts,
             seconds: (statistics.seconds * 10.0).round() / 10.0,
         }
     }
@@ -279,7 +279,7 @@ impl Figures {
         for one in all {
             sum.cut_length += one.cut_length;
             sum.rapid_length += one.rapid_length;
-            sum.lifts += one.lifts;
+            sum.retracts += one.retracts;
             sum.seconds += one.seconds;
         }
         Self::from(&sum)

@@ -31,7 +31,7 @@ impl Document {
             let is_slight = |entry: &WarningEntry| {
                 entry.side == Some(layer.side) && lost(entry).is_some_and(|lost| lost <= slight)
             };
-            layer.slight_gaps = self.warnings.iter().filter(|entry| is_slight(entry)).count();
+            layer.negligible_gaps = self.warnings.iter().filter(|entry| is_slight(entry)).count();
             self.warnings.retain(|entry| !is_slight(entry));
             // What verification tells of apart from what it does not.
             for deep in [true, false] {
@@ -50,7 +50,7 @@ impl Document {
         let told = Settings::default().gouge;
         let Some(verdict) = &self.verification else { return };
         let is_found = |entry: &WarningEntry, lost: Nm| {
-            let mut gouges = verdict.findings.iter().filter(|f| f.name == GOUGE && f.side == entry.side);
+            let mut gouges = verdict.findings.iter().filter(|f| f.code == GOUGE && f.side == entry.side);
             gouges.any(|gouge| gouge.size_mm.is_some_and(|Millimetres(depth)| depth + FIT >= lost))
         };
         self.warnings.retain(|entry| {

@@ -18,8 +18,8 @@ pub struct PaperEntry {
     pub overlap_s: f64,
     /// How long drawing, tracing and simplifying the Voronoi picture took (Algorithm 3).
     pub toolpaths_s: f64,
-    /// One lap round the frame, which Voronoi lengths contain.
-    pub lap_in: f64,
+    /// The frame cut, which Voronoi lengths contain.
+    pub frame_in: f64,
     /// From a picture of 500 DPI, as the paper has it.
     pub paper: Columns,
     /// From exact boundaries between copper edges.
@@ -46,7 +46,7 @@ pub struct Paths {
     pub paths: usize,
     /// The length of the staircase between pixels, where there is one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub raw_in: Option<f64>,
+    pub staircase_in: Option<f64>,
     /// Their length.
     pub length_in: f64,
     /// How many segments they have.
@@ -61,10 +61,10 @@ impl Columns {
         percent(self.outline.length_in / self.voronoi.length_in - 1.0)
     }
 
-    /// How much shorter the Voronoi paths, less `lap`, are than the outline, in percent of it.
+    /// How much shorter the Voronoi paths, less the frame, are than the outline, in percent of it.
     #[must_use]
-    pub fn decrease(&self, lap: f64) -> f64 {
-        percent(1.0 - (self.voronoi.length_in - lap) / self.outline.length_in)
+    pub fn decrease(&self, frame: f64) -> f64 {
+        percent(1.0 - (self.voronoi.length_in - frame) / self.outline.length_in)
     }
 
     /// How much wider Voronoi regions are than traces, in percent.
@@ -93,16 +93,16 @@ impl PaperEntry {
             };
             let _ = writeln!(text, "  {what:44}  {:>11}  {:>11}", cell(&self.paper), cell(&self.exact));
         };
-        row("outline, staircase", "in", 3, &|columns| columns.outline.raw_in);
+        row("outline, staircase", "in", 3, &|columns| columns.outline.staircase_in);
         row("outline", "in", 3, &|columns| Some(columns.outline.length_in));
-        row("Voronoi, staircase, with the lap", "in", 3, &|columns| columns.voronoi.raw_in);
-        row("Voronoi, with the lap", "in", 3, &|columns| Some(columns.voronoi.length_in));
-        row("Voronoi, without the lap round the frame", "in", 3, &|columns| {
-            Some(columns.voronoi.length_in - self.lap_in)
+        row("Voronoi, staircase, with the frame", "in", 3, &|columns| columns.voronoi.staircase_in);
+        row("Voronoi, with the frame", "in", 3, &|columns| Some(columns.voronoi.length_in));
+        row("Voronoi, without the frame", "in", 3, &|columns| {
+            Some(columns.voronoi.length_in - self.frame_in)
         });
         row("length savings (outline ÷ Voronoi − 1)", "%", 1, &|columns| Some(columns.savings()));
         row("decrease (1 − Voronoi ÷ outline)", "%", 1, &|columns| Some(columns.decrease(0.0)));
-        row("decrease without the lap", "%", 1, &|columns| Some(columns.decrease(self.lap_in)));
+        row("decrease without the frame", "%", 1, &|columns| Some(columns.decrease(self.frame_in)));
         row("normal width", "in", 5, &|columns| Some(columns.normal_width_in));
         row("Voronoi width", "in", 5, &|columns| Some(columns.voronoi_width_in));
         row("width increase", "%", 0, &|columns| Some(columns.increase()));

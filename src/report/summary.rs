@@ -20,7 +20,7 @@ impl Document {
                 let [a, b] = &gap.between;
                 format!(", smallest gap {:.3} mm between {a} and {b}", gap.width_mm.0)
             });
-            let slight = match layer.slight_gaps {
+            let slight = match layer.negligible_gaps {
                 0 => String::new(),
                 gaps => format!(", {} narrower than the kerf by a hundredth or less", count(gaps, "gap")),
             };
@@ -38,7 +38,7 @@ impl Document {
                     text,
                     "  {}: loops round {} of {}, regions for the others: {}; {} with regions alone, {} with loops alone",
                     layer.side,
-                    strategy.loops,
+                    strategy.outlined_nets,
                     count(layer.nets.len(), "net"),
                     time[0],
                     time[1],
@@ -81,7 +81,7 @@ impl Document {
         let row = |name: &str, figures: &Figures| {
             let [cut, rapid] = [figures.cut_mm, figures.rapid_mm].map(|length| format!("{:.0} mm", length.0));
             let time = duration(figures.seconds);
-            format!("  {name:widest$}  {cut:>9}  {rapid:>9}  {:>8}  {time:>9}\n", figures.lifts)
+            format!("  {name:widest$}  {cut:>9}  {rapid:>9}  {:>8}  {time:>9}\n", figures.retracts)
         };
         let mut text =
             format!("  {:widest$}  {:>9}  {:>9}  {:>8}  {:>9}\n", "", "cut", "rapid", "retracts", "time");
@@ -198,10 +198,10 @@ mod tests {
             translucency: None,
             smallest_gap: None,
             boundaries: 1,
-            junctions: 0,
+            vertices: 0,
             boundary_length_mm: Millimetres(Nm::from_mm(208)),
             frame_length_mm,
-            slight_gaps: 0,
+            negligible_gaps: 0,
             strategy: None,
             coupling: None,
         };

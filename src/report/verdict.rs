@@ -9,13 +9,13 @@ use serde_json::json;
 use crate::board::Side;
 use crate::verify::{Finding, Report, Severity, check};
 
-use super::document::{Millimetres, Place, json as to_json};
+use super::document::{Millimetres, Place, SCHEMA_VERSION, json as to_json};
 
 /// A verdict as data.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verdict {
     /// Whether nothing is an error.
-    pub clean: bool,
+    pub passed: bool,
     /// How many findings are errors.
     pub errors: usize,
     /// How many are warnings.
@@ -35,14 +35,14 @@ pub struct JudgedEntry {
     pub role: String,
     /// The pixel of the picture.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub resolution_mm: Option<Millimetres>,
+    pub pixel_mm: Option<Millimetres>,
 }
 
 /// A finding with its places.
 #[derive(Clone, Debug, Serialize)]
 pub struct FindingEntry {
     /// Its stable name.
-    pub name: &'static str,
+    pub code: &'static str,
     /// How bad it is.
     pub severity: Severity,
     /// The sentence.
@@ -79,7 +79,7 @@ pub struct FindingEntry {
 impl From<&Finding> for FindingEntry {
     fn from(finding: &Finding) -> Self {
         Self {
-            name: finding.name,
+            code: finding.name,
             severity: finding.severity,
             message: finding.message.clone(),
             side: finding.side,
@@ -101,10 +101,10 @@ impl From<&Report> for Verdict {
         let judged = report.judged.iter().map(|judged| JudgedEntry {
             programs: judged.programs.clone(),
             role: judged.role.to_string(),
-            resolution_mm: judged.resolution.map(Millimetres),
+            pixel_mm: judged.resolution.map(Millimetres),
         });
         Self {
-            clean: errors == 0,
+            passed: errors == 0,
             errors,
             warnings: report.count(Severity::Warning) - errors,
             judged: judged.collect(),
@@ -124,13 +124,13 @@ impl Verdict {
         let mut text = String::new();
         let count =
             self.findings.iter().filter(|finding| verbose || finding.severity > Severity::Info).count();
-        for same in self.findings[..count].chunk_by(|a, b| (a.severity, a.name) == (b.severity, b.name)) {
+        for same in self.findings[..count].chunk_by(|a, b| (a.severity, a.code) == (b.severity, b.code)) {
             let shown = if verbose { same.len() } else { SHOWN };
             for finding in same.iter().take(shown) {
-                let FindingEntry { severity, name, message, .. } = finding;
-                let _ = writeln!(text, "  {severity}: {}{message} [{name}]", place(finding));
+                let FindingEntry { severity, code, message, .. } = finding;
+                let _ = writeln!(text, "  {severity}: {}{message} [{code}]", place(finding));
             }
-            let (severity, name) = (same[0].severity, same[0].name);
+            let (severity, name) = (same[0].severity, same[0].code);
             if same.len() > shown {
                 let _ = writeln!(text, "  {severity}: {} more [{name}]; -v shows all", same.len() - shown);
             }
@@ -146,8 +146,7 @@ impl Verdict {
     #[must_use]
     pub fn line(&self) -> String {
         let programs: usize = self.judged.iter().map(|judged| judged.programs.len()).sum();
-        let pixels =
-            self.judged.iter().filter_map(|judged| judged.resolution_mm).map(|pixel| pixel.0.get()).max();
+        let pixels = self.judged.iter().filter_map(|judged| judged.pixel_mm).map(|pixel| pixel.0.get()).max();
         let programs = super::summary::count(programs, "program");
         let pixels = pixels.map_or(String::new(), |nm| format!(", pixels of {} µm", nm.div_euclid(1000)));
         let found = match (self.errors, self.warnings) {
@@ -166,7 +165,7 @@ impl Verdict {
         let count = super::summary::count;
         let first = |severity: Severity| {
             let worst = self.findings.iter().find(|finding| finding.severity == severity);
-            let check = worst.and_then(|finding| check::of(finding.name));
+            let check = worst.and_then(|finding| check::of(finding.code));
             check.map_or(String::new(), |check| format!("; first, about `{}`: {}", check.name, check.cure))
         };
         match (self.errors, self.warnings) {
@@ -184,7 +183,13 @@ impl Verdict {
     /// As JSON text.
     #[must_use]
     pub fn to_json(&self) -> String {
-        to_json(self)
+        #[derive(Serialize)]
+        struct Alone<'a> {
+            schema_version: u32,
+            #[serde(flatten)]
+            verdict: &'a Verdict,
+        }
+        to_json(&Alone { schema_version: SCHEMA_VERSION, verdict: self })
     }
 
     /// As a SARIF 2.1.0 log, which code hosts show beside the lines of the programs.
@@ -226,7 +231,7 @@ impl Verdict {
     #[must_use]
     pub fn to_junit(&self, deny: Severity) -> String {
         let of = |name: &str| {
-            self.findings.iter().filter(|f| f.name == name && f.severity >= deny).collect::<Vec<_>>()
+            self.findings.iter().filter(|f| f.code == name && f.severity >= deny).collect::<Vec<_>>()
         };
         let failures = check::ALL.iter().filter(|check| !of(check.name).is_empty()).count();
         let count = check::ALL.len();
@@ -256,8 +261,8 @@ fn sarif(finding: &FindingEntry, program: Option<&str>) -> serde_json::Value {
         Severity::Error => "error",
     };
     let mut result = json!({
-        "ruleId": finding.name,
-        "ruleIndex": check::ALL.iter().position(|check| check.name == finding.name),
+        "ruleId": finding.code,
+        "ruleIndex": check::ALL.iter().position(|check| check.name == finding.code),
         "level": level,
         "message": { "text": finding.message },
         "properties": { "side": finding.side, "nets": finding.nets, "at": finding.at, "size_mm": finding.size_mm },

@@ -1,4 +1,4 @@
-//! What a program amounts to on a machine: ways, lifts, time.
+//! What a program amounts to on a machine: lengths, retracts, time.
 //!
 //! There is one estimate of time, the [planner's](super::planner): the summary, the report, the
 //! page's player and the headers of programs all take theirs from here.
@@ -19,7 +19,7 @@ pub struct Statistics {
     /// The length of all level rapids.
     pub rapid_length: Nm,
     /// How often the tool rises to the safe height.
-    pub lifts: u64,
+    pub retracts: u64,
     /// How long the machine runs, spinning up included; what a person takes to change tools is not.
     pub seconds: f64,
     /// How often it waits for another tool.
@@ -55,7 +55,7 @@ pub fn measure(program: &Program, machine: &Machine) -> Statistics {
             let block = planner.step(at, step);
             match step {
                 Move::Rapid { to } if to.z == at.z => total.rapid_length += Nm::from_f64(block),
-                Move::Rapid { to } if to.z == program.safe && at.z < program.safe => total.lifts += 1,
+                Move::Rapid { to } if to.z == program.safe && at.z < program.safe => total.retracts += 1,
                 Move::Feed { to, .. } if to.point() == at.point() => {}
                 Move::Feed { .. } | Move::Arc { .. } => cut_length += block,
                 Move::Rapid { .. } | Move::Dwell { .. } => {}

@@ -1,12 +1,11 @@
 //! Carving: what programs mill beside the ideal surface, and spoilt programs that are found out.
 
-use std::path::PathBuf;
-
 use voromill::geometry::{Nm, Point, Polygon};
 use voromill::import::text::text;
 use voromill::job::{Art, Carving, Engraving, Options, Settings, carve};
 use voromill::toolpath::Angle;
 
+use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, voromill, word};
 use crate::medial_axis::{capitals, random_areas};
 
 /// How far apart places are looked at: a debug build looks at few.
@@ -82,10 +81,10 @@ fn passes_end_at_the_same_surface_and_none_goes_deeper_than_it_may() {
     assert_eq!(shallow.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>(), ["wide-place-left"]);
 }
 
-/// A letter is one axis: a program of it lifts no more often than the axis has parts and pairs of
-/// odd nodes that are too far apart.
+/// A letter is one axis: a program of it retracts no more often than the axis has parts and pairs
+/// of odd nodes that are too far apart.
 #[test]
-fn an_axis_is_walked_with_few_lifts() {
+fn an_axis_is_walked_with_few_retracts() {
     for (letter, most) in [("I", 3), ("O", 2), ("X", 4), ("E", 6)] {
         let made = engraving(
             letter,
@@ -93,8 +92,8 @@ fn an_axis_is_walked_with_few_lifts() {
             "vbit:0.1mm:60deg",
             &HOW,
         );
-        let lifts = made.programs[0].statistics.lifts;
-        assert!(lifts <= most, "{letter}: {lifts} lifts");
+        let retracts = made.programs[0].statistics.retracts;
+        assert!(retracts <= most, "{letter}: {retracts} retracts");
     }
 }
 
@@ -109,8 +108,11 @@ fn wide_places_become_flat() {
     ] {
         let made = engraving("flat", areas, tool, &how);
         let judged = made.verify(PITCH).expect("programs");
-        let lifts: Vec<u64> = made.programs.iter().map(|one| one.statistics.lifts).collect();
-        println!("{tool}: {:?} mm² left, {lifts:?} lifts, worst {:.0} nm", judged.left_mm2, judged.under);
+        let retracts: Vec<u64> = made.programs.iter().map(|one| one.statistics.retracts).collect();
+        println!(
+            "{tool}: {:?} mm² left, {retracts:?} retracts, worst {:.0} nm",
+            judged.left_mm2, judged.under
+        );
         assert_eq!(judged.findings, [], "with {tool}");
         assert_eq!(made.programs.len(), 2, "a program for each tool");
     }
@@ -124,26 +126,6 @@ fn what_stands_is_as_sharp_as_what_is_sunk() {
     assert_eq!(judged.findings, [], "round the letter");
 }
 
-/// Changes every line of a program that `change` does not leave as it is.
-fn lines(text: &str, mut change: impl FnMut(&str, usize) -> Option<String>) -> String {
-    let mut cut = 0;
-    let line = |line: &str| {
-        cut += usize::from(line.starts_with("G1 X") || line.starts_with("G2 ") || line.starts_with("G3 "));
-        change(line, cut).map(|line| line + "\n").unwrap_or_default()
-    };
-    text.lines().map(line).collect()
-}
-
-/// The number after a letter of a line, changed.
-fn word(line: &str, letter: char, change: impl Fn(f64) -> f64) -> String {
-    let code = !line.starts_with('(') && !line.starts_with(';');
-    let Some(at) = line.find(letter).filter(|_| code) else { return line.to_owned() };
-    let rest = &line[at + 1..];
-    let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(rest.len());
-    let Ok(number) = rest[..end].parse::<f64>() else { return line.to_owned() };
-    format!("{}{letter}{:.4}{}", &line[..at], change(number), &rest[end..])
-}
-
 #[test]
 fn twenty_kinds_of_spoiling_are_found() {
     let made = engraving("Ri", letters("Ri"), "vbit:0.1mm:60deg", &HOW);
@@ -151,8 +133,7 @@ fn twenty_kinds_of_spoiling_are_found() {
     assert_eq!(judge(&made.programs[0].text), [], "nothing is wrong with it as it is");
     let text = made.programs[0].text.as_str();
     let each = |letter: char, change: fn(f64) -> f64| lines(text, |line, _| Some(word(line, letter, change)));
-    let cut = |line: &str| line.starts_with("G1 X") || line.starts_with("G2 ") || line.starts_with("G3 ");
-    let half = text.lines().filter(|line| cut(line)).count() / 2;
+    let half = text.lines().filter(|line| is_cut(line)).count() / 2;
     let spoilt: [(&str, String); 22] = [
         ("moved to the right", each('X', |x| x + 0.03)),
         ("moved up", each('Y', |y| y - 0.03)),
@@ -166,17 +147,19 @@ fn twenty_kinds_of_spoiling_are_found() {
         ("never below the surface", each('Z', |z| z.max(0.0))),
         (
             "some lines left out",
-            lines(text, |line, n| (!(half..half + 15).contains(&n) || !cut(line)).then(|| line.to_owned())),
+            lines(text, |line, n| {
+                (!(half..half + 15).contains(&n) || !is_cut(line)).then(|| line.to_owned())
+            }),
         ),
         (
             "the second half left out",
-            lines(text, |line, n| (n <= half || !cut(line)).then(|| line.to_owned())),
+            lines(text, |line, n| (n <= half || !is_cut(line)).then(|| line.to_owned())),
         ),
         ("arcs the other way", text.replace("G2 ", "G9 ").replace("G3 ", "G2 ").replace("G9 ", "G3 ")),
         (
             "one place too deep",
             lines(text, |line, n| {
-                Some(if n == half && cut(line) {
+                Some(if n == half && is_cut(line) {
                     word(&with_z(line), 'Z', |z| z.min(0.0) - 0.2)
                 } else {
                     line.to_owned()
@@ -231,32 +214,15 @@ fn another_tool_than_the_one_planned_for_is_found() {
     }
 }
 
-fn voromill(arguments: &[&str]) -> std::process::Output {
-    let program = PathBuf::from(env!("CARGO_BIN_EXE_voromill"));
-    std::process::Command::new(program).args(arguments).output().expect("it runs")
-}
-
 #[test]
 fn a_text_becomes_a_program_that_passes() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name).display().to_string();
     std::fs::write(path("font.ttf"), dejavu::sans::bold()).expect("a font");
-    let (font, program) = (path("font.ttf"), path("r1.ngc"));
-    let carved = ["carve", "--text", "R1", "--font", &font, "--height", "2mm", "--tool", "vbit:0.1mm:60deg"];
-    let picture = path("r1.png");
-    let made = voromill(&[&carved[..], &["-o", &program, "--picture", &picture]].concat());
-    let said = String::from_utf8_lossy(&made.stdout).into_owned();
-    assert!(made.status.success(), "{said}{}", String::from_utf8_lossy(&made.stderr));
-    assert!(said.contains("verified at"), "{said}");
-    assert_eq!(std::fs::read(&picture).expect("a picture")[1..4], *b"PNG", "what it looks like");
-    let checked = voromill(&[&carved[..], &["--check", &program]].concat());
-    assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stdout));
-    let text = std::fs::read_to_string(&program).expect("a program");
-    std::fs::write(&program, text.replace("Z-0.2", "Z-0.3")).expect("spoilt");
-    let checked = voromill(&[&carved[..], &["--check", &program, "--json"]].concat());
-    let said = String::from_utf8_lossy(&checked.stdout).into_owned();
-    assert_eq!(checked.status.code(), Some(1), "{said}");
-    assert!(said.contains("carved-too-deep"), "{said}");
+    let font = path("font.ttf");
+    let wanted = ["carve", "--text", "R1", "--font", &font, "--height", "2mm", "--tool", "vbit:0.1mm:60deg"];
+    let (told, spoiling) = (["verified at"], ["Z-0.2", "Z-0.3"]);
+    is_made_checked_and_found_spoilt(&wanted, folder.path(), &told, spoiling, "carved-too-deep");
 }
 
 #[test]
@@ -266,16 +232,15 @@ fn a_layer_is_carved_and_what_makes_no_sense_is_refused() {
     let made = voromill(&[&["carve", layer, "-o", "-", "--tool", "vbit:0.1mm:90deg"], &most[..]].concat());
     assert!(made.status.success(), "{}", String::from_utf8_lossy(&made.stderr));
     assert!(String::from_utf8_lossy(&made.stdout).contains("Z-0.2"), "as deep as asked for");
-    for (arguments, expected) in [
-        (&["--tool", "endmill:1mm"][..], "is no V-bit"),
-        (&["--max-depth", "0mm"], "above zero"),
-        (&["--depth", "1mm"], "changes nothing"),
-        (&["--tool", "vbit:9.8mm:60deg"], "narrower than the tip"),
-    ] {
-        let refused = voromill(&[&["carve", layer, "-o", "-"], arguments].concat());
-        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert!(refused.status.code() == Some(2) && said.contains(expected), "{arguments:?}: {said}");
-    }
+    is_refused(
+        "carve",
+        &[
+            (&["--tool", "endmill:1mm"], "is no V-bit"),
+            (&["--max-depth", "0mm"], "above zero"),
+            (&["--depth", "1mm"], "changes nothing"),
+            (&["--tool", "vbit:9.8mm:60deg"], "narrower than the tip"),
+        ],
+    );
 }
 
 /// Capitals and digits are where a ruler would find them.

@@ -583,8 +583,11 @@ fn inspect_says_which_nets_are_coupled_and_what_a_limit_helps() {
     let json = voromill(out.path(), &["inspect", &board, "--coupling", "--format", "json"]);
     let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     let coupling = &report["layers"][0]["coupling"];
-    let figure = |of: &str| coupling["picofarads"][of].as_f64().expect("a number");
-    assert!(figure("regions") > figure("drawn") && figure("drawn") > 0.0, "regions lie closer: {coupling}");
+    let figure = |of: &str| coupling["capacitance_pf"][of].as_f64().expect("a number");
+    assert!(
+        figure("voronoi") > figure("as_drawn") && figure("as_drawn") > 0.0,
+        "regions lie closer: {coupling}"
+    );
     let unknown = ["inspect", &board, "--coupling=NOBODY"];
     fails(&out, &unknown, &["no net is called `NOBODY`"], &[]);
 }

@@ -425,7 +425,7 @@ fn gaps_narrower_than_the_kerf_are_one_entry_a_side_and_none_beside_what_is_foun
     assert!(entries.len() <= 2, "those that verification tells of, and those it does not: {entries:?}");
     assert!(entries.iter().any(|entry| entry.size_mm.is_some_and(|size| size.0 == deepest)), "the worst");
     let told: usize = entries.iter().map(|entry| entry.places.len() + 1).sum();
-    let slight: usize = document.layers.iter().map(|layer| layer.slight_gaps).sum();
+    let slight: usize = document.layers.iter().map(|layer| layer.negligible_gaps).sum();
     assert_eq!(told + slight, sizes.len(), "none is left out");
     let report = job.verify(&settings).expect("it can be judged");
     let gouges: Vec<_> = report.findings.iter().filter(|finding| finding.name == "gouge").collect();

@@ -2,6 +2,7 @@
 
 mod accuracy;
 mod aperture_lists;
+mod art;
 mod carve;
 mod certified_boundaries;
 mod certified_diagram;
@@ -23,6 +24,7 @@ mod gerber_damage;
 mod gl_parity;
 mod house;
 mod job;
+mod json;
 mod kicad;
 mod kicad_damage;
 mod layering;

@@ -50,7 +50,7 @@ fn entry(boards: &Path, file: &str) -> PaperEntry {
 }
 
 fn staircase(paths: &Paths) -> f64 {
-    paths.raw_in.expect("a staircase")
+    paths.staircase_in.expect("a staircase")
 }
 
 /// What deviates from the logs beyond the bounds, in percent, and why.
@@ -186,7 +186,7 @@ fn lengths_table(found: &[(usize, &str, PaperEntry)]) -> String {
     .to_owned();
     for (dataset, _, found) in found {
         let lengths = |outline: f64, voronoi: f64| {
-            let bare = voronoi - found.lap_in;
+            let bare = voronoi - found.frame_in;
             let (decrease, without) = ((1.0 - voronoi / outline) * 100.0, (1.0 - bare / outline) * 100.0);
             format!("{outline:.2} | {voronoi:.2} | {bare:.2} | {decrease:.1} | {without:.1}")
         };

@@ -1,8 +1,6 @@
 //! Pockets: what programs leave and cut beside areas, how often the tool comes down, and spoilt
 //! programs that are found out.
 
-use std::path::PathBuf;
-
 use voromill::board::polarity::{difference, offset, union};
 use voromill::geometry::{Nm, Point, Polygon, Rect};
 use voromill::import::text::text;
@@ -10,6 +8,7 @@ use voromill::job::{Art, Options, Pocket, Pocketing, Settings, pocket};
 use voromill::toolpath::Angle;
 use voromill::toolpath::strategy::Sequence;
 
+use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, voromill, word};
 use crate::medial_axis::{capitals, random_areas};
 
 /// How far apart rows are looked at.
@@ -221,31 +220,6 @@ fn climb_has_the_wall_on_the_right() {
     assert!(turning("conventional", Sequence::InsideOut) < 0.0, "clockwise");
 }
 
-/// Changes every line of a program that `change` does not leave as it is, told how many cuts came
-/// before.
-fn lines(text: &str, mut change: impl FnMut(&str, usize) -> Option<String>) -> String {
-    let mut cut = 0;
-    let line = |line: &str| {
-        cut += usize::from(is_cut(line));
-        change(line, cut).map(|line| line + "\n").unwrap_or_default()
-    };
-    text.lines().map(line).collect()
-}
-
-fn is_cut(line: &str) -> bool {
-    ["G1 X", "G1 Y", "G2 ", "G3 "].iter().any(|start| line.starts_with(start))
-}
-
-/// The number after a letter of a line, changed.
-fn word(line: &str, letter: char, change: impl Fn(f64) -> f64) -> String {
-    let code = !line.starts_with('(') && !line.starts_with(';');
-    let Some(at) = line.find(letter).filter(|_| code) else { return line.to_owned() };
-    let rest = &line[at + 1..];
-    let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(rest.len());
-    let Ok(number) = rest[..end].parse::<f64>() else { return line.to_owned() };
-    format!("{}{letter}{:.4}{}", &line[..at], change(number), &rest[end..])
-}
-
 #[test]
 fn kinds_of_spoiling_are_found() {
     let how = Pocketing { step: Some(Nm::from_um(500)), ..how() };
@@ -350,11 +324,6 @@ fn another_tool_than_the_one_planned_for_is_found() {
     }
 }
 
-fn voromill(arguments: &[&str]) -> std::process::Output {
-    let program = PathBuf::from(env!("CARGO_BIN_EXE_voromill"));
-    std::process::Command::new(program).args(arguments).output().expect("it runs")
-}
-
 #[test]
 fn a_drawing_becomes_a_program_that_passes() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -362,21 +331,10 @@ fn a_drawing_becomes_a_program_that_passes() {
     let drawing = "<svg xmlns='http://www.w3.org/2000/svg' width='12mm' height='8mm' viewBox='0 0 12 8'>\
         <path fill='black' d='M0 0H12V8H0Z'/></svg>";
     std::fs::write(path("plate.svg"), drawing).expect("a drawing");
-    let (plate, program, picture) = (path("plate.svg"), path("plate.ngc"), path("plate.png"));
+    let plate = path("plate.svg");
     let wanted = ["pocket", &plate, "--tool", "endmill:2mm", "--depth", "1mm"];
-    let made = voromill(&[&wanted[..], &["-o", &program, "--picture", &picture]].concat());
-    let said = String::from_utf8_lossy(&made.stdout).into_owned();
-    assert!(made.status.success(), "{said}{}", String::from_utf8_lossy(&made.stderr));
-    assert!(said.contains("1 plunge") && said.contains("0.0000 mm² are left"), "{said}");
-    assert_eq!(std::fs::read(&picture).expect("a picture")[1..4], *b"PNG", "what it looks like");
-    let checked = voromill(&[&wanted[..], &["--check", &program]].concat());
-    assert_eq!(checked.status.code(), Some(0), "{}", String::from_utf8_lossy(&checked.stdout));
-    let text = std::fs::read_to_string(&program).expect("a program");
-    std::fs::write(&program, text.replace("Z-1", "Z-1.1")).expect("spoilt");
-    let checked = voromill(&[&wanted[..], &["--check", &program, "--json"]].concat());
-    let said = String::from_utf8_lossy(&checked.stdout).into_owned();
-    assert_eq!(checked.status.code(), Some(1), "{said}");
-    assert!(said.contains("pocket-too-deep"), "{said}");
+    let (told, spoiling) = (["1 plunge", "0.0000 mm² are left"], ["Z-1", "Z-1.1"]);
+    is_made_checked_and_found_spoilt(&wanted, folder.path(), &told, spoiling, "pocket-too-deep");
 }
 
 /// Lines that fill nothing are the edge of what they enclose, but for what others enclose in it.
@@ -407,19 +365,17 @@ fn closed_lines_of_a_drawing_are_a_shape() {
 
 #[test]
 fn what_makes_no_sense_is_refused() {
-    let layer = "fixtures/gerber/clear_polarity.gbr";
-    for (arguments, expected) in [
-        (&["--tool", "vbit:0.1mm:30deg"][..], "is no end mill"),
-        (&["--tool", "endmill:1mm", "--stepover", "60%"], "half the tool's diameter"),
-        (&["--tool", "endmill:1mm", "--stepover", "0mm"], "half the tool's diameter"),
-        (&["--tool", "endmill:1mm", "--stock", "0.6mm"], "half the tool's diameter"),
-        (&["--tool", "endmill:1mm", "--ramp", "0deg"], "above 0deg"),
-        (&["--tool", "endmill:1mm", "--depth-pass", "0mm"], "above zero"),
-        (&["--tool", "endmill:9.8mm"], "narrower than"),
-        (&["--tool", "endmill:1mm", "--width", "1mm"], "changes nothing"),
-    ] {
-        let refused = voromill(&[&["pocket", layer, "-o", "-"], arguments].concat());
-        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
-        assert!(refused.status.code() == Some(2) && said.contains(expected), "{arguments:?}: {said}");
-    }
+    is_refused(
+        "pocket",
+        &[
+            (&["--tool", "vbit:0.1mm:30deg"], "is no end mill"),
+            (&["--tool", "endmill:1mm", "--stepover", "60%"], "half the tool's diameter"),
+            (&["--tool", "endmill:1mm", "--stepover", "0mm"], "half the tool's diameter"),
+            (&["--tool", "endmill:1mm", "--stock", "0.6mm"], "half the tool's diameter"),
+            (&["--tool", "endmill:1mm", "--ramp", "0deg"], "above 0deg"),
+            (&["--tool", "endmill:1mm", "--depth-pass", "0mm"], "above zero"),
+            (&["--tool", "endmill:9.8mm"], "narrower than"),
+            (&["--tool", "endmill:1mm", "--width", "1mm"], "changes nothing"),
+        ],
+    );
 }

@@ -136,7 +136,7 @@ fn a_short_bar_is_cut_twice_rather_than_lifting() {
         sections: vec![section.clone()],
     };
     let statistics = measure(&program, &machine);
-    assert_eq!(statistics.lifts, 3, "two trails through the forks and the loop");
+    assert_eq!(statistics.retracts, 3, "two trails through the forks and the loop");
     assert_as_looked_at("forks", vec![section]);
 }
 

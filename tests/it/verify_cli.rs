@@ -101,7 +101,7 @@ fn in_a_folder_the_programs_that_nobody_wrote_are_missed() {
 fn every_form_is_printed() {
     let json = stdout(&verify("arcs.nc", &["--format", "json"]));
     let verdict: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!(verdict["findings"][0]["name"], "short", "the finding: {json}");
+    assert_eq!(verdict["findings"][0]["code"], "short", "the finding: {json}");
     let sarif = stdout(&verify("arcs.nc", &["--format", "sarif"]));
     let log: serde_json::Value = serde_json::from_str(&sarif).expect("JSON");
     assert_eq!(log["version"], "2.1.0", "SARIF: {sarif}");
@@ -149,7 +149,7 @@ fn mill_judges_what_it_writes() {
     assert_eq!(narrow.status.code(), Some(0), "a warning does not fail: {}", stderr(&narrow));
     let report: serde_json::Value = serde_json::from_str(&stdout(&narrow)).expect("JSON");
     assert_eq!(report["verification"]["errors"], 0, "{}", report["verification"]);
-    assert_eq!(report["verification"]["findings"][0]["name"], "gouge", "{}", report["verification"]);
+    assert_eq!(report["verification"]["findings"][0]["code"], "gouge", "{}", report["verification"]);
     assert_eq!(mill(&["--deny", "warning"]).status.code(), Some(1), "unless it is asked to");
     assert!(out.path().join("out").is_dir(), "and the programs are there to be looked at");
     let unjudged = mill(&["--no-verify", "--deny", "warning"]);

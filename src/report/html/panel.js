@@ -26,9 +26,9 @@ function duration(seconds) {
 function collectItems(report, bounds) {
   const place = at => (at ? [at.x_mm * 1000, at.y_mm * 1000] : null);
   const cut = text => (text.length > 52 ? `${text.slice(0, 50)}…` : text);
-  const short = ({ name, message, size_mm: size }) => cut(size ? `${name.replaceAll('-', ' ')}, ${size < 1 ? `${Math.round(size * 1000)} µm` : mm(size)}` : message);
+  const short = ({ code, message, size_mm: size }) => cut(size ? `${code.replaceAll('-', ' ')}, ${size < 1 ? `${Math.round(size * 1000)} µm` : mm(size)}` : message);
   const findings = (report.verification?.findings ?? []).map(finding => ({
-    ...finding, code: finding.name, at: place(finding.at), short: short(finding), verified: true,
+    ...finding, at: place(finding.at), short: short(finding), verified: true,
   }));
   const warnings = report.warnings.map(warning => ({
     ...warning, severity: 'warning', at: place(warning.at), short: cut(warning.message), nets: [],
@@ -72,7 +72,7 @@ class Panel {
     const { level, word, text } = verdict(this.report);
     const first = this.stage.items.find(item => item.at);
     const judged = this.report.verification?.judged ?? [];
-    const pixels = judged.map(entry => entry.resolution_mm).filter(Boolean);
+    const pixels = judged.map(entry => entry.pixel_mm).filter(Boolean);
     const how = pixels.length ? `Judged from the text of the programs, on pixels of ${Math.round(Math.max(...pixels) * 1000)} µm; depths from exact geometry.` : null;
     return make('section', { class: `verdict ${level}`, id: 'verdict' },
       make('strong', {}, word), make('p', {}, text), how ? make('p', { class: 'how' }, how) : null,
@@ -135,11 +135,11 @@ class Panel {
   programs() {
     const { programs, total, tool_changes: changes } = this.report;
     const waits = changes.count ? [[`${changes.count} tool ${changes.count > 1 ? 'changes' : 'change'}`, '', '', '', duration(changes.seconds)]] : [];
-    const row = (name, f) => [name, f.cut_mm.toFixed(0), f.rapid_mm.toFixed(0), String(f.lifts), duration(f.seconds)];
+    const row = (name, f) => [name, f.cut_mm.toFixed(0), f.rapid_mm.toFixed(0), String(f.retracts), duration(f.seconds)];
     const play = (program, index) => make('button', { class: 'link', title: 'Play from its start', on: { click: () => this.actions.run(index) } }, program.file);
     const tools = this.stage.programs.flatMap(program => program.tools.map(tool => [`${tool.name}`, program.part, tool.cut_mm.toFixed(0), duration(tool.seconds)]));
     return this.section('Programs',
-      this.table(['Program', 'Cut mm', 'Rapid mm', 'Lifts', 'Time'], [...programs.map((program, i) => row(play(program, i), program)), ...waits], row('Total', total)),
+      this.table(['Program', 'Cut mm', 'Rapid mm', 'Retracts', 'Time'], [...programs.map((program, i) => row(play(program, i), program)), ...waits], row('Total', total)),
       make('h3', {}, 'Tools'), this.table(['Tool', 'For', 'Cut mm', 'Time'], tools));
   }
 
@@ -163,11 +163,11 @@ class Panel {
   coupling() {
     const layers = this.report.layers.filter(layer => layer.coupling?.pairs.length);
     return layers.map(({ side, coupling }) => {
-      const rows = coupling.pairs.map(({ between, boundary_mm: length, length_over_gap: over, picofarads: farads }) =>
-        [between.join(' and '), length.toFixed(1), over.regions.toFixed(0), farads.regions.toFixed(2), farads.drawn.toFixed(2)]);
-      const { regions, drawn } = coupling.picofarads;
+      const rows = coupling.pairs.map(({ between, boundary_mm: length, length_over_gap: over, capacitance_pf: farads }) =>
+        [between.join(' and '), length.toFixed(1), over.voronoi.toFixed(0), farads.voronoi.toFixed(2), farads.as_drawn.toFixed(2)]);
+      const { voronoi, as_drawn: drawn } = coupling.capacitance_pf;
       return make('details', {}, make('summary', {}, make('b', {}, `Coupling, ${side}`), make('span', { class: 'count' }, `${regions.toFixed(1)} pF`)),
-        make('p', { class: 'how' }, `An estimate: coplanar strips ${mm(coupling.kerf_mm)} apart on ${coupling.thickness_mm} mm of permittivity ${coupling.permittivity}. In all ${regions.toFixed(1)} pF; as drawn, without the copper beside it, ${drawn.toFixed(1)} pF.`),
+        make('p', { class: 'how' }, `An estimate: coplanar strips ${mm(coupling.kerf_mm)} apart on ${coupling.thickness_mm} mm of permittivity ${coupling.permittivity}. In all ${voronoi.toFixed(1)} pF; as drawn, without the copper beside it, ${drawn.toFixed(1)} pF.`),
         this.table(['Nets', 'mm', 'Length/gap', 'pF', 'as drawn'], rows));
     });
   }

@@ -1,0 +1,76 @@
+//! What the tests of `carve` and `pocket` have in common: programs that are spoilt, and both
+//! commands as a person runs them.
+
+use std::path::Path;
+use std::process::Output;
+
+use crate::cli::{stderr, stdout};
+
+/// Changes every line of a program that `change` does not leave as it is, told how many cuts there
+/// are up to it; what becomes nothing is left out.
+pub(crate) fn lines(text: &str, mut change: impl FnMut(&str, usize) -> Option<String>) -> String {
+    let mut cut = 0;
+    let line = |line: &str| {
+        cut += usize::from(is_cut(line));
+        change(line, cut).map(|line| line + "\n").unwrap_or_default()
+    };
+    text.lines().map(line).collect()
+}
+
+/// Whether a line cuts sideways.
+pub(crate) fn is_cut(line: &str) -> bool {
+    ["G1 X", "G1 Y", "G2 ", "G3 "].iter().any(|start| line.starts_with(start))
+}
+
+/// The number after a letter of a line, changed.
+pub(crate) fn word(line: &str, letter: char, change: impl Fn(f64) -> f64) -> String {
+    let code = !line.starts_with('(') && !line.starts_with(';');
+    let Some(at) = line.find(letter).filter(|_| code) else { return line.to_owned() };
+    let rest = &line[at + 1..];
+    let end = rest.find(|c: char| !(c.is_ascii_digit() || c == '.' || c == '-')).unwrap_or(rest.len());
+    let Ok(number) = rest[..end].parse::<f64>() else { return line.to_owned() };
+    format!("{}{letter}{:.4}{}", &line[..at], change(number), &rest[end..])
+}
+
+/// Runs the program where the fixtures are.
+pub(crate) fn voromill(arguments: &[&str]) -> Output {
+    crate::cli::voromill(Path::new(env!("CARGO_MANIFEST_DIR")), arguments)
+}
+
+/// Runs `wanted` into a program and a picture, and says `told`; `--check` finds nothing in the
+/// program, and what `spoiling` (from, to) does to it as `code`.
+pub(crate) fn is_made_checked_and_found_spoilt(
+    wanted: &[&str],
+    folder: &Path,
+    told: &[&str],
+    spoiling: [&str; 2],
+    code: &str,
+) {
+    let path = |name: &str| folder.join(name).display().to_string();
+    let (program, picture) = (path("made.ngc"), path("made.png"));
+    let made = voromill(&[wanted, &["-o", &program, "--picture", &picture]].concat());
+    assert!(made.status.success(), "{}{}", stdout(&made), stderr(&made));
+    for words in told {
+        assert!(stdout(&made).contains(words), "`{words}` is said: {}", stdout(&made));
+    }
+    assert_eq!(std::fs::read(&picture).expect("a picture")[1..4], *b"PNG", "what it looks like");
+    let checked = voromill(&[wanted, &["--check", &program]].concat());
+    assert_eq!(checked.status.code(), Some(0), "{}", stdout(&checked));
+    let text = std::fs::read_to_string(&program).expect("a program");
+    std::fs::write(&program, text.replace(spoiling[0], spoiling[1])).expect("spoilt");
+    let checked = voromill(&[wanted, &["--check", &program, "--format", "json"]].concat());
+    assert_eq!(checked.status.code(), Some(1), "{}", stdout(&checked));
+    let report: serde_json::Value = serde_json::from_str(&stdout(&checked)).expect("JSON");
+    let findings = report["verification"]["findings"].as_array().expect("a list");
+    assert!(findings.iter().any(|finding| finding["code"] == code), "{code}: {report}");
+}
+
+/// Refuses each of these arguments, with words of the reason.
+pub(crate) fn is_refused(command: &str, cases: &[(&[&str], &str)]) {
+    let layer = "fixtures/gerber/clear_polarity.gbr";
+    for (arguments, expected) in cases {
+        let refused = voromill(&[&[command, layer, "-o", "-"], *arguments].concat());
+        let said = stderr(&refused);
+        assert!(refused.status.code() == Some(2) && said.contains(expected), "{arguments:?}: {said}");
+    }
+}
