@@ -30,7 +30,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     for warning in &job.warnings {
-        println!("warning: {} [{}]", warning.message, warning.code);
+        println!("warning: {} [{}]", warning.text(), warning.code());
     }
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 
-use super::SourceSpan;
+use super::{Severity, SourceSpan};
 
 /// A line of a file, or of a long one what surrounds a place, with that place marked.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,24 +23,6 @@ impl Excerpt {
     pub fn new(text: String, marked: Range<usize>) -> Self {
         assert!(text.get(marked.clone()).is_some(), "the mark lies in the text");
         Self { text, marked }
-    }
-}
-
-/// How bad what is shown is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Severity {
-    /// The file could not be read.
-    Error,
-    /// It could.
-    Warning,
-}
-
-impl Severity {
-    const fn level(self) -> Level<'static> {
-        match self {
-            Self::Error => Level::ERROR,
-            Self::Warning => Level::WARNING,
-        }
     }
 }
 
@@ -63,7 +45,7 @@ pub fn show(
     expected: &str,
     advice: &str,
 ) -> String {
-    let mut group = Group::with_title(severity.level().primary_title(what));
+    let mut group = Group::with_title(level(severity).primary_title(what));
     let expected = if expected.is_empty() { String::new() } else { format!("expected {expected}") };
     if let Some(span) = span {
         let Excerpt { text, marked } = &span.excerpt;
@@ -84,4 +66,12 @@ pub fn show(
         group = group.element(Level::HELP.message(advice));
     }
     Renderer::plain().render(&[group])
+}
+
+const fn level(severity: Severity) -> Level<'static> {
+    match severity {
+        Severity::Info => Level::INFO,
+        Severity::Warning => Level::WARNING,
+        Severity::Error => Level::ERROR,
+    }
 }

@@ -6,6 +6,7 @@
 //! also for the back.
 
 mod copper;
+pub mod diagnostic;
 mod excerpt;
 mod feature;
 mod hole;
@@ -15,12 +16,13 @@ mod source;
 mod warning;
 
 pub use copper::{Attributes, Copper, Side};
-pub use excerpt::{Excerpt, Severity, show};
+pub use diagnostic::{Diagnostic, Sentence, Severity, Words};
+pub use excerpt::{Excerpt, show};
 pub use feature::{Axis, Feature, Shape};
 pub use hole::{Hole, Plating};
 pub use outline::Outline;
 pub use source::{ApertureUse, Source};
-pub use warning::{Help, SourceSpan, Warning};
+pub use warning::{SourceSpan, Warning};
 
 use crate::geometry::{Nm, Rect};
 

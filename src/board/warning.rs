@@ -1,8 +1,9 @@
-//! What a reader or planner tells a person without stopping: code, text, place and advice.
+//! What a reader or planner tells a person without stopping: what kind of thing, text and place.
 
 use serde::Serialize;
 
-use super::{Excerpt, Side};
+use super::diagnostic::planning;
+use super::{Diagnostic, Excerpt, Sentence, Side};
 use crate::geometry::{Nm, Point};
 
 /// Where in a file something was found.
@@ -30,40 +31,82 @@ impl SourceSpan {
     }
 }
 
-/// What would have been right, and what to do about what is not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
-pub struct Help {
-    /// What was expected at the place of the warning.
-    pub expected: &'static str,
-    /// What a person can do, in the words of an order.
-    pub advice: &'static str,
-}
-
 /// Something a person must know and the program could go on from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// A stable name in kebab case: `missing-end-of-file`, `gap-narrower-than-tool`. People filter
-    /// by it.
-    pub code: &'static str,
-    /// What was found and what was done about it, one sentence without a full stop.
+    /// What kind of thing it is: code, severity and advice.
+    pub kind: &'static Diagnostic,
+    /// What was found, one sentence without a full stop.
     pub message: String,
+    /// What was done about it, or what comes of it, where that is not part of the message.
+    pub outcome: Sentence,
+    /// The nets it concerns, by name.
+    pub nets: Vec<String>,
     /// The side it concerns.
     pub side: Option<Side>,
     /// The place on the board.
     pub at: Option<Point>,
     /// The place in a file.
     pub source: Option<SourceSpan>,
-    /// What to do about it; every warning about a file has that.
-    pub help: Option<Help>,
     /// How large: how much copper goes.
     pub size: Option<Nm>,
 }
 
 impl Warning {
-    /// A warning without a place.
+    /// A warning of a kind, without a place.
+    pub(super) fn of(kind: &'static Diagnostic, message: String) -> Self {
+        Self {
+            kind,
+            message,
+            outcome: Sentence::default(),
+            nets: Vec::new(),
+            side: None,
+            at: None,
+            source: None,
+            size: None,
+        }
+    }
+
+    /// A warning of planning, without a place, by its code.
+    ///
+    /// # Panics
+    ///
+    /// If no kind of planning has this code.
     #[must_use]
     pub fn new(code: &'static str, message: impl Into<String>) -> Self {
-        Self { code, message: message.into(), side: None, at: None, source: None, help: None, size: None }
+        let kind = planning::ALL.iter().find(|kind| kind.code == code);
+        kind.expect("a code of planning").warning(message)
+    }
+
+    /// The stable name of its kind.
+    #[must_use]
+    pub const fn code(&self) -> &'static str {
+        self.kind.code
+    }
+
+    /// Whether it is of this kind.
+    #[must_use]
+    pub fn is(&self, kind: &Diagnostic) -> bool {
+        self.kind == kind
+    }
+
+    /// What was found and what came of it, as one sentence.
+    #[must_use]
+    pub fn text(&self) -> String {
+        let Self { message, outcome, .. } = self;
+        if outcome.is_empty() { message.clone() } else { format!("{message}: {outcome}") }
+    }
+
+    /// The same, with what comes of it.
+    #[must_use]
+    pub fn so(self, outcome: impl Into<Sentence>) -> Self {
+        Self { outcome: outcome.into(), ..self }
+    }
+
+    /// The same, about these nets.
+    #[must_use]
+    pub fn about(self, nets: impl IntoIterator<Item = String>) -> Self {
+        Self { nets: nets.into_iter().collect(), ..self }
     }
 
     /// The same, at a place on the board.
@@ -82,11 +125,5 @@ impl Warning {
     #[must_use]
     pub fn caused_by(self, source: SourceSpan) -> Self {
         Self { source: Some(source), ..self }
-    }
-
-    /// The same, with what to do about it.
-    #[must_use]
-    pub fn with(self, help: Help) -> Self {
-        Self { help: Some(help), ..self }
     }
 }

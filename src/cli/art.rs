@@ -5,11 +5,11 @@ use std::process::ExitCode;
 
 use clap::{Args, ValueEnum};
 use serde::Serialize;
-use voromill::board::{Copper, FLATTEN, Feature, Side, Warning, polarity};
+use voromill::board::{Copper, Diagnostic, FLATTEN, Feature, Side, Warning, polarity};
 use voromill::gcode::Input as Origin;
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::drawing::Unit;
-use voromill::import::{self, Loaded, text::text};
+use voromill::import::{self, Loaded, flaw, text::text};
 use voromill::job::{self, Art, Length, OneTool, Settings};
 use voromill::report;
 use voromill::report::document::{Figures, ProgramEntry, SCHEMA_VERSION, WarningEntry};
@@ -387,9 +387,10 @@ fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure
         .map(|source| Origin { file: source.file.clone(), design: source.design.clone() });
     // What is said of boards and their outlines is of no use here; and what a solder mask calls
     // negative, what it draws, are its openings.
-    let is_of_use =
-        |code: &str| !code.starts_with("outline") && !["negative-file", "copper-missing"].contains(&code);
-    let warnings = loaded.warnings.into_iter().filter(|warning| is_of_use(warning.code));
+    let is_of_use = |kind: &Diagnostic| {
+        !kind.is_of_the_outline() && ![flaw::NEGATIVE_FILE, flaw::COPPER_MISSING].contains(kind)
+    };
+    let warnings = loaded.warnings.into_iter().filter(|warning| is_of_use(warning.kind));
     Ok(Art { name: loaded.board.name, areas, inputs: inputs.collect(), warnings: warnings.collect() })
 }
 

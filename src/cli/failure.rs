@@ -5,17 +5,18 @@
 
 use std::io::IsTerminal;
 
+use voromill::board::Sentence;
 use voromill::{import, job, verify};
 
 /// Why nothing was done: the cause, and what to do about it.
 #[derive(Debug)]
 pub(super) struct Failure {
     cause: String,
-    hint: String,
+    hint: Sentence,
 }
 
 impl Failure {
-    pub(super) fn new(cause: impl Into<String>, hint: impl Into<String>) -> Self {
+    pub(super) fn new(cause: impl Into<String>, hint: impl Into<Sentence>) -> Self {
         Self { cause: cause.into(), hint: hint.into() }
     }
 

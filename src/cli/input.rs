@@ -10,7 +10,6 @@ use voromill::import::picture::Pixels;
 use voromill::import::{self, Loaded, Selection, picture};
 use voromill::job::{Length, MillProject, ProjectFiles, Settings};
 use voromill::report::document::WarningEntry;
-use voromill::report::explain::is_bookkeeping;
 
 use super::Failure;
 
@@ -154,7 +153,7 @@ impl Input {
 
     /// Fails for `warnings` where they are denied.
     pub(super) fn judge(&self, warnings: &[WarningEntry]) -> Result<(), Failure> {
-        let warnings: Vec<_> = warnings.iter().filter(|warning| !is_bookkeeping(warning.code)).collect();
+        let warnings: Vec<_> = warnings.iter().filter(|warning| !warning.kind.is_bookkeeping()).collect();
         if !self.deny_warnings || warnings.is_empty() {
             return Ok(());
         }

@@ -8,7 +8,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use voromill::board::{Source, Warning};
+use voromill::board::Source;
+use voromill::board::diagnostic::planning;
 use voromill::import::sha256;
 use voromill::report::document::{OutputEntry, WarningEntry};
 
@@ -81,14 +82,14 @@ impl Leftovers {
             let message = format!(
                 "an earlier run wrote {names} into {folder}, this run does not, and it was changed since: it stays"
             );
-            warnings.push(Warning::new("stale-output", message));
+            warnings.push(planning::STALE_OUTPUT.warning(message));
         }
         if !self.others.is_empty() {
             let message = format!(
                 "{folder} holds programs that this run did not write: {}; do not mill them together",
                 named(&self.others)
             );
-            warnings.push(Warning::new("stale-output", message));
+            warnings.push(planning::STALE_OUTPUT.warning(message));
         }
         warnings.iter().map(WarningEntry::from).collect()
     }

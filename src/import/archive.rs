@@ -12,7 +12,7 @@ use super::gerber::ApertureList;
 use super::jobfile::Job;
 use super::layers::Kind;
 use super::unusable::Unusable;
-use crate::board::SourceSpan;
+use crate::board::{SourceSpan, Words};
 
 /// The largest file that is read, and the most that an archive may unpack to.
 ///
@@ -109,7 +109,11 @@ impl Gathered {
             None => Ok(()),
             Some((path, _)) => {
                 let what = "no such file or folder among those given, so it cannot be left aside";
-                Err(Error::content(&path.display().to_string(), what, "check the name after --skip"))
+                Err(Error::content(
+                    &path.display().to_string(),
+                    what,
+                    Words::of("check the name after {skip}"),
+                ))
             }
         }
     }

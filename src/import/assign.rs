@@ -9,7 +9,7 @@ use super::jobfile::Job;
 use super::layers::{self, Function, Kind, Role};
 use super::load::{Selection, describe};
 use super::{contradiction, naming, settle};
-use crate::board::{Side, Warning};
+use crate::board::{Side, Warning, Words};
 use crate::import::flaw;
 
 /// Which of the gathered files is what, as indices.
@@ -78,7 +78,7 @@ pub(super) fn assign(
         gathered,
         Role::Copper(Side::Front),
         "front copper",
-        "--front",
+        Words::of("choose one with {front} FILE"),
         &assigned.place,
     )?);
     assigned.back = assigned.back.or(settle::only(
@@ -86,7 +86,7 @@ pub(super) fn assign(
         gathered,
         Role::Copper(Side::Back),
         "back copper",
-        "--back",
+        Words::of("choose one with {back} FILE"),
         &assigned.place,
     )?);
     if assigned.outline.is_none() {
@@ -97,7 +97,7 @@ pub(super) fn assign(
         gathered,
         Role::Outline,
         "outline",
-        "--outline",
+        Words::of("choose one with {outline} FILE"),
         &assigned.place,
     )?);
     if selection.drill.is_empty() && !selection.no_drill {

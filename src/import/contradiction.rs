@@ -11,7 +11,7 @@ use super::layers::{self, Kind, Role};
 use super::load::Selection;
 use super::naming;
 use super::unusable::quoted;
-use crate::board::{Side, Warning};
+use crate::board::{Side, Warning, Words};
 use crate::import::flaw;
 
 fn shared_start(gathered: &Gathered) -> usize {
@@ -56,6 +56,11 @@ const fn who(witness: Witness) -> &'static str {
     }
 }
 
+const LEAVE_DRILL: Words =
+    Words::of("export the drill file again as Excellon, or leave it aside: {skip} {0}");
+const LEAVE_LAYER: Words =
+    Words::of("export the layer again, say with {drill} that it has holes, or leave it aside: {skip} {0}");
+
 /// A file whose name says drill and whose content says layer, or the other way round, or one named
 /// for one side that calls itself the other: one of the two is wrong, and guessing cuts the wrong
 /// thing.
@@ -68,26 +73,28 @@ pub(super) fn refuse(gathered: &Gathered, votes: &[Vote], selection: &Selection)
         // Words count where the extension says layer and the content does not.
         let is_odd = file.kind == Kind::Excellon && layers::is_gerber_by_extension(&file.name);
         let named = layers::role_by_sure_name(&file.name).or_else(|| by_words().filter(|_| is_odd));
-        let skip = format!("or leave it aside: --skip {}", quoted(&file.name));
+        let name = quoted(&file.name);
         let (what, hint) = match (named, file.kind, vote.role) {
             (Some(Role::Drill), Kind::Gerber, Some(Role::Copper(_))) if vote.witness == Witness::Function => {
                 (
                     "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)",
-                    "export the drill file again, or say with --front or --back that this is copper"
-                        .to_owned(),
+                    Words::of(
+                        "export the drill file again, or say with {front} or {back} that this is copper",
+                    )
+                    .into(),
                 )
             }
             (Some(Role::Drill), Kind::Gerber, Some(Role::Other("drill drawing")))
                 if selection.drill.is_empty() =>
             {
                 let what = "named like a drill file, but it is a Gerber file that does not say what it draws";
-                (what, format!("export the drill file again as Excellon, {skip}"))
+                (what, LEAVE_DRILL.with([&name]))
             }
             (Some(Role::Copper(_) | Role::Outline | Role::Group(_)), Kind::Excellon, Some(Role::Drill))
                 if selection.drill.is_empty() =>
             {
                 let what = "named like a layer, but it is an Excellon drill file";
-                (what, format!("export the layer again, say with --drill that it has holes, {skip}"))
+                (what, LEAVE_LAYER.with([&name]))
             }
             _ => continue,
         };
@@ -109,11 +116,8 @@ fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
             let like = if named.is_some_and(is_sided) { like.to_owned() } else { on_side(like, named_side) };
             let calls = if is_sided(told) { what(told).to_owned() } else { on_side(what(told), Some(side)) };
             let message = format!("named like {like}, but {} calls it {calls}", who(vote.witness));
-            let hint = format!(
-                "say which it is: --front {0} or --back {0}, or leave it aside: --skip {0}",
-                quoted(&file.name)
-            );
-            return Err(Error::content(&file.shown, message, hint));
+            let hint = Words::of("say which it is: {front} {0} or {back} {0}, or leave it aside: {skip} {0}");
+            return Err(Error::content(&file.shown, message, hint.with([&quoted(&file.name)])));
         }
     }
     Ok(())

@@ -7,8 +7,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::flaw::Flaw;
-use crate::board::{self, Excerpt, Severity, SourceSpan, Warning};
+use crate::board::{self, Diagnostic, Excerpt, Sentence, Severity, SourceSpan, Warning};
 
 /// Why a file could not be read.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -23,9 +22,9 @@ pub enum Error {
         /// The file's name without its folder.
         file: String,
         /// What is wrong with it.
-        what: String,
+        what: Sentence,
         /// What to do.
-        hint: String,
+        hint: Sentence,
     },
 }
 
@@ -39,7 +38,7 @@ pub struct Diagnosis {
     /// What was expected there.
     pub expected: String,
     /// What to do about it; may be empty.
-    pub hint: String,
+    pub hint: Sentence,
 }
 
 impl std::fmt::Display for Diagnosis {
@@ -59,7 +58,7 @@ impl Error {
         place: Range<usize>,
         what: impl Into<String>,
         expected: impl Into<String>,
-        hint: impl Into<String>,
+        hint: impl Into<Sentence>,
     ) -> Self {
         let span = locate(file, bytes, place);
         let (what, expected, hint) = (what.into(), expected.into(), hint.into());
@@ -67,18 +66,21 @@ impl Error {
     }
 
     /// An error about the file `file` as a whole.
-    pub(in crate::import) fn content(file: &str, what: impl Into<String>, hint: impl Into<String>) -> Self {
+    pub(in crate::import) fn content(
+        file: &str,
+        what: impl Into<Sentence>,
+        hint: impl Into<Sentence>,
+    ) -> Self {
         Self::Content { file: file.to_owned(), what: what.into(), hint: hint.into() }
     }
 
     /// The same, with another thing to do about it.
-    pub(in crate::import) fn or(mut self, way_out: &str) -> Self {
+    pub(in crate::import) fn or(mut self, way_out: impl Into<Sentence>) -> Self {
         let hint = match &mut self {
             Self::Syntax(diagnosis) => &mut diagnosis.hint,
             Self::Content { hint, .. } => hint,
         };
-        let separator = if hint.is_empty() { "" } else { "; " };
-        *hint += &format!("{separator}{way_out}");
+        *hint = std::mem::take(hint).then(way_out);
         self
     }
 
@@ -88,7 +90,7 @@ impl Error {
     pub fn render(&self) -> String {
         let Self::Syntax(diagnosis) = self else { return format!("error: {self}") };
         let Diagnosis { span, what, expected, hint } = diagnosis.as_ref();
-        board::show(Severity::Error, what, Some(span), expected, hint)
+        board::show(Severity::Error, what, Some(span), expected, &hint.to_string())
     }
 }
 
@@ -190,7 +192,7 @@ pub(in crate::import) struct Warnings<'a> {
 /// A flaw, where it stands first, and how often it does.
 #[derive(Debug)]
 struct Found {
-    flaw: &'static Flaw,
+    flaw: &'static Diagnostic,
     place: Range<usize>,
     count: u32,
 }
@@ -207,7 +209,7 @@ impl<'a> Warnings<'a> {
     /// Notes a flaw at the bytes `place`. The same flaw and message again only counts.
     pub(in crate::import) fn add(
         &mut self,
-        flaw: &'static Flaw,
+        flaw: &'static Diagnostic,
         place: Range<usize>,
         message: impl Into<String>,
     ) {

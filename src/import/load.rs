@@ -9,9 +9,11 @@ use super::error::Error;
 use super::excellon::{self, Context};
 use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
-use super::unusable::quoted;
+use super::unusable::{LEAVE_ASIDE, quoted};
 use super::{drawing, gerber_drill, kicad, off_board, outline, picture, whole_board};
-use crate::board::{Axis, Board, Copper, Feature, Hole, Outline, Shape, Side, Source, Warning};
+use crate::board::{
+    Axis, Board, Copper, Diagnostic, Feature, Hole, Outline, Shape, Side, Source, Warning, Words,
+};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
 
@@ -283,7 +285,7 @@ impl Build {
                     refuse_cut_off(file, drilling.holes.is_empty(), &drilling.warnings)
                         .map_err(|error| error.or(NO_DRILL))?;
                     let by_hand = assigned.by_hand.contains(&index);
-                    let is_off = |warning: &&Warning| warning.code == flaw::DRILL_OFF_BOARD.code;
+                    let is_off = |warning: &&Warning| warning.is(&flaw::DRILL_OFF_BOARD);
                     if let Some(off) = drilling.warnings.iter().find(is_off)
                         && need == Need::Job
                         && !by_hand
@@ -304,7 +306,7 @@ impl Build {
         }
         // Programs write an empty file for a kind of hole that a board does not have.
         let any = !self.board.holes.is_empty();
-        warnings.retain(|warning| !(any && warning.code == "drill-without-holes"));
+        warnings.retain(|warning| !(any && warning.is(&flaw::DRILL_WITHOUT_HOLES)));
         self.warnings.append(&mut warnings);
         Ok(())
     }
@@ -386,7 +388,7 @@ impl Build {
             return Ok(());
         }
         let is_outline =
-            |warning: &&Warning| [flaw::OUTLINE_OPEN.code, flaw::OUTLINE_EMPTY.code].contains(&warning.code);
+            |warning: &&Warning| [flaw::OUTLINE_OPEN, flaw::OUTLINE_EMPTY].contains(warning.kind);
         let why = self.warnings.iter().find(is_outline);
         let why = why.map_or("it draws no edge", |warning| warning.message.as_str());
         let hint = "without copper and holes there is nothing else to mill";
@@ -458,7 +460,7 @@ fn gerber_holes(
     if by_hand && !says_drill {
         let what =
             "a Gerber file where a drill file was expected, and its file function is not Plated or NonPlated";
-        return Err(Error::content(&file.shown, what, "give an Excellon drill file with --drill"));
+        return Err(Error::content(&file.shown, what, Words::of("give an Excellon drill file with {drill}")));
     }
     let (holes, warning) = gerber_drill::holes(file, &image);
     warnings.extend(image.warnings);
@@ -492,10 +494,11 @@ fn has_area(feature: &Feature) -> bool {
 /// Fails for a file that draws nothing and has no end: what it had was cut off. One that was
 /// written empty has its end.
 fn refuse_cut_off(file: &Found, is_empty: bool, warnings: &[Warning]) -> Result<(), Error> {
-    const CUT_OFF: [&str; 3] = ["missing-end-of-file", "missing-end-of-drill-file", "truncated-file"];
-    if is_empty && warnings.iter().any(|warning| CUT_OFF.contains(&warning.code)) {
+    const CUT_OFF: [Diagnostic; 3] =
+        [flaw::MISSING_END_OF_FILE, flaw::MISSING_END_OF_DRILL_FILE, flaw::TRUNCATED_FILE];
+    if is_empty && warnings.iter().any(|warning| CUT_OFF.contains(warning.kind)) {
         let what = "nothing is drawn, and the file has no end: its content was cut off";
-        let hint = format!("export it again, or leave it aside: --skip {}", quoted(&file.name));
+        let hint = LEAVE_ASIDE.with([&quoted(&file.name)]);
         return Err(Error::content(&file.shown, what, hint));
     }
     Ok(())
@@ -505,9 +508,9 @@ fn refuse_cut_off(file: &Found, is_empty: bool, warnings: &[Warning]) -> Result<
 fn read_gerber(gathered: &Gathered, file: &Found, wanted: &str) -> Result<Image, Error> {
     let (what, hint) = match file.kind {
         Kind::Gerber => return gathered.read_gerber(file),
-        Kind::Excellon => ("an Excellon drill file", "give it with --drill"),
-        Kind::Kicad => ("a whole KiCad board", "give it alone: it has all layers"),
-        Kind::Unknown => (describe(&file.bytes), "export the layer as Gerber RS-274X"),
+        Kind::Excellon => ("an Excellon drill file", Words::of("give it with {drill}")),
+        Kind::Kicad => ("a whole KiCad board", Words::of("give it alone: it has all layers")),
+        Kind::Unknown => (describe(&file.bytes), Words::of("export the layer as Gerber RS-274X")),
     };
     Err(Error::content(&file.shown, format!("{what} where {wanted} (Gerber) was expected"), hint))
 }
@@ -539,11 +542,11 @@ pub(super) fn describe(bytes: &[u8]) -> &'static str {
 }
 
 /// What to do about a drill file that cannot be read, if nothing else.
-pub(super) const NO_DRILL: &str = "--no-drill does all but the holes";
+pub(super) const NO_DRILL: Words = Words::of("{no-drill} does all but the holes");
 
 /// A copper layer that may be either side: a back that is not mirrored is a ruined board.
 fn side_unknown(file: &Found) -> Error {
-    let hint = format!("say it: --front {0} or --back {0}", file.shown);
+    let hint = Words::of("say it: {front} {0} or {back} {0}").with([&file.shown]);
     Error::content(&file.shown, "nothing tells which side of the board this copper is", hint)
 }
 
@@ -560,12 +563,10 @@ fn no_copper(gathered: &Gathered, assigned: &Assigned) -> Error {
         format!("no copper layer found among {}", found.join(", "))
     };
     let hint = if gathered.folders.is_empty() {
-        "name it with --front or --back".to_owned()
+        Words::of("name it with {front} or {back}").into()
     } else {
-        format!(
-            "name it with --front or --back, or give the folder that holds it: {}",
-            gathered.folders.join(", ")
-        )
+        Words::of("name it with {front} or {back}, or give the folder that holds it: {0}")
+            .with([&gathered.folders.join(", ")])
     };
     Error::content(&assigned.place, what, hint)
 }

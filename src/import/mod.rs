@@ -20,7 +20,7 @@ pub mod drawing;
 pub mod dxf;
 mod error;
 pub mod excellon;
-mod flaw;
+pub mod flaw;
 pub mod gerber;
 mod gerber_drill;
 mod jobfile;
@@ -40,5 +40,4 @@ mod whole_board;
 
 pub use digest::sha256;
 pub use error::{Diagnosis, Error};
-pub use flaw::{ALL as FLAWS, Flaw};
 pub use load::{Loaded, Selection, load, load_copper, survey};

@@ -3,7 +3,7 @@
 use super::archive::Found;
 use super::error::Error;
 use super::load::NO_DRILL;
-use crate::board::{Hole, Warning};
+use crate::board::{Hole, Sentence, Warning, Words};
 use crate::geometry::{Nm, Rect};
 use crate::import::flaw;
 
@@ -17,8 +17,8 @@ const FARTHEST: Nm = Nm::from_mm(300);
 
 /// Holes most of which lie beside the board, however they are read.
 pub(super) fn most(file: &Found, off: &Warning) -> Error {
-    let hint = format!("say --drill {} if they are right; {NO_DRILL}", file.name);
-    Error::content(&file.shown, &off.message, hint)
+    let hint = Words::of("say {drill} {0} if they are right").with([&file.name]).then(NO_DRILL);
+    Error::content(&file.shown, off.message.as_str(), hint)
 }
 
 /// Holes off the board.
@@ -43,7 +43,7 @@ pub(super) fn some(file: &Found, holes: &[Hole], board: Rect) -> Option<Stray> {
     let warning = flaw::HOLES_OFF_BOARD.warning(message).at(farthest.path.start);
     let refusal = (distance > FARTHEST).then(|| {
         let what = format!("a {what} of line {} lies {distance:.1} mm off the board", farthest.line);
-        let hint = format!("a number of the file may be damaged, or in another unit; {NO_DRILL}");
+        let hint = Sentence::from("a number of the file may be damaged, or in another unit").then(NO_DRILL);
         Error::content(&file.shown, what, hint)
     });
     Some(Stray { warning: warning.caused_by(file.at_line(farthest.line)), refusal })

@@ -6,7 +6,7 @@ use super::assign::{Vote, Witness};
 use super::error::Error;
 use super::layers::Role;
 use super::outline;
-use crate::board::{Side, Warning};
+use crate::board::{Side, Warning, Words};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;
 
@@ -44,7 +44,7 @@ pub(super) fn only(
     gathered: &Gathered,
     role: Role,
     what: &str,
-    option: &str,
+    option: Words,
     place: &str,
 ) -> Result<Option<usize>, Error> {
     let all = || votes.iter().filter(|vote| vote.role == Some(role));
@@ -60,7 +60,7 @@ pub(super) fn only(
         _ => {
             let names: Vec<&str> = files.iter().map(|&i| gathered.files[i].name.as_str()).collect();
             let what = format!("{} files could be the {what}: {}", names.len(), names.join(", "));
-            Err(Error::content(place, what, format!("choose one with {option} FILE")))
+            Err(Error::content(place, what, option))
         }
     }
 }

@@ -20,7 +20,7 @@ use super::jobfile::Job;
 use super::layers::{self, Kind, Role, function_of, role_by_function};
 use super::load::{Selection, describe};
 use super::naming;
-use crate::board::{Side, Warning};
+use crate::board::{Side, Warning, Words};
 use crate::import::flaw;
 
 /// How much of a file is looked at.
@@ -196,7 +196,7 @@ impl Gathered {
         if !others.is_empty() {
             what += &format!("; {} too cannot be used: {}", others.len(), others.join(", "));
         }
-        let hint = format!("export it again, or leave it aside: --skip {}", quoted(&first.name));
+        let hint = LEAVE_ASIDE.with([&quoted(&first.name)]);
         Err(Error::content(&first.shown, what, hint))
     }
 
@@ -208,6 +208,9 @@ impl Gathered {
         is_binary_drill(head) && self.files.iter().any(|file| file.kind == Kind::Excellon && same(&file.name))
     }
 }
+
+/// What to do about a file that cannot be used, put its name in.
+pub(super) const LEAVE_ASIDE: Words = Words::of("export it again, or leave it aside: {skip} {0}");
 
 /// A name as a shell takes it.
 pub(super) fn quoted(name: &str) -> String {

@@ -14,7 +14,7 @@ use super::load::{Build, Loaded, Need, Selection};
 use super::naming;
 use super::unusable::quoted;
 use super::{kicad, outline};
-use crate::board::{Side, Source};
+use crate::board::{Side, Source, Words};
 use crate::import::flaw;
 
 /// What is to be read: `gathered`, or where it has no layer the boards under `paths`, if any.
@@ -105,8 +105,9 @@ fn refuse_company(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
     let single = [&selection.front, &selection.back, &selection.outline].into_iter().flatten();
     if single.chain(&selection.drill).next().is_some() {
         let what = "a KiCad board has all layers, so none can be named beside it";
-        let hint =
-            "give the board alone; --skip F.Cu, --skip B.Cu or --skip Edge.Cuts leaves a layer of it aside";
+        let hint = Words::of(
+            "give the board alone; {skip} F.Cu, {skip} B.Cu or {skip} Edge.Cuts leaves a layer of it aside",
+        );
         return Err(Error::content(&first.shown, what, hint));
     }
     let other = gathered.files.iter().find(|file| file.kind != Kind::Kicad).map(|file| &file.name);

@@ -5,6 +5,7 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 
+use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
 use crate::topology::{NetId, Nets};
 
@@ -104,7 +105,7 @@ pub(super) fn idle<'a>(
 
 /// The warning for a pattern that means none, and what follows from it.
 pub(super) fn without_net(pattern: &Pattern, so: &str) -> Warning {
-    Warning::new("pattern-without-net", format!("no net is called `{pattern}`, so {so}"))
+    planning::PATTERN_WITHOUT_NET.warning(format!("no net is called `{pattern}`, so {so}"))
 }
 
 #[cfg(test)]

@@ -1,7 +1,8 @@
 //! Artwork → the program that carves it, and what that does.
 
-use crate::board::Warning;
+use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
+use crate::board::{Warning, Words};
 use crate::geometry::{Nm, Polygon, Rect};
 use crate::toolpath::strategy;
 use crate::toolpath::{Angle, Heights, Order, Placement, Section, Tool, ToolKind};
@@ -136,7 +137,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     sections.retain(|(_, section)| !section.moves.is_empty());
     if let Some((mill, _)) = flat.filter(|_| sections.iter().all(|(tag, _)| tag.is_empty())) {
         let message = format!("`{}` fits nowhere: the V-bit clears the floor alone", mill.kind);
-        warnings.push(Warning::new("flat-fits-nowhere", message));
+        warnings.push(planning::FLAT_FITS_NOWHERE.warning(message));
     }
     if sections.is_empty() {
         let problem = format!("everything is narrower than the tip of `{}`: nothing is carved", tool.kind);
@@ -197,7 +198,7 @@ fn judge(how: &Carving, tool: &Tool) -> Result<(), Error> {
             wrong(format!("`{}` is no end mill: a flat floor needs one, such as endmill:3mm", flat.kind))
         }
         _ if how.max_depth.is_none() => {
-            wrong("without --max-depth nothing is too wide, and no floor is flat".to_owned())
+            wrong(Words::of("without {max-depth} nothing is too wide, and no floor is flat").to_string())
         }
         (_, ToolKind::VBit { tip, .. }) if tip < BLUNTEST => wrong(format!(
             "a V-bit clears what the end mill does not reach with its tip, which must be {BLUNTEST:.2} mm or wider"
@@ -214,7 +215,7 @@ fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Ve
     if let Some(&fault) = axis.faults.first() {
         let message =
             format!("the medial axis may lack a branch, here and at {} places in all", axis.faults.len());
-        warnings.push(Warning::new("axis-incomplete", message).at(fault));
+        warnings.push(planning::AXIS_INCOMPLETE.warning(message).at(fault));
     }
     let narrow = areas.iter().filter(|area| offset(area, -tip / 2, Nm::from_um(1)).is_empty()).count();
     if narrow > 0 && tip > Nm::ZERO {
@@ -222,7 +223,7 @@ fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Ve
             "{narrow} of {} areas are narrower than the tip of {tip:.3} mm: they are not carved",
             areas.len()
         );
-        warnings.push(Warning::new("narrower-than-tip", message));
+        warnings.push(planning::NARROWER_THAN_TIP.warning(message));
     }
     if let Some(most) = how.max_depth.filter(|_| how.flat.is_none()) {
         let reach = tool.kind.width_at(most) / 2;
@@ -232,7 +233,7 @@ fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Ve
             let message = format!(
                 "{area:.2} mm² are farther from the edge than the {reach:.3} mm that the tool cuts to either side at {most:.3} mm: there it follows the middle alone"
             );
-            warnings.push(Warning::new("wide-place-left", message));
+            warnings.push(planning::WIDE_PLACE_LEFT.warning(message));
         }
     }
     warnings

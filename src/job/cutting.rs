@@ -1,5 +1,6 @@
 //! Which tools isolate, how deep, and what lies between the copper and the frame cut.
 
+use crate::board::Words;
 use crate::geometry::Nm;
 use crate::toolpath::{Heights, Tool, ToolKind};
 use crate::voronoi::Widening;
@@ -134,17 +135,18 @@ pub(super) fn sites(options: &Options) -> Result<Sites, Error> {
     let sites = options.sites.expect("the defaults leave nothing open");
     let has_loops = |strategy: Strategy| strategy != Strategy::Voronoi;
     let beside_copper = [
-        ("--width", options.width.is_some()),
-        ("--passes", options.passes.is_some()),
-        ("--clear", options.clear == Some(true)),
-        ("--strategy outline", options.strategy == Some(Strategy::Outline)),
-        ("--strategy auto", options.strategy == Some(Strategy::Auto)),
-        ("--strategy-for", options.strategy_for.iter().any(|some| has_loops(some.strategy))),
+        ("{width}", options.width.is_some()),
+        ("{passes}", options.passes.is_some()),
+        ("{clear}", options.clear == Some(true)),
+        ("{strategy} outline", options.strategy == Some(Strategy::Outline)),
+        ("{strategy} auto", options.strategy == Some(Strategy::Auto)),
+        ("{strategy-for}", options.strategy_for.iter().any(|some| has_loops(some.strategy))),
     ];
     match (sites, beside_copper.into_iter().find(|(_, is_asked)| *is_asked)) {
         (Sites::Core, Some((other, _))) => {
             let problem = format!(
-                "with core, {other} would keep its distance from the axes and cut into the copper round them: leave out one of the two"
+                "with core, {} would keep its distance from the axes and cut into the copper round them: leave out one of the two",
+                Words::of(other)
             );
             Err(Error::Value { key: "sites", problem })
         }

@@ -1,6 +1,6 @@
 //! Why a job could not be done.
 
-use crate::board::Side;
+use crate::board::{Side, Words};
 use crate::grid::GridError;
 use crate::import;
 use crate::verify;
@@ -64,28 +64,28 @@ pub enum Error {
 impl Error {
     /// What to do about it; may be empty.
     #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
+    pub fn hint(&self) -> Words {
+        Words::of(match self {
             Self::Settings { file, .. } if !file.ends_with(".toml") => {
                 "docs/millproject.md says what is taken over, and how"
             }
             Self::Settings { .. } => "`voromill init` writes a file with every key and its default",
             Self::Value { .. } | Self::Import(_) => "",
-            Self::Page(_) => "without the page (--no-html) the programs are written as they are",
-            Self::Verify(_) => "with --no-verify the programs are written unjudged",
+            Self::Page(_) => "without the page ({no-html}) the programs are written as they are",
+            Self::Verify(_) => "with {no-verify} the programs are written unjudged",
             Self::NoCopper(_) => {
-                "`voromill inspect` shows what was found; --front and --back name the copper files"
+                "`voromill inspect` shows what was found; {front} and {back} name the copper files"
             }
             Self::Narrow(_) => {
-                "take a finer --tool or less --depth, let a V-bit rise with --adaptive-depth, or allow it with --narrow centre"
+                "take a finer {tool} or less {depth}, let a V-bit rise with {adaptive-depth}, or allow it with {narrow} centre"
             }
             Self::Truncated(_) => {
                 "plot or copy the file again; `voromill inspect` and `draw` show what is left of it"
             }
             Self::Voronoi { reason: voronoi::Error::NoCopper, .. } => {
-                "`voromill inspect` shows what was read; --outline names another outline"
+                "`voromill inspect` shows what was read; {outline} names another outline"
             }
-            Self::Voronoi { .. } | Self::Grid(_) => "choose a larger --pixel, or a smaller --window",
-        }
+            Self::Voronoi { .. } | Self::Grid(_) => "choose a larger {pixel}, or a smaller {window}",
+        })
     }
 }

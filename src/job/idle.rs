@@ -1,6 +1,7 @@
 //! What was asked for and changes nothing: told, so that nobody believes it did.
 
-use crate::board::Warning;
+use crate::board::diagnostic::planning;
+use crate::board::{Warning, Words};
 
 use super::{Layer, Options, Settings, Sites};
 
@@ -10,40 +11,40 @@ impl Settings {
     ///
     /// A settings file may have it: it is for many boards.
     #[must_use]
-    pub fn idle(&self, given: &Options) -> Option<(&'static str, &'static str)> {
+    pub fn idle(&self, given: &Options) -> Option<(&'static str, Words)> {
         let all = self.options();
         let is_wide = all.width.is_some() || all.passes.is_some() || all.clear == Some(true);
         let is_held = all.tabs != Some(0) || all.tab_spacing.is_some() || !all.tab_at.is_empty();
         let bores = self.drill_bore || self.alignment.is_some();
         let idle = [
-            ("overlap", given.overlap.is_some() && !is_wide, "say --width, --passes or --clear too"),
-            ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "leave --drill-bore=false out"),
-            ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "say --tile too"),
+            ("overlap", given.overlap.is_some() && !is_wide, "say {width}, {passes} or {clear} too"),
+            ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "leave {drill-bore}=false out"),
+            ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "say {tile} too"),
             (
                 "alignment-margin",
                 given.alignment_margin.is_some() && self.alignment.is_none(),
-                "say --alignment-holes too",
+                "say {alignment-holes} too",
             ),
             (
                 "alignment-depth",
                 given.alignment_depth.is_some() && self.alignment.is_none(),
-                "say --alignment-holes too",
+                "say {alignment-holes} too",
             ),
             (
                 "break-through",
                 given.break_through.is_some() && all.drill_depth.is_some(),
-                "leave --drill-depth out",
+                "leave {drill-depth} out",
             ),
-            ("tab-width", given.tab_width.is_some() && !is_held, "say --tabs too, which are none here"),
-            ("tab-height", given.tab_height.is_some() && !is_held, "say --tabs too, which are none here"),
-            ("frame-margin", given.frame_margin.is_some() && !self.frame, "leave --no-frame out"),
+            ("tab-width", given.tab_width.is_some() && !is_held, "say {tabs} too, which are none here"),
+            ("tab-height", given.tab_height.is_some() && !is_held, "say {tabs} too, which are none here"),
+            ("frame-margin", given.frame_margin.is_some() && !self.frame, "leave {no-frame} out"),
             (
                 "no-min-width",
                 given.min_width.is_some() && self.sites == Sites::Copper,
-                "say --sites core too",
+                "say {sites} core too",
             ),
         ];
-        idle.into_iter().find(|(_, is_idle, _)| *is_idle).map(|(option, _, hint)| (option, hint))
+        idle.into_iter().find(|(_, is_idle, _)| *is_idle).map(|(option, _, hint)| (option, Words::of(hint)))
     }
 }
 
@@ -57,7 +58,7 @@ pub(super) fn tools(layers: &[Layer], settings: &Settings) -> Vec<Warning> {
     idle.map(|tool| {
         let message =
             format!("`{}` cuts nothing: it fits nowhere, or the other tools leave it nothing", tool.name);
-        Warning::new("tool-cuts-nothing", message)
+        planning::TOOL_CUTS_NOTHING.warning(message)
     })
     .collect()
 }

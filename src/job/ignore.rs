@@ -1,5 +1,6 @@
 //! Nets that are left out of isolation: text, logos, whatever nothing is soldered to.
 
+use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Side, Warning};
 use crate::topology::{self, Nets};
 
@@ -61,5 +62,5 @@ fn said(left_out: &[topology::NetId], nets: &Nets, side: Side) -> Warning {
         labels.push(format!("{} more", left_out.len() - SHOWN));
     }
     let message = format!("not isolated, as asked: {}", labels.join(", "));
-    Warning::new("nets-ignored", message).on(side)
+    planning::NETS_IGNORED.warning(message).on(side)
 }

@@ -1,5 +1,6 @@
 //! One side of a board: copper → nets → boundaries → what the machine does.
 
+use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path};
 use crate::report::stages::Stages;
@@ -153,7 +154,7 @@ impl Planned<'_> {
         let mut warnings = diagram.warnings().to_vec();
         warnings.extend(unplaced.into_iter().chain(passes).chain(narrow).map(|warning| warning.on(side)));
         if frame.is_some() && lap.is_none() {
-            warnings.push(Warning::new(FRAME, FRAME_NOT_CUT).on(side));
+            warnings.push(planning::FRAME_NOT_CUT.warning(FRAME_NOT_CUT).on(side));
         }
         let lap = lap.cloned();
         Ok(Plan { diagram, boundaries, lap, sections, warnings, stages })
@@ -168,16 +169,13 @@ impl Plan {
         let measured = measure(&program, &settings.machine);
         let changes = f64::from(measured.tool_changes) * f64::from(settings.machine.tool_change) / 1000.0;
         let skips = settings.narrow == choice::Narrow::Skip;
-        let joins = |warning: &&Warning| warning.code == FRAME || (skips && warning.code == NARROW);
+        let joins = |warning: &&Warning| {
+            warning.is(&planning::FRAME_NOT_CUT) || (skips && warning.is(&planning::GAP_NARROWER_THAN_TOOL))
+        };
         let joined = self.warnings.iter().filter(joins).count();
         Tried { loops, seconds: measured.seconds + changes, joined }
     }
 }
-
-/// What is said where the lap is left out.
-const FRAME: &str = "frame-not-cut";
-/// What is said where the cut does not fit.
-const NARROW: &str = "gap-narrower-than-tool";
 
 /// The lap without which nets that reach the frame stay joined; none where there is no frame, or
 /// none reaches it.

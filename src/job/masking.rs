@@ -1,5 +1,6 @@
 //! A side of a board as a mask: what is inked, for a page that both sides share.
 
+use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Side, Warning};
 use crate::geometry::Nm;
 use crate::import::Loaded;
@@ -88,7 +89,7 @@ fn openings(
     let message = format!(
         "openings are the pads of the copper, {clearance:.3} mm larger; solder-mask files are not read"
     );
-    warnings.push(Warning::new("mask-from-pads", message).on(copper.side));
+    warnings.push(planning::MASK_FROM_PADS.warning(message).on(copper.side));
     Ok(sheet)
 }
 
@@ -100,8 +101,8 @@ impl Masking {
                 format!("{length:.3} mm is no length for it: expected from {least:.3} mm to {WIDEST:.0} mm");
             if (least..=WIDEST).contains(&length) { Ok(()) } else { Err(Error::Value { key, problem }) }
         };
-        within("--gap", self.gap, NARROWEST)?;
-        within("--clearance", self.clearance, Nm::ZERO)?;
-        within("--margin", self.margin, Nm::ZERO)
+        within("gap", self.gap, NARROWEST)?;
+        within("clearance", self.clearance, Nm::ZERO)?;
+        within("margin", self.margin, Nm::ZERO)
     }
 }

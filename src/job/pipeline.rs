@@ -2,11 +2,12 @@
 
 use rayon::prelude::*;
 
-use crate::board::{Board, Side, Source, Warning};
+use crate::board::diagnostic::planning;
+use crate::board::{Board, Side, Source, Warning, Words};
 use crate::gcode::dialect::ToolChange;
 use crate::gcode::{Header, Input};
 use crate::geometry::Nm;
-use crate::import::Loaded;
+use crate::import::{Loaded, flaw};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
 use crate::toolpath::{Order, Origin, Placement, Program, Section};
@@ -19,11 +20,6 @@ use super::{Error, Layer, Narrow, Part, Settings, Written, by_net, idle, numberi
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
-
-/// The one warning of the reader that forbids milling.
-const TRUNCATED: &str = "truncated-file";
-/// What is found where the cut does not fit.
-const NARROW: &str = "gap-narrower-than-tool";
 
 /// A board with everything that was made of it.
 pub struct Job {
@@ -64,8 +60,8 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     if let Some(wider) = settings.rivet
         && rivet(&mut board, wider) == 0
     {
-        let message = "no hole of the board is plated: --rivet changes nothing".to_owned();
-        warnings.push(Warning::new("rivet-without-hole", message));
+        let warning = planning::RIVET_WITHOUT_HOLE.warning("no hole of the board is plated");
+        warnings.push(warning.so(Words::of("{rivet} changes nothing")));
     }
     let bounds = board.bounds().ok_or_else(|| no_copper(settings))?;
     let stock = Stock::new(bounds, settings);
@@ -130,15 +126,13 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         },
     );
     warnings.extend(programs.iter().filter_map(|program| program.warning.clone()));
-    if board.outline.is_none() && !warnings.iter().any(|warning| warning.code.starts_with("outline-")) {
-        warnings.push(Warning::new("outline-missing", "no outline was named, so the board is not cut out"));
+    if board.outline.is_none() && !warnings.iter().any(|warning| warning.kind.is_of_the_outline()) {
+        warnings.push(planning::OUTLINE_MISSING.warning("no outline was named, so the board is not cut out"));
     }
     if settings.options().blend.is_some() && settings.dialect.blend.is_none() {
-        let message = format!(
-            "{} has no word for how far corners may be rounded off: --blend changes nothing",
-            settings.dialect.name
-        );
-        warnings.push(Warning::new("blend-unknown", message));
+        let message = format!("{} has no word for how far corners may be rounded off", settings.dialect.name);
+        let warning = planning::BLEND_UNKNOWN.warning(message);
+        warnings.push(warning.so(Words::of("{blend} changes nothing")));
     }
     let electrical = stages.run("nets of the assembled board", || electrical(&board, &layers), |_| []);
     warnings.extend(electrical.iter().flat_map(Electrical::check));
@@ -148,7 +142,9 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
 
 /// Fails for a file that was cut off.
 pub(super) fn refuse_cut_off(warnings: &[Warning]) -> Result<(), Error> {
-    let Some(cut_off) = warnings.iter().find(|warning| warning.code == TRUNCATED) else { return Ok(()) };
+    let Some(cut_off) = warnings.iter().find(|warning| warning.is(&flaw::TRUNCATED_FILE)) else {
+        return Ok(());
+    };
     let place =
         cut_off.source.as_ref().map_or(String::new(), |s| format!("{}:{}:{}: ", s.file, s.line, s.column));
     Err(Error::Truncated(format!("{place}{}", cut_off.message)))
@@ -159,7 +155,7 @@ pub(super) fn refuse_cut_off(warnings: &[Warning]) -> Result<(), Error> {
 fn restrained<'a>(programs: impl Iterator<Item = &'a mut Program>, settings: &Settings) -> Vec<Warning> {
     let mut said: Vec<Warning> = Vec::new();
     for warning in programs.flat_map(|program| settings.machine.restrain(program)) {
-        if said.iter().all(|other| other.message != warning.message) {
+        if said.iter().all(|other| other.text() != warning.text()) {
             said.push(warning);
         }
     }
@@ -190,11 +186,12 @@ fn no_copper(settings: &Settings) -> Error {
 /// Fails for the first gap that the cut does not fit.
 fn refuse_narrow(layers: &[Layer]) -> Result<(), Error> {
     let warnings = layers.iter().flat_map(|layer| &layer.warnings);
-    let narrow: Vec<&Warning> = warnings.filter(|warning| warning.code == NARROW).collect();
+    let narrow: Vec<&Warning> =
+        warnings.filter(|warning| warning.is(&planning::GAP_NARROWER_THAN_TOOL)).collect();
     let Some(first) = narrow.first() else { return Ok(()) };
     let side = first.side.map_or(String::new(), |side| format!("{side}: "));
-    // What would have been done is not what is done.
-    let gap = first.message.split(": ").next().unwrap_or_default();
+    // What would have been done, the outcome, is not what is done.
+    let gap = &first.message;
     let place = first
         .at
         .map_or(String::new(), |at| format!(" at x = {:.3} mm, y = {:.3} mm of the files", at.x, at.y));

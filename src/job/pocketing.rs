@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::board::FLATTEN;
 use crate::board::Warning;
+use crate::board::diagnostic::planning;
 use crate::board::polarity::{difference, intersection, offset, union};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::toolpath::strategy::{self, Entries, Levels, Sequence};
@@ -134,7 +135,7 @@ impl Pocket {
                 "the Voronoi diagram of {} areas has a flaw: their loops are offset polygons instead",
                 nest.flaws
             );
-            self.warnings.push(Warning::new("loops-by-offsets", message));
+            self.warnings.push(planning::LOOPS_BY_OFFSETS.warning(message));
         }
         if nest.roots.is_empty() {
             if is_one_of_several {
@@ -142,7 +143,7 @@ impl Pocket {
                     "`{}` cuts nothing: it fits nowhere, or the other tools leave it nothing",
                     tool.name
                 );
-                self.warnings.push(Warning::new("tool-cuts-nothing", message));
+                self.warnings.push(planning::TOOL_CUTS_NOTHING.warning(message));
             }
             return Ok(false);
         }
@@ -295,14 +296,14 @@ fn flaws(areas: &[Polygon], tool: &Tool, entries: Entries) -> Vec<Warning> {
     if narrow > 0 {
         let message =
             format!("{narrow} of {} areas are narrower than `{}`: they are left", areas.len(), tool.kind);
-        warnings.push(Warning::new("narrower-than-tool", message));
+        warnings.push(planning::NARROWER_THAN_TOOL.warning(message));
     }
     if entries.straight > 0 {
         let message = format!(
             "at {} places the tool goes straight down, since there is no room for a ramp: it must be one that can drill",
             entries.straight
         );
-        warnings.push(Warning::new("plunge-straight-down", message));
+        warnings.push(planning::PLUNGE_STRAIGHT_DOWN.warning(message));
     }
     warnings
 }

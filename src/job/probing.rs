@@ -4,7 +4,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::board::Side;
+use crate::board::{Side, Words};
 use crate::gcode::{Touching, write_probe};
 use crate::geometry::{Nm, Rect};
 use crate::import::Loaded;
@@ -113,7 +113,8 @@ impl Probing {
             return wrong("probe-depth", self.depth, "it must be more than zero");
         }
         if self.clearance.nm() <= Nm::ZERO || self.clearance.nm() > settings.safe {
-            let expected = format!("it must be above zero and at most the {safe} of --safe-z");
+            let expected =
+                Words::of("it must be above zero and at most the {0} of {safe-z}").with([&safe]).to_string();
             return wrong("probe-clearance", self.clearance, &expected);
         }
         if self.inset.nm() < Nm::ZERO || area.width() <= Nm::ZERO || area.height() <= Nm::ZERO {

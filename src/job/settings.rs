@@ -5,7 +5,7 @@
 
 use clap::ValueEnum;
 
-use crate::board::Side;
+use crate::board::{Side, Words};
 use crate::gcode::Dialect;
 use crate::gcode::dialect::{self, OwnCode, ToolChange, TouchOff};
 use crate::geometry::{Nm, Point, Vector};
@@ -353,10 +353,9 @@ fn touch_off(Triple([x, y, z]): Triple, options: &Options, base: &Dialect) -> Re
     }
     let safe = sense::travel_height("safe-z", options.safe_z)?;
     if z.nm() < Nm::ZERO || z.nm() >= safe {
-        let safe = Length(safe);
-        return wrong(format!(
-            "a plate at {z} makes no sense: expected a height from 0mm up to below {safe} (--safe-z)"
-        ));
+        let words =
+            Words::of("a plate at {0} makes no sense: expected a height from 0mm up to below {1} ({safe-z})");
+        return wrong(words.with([&z, &Length(safe)]).to_string());
     }
     Ok(TouchOff { at: Point::new(x.nm(), y.nm()), height: z.nm() })
 }

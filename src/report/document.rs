@@ -8,7 +8,8 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::board::{Help, Side, Source, SourceSpan, Warning};
+use crate::board::diagnostic;
+use crate::board::{Diagnostic, Side, Source, SourceSpan, Warning, Words};
 use crate::geometry::{Nm, Point};
 use crate::toolpath::Statistics;
 
@@ -213,11 +214,21 @@ pub struct ToolChanges {
     pub seconds: f64,
 }
 
+/// What would have been right, and what to do about what is not.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct Help {
+    /// What was expected at the place of the warning.
+    pub expected: Words,
+    /// What a person can do, in the words of an order.
+    pub advice: Words,
+}
+
 /// A warning with its places.
 #[derive(Clone, Debug, Serialize)]
 pub struct WarningEntry {
-    /// Its stable name.
-    pub code: &'static str,
+    /// Its kind, by its code.
+    #[serde(rename = "code")]
+    pub kind: &'static Diagnostic,
     /// The sentence.
     pub message: String,
     /// The side it concerns.
@@ -246,15 +257,23 @@ impl From<Point> for Place {
     }
 }
 
+impl Help {
+    /// What helps with a file; what planning notices, its sentence says.
+    fn of(kind: &Diagnostic) -> Option<Self> {
+        (kind.stage == diagnostic::Stage::Files)
+            .then_some(Self { expected: kind.effect, advice: kind.advice })
+    }
+}
+
 impl From<&Warning> for WarningEntry {
     fn from(warning: &Warning) -> Self {
         Self {
-            code: warning.code,
-            message: warning.message.clone(),
+            kind: warning.kind,
+            message: warning.text(),
             side: warning.side,
             at: warning.at.map(Place::from),
             source: warning.source.clone(),
-            help: warning.help,
+            help: Help::of(warning.kind),
             size_mm: warning.size.map(Millimetres),
             places: Vec::new(),
         }

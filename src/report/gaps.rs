@@ -4,15 +4,12 @@
 //! the cuts take there `verify` finds again, measured on the programs themselves. A person wants to
 //! know how bad it is at worst, how often, and where: one entry, with all places in the JSON.
 
+use crate::board::diagnostic::planning;
 use crate::geometry::Nm;
-use crate::verify::Settings;
+use crate::verify::{Settings, check};
 
 use super::document::{Document, Millimetres, WarningEntry};
 
-/// The planner's warning.
-const NARROW: &str = "gap-narrower-than-tool";
-/// What verification finds there.
-const GOUGE: &str = "gouge";
 /// Copper that nobody misses: so much, or this part of the kerf. Chosen: no mill is as true.
 const SLIGHT: Nm = Nm::from_um(1);
 const SLIGHT_PART: i64 = 100;
@@ -26,7 +23,9 @@ impl Document {
     pub fn with_gaps_merged(mut self, kerf: Nm) -> Self {
         let told = Settings::default().gouge;
         let slight = SLIGHT.max(kerf / SLIGHT_PART);
-        let lost = |entry: &WarningEntry| entry.size_mm.filter(|_| entry.code == NARROW).map(|lost| lost.0);
+        let lost = |entry: &WarningEntry| {
+            entry.size_mm.filter(|_| *entry.kind == planning::GAP_NARROWER_THAN_TOOL).map(|lost| lost.0)
+        };
         for layer in &mut self.layers {
             let is_slight = |entry: &WarningEntry| {
                 entry.side == Some(layer.side) && lost(entry).is_some_and(|lost| lost <= slight)
@@ -50,11 +49,13 @@ impl Document {
         let told = Settings::default().gouge;
         let Some(verdict) = &self.verification else { return };
         let is_found = |entry: &WarningEntry, lost: Nm| {
-            let mut gouges = verdict.findings.iter().filter(|f| f.code == GOUGE && f.side == entry.side);
+            let mut gouges =
+                verdict.findings.iter().filter(|f| f.code == check::GOUGE.code && f.side == entry.side);
             gouges.any(|gouge| gouge.size_mm.is_some_and(|Millimetres(depth)| depth + FIT >= lost))
         };
         self.warnings.retain(|entry| {
-            let lost = entry.size_mm.filter(|lost| entry.code == NARROW && lost.0 > told);
+            let lost =
+                entry.size_mm.filter(|lost| *entry.kind == planning::GAP_NARROWER_THAN_TOOL && lost.0 > told);
             lost.is_none_or(|lost| !is_found(entry, lost.0))
         });
     }

@@ -3,8 +3,7 @@
 use std::fmt::Write as _;
 
 use super::document::{Document, Figures, LayerEntry, ToolChanges, WarningEntry};
-use super::explain::is_bookkeeping;
-use crate::board::{self, Severity};
+use crate::board::{self, Diagnostic, Severity};
 use crate::toolpath::duration;
 
 /// Warnings of one kind that are shown; the rest are counted.
@@ -115,23 +114,23 @@ impl LayerEntry {
 /// there are none.
 #[must_use]
 pub fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
-    let told = || warnings.iter().filter(|warning| verbose || !is_bookkeeping(warning.code));
+    let told = || warnings.iter().filter(|warning| verbose || !warning.kind.is_bookkeeping());
     let mut text = if told().next().is_none() { String::new() } else { "\n".to_owned() };
-    let mut kinds: Vec<&str> = Vec::new();
+    let mut kinds: Vec<&Diagnostic> = Vec::new();
     for warning in told() {
-        if !kinds.contains(&warning.code) {
-            kinds.push(warning.code);
+        if !kinds.contains(&warning.kind) {
+            kinds.push(warning.kind);
         }
     }
-    for code in kinds {
+    for kind in kinds {
         let shown = if verbose { usize::MAX } else { SHOWN };
-        let same = || warnings.iter().filter(|warning| warning.code == code);
+        let same = || warnings.iter().filter(|warning| warning.kind == kind);
         for warning in same().take(shown) {
             text.push_str(&warning.to_text());
         }
         let rest = same().count().saturating_sub(shown);
         if rest > 0 {
-            let _ = writeln!(text, "  warning: {rest} more [{code}]; -v shows all");
+            let _ = writeln!(text, "  warning: {rest} more [{}]; -v shows all", kind.code);
         }
     }
     text
@@ -142,9 +141,11 @@ impl WarningEntry {
     /// indented lines.
     #[must_use]
     pub fn to_text(&self) -> String {
-        let what = format!("{}{} [{}]", self.place(), self.message, self.code);
-        let help = self.help.unwrap_or_default();
-        let shown = board::show(Severity::Warning, &what, self.source.as_ref(), help.expected, help.advice);
+        let what = format!("{}{} [{}]", self.place(), self.message, self.kind.code);
+        let [expected, advice] = self
+            .help
+            .map_or_else(Default::default, |help| [help.expected, help.advice].map(|w| w.to_string()));
+        let shown = board::show(Severity::Warning, &what, self.source.as_ref(), &expected, &advice);
         shown.lines().flat_map(|line| ["  ", line, "\n"]).collect()
     }
 
@@ -167,13 +168,14 @@ pub(super) fn count(number: usize, what: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::board::diagnostic::planning;
     use crate::geometry::Nm;
     use crate::report::document::Millimetres;
 
     #[test]
     fn many_warnings_of_one_kind_are_counted() {
         let one = |n: i32| WarningEntry {
-            code: "narrow",
+            kind: &planning::GAP_NARROWER_THAN_TOOL,
             message: format!("gap {n}"),
             side: None,
             at: None,
@@ -185,7 +187,7 @@ mod tests {
         let all: Vec<_> = (1..=5).map(one).collect();
         let short = warnings(&all, false);
         assert!(short.contains("gap 3") && !short.contains("gap 4"), "{short}");
-        assert!(short.contains("2 more [narrow]"), "{short}");
+        assert!(short.contains("2 more [gap-narrower-than-tool]"), "{short}");
         assert!(warnings(&all, true).contains("gap 5"), "verbose shows all");
     }
 

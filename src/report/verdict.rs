@@ -135,7 +135,7 @@ impl Verdict {
                 let _ = writeln!(text, "  {severity}: {} more [{name}]; -v shows all", same.len() - shown);
             }
             if let Some(check) = check::of(name).filter(|_| severity > Severity::Info) {
-                let _ = writeln!(text, "    try: {}", check.cure);
+                let _ = writeln!(text, "    try: {}", check.kind.advice);
             }
         }
         text.push_str(&self.line());
@@ -166,7 +166,9 @@ impl Verdict {
         let first = |severity: Severity| {
             let worst = self.findings.iter().find(|finding| finding.severity == severity);
             let check = worst.and_then(|finding| check::of(finding.code));
-            check.map_or(String::new(), |check| format!("; first, about `{}`: {}", check.name, check.cure))
+            check.map_or(String::new(), |check| {
+                format!("; first, about `{}`: {}", check.kind.code, check.kind.advice)
+            })
         };
         match (self.errors, self.warnings) {
             (0, 0) => "  fit to mill\n".to_owned(),
@@ -199,10 +201,10 @@ impl Verdict {
             .iter()
             .map(|check| {
                 json!({
-                    "id": check.name,
-                    "shortDescription": { "text": check.about },
-                    "fullDescription": { "text": check.cost },
-                    "help": { "text": check.cure },
+                    "id": check.kind.code,
+                    "shortDescription": { "text": check.kind.what },
+                    "fullDescription": { "text": check.kind.effect },
+                    "help": { "text": check.kind.advice },
                 })
             })
             .collect();
@@ -233,15 +235,15 @@ impl Verdict {
         let of = |name: &str| {
             self.findings.iter().filter(|f| f.code == name && f.severity >= deny).collect::<Vec<_>>()
         };
-        let failures = check::ALL.iter().filter(|check| !of(check.name).is_empty()).count();
+        let failures = check::ALL.iter().filter(|check| !of(check.kind.code).is_empty()).count();
         let count = check::ALL.len();
         let mut text = format!(
             "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n\
              <testsuites><testsuite name=\"voromill verify\" tests=\"{count}\" failures=\"{failures}\" errors=\"0\">\n"
         );
         for check in check::ALL {
-            let found = of(check.name);
-            let _ = write!(text, "<testcase classname=\"voromill\" name=\"{}\">", check.name);
+            let found = of(check.kind.code);
+            let _ = write!(text, "<testcase classname=\"voromill\" name=\"{}\">", check.kind.code);
             if let Some(first) = found.first() {
                 let lines: String = found.iter().map(|f| format!("{}{}\n", place(f), f.message)).collect();
                 let (message, lines) = (escape(&first.message), escape(&lines));
@@ -262,7 +264,7 @@ fn sarif(finding: &FindingEntry, program: Option<&str>) -> serde_json::Value {
     };
     let mut result = json!({
         "ruleId": finding.code,
-        "ruleIndex": check::ALL.iter().position(|check| check.name == finding.code),
+        "ruleIndex": check::ALL.iter().position(|check| check.kind.code == finding.code),
         "level": level,
         "message": { "text": finding.message },
         "properties": { "side": finding.side, "nets": finding.nets, "at": finding.at, "size_mm": finding.size_mm },

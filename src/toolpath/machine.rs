@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::board::Warning;
+use crate::board::diagnostic::planning;
 use crate::geometry::{Nm, ParseLengthError, nanometres};
 
 use super::feed::Feed;
@@ -140,7 +141,7 @@ impl Machine {
             let name = tool.kind.to_string();
             let mut say = |message: String| {
                 if warnings.iter().all(|warning| warning.message != message) {
-                    warnings.push(Warning::new("beyond-the-machine-speed", message));
+                    warnings.push(planning::BEYOND_THE_MACHINE_SPEED.warning(message));
                 }
             };
             if let Some((least, most)) = self.spindle {

@@ -1,6 +1,7 @@
 //! The same board several times in one piece of stock, and the pins that register it.
 
 use crate::board::Warning;
+use crate::board::diagnostic::planning;
 use crate::geometry::{Nm, Point, Rect, Vector};
 
 use super::machine::Machine;
@@ -89,7 +90,7 @@ impl Program {
             bounds.height(),
             height,
         );
-        Some(Warning::new("beyond-the-machine", message))
+        Some(planning::BEYOND_THE_MACHINE.warning(message))
     }
 }
 

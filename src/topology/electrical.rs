@@ -3,6 +3,7 @@
 
 use std::ops::ControlFlow;
 
+use crate::board::diagnostic::planning;
 use crate::board::{Copper, Hole, Plating, Shape, Side, Warning};
 use crate::geometry::{Nm, Segment};
 
@@ -48,7 +49,7 @@ impl Electrical {
             .filter(|same| same.len() > 1)
             .map(|same| {
                 let message = format!("{} is in {} pieces that no plated hole joins", same[0], same.len());
-                Warning::new("net-in-pieces", message)
+                planning::NET_IN_PIECES.warning(message)
             })
             .collect()
     }

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, VecDeque};
 
 use rustc_hash::FxHashMap;
 
+use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
 use crate::geometry::{Nm, Point};
 
@@ -34,7 +35,7 @@ pub fn names_check(copper: &Copper, nets: &Nets) -> Vec<Warning> {
                 net.names.join(" and "),
                 places.join(", ")
             );
-            let warning = Warning::new("nets-joined", message).on(copper.side);
+            let warning = planning::NETS_JOINED.warning(message).on(copper.side);
             meetings.values().next().copied().into_iter().fold(warning, Warning::at)
         })
         .collect()

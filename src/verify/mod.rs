@@ -48,17 +48,18 @@ use std::fmt;
 
 use rayon::prelude::*;
 
-use crate::board::{Board, Side};
+use crate::board::{Board, Side, Words};
 use crate::gcode::ReadError;
 use crate::geometry::{Nm, Point, Rect};
 use crate::grid::GridError;
 use crate::topology::Nets;
 
+pub use crate::board::Severity;
 pub use cutter::{Cutter, CutterKind, ParseCutterError};
 pub use diff::{Change, Comparison, Region, Spot, diff};
 pub use placement::Placement;
 pub use register::{Orientation, register};
-pub use report::{Finding, Judged, Report, Severity};
+pub use report::{Finding, Judged, Report};
 pub use stated::said;
 pub use tiles::Tiles;
 
@@ -250,14 +251,14 @@ pub enum Error {
 impl Error {
     /// What to do about it; may be empty.
     #[must_use]
-    pub fn hint(&self) -> &'static str {
-        match self {
-            Self::NoTool { .. } => "name it: --tool vbit:0.1mm:30deg, or endmill:0.2mm",
-            Self::NoSide(_) | Self::NoCopper { .. } => "name it: --side front, or back",
-            Self::Grid(_) => "choose a larger --pixel",
-            Self::Unplaced(_) => "say how it lies: --offset, --mirror-axis, --rotate",
+    pub fn hint(&self) -> Words {
+        Words::of(match self {
+            Self::NoTool { .. } => "name it: {tool} vbit:0.1mm:30deg, or endmill:0.2mm",
+            Self::NoSide(_) | Self::NoCopper { .. } => "name it: {side} front, or back",
+            Self::Grid(_) => "choose a larger {pixel}",
+            Self::Unplaced(_) => "say how it lies: {offset}, {mirror-axis}, {rotate}",
             Self::Read { .. } | Self::Range { .. } | Self::NoMotion(_) => "",
-        }
+        })
     }
 }
 

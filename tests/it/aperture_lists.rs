@@ -52,11 +52,11 @@ fn a_list_is_found_beside_a_file_that_is_named_alone() {
 #[test]
 fn a_list_without_units_is_read_by_its_sizes_and_says_so() {
     let loaded = board(&[folder("protel")]).expect("a board");
-    let warning = loaded.warnings.iter().find(|warning| warning.code == "aperture-units-guessed");
+    let warning = loaded.warnings.iter().find(|warning| warning.code() == "aperture-units-guessed");
     let message = &warning.expect("a warning").message;
     assert!(message.contains("board.apt") && message.contains("mil"), "{message}");
     let said = board(&[folder("eagle")]).expect("a board");
-    assert!(said.warnings.iter().all(|w| w.code != "aperture-units-guessed"), "a list that says its unit");
+    assert!(said.warnings.iter().all(|w| w.code() != "aperture-units-guessed"), "a list that says its unit");
 }
 
 #[test]

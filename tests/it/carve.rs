@@ -78,7 +78,10 @@ fn passes_end_at_the_same_surface_and_none_goes_deeper_than_it_may() {
     let judged = shallow.verify(PITCH).expect("a program");
     assert_eq!(judged.findings, [], "what is wide is left, and said so");
     assert!(judged.left_mm2 > 0.1, "{} mm² are left", judged.left_mm2);
-    assert_eq!(shallow.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>(), ["wide-place-left"]);
+    assert_eq!(
+        shallow.warnings.iter().map(|warning| warning.code()).collect::<Vec<_>>(),
+        ["wide-place-left"]
+    );
 }
 
 /// A letter is one axis: a program of it retracts no more often than the axis has parts and pairs

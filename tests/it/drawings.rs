@@ -43,7 +43,7 @@ fn area(drawing: &Drawing, layer: Option<&str>) -> f64 {
 }
 
 fn codes(loaded: &Loaded) -> Vec<&str> {
-    loaded.warnings.iter().map(|warning| warning.code).collect()
+    loaded.warnings.iter().map(|warning| warning.code()).collect()
 }
 
 fn board(path: &str) -> Loaded {

@@ -106,7 +106,7 @@ fn holes_and_slots_thicker_than_the_thickest_drill_are_bored_unless_told_otherwi
     assert!(findings.iter().all(|finding| !finding.name.starts_with("hole")), "{findings:?}");
     let (left, _) = job("regulator", "drills = \"0.6mm,0.8mm,1mm\"\ndrill-bore = false");
     assert_eq!(mills(&left), 0, "unless nothing is to be bored");
-    assert!(left.warnings.iter().any(|warning| warning.code == "no-drill-for-hole"), "and that is said");
+    assert!(left.warnings.iter().any(|warning| warning.code() == "no-drill-for-hole"), "and that is said");
 }
 
 #[test]

@@ -34,7 +34,7 @@ fn starts(drilling: &Drilling) -> Vec<Point> {
 }
 
 fn codes(drilling: &Drilling) -> Vec<&'static str> {
-    drilling.warnings.iter().map(|warning| warning.code).collect()
+    drilling.warnings.iter().map(|warning| warning.code()).collect()
 }
 
 #[test]

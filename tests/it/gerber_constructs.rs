@@ -143,7 +143,7 @@ fn each_construct_covers_the_area_that_geometry_gives_it() {
         };
         let copper = copper(&image);
         let found: f64 = copper.iter().map(Polygon::area_mm2).sum();
-        let codes: Vec<_> = image.warnings.iter().map(|warning| warning.code).collect();
+        let codes: Vec<_> = image.warnings.iter().map(|warning| warning.code()).collect();
         if (found - area).abs() > 5e-4 * area || copper.len() != islands || codes != warnings {
             failures.push(format!("{name}: {found} mm² for {area}, {} islands, {codes:?}", copper.len()));
         }

@@ -20,7 +20,7 @@ fn job(files: &str, settings: &str) -> (Job, Settings) {
 }
 
 fn warned(job: &Job, code: &str) -> bool {
-    job.warnings.iter().any(|warning| warning.code == code)
+    job.warnings.iter().any(|warning| warning.code() == code)
 }
 
 fn cut_mm(job: &Job, part: Part) -> f64 {
@@ -417,11 +417,11 @@ fn gaps_narrower_than_the_kerf_are_one_entry_a_side_and_none_beside_what_is_foun
     let (job, settings) = job("blinker", "tool = \"endmill:0.6mm\"");
     let narrow = "gap-narrower-than-tool";
     let sizes: Vec<Nm> =
-        job.warnings.iter().filter(|warning| warning.code == narrow).filter_map(|w| w.size).collect();
+        job.warnings.iter().filter(|warning| warning.code() == narrow).filter_map(|w| w.size).collect();
     let deepest = sizes.iter().copied().max().expect("some gaps are too narrow");
     assert!(sizes.len() > 5 && deepest > Nm::from_um(20), "{sizes:?}");
     let mut document = job.describe(&settings);
-    let entries: Vec<_> = document.warnings.iter().filter(|entry| entry.code == narrow).collect();
+    let entries: Vec<_> = document.warnings.iter().filter(|entry| entry.kind.code == narrow).collect();
     assert!(entries.len() <= 2, "those that verification tells of, and those it does not: {entries:?}");
     assert!(entries.iter().any(|entry| entry.size_mm.is_some_and(|size| size.0 == deepest)), "the worst");
     let told: usize = entries.iter().map(|entry| entry.places.len() + 1).sum();
@@ -432,7 +432,7 @@ fn gaps_narrower_than_the_kerf_are_one_entry_a_side_and_none_beside_what_is_foun
     assert!(!gouges.is_empty(), "verification finds them, too");
     document.verification = Some((&report).into());
     document.leave_out_explained_gaps();
-    let left: Vec<_> = document.warnings.iter().filter(|entry| entry.code == narrow).collect();
+    let left: Vec<_> = document.warnings.iter().filter(|entry| entry.kind.code == narrow).collect();
     assert!(
         left.iter().all(|entry| entry.size_mm.is_some_and(|size| size.0 <= Nm::from_um(10))),
         "what is found is told once: {left:?}"

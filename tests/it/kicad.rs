@@ -98,7 +98,7 @@ fn laid_on(board: &Board, other: &Board) -> Board {
 /// is as large as the slot.
 fn islands(board: &Board, side: Side, pair: &Pair) -> Vec<Polygon> {
     let Some(copper) = board.copper(side) else { return Vec::new() };
-    let without_text = pair.ours.warnings.iter().any(|warning| warning.code == "kicad-text");
+    let without_text = pair.ours.warnings.iter().any(|warning| warning.code() == "kicad-text");
     let counts = |feature: &&Feature| {
         let function = copper.attributes_of(feature).function.as_deref();
         !(without_text && function == Some("NonConductor"))
@@ -331,7 +331,7 @@ fn edge_holes_and_thickness_are_read() {
 fn what_is_not_read_is_said() {
     let loaded = load(&fixture("kicad/shapes.kicad_pcb"));
     let said: Vec<_> =
-        loaded.warnings.iter().map(|warning| (warning.code, warning.message.as_str())).collect();
+        loaded.warnings.iter().map(|warning| (warning.code(), warning.message.as_str())).collect();
     let expected = [
         ("kicad-text", "the text `REV 1` on the front copper at (5.000, 3.000) is left out"),
         ("kicad-not-read", "dimensions (dimension) on copper or the edge are not read"),

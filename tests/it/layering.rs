@@ -62,7 +62,7 @@ const MAY_USE: &[(&str, &[&str])] = &[
 const BOARD_WORDS: &[&str] =
     &["gerber", "copper", "net", "nets", "pcb", "solder", "drill", "millimetre", "nanometre"];
 
-fn sources(folder: &Path) -> Vec<PathBuf> {
+pub(crate) fn sources(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in fs::read_dir(folder).expect("src is readable").map(|e| e.expect("an entry").path()) {
         if entry.is_dir() {
@@ -75,7 +75,7 @@ fn sources(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-fn src() -> PathBuf {
+pub(crate) fn src() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
 }
 
@@ -92,7 +92,7 @@ fn row_of(file: &Path) -> Option<&'static str> {
 }
 
 /// The code of a file without comments, doc links and its unit tests.
-fn code(text: &str) -> String {
+pub(crate) fn code(text: &str) -> String {
     let body = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default();
     body.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
 }

@@ -221,7 +221,7 @@ fn a_job_file_is_believed_before_functions_and_these_before_names() {
 #[test]
 fn a_function_that_contradicts_a_name_of_any_layer_is_said() {
     let disputed = |loaded: &Loaded| -> Vec<String> {
-        let of_code = loaded.warnings.iter().filter(|warning| warning.code == "layer-disputed");
+        let of_code = loaded.warnings.iter().filter(|warning| warning.code() == "layer-disputed");
         of_code.map(|warning| warning.message.clone()).collect()
     };
     let (copper, mask, edge) =
@@ -404,7 +404,7 @@ fn some_holes_off_the_board_are_said_and_one_far_off_is_an_error() {
         let files = [("amp-F_Cu.gbr", SQUARE), ("amp-Edge_Cuts.gbr", SQUARE), ("amp.drl", &*more)];
         Folder::with(&files).load(&Selection::default())
     };
-    let codes = |loaded: &Loaded| loaded.warnings.iter().map(|warning| warning.code).collect::<Vec<_>>();
+    let codes = |loaded: &Loaded| loaded.warnings.iter().map(|warning| warning.code()).collect::<Vec<_>>();
     let loaded = with("X40.0Y5.0").expect("a board");
     assert!(codes(&loaded).contains(&"holes-off-board"), "{:?}", codes(&loaded));
     let framed = with("X13.0Y5.0").expect("a board");
@@ -461,7 +461,7 @@ fn plated_and_unplated_holes_are_both_taken_and_doubles_once() {
     let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp-PTH.drl", DRILL), ("amp-NPTH.drl", &npth)]);
     let loaded = folder.load(&Selection::default()).expect("a board");
     assert_eq!(loaded.board.holes.len(), 2, "one from each, and the double once");
-    let codes: Vec<_> = loaded.warnings.iter().map(|warning| warning.code).collect();
+    let codes: Vec<_> = loaded.warnings.iter().map(|warning| warning.code()).collect();
     assert!(codes.contains(&"duplicate-holes"), "{codes:?}");
 }
 
@@ -526,7 +526,10 @@ fn of_two_outlines_the_one_that_encloses_a_board_is_taken() {
             ["amp.gko"],
             "the one that closes, or the first of two that agree"
         );
-        assert!(loaded.warnings.iter().any(|warning| warning.code == "outline-twice"), "and a word about it");
+        assert!(
+            loaded.warnings.iter().any(|warning| warning.code() == "outline-twice"),
+            "and a word about it"
+        );
     }
     let error = files(&wide).load(&Selection::default()).expect_err("two boards");
     assert!(error.contains("--outline"), "{error}");

@@ -9,6 +9,7 @@ mod certified_diagram;
 mod cli;
 mod coupling;
 mod damage;
+mod diagnostics;
 mod dialect_files;
 mod drawings;
 mod drills;

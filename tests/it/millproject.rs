@@ -35,7 +35,7 @@ fn fixture() -> PathBuf {
 #[test]
 fn every_option_with_a_counterpart_is_taken_over() {
     let project = project(&fs::read_to_string(fixture()).expect("a fixture"));
-    let left: Vec<&str> = project.left.iter().map(|warning| warning.message.as_str()).collect();
+    let left: Vec<String> = project.left.iter().map(Warning::text).collect();
     assert!(left[0].starts_with("`drills-available`: a drill without tolerances"), "{left:?}");
     assert_eq!(
         &left[1..],
@@ -159,7 +159,7 @@ fn corners_names_and_tool_changes_are_as_the_project_says() {
     );
     let names: Vec<_> = named.options.output_name.iter().map(ToString::to_string).collect();
     assert_eq!(names, ["back=below.ngc"], "the last says it");
-    let left: Vec<_> = named.left.iter().map(|warning| warning.message.as_str()).collect();
+    let left: Vec<_> = named.left.iter().map(Warning::text).collect();
     assert_eq!(
         left,
         [
@@ -214,7 +214,7 @@ fn construct(name: &str) -> Result<MillProject, Error> {
 
 /// What is told of a project.
 fn told(project: &MillProject) -> String {
-    project.left.iter().map(|warning| format!("{}\n", warning.message)).collect()
+    project.left.iter().map(|warning| format!("{}\n", warning.text())).collect()
 }
 
 #[test]
@@ -479,7 +479,7 @@ fn fate(path: &Path) -> Fate {
     if bytes <= if cfg!(debug_assertions) { 2_500 } else { 30_000 } {
         // An outline file that draws nothing, or does not close, is warned of: nothing is cut out.
         let has_edge = loaded.board.outline.is_some();
-        let is_said = |warning: &Warning| matches!(warning.code, "outline-empty" | "outline-open");
+        let is_said = |warning: &Warning| matches!(warning.code(), "outline-empty" | "outline-open");
         assert!(
             has_edge || loaded.warnings.iter().any(is_said) || files.outline.is_none(),
             "{path:?}: no edge, and no word of it"

@@ -49,7 +49,7 @@ struct Census {
 
 impl From<Loaded> for Census {
     fn from(loaded: Loaded) -> Self {
-        let mut warnings: Vec<_> = loaded.warnings.iter().map(|warning| warning.code).collect();
+        let mut warnings: Vec<_> = loaded.warnings.iter().map(|warning| warning.code()).collect();
         warnings.sort_unstable();
         Self {
             copper: [loaded.board.front.is_some(), loaded.board.back.is_some()]

@@ -13,9 +13,11 @@ fn said(name: &str, bytes: &[u8]) -> String {
     let path: PathBuf = folder.path().join(name);
     fs::write(&path, bytes).expect("written");
     match load(&[path], &Selection::default()) {
-        Ok(loaded) => {
-            loaded.warnings.iter().map(|warning| format!("{}: {}\n", warning.code, warning.message)).collect()
-        }
+        Ok(loaded) => loaded
+            .warnings
+            .iter()
+            .map(|warning| format!("{}: {}\n", warning.code(), warning.text()))
+            .collect(),
         Err(error) => error.to_string(),
     }
 }

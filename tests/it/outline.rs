@@ -45,7 +45,7 @@ fn areas(joined: &Joined) -> Vec<i64> {
 }
 
 fn codes(joined: &Joined) -> Vec<&'static str> {
-    joined.warnings.iter().map(|warning| warning.code).collect()
+    joined.warnings.iter().map(|warning| warning.code()).collect()
 }
 
 const SQUARE: [[i64; 4]; 4] =

@@ -142,7 +142,12 @@ fn colours_greys_and_clear_pixels_tell_copper_alike() {
 fn a_guess_of_the_colour_is_said_and_a_told_one_is_not() {
     let bytes = encoded(&grey(), ImageFormat::Png);
     let codes = |options: &Options| -> Vec<&str> {
-        read("board", &bytes, options).expect("a board").warnings.iter().map(|warning| warning.code).collect()
+        read("board", &bytes, options)
+            .expect("a board")
+            .warnings
+            .iter()
+            .map(|warning| warning.code())
+            .collect()
     };
     assert_eq!(codes(&OPTIONS), ["picture-colour-guessed"], "the rarer one");
     assert!(codes(&Options { colour: Colour::Light, ..OPTIONS }).is_empty(), "told");
@@ -189,7 +194,7 @@ fn specks_go_and_parts_are_read_where_asked_for() {
     let bytes = encoded(&picture.into(), ImageFormat::Png);
     let specked = read("board", &bytes, &OPTIONS).expect("a board");
     assert!(islands(&specked) > 20, "specks are islands");
-    assert!(specked.warnings.iter().any(|warning| warning.code == "picture-specks"), "and warned of");
+    assert!(specked.warnings.iter().any(|warning| warning.code() == "picture-specks"), "and warned of");
     let clean = read("board", &bytes, &Options { despeckle: 0.05, ..OPTIONS }).expect("a board");
     assert_eq!(islands(&clean), 4, "none is left");
     let part = Options { crop: Some([142, 0, 142, 130]), despeckle: 0.05, ..OPTIONS };

@@ -144,7 +144,7 @@ fn what_is_just_as_wide_as_the_tool_is_milled() {
     let hole = pocketed("hole", vec![disc(500)], "endmill:1mm", &how());
     check("hole", &hole);
     assert_eq!(hole.entries.straight, 1, "no room but to go straight down");
-    assert_eq!(hole.warnings.iter().map(|found| found.code).collect::<Vec<_>>(), ["plunge-straight-down"]);
+    assert_eq!(hole.warnings.iter().map(|found| found.code()).collect::<Vec<_>>(), ["plunge-straight-down"]);
 }
 
 #[test]

@@ -146,9 +146,9 @@ fn a_gap_narrower_than_the_kerf_is_listed_with_its_place_and_its_nets() {
     let mut settings = isolation(&tool, &placement, &machine);
     let (all, warnings) = isolate("", &forks(), &[], |_| Role::Cut, name, &settings);
     let [warning] = warnings.as_slice() else { panic!("one boundary is narrow: {warnings:?}") };
-    assert_eq!((warning.code, warning.at), ("gap-narrower-than-tool", Some(at(9000, 0))), "where it is");
+    assert_eq!((warning.code(), warning.at), ("gap-narrower-than-tool", Some(at(9000, 0))), "where it is");
     for part in ["GND and VCC", "120.0 µm of room", "153.6 µm", "16.8 µm"] {
-        assert!(warning.message.contains(part), "`{}` does not say `{part}`", warning.message);
+        assert!(warning.text().contains(part), "`{}` does not say `{part}`", warning.text());
     }
     settings.narrow = Narrow::Skip;
     let (wide, _) = isolate("", &forks(), &[], |_| Role::Cut, name, &settings);
@@ -250,7 +250,7 @@ fn the_cutter_stays_outside_the_board() {
 fn a_window_narrower_than_the_cutter_is_left_with_a_warning() {
     let (tool, placement) = (tool("endmill:12mm"), Placement::default());
     let (_, warnings) = cutout(&outline(), &cutting(&tool, &placement, 0));
-    assert_eq!(warnings.iter().map(|w| w.code).collect::<Vec<_>>(), ["cut-out-narrower-than-tool"], "one");
+    assert_eq!(warnings.iter().map(|w| w.code()).collect::<Vec<_>>(), ["cut-out-narrower-than-tool"], "one");
 }
 
 fn hole(x: i64, y: i64, diameter: i64, to: Option<Point>) -> Hole {
@@ -312,7 +312,7 @@ fn holes_go_to_the_nearest_drill_or_to_the_mill_or_to_a_warning() {
         "the plan"
     );
     assert_eq!(
-        warnings.iter().map(|w| (w.code, w.at)).collect::<Vec<_>>(),
+        warnings.iter().map(|w| (w.code(), w.at)).collect::<Vec<_>>(),
         [("no-drill-for-hole", Some(at(5000, 5000)))],
         "0.7 mm"
     );
@@ -371,7 +371,7 @@ fn a_program_that_the_machine_cannot_reach_is_warned_about() {
     };
     assert_eq!(program.check_travel(&reach(60)), None, "it fits");
     let warning = program.check_travel(&reach(40)).expect("too small");
-    assert_eq!(warning.code, "beyond-the-machine", "{}", warning.message);
+    assert_eq!(warning.code(), "beyond-the-machine", "{}", warning.message);
 }
 
 #[test]

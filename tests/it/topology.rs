@@ -395,7 +395,7 @@ fn two_names_on_one_island_are_a_warning_with_the_place_where_they_meet() {
     let nets = topology::recover(&copper, Method::Contact);
     let warnings = topology::names_check(&copper, &nets);
     assert_eq!(warnings.len(), 1, "{warnings:?}");
-    assert_eq!(warnings[0].code, "nets-joined", "by its stable name");
+    assert_eq!(warnings[0].code(), "nets-joined", "by its stable name");
     assert!(
         warnings[0].message.starts_with("AGND and GND are one island of copper (AGND meets GND at 0.0001"),
         "{}",

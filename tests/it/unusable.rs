@@ -39,7 +39,7 @@ fn skipping(name: &str) -> Selection {
 }
 
 fn codes(loaded: &Loaded) -> Vec<&'static str> {
-    loaded.warnings.iter().map(|warning| warning.code).collect()
+    loaded.warnings.iter().map(|warning| warning.code()).collect()
 }
 
 #[test]

@@ -243,7 +243,7 @@ fn two_nodes_that_pixels_see_as_one_are_two() {
             let nets = topology::recover(&copper, Method::Contact);
             let diagram = Diagram::new(&copper, &nets, None, &settings).expect("a diagram");
             let (found, warnings) = diagram.boundaries();
-            let unplaced = warnings.iter().find(|warning| warning.code == "boundary-not-placed");
+            let unplaced = warnings.iter().find(|warning| warning.code() == "boundary-not-placed");
             assert_eq!(unplaced, None, "{off} µm out, pixels of {pitch} nm");
             let (worst, at) = worst_point(&copper, &nets, &found, None);
             assert!(worst < 2_000.0, "{worst} nm off at {at:?}: {off} µm out, pixels of {pitch} nm");
@@ -698,7 +698,7 @@ fn what_is_merged_leaves_no_nets_joined() {
             let settings = Settings { limit, tolerance: Nm::from_um(20), ..Settings::default() };
             let diagram = Diagram::new(copper, nets, None, &settings).expect("a diagram");
             for (found, warnings) in [diagram.boundaries(), diagram.traced()] {
-                let some = warnings.iter().any(|warning| warning.code == "boundary-artifacts");
+                let some = warnings.iter().any(|warning| warning.code() == "boundary-artifacts");
                 merged.set(merged.get() + u32::from(some));
                 let joined = Flood::new(copper, nets, &found, window).joined();
                 prop_assert!(joined.is_none(), "{:?} are joined with {:?}: {:?}", joined, limit, warnings);

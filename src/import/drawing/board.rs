@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::told::{self, Part, Parts};
 use super::{Drawing, split};
 use crate::artwork::{self, Figure, Layer};
-use crate::board::{Attributes, Axis, Feature, Hole, Shape, Side, Source};
+use crate::board::{Attributes, Axis, Feature, Hole, Shape, Side, Source, Words};
 use crate::geometry::{Nm, Path as Course};
 use crate::import::archive::{Found, name_of, read_file};
 use crate::import::error::Error;
@@ -280,8 +280,8 @@ fn holes(build: &mut Build, named: &Named, figures: &[Figure]) {
 /// What a board must have.
 fn finish(build: &mut Build, file: &Found, need: Need) -> Result<(), Error> {
     let has_copper = build.board.front.is_some() || build.board.back.is_some();
-    let missing = [flaw::COPPER_MISSING.code, flaw::OUTLINE_MISSING.code, flaw::SIZE_IMPLAUSIBLE.code];
-    build.warnings.retain(|warning| !missing.contains(&warning.code));
+    let missing = [flaw::COPPER_MISSING, flaw::OUTLINE_MISSING, flaw::SIZE_IMPLAUSIBLE];
+    build.warnings.retain(|warning| !missing.contains(warning.kind));
     if !has_copper {
         build.warnings.push(flaw::COPPER_MISSING.warning("no copper layer is among the files"));
     }
@@ -293,7 +293,7 @@ fn finish(build: &mut Build, file: &Found, need: Need) -> Result<(), Error> {
     if need == Need::Job {
         build.refuse_size(&file.shown)?;
         if !has_copper && build.board.holes.is_empty() && build.board.outline.is_none() {
-            let hint = "name the layers of the drawing, or say --front, --outline or --drill";
+            let hint = Words::of("name the layers of the drawing, or say {front}, {outline} or {drill}");
             return Err(Error::content(&file.shown, "nothing of it can be milled", hint));
         }
     }

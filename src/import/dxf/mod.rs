@@ -29,7 +29,7 @@ use super::drawing::{Drawing, Options, Unit};
 use super::error::Error;
 use super::flaw;
 use crate::artwork::Artwork;
-use crate::board::Source;
+use crate::board::{Source, Words};
 use entity::{Refusal, Sheet};
 use file::Dxf;
 use pairs::{NoNumber, SENTINEL};
@@ -72,7 +72,7 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
         Refusal::NoNumber(NoNumber(place)) => no_number(name, bytes, place),
         Refusal::Beyond(at) => {
             let what = "an entity reaches farther than 1073 mm from zero";
-            let hint = "say how long a unit is with --unit, or draw nearer to zero";
+            let hint = Words::of("say how long a unit is with {unit}, or draw nearer to zero");
             Error::syntax(name, bytes, at..at + 1, what, "a place within 1073 mm", hint)
         }
         Refusal::TooMany => {
@@ -109,7 +109,7 @@ fn no_number(name: &str, bytes: &[u8], place: Range<usize>) -> Error {
 fn unit(name: &str, dxf: &Dxf<'_>, options: &Options) -> Result<Unit, Error> {
     options.unit.or(dxf.unit.map(|(unit, _)| unit)).ok_or_else(|| {
         let what = "the drawing does not say how long its unit is ($INSUNITS)";
-        Error::content(name, what, "say it: --unit mm, --unit in or --unit 0.1mm")
+        Error::content(name, what, Words::of("say it: {unit} mm, {unit} in or {unit} 0.1mm"))
     })
 }
 

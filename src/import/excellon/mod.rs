@@ -79,8 +79,8 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
     warn_of_size(&run, &mut warnings);
     for (number, (place, error)) in &run.broken {
         let what = match error {
-            Error::Syntax(diagnosis) => &diagnosis.what,
-            Error::Content { what, .. } => what,
+            Error::Syntax(diagnosis) => diagnosis.what.clone(),
+            Error::Content { what, .. } => what.to_string(),
         };
         let message = format!("{what}; nothing is drilled with tool T{number}, so it is left out");
         warnings.add(&flaw::MALFORMED_TOOL, place.clone(), message);

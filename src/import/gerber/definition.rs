@@ -38,7 +38,7 @@ impl<'a> Reader<'a> {
         for Malformed { place, error, .. } in std::mem::take(&mut self.malformed) {
             let what = match &error {
                 Error::Syntax(diagnosis) => diagnosis.what.clone(),
-                Error::Content { what, .. } => what.clone(),
+                Error::Content { what, .. } => what.to_string(),
             };
             let message = format!("{what}; nothing selects this aperture, so it is left out");
             self.warnings.add(&flaw::MALFORMED_APERTURE, place, message);

@@ -19,10 +19,11 @@ mod nest;
 
 use std::collections::BTreeMap;
 
+use crate::board::Diagnostic;
 use crate::board::{Axis, Feature, Outline, Shape, Warning};
 use crate::geometry::{Nm, Path, Point};
 use crate::import::error::{last_line, line, locate};
-use crate::import::flaw::{self, Flaw};
+use crate::import::flaw;
 use edge::Edge;
 
 /// How far apart two ends may lie and still be taken for one corner.
@@ -91,7 +92,7 @@ pub(in crate::import::outline) struct Notes<'a> {
 
 impl Notes<'_> {
     /// Without a place, the file as a whole is meant.
-    fn add(&mut self, flaw: &Flaw, message: impl Into<String>, place: Option<(Point, u32)>) {
+    fn add(&mut self, flaw: &'static Diagnostic, message: impl Into<String>, place: Option<(Point, u32)>) {
         let warning = flaw.warning(message);
         let (warning, bytes) = match place {
             Some((at, number)) => (warning.at(at), line(self.bytes, number)),

@@ -3,6 +3,7 @@
 //!
 //! The `image` crate reads the formats; sizes are judged before anything is decoded.
 
+use crate::board::Words;
 use std::io::Cursor;
 use std::path::Path;
 
@@ -129,8 +130,8 @@ fn cropped(name: &str, picture: &DynamicImage, part: [u32; 4]) -> Result<Dynamic
     let lies_within =
         |from: u32, count: u32, all: u32| count > 0 && from.checked_add(count).is_some_and(|end| end <= all);
     if !lies_within(left, columns, width) || !lies_within(top, rows, height) {
-        let what =
-            format!("--crop {left},{top},{columns},{rows} does not lie within its {width} × {height} pixels");
+        let what = Words::of("{crop} {0},{1},{2},{3} does not lie within its {4} × {5} pixels")
+            .with([&left, &top, &columns, &rows, &width, &height]);
         return Err(Error::content(
             name,
             what,

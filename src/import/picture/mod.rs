@@ -17,7 +17,9 @@ mod resolution;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use crate::board::{Attributes, Axis, Board, Copper, Feature, Hole, Shape, Side, Source, Warning, polarity};
+use crate::board::{
+    Attributes, Axis, Board, Copper, Feature, Hole, Shape, Side, Source, Warning, Words, polarity,
+};
 use crate::geometry::{Nm, Point, Polygon};
 use crate::vectorize::{self, Contour, Field, Inside, Level};
 
@@ -102,14 +104,19 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Picture, Erro
     let traced = vectorize::contours(&decoded.field, inside, MOST_POINTS);
     let contours = traced.filter(|contours| contours.len() <= MOST_CONTOURS).ok_or_else(|| {
         let what = "it has too many specks for artwork: noise, or a photo";
-        Error::content(name, what, "scan or draw the copper in two colours, or cut a part out with --crop")
+        Error::content(
+            name,
+            what,
+            Words::of("scan or draw the copper in two colours, or cut a part out with {crop}"),
+        )
     })?;
     let contours = scale.without_specks(contours, options.despeckle, &mut warnings);
     let (dots, contours) = dots::part(contours, &decoded.field, inside, &scale);
     let copper = straightened(&contours, &scale, tolerance(&decoded.field, &level));
     if copper.is_empty() {
-        let hint =
-            "tell which colour is copper with --copper dark or --copper light, or leave --despeckle out";
+        let hint = Words::of(
+            "tell which colour is copper with {copper} dark or {copper} light, or leave {despeckle} out",
+        );
         return Err(Error::content(name, "no copper is left of the picture", hint));
     }
     let feature =
@@ -164,7 +171,7 @@ fn two_colours(name: &str, field: &Field) -> Result<Level, Error> {
         return Err(Error::content(
             name,
             what,
-            "scan the artwork flat, in black and white, or cut shadows off with --crop",
+            Words::of("scan the artwork flat, in black and white, or cut shadows off with {crop}"),
         ));
     }
     Ok(level)
@@ -254,7 +261,9 @@ impl Scale {
             return Err(Error::content(
                 name,
                 "the picture does not say how large a pixel is",
-                "say it: --picture-dpi 600 (`mill` takes --dpi 600 too), or --picture-width 80mm for the whole picture",
+                Words::of(
+                    "say it: {picture-dpi} 600 (`mill` takes {dpi} 600 too), or {picture-width} 80mm for the whole picture",
+                ),
             ));
         };
         let scale = Self { pixel: (INCH / x, INCH / y), height: rows };
@@ -262,7 +271,7 @@ impl Scale {
         if width.max(height) > WIDEST {
             let what =
                 format!("at {x:.0} DPI the picture is {width:.0} × {height:.0} mm: no board is so large");
-            return Err(Error::content(name, what, "say how large a pixel is: --picture-dpi 600"));
+            return Err(Error::content(name, what, Words::of("say how large a pixel is: {picture-dpi} 600")));
         }
         Ok(scale)
     }
@@ -355,7 +364,7 @@ pub(super) fn board(paths: &[PathBuf], selection: &Selection) -> Result<Option<L
         (front, back) => (front.as_ref(), back.as_ref()),
     };
     if let Some(open) = pictures.iter().find(|path| front != Some(**path) && back != Some(**path)) {
-        let hint = "name the picture of each side with --front and --back";
+        let hint = Words::of("name the picture of each side with {front} and {back}");
         return Err(Error::content(
             &open.display().to_string(),
             "nothing tells which side this picture shows",

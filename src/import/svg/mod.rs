@@ -28,7 +28,7 @@ use super::drawing::{Drawing, Options};
 use super::error::Error;
 use super::flaw;
 use crate::artwork::Artwork;
-use crate::board::Source;
+use crate::board::{Source, Words};
 use document::Document;
 use size::Size;
 
@@ -74,9 +74,9 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
     if painted.layers.iter().all(|layer| layer.figures.is_empty()) {
         let why = if left_out.is_empty() { String::new() } else { format!(": {}", left_out.join(", ")) };
         let hint = if document.texts > 0 && options.fonts.is_empty() {
-            "name a font for its texts with --font FILE, or turn them into paths"
+            Words::of("name a font for its texts with {font} FILE, or turn them into paths")
         } else {
-            "check that the drawing has visible paths"
+            Words::of("check that the drawing has visible paths")
         };
         return Err(Error::content(name, format!("nothing is drawn in the SVG{why}"), hint));
     }
@@ -108,7 +108,7 @@ fn settings<'a>(name: &str, options: &Options) -> Result<usvg::Options<'a>, Erro
         let before = fonts.len();
         fonts.load_font_data(font.as_ref().clone());
         if fonts.len() == before {
-            let what = "a file named with --font is no font";
+            let what = Words::of("a file named with {font} is no font");
             return Err(Error::content(name, what, "name a TrueType or OpenType font"));
         }
     }

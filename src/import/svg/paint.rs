@@ -1,5 +1,6 @@
 //! Resolved paths → figures: fills and strokes, in the order in which they are painted.
 
+use crate::board::Words;
 use std::collections::BTreeMap;
 
 use usvg::tiny_skia_path::{self, PathSegment};
@@ -76,12 +77,15 @@ impl Painted {
         let all = [
             (document.hidden, "hidden elements", "1 hidden element"),
             (self.unpainted, "paths without fill and stroke", "1 path without fill and stroke"),
-            (texts, "texts, for which --font names no font", "1 text, for which --font names no font"),
+            (texts, "texts, for which {font} names no font", "1 text, for which {font} names no font"),
             (document.images, "images", "1 image"),
         ];
         let present = all.into_iter().filter(|(count, ..)| *count > 0);
         present
-            .map(|(count, many, one)| if count == 1 { one.to_owned() } else { format!("{count} {many}") })
+            .map(|(count, many, one)| match count {
+                1 => Words::of(one).to_string(),
+                _ => format!("{count} {}", Words::of(many)),
+            })
             .collect()
     }
 
@@ -257,7 +261,11 @@ impl Shape<'_> {
         });
         finished.collect::<Option<Vec<_>>>().ok_or_else(|| {
             let what = "a path reaches farther than 1073 mm from the corner of the page";
-            Error::content(self.scope.name, what, "say how long its unit is with --unit, or draw it nearer")
+            Error::content(
+                self.scope.name,
+                what,
+                Words::of("say how long its unit is with {unit}, or draw it nearer"),
+            )
         })
     }
 }

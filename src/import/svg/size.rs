@@ -2,7 +2,7 @@
 
 use usvg::roxmltree;
 
-use crate::board::Warning;
+use crate::board::{Warning, Words};
 use crate::import::drawing::{Options, Place, Unit};
 use crate::import::error::Error;
 use crate::import::flaw;
@@ -53,7 +53,8 @@ impl Size {
         };
         if !sizes.iter().any(is_plain) {
             let what = "the drawing does not say how large it is: its page has no width in mm, in or px";
-            let hint = "say how long its unit is: --unit mm, --unit in, --unit 0.1mm or --unit 90dpi";
+            let hint =
+                Words::of("say how long its unit is: {unit} mm, {unit} in, {unit} 0.1mm or {unit} 90dpi");
             return Err(Error::content(name, what, hint));
         }
         let message = "the page has a width without a unit: it is taken for pixels of 1/96 inch";

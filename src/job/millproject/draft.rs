@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::board::{SourceSpan, Warning};
+use crate::board::diagnostic::planning;
+use crate::board::{Sentence, SourceSpan, Words};
 use crate::gcode::dialect::Blend;
 use crate::geometry::Nm;
 use crate::job::choice::{DialectChoice, DrillSide, Origin};
@@ -223,7 +224,7 @@ impl<'a> Draft<'a> {
                     return Err(entry.wrong("a length of zero or more"));
                 }
                 if diameter == Nm::ZERO {
-                    self.leave(entry, "a cutter has a width: that of --cutout-tool is taken");
+                    self.leave(entry, Words::of("a cutter has a width: that of {cutout-tool} is taken"));
                 } else {
                     cutting.cutter.kind = ToolKind::EndMill { diameter };
                 }
@@ -325,7 +326,7 @@ impl<'a> Draft<'a> {
             "software" => match entry.value.to_ascii_lowercase().as_str() {
                 "linuxcnc" => options.dialect = "linuxcnc".parse::<DialectChoice>().ok(),
                 name @ ("mach3" | "mach4") => options.dialect = name.parse::<DialectChoice>().ok(),
-                _ => self.leave(entry, "--dialect names the controller"),
+                _ => self.leave(entry, Words::of("{dialect} names the controller")),
             },
             _ => return Ok(false),
         }
@@ -415,22 +416,21 @@ impl<'a> Draft<'a> {
     }
 
     /// Notes an option that is not taken over.
-    pub(super) fn leave(&mut self, entry: &Entry<'_>, why: &str) {
-        let message = format!("`{}` is not taken over: {why}", entry.name);
-        self.note(entry, message);
+    pub(super) fn leave(&mut self, entry: &Entry<'_>, why: impl Into<Sentence>) {
+        let message = format!("`{}` is not taken over", entry.name);
+        self.note(entry, message, why.into());
     }
 
     /// Notes what a person must know of an option that is.
-    pub(super) fn advise(&mut self, entry: &Entry<'_>, what: &str) {
-        let message = format!("`{}`: {what}", entry.name);
-        self.note(entry, message);
+    pub(super) fn advise(&mut self, entry: &Entry<'_>, what: impl Into<Sentence>) {
+        self.note(entry, format!("`{}`", entry.name), what.into());
     }
 
-    fn note(&mut self, entry: &Entry<'_>, message: String) {
+    fn note(&mut self, entry: &Entry<'_>, message: String, why: Sentence) {
         let text = format!("{} = {}", entry.name, entry.value);
         let line = u32::try_from(entry.line).unwrap_or(u32::MAX);
         let source = SourceSpan::of_line(self.file, line, &text);
-        self.made.left.push(Warning { source: Some(source), ..Warning::new("millproject-option", message) });
+        self.made.left.push(planning::MILLPROJECT_OPTION.warning(message).so(why).caused_by(source));
     }
 
     /// Where the board lies on the machine, and how often.

@@ -2,6 +2,7 @@
 //! that a person is told.
 
 use super::value::Entry;
+use crate::board::Words;
 
 /// The value at which an option asks for nothing, so that nothing is told of it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,13 +21,13 @@ enum Idle {
 const ORDER: &str = "voromill orders and joins its cuts its own way";
 /// What is written round the cuts.
 const FRAME: &str =
-    "--before and --after say what stands before and after a program, and nothing stands between cuts";
+    "{before} and {after} say what stands before and after a program, and nothing stands between cuts";
 
 /// The options that are only told of, in the order of their names.
 const LEFT: &[(&str, Idle, &str)] = &[
     ("backtrack", Idle::Zero, ORDER),
     ("config", Idle::Never, "one project is read"),
-    ("dpi", Idle::Never, "copper is exact; --pixel and --dpi are of the picture that finds the boundaries"),
+    ("dpi", Idle::Never, "copper is exact; {pixel} and {dpi} are of the picture that finds the boundaries"),
     ("eulerian-paths", Idle::Never, ORDER),
     ("fill-outline", Idle::Set, "an outline is a contour or an area, as its file draws it"),
     ("g0-horizontal-speed", Idle::Never, ORDER),
@@ -38,8 +39,8 @@ const LEFT: &[(&str, Idle, &str)] = &[
     ("no-export", Idle::Unset, "`voromill draw` and `voromill inspect` show a board and write no programs"),
     ("nog81", Idle::Set, "holes are drilled with G0 and G1"),
     ("nog91-1", Idle::Unset, "the dialect says whether programs have G91.1"),
-    ("optimise", Idle::Zero, "--tolerance says how far a fitted cut may leave its place"),
-    ("optimize", Idle::Zero, "--tolerance says how far a fitted cut may leave its place"),
+    ("optimise", Idle::Zero, "{tolerance} says how far a fitted cut may leave its place"),
+    ("optimize", Idle::Zero, "{tolerance} says how far a fitted cut may leave its place"),
     ("outline-width", Idle::Never, "the middle of the outline's line is the board's edge"),
     ("path-finding-limit", Idle::Never, ORDER),
     ("post-milling-gcode", Idle::Never, FRAME),
@@ -47,14 +48,14 @@ const LEFT: &[(&str, Idle, &str)] = &[
     ("preamble-text", Idle::Never, "what a program says first is what to mount and where zero is"),
     ("preserve-thermal-reliefs", Idle::Unset, "gaps within a net are not cut"),
     ("spindown-time", Idle::Zero, "no program waits for a spindle to stop"),
-    ("svg", Idle::Never, "`--svg` writes pictures of both sides"),
+    ("svg", Idle::Never, "`{svg}` writes pictures of both sides"),
     ("tsp-2opt", Idle::Never, ORDER),
     ("vectorial", Idle::Set, "copper is always exact"),
 ];
 
 /// Why the option of this line is not taken over; an empty reason where the line asks for nothing,
 /// none for what is no such option.
-pub(super) fn reason(entry: &Entry<'_>) -> Option<&'static str> {
+pub(super) fn reason(entry: &Entry<'_>) -> Option<Words> {
     let (_, idle, reason) = LEFT.iter().find(|(name, ..)| *name == entry.name)?;
     let asks_nothing = match idle {
         Idle::Never => false,
@@ -62,7 +63,7 @@ pub(super) fn reason(entry: &Entry<'_>) -> Option<&'static str> {
         Idle::Set => matches!(entry.flag(), Ok(true)),
         Idle::Zero => is_zero(entry.value),
     };
-    Some(if asks_nothing { "" } else { reason })
+    Some(Words::of(if asks_nothing { "" } else { reason }))
 }
 
 /// Whether the number of a value is zero.
@@ -85,7 +86,7 @@ mod tests {
             ("fill-outline", "true"),
             ("vectorial", "1"),
         ] {
-            assert_eq!(reason(name, value), Some(""), "{name} = {value}");
+            assert_eq!(reason(name, value), Some(Words::of("")), "{name} = {value}");
         }
         for (name, value) in [("backtrack", "1000mm/s"), ("fill-outline", "0"), ("post-milling-gcode", "M5")]
         {

@@ -1,6 +1,7 @@
 //! What the lines of a project mean together: mills and how wide they clear, the cutter and its
 //! bridges, drills and what is bored.
 
+use crate::board::Words;
 use crate::gcode::dialect::ToolChange;
 use crate::geometry::Nm;
 use crate::job::Options;
@@ -240,7 +241,10 @@ impl Draft<'_> {
         let units = self.units;
         match (self.zchange, self.is_change_absolute) {
             (Some(_), Some(absolute)) => {
-                self.leave(&absolute, "heights count from work zero: zchange is left too, --park says where");
+                self.leave(
+                    &absolute,
+                    Words::of("heights count from work zero: zchange is left too, {park} says where"),
+                );
             }
             (Some(entry), None) => {
                 let height = Length(entry.length(units)?);
@@ -257,9 +261,10 @@ impl Draft<'_> {
                     Some(if holds { ToolChange::Pause } else { ToolChange::Files });
             }
             Some(_) => {}
-            None => {
-                self.advise(&entry, "the dialect says how tools are changed; --tool-change says another way")
-            }
+            None => self.advise(
+                &entry,
+                Words::of("the dialect says how tools are changed; {tool-change} says another way"),
+            ),
         }
         Ok(())
     }
@@ -269,14 +274,13 @@ impl Draft<'_> {
         for (entry, side) in [(self.probing.front, "front"), (self.probing.back, "back")] {
             let Some(entry) = entry else { continue };
             let grid = [self.probing.x, self.probing.y].into_iter().flatten().min();
-            let grid = grid.map_or(String::new(), |grid| format!(" --probe-grid {}", Length(grid)));
-            let feed = self.probing.feed.map_or(String::new(), |feed| format!(" --probe-feed {feed}"));
-            self.leave(
-                &entry,
-                &format!(
-                    "`voromill probe --side {side}{grid}{feed}` touches the board, `voromill level` bends the program to what it found (docs/levelling.md)"
-                ),
+            let grid = grid.map(|grid| Words::of(" {probe-grid} {0}").with([&Length(grid)]));
+            let feed = self.probing.feed.map(|feed| Words::of(" {probe-feed} {0}").with([&feed]));
+            let [grid, feed] = [grid, feed].map(Option::unwrap_or_default);
+            let why = Words::of(
+                "`voromill probe {side} {0}{1}{2}` touches the board, `voromill level` bends the program to what it found (docs/levelling.md)",
             );
+            self.leave(&entry, why.with([&side, &grid, &feed]));
         }
     }
 }

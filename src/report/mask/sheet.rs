@@ -3,7 +3,10 @@
 use std::collections::BTreeMap;
 use std::fmt;
 
-use crate::board::{Axis, Board, Copper, FLATTEN, Feature, Outline, Shape, Side, Warning, polarity};
+use crate::board::diagnostic::planning;
+use crate::board::{
+    Axis, Board, Copper, Diagnostic, FLATTEN, Feature, Outline, Shape, Side, Warning, polarity,
+};
 use crate::geometry::{Nm, Path, Point, Polygon, Rect, Segment};
 use crate::topology::{NetId, Nets};
 use crate::voronoi::{Boundaries, Boundary};
@@ -209,11 +212,12 @@ fn owners(regions: &[Polygon], copper: &Copper, nets: &Nets) -> (Vec<Option<NetI
         let anchors = nets.nets()[id.index()].features.iter();
         let mut anchors = anchors.map(|&feature| copper.features[feature as usize].shape.anchor());
         let first = anchors.clone().next().unwrap_or_default();
-        let warn = |code, message: String| Warning::new(code, message).at(first).on(copper.side);
+        let warn =
+            |kind: &'static Diagnostic, message: String| kind.warning(message).at(first).on(copper.side);
         match anchors.find_map(find) {
             None => {
                 let message = format!("{} is left no region: --gap takes all of it", nets.label(id));
-                warnings.push(warn("mask-net-without-region", message));
+                warnings.push(warn(&planning::MASK_NET_WITHOUT_REGION, message));
             }
             Some(at) => match owners[at] {
                 None => owners[at] = Some(id),
@@ -223,7 +227,7 @@ fn owners(regions: &[Polygon], copper: &Copper, nets: &Nets) -> (Vec<Option<NetI
                         nets.label(other),
                         nets.label(id)
                     );
-                    warnings.push(warn("mask-regions-joined", message));
+                    warnings.push(warn(&planning::MASK_REGIONS_JOINED, message));
                 }
             },
         }
@@ -263,7 +267,7 @@ fn narrow<'a>(boundaries: impl Iterator<Item = &'a Boundary>, gap: Nm, side: Sid
          of it",
         room * 2
     );
-    Some(Warning::new("mask-gap-takes-copper", message).at(at).on(side))
+    Some(planning::MASK_GAP_TAKES_COPPER.warning(message).at(at).on(side))
 }
 
 /// The area that regions part where the board has this `outline`, or else this `frame`.

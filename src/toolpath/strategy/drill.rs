@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::bore;
+use crate::board::diagnostic::planning;
 use crate::board::{Hole, Warning};
 use crate::geometry::{Nm, Path, Point, Segment, Vector};
 use crate::toolpath::head::Head;
@@ -102,7 +103,7 @@ fn bit(hole: &Hole, settings: &Drilling<'_>) -> Option<Tool> {
 /// The warning for a hole that no drill fits.
 fn missing(hole: &Hole) -> Warning {
     let message = format!("no drill at hand is near {:.3} mm: the hole is left", hole.diameter);
-    Warning::new("no-drill-for-hole", message).at(hole.path.start)
+    planning::NO_DRILL_FOR_HOLE.warning(message).at(hole.path.start)
 }
 
 /// All holes of one drill.

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use crate::board::Warning;
+use crate::board::diagnostic::planning;
 use crate::geometry::{Nm, Path, Point, Segment};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
@@ -174,12 +175,13 @@ fn contention(
     };
     // The room is the gap where the cut is midway between copper. Along core axes it is not.
     let message = format!(
-        "the cut between {left} and {right} has {:.1} µm of room, less than its kerf of {:.1} µm: {done}",
+        "the cut between {left} and {right} has {:.1} µm of room, less than its kerf of {:.1} µm",
         micrometres(clearance * 2),
         micrometres(kerf),
     );
     let size = (narrow == Narrow::Centre).then_some(lost);
-    Some(Warning { size, ..Warning::new("gap-narrower-than-tool", message).at(at) })
+    let warning = planning::GAP_NARROWER_THAN_TOOL.warning(message).so(done).about([left, right]).at(at);
+    Some(Warning { size, ..warning })
 }
 
 /// For display.

@@ -13,11 +13,14 @@
 
 mod milled;
 
+use crate::board::Diagnostic;
+use crate::board::diagnostic::planning;
 use rayon::prelude::*;
 
+use super::check;
 use super::cutter::Cutter;
 use super::edges::Edges;
-use super::report::{Finding, Severity};
+use super::report::Finding;
 use super::{Error, ReadError};
 use crate::gcode::read::{self, Listing, Way};
 use crate::geometry::{Nm, Point, Polygon, Rect};
@@ -131,9 +134,9 @@ pub(super) fn followed(programs: &[Text<'_>]) -> Result<Vec<(Listing, Cutter)>, 
 /// What harms the machine or the work whatever is carved.
 pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
     let mut findings: Vec<Finding> = Vec::new();
-    let mut say = |name: &'static str, message: &str, line: u32, at: Option<Point>| {
-        if findings.iter().all(|finding| finding.name != name) {
-            let found = Finding::new(name, Severity::Error, message.to_owned());
+    let mut say = |kind: &Diagnostic, message: &str, line: u32, at: Option<Point>| {
+        if findings.iter().all(|finding| finding.name != kind.code) {
+            let found = Finding::new(kind.code, kind.severity, message.to_owned());
             findings.push(Finding { line: Some(line), at, ..found });
         }
     };
@@ -146,13 +149,13 @@ pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
         let at = motion.to.point();
         let lifts = motion.from.point() == at && motion.to.z > motion.from.z;
         if motion.way == Way::Rapid && !lifts {
-            say("rapid-in-material", "a rapid goes through what is to be carved", motion.line, at);
+            say(&check::RAPID_IN_MATERIAL, "a rapid goes through what is to be carved", motion.line, at);
         }
         if motion.way != Way::Rapid && motion.feed.is_none() {
-            say("feed-missing", "it cuts before any feed is given", motion.line, at);
+            say(&check::FEED_MISSING, "it cuts before any feed is given", motion.line, at);
         }
         if !motion.spindle.turns() {
-            say("plunge-spindle-off", "it cuts with the spindle off", motion.line, at);
+            say(&check::PLUNGE_SPINDLE_OFF, "it cuts with the spindle off", motion.line, at);
         }
     }
     findings
@@ -294,18 +297,22 @@ fn sum_up(rows: Vec<Row>, beyond: Option<Off>, ideal: &Ideal<'_>) -> Carved {
     carved
 }
 
-/// A name, which places it is said of, and what is wrong there.
-type Kind = (&'static str, fn(&Off) -> bool, &'static str);
+/// A kind, which places it is said of, and what is wrong there.
+type Kind = (&'static Diagnostic, fn(&Off) -> bool, &'static str);
 
 /// The worst places of each kind, none near another.
 fn findings(off: &[Off]) -> Vec<Finding> {
     let kinds: [Kind; 3] = [
-        ("carved-outside", |off| !off.inside, "it mills what lies beside the areas"),
-        ("carved-too-deep", |off| off.inside && off.by > 0.0, "it mills deeper than the areas are wide"),
-        ("carved-too-shallow", |off| off.by < 0.0, "it leaves what its tool could mill"),
+        (&planning::CARVED_OUTSIDE, |off| !off.inside, "it mills what lies beside the areas"),
+        (
+            &planning::CARVED_TOO_DEEP,
+            |off| off.inside && off.by > 0.0,
+            "it mills deeper than the areas are wide",
+        ),
+        (&planning::CARVED_TOO_SHALLOW, |off| off.by < 0.0, "it leaves what its tool could mill"),
     ];
     let mut findings = Vec::new();
-    for (name, is_one, what) in kinds {
+    for (kind, is_one, what) in kinds {
         let mut listed: Vec<(f64, f64)> = Vec::new();
         for found in off.iter().filter(|off| is_one(off)) {
             let near = |&(x, y): &(f64, f64)| (x - found.at.0).abs().max((y - found.at.1).abs()) < APART;
@@ -316,7 +323,7 @@ fn findings(off: &[Off]) -> Vec<Finding> {
             let by = Nm::from_f64(found.by.abs());
             let message = format!("{what}, by {:.1} µm", by.to_f64() / 1_000.0);
             let at = Some(Point::from_f64(found.at.0, found.at.1));
-            findings.push(Finding { at, size: Some(by), ..Finding::new(name, Severity::Error, message) });
+            findings.push(Finding { at, size: Some(by), ..Finding::new(kind.code, kind.severity, message) });
             if listed.len() == MOST_LISTED {
                 break;
             }

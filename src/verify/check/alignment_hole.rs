@@ -13,7 +13,7 @@
 //! How thick what lies under the board is, and whether the holes lie on the line about which the
 //! board is turned over.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, FLATTEN};
 use crate::geometry::{Nm, Point};
 use crate::verify::Settings;
@@ -21,13 +21,16 @@ use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Cut;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "an alignment hole that holds no pin",
-    cost: "a pin does not stand, and the back is not milled in register with the front",
-    cure: "drill deeper (--alignment-depth), or farther from the board (--alignment-margin)",
-    run: Run::Alignment(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("an alignment hole that holds no pin"),
+    effect: Words::of("a pin does not stand, and the back is not milled in register with the front"),
+    advice: Words::of("drill deeper ({alignment-depth}), or farther from the board ({alignment-margin})"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Alignment(check) };
 
 const NAME: &str = "alignment-hole";
 

@@ -14,7 +14,7 @@
 
 use std::collections::BTreeSet;
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, Shape};
 use crate::geometry::Nm;
 use crate::topology::{Method, NetId, Proximity, recover};
@@ -22,13 +22,16 @@ use crate::verify::Settings;
 use crate::verify::contours::{Contours, Taken};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a cutout that cuts into the board",
-    cost: "the board loses a part of its edge, and maybe copper",
-    cure: "check the cutter (--cutout-tool) and the offset of the program",
-    run: Run::Cutout(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a cutout that cuts into the board"),
+    effect: Words::of("the board loses a part of its edge, and maybe copper"),
+    advice: Words::of("check the cutter ({cutout-tool}) and the offset of the program"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
 
 const NAME: &str = "board-gouged";
 

@@ -14,20 +14,23 @@
 //! In programs that do not say how wide their tabs are, stretches up to 10 mm may be tabs. Inner
 //! corners keep the round that the cutter leaves.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
 use crate::verify::contours::{Contours, Ring, State, Stretch};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "an edge that is not cut, or too far out",
-    cost: "the board stays too large, or hangs on the stock",
-    cure: "check the cutter (--cutout-tool), and that the outline is closed",
-    run: Run::Cutout(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("an edge that is not cut, or too far out"),
+    effect: Words::of("the board stays too large, or hangs on the stock"),
+    advice: Words::of("check the cutter ({cutout-tool}), and that the outline is closed"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
 
 const NAME: &str = "board-left";
 

@@ -10,19 +10,24 @@
 //!
 //! Nets of which a useless rest is left; `gouge` tells of them.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::topology::NetId;
 use crate::verify::remains::Rest;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a net milled away",
-    cost: "all copper of a net is gone",
-    cure: "check tool, offset and scale of the program; a net narrower than the kerf needs a narrower tool",
-    run: Run::Isolation(|sheet, _| check(sheet)),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a net milled away"),
+    effect: Words::of("all copper of a net is gone"),
+    advice: Words::of(
+        "check tool, offset and scale of the program; a net narrower than the kerf needs a narrower tool",
+    ),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet, _| check(sheet)) };
 
 const NAME: &str = "destroyed";
 

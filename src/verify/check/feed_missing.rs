@@ -11,17 +11,20 @@
 //!
 //! Feeds that are given but absurd.
 
-use super::{Check, Run, Severity, Wrong, each_stretch};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a motion at a feed that was never given",
-    cost: "the controller stops with an error, or moves at a speed that nobody chose",
-    cure: "give a feed (F) with the first cut (--feed)",
-
-    run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)),
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a motion at a feed that was never given"),
+    effect: Words::of("the controller stops with an error, or moves at a speed that nobody chose"),
+    advice: Words::of("give a feed (F) with the first cut ({feed})"),
 };
+
+pub(super) const CHECK: Check =
+    Check { kind: &KIND, run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)) };
 
 const NAME: &str = "feed-missing";
 

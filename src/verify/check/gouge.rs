@@ -22,7 +22,7 @@
 
 use rayon::prelude::*;
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::geometry::{Nm, Point, Rect};
 use crate::topology::NetId;
 use crate::verify::Settings;
@@ -34,13 +34,21 @@ use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::width::{Width, narrowest};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "copper of the design cut away",
-    cost: "a trace or pad loses copper: it carries less current, and may come off when it is soldered",
-    cure: "use a narrower tool, or with a V-bit the --kerf that fits; --narrow skip leaves such a gap uncut, and its nets joined",
-    run: Run::Isolation(check),
+/// Copper that is milled though it should stay.
+pub const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("copper of the design cut away"),
+    effect: Words::of(
+        "a trace or pad loses copper: it carries less current, and may come off when it is soldered",
+    ),
+    advice: Words::of(
+        "use a narrower tool, or with a V-bit the {kerf} that fits; {narrow} skip leaves such a gap uncut, and its nets joined",
+    ),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(check) };
 
 const NAME: &str = "gouge";
 

@@ -11,20 +11,25 @@
 //!
 //! Stock that is thicker than was told (`--thickness`), or does not lie flat.
 
-use super::{Check, Run, Severity, hole};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, hole};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
 use crate::verify::bores::{Bore, Bores, Made};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a hole that does not go through the board",
-    cost: "the hole does not go through the board",
-    cure: "drill deeper (--break-through, --drill-depth), or say how thick the board is (--thickness)",
-    run: Run::Drilling(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a hole that does not go through the board"),
+    effect: Words::of("the hole does not go through the board"),
+    advice: Words::of(
+        "drill deeper ({break-through}, {drill-depth}), or say how thick the board is ({thickness})",
+    ),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Drilling(check) };
 
 const NAME: &str = "hole-depth";
 

@@ -10,20 +10,23 @@
 //!
 //! What is less deep than the copper is thick.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, Shape};
 use crate::verify::Settings;
 use crate::verify::bores::Bores;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Cut;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a hole that the board has not",
-    cost: "a hole that the design does not have may cut a trace",
-    cure: "check that the program belongs to this board, and its offset",
-    run: Run::Drilling(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a hole that the board has not"),
+    effect: Words::of("a hole that the design does not have may cut a trace"),
+    advice: Words::of("check that the program belongs to this board, and its offset"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Drilling(check) };
 
 const NAME: &str = "hole-extra";
 

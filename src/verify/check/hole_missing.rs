@@ -10,19 +10,22 @@
 //!
 //! How well: place, size and depth are for `hole-place`, `hole-size` and `hole-depth` to say.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, Hole};
 use crate::verify::Settings;
 use crate::verify::bores::Bores;
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a hole that is not drilled",
-    cost: "a part does not fit, or a via is missing",
-    cure: "mill the drill programs too, or name the drill file (--drill)",
-    run: Run::Drilling(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a hole that is not drilled"),
+    effect: Words::of("a part does not fit, or a via is missing"),
+    advice: Words::of("mill the drill programs too, or name the drill file ({drill})"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Drilling(check) };
 
 const NAME: &str = "hole-missing";
 

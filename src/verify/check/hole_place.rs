@@ -11,20 +11,23 @@
 //!
 //! Slots: what is off in them is a wrong size, at one end or one side.
 
-use super::{Check, Run, Severity, hole};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, hole};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
 use crate::verify::bores::{Bore, Bores, Made};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a hole beside its place",
-    cost: "pins do not fit, and the pad round the hole is broken",
-    cure: "check offset, mirror axis and scale of the program",
-    run: Run::Drilling(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a hole beside its place"),
+    effect: Words::of("pins do not fit, and the pad round the hole is broken"),
+    advice: Words::of("check offset, mirror axis and scale of the program"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Drilling(check) };
 
 const NAME: &str = "hole-place";
 

@@ -10,20 +10,25 @@
 //!
 //! Which drill is really in the spindle. Plating, which makes holes narrower, is not counted.
 
-use super::{Check, Run, Severity, hole};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, hole};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
 use crate::verify::bores::{Bore, Bores, Made};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a hole or slot of another size",
-    cost: "pins do not fit, or the pad is drilled away",
-    cure: "choose another drill (--drills, --drill-tolerance), or bore the hole (--drill-bore-from)",
-    run: Run::Drilling(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a hole or slot of another size"),
+    effect: Words::of("pins do not fit, or the pad is drilled away"),
+    advice: Words::of(
+        "choose another drill ({drills}, {drill-tolerance}), or bore the hole ({drill-bore-from})",
+    ),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Drilling(check) };
 
 const NAME: &str = "hole-size";
 

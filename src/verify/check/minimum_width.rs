@@ -19,7 +19,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::topology::NetId;
 use crate::verify::Settings;
 use crate::verify::hit::Hit;
@@ -27,13 +27,16 @@ use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::width::{Width, narrowest};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a net left with less than half its width",
-    cost: "a trace keeps less than half of its width: it carries less current and breaks easily",
-    cure: "use a narrower tool, or a smaller --depth with a V-bit",
-    run: Run::Isolation(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Warning,
+    what: Words::of("a net left with less than half its width"),
+    effect: Words::of("a trace keeps less than half of its width: it carries less current and breaks easily"),
+    advice: Words::of("use a narrower tool, or a smaller {depth} with a V-bit"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(check) };
 
 const NAME: &str = "minimum-width";
 

@@ -31,7 +31,13 @@ mod tab_thin;
 mod too_deep;
 mod unclear;
 
-use crate::board::{Board, Shape};
+pub(super) use feed_missing::KIND as FEED_MISSING;
+pub use gouge::KIND as GOUGE;
+pub(super) use plunge_spindle_off::KIND as PLUNGE_SPINDLE_OFF;
+pub(super) use rapid_in_material::KIND as RAPID_IN_MATERIAL;
+
+use crate::board::diagnostic::Stage;
+use crate::board::{Board, Diagnostic, Shape, Words};
 use crate::gcode::read::Motion;
 use crate::geometry::{Nm, Point};
 
@@ -44,14 +50,8 @@ use super::{Input, Program, Role, Settings, Severity};
 
 /// A thing that is looked for.
 pub struct Check {
-    /// Its stable name, which its findings carry.
-    pub name: &'static str,
-    /// What it finds, in a line.
-    pub about: &'static str,
-    /// What that does to the board, the tool or the machine.
-    pub cost: &'static str,
-    /// What to try.
-    pub cure: &'static str,
+    /// What it finds: the code of its findings, what it does to the board, what to try.
+    pub kind: &'static Diagnostic,
     run: Run,
 }
 
@@ -110,7 +110,7 @@ pub const ALL: &[Check] = &[
 /// The check of this name.
 #[must_use]
 pub fn of(name: &str) -> Option<&'static Check> {
-    ALL.iter().find(|check| check.name == name)
+    ALL.iter().find(|check| check.kind.code == name)
 }
 
 /// The checks of any program.

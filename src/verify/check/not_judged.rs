@@ -11,18 +11,20 @@
 //!
 //! Nothing: it only tells of budgets that ended.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "cuts so crowded that not all was looked at",
-    cost: "nobody knows what became of the copper there",
-    cure: "look at the program: it cuts the same places hundreds of times",
-
-    run: Run::Isolation(|sheet, _| check(sheet)),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Warning,
+    what: Words::of("cuts so crowded that not all was looked at"),
+    effect: Words::of("nobody knows what became of the copper there"),
+    advice: Words::of("look at the program: it cuts the same places hundreds of times"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet, _| check(sheet)) };
 
 const NAME: &str = "not-judged";
 

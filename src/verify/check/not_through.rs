@@ -10,19 +10,22 @@
 //!
 //! Stock that is thicker than was told (`--thickness`), or does not lie flat.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Board;
 use crate::verify::Settings;
 use crate::verify::contours::{Contours, Ring, State, Stretch};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "an edge that is not cut through the board",
-    cost: "the board does not come out of the stock",
-    cure: "cut deeper (--cutout-depth), or say how thick the board is (--thickness)",
-    run: Run::Cutout(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("an edge that is not cut through the board"),
+    effect: Words::of("the board does not come out of the stock"),
+    advice: Words::of("cut deeper ({cutout-depth}), or say how thick the board is ({thickness})"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
 
 const NAME: &str = "not-through";
 

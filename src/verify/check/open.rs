@@ -12,7 +12,7 @@
 //! A net cut in two whose parts stay joined through clad beside it: those conduct, and count as
 //! one. A hair of copper that holds two parts together counts too; `minimum-width` tells of it.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::topology::{NetId, Proximity};
@@ -20,13 +20,18 @@ use crate::verify::remains::{Remnant, Rest};
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a net cut in two",
-    cost: "a net is interrupted: one part of it is not connected to the other",
-    cure: "use a narrower tool, or a smaller --depth with a V-bit; of another's program check tool and offset",
-    run: Run::Isolation(|sheet, _| check(sheet)),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a net cut in two"),
+    effect: Words::of("a net is interrupted: one part of it is not connected to the other"),
+    advice: Words::of(
+        "use a narrower tool, or a smaller {depth} with a V-bit; of another's program check tool and offset",
+    ),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet, _| check(sheet)) };
 
 const NAME: &str = "open";
 

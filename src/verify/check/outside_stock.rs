@@ -11,20 +11,23 @@
 //!
 //! Stock that is smaller than it was told.
 
-use super::{Check, Run, Severity, Wrong, each_stretch};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a cut beyond the stock",
-    cost: "the tool may cut the bed or a clamp",
-    cure: "check unit, origin and offset of the program (--origin, --offset)",
-    run: Run::Motion(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a cut beyond the stock"),
+    effect: Words::of("the tool may cut the bed or a clamp"),
+    advice: Words::of("check unit, origin and offset of the program ({origin}, {offset})"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(check) };
 
 const NAME: &str = "outside-stock";
 

@@ -12,21 +12,24 @@
 //! Where on the table zero lies: a program that fits may still begin too near to an end. Motions to
 //! places that the program does not give are refused by the reader.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::{Arc, Nm};
 use crate::verify::Settings;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a program that spans more than the machine can travel",
-    cost: "the machine runs into its end stops",
-    cure: "turn the board (--rotate 90deg), or mill fewer tiles at once (--tile)",
-
-    run: Run::Motion(|program, _, settings| check(program, settings)),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a program that spans more than the machine can travel"),
+    effect: Words::of("the machine runs into its end stops"),
+    advice: Words::of("turn the board ({rotate} 90deg), or mill fewer tiles at once ({tile})"),
 };
+
+pub(super) const CHECK: Check =
+    Check { kind: &KIND, run: Run::Motion(|program, _, settings| check(program, settings)) };
 
 const NAME: &str = "overtravel";
 

@@ -10,18 +10,21 @@
 //!
 //! Whether the spindle is up to speed: see the dwell after M3 yourself. Spindles switched by hand.
 
-use super::{Check, Run, Severity, Wrong, each_stretch};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "the tool is in material while the spindle is off",
-    cost: "a tool that does not turn is pressed into the board: it breaks",
-    cure: "start the spindle (M3 S…) before the first plunge",
-
-    run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)),
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("the tool is in material while the spindle is off"),
+    effect: Words::of("a tool that does not turn is pressed into the board: it breaks"),
+    advice: Words::of("start the spindle (M3 S…) before the first plunge"),
 };
+
+pub(super) const CHECK: Check =
+    Check { kind: &KIND, run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)) };
 
 const NAME: &str = "plunge-spindle-off";
 

@@ -12,18 +12,21 @@
 //!
 //! Programs that were named one by one: somebody chose them.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, Side};
 use crate::verify::report::Finding;
 use crate::verify::{Role, Settings};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a side, drill or cutout that nobody wrote",
-    cost: "the board is not finished",
-    cure: "make the missing program, or leave the layer aside with --skip",
-    run: Run::Whole(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a side, drill or cutout that nobody wrote"),
+    effect: Words::of("the board is not finished"),
+    advice: Words::of("make the missing program, or leave the layer aside with {skip}"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Whole(check) };
 
 const NAME: &str = "program-missing";
 

@@ -11,15 +11,21 @@
 //!
 //! Rapids before the program's first height; clamps and screws, which nobody has told it of.
 
-use super::{Check, Run, Severity, Wrong, each_stretch};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a rapid through material, or just above it"),
+    effect: Words::of("the tool is driven through material at full speed: it breaks"),
+    advice: Words::of("retract before each rapid, higher than the surface ({safe-z})"),
+};
+
 pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a rapid through material, or just above it",
-    cost: "the tool is driven through material at full speed: it breaks",
-    cure: "retract before each rapid, higher than the surface (--safe-z)",
+    kind: &KIND,
 
     run: Run::Motion(|program, _, settings| {
         each_stretch(program, NAME, |motion| wrong(motion, settings.clearance))

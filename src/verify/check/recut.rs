@@ -15,19 +15,22 @@
 
 use rayon::prelude::*;
 
-use super::{Check, Run, Severity, along};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, along};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::verify::report::Finding;
 use crate::verify::sheet::{Cut, Sheet};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "much of the way is cut twice",
-    cost: "nothing but time",
-    cure: "nothing; boundaries that are cut once, as by --strategy voronoi, take less time",
-    run: Run::Isolation(|sheet, _| check(sheet)),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Info,
+    what: Words::of("much of the way is cut twice"),
+    effect: Words::of("nothing but time"),
+    advice: Words::of("nothing; boundaries that are cut once, as by {strategy} voronoi, take less time"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet, _| check(sheet)) };
 
 const NAME: &str = "recut";
 

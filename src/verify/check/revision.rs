@@ -17,19 +17,21 @@
 //! Programs of others say nothing of their files. The hash is of what this version of voromill
 //! reads; another one may read curves otherwise, and then all programs are of another revision.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::verify::report::Finding;
 use crate::verify::stated::origins;
 use crate::verify::{Input, Program};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a program that was made from other files than it is judged by",
-    cost: "the board is milled as it was before its files changed",
-    cure: "make the programs again from these files",
-
-    run: Run::Inputs(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Warning,
+    what: Words::of("a program that was made from other files than it is judged by"),
+    effect: Words::of("the board is milled as it was before its files changed"),
+    advice: Words::of("make the programs again from these files"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Inputs(check) };
 
 const NAME: &str = "revision";
 

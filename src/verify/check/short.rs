@@ -16,7 +16,7 @@
 
 use std::collections::BTreeMap;
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::topology::NetId;
@@ -25,14 +25,18 @@ use crate::verify::remains::Joined;
 use crate::verify::report::Finding;
 use crate::verify::sheet::{Cut, NETS, Sheet};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "two nets joined by copper that was left",
-    cost: "current flows between nets that must be apart: the board does not work",
-    cure: "isolate with a narrower cut (--tool, or --depth with a V-bit), and check that every cut goes through the copper (--depth, `voromill level`)",
-
-    run: Run::Isolation(|sheet, _| check(sheet)),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("two nets joined by copper that was left"),
+    effect: Words::of("current flows between nets that must be apart: the board does not work"),
+    advice: Words::of(
+        "isolate with a narrower cut ({tool}, or {depth} with a V-bit), and check that every cut goes through the copper ({depth}, `voromill level`)",
+    ),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet, _| check(sheet)) };
 
 const NAME: &str = "short";
 

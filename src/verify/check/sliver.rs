@@ -15,7 +15,7 @@
 
 use rayon::prelude::*;
 
-use super::{Check, Run, Severity, along};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, along};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::verify::Settings;
@@ -24,14 +24,16 @@ use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::walls::Neck;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a thin strip of copper left between two cuts, or at the edge",
-    cost: "a thin strip of copper may come loose and join two nets",
-    cure: "clear it away with --width, --passes or --clear, or scrape it off",
-
-    run: Run::Isolation(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Warning,
+    what: Words::of("a thin strip of copper left between two cuts, or at the edge"),
+    effect: Words::of("a thin strip of copper may come loose and join two nets"),
+    advice: Words::of("clear it away with {width}, {passes} or {clear}, or scrape it off"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(check) };
 
 const NAME: &str = "sliver";
 

@@ -10,19 +10,22 @@
 //!
 //! Programs that do not say how many there should be (`--tabs`).
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Board;
 use crate::verify::Settings;
 use crate::verify::contours::Contours;
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "more tabs than were asked for",
-    cost: "more is left to be cut by hand",
-    cure: "check --tabs",
-    run: Run::Cutout(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Warning,
+    what: Words::of("more tabs than were asked for"),
+    effect: Words::of("more is left to be cut by hand"),
+    advice: Words::of("check {tabs}"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
 
 const NAME: &str = "tab-extra";
 

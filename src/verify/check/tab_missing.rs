@@ -15,7 +15,7 @@
 //! `tab-thin` to say, whether they lie on several sides for `tab-spread`. Cut-outs without any tab:
 //! what falls out of a small one needs none.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, Shape};
 use crate::geometry::{Nm, Point, Rect};
 use crate::grid::Grid;
@@ -25,13 +25,18 @@ use crate::verify::pieces::{Joiner, Part};
 use crate::verify::report::Finding;
 use crate::verify::spans::{Spans, filled, less};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a board cut out with nothing to hold it",
-    cost: "the board comes loose while it is cut out, and the cutter catches it",
-    cure: "ask for tabs (--tabs 4); of a board that is held otherwise say so (`verify --tabs 0`)",
-    run: Run::Cutout(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a board cut out with nothing to hold it"),
+    effect: Words::of("the board comes loose while it is cut out, and the cutter catches it"),
+    advice: Words::of(
+        "ask for tabs ({tabs} 4); of a board that is held otherwise say so (`verify {tabs} 0`)",
+    ),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
 
 const NAME: &str = "tab-missing";
 

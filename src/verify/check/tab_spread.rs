@@ -20,20 +20,23 @@
 //! together by more than tabs, as where a stretch is not cut: other findings tell of these. How
 //! heavy and how stiff the board is.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
 use crate::verify::contours::{Contours, Ring, State, Stretch};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "the tabs of a board all lie at one side of it",
-    cost: "the far side of the board tips under the cutter: its edge is spoilt, and tabs break",
-    cure: "ask for more tabs (--tabs 4), or put them on opposite sides (--tab-at)",
-    run: Run::Cutout(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Warning,
+    what: Words::of("the tabs of a board all lie at one side of it"),
+    effect: Words::of("the far side of the board tips under the cutter: its edge is spoilt, and tabs break"),
+    advice: Words::of("ask for more tabs ({tabs} 4), or put them on opposite sides ({tab-at})"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
 
 const NAME: &str = "tab-spread";
 

@@ -11,20 +11,23 @@
 //!
 //! How strong the material is.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Board;
 use crate::geometry::Nm;
 use crate::verify::Settings;
 use crate::verify::contours::{Contours, State, Stretch};
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "a tab that breaks",
-    cost: "the tab breaks while the board is cut out",
-    cure: "make tabs wider or higher (--tab-width, --tab-height)",
-    run: Run::Cutout(check),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Warning,
+    what: Words::of("a tab that breaks"),
+    effect: Words::of("the tab breaks while the board is cut out"),
+    advice: Words::of("make tabs wider or higher ({tab-width}, {tab-height})"),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
 
 const NAME: &str = "tab-thin";
 

@@ -13,21 +13,24 @@
 //!
 //! A program that is too deep throughout, but less than half the board.
 
-use super::{Check, Run, Severity, Wrong, each_stretch};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 use crate::verify::{Role, Settings};
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "an isolating cut that goes far deeper than the copper asks for",
-    cost: "the cut is wider than planned, and may go through the board",
-    cure: "check the unit and the Z words of the program",
-
-    run: Run::Motion(|program, _, settings| check(program, settings)),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("an isolating cut that goes far deeper than the copper asks for"),
+    effect: Words::of("the cut is wider than planned, and may go through the board"),
+    advice: Words::of("check the unit and the Z words of the program"),
 };
+
+pub(super) const CHECK: Check =
+    Check { kind: &KIND, run: Run::Motion(|program, _, settings| check(program, settings)) };
 
 const NAME: &str = "too-deep";
 

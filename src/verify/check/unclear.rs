@@ -12,19 +12,23 @@
 //! What the controller remembers from before the program. What the motion depends on, and nobody
 //! can know, is no finding: such a program is not judged.
 
-use super::{Check, Run, Severity};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::gcode::read::{Motion, Note, Spindle, Way};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
-pub(super) const CHECK: Check = Check {
-    name: NAME,
-    about: "something that the program leaves open",
-    cost: "what the machine does depends on the state that it is in",
-    cure: "write it into the program: the unit (G21), the spindle speed (S), the coordinate system (G54)",
-
-    run: Run::Motion(|program, _, _| check(program)),
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Warning,
+    what: Words::of("something that the program leaves open"),
+    effect: Words::of("what the machine does depends on the state that it is in"),
+    advice: Words::of(
+        "write it into the program: the unit (G21), the spindle speed (S), the coordinate system (G54)",
+    ),
 };
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
 
 const NAME: &str = "unclear";
 

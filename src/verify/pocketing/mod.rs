@@ -15,8 +15,9 @@
 
 mod runs;
 
-use crate::board::FLATTEN;
+use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
+use crate::board::{Diagnostic, FLATTEN, Severity};
 use crate::gcode::read::{Listing, Motion, Way};
 use crate::geometry::{Arc, Nm, Point, Polygon};
 
@@ -24,7 +25,7 @@ use super::Error;
 use super::carving::{Text, followed, harm};
 use super::cutter::Cutter;
 use super::edges::Edges;
-use super::report::{Finding, Severity};
+use super::report::Finding;
 
 use runs::{Piece, Spot, Sweep, Sweeps, left};
 
@@ -188,7 +189,7 @@ impl Judge<'_> {
     }
 
     /// Lists the worst of some steps, one for each line.
-    fn list(&mut self, name: &'static str, mut worst: Vec<(f64, &Step)>, what: impl Fn(f64) -> String) {
+    fn list(&mut self, kind: &Diagnostic, mut worst: Vec<(f64, &Step)>, what: impl Fn(f64) -> String) {
         worst.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.order.cmp(&b.1.order)));
         let mut listed: Vec<(usize, u32)> = Vec::new();
         for (by, step) in worst {
@@ -196,7 +197,7 @@ impl Judge<'_> {
                 continue;
             }
             listed.push((step.program, step.line));
-            let found = Finding::new(name, Severity::Error, what(by));
+            let found = Finding::new(kind.code, kind.severity, what(by));
             let (x, y) = step.ends[1];
             self.pocketed.findings.push(Finding {
                 at: Some(Point::from_f64(x, y)),
@@ -226,7 +227,7 @@ impl Judge<'_> {
                 found.push((by, step));
             }
         }
-        self.list("pocket-overcut", found, |by| {
+        self.list(&planning::POCKET_OVERCUT, found, |by| {
             format!("the tool cuts {:.1} µm beyond the edge of the area", by / 1e3)
         });
     }
@@ -257,11 +258,13 @@ impl Judge<'_> {
                 steep.push((slope, step));
             }
         }
-        self.list("pocket-too-deep", deep, |by| format!("it mills {:.1} µm below the floor", by / 1e3));
-        self.list("pocket-pass-too-thick", thick, |by| {
+        self.list(&planning::POCKET_TOO_DEEP, deep, |by| {
+            format!("it mills {:.1} µm below the floor", by / 1e3)
+        });
+        self.list(&planning::POCKET_PASS_TOO_THICK, thick, |by| {
             format!("it mills at a depth of {:.3} mm what no pass above it has cleared", by / 1e6)
         });
-        self.list("pocket-plunge-too-steep", steep, |_| {
+        self.list(&planning::POCKET_PLUNGE_TOO_STEEP, steep, |_| {
             "it goes down steeply into material where there is room for a ramp".to_owned()
         });
     }
@@ -282,7 +285,7 @@ impl Judge<'_> {
         self.pocketed.residue_mm2 = pieces.iter().fold(0.0, |sum, piece| sum + piece.mm2);
         for piece in pieces.iter().take_while(|piece| piece.mm2 > SPECK).take(MOST_LISTED) {
             let message = format!("{:.4} mm² are left where the tool fits", piece.mm2);
-            let found = Finding::new("pocket-residue", Severity::Error, message);
+            let found = Finding::new(planning::POCKET_RESIDUE.code, Severity::Error, message);
             self.pocketed.findings.push(Finding { at: Some(piece.at), ..found });
         }
     }
@@ -303,7 +306,11 @@ impl Judge<'_> {
             let message = format!(
                 "the tool comes down {first} times, and {maxima} would do: once in each pass where the area is widest"
             );
-            self.pocketed.findings.push(Finding::new("pocket-plunges", Severity::Warning, message));
+            self.pocketed.findings.push(Finding::new(
+                planning::POCKET_PLUNGES.code,
+                Severity::Warning,
+                message,
+            ));
         }
     }
 }

@@ -262,7 +262,7 @@ fn the_program_writes_each_kind_and_says_how_large_it_is() {
         (&["-o", "a.bmp"][..], "a.bmp does not say what to write"),
         (&["-o", "a.svg", "--dpi", "600"], "--dpi changes nothing"),
         (&["-o", "a.svg", "--gap", "1mm"], "--gap changes nothing"),
-        (&["-o", "a.svg", "--what", "regions", "--gap", "0.001mm"], "--gap: 0.001 mm is no length"),
+        (&["-o", "a.svg", "--what", "regions", "--gap", "0.001mm"], "gap: 0.001 mm is no length"),
         (&["-o", "a.svg", "--scale", "10"], "no scale"),
         (&["-o", "a.png", "--dpi", "25400", "--margin", "30mm"], "too many"),
     ] {

@@ -80,7 +80,7 @@ fn mill(board: &Board, settings: &Settings, threads: usize) -> Result<Job, Strin
 
 /// Whether the job said that a cut does not fit beside one of the nets that something was found of.
 fn is_told(finding: &Finding, job: &Job) -> bool {
-    let narrow = job.warnings.iter().filter(|warning| warning.code == "gap-narrower-than-tool");
+    let narrow = job.warnings.iter().filter(|warning| warning.code() == "gap-narrower-than-tool");
     let mut gaps = narrow.filter_map(|warning| warning.message.split_once(" has ").map(|(gap, _)| gap));
     let beside = |gap: &str, net: &String| {
         gap.ends_with(&format!(" and {net}")) || gap.starts_with(&format!("the cut between {net} and "))
@@ -106,8 +106,8 @@ fn judge(board: &Board, settings: &str, has_drawn_holes: bool) -> Result<(), Str
     // beside a hole may keep its pixel's place, and says so.
     let is_placed = settings.sites != Sites::Core && !has_drawn_holes;
     let faulty = |code: &str| code == "boundary-torn" || (code == "boundary-not-placed" && is_placed);
-    if let Some(fault) = job.warnings.iter().find(|warning| faulty(warning.code)) {
-        return Err(format!("{} at {:?}: {}", fault.code, fault.at, fault.message));
+    if let Some(fault) = job.warnings.iter().find(|warning| faulty(warning.code())) {
+        return Err(format!("{} at {:?}: {}", fault.code(), fault.at, fault.message));
     }
     for layer in job.layers.iter().filter(|_| is_placed) {
         euler::wrong(&layer.boundaries).map_or(Ok(()), Err)?;

@@ -9,6 +9,7 @@
 mod ring;
 mod tabs;
 
+use crate::board::diagnostic::planning;
 use crate::board::{FLATTEN, Outline, Warning, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon};
 use crate::toolpath::head::Head;
@@ -71,7 +72,7 @@ pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning
             radius * 2,
             wanted - count
         );
-        warnings.push(Warning::new("cut-out-narrower-than-tool", message));
+        warnings.push(planning::CUT_OUT_NARROWER_THAN_TOOL.warning(message));
     }
     let held = hold(&inner, &outer, settings, &mut warnings);
     let mut head = Head::new(settings.heights, settings.tool.plunge);
@@ -105,7 +106,7 @@ fn hold(inner: &[Ring], outer: &[Ring], settings: &Cutout<'_>, warnings: &mut Ve
         let found = tabs::spread(ring, wanted.min(tabs::room(ring.length(), opening)), opening);
         if found.len() < wanted as usize {
             let message = format!("only {} of {wanted} tabs find a place on a contour", found.len());
-            warnings.push(Warning::new("no-place-for-tabs", message).at(ring.path().start));
+            warnings.push(planning::NO_PLACE_FOR_TABS.warning(message).at(ring.path().start));
         }
         held.push(found);
     }
@@ -141,7 +142,7 @@ fn at_places(
         let taken = |other: &f64| tabs::apart(*other, along, rings[index].length()) < opening(settings);
         if off > (radius + NEAR).to_f64() {
             let message = format!("a tab is wanted {:.1} mm off any contour, and left out", off / 1e6);
-            warnings.push(Warning::new("tab-off-the-outline", message).at(place));
+            warnings.push(planning::TAB_OFF_THE_OUTLINE.warning(message).at(place));
         } else if !held[index].iter().any(taken) {
             held[index].push(along);
         }
