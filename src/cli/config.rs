@@ -7,6 +7,7 @@ use voromill::board::Board;
 use voromill::job::{Error, FILE_NAME, Length, MillProject, Options, Settings, Workbench};
 
 use super::Failure;
+use super::given::Given;
 use super::input::Input;
 
 /// The options of a job, and where to find the rest.
@@ -17,7 +18,7 @@ pub(super) struct Config {
     config: Option<PathBuf>,
 
     #[command(flatten)]
-    options: Options,
+    given: Given,
 }
 
 impl Config {
@@ -34,7 +35,7 @@ impl Config {
 
     /// Fails for an option given here that the paper's program does not know.
     pub(super) fn judge_paper(&self) -> Result<(), Failure> {
-        let given = self.options.listed();
+        let given = self.given.0.listed();
         let Some((option, _)) = given.iter().find(|(option, _)| *option != "strategy") else { return Ok(()) };
         let cause = format!("--{option} changes nothing of what the paper's program makes");
         Err(Failure::new(cause, "leave it out, or --paper; --strategy outline is taken"))
@@ -43,13 +44,13 @@ impl Config {
     /// The tools that the settings know.
     pub(super) fn workbench(&self, input: &Input) -> Result<Workbench, Failure> {
         let from_file = Self::found(self.config.as_deref(), &input.paths())?;
-        Ok(Workbench::new(self.options.clone().or(from_file))?)
+        Ok(Workbench::new(self.given.0.clone().or(from_file))?)
     }
 
     fn resolved(&self, input: &Input, of_board: Options) -> Result<Settings, Failure> {
         let from_file = Self::found(self.config.as_deref(), &input.paths())?;
         let project = input.project()?;
-        let told = self.options.clone().or(project.options.clone()).or(from_file);
+        let told = self.given.0.clone().or(project.options.clone()).or(from_file);
         let settings = Settings::resolve(told.or(of_board));
         let settings = settings.map_err(|error| self.explain(error, &project))?;
         self.judge(&settings)?;
@@ -59,7 +60,7 @@ impl Config {
     /// An error of settings, with the line of the project that said them unless they were given
     /// here.
     fn explain(&self, error: Error, project: &MillProject) -> Error {
-        let is_given = |key: &str| self.options.listed().iter().any(|(option, _)| option == key);
+        let is_given = |key: &str| self.given.0.listed().iter().any(|(option, _)| option == key);
         match &error {
             Error::Value { key, .. } if is_given(key) => error,
             _ => project.explain(error),
@@ -68,7 +69,7 @@ impl Config {
 
     /// Fails for an option that was given here and changes nothing beside the others.
     fn judge(&self, settings: &Settings) -> Result<(), Failure> {
-        settings.idle(&self.options).map_or(Ok(()), |(option, hint)| {
+        settings.idle(&self.given.0).map_or(Ok(()), |(option, hint)| {
             Err(Failure::new(format!("--{option} changes nothing of what is made so"), hint))
         })
     }

@@ -13,6 +13,7 @@ use voromill::verify::Finding;
 use voromill::verify::pocketing::Pocketed;
 
 use super::art::{Milled, Work, rounded};
+use super::given::choice;
 use super::{Failure, Shared};
 
 /// Mill shapes to a flat floor with an end mill
@@ -41,7 +42,7 @@ pub(super) struct Pocket {
     /// widest) or those along the edge (outside-in, one plunge for each shape)
     #[arg(
         long,
-        value_enum,
+        value_parser = choice::<Sequence>(),
         hide_possible_values = true,
         value_name = "ORDER",
         default_value = "inside-out",

@@ -7,9 +7,10 @@
 
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command};
-use voromill::job::{CARVING_OPTIONS, Options, POCKETING_OPTIONS, Part};
+use voromill::job::{CARVING_OPTIONS, POCKETING_OPTIONS, Part};
 
 use super::Failure;
+use super::given::Given;
 
 /// The command, with the options of a job left out of the help of the subcommands to which they
 /// mean nothing.
@@ -42,7 +43,7 @@ pub(super) fn check(matches: &ArgMatches) -> Result<(), Failure> {
 
 /// The names of a job's options.
 fn options() -> Vec<String> {
-    let options = Options::augment_args(Command::new("options"));
+    let options = Given::augment_args(Command::new("options"));
     options.get_arguments().map(|argument| argument.get_id().to_string()).collect()
 }
 

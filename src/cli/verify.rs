@@ -15,6 +15,7 @@ use voromill::report::stages::Stages;
 use voromill::toolpath::Angle;
 use voromill::verify::{self, Cutter, Orientation, Placement, Program, Role, Severity};
 
+use super::given::of_word;
 use super::{Failure, Shared};
 
 /// What programs do to a board, before a machine does it
@@ -286,7 +287,7 @@ impl Verify {
             patterns = all.iter().filter_map(|name| name.parse().ok()).collect();
         }
         let said = programs.iter().find_map(|program| verify::said(&program.text, "topology"));
-        let topology = said.and_then(|name| Topology::from_str(&name, true).ok());
+        let topology: Option<Topology> = said.and_then(|name| of_word(&name.to_ascii_lowercase()).ok());
         let said = programs.iter().find_map(|program| verify::said(&program.text, "rivet"));
         if let Some(wider) = said.and_then(|length| length.parse().ok()) {
             job::rivet(board, wider);

@@ -3,7 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use clap::ValueEnum;
+use serde::Deserialize;
+use serde::de::IntoDeserializer;
+use serde::de::value::Error;
 
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
@@ -36,7 +38,7 @@ impl FromStr for StrategyFor {
         let error = || ParseStrategyForError(text.to_owned());
         let (nets, strategy) =
             text.rsplit_once('=').filter(|(nets, _)| !nets.is_empty()).ok_or_else(error)?;
-        let strategy = Strategy::from_str(strategy, false).map_err(|_| error())?;
+        let strategy = Strategy::deserialize(strategy.into_deserializer()).map_err(|_: Error| error())?;
         Ok(Self { nets: nets.parse().map_err(|_| error())?, strategy })
     }
 }

@@ -3,14 +3,13 @@
 use std::fmt;
 use std::str::FromStr;
 
-use clap::ValueEnum;
 use serde::{Deserialize, Serialize};
 
 use crate::gcode::dialect::{Dialect, DialectError};
 use crate::voronoi::paper::Way;
 
 /// How copper is isolated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Strategy {
     /// One cut midway between neighbouring nets.
@@ -33,7 +32,7 @@ impl Strategy {
 }
 
 /// What a cut is midway between.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Sites {
     /// The copper's true edge.
@@ -43,7 +42,7 @@ pub enum Sites {
 }
 
 /// What is done where the gap is narrower than the cut.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Narrow {
     /// The cut stays in the middle and takes copper on both sides.
@@ -55,7 +54,7 @@ pub enum Narrow {
 }
 
 /// The side that lies up while holes are drilled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum DrillSide {
     /// As for the front.
@@ -65,7 +64,7 @@ pub enum DrillSide {
 }
 
 /// How touching copper is found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Topology {
     /// Exact geometry.
@@ -136,7 +135,7 @@ impl fmt::Display for DialectChoice {
 }
 
 /// Where x and y are zero.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Origin {
     /// The board's lower left corner.

@@ -1,7 +1,6 @@
 //! The options of a job, each known once: its name on the command line is its key in
 //! `voromill.toml` and in the report, its text is read by the same parser everywhere.
 
-use clap::Args;
 use serde::{Deserialize, Serialize};
 
 use crate::gcode::dialect::ToolChange;
@@ -19,10 +18,13 @@ use super::tools::{Library, ToolChoice};
 use super::turns;
 use crate::gcode::dialect::Blend;
 
-/// What a person asked for; what they left open is none.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Args, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Options {
+/// The options of a job, for a macro that makes something of them: of each what it is for, how the
+/// command line (clap) and a settings file (serde) read it, its name and its type. The names of
+/// parsers are those where that macro is called.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! job_options {
+    ($reader:ident) => { $reader! {
     /// Cutter for isolation: vbit:TIP:ANGLE, endmill:DIAMETER or a name; of several the widest that
     /// fits cuts each place
     #[arg(long, value_name = "TOOL", value_delimiter = ',', help_heading = "Isolation")]
@@ -49,7 +51,7 @@ pub struct Options {
     /// whichever takes less time (auto)
     #[arg(
         long,
-        value_enum,
+        value_parser = choice::<Strategy>(),
         hide_possible_values = true,
         value_name = "STRATEGY",
         help_heading = "Isolation"
@@ -63,7 +65,7 @@ pub struct Options {
     pub strategy_for: Vec<StrategyFor>,
 
     /// What a cut is midway between: copper (its edge) or core (the axes it was drawn along)
-    #[arg(long, value_enum, hide_possible_values = true, value_name = "SITES", help_heading = "Isolation")]
+    #[arg(long, value_parser = choice::<Sites>(), hide_possible_values = true, value_name = "SITES", help_heading = "Isolation")]
     pub sites: Option<Sites>,
 
     /// A net's region ends at this distance from its copper, and is cut round there
@@ -125,7 +127,7 @@ pub struct Options {
 
     /// How touching copper is found: contact, translucency, coincidence; all compares them in
     /// inspect
-    #[arg(long, value_enum, hide_possible_values = true, value_name = "METHOD", help_heading = "Isolation")]
+    #[arg(long, value_parser = choice::<Topology>(), hide_possible_values = true, value_name = "METHOD", help_heading = "Isolation")]
     pub topology: Option<Topology>,
 
     /// How far a fitted cut may leave its exact place
@@ -135,7 +137,7 @@ pub struct Options {
 
     /// Where the cut does not fit: keep it centred (centre), leave the gap uncut (skip), or fail
     /// (error)
-    #[arg(long, value_enum, hide_possible_values = true, value_name = "WHAT", help_heading = "Isolation")]
+    #[arg(long, value_parser = choice::<Narrow>(), hide_possible_values = true, value_name = "WHAT", help_heading = "Isolation")]
     pub narrow: Option<Narrow>,
 
     /// Let a V-bit rise to no less than this depth where the gap is narrow
@@ -160,13 +162,13 @@ pub struct Options {
     pub plunge: Option<Feed>,
 
     /// Spindle speed in turns per minute
-    #[arg(long, value_name = "RPM", value_parser = turns::parse, help_heading = "Machine")]
+    #[arg(long, value_name = "RPM", value_parser = turns, help_heading = "Machine")]
     #[serde(deserialize_with = "turns::deserialize")]
     pub spindle: Option<u32>,
 
     /// Which way round loops about nets and contours go: climb (what is kept on the right),
     /// conventional [default: either]
-    #[arg(long, value_enum, hide_possible_values = true, value_name = "WAY", help_heading = "Machine")]
+    #[arg(long, value_parser = choice::<Direction>(), hide_possible_values = true, value_name = "WAY", help_heading = "Machine")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<Direction>,
 
@@ -195,12 +197,12 @@ pub struct Options {
 
     /// How tools are changed: files (each tool has its own), m6, pause (M0), or pause-with-text,
     /// where the machine waits at it [default: as the dialect says]
-    #[arg(long, value_enum, hide_possible_values = true, value_name = "HOW", help_heading = "Machine")]
+    #[arg(long, value_parser = choice::<ToolChange>(), hide_possible_values = true, value_name = "HOW", help_heading = "Machine")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_change: Option<ToolChange>,
 
     /// Where x and y are zero: lower-left, center, or keep the file's coordinates
-    #[arg(long, value_enum, hide_possible_values = true, value_name = "PLACE", help_heading = "Machine")]
+    #[arg(long, value_parser = choice::<Origin>(), hide_possible_values = true, value_name = "PLACE", help_heading = "Machine")]
     pub origin: Option<Origin>,
 
     /// Turn the board counter-clockwise on the machine
@@ -313,7 +315,7 @@ pub struct Options {
     pub drill_plunge: Option<Feed>,
 
     /// Spindle speed of a drill in turns per minute [default: by its diameter]
-    #[arg(long, value_name = "RPM", value_parser = turns::parse, help_heading = "Drilling and cutting out")]
+    #[arg(long, value_name = "RPM", value_parser = turns, help_heading = "Drilling and cutting out")]
     #[serde(deserialize_with = "turns::deserialize", skip_serializing_if = "Option::is_none")]
     pub drill_spindle: Option<u32>,
 
@@ -342,7 +344,7 @@ pub struct Options {
     /// The side that is up while holes are drilled: front or back
     #[arg(
         long,
-        value_enum,
+        value_parser = choice::<DrillSide>(),
         hide_possible_values = true,
         value_name = "SIDE",
         help_heading = "Drilling and cutting out"
@@ -391,7 +393,7 @@ pub struct Options {
     /// phenolic)
     #[arg(
         long,
-        value_enum,
+        value_parser = choice::<Material>(),
         hide_possible_values = true,
         value_name = "MATERIAL",
         help_heading = "Drilling and cutting out"
@@ -421,7 +423,7 @@ pub struct Options {
     /// The side that is up while the board is cut out: front or back
     #[arg(
         long,
-        value_enum,
+        value_parser = choice::<DrillSide>(),
         hide_possible_values = true,
         value_name = "SIDE",
         help_heading = "Drilling and cutting out"
@@ -485,12 +487,35 @@ pub struct Options {
     #[arg(long, value_name = "PROGRAM=FILE", help_heading = "Output")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub output_name: Vec<OutputName>,
-
-    /// One's own tools: tables of the settings file alone.
-    #[arg(skip)]
-    #[serde(skip_serializing)]
-    pub tools: Library,
+    } };
 }
+
+/// The structure of the options, for serde.
+macro_rules! structure {
+    ($(
+        $(#[doc = $about:tt])+
+        #[arg($($argument:tt)*)]
+        $(#[serde($($key:tt)*)])?
+        pub $name:ident: $kind:ty,
+    )+) => {
+        /// What a person asked for; what they left open is none.
+        #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+        #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+        pub struct Options {
+            $(
+                $(#[doc = $about])+
+                $(#[serde($($key)*)])?
+                pub $name: $kind,
+            )+
+
+            /// One's own tools: tables of the settings file alone.
+            #[serde(skip_serializing)]
+            pub tools: Library,
+        }
+    };
+}
+
+job_options!(structure);
 
 impl Options {
     /// Every option that is set, by name, as it is written.

@@ -3,8 +3,6 @@
 //! Options say what a person asked for; settings say what will be done, so that later stages check
 //! nothing again.
 
-use clap::ValueEnum;
-
 use crate::board::{Side, Words};
 use crate::gcode::Dialect;
 use crate::gcode::dialect::{self, OwnCode, ToolChange, TouchOff};
@@ -369,12 +367,7 @@ fn unheld(change: ToolChange, base: &Dialect) -> String {
         ToolChange::PauseWithText => "M0 with a text",
         ToolChange::Files => "the end of a program",
     };
-    let held: Vec<String> = base
-        .changes
-        .iter()
-        .filter_map(ValueEnum::to_possible_value)
-        .map(|value| value.get_name().to_owned())
-        .collect();
+    let held: Vec<&str> = base.changes.iter().map(|change| change.word()).collect();
     format!(
         "{} does not wait at {word} until the tool is changed: expected {}; for a controller or a sender that does, say so in a dialect of your own",
         base.name,

@@ -2,9 +2,8 @@
 
 use std::sync::LazyLock;
 
-use clap::Args;
-
 use super::machine;
+use super::names;
 use super::tools::TABLE_KEYS;
 use super::{Error, Options};
 
@@ -39,10 +38,9 @@ impl Options {
         READ.clone()
     }
 
-    /// Every key that a settings file may have.
-    fn keys() -> Vec<String> {
-        let command = Self::augment_args(clap::Command::new("keys"));
-        command.get_arguments().map(|argument| argument.get_id().as_str().replace('_', "-")).collect()
+    /// Every key of a settings file that is an option on the command line, too.
+    fn keys() -> impl Iterator<Item = &'static str> {
+        names::of::<Self>().iter().copied().filter(|key| *key != "tools")
     }
 }
 
@@ -51,9 +49,8 @@ fn problem(message: &str) -> String {
     let Some(key) = message.strip_prefix("unknown field `").and_then(|rest| rest.split('`').next()) else {
         return message.lines().collect::<Vec<_>>().join(" ");
     };
-    let keys = Options::keys();
     let of_tables = TABLE_KEYS.iter().chain(machine::KEYS).copied();
-    let keys = keys.iter().map(String::as_str).chain(of_tables);
+    let keys = Options::keys().chain(of_tables);
     let nearest = keys.min_by_key(|known| distance(key, known));
     nearest.map_or_else(
         || format!("unknown key `{key}`"),

@@ -7,10 +7,14 @@ use serde::de::{Deserializer, Error, Visitor};
 /// A text that is no number of turns.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is no spindle speed: expected turns per minute, such as `12000` or `12000rpm`")]
-pub(super) struct ParseTurnsError(String);
+pub struct ParseTurnsError(String);
 
 /// Turns per minute from a number, with its unit or without.
-pub(super) fn parse(text: &str) -> Result<u32, ParseTurnsError> {
+///
+/// # Errors
+///
+/// For what is neither.
+pub fn parse(text: &str) -> Result<u32, ParseTurnsError> {
     let trimmed = text.trim();
     let number = ["rpm", "RPM"].iter().find_map(|unit| trimmed.strip_suffix(unit)).unwrap_or(trimmed);
     number.trim().parse().map_err(|_| ParseTurnsError(text.to_owned()))

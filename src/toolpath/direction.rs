@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 ///            │kept ↓                     │kept ↑       seen from above, round a board;
 ///            └──←──┘                     └──→──┘       in a hole of it the other way round
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Direction {
     /// On the right: the edge goes into full chips and leaves them thin.

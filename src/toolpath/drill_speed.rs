@@ -22,9 +22,7 @@ use crate::geometry::Nm;
 use super::feed::Feed;
 
 /// What boards are made of.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Material {
     /// Glass cloth in epoxy: hard on tools.

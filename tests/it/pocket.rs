@@ -202,7 +202,7 @@ fn what_stands_is_left() {
 /// Which way a tool goes round: the area that its cuts at full depth enclose, counter-clockwise
 /// positive.
 fn turning(direction: &str, sequence: Sequence) -> f64 {
-    let direction = Some(clap::ValueEnum::from_str(direction, false).expect("a direction"));
+    let direction = Some(serde_json::from_value(direction.into()).expect("a direction"));
     let tool = vec!["endmill:1mm".parse().expect("a tool")];
     let settings = Settings::resolve(Options { tool, direction, ..Options::default() }).expect("settings");
     let art = Art { name: "square".to_owned(), areas: vec![rectangle([0, 0, 6000, 6000])], ..Art::default() };

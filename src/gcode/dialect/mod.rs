@@ -186,7 +186,7 @@ pub enum Dwell {
 }
 
 /// How tools are changed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ToolChange {
     /// `T2 M6`: the machine, or its dialogue, does it.
@@ -198,6 +198,19 @@ pub enum ToolChange {
     PauseWithText,
     /// Never within a program: each tool has a file of its own.
     Files,
+}
+
+impl ToolChange {
+    /// How it is asked for.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            Self::M6 => "m6",
+            Self::Pause => "pause",
+            Self::PauseWithText => "pause-with-text",
+            Self::Files => "files",
+        }
+    }
 }
 
 /// What becomes of the touches of a probe (G38.2).

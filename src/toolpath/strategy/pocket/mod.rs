@@ -32,7 +32,8 @@ use course::Spot;
 use links::Links;
 
 /// In which order the loops of a pocket are milled.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
 pub enum Sequence {
     /// From each place that is farthest from the edge outwards.
     #[default]

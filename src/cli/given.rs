@@ -1,0 +1,74 @@
+//! The options of a job as arguments: what the library lists, read by clap.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{ArgMatches, Args, Command, FromArgMatches};
+use serde::de::value::Error;
+use serde::de::{DeserializeOwned, IntoDeserializer};
+use voromill::gcode::dialect::{Blend, ToolChange};
+use voromill::job::{
+    DialectChoice, DrillSide, Drills, Length, MachineChoice, Narrow, Options, Origin, OutputName, Overlap,
+    OwnLines, Pattern, Place, Sites, Strategy, StrategyFor, Tiles, ToolChangeAt, ToolChoice, Topology,
+    Triple, Wait, names, turns,
+};
+use voromill::toolpath::{Angle, Direction, Feed, Material};
+
+macro_rules! arguments {
+    ($(
+        $(#[doc = $about:tt])+
+        #[arg($($argument:tt)*)]
+        $(#[serde($($key:tt)*)])?
+        pub $name:ident: $kind:ty,
+    )+) => {
+        #[derive(Args)]
+        struct Arguments {
+            $(
+                $(#[doc = $about])+
+                #[arg($($argument)*)]
+                $name: $kind,
+            )+
+        }
+
+        impl From<Arguments> for Options {
+            fn from(given: Arguments) -> Self {
+                Self { $($name: given.$name,)+ ..Self::default() }
+            }
+        }
+    };
+}
+
+voromill::job_options!(arguments);
+
+/// The options that were given on the command line.
+pub(super) struct Given(pub(super) Options);
+
+impl FromArgMatches for Given {
+    fn from_arg_matches(matches: &ArgMatches) -> Result<Self, clap::Error> {
+        Arguments::from_arg_matches(matches).map(|given| Self(given.into()))
+    }
+
+    fn update_from_arg_matches(&mut self, matches: &ArgMatches) -> Result<(), clap::Error> {
+        *self = Self::from_arg_matches(matches)?;
+        Ok(())
+    }
+}
+
+impl Args for Given {
+    fn augment_args(command: Command) -> Command {
+        Arguments::augment_args(command)
+    }
+
+    fn augment_args_for_update(command: Command) -> Command {
+        Arguments::augment_args_for_update(command)
+    }
+}
+
+/// Reads one of the words that an enumeration of the library has.
+pub(super) fn choice<T: DeserializeOwned + Clone + Send + Sync + 'static>() -> impl TypedValueParser<Value = T>
+{
+    PossibleValuesParser::new(names::of::<T>()).try_map(|word| of_word(&word))
+}
+
+/// What an enumeration of the library has for a word.
+pub(super) fn of_word<T: DeserializeOwned>(word: &str) -> Result<T, Error> {
+    T::deserialize(word.into_deserializer())
+}
