@@ -231,23 +231,23 @@ struct Shapes {
     #[arg(required_unless_present = "text", conflicts_with = "text", value_name = "PATH")]
     path: Option<PathBuf>,
 
-    /// Letters instead of a file; \n begins a new line
+    /// Text to mill instead of a file; \n begins a new line
     #[arg(long, value_name = "TEXT", requires = "font", help_heading = "Text")]
     text: Option<String>,
 
-    /// The font: a TrueType or OpenType file
+    /// Font of --text: a TrueType or OpenType file
     #[arg(long, value_name = "FILE", help_heading = "Text")]
     font: Option<PathBuf>,
 
-    /// How high capitals are
+    /// Height of capitals of --text
     #[arg(long, value_name = "LENGTH", default_value = "6mm", help_heading = "Text")]
     height: Length,
 
-    /// Pixels to the inch of a picture, whatever the file says
+    /// Resolution of a picture in pixels per inch, even if the file has another
     #[arg(long, value_name = "NUMBER", value_parser = dpi, help_heading = "Pictures")]
     picture_dpi: Option<f64>,
 
-    /// The same as the width of the whole picture
+    /// Width of the whole picture, instead of --picture-dpi
     #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
     picture_width: Option<Length>,
 
@@ -255,8 +255,8 @@ struct Shapes {
     #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
     ink: Option<Colour>,
 
-    /// How long one unit of a drawing (SVG, DXF) is, whatever the file says: mm, in, 0.1mm, or
-    /// 90dpi for a 90th inch
+    /// Length of one unit of a drawing (SVG, DXF), even if the file has another: mm, in, 0.1mm, or
+    /// 90dpi for 1/90 inch
     #[arg(long, value_name = "UNIT", help_heading = "Drawings")]
     unit: Option<Unit>,
 }

@@ -27,17 +27,18 @@ pub(super) struct Carve {
     #[command(flatten)]
     work: Work,
 
-    /// No deeper than this; what is wider is followed along its middle, or cleared by --flat
-    /// [default: as deep as it is wide]
+    /// Greatest depth: wider places are carved along their medial axis, or cleared by --flat
+    /// [default: as deep as the shape is wide]
     #[arg(long, value_name = "LENGTH", help_heading = "Carving")]
     max_depth: Option<Length>,
 
-    /// End mill that clears what is too wide at --max-depth, with a program of its own: NAME-flat
+    /// End mill that clears what is too wide at --max-depth to a flat floor, in a program of its
+    /// own: NAME-flat
     #[arg(long, value_name = "TOOL", requires = "max_depth", help_heading = "Carving")]
     flat: Option<ToolChoice>,
 
-    /// Leave branches into corners out where the edge turns by less than this; 37deg is
-    /// OpenVoronoi's filter
+    /// Do not carve into corners where the edge turns by less than this angle, for less machine
+    /// time; 37deg is the filter of OpenVoronoi
     #[arg(long, value_name = "ANGLE", default_value = "0deg", help_heading = "Carving")]
     corner: Angle,
 }

@@ -37,7 +37,7 @@ impl Config {
     pub(super) fn judge_paper(&self) -> Result<(), Failure> {
         let given = self.given.0.listed();
         let Some((option, _)) = given.iter().find(|(option, _)| *option != "strategy") else { return Ok(()) };
-        let cause = format!("--{option} changes nothing of what the paper's program makes");
+        let cause = format!("--{option} has no effect on what the paper's program makes");
         Err(Failure::new(cause, "leave it out, or --paper; --strategy outline is taken"))
     }
 
@@ -70,7 +70,7 @@ impl Config {
     /// Fails for an option that was given here and changes nothing beside the others.
     fn judge(&self, settings: &Settings) -> Result<(), Failure> {
         settings.idle(&self.given.0).map_or(Ok(()), |(option, hint)| {
-            Err(Failure::new(format!("--{option} changes nothing of what is made so"), hint))
+            Err(Failure::new(format!("--{option} has no effect with these options"), hint))
         })
     }
 

@@ -3,7 +3,7 @@
 use clap::Args;
 use voromill::report::explain;
 
-use super::Failure;
+use super::{Failure, reference};
 
 /// What the code behind a message means, and what to try
 ///
@@ -14,6 +14,10 @@ use super::Failure;
 pub(super) struct Explain {
     /// The code, without its brackets [default: a list of all]
     code: Option<String>,
+
+    /// Print every option of every command, as Markdown: docs/options.md
+    #[arg(long, conflicts_with = "code")]
+    options: bool,
 }
 
 const EXAMPLES: &str = "\
@@ -24,6 +28,9 @@ Examples:
 
 impl Explain {
     pub(super) fn run(self) -> Result<(), Failure> {
+        if self.options {
+            return super::print(&reference::page(super::whole()));
+        }
         let Some(code) = self.code else { return super::print(&explain::list()) };
         let code = code.trim_matches(['[', ']']);
         match explain::explain(code) {

@@ -16,8 +16,8 @@ use super::Failure;
 /// What to read.
 #[derive(Args, Default)]
 pub(super) struct Input {
-    /// A folder, a zip archive, the files themselves, a KiCad board (.kicad_pcb), or a drawing
-    /// (SVG, DXF)
+    /// A folder, a zip archive, the files themselves, a KiCad board (.kicad_pcb), a drawing (SVG,
+    /// DXF) or a picture
     #[arg(required_unless_present_any = ["millproject", "front", "back"], value_name = "PATH")]
     paths: Vec<PathBuf>,
 
@@ -25,41 +25,41 @@ pub(super) struct Input {
     #[arg(long, value_name = "FILE")]
     millproject: Option<PathBuf>,
 
-    /// File with the front copper, where names leave it open
+    /// File with the front copper, where its name does not tell
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     front: Option<PathBuf>,
 
-    /// File with the back copper
+    /// File with the back copper, where its name does not tell
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     back: Option<PathBuf>,
 
-    /// File with the board's outline
+    /// File with the outline of the board, where its name does not tell
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     outline: Option<PathBuf>,
 
-    /// File with holes; may be given several times
+    /// File with holes, where its name does not tell; may be given several times
     #[arg(long = "drill", value_name = "FILE", help_heading = "Files")]
     drill_files: Vec<PathBuf>,
 
-    /// File or folder among these to leave aside, by name, or a layer of a KiCad board, such as
-    /// F.Cu; may be given several times
+    /// Ignore this file or folder, by name, or a layer of a KiCad board, such as F.Cu; may be given
+    /// several times
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     skip: Vec<PathBuf>,
 
-    /// Take no drill file: everything but the holes
+    /// Read no drill file: everything but the holes
     #[arg(long, conflicts_with = "drill_files", help_heading = "Files")]
     no_drill: bool,
 
-    /// What the board is called, and its output files after it
+    /// Name of the board, and of its output files [default: from the files]
     #[arg(long, value_name = "NAME", help_heading = "Files")]
     name: Option<String>,
 
-    /// Pixels to the inch of a picture, whatever the file says; --dpi says it where the file does
-    /// not
+    /// Resolution of a picture in pixels per inch, even if the file has another; --dpi is for files
+    /// that have none
     #[arg(long, value_name = "NUMBER", value_parser = dpi, help_heading = "Pictures")]
     picture_dpi: Option<f64>,
 
-    /// The same as the width of the whole picture
+    /// Width of the whole picture, instead of --picture-dpi
     #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
     picture_width: Option<Length>,
 
@@ -67,11 +67,12 @@ pub(super) struct Input {
     #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
     copper: Option<Colour>,
 
-    /// Take the other part of a picture for copper
+    /// Swap copper and bare board of a picture
     #[arg(long, help_heading = "Pictures")]
     invert: bool,
 
-    /// Leave specks out, of copper and in it, of less than so many square millimetres
+    /// Remove specks of copper and holes in it that are smaller than this, in square millimetres;
+    /// for scans
     #[arg(long, value_name = "MM2", value_parser = area, help_heading = "Pictures")]
     despeckle: Option<f64>,
 
@@ -79,16 +80,16 @@ pub(super) struct Input {
     #[arg(long, value_name = "X,Y,W,H", value_parser = pixels, help_heading = "Pictures")]
     crop: Option<[u32; 4]>,
 
-    /// How long one unit of a drawing (SVG, DXF) is, whatever the file says: mm, in, 0.1mm, or
-    /// 90dpi for a 90th inch
+    /// Length of one unit of a drawing (SVG, DXF), even if the file has another: mm, in, 0.1mm, or
+    /// 90dpi for 1/90 inch
     #[arg(long, value_name = "UNIT", help_heading = "Drawings")]
     unit: Option<Unit>,
 
-    /// Font for the texts of an SVG; may be given several times
+    /// Font file for the texts of an SVG; may be given several times
     #[arg(long = "font", value_name = "FILE", help_heading = "Drawings")]
     fonts: Vec<PathBuf>,
 
-    /// Fail where there is anything to warn of, and write nothing
+    /// Fail and write nothing if there is any warning; for CI
     #[arg(long, help_heading = "Output")]
     deny_warnings: bool,
 }

@@ -13,7 +13,7 @@ use super::{Failure, Shared};
 
 /// A program levelled: adapted to the surface that was probed
 ///
-/// Reads anybody's program and a map of heights, and adds the height of the surface to every z
+/// Reads a program from any CAM and a map of heights, and adds the height of the surface to every z
 /// below the height for travel. Cuts and arcs are split where the surface asks for it; comments,
 /// tools, feeds and rapids above the board stay as they are. The map is bCNC's .probe,
 /// OpenCNCPilot's .hmap, Candle's .map, an .xyz table of Universal Gcode Sender, a probe log of
@@ -34,13 +34,12 @@ pub(super) struct Level {
     #[arg(long, short, value_name = "OUT")]
     output: Option<PathBuf>,
 
-    /// How far the tool may leave its depth below the surface between the points where a cut is
+    /// How far the tool may be from its depth below the surface between the points where a cut is
     /// split
     #[arg(long, value_name = "LENGTH", default_value = "5um")]
     tolerance: Length,
 
-    /// How far outside the probed area the program may cut; the surface is taken to go on level
-    /// there
+    /// How far outside the probed area the program may cut; the surface is taken to be level there
     #[arg(long, value_name = "LENGTH", default_value = "2mm")]
     margin: Length,
 
@@ -48,15 +47,15 @@ pub(super) struct Level {
     #[arg(long, value_name = "LENGTH")]
     safe_z: Option<Length>,
 
-    /// What the map's numbers count
+    /// Unit of the numbers of the map
     #[arg(long, value_enum, default_value = "mm")]
     map_unit: Unit,
 
-    /// Where the work's zero is in the map's coordinates, as for Grbl's logs without a WCO: report
+    /// The work zero in the coordinates of the map, for logs of Grbl without a WCO: report
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
     map_zero: Option<Triple>,
 
-    /// Level with probed points that lie off their neighbours too, and say which they are
+    /// Level even if probed points lie off their neighbours, and list them
     #[arg(long)]
     accept_outliers: bool,
 
@@ -112,7 +111,7 @@ impl Level {
             if outliers.is_empty() { String::new() } else { format!("{name}: {}\n", off(&outliers)) };
         let [low, high] = done.heights.unwrap_or_default();
         shared.report(&format!(
-            "{}: {} motions below {:.3} mm follow a surface from {low:.3} mm to {high:.3} mm, {} lines more\n{name}: {}, {columns} by {rows} touches\n{accepted}",
+            "{}: {} motions below {:.3} mm follow a surface from {low:.3} mm to {high:.3} mm, {} lines more\n{name}: {}, {columns} by {rows} probed points\n{accepted}",
             output.display(),
             done.bent,
             done.safe,
@@ -171,7 +170,7 @@ fn off(outliers: &[Outlier]) -> String {
         0 => String::new(),
         more => format!("; and {more} more"),
     };
-    let touches = if outliers.len() == 1 { "touch lies" } else { "touches lie" };
+    let touches = if outliers.len() == 1 { "probed point lies" } else { "probed points lie" };
     format!("{} {touches} off the plane of the neighbours: {}{more}", outliers.len(), shown.join("; "))
 }
 

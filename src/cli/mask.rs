@@ -223,7 +223,7 @@ impl Mask {
             ("clearance", self.clearance.is_some() && self.what != Kind::Mask, "that has no openings"),
         ];
         if let Some((option, _, what)) = idle.into_iter().find(|(_, is_idle, _)| *is_idle) {
-            return Err(Failure::new(format!("--{option} changes nothing of a mask {what}"), "leave it out"));
+            return Err(Failure::new(format!("--{option} has no effect on a mask {what}"), "leave it out"));
         }
         Ok(())
     }

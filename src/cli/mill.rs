@@ -35,7 +35,7 @@ pub(super) struct Mill {
     #[command(flatten)]
     input: Input,
 
-    /// Folder for what is made [default: a millproject's output-dir]
+    /// Folder for the programs, pictures and the report [default: output-dir of a millproject]
     #[arg(long, short, value_name = "OUT", required_unless_present_any = ["cache_key", "millproject"])]
     output: Option<PathBuf>,
 
@@ -79,7 +79,7 @@ Examples:
   voromill mill board.zip -o out --dialect linuxcnc --feed 8in/min
   voromill mill board/ -o out --tool endmill:0.2mm --depth 0.08mm --limit 1mm
   voromill mill board-B_Cu.gbr board.drl -o out --cutout-tool endmill:2mm
-  voromill mill --millproject millproject      what pcb2gcode was told, as far as there is a counterpart";
+  voromill mill --millproject millproject      the options of pcb2gcode, as far as there is a counterpart";
 
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Format {
@@ -107,7 +107,7 @@ impl Mill {
             super::print(&format!("{}\n", job::cache_key(&loaded, &settings, &choices)))?;
             return Ok(ExitCode::SUCCESS);
         };
-        progress.say("finding the way between nets");
+        progress.say("finding the boundaries between nets");
         let job = job::mill(loaded, &settings)?;
         stages.extend(&job.stages);
         let mut document = job.describe(&settings);

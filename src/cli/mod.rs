@@ -23,6 +23,7 @@ mod output;
 mod pocket;
 mod probe;
 mod progress;
+mod reference;
 mod scope;
 mod tools;
 mod verify;
@@ -57,7 +58,7 @@ Examples:
   voromill mill board/ -o out                  all programs, pictures and the report of a board
   voromill mill board.zip -o out --tool endmill:0.2mm --depth 0.1mm
   voromill isolate board-F_Cu.gbr -o front.ngc  one layer alone
-  voromill verify out/*.ngc --board board/     what programs, anybody's, do to the board
+  voromill verify out/*.ngc --board board/     what programs do to the board, from any CAM
   voromill diff old/ new/                      what copper changes between programs
   voromill draw board/ --stage voronoi -o v.png  a picture of one stage
   voromill mask board/ -o front.png --dpi 1200 a mask for etching, lasers or UV light
@@ -67,7 +68,7 @@ Examples:
                                                shapes milled to a flat floor
   voromill probe board/ -o probe.ngc           probe the surface of the board on the machine
   voromill level front.ngc --map probe.txt     adapt a program to the probed surface
-  voromill tools                               the tools, and how wide they cut at which depth
+  voromill tools                               the tools, and their kerf at several depths
   voromill machine list                        the machines whose figures are known
   voromill explain gouge                       what the code behind a message means
   voromill init                                write voromill.toml with every setting and its default
@@ -98,15 +99,16 @@ enum Command {
 /// What every subcommand takes.
 #[derive(Clone, Copy, Args)]
 struct Shared {
-    /// Say nothing but errors
+    /// Print errors alone
     #[arg(long, short, global = true, help_heading = "Output")]
     quiet: bool,
 
-    /// Say more; twice, how long each stage took too
+    /// Print all findings and warnings, not the first few of each kind; -vv: and how long each
+    /// stage took
     #[arg(long, short, global = true, conflicts_with = "quiet", action = clap::ArgAction::Count, help_heading = "Output")]
     verbose: u8,
 
-    /// How many threads work [default: one for each processor]
+    /// Number of threads; the output is the same for any [default: one for each processor]
     #[arg(long = "jobs", short = 'j', global = true, value_name = "THREADS", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Output")]
     threads: Option<u16>,
 }
@@ -153,11 +155,16 @@ pub(crate) fn run() -> ExitCode {
     }
 }
 
+/// The command as its help shows it.
+fn command() -> clap::Command {
+    help::shortened(whole())
+}
+
 /// The command with the default of each option that it takes, as the built-in settings have it, in
 /// its help.
-fn command() -> clap::Command {
+fn whole() -> clap::Command {
     let defaults = Options::defaults().listed();
-    help::shortened(scope::hidden(help::with_all(Cli::command()))).mut_subcommands(move |sub| {
+    scope::hidden(help::with_all(Cli::command())).mut_subcommands(move |sub| {
         let defaults = defaults.clone();
         sub.mut_args(move |argument| {
             let key = argument.get_id().as_str().replace('_', "-");

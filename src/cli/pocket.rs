@@ -29,17 +29,17 @@ pub(super) struct Pocket {
     #[command(flatten)]
     work: Work,
 
-    /// How far neighbouring loops are apart: a length, or a part of the tool's diameter, at most
-    /// half of it
+    /// Distance between neighbouring loops: a length, or a percentage of the diameter of the tool,
+    /// at most half of it
     #[arg(long, value_name = "LENGTH|PERCENT", default_value = "40%", help_heading = "Pocketing")]
     stepover: Overlap,
 
-    /// What is left along the edges for a last loop
+    /// Stock left along the edges for a finishing loop
     #[arg(long, value_name = "LENGTH", default_value = "0mm", help_heading = "Pocketing")]
     stock: Length,
 
-    /// Which loops come first: those in the middle (inside-out, a plunge wherever the shape is
-    /// widest) or those along the edge (outside-in, one plunge for each shape)
+    /// Order of the loops: inside-out (a plunge wherever the shape is widest), or outside-in (one
+    /// plunge for each shape)
     #[arg(
         long,
         value_parser = choice::<Sequence>(),
@@ -50,7 +50,7 @@ pub(super) struct Pocket {
     )]
     order: Sequence,
 
-    /// How steeply the tool goes down
+    /// Angle at which the tool goes down, in a helix or ramp
     #[arg(long, value_name = "ANGLE", default_value = "3deg", help_heading = "Pocketing")]
     ramp: Angle,
 }

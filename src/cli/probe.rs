@@ -37,19 +37,19 @@ pub(super) struct Probe {
     #[arg(long, value_name = "LENGTH|NxM", default_value = "10mm", help_heading = "Probing")]
     probe_grid: ProbeGrid,
 
-    /// How far below zero the surface is looked for
+    /// How far below zero the probe searches for the surface before it fails
     #[arg(long, value_name = "LENGTH", default_value = "1mm", help_heading = "Probing")]
     probe_depth: Length,
 
-    /// Height at which the tool travels between points
+    /// Height at which the tool travels between points: above all unevenness
     #[arg(long, value_name = "LENGTH", default_value = "1mm", help_heading = "Probing")]
     probe_clearance: Length,
 
-    /// Speed of probing
+    /// Feed rate of probing
     #[arg(long, value_name = "SPEED", default_value = "50mm/min", help_heading = "Probing")]
     probe_feed: Feed,
 
-    /// How far inside the board's edge the outermost points are
+    /// Distance of the outermost points from the edge of the board
     #[arg(long, value_name = "LENGTH", default_value = "0mm", help_heading = "Probing")]
     probe_inset: Length,
 

@@ -35,7 +35,7 @@ pub(super) fn check(matches: &ArgMatches) -> Result<(), Failure> {
         Some(option) => {
             let no = if matches!(option.as_str(), "frame" | "min_width") { "no-" } else { "" };
             let cause =
-                format!("--{no}{} changes nothing of what `voromill {name}` makes", option.replace('_', "-"));
+                format!("--{no}{} has no effect on what `voromill {name}` makes", option.replace('_', "-"));
             Err(Failure::new(cause, "leave it out; a settings file may have it"))
         }
     }

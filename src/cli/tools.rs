@@ -11,11 +11,11 @@ use voromill::toolpath::Tool;
 use super::config::Config;
 use super::{Failure, Shared};
 
-/// The tools there are, and how wide they cut at which depth
+/// The tools there are, and their kerf at several depths
 ///
 /// Lists the built-in tools and those of the `[tools.NAME]` tables of voromill.toml (beside PATH,
-/// or here), with their speeds and the width of their cut at several depths. With --depth: the cut
-/// at that depth; with --kerf: the depth for a cut of that width.
+/// or here), with their speeds and the kerf of each at several depths. With --depth: the kerf
+/// at that depth; with --kerf: the depth for that kerf.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Tools {
@@ -23,11 +23,11 @@ pub(super) struct Tools {
     #[arg(value_name = "TOOL")]
     tools: Vec<ToolChoice>,
 
-    /// Depths to show the cut at
+    /// Depths to show the kerf at, such as 50um,100um [default: 50um,100um,150um,200um]
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     depth: Vec<Length>,
 
-    /// Widths to show the depth for
+    /// Kerfs to show the depth for, such as 0.15mm
     #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
     kerf: Vec<Length>,
 

@@ -1,4 +1,4 @@
-//! `voromill verify`: what programs, anybody's, do to a board before a machine does it.
+//! `voromill verify`: what programs from any CAM do to a board before a machine does it.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -20,15 +20,15 @@ use super::{Failure, Shared};
 
 /// What programs do to a board, before a machine does it
 ///
-/// Reads G-code, anybody's, simulates how the board is milled, and compares what is left with the
+/// Reads G-code from any CAM, simulates how the board is milled, and compares what is left with the
 /// design: nets joined or cut in two, copper lost, rapids through material, holes missed. What
 /// voromill wrote says itself which tool and side it is for; of other programs tell it. Exit code
 /// 0: nothing as bad as --deny; 1: something; 2: it could not be judged.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Verify {
-    /// Programs to verify, those for the same side together; or a folder of them: then a program
-    /// that the board needs and that is not there is a finding too
+    /// Programs to verify, those for the same side together; or a folder: then a program that the
+    /// board needs and that is missing is a finding too
     #[arg(required = true, value_name = "PROGRAM")]
     programs: Vec<PathBuf>,
 
@@ -36,50 +36,50 @@ pub(super) struct Verify {
     #[arg(long, required = true, value_name = "PATH", num_args = 1..)]
     board: Vec<PathBuf>,
 
-    /// File or folder of the board to leave aside, by name; may be given several times
+    /// Ignore this file or folder of the board, by name; may be given several times
     #[arg(long, value_name = "FILE")]
     skip: Vec<PathBuf>,
 
-    /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: as the program's comments
-    /// say]
+    /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: from the program's
+    /// comments]
     #[arg(long, value_name = "TOOL")]
     tool: Option<Cutter>,
 
-    /// What the programs are for [default: as their titles or motions say]
+    /// What the programs are for [default: from their titles or motions]
     #[arg(long, value_enum)]
     side: Option<Purpose>,
 
-    /// What was added to the board's coordinates [default: as the program's comments say]
+    /// What was added to the coordinates of the board [default: from the program's comments]
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
     offset: Option<Offset>,
 
-    /// Where x is mirrored for the back, after the board was moved
+    /// The x about which the back is mirrored, after the board was moved
     #[arg(long = "mirror-axis", alias = "mirror", value_name = "LENGTH", allow_hyphen_values = true)]
     mirror: Option<Nm>,
 
-    /// How far the board was turned, counter-clockwise, before it was moved
+    /// How far the board was rotated, counter-clockwise, before it was moved
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     rotate: Option<Angle>,
 
-    /// Find from what is cut how the board lies under each program: the offset, and unless given,
-    /// --mirror-axis and quarter turns
+    /// Find from the cuts how the board lies in each program: the offset, and unless given
+    /// --mirror-axis and quarter turns; for programs of other CAM
     #[arg(long, conflicts_with = "offset")]
     register: bool,
 
-    /// How bad a finding must be to fail
+    /// Exit code 1 for findings of at least this severity: info, warning or error
     #[arg(long, value_name = "SEVERITY", default_value = "error")]
     deny: Severity,
 
-    /// How thick the board is [default: as the programs' comments say, else the KiCad board, else
+    /// Thickness of the board [default: from the programs' comments, else of the KiCad board, else
     /// 1.6mm]
     #[arg(long, value_name = "LENGTH", value_parser = above_zero)]
     thickness: Option<Nm>,
 
-    /// How thick the copper is: cuts less deep leave it connected
+    /// Thickness of the copper: shallower cuts do not separate nets
     #[arg(long, value_name = "LENGTH", default_value = "0.035mm")]
     copper: Nm,
 
-    /// How far a cut may reach into copper
+    /// How far a cut may reach into copper without a finding
     #[arg(long, value_name = "LENGTH", default_value = "0.01mm")]
     max_gouge: Nm,
 
@@ -87,7 +87,7 @@ pub(super) struct Verify {
     #[arg(long, value_name = "PART", default_value = "0.5", value_parser = part)]
     keep_width: f64,
 
-    /// Below this width a strip of copper between two cuts is a sliver
+    /// Strips of copper between two cuts that are narrower than this are slivers
     #[arg(long, value_name = "LENGTH", default_value = "0.05mm")]
     sliver: Nm,
 
@@ -96,28 +96,28 @@ pub(super) struct Verify {
     #[arg(long = "machine-travel", alias = "travel", value_name = "X,Y,Z")]
     travel: Option<Travel>,
 
-    /// How many tabs must hold each board; 0 for boards that are held otherwise [default: at least
-    /// one]
+    /// How many tabs must hold each board; 0 for boards that are held by tape or glue [default: at
+    /// least one]
     #[arg(long, value_name = "NUMBER")]
     tabs: Option<u32>,
 
-    /// Nets that were not to be isolated, as for mill [default: as the programs' comments say]
+    /// Nets that are not to be isolated, as for mill [default: from the programs' comments]
     #[arg(long, value_name = "PATTERN", value_delimiter = ',')]
     ignore: Vec<Pattern>,
 
-    /// How many boards there are in the stock, such as 3x2 [default: as the programs' comments say]
+    /// How many boards are in the stock, such as 3x2 [default: from the programs' comments]
     #[arg(long, value_name = "NxM")]
     tile: Option<Tiles>,
 
-    /// How far these are apart [default: as the programs' comments say]
+    /// Distance between them [default: from the programs' comments]
     #[arg(long, value_name = "LENGTH")]
     tile_spacing: Option<Nm>,
 
-    /// The pixel of the picture [default: a quarter of the kerf, within 5um to 25um]
+    /// Pixel of the simulation [default: a quarter of the kerf, within 0.005mm to 0.025mm]
     #[arg(long = "pixel", alias = "resolution", value_name = "LENGTH")]
     resolution: Option<Nm>,
 
-    /// For people or for programs
+    /// What is printed: text for people; json, sarif or junit for CI
     #[arg(long, value_enum, default_value = "text")]
     format: Format,
 }

@@ -2,8 +2,8 @@
 //!
 //! [`write()`] puts a [`Program`](crate::toolpath::Program) into the words of a [`Dialect`], which
 //! is data, so it cannot get the motion wrong. [`read()`] is the other way, from the specification,
-//! for anybody's programs; the two share no code, so that reading back what was written says
-//! something. [`level()`](level::level) bends a text to a surface that was touched before.
+//! for programs from any CAM; the two share no code, so that reading back what was written says
+//! something. [`level()`](level::level) adapts a text to a surface that was probed before.
 
 pub mod dialect;
 mod header;

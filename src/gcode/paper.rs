@@ -1,9 +1,9 @@
 //! G-code as the paper's program writes it, to set beside a program of voromill's own.
 //!
 //! Its order is greedy: the path whose beginning is nearest to where the tool is, from zero on;
-//! never backwards, never from another corner of a loop, and lifted between any two. Its words are
-//! those of its release 3: a header of G21 G17 G40 G49 G80 G90, no spindle, the feed once a path,
-//! five decimals at most.
+//! never backwards, never from another corner of a loop, and retracted between any two. Its words
+//! are those of its release 3: a header of G21 G17 G40 G49 G80 G90, no spindle, the feed once a
+//! path, five decimals at most.
 
 use std::fmt::Write as _;
 

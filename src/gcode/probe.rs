@@ -40,7 +40,7 @@ pub struct Touching {
 
 /// Why there is no program that probes.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{dialect} keeps no touches of a probe for `voromill level`: {reason}; expected {known}")]
+#[error("{dialect} does not keep probed points for `voromill level`: {reason}; expected {known}")]
 pub struct ProbeError {
     dialect: String,
     reason: String,
@@ -61,13 +61,13 @@ pub fn write_probe(touching: &Touching, dialect: &Dialect, header: &Header) -> R
         Touches::ReportedJson => {
             "keep each line with prb that is reported in a file for voromill level --map-zero".to_owned()
         }
-        Touches::Logged => format!("the touches go into {} for voromill level", touching.log),
+        Touches::Logged => format!("the probed points go into {} for voromill level", touching.log),
     };
     let program = Program {
         title: touching.title.clone(),
         notes: vec![
             format!(
-                "touches {} by {} points with the spindle off, probe wires on tool and copper",
+                "probes {} by {} points with the spindle off, probe wires on tool and copper",
                 touching.columns, touching.rows
             ),
             note,

@@ -19,8 +19,8 @@ use super::header::{Header, brief, highest, named};
 
 /// The whole program as text, every line ended.
 ///
-/// It lifts first, has the spindle up to speed before each plunge, and ends lifted with the spindle
-/// off.
+/// It retracts first, has the spindle up to speed before each plunge, and ends retracted with the
+/// spindle off.
 #[must_use]
 pub fn write(program: &Program, dialect: &Dialect, header: &Header) -> String {
     let mut writer = Writer::new(dialect);
@@ -75,8 +75,8 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Header, start lines, and the first lift: as high as the program goes anywhere, since nobody
-    /// knows where the machine stands.
+    /// Header, start lines, and the first retract: as high as the program goes anywhere, since
+    /// nobody knows where the machine stands.
     pub(super) fn begin(&mut self, program: &Program, header: &Header) {
         for line in brief(program, self.dialect, header).iter().chain(&header.provenance()) {
             self.comment(line);
@@ -175,7 +175,7 @@ impl<'a> Writer<'a> {
         self.dwell(self.dialect.spin_up);
     }
 
-    /// The last lift, the spindle off, and the end lines.
+    /// The last retract, the spindle off, and the end lines.
     pub(super) fn finish(&mut self, program: &Program) {
         let safe = self.round(program.safe);
         if self.height.is_some_and(|height| height < safe) {

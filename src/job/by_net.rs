@@ -69,7 +69,7 @@ pub(super) fn names(copper: &Copper, nets: &Nets, id: NetId) -> Vec<String> {
     names
 }
 
-/// The strategy of each net, by number: the first pattern that means a net decides, and else the
+/// The strategy of each net, by number: the first pattern that matches a net decides, and else the
 /// strategy of all.
 pub(super) fn strategies(copper: &Copper, nets: &Nets, settings: &Settings) -> Vec<Strategy> {
     let strategy = |id: NetId| {

@@ -231,7 +231,7 @@ fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Ve
         let area: f64 = wide.map(|polygon| polygon.area_mm2()).sum();
         if area > LEAST_WIDE {
             let message = format!(
-                "{area:.2} mm² are farther from the edge than the {reach:.3} mm that the tool cuts to either side at {most:.3} mm: there it follows the middle alone"
+                "{area:.2} mm² are farther from the edge than the {reach:.3} mm that the tool cuts to either side at {most:.3} mm: there it follows the medial axis alone"
             );
             warnings.push(planning::WIDE_PLACE_LEFT.warning(message));
         }

@@ -59,7 +59,7 @@ pub enum Narrow {
 pub enum DrillSide {
     /// As for the front.
     Front,
-    /// Turned over, as for the back.
+    /// Mirrored, as for the back.
     Back,
 }
 

@@ -29,7 +29,7 @@ impl Cutting {
         self.widening.is_some_and(|widening| widening.width == EVERYTHING)
     }
 
-    /// The width of its cut at the surface.
+    /// Its kerf at the surface.
     #[must_use]
     pub fn kerf(&self) -> Nm {
         self.tool.width_at(self.heights.cut)

@@ -27,7 +27,7 @@ pub struct Layer {
     pub diagram: Diagram,
     /// The diagram's lines.
     pub boundaries: Boundaries,
-    /// The lap round the frame, where one is cut.
+    /// The frame cut round the frame, where one is cut.
     pub lap: Option<Path>,
     /// How the side lies on the machine: the back mirrored.
     pub placement: Placement,
@@ -177,8 +177,8 @@ impl Plan {
     }
 }
 
-/// The lap without which nets that reach the frame stay joined; none where there is no frame, or
-/// none reaches it.
+/// The frame cut without which nets that reach the frame stay joined; none where there is no frame,
+/// or none reaches it.
 fn needed_frame(diagram: &Diagram, boundaries: &Boundaries) -> Option<Path> {
     let reached = boundaries.edges.iter().any(|edge| edge.is_border() && !edge.is_bare());
     diagram.frame().filter(|_| reached).cloned()

@@ -25,30 +25,31 @@ use crate::gcode::dialect::Blend;
 #[macro_export]
 macro_rules! job_options {
     ($reader:ident) => { $reader! {
-    /// Cutter for isolation: vbit:TIP:ANGLE, endmill:DIAMETER or a name; of several the widest that
-    /// fits cuts each place
+    /// Cutter for isolation: vbit:TIP:ANGLE, endmill:DIAMETER or a name (`voromill tools`); of
+    /// several the widest that fits cuts each place, so a fine tool is saved for narrow gaps
     #[arg(long, value_name = "TOOL", value_delimiter = ',', help_heading = "Isolation")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub tool: Vec<ToolChoice>,
 
-    /// Nets that are not isolated, such as text: by name, with * and ?, or by what their copper is
-    /// for (NonConductor)
+    /// Nets that are not isolated, such as text and logos: by name, with * and ?, or by what their
+    /// copper is for (NonConductor)
     #[arg(long, value_name = "PATTERN", value_delimiter = ',', help_heading = "Isolation")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub ignore: Vec<Pattern>,
 
-    /// How deep it cuts; a V-bit cuts wider the deeper it goes
+    /// How deep the cutter isolates; deeper where the sheet is not flat, but a V-bit then cuts a
+    /// wider kerf
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub depth: Option<Length>,
 
-    /// How wide it cuts: the depth that a V-bit needs for it
+    /// How wide the cutter isolates, instead of --depth: the depth that a V-bit needs for this kerf
     #[arg(long, value_name = "LENGTH", conflicts_with = "depth", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub kerf: Option<Length>,
 
-    /// One cut midway between nets (voronoi), a loop round each net (outline), or for each net
-    /// whichever takes less time (auto)
+    /// One cut midway between nets (voronoi: fewest cuts, most copper), a loop round each net
+    /// (outline: keeps the shape of the traces), or for each net whichever takes less time (auto)
     #[arg(
         long,
         value_parser = choice::<Strategy>(),
@@ -64,16 +65,19 @@ macro_rules! job_options {
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub strategy_for: Vec<StrategyFor>,
 
-    /// What a cut is midway between: copper (its edge) or core (the axes it was drawn along)
+    /// What a cut is midway between: the edges of the copper (copper), or the axes of its traces
+    /// (core), as the paper has it
     #[arg(long, value_parser = choice::<Sites>(), hide_possible_values = true, value_name = "SITES", help_heading = "Isolation")]
     pub sites: Option<Sites>,
 
-    /// A net's region ends at this distance from its copper, and is cut round there
+    /// Greatest distance from its copper at which the region of a net ends, and is cut round; for
+    /// less capacitance between nets
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub limit: Option<Length>,
 
-    /// Clear the gap beside every net to this width where there is room, in several passes
+    /// Clear this width beside every net where there is room, in several passes; for easier
+    /// soldering and higher voltages
     #[arg(long, value_name = "LENGTH", conflicts_with = "passes", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub width: Option<Length>,
@@ -83,7 +87,7 @@ macro_rules! job_options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub passes: Option<u32>,
 
-    /// Clear everything between nets, as far as the tools fit
+    /// Clear all copper between nets, as far as the tools fit; takes long
     #[arg(
         long,
         num_args = 0,
@@ -94,138 +98,142 @@ macro_rules! job_options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clear: Option<bool>,
 
-    /// Overlap of neighbouring passes: a length, or a part of the kerf [default: 10%]
+    /// Overlap of neighbouring passes: a length, or a percentage of the kerf; more where slivers
+    /// are left [default: 10%]
     #[arg(long, value_name = "LENGTH|PERCENT", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub overlap: Option<Overlap>,
 
-    /// Size of a pixel of the picture that finds the boundaries, at most [default: as coarse as the
-    /// smallest gap allows]
+    /// Pixel of the picture that finds boundaries where they are not found exactly, at most;
+    /// smaller where a warning asks for it [default: as the smallest gap needs, 0.005mm to 0.1mm]
     #[arg(long, value_name = "LENGTH", conflicts_with = "dpi", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Length>,
 
-    /// --pixel as a number of pixels to the inch
+    /// The same as --pixel, in pixels per inch
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(1..=25_400), help_heading = "Isolation")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dpi: Option<u32>,
 
-    /// Without an outline: do not cut once round the copper
+    /// Make no frame cut: without an outline the copper is otherwise cut out once all round
     #[arg(long = "no-frame", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
     pub frame: Option<bool>,
 
-    /// How far this frame cut keeps from copper [default: the kerf or the width to be cleared,
-    /// 0.2mm at least]
+    /// Distance between the frame cut and the copper [default: the kerf or the width to be cleared,
+    /// at least 0.2mm]
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub frame_margin: Option<Length>,
 
-    /// With core axes: let boundaries run through copper that a neighbour's axis is nearer to, as
-    /// without the paper's minimum width
+    /// With --sites core: let cuts run through copper that is nearer to the axis of a neighbour
     #[arg(long = "no-min-width", num_args = 0, default_missing_value = "false", help_heading = "Isolation")]
     pub min_width: Option<bool>,
 
-    /// How touching copper is found: contact, translucency, coincidence; all compares them in
-    /// inspect
+    /// How it is found which copper touches: contact (exact), or as in the paper translucency or
+    /// coincidence; all compares them in inspect
     #[arg(long, value_parser = choice::<Topology>(), hide_possible_values = true, value_name = "METHOD", help_heading = "Isolation")]
     pub topology: Option<Topology>,
 
-    /// How far a fitted cut may leave its exact place
+    /// How far a cut may be from its exact place, so that it has few lines and arcs
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
     #[serde(with = "text")]
     pub tolerance: Option<Length>,
 
-    /// Where the cut does not fit: keep it centred (centre), leave the gap uncut (skip), or fail
-    /// (error)
+    /// What to do where a gap is narrower than the kerf: cut midway, into the copper of both nets
+    /// (centre), leave the gap uncut (skip), or fail (error)
     #[arg(long, value_parser = choice::<Narrow>(), hide_possible_values = true, value_name = "WHAT", help_heading = "Isolation")]
     pub narrow: Option<Narrow>,
 
-    /// Let a V-bit rise to no less than this depth where the gap is narrow
+    /// Raise a V-bit where a gap is narrow, so that it cuts narrower there, to no less than this
+    /// depth; keep it deeper than the copper is thick
     #[arg(long, value_name = "LENGTH", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub adaptive_depth: Option<Length>,
 
-    /// The machine, for its speeds, its travel, its dialect and the time: 3018, shapeoko,
-    /// linuxcnc-router, pcb-mill, or a file such as mine.toml
+    /// Profile of the machine, for its dialect, travel, speeds and times: 3018, shapeoko,
+    /// linuxcnc-router, pcb-mill, or a file such as mine.toml (`voromill machine`)
     #[arg(long, value_name = "MACHINE", help_heading = "Machine")]
     #[serde(with = "in_settings", skip_serializing_if = "Option::is_none")]
     pub machine: Option<MachineChoice>,
 
-    /// Speed along a cut
+    /// Feed rate of the cutter along a cut
     #[arg(long, value_name = "SPEED", help_heading = "Machine")]
     #[serde(with = "text")]
     pub feed: Option<Feed>,
 
-    /// Speed into the material
+    /// Feed rate of the cutter down into the material
     #[arg(long, value_name = "SPEED", help_heading = "Machine")]
     #[serde(with = "text")]
     pub plunge: Option<Feed>,
 
-    /// Spindle speed in turns per minute
+    /// Spindle speed of the cutter, in revolutions per minute
     #[arg(long, value_name = "RPM", value_parser = turns, help_heading = "Machine")]
     #[serde(deserialize_with = "turns::deserialize")]
     pub spindle: Option<u32>,
 
-    /// Which way round loops about nets and contours go: climb (what is kept on the right),
+    /// Direction of loops round nets and contours: climb (what is kept on the right) or
     /// conventional [default: either]
     #[arg(long, value_parser = choice::<Direction>(), hide_possible_values = true, value_name = "WAY", help_heading = "Machine")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<Direction>,
 
-    /// How long the spindle is given to come up to speed [default: 3s, or as the dialect says]
+    /// Pause for the spindle to come up to speed [default: 3s, or as the dialect says]
     #[arg(long, value_name = "TIME", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub spin_up: Option<Wait>,
 
-    /// Height above the copper at which the tool travels after a retract
+    /// Height above the copper at which the tool travels after a retract: above all clamps
     #[arg(long, value_name = "LENGTH", help_heading = "Machine")]
     #[serde(with = "text")]
     pub safe_z: Option<Length>,
 
-    /// What the machine speaks: grbl, grblhal, fluidnc, linuxcnc, mach3, mach4, marlin,
+    /// G-code of the controller: grbl, grblhal, fluidnc, linuxcnc, mach3, mach4, marlin,
     /// reprapfirmware, klipper, smoothieware, tinyg, g2core, or a file such as mine.toml that
     /// describes a dialect
     #[arg(long, value_name = "DIALECT", help_heading = "Machine")]
     #[serde(with = "text")]
     pub dialect: Option<DialectChoice>,
 
-    /// How far the machine may round corners off to keep its speed (G64 P), such as 0.01mm; machine
-    /// leaves it as the machine is set
+    /// How far the machine may round off corners to keep its speed (G64 P), such as 0.01mm; machine
+    /// leaves it as the machine is set [default: 0.005mm for linuxcnc]
     #[arg(long, value_name = "LENGTH|machine", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub blend: Option<Blend>,
 
-    /// How tools are changed: files (each tool has its own), m6, pause (M0), or pause-with-text,
-    /// where the machine waits at it [default: as the dialect says]
+    /// How tools are changed: files (each tool has its own program), m6, pause (M0), or
+    /// pause-with-text, where the machine waits [default: as the dialect says]
     #[arg(long, value_parser = choice::<ToolChange>(), hide_possible_values = true, value_name = "HOW", help_heading = "Machine")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_change: Option<ToolChange>,
 
-    /// Where x and y are zero: lower-left, center, or keep the file's coordinates
+    /// Where x and y are zero: lower-left or center of the board, or keep for the files'
+    /// coordinates
     #[arg(long, value_parser = choice::<Origin>(), hide_possible_values = true, value_name = "PLACE", help_heading = "Machine")]
     pub origin: Option<Origin>,
 
-    /// Turn the board counter-clockwise on the machine
+    /// Rotate the board counter-clockwise on the machine, such as 90deg where it is longer than the
+    /// travel
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text")]
     pub rotate: Option<Angle>,
 
-    /// Move the board on the machine, after --origin
+    /// Move the board on the machine, after --origin; for a clamp or a corner of the stock
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub offset: Option<Place>,
 
-    /// The x about which the back is mirrored, on the machine [default: the board's middle]
+    /// The x about which the back is mirrored, on the machine; where the pins for flipping the
+    /// board are [default: the middle of the board]
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub mirror_axis: Option<Length>,
 
-    /// The board several times in one piece of stock, such as 3x2: columns and rows
+    /// Mill the board several times in one piece of stock: columns and rows, such as 3x2
     #[arg(long, value_name = "NxM", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tile: Option<Tiles>,
 
-    /// How far the tiles are apart [default: the cutout tool and 2mm]
+    /// Distance between tiles [default: the diameter of the cutout tool and 2mm]
     #[arg(long, value_name = "LENGTH", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tile_spacing: Option<Length>,
@@ -236,53 +244,55 @@ macro_rules! job_options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub machine_travel: Option<Triple>,
 
-    /// Where the tool goes at the end of each program, and for each change of tools: x, y and z,
-    /// such as 0mm,80mm,30mm; or how high alone
+    /// Where the tool goes at the end of each program and for tool changes: x, y and z, such as
+    /// 0mm,80mm,30mm, or a height alone
     #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text")]
     pub park: Option<ToolChangeAt>,
 
-    /// G-code of your own before each program, in a file: lines that are written as they stand,
-    /// after the header
+    /// File with G-code of your own for the start of each program, written as it is, after the
+    /// header
     #[arg(long, value_name = "FILE", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub before: Option<OwnLines>,
 
-    /// The same at the end of each, the tool lifted and the spindle off
+    /// File with G-code of your own for the end of each program, with the tool retracted and the
+    /// spindle off
     #[arg(long, value_name = "FILE", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub after: Option<OwnLines>,
 
-    /// The same at each change of tools within a program, before the machine waits
+    /// File with G-code of your own for each tool change within a program, before the machine waits
     #[arg(long, value_name = "FILE", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub at_tool_change: Option<OwnLines>,
 
-    /// Where the machine waits for a tool to be changed, unless that is where it parks, such as
-    /// 0mm,0mm,30mm; or how high
+    /// Where the machine waits for a tool change, such as 0mm,0mm,30mm, or a height alone [default:
+    /// where it parks]
     #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tool_change_at: Option<ToolChangeAt>,
 
-    /// Touch each tool off after it was fitted: where, and how high the plate lies there above the
-    /// copper, such as -10mm,5mm,1.6mm; a wire on the tool and one on the plate
+    /// Touch off each tool after it is mounted, on a plate: its x and y, and the height of its top
+    /// above the copper, such as -10mm,5mm,1.6mm; needs a wire on the tool and one on the plate
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tool_probe: Option<Triple>,
 
-    /// How thick the board is, copper and all: what through-cuts and holes are judged against; a
-    /// KiCad board says so itself
+    /// Thickness of the board, copper included: what holes and the cutout are made and verified
+    /// for; a KiCad board says it itself
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub thickness: Option<Length>,
 
-    /// Drills at hand, such as 0.8mm,1mm,3.2mm; else one for each diameter in the files
+    /// The drills that you have, such as 0.8mm,1mm,3.2mm [default: one for each diameter in the
+    /// files]
     #[arg(long, value_name = "LENGTHS", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drills: Option<Drills>,
 
-    /// Drill all holes with the thinnest of these, or of those in the files, to be drilled open by
-    /// hand
+    /// Drill all holes with the thinnest of --drills, or of those in the files, to be drilled to
+    /// size by hand
     #[arg(
         long,
         value_name = "true|false",
@@ -294,32 +304,32 @@ macro_rules! job_options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub one_drill: Option<bool>,
 
-    /// How far a drill at hand may differ from the hole
+    /// How much a drill that you have may differ from the diameter of a hole
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub drill_tolerance: Option<Length>,
 
-    /// How deep a drill goes before it clears its chips
+    /// Peck depth: how deep a drill goes before it retracts to clear chips [default: no pecks]
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_peck: Option<Length>,
 
-    /// How long a drill stays at the bottom of each hole
+    /// Dwell of a drill at the bottom of each hole [default: none]
     #[arg(long, value_name = "TIME", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_dwell: Option<Wait>,
 
-    /// Speed of a drill into the material [default: by its diameter and --material]
+    /// Feed rate of a drill [default: by its diameter and --material]
     #[arg(long, value_name = "SPEED", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_plunge: Option<Feed>,
 
-    /// Spindle speed of a drill in turns per minute [default: by its diameter]
+    /// Spindle speed of a drill, in revolutions per minute [default: by its diameter]
     #[arg(long, value_name = "RPM", value_parser = turns, help_heading = "Drilling and cutting out")]
     #[serde(deserialize_with = "turns::deserialize", skip_serializing_if = "Option::is_none")]
     pub drill_spindle: Option<u32>,
 
-    /// Bore slots, and holes thicker than the thickest drill or without one, with an end mill;
+    /// Mill slots, and holes for which no drill is thick enough, with an end mill (helical boring);
     /// =false drills slots hole by hole
     #[arg(
         long,
@@ -331,17 +341,18 @@ macro_rules! job_options {
     )]
     pub drill_bore: Option<bool>,
 
-    /// Bore holes of this diameter and wider, and slots, whatever drills are at hand
+    /// Bore holes of this diameter and wider, and slots, even if there is a drill; for drills that
+    /// wander
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_bore_from: Option<Length>,
 
-    /// The end mill that bores [default: the one that cuts the board out]
+    /// End mill for boring [default: --cutout-tool]
     #[arg(long, value_name = "TOOL", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_bore_tool: Option<ToolChoice>,
 
-    /// The side that is up while holes are drilled: front or back
+    /// The side that is up while holes are drilled: front or back [default: front]
     #[arg(
         long,
         value_parser = choice::<DrillSide>(),
@@ -352,24 +363,25 @@ macro_rules! job_options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub drill_side: Option<DrillSide>,
 
-    /// Two holes of this diameter beside the board, to flip it on pins: a program of their own
+    /// Make two holes of this diameter beside the board, for the pins on which it is flipped: a
+    /// program of their own
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub alignment_holes: Option<Length>,
 
-    /// How far from the board their middles are
+    /// Distance from the edge of the board to the centres of the alignment holes
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub alignment_margin: Option<Length>,
 
-    /// How deep alignment holes go at their full width, for pins to stand in what lies below
-    /// [default: the board's thickness and 3mm]
+    /// Depth of alignment holes at their full diameter, into the bed so that pins stand [default:
+    /// the thickness of the board and 3mm]
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub alignment_depth: Option<Length>,
 
-    /// How deep all holes go, whatever their drill [default: the board's thickness, --break-through
-    /// and the tip of each drill]
+    /// Depth of all holes, for any drill [default: --thickness, --break-through and the tip of each
+    /// drill]
     #[arg(
         long,
         value_name = "LENGTH",
@@ -379,18 +391,17 @@ macro_rules! job_options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_depth: Option<Length>,
 
-    /// How far a drill's full width goes beyond the board's back
+    /// How far the full diameter of a drill goes below the back of the board
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub break_through: Option<Length>,
 
-    /// The angle of the tip of drills that have no table of their own; carbide drills have 130deg
+    /// Point angle of drills, for how deep they go; carbide drills have 130deg
     #[arg(long, value_name = "ANGLE", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub drill_tip_angle: Option<Angle>,
 
-    /// What the board is made of, for the speeds of drills: fr4 (glass epoxy) or fr1 (paper
-    /// phenolic)
+    /// Material of the board, for the speeds of drills: fr4 (glass epoxy) or fr1 (paper phenolic)
     #[arg(
         long,
         value_parser = choice::<Material>(),
@@ -400,27 +411,28 @@ macro_rules! job_options {
     )]
     pub material: Option<Material>,
 
-    /// Height for travel while drilling [default: --safe-z]
+    /// Height above the copper at which drills travel [default: --safe-z]
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub drill_safe_z: Option<Length>,
 
-    /// Drill plated holes this much wider, for rivets or tubes
+    /// How much wider plated holes are drilled, for rivets or tubes that join the two sides
+    /// [default: no wider]
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub rivet: Option<Length>,
 
-    /// How far apart two lines of the outline may end and still meet
+    /// Widest gap of the outline that is closed: how far apart two of its lines may end
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub outline_gap: Option<Length>,
 
-    /// End mill that cuts the board out
+    /// End mill that cuts the board out of the stock
     #[arg(long, value_name = "TOOL", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub cutout_tool: Option<ToolChoice>,
 
-    /// The side that is up while the board is cut out: front or back
+    /// The side that is up while the board is cut out: front or back [default: front]
     #[arg(
         long,
         value_parser = choice::<DrillSide>(),
@@ -431,7 +443,7 @@ macro_rules! job_options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub cutout_side: Option<DrillSide>,
 
-    /// How deep the board is cut out in the end [default: 0.1 mm more than it is thick]
+    /// Depth of the cutout [default: 0.1 mm more than --thickness]
     #[arg(
         long,
         value_name = "LENGTH",
@@ -441,27 +453,29 @@ macro_rules! job_options {
     #[serde(with = "text")]
     pub cutout_depth: Option<Length>,
 
-    /// How much deeper each pass goes
+    /// Depth of each pass of the cutout; less for a thin cutter
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub cutout_pass: Option<Length>,
 
-    /// How steeply the cutter goes down along the contour at each pass, instead of straight down
+    /// Angle at which the cutter ramps down along the contour in each pass, for cutters that cannot
+    /// plunge [default: straight down]
     #[arg(long, value_name = "ANGLE", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub cutout_ramp: Option<Angle>,
 
-    /// Holding tabs on each contour; small cut-outs have none
+    /// Number of holding tabs on each contour; small cut-outs have none
     #[arg(long, value_name = "NUMBER", help_heading = "Drilling and cutting out")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tabs: Option<u32>,
 
-    /// The greatest tab spacing, instead of a number of tabs
+    /// Greatest distance between tabs along the contour, instead of --tabs
     #[arg(long, value_name = "LENGTH", conflicts_with = "tabs", help_heading = "Drilling and cutting out")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub tab_spacing: Option<Length>,
 
-    /// A tab next to this place of the board, in the files' coordinates; as often as there are tabs
+    /// Put a tab at this place of the outline, in the files' coordinates; may be given several
+    /// times
     #[arg(
         long,
         value_name = "X,Y",
@@ -472,18 +486,18 @@ macro_rules! job_options {
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub tab_at: Vec<Place>,
 
-    /// How wide a tab is
+    /// Width of a tab
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub tab_width: Option<Length>,
 
-    /// How much material a tab leaves
+    /// Height of a tab above the back of the board: less is easier to break
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub tab_height: Option<Length>,
 
-    /// What a program's file is called in the folder of outputs: front, back, drill, cutout or
-    /// alignment, and a name, such as front=top.ngc
+    /// File name of a program: front, back, drill, cutout or alignment, and a name, such as
+    /// front=top.ngc
     #[arg(long, value_name = "PROGRAM=FILE", help_heading = "Output")]
     #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
     pub output_name: Vec<OutputName>,

@@ -31,7 +31,7 @@ pub struct Job {
     pub ignored: Vec<String>,
     /// How it lies on the machine, seen from the front.
     pub placement: Placement,
-    /// The line about which it is turned over, in machine coordinates.
+    /// The line about which it is flipped, in machine coordinates.
     pub axis: Nm,
     /// Its sides, front first.
     pub layers: Vec<Layer>,
@@ -61,7 +61,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         && rivet(&mut board, wider) == 0
     {
         let warning = planning::RIVET_WITHOUT_HOLE.warning("no hole of the board is plated");
-        warnings.push(warning.so(Words::of("{rivet} changes nothing")));
+        warnings.push(warning.so(Words::of("{rivet} has no effect")));
     }
     let bounds = board.bounds().ok_or_else(|| no_copper(settings))?;
     let stock = Stock::new(bounds, settings);
@@ -132,7 +132,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     if settings.options().blend.is_some() && settings.dialect.blend.is_none() {
         let message = format!("{} has no word for how far corners may be rounded off", settings.dialect.name);
         let warning = planning::BLEND_UNKNOWN.warning(message);
-        warnings.push(warning.so(Words::of("{blend} changes nothing")));
+        warnings.push(warning.so(Words::of("{blend} has no effect")));
     }
     let electrical = stages.run("nets of the assembled board", || electrical(&board, &layers), |_| []);
     warnings.extend(electrical.iter().flat_map(Electrical::check));
@@ -215,10 +215,10 @@ fn isolation(layer: &Layer, board: &Board, settings: &Settings) -> Program {
     turned(whole(&format!("{side} isolation"), board, layer.sections.clone(), settings), &layer.placement)
 }
 
-/// The program with a note where the board is turned over for it.
+/// The program with a note where the board is flipped for it.
 fn turned(mut program: Program, placement: &Placement) -> Program {
     if let Some(axis) = placement.mirror {
-        program.notes.push(format!("turned over left to right about the vertical line x = {axis:.3} mm"));
+        program.notes.push(format!("mirrored left to right about the vertical line x = {axis:.3} mm"));
     }
     program
 }

@@ -27,7 +27,7 @@ pub enum ProbeGrid {
 /// A text that is neither a length nor two numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is no grid: expected the most way between two touches, such as `10mm`, or columns and rows, such as `7x5`"
+    "`{0}` is no grid: expected the greatest distance between two probed points, such as `10mm`, or columns and rows, such as `7x5`"
 )]
 pub struct ParseProbeGridError(String);
 
@@ -122,10 +122,10 @@ impl Probing {
         }
         match self.grid {
             ProbeGrid::Count(Tiles { columns, rows }) if columns >= 2 && rows >= 2 => Ok((columns, rows)),
-            ProbeGrid::Count(count) => wrong("probe-grid", count, "a surface has at least 2x2 touches"),
+            ProbeGrid::Count(count) => wrong("probe-grid", count, "a surface has at least 2x2 probed points"),
             ProbeGrid::Spacing(spacing) => {
                 let sizes = count(area.width(), spacing.nm()).zip(count(area.height(), spacing.nm()));
-                let expected = format!("it must be above zero, with at most {MOST} touches one way");
+                let expected = format!("it must be above zero, with at most {MOST} probed points one way");
                 sizes.map_or_else(|| wrong("probe-grid", spacing, &expected), Ok)
             }
         }

@@ -74,7 +74,7 @@ pub(super) fn drill_tolerance(options: &Options) -> Result<Nm, Error> {
     }
 }
 
-/// Diameter and distance of the holes for turning the board over, which lie beside it.
+/// Diameter and distance of the holes on whose pins the board is flipped, which lie beside it.
 pub(super) fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
     let margin = positive("alignment-margin", options.alignment_margin)?;
     let Some(diameter) = given("alignment-holes", options.alignment_holes)? else { return Ok(None) };

@@ -43,7 +43,8 @@ pub struct Settings {
     pub tool_change: Option<ToolChangeAt>,
     /// Where the tool goes at the end of a program.
     pub park: ToolChangeAt,
-    /// The diameter of the holes for turning the board over on pins, and their distance from it.
+    /// The diameter of the holes for the pins on which the board is flipped, and their distance
+    /// from it.
     pub alignment: Option<(Nm, Nm)>,
     /// Voronoi or outline.
     pub strategy: Strategy,
@@ -78,7 +79,7 @@ pub struct Settings {
     pub rotate: Angle,
     /// How far it is moved on the machine from its origin.
     pub offset: Vector,
-    /// The line about which it is turned over; none for its middle.
+    /// The line about which it is flipped; none for its middle.
     pub mirror_axis: Option<Nm>,
     /// How thick the board is.
     pub thickness: Nm,

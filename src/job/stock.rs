@@ -1,7 +1,7 @@
-//! How a board lies in its stock: placed, tiled, turned over.
+//! How a board lies in its stock: placed, tiled, mirrored.
 //!
 //! ```text
-//!        ○ ← alignment hole, on the axis about which the stock is turned over
+//!        ○ ← alignment hole, on the axis about which the stock is flipped
 //!   ┌────┼────┐ spacing ┌─────────┐
 //!   │    ┊    │ ←─────→ │         │      3 × 1 tiles: the axis is the middle of all of them
 //!   └────┼────┘         └─────────┘
@@ -19,7 +19,7 @@ use super::{Settings, Tiles};
 pub(super) struct Stock {
     /// How the first tile lies, seen from the front.
     pub(super) front: Placement,
-    /// The line about which the stock is turned over.
+    /// The line about which the stock is flipped.
     pub(super) axis: Nm,
     /// All tiles, seen from the front.
     bounds: Rect,
@@ -74,7 +74,7 @@ impl Stock {
         })
     }
 
-    /// The program for the holes on whose pins the stock is turned over; none where none are asked
+    /// The program for the holes on whose pins the stock is flipped; none where none are asked
     /// for, or nothing is turned.
     pub(super) fn alignment(&self, board: &Board, settings: &Settings) -> Option<(Program, Vec<Warning>)> {
         let (diameter, margin) = settings.alignment.filter(|_| board.back.is_some())?;
@@ -101,10 +101,8 @@ impl Stock {
             point: settings.drill_tip_angle,
         };
         let (sections, warnings) = drill(&holes, &drilling);
-        let note = format!(
-            "pins in these holes hold the stock when it is turned over about x = {:.3} mm",
-            self.axis
-        );
+        let note =
+            format!("pins in these holes hold the stock when it is flipped about x = {:.3} mm", self.axis);
         let below = settings.alignment_depth - settings.thickness;
         let depth = format!("the holes go {below:.1} mm into what lies below the board");
         let program = Program {

@@ -11,11 +11,11 @@ use super::quantity::{ToolChangeAt, Triple};
 /// What a program is for; its file is named after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
-    /// Drills the holes on whose pins the board is turned over.
+    /// Drills the holes on whose pins the board is flipped.
     Alignment,
     /// Isolates the front.
     Front,
-    /// Isolates the back, the board turned over.
+    /// Isolates the back, the board flipped.
     Back,
     /// Drills.
     Drill,

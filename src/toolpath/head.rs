@@ -11,7 +11,7 @@ use super::program::{Move, Position};
 /// The machine's head while a section is planned. Its methods are the only way to make moves, so
 /// what a [`Section`](super::Section) guarantees holds by construction: sideways below the safe
 /// height is always a feed, a rapid is level at the safe height or straight up or down, and the
-/// last move is a lift.
+/// last move is a retract.
 pub(super) struct Head {
     heights: Heights,
     plunge: Feed,
@@ -119,7 +119,7 @@ impl Head {
         self.moves.push(Move::Dwell { milliseconds });
     }
 
-    /// All moves, lifted at the end.
+    /// All moves, retracted at the end.
     pub(super) fn finish(mut self) -> Vec<Move> {
         self.lift();
         self.moves

@@ -76,8 +76,8 @@ impl fmt::Display for Acceleration {
     }
 }
 
-/// What the machine can do: for the time estimate, for what a lift costs, and for what programs may
-/// ask of it.
+/// What the machine can do: for the time estimate, for what a retract costs, and for what programs
+/// may ask of it.
 ///
 /// Figures for x, y and z are in this order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 //!
 //! Every strategy plans a [`Section`]: the moves of one tool, in machine coordinates, which its
 //! planner makes so that sideways below the safe height is always a feed and everything begins and
-//! ends lifted. Sections make a [`Program`], which [`gcode`](crate::gcode) writes down. What a lift
-//! costs is counted in seconds on the [`Machine`], so re-cutting a short way, lifting, and rapid
-//! travel are compared in one currency.
+//! ends retracted. Sections make a [`Program`], which [`gcode`](crate::gcode) writes down. What a
+//! retract costs is counted in seconds on the [`Machine`], so re-cutting a short way, lifting, and
+//! rapid travel are compared in one currency.
 
 mod angle;
 mod direction;

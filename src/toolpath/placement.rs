@@ -8,7 +8,7 @@ use super::angle::Angle;
 /// mirrored.
 ///
 /// Front, back, drills and outline of one board share the first two steps, so they register; the
-/// back is what the machine sees when the board has been turned over left to right about the axis:
+/// back is what the machine sees when the board has been flipped left to right about the axis:
 ///
 /// ```text
 ///        front            │            back
@@ -52,7 +52,7 @@ impl Placement {
         Self { shift: Vector::new(-zero.x, -zero.y) + offset, ..turned }
     }
 
-    /// The same board turned over left to right about the vertical line at `axis`, in machine
+    /// The same board mirrored left to right about the vertical line at `axis`, in machine
     /// coordinates.
     #[must_use]
     pub const fn turned_over(self, axis: Nm) -> Self {
@@ -60,7 +60,7 @@ impl Placement {
     }
 
     /// The vertical middle line of a board within `bounds`, in machine coordinates, to the
-    /// micrometre: turned over about it, the board lies where it lay before.
+    /// micrometre: mirrored about it, the board lies where it lay before.
     #[must_use]
     pub fn middle(&self, bounds: Rect) -> Nm {
         let around = Rect::around(bounds.corners().map(|corner| self.point(corner))).unwrap_or(bounds);
@@ -128,7 +128,7 @@ mod tests {
         let front = Placement::front(Origin::LowerLeft, bounds, Angle::ZERO, Vector::default());
         assert_eq!(front.point(at(10_000, 20_000)), at(0, 0), "the lower left corner is zero");
         let back = front.turned_over(front.middle(bounds));
-        assert_eq!(back.point(at(60_000, 20_000)), at(0, 0), "turned over, the right one is");
+        assert_eq!(back.point(at(60_000, 20_000)), at(0, 0), "mirrored, the right one is");
         assert_eq!(back.point(at(10_000, 50_000)), at(50_000, 30_000), "top and bottom stay");
         assert_eq!(back.turn(Turn::Clockwise), Turn::CounterClockwise, "arcs run the other way");
     }

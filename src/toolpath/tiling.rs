@@ -104,7 +104,7 @@ fn shifted(step: &Move, by: Vector) -> Move {
     }
 }
 
-/// Two holes that register a board turned over left to right about the vertical line at `axis`: on
+/// Two holes that register a board mirrored left to right about the vertical line at `axis`: on
 /// that line, `margin` above and below `bounds`, so that pins in them hold either side in the same
 /// place.
 #[must_use]

@@ -77,7 +77,7 @@ pub enum Role {
     Drilling,
     /// Cuts the board out.
     Cutout,
-    /// Drills the holes on whose pins the board is turned over.
+    /// Drills the holes on whose pins the board is flipped.
     Alignment,
 }
 

@@ -75,8 +75,8 @@ enum Pieces {
     Others,
 }
 
-/// What the cuts make of the pieces of a net within a window. Crumbs do not count, unless the
-/// window cuts them off from more.
+/// What the cuts make of the pieces of a net within a window. Negligible residues do not count,
+/// unless the window cuts them off from more.
 fn parts(sheet: &Sheet<'_>, net: NetId, rect: Rect, pitch: Nm, settings: &Settings) -> Pieces {
     let pitch = pitch.max(rect.width().max(rect.height()) / MOST);
     let Ok(grid) = Grid::covering(rect, pitch) else { return Pieces::Others };

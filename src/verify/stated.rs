@@ -20,7 +20,7 @@ pub(super) struct Stated {
     pub(super) offset: Vector,
     /// How far the board was turned, counter-clockwise in degrees.
     pub(super) degrees: f64,
-    /// The line about which the board was turned over.
+    /// The line about which the board was flipped.
     pub(super) mirror: Option<Nm>,
 }
 
@@ -59,7 +59,7 @@ impl Stated {
                 };
             }
             ["origin", origin] => self.origin = Some((*origin).to_owned()),
-            [.., "line", "x", "=", axis, "mm"] if comment.contains("turned over") => {
+            [.., "line", "x", "=", axis, "mm"] if comment.contains("mirrored left to right") => {
                 self.mirror = format!("{axis}mm").parse().ok();
             }
             _ => {}
@@ -159,7 +159,7 @@ mod tests {
     #[test]
     fn our_own_comments_are_understood() {
         let text = "(blinker back isolation)\n(tool vbit:0.1mm:30deg)\n(origin lower-left)\n\
-                    (turned over left to right about the vertical line x = 12.500 mm)\nG21\n(fit tool 2: endmill:1mm)\n";
+                    (mirrored left to right about the vertical line x = 12.500 mm)\nG21\n(fit tool 2: endmill:1mm)\n";
         let stated = Stated::read(text);
         assert_eq!(stated.role, Some(Role::Isolation(Side::Back)), "from the title");
         assert_eq!(stated.mirror, Some(Nm::from_um(12_500)), "the axis");

@@ -198,7 +198,7 @@ fn one_layer_goes_to_stdout_alone() {
     assert!(done.status.success(), "{}", stderr(&done));
     let program = stdout(&done);
     assert!(
-        program.contains("mirror") || program.contains("turned over"),
+        program.contains("mirror") || program.contains("mirrored left to right"),
         "the back says how it lies: {program:.400}"
     );
     assert!(program.contains("M2"), "a whole program");
@@ -306,7 +306,7 @@ fn an_option_that_changes_nothing_is_neither_shown_nor_taken() {
         if command == "inspect" {
             given.push(value);
         }
-        fails(&out, &given, &[&format!("{option} changes nothing of what `voromill {command}` makes")], &[]);
+        fails(&out, &given, &[&format!("{option} has no effect on what `voromill {command}` makes")], &[]);
         let help = stdout(&voromill(out.path(), &[command, "--help-all"]));
         assert!(!help.contains(option), "{command} --help-all is silent on {option}");
         let help = stdout(&voromill(out.path(), &["mill", "--help-all"]));
@@ -359,7 +359,7 @@ fn an_option_that_changes_nothing_beside_the_others_is_refused() {
         ("--alignment-depth", "9mm", "--alignment-holes"),
         ("--tile-spacing", "3mm", "--tile"),
     ] {
-        let said = format!("{option} changes nothing of what is made so");
+        let said = format!("{option} has no effect with these options");
         fails(&out, &["mill", &board, "-o", "x", option, value], &[&said, hint], &[]);
     }
     fails(
@@ -568,7 +568,7 @@ fn the_papers_own_program_and_picture_are_to_be_had() {
     assert!(picture.width() > 600, "500 dots an inch");
     fs::remove_file(out.path().join("paper.png")).expect("it was there");
     let other = ["isolate", &board, "--paper", "--depth", "0.2mm", "-o", "-"];
-    fails(&out, &other, &["--depth changes nothing of what the paper's program makes"], &[]);
+    fails(&out, &other, &["--depth has no effect on what the paper's program makes"], &[]);
 }
 
 #[test]

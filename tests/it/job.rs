@@ -101,7 +101,7 @@ fn a_cache_key_changes_with_files_and_settings_and_with_nothing_else() {
 fn without_an_outline_the_frame_is_cut_unless_told_otherwise() {
     let layer = "blinker/blinker-B_Cu.gbr";
     let (framed, _) = job(layer, "");
-    assert!(framed.layers[0].lap.is_some(), "a lap round the copper");
+    assert!(framed.layers[0].lap.is_some(), "a frame cut round the copper");
     assert!(warned(&framed, "outline-missing"), "and why: {:?}", framed.warnings);
     let (open, _) = job(layer, "frame = false");
     assert!(open.layers[0].lap.is_none() && warned(&open, "frame-not-cut"), "said, as nets stay joined");
@@ -125,7 +125,7 @@ fn the_back_is_turned_over_and_registers_with_the_drills() {
     let (front, turned) = (job.placement.point(hole), back.placement.point(hole));
     assert_eq!((front.x + turned.x, front.y), (axis * 2, turned.y), "the same hole, seen from behind");
     let program = job.programs.iter().find(|program| program.part == Part::Back).expect("a back");
-    assert!(program.text.contains("turned over"), "the header says so");
+    assert!(program.text.contains("mirrored left to right"), "the header says so");
 }
 
 #[test]
@@ -136,7 +136,7 @@ fn holes_are_drilled_from_behind_where_that_is_asked_for() {
         let report = job.verify(&settings).expect("programs that can be followed");
         assert!(report.findings.is_empty(), "{side}: {:?}", report.findings);
         let written = job.programs.iter().find(|program| program.part == Part::Drill).expect("holes");
-        assert_eq!(written.text.contains("turned over"), side == "back", "the header says so");
+        assert_eq!(written.text.contains("mirrored left to right"), side == "back", "the header says so");
         assert!(written.text.contains("endmill:0.9mm"), "bored with a tool of its own");
         let moves = written.program.sections.iter().flat_map(|section| &section.moves);
         let plunges = moves.filter_map(|step| step.to()).filter(|to| to.z < Nm::ZERO);

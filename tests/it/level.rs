@@ -266,7 +266,7 @@ fn maps_that_are_none_say_why() {
         ),
         (
             "{\"prb\":{\"e\":1,\"x\":1,\"y\":2,\"z\":3}}\n",
-            "line 1: the controller reports touches from the machine's zero",
+            "line 1: the controller reports probed points from the machine's zero",
         ),
         // Numbers with commas, more columns than there are axes, two heights of one place.
         ("0 0 0\n0,5 1,25 -0,03\n", "line 2: `0,5 1,25 -0,03`: expected points in numbers"),
@@ -521,7 +521,7 @@ fn a_touch_two_millimetres_low_is_refused_by_its_place_unless_it_is_accepted() {
     let said = stderr(&refused);
     assert!(
         said.contains(
-            "one-low.xyz: 1 touch lies off the plane of the neighbours: x = 10.000 mm, y = 10.000 mm"
+            "one-low.xyz: 1 probed point lies off the plane of the neighbours: x = 10.000 mm, y = 10.000 mm"
         ) && said.contains("at -1.985 mm is 2.0")
             && said.contains("--accept-outliers"),
         "{said}"
@@ -529,7 +529,7 @@ fn a_touch_two_millimetres_low_is_refused_by_its_place_unless_it_is_accepted() {
     assert!(!folder.path().join("front-levelled.nc").exists(), "nothing is written");
     let accepted = level(&["--accept-outliers"]);
     assert!(accepted.status.success(), "{}", stderr(&accepted));
-    assert!(stdout(&accepted).contains("1 touch lies off"), "it is said still: {}", stdout(&accepted));
+    assert!(stdout(&accepted).contains("1 probed point lies off"), "it is said still: {}", stdout(&accepted));
 }
 
 #[test]
@@ -550,7 +550,7 @@ fn the_walkthrough_bends_its_front() {
     let tools = ["endmill-0.4mm", "vbit-0.1mm-20deg"].map(|tool| format!("out/regulator-front-{tool}"));
     for tool in &tools {
         let said = run(&["level", &format!("{tool}.ngc"), "--map", &map]);
-        assert!(said.contains("bCNC's probe file, 7 by 5 touches"), "{said}");
+        assert!(said.contains("bCNC's probe file, 7 by 5 probed points"), "{said}");
     }
     let [wide, fine] = tools.map(|tool| format!("{tool}-levelled.ngc"));
     run(&["verify", &wide, &fine, "--board", &board]);
@@ -573,7 +573,7 @@ fn the_command_that_probes_lays_the_board_as_milling_does() {
     assert_eq!(touches(&probe(&["--rotate", "90deg"])), 3 * 4, "turned");
     assert!(probe(&["--rotate", "90deg"]).contains("X40"), "40 mm wide");
     assert!(touches(&probe(&["--tile", "2x1"])) > 4 * 3, "two boards");
-    assert!(probe(&["--side", "back", "--mirror-axis", "0mm"]).contains("X-60"), "turned over about 0");
+    assert!(probe(&["--side", "back", "--mirror-axis", "0mm"]).contains("X-60"), "mirrored about 0");
     for (option, value, key) in [
         ("--probe-depth", "0mm", "probe-depth"),
         ("--probe-clearance", "9mm", "probe-clearance"),

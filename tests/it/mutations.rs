@@ -23,7 +23,7 @@ use crate::real_boards;
 enum Damage {
     /// A file ends after so many bytes.
     Cut(usize, usize),
-    /// A byte of a file gets these bits turned over.
+    /// A byte of a file gets these bits flipped.
     Flip(usize, usize, u8),
     /// A file is empty.
     Empty(usize),

@@ -48,7 +48,7 @@ fn the_first_ten_lines_tell_what_to_mount_and_where_zero_is() {
             assert!(mounts, "the tool: {what}");
             let says = |begin: &str| useful.iter().any(|line| line.starts_with(begin));
             assert!(says("takes about ") && says("x ") && says("zero: x y the lower left corner"), "{what}");
-            assert_eq!(says("turned over"), program.part == Part::Back, "{what}");
+            assert_eq!(says("mirrored left to right"), program.part == Part::Back, "{what}");
         }
     }
 }
@@ -243,7 +243,7 @@ fn turns(text: &str) -> Vec<f64> {
 fn loops_go_round_what_is_kept_as_they_are_asked_to() {
     for (direction, sign) in [("climb", -1.0), ("conventional", 1.0)] {
         let settings = format!("direction = \"{direction}\"\nstrategy = \"outline\"\ntabs = 0");
-        // The one is turned over. No loop of it goes round a hole in copper.
+        // The one is flipped. No loop of it goes round a hole in copper.
         for (name, part) in [("blinker", Part::Back), ("qfn-breakout", Part::Front)] {
             let (job, _) = mill(name, &settings);
             let program = job.programs.iter().find(|program| program.part == part).expect("a side");

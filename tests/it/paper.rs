@@ -180,7 +180,7 @@ fn paper_table(found: &[(usize, &str, PaperEntry)]) -> String {
 /// Staircases, the paper's way and exact boundaries.
 fn lengths_table(found: &[(usize, &str, PaperEntry)]) -> String {
     let mut text = "\
-| dataset | | outline in | Voronoi in | without the lap | decrease % | without the lap % | normal width in | Voronoi width in |
+| dataset | | outline in | Voronoi in | without the frame | decrease % | without the frame % | normal width in | Voronoi width in |
 |---|---|---|---|---|---|---|---|---|
 "
     .to_owned();

@@ -375,7 +375,7 @@ fn what_makes_no_sense_is_refused() {
             (&["--tool", "endmill:1mm", "--ramp", "0deg"], "above 0deg"),
             (&["--tool", "endmill:1mm", "--depth-pass", "0mm"], "above zero"),
             (&["--tool", "endmill:9.8mm"], "narrower than"),
-            (&["--tool", "endmill:1mm", "--width", "1mm"], "changes nothing"),
+            (&["--tool", "endmill:1mm", "--width", "1mm"], "has no effect"),
         ],
     );
 }

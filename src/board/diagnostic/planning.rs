@@ -96,7 +96,7 @@ diagnostics! {
     GAP_NARROWER_THAN_TOOL: Warning =
         "gap-narrower-than-tool",
         "a gap between two nets is narrower than the kerf",
-        "the cut takes copper of both nets",
+        "the cut removes copper of both nets",
         "use a narrower tool, a smaller {depth} with a V-bit, or {narrow} skip to leave the gap uncut";
 
     LOOPS_BY_OFFSETS: Warning =
@@ -114,7 +114,7 @@ diagnostics! {
     MASK_GAP_TAKES_COPPER: Warning =
         "mask-gap-takes-copper",
         "copper is nearer to a boundary than the gap of the mask",
-        "the gap takes some of it",
+        "the gap removes some of it",
         "choose a smaller {gap}";
 
     MASK_NET_WITHOUT_REGION: Warning =
@@ -215,7 +215,7 @@ diagnostics! {
 
     POCKET_PLUNGES: Warning =
         "pocket-plunges",
-        "the tool comes down more often than it need",
+        "the tool plunges more often than it needs to",
         "it takes longer, and each plunge wears the tool",
         "link the loops within what is milled";
 
@@ -258,6 +258,6 @@ diagnostics! {
     WIDE_PLACE_LEFT: Warning =
         "wide-place-left",
         "shapes are wider than the V-bit cuts at its greatest depth",
-        "there it follows the middle alone, and leaves the rest",
+        "there it follows the medial axis alone, and leaves the rest",
         "allow more ({max-depth}), or clear the rest with an end mill";
 }

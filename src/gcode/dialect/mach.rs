@@ -8,7 +8,7 @@ use super::{
 };
 
 /// Why its programs do not probe.
-const G31: &str = "it probes with G31, and only a macro takes what was touched";
+const G31: &str = "it probes with G31, and only a macro reads the probed point";
 
 /// Mach3. G91.1 because its own default for centres is a setting; G64 without a tolerance, which it
 /// does not know, would round corners by the feed, so it runs in exact stop. M30 rewinds; no file

@@ -62,7 +62,7 @@ pub struct Dialect {
     pub blend: Option<Blend>,
     /// The lines before everything else.
     pub start: Cow<'static, [Text]>,
-    /// The lines after everything else, the tool lifted and the spindle off.
+    /// The lines after everything else, the tool retracted and the spindle off.
     pub end: Cow<'static, [Text]>,
     /// What turns the coolant (or the vacuum) on and off; none leaves it alone.
     pub coolant: Option<(Text, Text)>,
@@ -88,9 +88,9 @@ pub struct Dialect {
 pub struct OwnCode {
     /// Before everything else; what the dialect says of units and modes comes after it.
     pub before: Vec<String>,
-    /// At each change of tools within a program, the tool lifted and the spindle off.
+    /// At each change of tools within a program, the tool retracted and the spindle off.
     pub at_tool_change: Vec<String>,
-    /// At the end, the tool lifted and the spindle off.
+    /// At the end, the tool retracted and the spindle off.
     pub after: Vec<String>,
 }
 

@@ -41,7 +41,7 @@ pub(super) const MARLIN: Dialect = Dialect {
     touches: Touches::None,
     sets_height: None,
     no_probe: Some(Borrowed(
-        "only some builds of it know G38.2, none reports what it touched, and G10 retracts filament",
+        "only some builds of it know G38.2, none reports the probed point, and G10 retracts filament",
     )),
     touch_off: None,
     condition: Some(Borrowed("Marlin must be built with SPINDLE_FEATURE, S in turns per minute")),
@@ -74,7 +74,7 @@ pub(super) const REPRAPFIRMWARE: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::None,
     sets_height: None,
-    no_probe: Some(Borrowed("it does not report what G38.2 has touched")),
+    no_probe: Some(Borrowed("it does not report the point that G38.2 probed")),
     touch_off: None,
     condition: Some(Borrowed("the spindle must be number 0 [M950 R0]")),
     own: OwnCode::NONE,

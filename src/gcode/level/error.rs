@@ -39,7 +39,7 @@ pub enum MapError {
         found: usize,
     },
     /// Too little to have a surface.
-    #[error("the touched places make {columns} columns and {rows} rows: expected at least two of each")]
+    #[error("the probed points make {columns} columns and {rows} rows: expected at least two of each")]
     Few {
         /// Different x.
         columns: usize,
@@ -48,7 +48,7 @@ pub enum MapError {
     },
     /// A grid with holes.
     #[error(
-        "{count} places of the {columns} by {rows} grid were not touched, the first at x = {x:.3} mm, y = {y:.3} mm"
+        "{count} points of the {columns} by {rows} grid were not probed, the first at x = {x:.3} mm, y = {y:.3} mm"
     )]
     Missing {
         /// How many.
@@ -64,7 +64,7 @@ pub enum MapError {
     },
     /// Two heights of one place.
     #[error(
-        "line {line}: the surface is at {second:.3} mm at x = {x:.3} mm, y = {y:.3} mm, and line {other} has it at {first:.3} mm: expected touches of one place to agree"
+        "line {line}: the surface is at {second:.3} mm at x = {x:.3} mm, y = {y:.3} mm, and line {other} has it at {first:.3} mm: expected heights of one place to agree"
     )]
     Contradicting {
         /// From 1.
@@ -96,7 +96,7 @@ pub enum MapError {
     },
     /// Places that count from the machine's zero.
     #[error(
-        "line {line}: the controller reports touches from the machine's zero, and nothing here says where the work's zero is"
+        "line {line}: the controller reports probed points from the machine's zero, and nothing here says where the work's zero is"
     )]
     Zero {
         /// From 1.
@@ -112,7 +112,7 @@ pub enum LevelError {
     #[error(transparent)]
     Read(#[from] ReadError),
     /// Its lines cannot be changed one by one.
-    #[error("line {line}: {what}: such a program cannot be bent line by line")]
+    #[error("line {line}: {what}: such a program cannot be levelled line by line")]
     Indirect {
         /// From 1.
         line: u32,

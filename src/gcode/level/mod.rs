@@ -2,11 +2,11 @@
 //!
 //! A sheet of copper lies a tenth of a millimetre higher here than there, as much as a cut is deep;
 //! so machinists touch it in a grid of points before they cut. [`level()`] takes the [`HeightMap`]
-//! of those touches and anybody's program, and adds the height of the surface to every z below the
-//! height for travel. Between the points the surface is bilinear, as bCNC and OpenCNCPilot have it,
-//! so a straight cut follows it on short straight pieces, and an arc on short helices: as few as
-//! keep the tool within a given height of the surface. Whatever does not cut stays as it is, to the
-//! letter: comments, tool changes, feeds, rapids above the board.
+//! of those touches and a program from any CAM, and adds the height of the surface to every z below
+//! the height for travel. Between the points the surface is bilinear, as bCNC and OpenCNCPilot have
+//! it, so a straight cut follows it on short straight pieces, and an arc on short helices: as few
+//! as keep the tool within a given height of the surface. Whatever does not cut stays as it is, to
+//! the letter: comments, tool changes, feeds, rapids above the board.
 //!
 //! ```text
 //!   z ┄┄┄┄┄┄┄╮ safe: untouched    ╭┄┄┄

@@ -1,4 +1,4 @@
-//! Text → motions, from the specification, for anybody's programs; it shares no code with the
+//! Text → motions, from the specification, for programs from any CAM; it shares no code with the
 //! writer.
 //!
 //! A program is followed as its controller would run it (NIST RS274/NGC version 3 §3, and what

@@ -21,7 +21,7 @@ pub fn without_own_code(text: &str) -> Cow<'_, str> {
 }
 
 /// The same, without the touches of tools on their plate too: both stay as they are where a program
-/// is bent to a surface.
+/// is levelled to a surface.
 #[must_use]
 pub fn without_unbent(text: &str) -> Cow<'_, str> {
     without(text, &[OWN, TOUCH_OFF])

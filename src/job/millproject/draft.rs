@@ -319,7 +319,7 @@ impl<'a> Draft<'a> {
             "mirror-axis" => options.mirror_axis = Some(Length(entry.length(units)?)),
             "mirror-yaxis" => {
                 if entry.flag()? {
-                    let expected = "false: boards are turned over left to right here";
+                    let expected = "false: the back is mirrored left to right here";
                     self.refused.push((Needs::Back, entry.wrong(expected)));
                 }
             }

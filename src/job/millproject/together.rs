@@ -278,7 +278,7 @@ impl Draft<'_> {
             let feed = self.probing.feed.map(|feed| Words::of(" {probe-feed} {0}").with([&feed]));
             let [grid, feed] = [grid, feed].map(Option::unwrap_or_default);
             let why = Words::of(
-                "`voromill probe {side} {0}{1}{2}` touches the board, `voromill level` bends the program to what it found (docs/levelling.md)",
+                "`voromill probe {side} {0}{1}{2}` touches the board, `voromill level` adapts the program to what was found (docs/levelling.md)",
             );
             self.leave(&entry, why.with([&side, &grid, &feed]));
         }

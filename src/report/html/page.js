@@ -104,7 +104,7 @@ function readout() {
     if (edge) {
       const room = edge.clearance - drawing.sides[stage.sides.indexOf(hover.pane.side)].kerf / 2;
       lines.push(['between', edge.owners.join(' and ')]);
-      lines.push(['clearance', `${(edge.clearance / 1000).toFixed(3)} mm, ${room < 0 ? `the cut takes ${(-room / 1000).toFixed(3)} mm of copper` : `${(room / 1000).toFixed(3)} mm to spare`}`]);
+      lines.push(['clearance', `${(edge.clearance / 1000).toFixed(3)} mm, ${room < 0 ? `the cut removes ${(-room / 1000).toFixed(3)} mm of copper` : `${(room / 1000).toFixed(3)} mm to spare`}`]);
     }
     if (motion) {
       const { program, n } = motion;

@@ -121,8 +121,8 @@ class Panel {
       const key = LAYERS.indexOf(layer) < 9 ? make('kbd', {}, String(LAYERS.indexOf(layer) + 1)) : null;
       return make('label', { class: 'layer' }, input, make('i', { class: `swatch ${layer.swatch}` }), layer.name, key);
     };
-    const scale = make('div', { class: 'scale', id: 'scale', hidden: true }, make('p', {}, 'How far a cut may move before it touches copper:'),
-      ...FREEDOM.map(stop => make('span', {}, make('i', { style: `background:${stop.colour}` }), stop.text)));
+    const scale = make('div', { class: 'scale', id: 'scale', hidden: true }, make('p', {}, 'How far the edge of a cut is from copper:'),
+      ...CLEARANCE.map(stop => make('span', {}, make('i', { style: `background:${stop.colour}` }), stop.text)));
     return this.section('Layers', make('div', { class: 'layers' }, ...LAYERS.map(box)), scale);
   }
 
@@ -178,7 +178,7 @@ class Panel {
     return this.section('About',
       make('details', {}, make('summary', {}, make('b', {}, 'Settings'), make('span', { class: 'count' }, String(settings.length))), this.table(['Setting', 'Value'], settings)),
       make('details', {}, make('summary', {}, make('b', {}, 'Files'), make('span', { class: 'count' }, String(files.length))), this.table(['File', 'Role'], files)),
-      make('p', { class: 'how' }, `Made by ${report.generator}. Both sides are seen from the front unless you look from behind.`));
+      make('p', { class: 'how' }, `Made by ${report.generator}. Both sides are seen from the front unless the back is shown from below.`));
   }
 
   // Marks the row of what is shown.

@@ -108,12 +108,12 @@ function regionPaths(count, edges) {
 
 // The lines by how far a cut may move before it touches copper: a path for each stop of the scale.
 function heatPaths(edges, kerf) {
-  const paths = FREEDOM.map(() => new Path2D());
+  const paths = CLEARANCE.map(() => new Path2D());
   for (const edge of edges) {
     if (edge.left === -1 || edge.right === -1) continue;
     let last = -1;
     for (let n = 1; n < edge.length; n++) {
-      const stop = freedomStop(Math.min(edge.clearance[n - 1], edge.clearance[n]) - kerf / 2);
+      const stop = clearanceStop(Math.min(edge.clearance[n - 1], edge.clearance[n]) - kerf / 2);
       if (stop !== last) paths[stop].moveTo(edge.x[n - 1], edge.y[n - 1]);
       edge.draw(paths[stop], n);
       last = stop;

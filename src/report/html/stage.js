@@ -10,8 +10,8 @@ const LAYERS = [
   { id: 'regions', name: 'Voronoi regions', on: true, swatch: 'regions' },
   { id: 'lines', name: 'Voronoi boundaries', on: false, swatch: 'tool' },
   { id: 'cuts', name: 'Isolation cuts', on: true, swatch: 'cut' },
-  { id: 'heat', name: 'Freedom of the cuts (heat)', on: false, swatch: 'heat' },
-  { id: 'lost', name: 'Copper that cuts take', on: true, swatch: 'lost' },
+  { id: 'heat', name: 'Clearance of the cuts (heat)', on: false, swatch: 'heat' },
+  { id: 'lost', name: 'Copper that cuts remove', on: true, swatch: 'lost' },
   { id: 'rapids', name: 'Rapids', on: false, swatch: 'rapid' },
   { id: 'drills', name: 'Drills', on: true, swatch: 'hole' },
   { id: 'drillPath', name: 'Drill path', on: false, swatch: 'path' },
@@ -170,7 +170,7 @@ class Pane {
     if (on.heat) {
       context.lineWidth = Math.max(3 * this.pixel, this.side.kerf * 0.5);
       this.side.heat.forEach((path, stop) => {
-        context.strokeStyle = FREEDOM[stop].colour;
+        context.strokeStyle = CLEARANCE[stop].colour;
         context.stroke(path);
       });
     }

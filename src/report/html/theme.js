@@ -28,7 +28,7 @@ function applyTheme(name = themeName) {
 }
 
 // How free a cut is to move, from the copper it would cut (no room) to a millimetre and more: the stops of the scale.
-const FREEDOM = [
+const CLEARANCE = [
   { upTo: 0, colour: '#ff2d55', text: 'none: it cuts copper' },
   { upTo: 25, colour: '#ff7a1a', text: 'below 25 µm' },
   { upTo: 50, colour: '#ffb300', text: 'below 50 µm' },
@@ -37,4 +37,4 @@ const FREEDOM = [
   { upTo: 1000, colour: '#1fa7b5', text: 'below 1 mm' },
   { upTo: Infinity, colour: '#4a72d9', text: '1 mm and more' },
 ];
-const freedomStop = room => FREEDOM.findIndex(stop => room < stop.upTo);
+const clearanceStop = room => CLEARANCE.findIndex(stop => room < stop.upTo);

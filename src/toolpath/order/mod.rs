@@ -1,6 +1,6 @@
 //! The order of the trails: less travel through the air.
 //!
-//! Trails between which the tool is lifted are the cities of a travelling salesman who enters each
+//! Trails between which the tool retracts are the cities of a travelling salesman who enters each
 //! at one end and leaves at the other (a closed one anywhere). Nearest-next starts; exchanges of
 //! two and three links over neighbour lists (2-opt, Or-opt and 3-opt moves in one) improve it; then
 //! small double bridges, seeded, shake it where it is kept if the repaired tour is shorter, until
@@ -28,7 +28,7 @@ pub enum Order {
     Greedy,
 }
 
-/// What is cut in one go, from one lift to the next; it may also be cut the other way round.
+/// What is cut in one go, from one retract to the next; it may also be cut the other way round.
 #[derive(Clone, Debug)]
 pub(super) struct Stretch {
     /// Where it begins.

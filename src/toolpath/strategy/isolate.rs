@@ -19,7 +19,8 @@ use super::share::SLACK;
 pub enum Role {
     /// It is cut.
     Cut,
-    /// It need not be cut, but may be where that saves a lift: where the board is cut out anyway.
+    /// It need not be cut, but may be where that saves a retract: where the board is cut out
+    /// anyway.
     Link,
     /// It is left.
     Leave,
@@ -46,7 +47,7 @@ pub struct Isolation<'a> {
     pub placement: &'a Placement,
     /// How the trails are ordered.
     pub order: Order,
-    /// What a lift costs.
+    /// What a retract costs.
     pub machine: &'a Machine,
     /// What is done where the kerf does not fit.
     pub narrow: Narrow,
@@ -233,7 +234,7 @@ fn hops(before: (Point, Nm), next: &Line, settings: &Isolation<'_>) -> bool {
 }
 
 /// One trail in all its passes: there at the first depth, and where it is open back at the next,
-/// without a lift.
+/// without a retract.
 fn cut_line(head: &mut Head, line: &mut Line, settings: &Isolation<'_>) {
     for (pass, depth) in settings.heights.passes().enumerate() {
         if pass > 0 && !line.path.is_closed() {
@@ -325,17 +326,17 @@ impl Line {
     }
 }
 
-/// How much of a lift's time a second cut may take that saves it. Measured: from 0.6 to 1 boards
+/// How much of a retract's time a second cut may take that saves it. Measured: from 0.6 to 1 boards
 /// take the same time within half a percent; with less, less is cut twice and the tool lasts
 /// longer, and with 0.7 none of the nine boards in docs/millproject.md is cut longer than by
 /// pcb2gcode.
 pub(super) const WORTH: f64 = 0.7;
 
-/// The way over which the next trail is expected, for what a lift costs. Chosen: the middle of what
-/// boards show.
+/// The way over which the next trail is expected, for what a retract costs. Chosen: the middle of
+/// what boards show.
 const EXPECTED_HOP: Nm = Nm::from_mm(5);
 
-/// What a lift costs: up, over, down to the approach height, the plunge, and each time from a
+/// What a retract costs: up, over, down to the approach height, the plunge, and each time from a
 /// standstill to a standstill.
 pub(super) fn lift_seconds(heights: Heights, tool: &Tool, machine: &Machine) -> f64 {
     let Heights { safe, approach, cut, .. } = heights;

@@ -3,7 +3,7 @@
 //! Every stretch goes to the first tool whose kerf fits between the copper on both sides, and the
 //! last takes what is left. A stretch fits or not from vertex to vertex: between two of them the
 //! gap is never narrower than at the narrower end. What a wide tool would cut in a piece hardly
-//! longer than its kerf is left to a finer one: it would only be a hole, and cost a lift.
+//! longer than its kerf is left to a finer one: it would only be a hole, and cost a retract.
 //!
 //! ```text
 //!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓

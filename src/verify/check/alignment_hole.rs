@@ -1,17 +1,17 @@
 //! # What it checks
 //!
-//! The holes for turning the board over lie beside it, there are at least two of them, and they go
-//! far enough below the board at their full diameter that pins stand in what lies under it.
+//! The holes on whose pins the board is flipped lie beside it, there are at least two of them, and
+//! they go far enough below the board at their full diameter that pins stand in what lies under it.
 //!
 //! # Why
 //!
-//! A pin that falls over holds nothing, and a board that is turned over on it has its back beside
+//! A pin that falls over holds nothing, and a board that is flipped on it has its back beside
 //! its front.
 //!
 //! # What it can miss
 //!
 //! How thick what lies under the board is, and whether the holes lie on the line about which the
-//! board is turned over.
+//! board is flipped.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, FLATTEN};
@@ -66,19 +66,23 @@ fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Fin
     for hole in &deepest {
         let below = hole.1 - settings.board;
         if inside(hole.0) {
-            add(hole, Severity::Error, "a hole for turning over lies in the board".to_owned(), None);
+            add(hole, Severity::Error, "an alignment hole lies in the board".to_owned(), None);
         }
         if below < Nm::ZERO {
-            let message = "a hole for turning over does not go through the board".to_owned();
+            let message = "an alignment hole does not go through the board".to_owned();
             add(hole, Severity::Error, message, Some(-below));
         } else if below < STAND {
-            let message =
-                format!("a hole for turning over goes {below:.3} mm below the board: a pin falls over");
+            let message = format!("an alignment hole goes {below:.3} mm below the board: a pin falls over");
             add(hole, Severity::Warning, message, Some(below));
         }
     }
     if let [only] = deepest.as_slice() {
-        add(only, Severity::Error, "one hole alone holds no board that is turned over".to_owned(), None);
+        add(
+            only,
+            Severity::Error,
+            "one alignment hole alone does not hold a board that is flipped".to_owned(),
+            None,
+        );
     }
     findings
 }

@@ -1,6 +1,6 @@
 //! # What it checks
 //!
-//! Of every net something is left: more than a crumb, or of a small net three tenths.
+//! Of every net something is left: more than a negligible residue, or of a small net three tenths.
 //!
 //! # Why
 //!

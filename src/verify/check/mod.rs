@@ -65,7 +65,7 @@ enum Run {
     Drilling(fn(&Bores<'_>, &Board, &Settings) -> Vec<Finding>),
     /// The board's outline, cut out.
     Cutout(fn(&Contours<'_>, &Board, &Settings) -> Vec<Finding>),
-    /// All programs that drill holes for turning the board over.
+    /// All programs that drill holes on whose pins the board is flipped.
     Alignment(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
     /// What all programs together are for.
     Whole(fn(&[Role], &Board, &Settings) -> Vec<Finding>),
@@ -147,7 +147,7 @@ pub(super) fn cutout(contours: &Contours<'_>, board: &Board, settings: &Settings
     })
 }
 
-/// The checks of holes for turning the board over.
+/// The checks of holes on whose pins the board is flipped.
 pub(super) fn alignment(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
     each(|check| {
         let Run::Alignment(run) = check else { return None };

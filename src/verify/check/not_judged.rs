@@ -37,9 +37,8 @@ fn unsure(sheet: &Sheet<'_>) -> Option<Finding> {
     let nets: Vec<String> = sheet.remains.unsure.iter().map(|&net| sheet.nets.label(net)).collect();
     let (first, more) = (nets.first()?, nets.len() - 1);
     let others = if more > 0 { format!(" and {more} more nets") } else { String::new() };
-    let message = format!(
-        "so many cuts cross that it was not worked out whether {first}{others} are whole and apart from others"
-    );
+    let message =
+        format!("too many cuts cross to work out whether {first}{others} are whole and apart from others");
     Some(Finding::new(NAME, Severity::Warning, message).of(nets))
 }
 

@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! Every net that a cut reaches into is left in one connected piece. Crumbs do not count. Which
-//! nets a cut may part, and what is left of them, is asked of the exact shapes.
+//! Every net that a cut reaches into is left in one connected piece. Negligible residues do not
+//! count. Which nets a cut may part, and what is left of them, is asked of the exact shapes.
 //!
 //! # Why
 //!

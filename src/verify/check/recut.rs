@@ -6,7 +6,7 @@
 //! # Why
 //!
 //! It takes time, and a groove cut twice is wider than one cut once. Some is wise: cutting a short
-//! piece again is quicker than a lift.
+//! piece again is quicker than a retract.
 //!
 //! # What it can miss
 //!
@@ -25,7 +25,7 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Info,
-    what: Words::of("much of the way is cut twice"),
+    what: Words::of("much of the path is cut twice"),
     effect: Words::of("nothing but time"),
     advice: Words::of("nothing; boundaries that are cut once, as by {strategy} voronoi, take less time"),
 };
@@ -34,7 +34,7 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet,
 
 const NAME: &str = "recut";
 
-/// The share that is told. Chosen: lifts that are saved by cutting again cost up to a sixth on the
+/// The share that is told. Chosen: retracts that are saved by recutting cost up to a sixth on the
 /// boards that were tried.
 const SHARE: f64 = 0.25;
 /// How much deeper a second cut in the same place is a pass of its own.
@@ -61,8 +61,7 @@ fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
     #[expect(clippy::cast_precision_loss, reason = "a display figure")]
     let (share, again) = (again / all, again * every as f64);
     let about = if every > 1 { "about " } else { "" };
-    let message =
-        format!("{about}{:.0} % of the way is cut again: {about}{:.1} mm", share * 100.0, again / 1e6);
+    let message = format!("{about}{:.0} % of the path is recut: {about}{:.1} mm", share * 100.0, again / 1e6);
     vec![Finding {
         at: Some(at),
         size: Some(Nm::from_f64(again)),

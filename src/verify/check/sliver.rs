@@ -28,7 +28,7 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,
-    what: Words::of("a thin strip of copper left between two cuts, or at the edge"),
+    what: Words::of("a sliver: a thin strip of copper left between two cuts, or at the edge"),
     effect: Words::of("a thin strip of copper may come loose and join two nets"),
     advice: Words::of("clear it away with {width}, {passes} or {clear}, or scrape it off"),
 };
@@ -124,6 +124,6 @@ fn finding(sheet: &Sheet<'_>, strip: &[Thin]) -> Finding {
         size: Some(width),
         program: Some(cut.program.file.clone()),
         line: Some(cut.swept.line),
-        ..Finding::new(NAME, Severity::Warning, format!("a strip of copper {width:.3} mm wide is left"))
+        ..Finding::new(NAME, Severity::Warning, format!("a sliver of copper {width:.3} mm wide is left"))
     }
 }

@@ -103,7 +103,7 @@ fn uneven(contours: &Contours<'_>, ring: &Ring, settings: &Settings) -> Option<(
     is_uneven.then(|| (ways[0].at, message))
 }
 
-/// In mm², what is a board and no crumb. Chosen.
+/// In mm², what is a board and not a negligible residue. Chosen.
 const LEAST: f64 = 1.0;
 
 /// The middles of boards that hang together with nothing.

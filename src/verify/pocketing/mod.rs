@@ -304,7 +304,7 @@ impl Judge<'_> {
         let first = listings.first().map_or(0, |(listing, _)| count(listing));
         if first > maxima {
             let message = format!(
-                "the tool comes down {first} times, and {maxima} would do: once in each pass where the area is widest"
+                "the tool plunges {first} times, and {maxima} are needed: once in each pass where the area is widest"
             );
             self.pocketed.findings.push(Finding::new(
                 planning::POCKET_PLUNGES.code,

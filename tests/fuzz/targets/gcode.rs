@@ -1,4 +1,5 @@
-//! Any text as a program: what it moves, what it does to a board, and how it is bent to a surface.
+//! Any text as a program: what it moves, what it does to a board, and how it is levelled to a
+//! surface.
 #![no_main]
 
 use libfuzzer_sys::fuzz_target;

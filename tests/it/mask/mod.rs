@@ -232,7 +232,7 @@ fn a_mirrored_page_is_the_same_from_behind() {
     let once = mirror.place(sheet.clone());
     assert_ne!(once, sheet, "left is right");
     assert_eq!(mirror.place(once.clone()), sheet, "and back again");
-    assert_alike(islands(&polygons(&once)), islands(&polygons(&sheet)), 1.0, "turned over");
+    assert_alike(islands(&polygons(&once)), islands(&polygons(&sheet)), 1.0, "mirrored");
     let stretched = Placing { mirrored: true, scale: (1.002, 0.998) }.place(sheet.clone());
     let (count, area) = islands(&polygons(&sheet));
     let expected = (count, area * 1.002 * 0.998);
@@ -260,8 +260,8 @@ fn the_program_writes_each_kind_and_says_how_large_it_is() {
     }
     for (arguments, word) in [
         (&["-o", "a.bmp"][..], "a.bmp does not say what to write"),
-        (&["-o", "a.svg", "--dpi", "600"], "--dpi changes nothing"),
-        (&["-o", "a.svg", "--gap", "1mm"], "--gap changes nothing"),
+        (&["-o", "a.svg", "--dpi", "600"], "--dpi has no effect"),
+        (&["-o", "a.svg", "--gap", "1mm"], "--gap has no effect"),
         (&["-o", "a.svg", "--what", "regions", "--gap", "0.001mm"], "gap: 0.001 mm is no length"),
         (&["-o", "a.svg", "--scale", "10"], "no scale"),
         (&["-o", "a.png", "--dpi", "25400", "--margin", "30mm"], "too many"),

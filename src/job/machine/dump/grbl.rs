@@ -1,4 +1,4 @@
-//! Grbl's answer to `$$`, as it stands in anybody's console.
+//! Grbl's answer to `$$`, as a console shows it.
 
 use std::collections::BTreeMap;
 

@@ -116,7 +116,7 @@ impl Floor {
         Section { tool: mill.clone(), label: label.into(), moves: head.finish() }
     }
 
-    /// Loops that are milled without a lift: each begins where it is nearest to the one before.
+    /// Loops that are milled without a retract: each begins where it is nearest to the one before.
     fn rows(&self) -> Vec<Vec<Path>> {
         let mut open: Vec<Vec<Option<Ring>>> =
             self.levels.iter().map(|level| level.iter().cloned().map(Some).collect()).collect();

@@ -40,7 +40,7 @@ pub struct Carving<'a> {
     pub placement: &'a Placement,
     /// How the trails are ordered.
     pub order: Order,
-    /// What a lift costs.
+    /// What a retract costs.
     pub machine: &'a Machine,
     /// How far what is milled may be off its place.
     pub tolerance: Nm,

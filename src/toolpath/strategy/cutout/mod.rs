@@ -2,9 +2,9 @@
 //!
 //! The way of the cutter's middle is the outline offset by half its width, by exact polygons and in
 //! lines and arcs again: outwards round a board, inwards in a cut-out. Cut-outs go first, while the
-//! board is still held all round. Each contour is cut in passes without a lift, the next one begun
-//! by a plunge or down a ramp; below a tab's top the cutter climbs over the tabs, which are spread
-//! evenly and kept off corners, where they would be hard to file away.
+//! board is still held all round. Each contour is cut in passes without a retract, the next one
+//! begun by a plunge or down a ramp; below a tab's top the cutter climbs over the tabs, which are
+//! spread evenly and kept off corners, where they would be hard to file away.
 
 mod ring;
 mod tabs;
