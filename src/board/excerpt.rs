@@ -3,8 +3,9 @@
 use std::ops::Range;
 
 use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use serde::Serialize;
 
-use super::{Severity, SourceSpan};
+use super::Severity;
 
 /// A line of a file, or of a long one what surrounds a place, with that place marked.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -23,6 +24,31 @@ impl Excerpt {
     pub fn new(text: String, marked: Range<usize>) -> Self {
         assert!(text.get(marked.clone()).is_some(), "the mark lies in the text");
         Self { text, marked }
+    }
+}
+
+/// Where in a file something was found.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SourceSpan {
+    /// The file's name without its folder.
+    pub file: String,
+    /// From 1.
+    pub line: u32,
+    /// From 1, in bytes.
+    pub column: u32,
+    /// The offending text, at most a line of it.
+    pub text: String,
+    /// The line around it, to be shown.
+    #[serde(skip)]
+    pub excerpt: Excerpt,
+}
+
+impl SourceSpan {
+    /// The whole of a line that says `text`.
+    #[must_use]
+    pub fn of_line(file: &str, line: u32, text: &str) -> Self {
+        let excerpt = Excerpt::new(text.to_owned(), 0..text.len());
+        Self { file: file.to_owned(), line, column: 1, text: text.to_owned(), excerpt }
     }
 }
 

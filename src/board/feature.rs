@@ -4,7 +4,7 @@
 
 use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Turn, Vector};
 
-use super::polarity;
+use super::boolean;
 
 /// The copper of one feature, its edge included.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -125,7 +125,7 @@ fn swept_arc(arc: &Arc, radius: Nm, tolerance: Nm) -> Option<Polygon> {
     }
     let ends = [arc.start, arc.end].map(|end| Polygon::disc(end, radius, tolerance));
     contours.extend(ends.iter().flatten().map(|end| end.contours()[0].clone()));
-    polarity::clean(&contours).into_iter().next()
+    boolean::clean(&contours).into_iter().next()
 }
 
 /// How a feature was drawn: the paper's vertices and approximate core medial axis (§III-A.1,

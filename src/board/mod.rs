@@ -5,6 +5,7 @@
 //! (see [`polarity`]). Coordinates are the file's own: seen from the front, x to the right, y up,
 //! also for the back.
 
+mod boolean;
 mod copper;
 pub mod diagnostic;
 mod excerpt;
@@ -17,12 +18,12 @@ mod warning;
 
 pub use copper::{Attributes, Copper, Side};
 pub use diagnostic::{Diagnostic, Sentence, Severity, Words};
-pub use excerpt::{Excerpt, show};
+pub use excerpt::{Excerpt, SourceSpan, show};
 pub use feature::{Axis, Feature, Shape};
 pub use hole::{Hole, Plating};
 pub use outline::Outline;
 pub use source::{ApertureUse, Source};
-pub use warning::{SourceSpan, Warning};
+pub use warning::Warning;
 
 use crate::geometry::{Nm, Rect};
 

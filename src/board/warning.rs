@@ -1,35 +1,8 @@
 //! What a reader or planner tells a person without stopping: what kind of thing, text and place.
 
-use serde::Serialize;
-
 use super::diagnostic::planning;
-use super::{Diagnostic, Excerpt, Sentence, Side};
+use super::{Diagnostic, Sentence, Side, SourceSpan};
 use crate::geometry::{Nm, Point};
-
-/// Where in a file something was found.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct SourceSpan {
-    /// The file's name without its folder.
-    pub file: String,
-    /// From 1.
-    pub line: u32,
-    /// From 1, in bytes.
-    pub column: u32,
-    /// The offending text, at most a line of it.
-    pub text: String,
-    /// The line around it, to be shown.
-    #[serde(skip)]
-    pub excerpt: Excerpt,
-}
-
-impl SourceSpan {
-    /// The whole of a line that says `text`.
-    #[must_use]
-    pub fn of_line(file: &str, line: u32, text: &str) -> Self {
-        let excerpt = Excerpt::new(text.to_owned(), 0..text.len());
-        Self { file: file.to_owned(), line, column: 1, text: text.to_owned(), excerpt }
-    }
-}
 
 /// Something a person must know and the program could go on from.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -54,7 +27,7 @@ pub struct Warning {
 
 impl Warning {
     /// A warning of a kind, without a place.
-    pub(super) fn of(kind: &'static Diagnostic, message: String) -> Self {
+    fn of(kind: &'static Diagnostic, message: String) -> Self {
         Self {
             kind,
             message,
@@ -125,5 +98,13 @@ impl Warning {
     #[must_use]
     pub fn caused_by(self, source: SourceSpan) -> Self {
         Self { source: Some(source), ..self }
+    }
+}
+
+impl Diagnostic {
+    /// A warning of this kind, without a place: what was found, one sentence without a full stop.
+    #[must_use]
+    pub fn warning(&'static self, message: impl Into<String>) -> Warning {
+        Warning::of(self, message.into())
     }
 }

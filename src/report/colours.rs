@@ -4,8 +4,8 @@ use serde::Serialize;
 
 use crate::topology::{Odds, Translucency};
 
-use super::document::Millimetres;
-use super::summary::count;
+use super::quantity::Millimetres;
+use super::quantity::count;
 
 /// What the paper's translucent picture was and how far it is to be trusted (§III-A.2).
 #[derive(Clone, Debug, Serialize)]

@@ -9,8 +9,8 @@ use crate::grid::Grid;
 use crate::verify::{Change, Comparison, Error, Region, Spot};
 
 use super::Canvas;
-use super::document::{Millimetres, Place, SCHEMA_VERSION, json};
 use super::palette::{COPPER, CUT, GROUND, Rgb};
+use super::quantity::{Millimetres, Place, SCHEMA_VERSION, json};
 
 /// What is cut now and was not.
 const NEWLY_CUT: Rgb = Rgb(0xff, 0x4d, 0x4d);
@@ -86,7 +86,7 @@ impl Compared {
             return format!("{}: the same copper\n", self.file);
         }
         let Self { more_cut: more, less_cut: less, .. } = self;
-        let places = |amount: &Amount| super::summary::count(amount.places, "place");
+        let places = |amount: &Amount| super::quantity::count(amount.places, "place");
         let mut text = format!(
             "{}: {:.4} mm² more cut away in {}, {:.4} mm² less in {}\n",
             self.file,

@@ -9,8 +9,8 @@ use crate::coupling::{Coupled, Coupling, Layout, Pair};
 use crate::geometry::Nm;
 use crate::topology::{NetId, Nets};
 
-use super::document::Millimetres;
-use super::summary::count;
+use super::quantity::Millimetres;
+use super::quantity::count;
 
 /// The neighbours of a layer.
 #[derive(Clone, Debug, Serialize)]

@@ -10,16 +10,14 @@ use serde::Serialize;
 
 use crate::board::diagnostic;
 use crate::board::{Diagnostic, Side, Source, SourceSpan, Warning, Words};
-use crate::geometry::{Nm, Point};
 use crate::toolpath::Statistics;
+
+pub use super::quantity::{Millimetres, Place, SCHEMA_VERSION};
 
 use super::colours::ColoursEntry;
 use super::coupling::CouplingEntry;
+use super::quantity::json;
 use super::stages::Stage;
-
-/// The version of the shape of [`Document`]: it grows when a key changes its meaning or goes, not
-/// when one is added.
-pub const SCHEMA_VERSION: u32 = 2;
 
 /// Everything that is known after a job.
 #[derive(Clone, Debug, Serialize)]
@@ -70,26 +68,6 @@ pub struct OutputEntry {
     pub file: String,
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
-}
-
-/// A length in millimetres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Millimetres(pub Nm);
-
-/// As a number with at most six decimals, exactly.
-impl Serialize for Millimetres {
-    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_f64(self.0.to_mm())
-    }
-}
-
-/// A place on the board.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Place {
-    /// To the right.
-    pub x_mm: Millimetres,
-    /// Up.
-    pub y_mm: Millimetres,
 }
 
 /// One layer of copper.
@@ -251,12 +229,6 @@ pub struct WarningEntry {
     pub places: Vec<Place>,
 }
 
-impl From<Point> for Place {
-    fn from(point: Point) -> Self {
-        Self { x_mm: Millimetres(point.x), y_mm: Millimetres(point.y) }
-    }
-}
-
 impl Help {
     /// What helps with a file; what planning notices, its sentence says.
     fn of(kind: &Diagnostic) -> Option<Self> {
@@ -311,11 +283,4 @@ impl Document {
     pub fn to_json(&self) -> String {
         json(self)
     }
-}
-
-/// As JSON text, indented, ended by a line feed.
-pub(super) fn json(value: &impl Serialize) -> String {
-    let mut text = serde_json::to_string_pretty(value).expect("reports have string keys and finite numbers");
-    text.push('\n');
-    text
 }

@@ -8,7 +8,8 @@ use crate::board::diagnostic::planning;
 use crate::geometry::Nm;
 use crate::verify::{Settings, check};
 
-use super::document::{Document, Millimetres, WarningEntry};
+use super::document::{Document, WarningEntry};
+use super::quantity::Millimetres;
 
 /// Copper that nobody misses: so much, or this part of the kerf. Chosen: no mill is as true.
 const SLIGHT: Nm = Nm::from_um(1);

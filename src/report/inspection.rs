@@ -7,11 +7,13 @@ use serde::Serialize;
 use crate::board::{Side, Source};
 
 use super::coupling::CouplingEntry;
-use super::document::{DrillEntry, GapEntry, Millimetres, NetEntry, WarningEntry};
+use super::document::{DrillEntry, GapEntry, NetEntry, WarningEntry};
 use super::methods::MethodsEntry;
 use super::paper::PaperEntry;
 use super::prediction::PredictionEntry;
-use super::summary::{count, warnings};
+use super::quantity::Millimetres;
+use super::quantity::count;
+use super::summary::warnings;
 
 /// What `voromill inspect` says.
 #[derive(Clone, Debug, Serialize)]
@@ -67,7 +69,7 @@ impl Inspection {
     /// As JSON text, indented, ended by a line feed.
     #[must_use]
     pub fn to_json(&self) -> String {
-        super::document::json(self)
+        super::quantity::json(self)
     }
 
     /// As a person reads it; apertures and all names where `verbose`.

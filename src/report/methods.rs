@@ -8,8 +8,8 @@ use crate::board::Copper;
 use crate::topology::{Differences, Method, Missed, Reason};
 
 use super::colours::ColoursEntry;
-use super::document::Place;
-use super::summary::count;
+use super::quantity::Place;
+use super::quantity::count;
 
 /// All three methods on one layer.
 #[derive(Clone, Debug, Serialize)]

@@ -21,6 +21,7 @@ pub mod paper;
 pub mod picture;
 pub mod png;
 pub mod prediction;
+mod quantity;
 pub mod relief;
 pub mod stages;
 mod summary;

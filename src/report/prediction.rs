@@ -7,7 +7,7 @@ use crate::geometry::Nm;
 use crate::prediction::{ERRORS, Known};
 use crate::topology::{Nets, extents};
 
-use super::document::Millimetres;
+use super::quantity::Millimetres;
 
 /// The length of toolpaths by a model, before they are found; frame cuts are left out.
 #[derive(Clone, Debug, PartialEq, Serialize)]

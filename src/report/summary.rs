@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use super::document::{Document, Figures, LayerEntry, ToolChanges, WarningEntry};
+use super::quantity::count;
 use crate::board::{self, Diagnostic, Severity};
 use crate::toolpath::duration;
 
@@ -158,11 +159,6 @@ impl WarningEntry {
             None => format!("{}: ", side.trim_end()),
         }
     }
-}
-
-/// A number of things.
-pub(super) fn count(number: usize, what: &str) -> String {
-    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
 }
 
 #[cfg(test)]

@@ -9,7 +9,7 @@ use serde_json::json;
 use crate::board::Side;
 use crate::verify::{Finding, Report, Severity, check};
 
-use super::document::{Millimetres, Place, SCHEMA_VERSION, json as to_json};
+use super::quantity::{Millimetres, Place, SCHEMA_VERSION, json as to_json};
 
 /// A verdict as data.
 #[derive(Clone, Debug, Serialize)]
@@ -147,12 +147,12 @@ impl Verdict {
     pub fn line(&self) -> String {
         let programs: usize = self.judged.iter().map(|judged| judged.programs.len()).sum();
         let pixels = self.judged.iter().filter_map(|judged| judged.pixel_mm).map(|pixel| pixel.0.get()).max();
-        let programs = super::summary::count(programs, "program");
+        let programs = super::quantity::count(programs, "program");
         let pixels = pixels.map_or(String::new(), |nm| format!(", pixels of {} µm", nm.div_euclid(1000)));
         let found = match (self.errors, self.warnings) {
             (0, 0) => "nothing found".to_owned(),
             (errors, warnings) => {
-                let count = super::summary::count;
+                let count = super::quantity::count;
                 format!("{}, {}", count(errors, "error"), count(warnings, "warning"))
             }
         };
@@ -162,7 +162,7 @@ impl Verdict {
     /// Whether the board is fit to be milled so, and what to change first where it is not.
     #[must_use]
     pub fn fitness(&self) -> String {
-        let count = super::summary::count;
+        let count = super::quantity::count;
         let first = |severity: Severity| {
             let worst = self.findings.iter().find(|finding| finding.severity == severity);
             let check = worst.and_then(|finding| check::of(finding.code));

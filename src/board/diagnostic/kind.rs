@@ -1,7 +1,6 @@
 //! A kind of thing that a person is told of.
 
 use super::{Severity, Words};
-use crate::board::Warning;
 
 /// A kind of thing that a person is told of.
 #[derive(Clone, Copy, Debug)]
@@ -49,12 +48,6 @@ impl serde::Serialize for Diagnostic {
 }
 
 impl Diagnostic {
-    /// A warning of this kind, without a place: what was found, one sentence without a full stop.
-    #[must_use]
-    pub fn warning(&'static self, message: impl Into<String>) -> Warning {
-        Warning::of(self, message.into())
-    }
-
     /// Whether it tells of the edge of the board.
     #[must_use]
     pub fn is_of_the_outline(&self) -> bool {

@@ -3,7 +3,7 @@
 use crate::geometry::{Nm, Point, Rect};
 
 use super::error::MapError;
-use super::format::Touch;
+use super::touch::Touch;
 
 /// How high the surface is, touched at the crossings of a grid of lines, bilinear in between.
 ///

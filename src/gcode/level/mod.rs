@@ -28,6 +28,7 @@ mod format;
 mod height_map;
 mod modal;
 mod outlier;
+mod touch;
 mod words;
 
 pub use bend::{Levelled, Levelling, level};

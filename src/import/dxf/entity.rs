@@ -8,11 +8,12 @@ use super::file::{Dxf, Entity};
 use super::frame::Frame;
 use super::hatch;
 use super::pairs::NoNumber;
+use super::vertex::{Beyond, Vertex};
 use super::wide;
 use crate::artwork::{Area, Drawn, Figure, Layer, Line};
 use crate::board::polarity::{FillRule, Polarity};
 use crate::geometry::{Nm, Path};
-use crate::import::drawing::{Contour, Place};
+use crate::import::drawing::Contour;
 
 /// How deep inserts may lie in each other.
 const DEEPEST: usize = 24;
@@ -184,10 +185,6 @@ fn steps(figure: &Figure) -> usize {
     figure.paths().iter().chain(painted).map(|path| path.segments.len()).sum()
 }
 
-/// A place that lies beyond the range of coordinates.
-#[derive(Debug)]
-pub(super) struct Beyond;
-
 /// The frame of an entity that lies in the plane: seen from the front or from behind; none where it
 /// is tilted (DXF Reference, *Arbitrary Axis Algorithm*).
 fn frame(entity: &Entity<'_>, frame: &Frame) -> Result<Option<Frame>, NoNumber> {
@@ -320,15 +317,6 @@ fn solid(entity: &Entity<'_>, frame: &Frame) -> Result<Result<Drawn, Beyond>, No
     contour.close();
     let area = |path: Path| Drawn::Area(Area { contours: vec![path], rule: FillRule::NonZero });
     Ok(contour.finish().map(area).ok_or(Beyond))
-}
-
-/// A corner of a polyline, and how it goes on from there.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Vertex {
-    pub(super) at: Place,
-    pub(super) bulge: f64,
-    /// How wide it is at the start and at the end of the step.
-    pub(super) widths: (f64, f64),
 }
 
 fn vertices(entity: &Entity<'_>) -> Result<Vec<Vertex>, NoNumber> {

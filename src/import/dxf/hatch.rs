@@ -2,10 +2,10 @@
 //! data*).
 
 use super::curve::{Ellipse, Spline, ahead, bulge, radians};
-use super::entity::{Beyond, Vertex};
 use super::file::Entity;
 use super::frame::Frame;
 use super::pairs::{NoNumber, Pair};
+use super::vertex::{Beyond, Vertex};
 use crate::artwork::Area;
 use crate::board::polarity::FillRule;
 use crate::geometry::Segment;

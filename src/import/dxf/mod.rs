@@ -19,6 +19,7 @@ mod file;
 mod frame;
 mod hatch;
 mod pairs;
+mod vertex;
 mod wide;
 
 use std::collections::BTreeMap;

@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use super::curve::turn;
-use super::entity::Vertex;
 use super::frame::Frame;
+use super::vertex::Vertex;
 use crate::geometry::{Path, Turn};
 use crate::import::drawing::{Contour, Place};
 

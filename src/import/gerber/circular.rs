@@ -6,37 +6,10 @@ use crate::geometry::{Arc, Nm, Point, Turn, Vector};
 use crate::import::flaw;
 
 use super::super::error::Error;
+use super::quadrants::{Quadrants, Reading};
 use super::radii::{COARSE, Verdict, single_quadrant};
-use super::reader::{Quadrants, Reader, Words};
+use super::reader::{Reader, Words};
 use super::state::Unit;
-
-/// How arcs are read that are given in each of three ways, and lengths without a unit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Reading {
-    /// The unit where the file does not say it; none where its number format decides.
-    pub(super) unit: Option<Unit>,
-    /// After G74.
-    pub(super) single: Quadrants,
-    /// After G75.
-    pub(super) multi: Quadrants,
-    /// Before either.
-    pub(super) undeclared: Quadrants,
-}
-
-impl Reading {
-    /// As the specification has it, and where the file says nothing, as programs have written for
-    /// thirty years.
-    pub(super) const USUAL: Self =
-        Self { unit: None, single: Quadrants::Single, multi: Quadrants::Multi, undeclared: Quadrants::Multi };
-
-    const fn of(self, declared: Option<Quadrants>) -> Quadrants {
-        match declared {
-            Some(Quadrants::Single) => self.single,
-            Some(Quadrants::Multi) => self.multi,
-            None => self.undeclared,
-        }
-    }
-}
 
 impl<'a> Reader<'a> {
     /// The arc from `from` to `to`; none where it is no longer than a point or has no radius, and

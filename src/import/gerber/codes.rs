@@ -7,7 +7,8 @@ use crate::import::flaw;
 
 use super::super::error::Error;
 use super::lex::Number;
-use super::reader::{Interpolation, Operation, Quadrants, Reader};
+use super::quadrants::Quadrants;
+use super::reader::{Interpolation, Operation, Reader};
 use super::region::Region;
 use super::state::{Format, Unit};
 

@@ -40,6 +40,7 @@ mod finish;
 mod lex;
 mod numbers;
 mod operation;
+mod quadrants;
 mod radii;
 mod reader;
 mod region;

@@ -9,7 +9,7 @@ use std::ops::Range;
 
 use crate::geometry::{Arc, Point, Turn, Vector};
 
-use super::reader::Quadrants;
+use super::quadrants::Quadrants;
 
 /// How far the two radii of an arc may differ and still be one, in nanometres. Chosen: twice the
 /// step of the coarsest usual format, 2.3 inches.

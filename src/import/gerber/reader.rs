@@ -15,8 +15,8 @@ use super::aperture_list::ApertureList;
 use super::aperture_macro::Macro;
 use super::attributes::Attributes;
 use super::canvas::{Canvas, Refusal};
-use super::circular::Reading;
 use super::lex::{Block, End, Lexer, Number, is_blank};
+use super::quadrants::{Quadrants, Reading};
 use super::radii::Radii;
 use super::region::Region;
 use super::state::{Format, Placement, Unit};
@@ -27,25 +27,6 @@ use super::{Image, Options, looks_like};
 pub(super) enum Interpolation {
     Linear,
     Circular(Turn),
-}
-
-/// How an arc's centre is given (G74, G75).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Quadrants {
-    /// Offsets without sign, at most a quarter.
-    Single,
-    /// Offsets with sign, any arc.
-    Multi,
-}
-
-impl Quadrants {
-    /// As people say it.
-    pub(super) const fn describe(self) -> &'static str {
-        match self {
-            Self::Single => "G74, a quarter at most",
-            Self::Multi => "G75, several quadrants",
-        }
-    }
 }
 
 /// D01, D02, D03.

@@ -1,9 +1,9 @@
 //! Footprints: where they lie, what they are called, and all that stands in them.
 
 use super::frame::Frame;
+use super::head;
 use super::reader::Reader;
 use super::tree::Node;
-use super::{graphic, text};
 use crate::import::error::Error;
 
 impl Reader<'_> {
@@ -23,9 +23,9 @@ impl Reader<'_> {
                     if !layers.is_milled() || head == b"layer" {
                         continue;
                     }
-                    if graphic::is_graphic(head) {
+                    if head::is_graphic(head) {
                         self.draw(part, &frame, layers, Some(component.as_deref().unwrap_or_default()))?;
-                    } else if text::is_text(head) {
+                    } else if head::is_text(head) {
                         self.text(part, layers, false)?;
                     } else {
                         self.not_read(part);

@@ -3,22 +3,14 @@
 
 use super::curve::{Curve, line};
 use super::frame::Frame;
-use super::reader::{Drawing, Reader};
+use super::head::kind;
+use super::reader::Reader;
+use super::ring::Drawing;
 use super::tree::Node;
 use crate::board::{Axis, Shape, polarity};
 use crate::geometry::{Arc, Nm, Point, Turn, Vector};
 use crate::import::error::Error;
 use crate::import::flaw;
-
-/// Whether `head` is that of something drawn, without `gr_` and `fp_`.
-pub(super) fn is_graphic(head: &[u8]) -> bool {
-    matches!(kind(head), b"line" | b"arc" | b"circle" | b"rect" | b"poly" | b"curve")
-}
-
-/// A head without where it belongs to.
-fn kind(head: &[u8]) -> &[u8] {
-    head.strip_prefix(b"gr_").or_else(|| head.strip_prefix(b"fp_")).unwrap_or(head)
-}
 
 /// How the outline is drawn, and whether the inside is filled.
 #[derive(Clone, Copy)]

@@ -18,6 +18,7 @@ mod curve;
 mod footprint;
 mod frame;
 mod graphic;
+mod head;
 mod layers;
 mod number;
 mod pad;

@@ -3,7 +3,8 @@
 use super::frame::Frame;
 use super::layers::copper_name;
 use super::pad_shape::{Corners, obround, rounded, trapezoid};
-use super::reader::{Drawing, Reader, way};
+use super::reader::{Reader, way};
+use super::ring::Drawing;
 use super::ring::Ring;
 use super::tree::Node;
 use crate::board::{Attributes, Axis, Plating, Shape, Side};
@@ -175,7 +176,7 @@ impl Reader<'_> {
         let mut drawing: Drawing = anchor.into_iter().map(|shape| (shape, axis)).collect();
         let pieces = look.find("primitives");
         for piece in pieces.iter().flat_map(|list| list.arguments()).filter(|piece| piece.is_list()) {
-            if super::graphic::is_graphic(piece.head()) {
+            if super::head::is_graphic(piece.head()) {
                 drawing.extend(self.graphic(piece, frame, false)?);
             } else if !matches!(piece.head(), b"gr_vector" | b"gr_bbox") {
                 self.warnings.add(

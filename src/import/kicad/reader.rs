@@ -6,15 +6,13 @@ use rustc_hash::FxHashMap;
 
 use super::frame::Frame;
 use super::layers::{Layers, Names};
+use super::ring::{Drawing, Ring};
 use super::tree::{Node, Tree};
-use super::{number, text};
+use super::{head, number};
 use crate::board::{Attributes, Axis, Feature, Hole, Plating, Shape, Side};
 use crate::geometry::{Nm, Path, Point, Rect};
 use crate::import::error::{Error, Warnings};
 use crate::import::flaw;
-
-/// What a thing draws, each piece with its axis.
-pub(super) type Drawing = Vec<(Shape, Axis)>;
 
 /// The copper of a side in the making.
 #[derive(Debug)]
@@ -52,7 +50,7 @@ pub(super) struct Reader<'a> {
     /// How large the drills of a net's vias are where these do not say it: until version 5.
     pub(super) via_drills: BTreeMap<String, Nm>,
     /// Pads and vias that leave out the rings of layers where nothing meets them.
-    pub(super) bare_rings: Vec<super::ring::Ring>,
+    pub(super) bare_rings: Vec<Ring>,
     /// Zones on copper without any filled area: where they stand, what they are called, and whether
     /// they were filled.
     pub(super) bare_zones: Vec<(std::ops::Range<usize>, String, bool)>,
@@ -151,10 +149,10 @@ impl<'a> Reader<'a> {
         if !layers.is_milled() {
             return Ok(());
         }
-        if super::graphic::is_graphic(head) {
+        if head::is_graphic(head) {
             return self.draw(node, &self.frame.clone(), layers, None);
         }
-        if text::is_text(head) {
+        if head::is_text(head) {
             return self.text(node, layers, true);
         }
         if head != b"layers" {
@@ -359,4 +357,26 @@ impl Sheet {
 pub(super) fn way(from: Point, to: Point) -> Path {
     let segments = if from == to { vec![] } else { vec![crate::geometry::Segment::Line { to }] };
     Path { start: from, segments }
+}
+
+impl Reader<'_> {
+    /// Draws those rings that something meets.
+    pub(super) fn rings(&mut self) {
+        let mut rings = std::mem::take(&mut self.bare_rings);
+        for side in [Side::Front, Side::Back] {
+            let sheet = if side == Side::Front { &self.front } else { &self.back };
+            for ring in rings.iter_mut().filter(|ring| ring.side == side && !ring.kept) {
+                let same = |feature: &&Feature| {
+                    sheet.attributes[feature.attributes as usize].net == ring.attributes.net
+                };
+                let met = ring.attributes.net.is_some()
+                    && sheet.features.iter().filter(same).any(|feature| ring.meets(feature));
+                ring.kept = met;
+            }
+        }
+        for ring in rings.into_iter().filter(|ring| ring.kept) {
+            let sheet = if ring.side == Side::Front { &mut self.front } else { &mut self.back };
+            sheet.put(ring.drawing, &ring.attributes, ring.line);
+        }
+    }
 }

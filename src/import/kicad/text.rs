@@ -6,17 +6,13 @@
 //! outlines (`render_cache`, since version 7), which are read.
 
 use super::layers::Layers;
-use super::reader::{Drawing, Reader};
+use super::reader::Reader;
+use super::ring::Drawing;
 use super::tree::Node;
 use crate::board::{Attributes, Axis, Shape, Side, polarity};
 use crate::geometry::Polygon;
 use crate::import::error::Error;
 use crate::import::flaw;
-
-/// Whether `head` is that of a text, or of a field shown as one.
-pub(super) fn is_text(head: &[u8]) -> bool {
-    matches!(head, b"gr_text" | b"fp_text" | b"gr_text_box" | b"fp_text_box" | b"property")
-}
 
 impl Reader<'_> {
     /// A text; `outlines` says whether those that it may carry are given in the board's frame.

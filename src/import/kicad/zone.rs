@@ -7,7 +7,8 @@
 
 use super::curve::line;
 use super::layers::Layers;
-use super::reader::{Drawing, Reader};
+use super::reader::Reader;
+use super::ring::Drawing;
 use super::tree::Node;
 use crate::board::{Axis, Shape, Side, polarity};
 use crate::geometry::{Nm, Point};

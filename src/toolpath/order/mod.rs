@@ -8,6 +8,7 @@
 //! counts, never by a clock, so the order depends on the trails alone.
 
 mod few;
+mod ground;
 mod neighbours;
 mod search;
 mod step;

@@ -1,22 +1,16 @@
 //! Local search: moves of two and three links over neighbour lists until none helps, then small
 //! double bridges.
 
-use std::cmp::Ordering;
 use std::collections::VecDeque;
 
-use crate::geometry::{Nm, Point};
+use crate::geometry::Point;
 
 use super::few::{FEW, shortest};
-use super::neighbours::Buckets;
+use super::ground::{Ground, end};
 use super::step::Step;
 use super::tour::{End, Tour};
 use super::{Effort, Leg};
 
-/// How many near stretches an end looks at, and how many of their ends: both ends of a hole lie at
-/// one place, those of a trail hardly ever. Measured: with six or eight stretches ten thousand
-/// trails take as long and come out no shorter.
-const NEAR: usize = 7;
-const NEAR_ENDS: usize = 12;
 /// Gains below a picometre are rounding.
 const LEAST: f64 = 1e-3;
 /// How far two of the three cuts of a double bridge may lie apart. Measured: 30 leave a tenth of a
@@ -51,25 +45,11 @@ pub(super) fn improve(legs: &mut Vec<Leg>, ends: &[[Point; 2]], start: Point, ef
     *legs = search.legs(home);
 }
 
-fn end(stretch: usize) -> End {
-    u32::try_from(2 * stretch).expect("ends are numbered in 32 bits")
-}
-
-/// A near end, and how far it is.
-pub(super) type Near = (End, f64);
-
 /// A tour that also passes home: an extra stretch that is left at the start and entered for
 /// nothing, which makes the open way a closed tour.
 pub(super) struct Search {
-    points: Vec<(f64, f64)>,
-    home: End,
-    /// `width` near ends of each end, nearest first; where there are fewer, the rest are infinitely
-    /// far.
-    near: Vec<Near>,
-    width: usize,
-    /// Of few stretches, home sees more ends than the others do, who leave out their own.
-    near_home: Vec<Near>,
-    pub(super) tour: Tour,
+    ground: Ground,
+    tour: Tour,
     queue: VecDeque<End>,
     queued: Vec<bool>,
     length: f64,
@@ -79,44 +59,15 @@ pub(super) struct Search {
 
 impl Search {
     fn new(ends: &[[Point; 2]], start: Point, tour: Tour) -> Self {
-        let flat = ends.as_flattened();
-        let buckets = Buckets::new(flat);
-        let width = NEAR_ENDS.min(flat.len().saturating_sub(2));
-        let mut near = Vec::with_capacity(flat.len() * width);
-        for (index, &point) in (0_u32..).zip(flat) {
-            near.extend(near_stretches(&buckets.nearest_few(point, width, |other| other / 2 != index / 2)));
-            near.resize((index as usize + 1) * width, (0, f64::INFINITY));
-        }
-        let near_home = near_stretches(&buckets.nearest_few(start, NEAR_ENDS, |_| true)).collect();
-        let mut points: Vec<(f64, f64)> = flat.iter().map(|p| p.to_f64()).collect();
-        points.extend([start.to_f64(); 2]);
-        let home = end(ends.len());
+        let ground = Ground::new(ends, start);
         let queue: VecDeque<End> = tour.entered().iter().flat_map(|&entry| [entry, entry ^ 1]).collect();
-        let queued = vec![true; points.len()];
+        let queued = vec![true; 2 * ends.len() + 2];
         let random = 0x9E37_79B9_7F4A_7C15;
-        Self { points, home, near, width, near_home, tour, queue, queued, length: 0.0, looks: 0, random }
-    }
-
-    pub(super) fn distance(&self, a: End, b: End) -> f64 {
-        if a == self.home || b == self.home {
-            return 0.0;
-        }
-        let (p, q) = (self.points[a as usize], self.points[b as usize]);
-        let (x, y) = (p.0 - q.0, p.1 - q.1);
-        (x * x + y * y).sqrt()
-    }
-
-    /// The near ends of `end`: home has them where it is left, none where it is entered.
-    pub(super) fn near(&self, end: End) -> &[Near] {
-        match end.cmp(&self.home) {
-            Ordering::Less => &self.near[end as usize * self.width..(end as usize + 1) * self.width],
-            Ordering::Equal => &[],
-            Ordering::Greater => &self.near_home,
-        }
+        Self { ground, tour, queue, queued, length: 0.0, looks: 0, random }
     }
 
     fn link(&self, end: End) -> f64 {
-        self.distance(end, self.tour.partner(end))
+        self.ground.distance(end, self.tour.partner(end))
     }
 
     fn look_again(&mut self, end: End) {
@@ -130,7 +81,7 @@ impl Search {
         while let Some(end) = self.queue.pop_front() {
             self.queued[end as usize] = false;
             self.looks += 1;
-            while let Some(step) = Step::best(self, end, LEAST) {
+            while let Some(step) = Step::best(&self.ground, &self.tour, end, LEAST) {
                 step.take(&mut self.tour);
                 self.length -= step.gain;
                 step.ends().iter().for_each(|&end| self.look_again(end));
@@ -176,7 +127,8 @@ impl Search {
         self.tour.exchange(a, e, d, c);
         self.tour.exchange(e, c, b, f);
         [a, b, c, d, e, f].into_iter().for_each(|end| self.look_again(end));
-        self.length += self.distance(a, d) + self.distance(e, b) + self.distance(c, f) - before;
+        self.length +=
+            self.ground.distance(a, d) + self.ground.distance(e, b) + self.ground.distance(c, f) - before;
     }
 
     /// A number below `below`, from a fixed sequence (xorshift64).
@@ -199,16 +151,4 @@ impl Search {
             before.iter().rev().chain(after.iter().rev()).map(|&end| leg(end ^ 1)).collect()
         }
     }
-}
-
-/// Of some ends with their squared distances those of the first few stretches.
-fn near_stretches(ends: &[(i64, u32)]) -> impl Iterator<Item = Near> {
-    let stretches = |count: usize| {
-        let mut seen: Vec<u32> = ends[..count].iter().map(|(_, end)| end / 2).collect();
-        seen.sort_unstable();
-        seen.dedup();
-        seen.len()
-    };
-    let count = (0..=ends.len()).rev().find(|&count| stretches(count) <= NEAR).unwrap_or(0);
-    ends[..count].iter().map(|&(squared, end)| (end, Nm::new(squared).to_f64().sqrt()))
 }

@@ -16,7 +16,7 @@
 //! (Lin and Kernighan's search of 1973, three links deep; the array of the tour is reversed only
 //! for what is taken.)
 
-use super::search::Search;
+use super::ground::Ground;
 use super::tour::{End, Tour};
 
 /// How many near ends the third link is sought among. Measured: more cost time and gain nothing.
@@ -43,12 +43,11 @@ pub(super) struct Step {
 
 impl Step {
     /// The step that unlinks `first` and gains most, if that is more than `least`.
-    pub(super) fn best(search: &Search, first: End, least: f64) -> Option<Self> {
-        let tour = &search.tour;
+    pub(super) fn best(ground: &Ground, tour: &Tour, first: End, least: f64) -> Option<Self> {
         let (t1, t2) = (first, tour.partner(first));
-        let (link, along) = (search.distance(t1, t2), tour.is_entry(t2));
+        let (link, along) = (ground.distance(t1, t2), tour.is_entry(t2));
         let mut best = Self { kind: Kind::Pair, ends: [t1; 6], gain: least };
-        for &(t3, length) in search.near(t2) {
+        for &(t3, length) in ground.near(t2) {
             if link - length <= least {
                 break;
             }
@@ -56,22 +55,22 @@ impl Step {
             if t3 == t1 {
                 continue;
             }
-            let open = link - length + search.distance(t3, t4);
+            let open = link - length + ground.distance(t3, t4);
             if tour.is_entry(t3) == along {
-                let gain = open - search.distance(t4, t1);
+                let gain = open - ground.distance(t4, t1);
                 if gain > best.gain {
                     best = Self { kind: Kind::Pair, ends: [t1, t2, t3, t4, t4, t3], gain };
                 }
             }
-            best.deepen(search, [t1, t2, t3, t4], open);
+            best.deepen(ground, tour, [t1, t2, t3, t4], open);
         }
         (best.gain > least).then_some(best)
     }
 
     /// Becomes a step of three links that begins with these four ends, if one gains more; `open` is
     /// what is gained before the tour is closed again.
-    fn deepen(&mut self, search: &Search, [t1, t2, t3, t4]: [End; 4], open: f64) {
-        let near = search.near(t4);
+    fn deepen(&mut self, ground: &Ground, tour: &Tour, [t1, t2, t3, t4]: [End; 4], open: f64) {
+        let near = ground.near(t4);
         for &(t5, length) in &near[..BREADTH.min(near.len())] {
             let rest = open - length;
             if rest <= self.gain {
@@ -80,10 +79,10 @@ impl Step {
             if t5 == t1 || t5 == t2 || t5 == t3 {
                 continue;
             }
-            let t6 = search.tour.partner(t5);
-            let gain = rest + search.distance(t5, t6) - search.distance(t6, t1);
+            let t6 = tour.partner(t5);
+            let gain = rest + ground.distance(t5, t6) - ground.distance(t6, t1);
             if gain > self.gain
-                && let Some(kind) = Kind::of(&search.tour, [t2, t3, t4, t5])
+                && let Some(kind) = Kind::of(tour, [t2, t3, t4, t5])
             {
                 *self = Self { kind, ends: [t1, t2, t3, t4, t5, t6], gain };
             }

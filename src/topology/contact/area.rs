@@ -2,10 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use crate::geometry::{Nm, Orientation, Point, Polygon, Rect, orientation};
+use crate::geometry::{Orientation, Point, Polygon, Rect, orientation};
 use crate::topology::index::RectIndex;
 
-use super::body::Body;
 use super::near;
 use super::nearest::{self, Way};
 
@@ -30,7 +29,7 @@ pub(in crate::topology) struct Area {
 #[derive(Debug, Default)]
 pub(in crate::topology) struct Scratch {
     pub(super) edges: Vec<usize>,
-    facing: Vec<usize>,
+    pub(super) facing: Vec<usize>,
 }
 
 impl Area {
@@ -101,20 +100,6 @@ impl Area {
             || many.contours.iter().any(|&p| few.contains(p, scratch))
     }
 
-    /// The shortest way from an edge of the area to the core of `other`, if that is within `limit`
-    /// of its copper.
-    pub(super) fn way_to(&self, other: &Body, limit: Nm, scratch: &mut Scratch) -> Option<Way> {
-        let Scratch { edges, facing } = scratch;
-        let mut best: Option<Way> = None;
-        self.any_edge(other.bounds().inflate(limit), edges, |edge| {
-            let window = Rect::new(edge.0, edge.1).inflate(limit);
-            let way = other.way_from(edge, window, facing);
-            best = [best, way].into_iter().flatten().reduce(|best, way| nearest::shortest(best, [way]));
-            is_least(best)
-        });
-        best
-    }
-
     /// The shortest way from a segment to the edges that reach into `window`.
     pub(super) fn way_from(&self, from: (Point, Point), window: Rect, stack: &mut Vec<usize>) -> Option<Way> {
         let mut best: Option<Way> = None;
@@ -128,6 +113,6 @@ impl Area {
 }
 
 /// Whether no way is shorter: of equals the first counts, so that no other need be looked at.
-fn is_least(way: Option<Way>) -> bool {
+pub(super) fn is_least(way: Option<Way>) -> bool {
     way.is_some_and(|way| way.length <= 0.0)
 }

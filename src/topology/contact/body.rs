@@ -3,7 +3,7 @@
 use crate::board::Shape;
 use crate::geometry::{Nm, Point, Rect};
 
-use super::area::{Area, Scratch};
+use super::area::{Area, Scratch, is_least};
 use super::near;
 use super::nearest::{self, Way};
 use super::sector::Sector;
@@ -135,13 +135,27 @@ impl Body {
         }
     }
 
+    /// The shortest way from an edge of `area` to the core, if that is within `limit` of the
+    /// copper.
+    fn way_from_area(&self, area: &Area, limit: Nm, scratch: &mut Scratch) -> Option<Way> {
+        let Scratch { edges, facing } = scratch;
+        let mut best: Option<Way> = None;
+        area.any_edge(self.bounds().inflate(limit), edges, |edge| {
+            let window = Rect::new(edge.0, edge.1).inflate(limit);
+            let way = self.way_from(edge, window, facing);
+            best = [best, way].into_iter().flatten().reduce(|best, way| nearest::shortest(best, [way]));
+            is_least(best)
+        });
+        best
+    }
+
     /// The shortest way between the cores; for areas, among the edges within `limit` of the other's
     /// copper.
     fn way(&self, other: &Self, limit: Nm, scratch: &mut Scratch) -> Option<Way> {
         match (&self.core, &other.core) {
             (Core::Line(a), Core::Line(b)) => Some(a.way_to(b)),
-            (Core::Area(area), _) => area.way_to(other, limit, scratch),
-            (Core::Line(_), Core::Area(area)) => area.way_to(self, limit, scratch).map(Way::reversed),
+            (Core::Area(area), _) => other.way_from_area(area, limit, scratch),
+            (Core::Line(_), Core::Area(area)) => self.way_from_area(area, limit, scratch).map(Way::reversed),
         }
     }
 

@@ -12,6 +12,7 @@ use crate::geometry::Nm;
 
 use super::error::MapError;
 use super::height_map::HeightMap;
+use super::touch::Touch;
 
 /// What a file does not say of its numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,15 +29,6 @@ impl Default for Frame {
     fn default() -> Self {
         Self { unit: Nm::from_mm(1), zero: None }
     }
-}
-
-/// A touched point.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Touch {
-    /// Where the file says it, from 1.
-    pub(super) line: usize,
-    /// Its x, y and z.
-    pub(super) place: [f64; 3],
 }
 
 /// Touched points.

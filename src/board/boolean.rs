@@ -1,0 +1,168 @@
+//! Exact polygon booleans: the one place that knows the boolean library.
+//!
+//! `i_overlay` works in 32-bit integers whose range is exactly that of [`Nm`]: points of the input
+//! keep their place, crossings are rounded to the nanometre, and every machine gives the same
+//! polygons. Of the libraries tried (a C++ and a Rust Clipper2, `geo`) it was the fastest by a
+//! factor of five, and the one that independent sampling sided with where they disagreed.
+
+use i_overlay::core::fill_rule::FillRule as LibraryRule;
+use i_overlay::core::overlay::{Overlay, ShapeType};
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::i_float::int::angle::Angle;
+use i_overlay::i_float::int::point::IntPoint;
+use i_overlay::mesh::int::arc::ArcOptions;
+use i_overlay::mesh::int::outline::offset::IntOutlineOffset;
+use i_overlay::mesh::int::style::{IntLineJoin, IntOutlineStyle};
+
+use crate::geometry::{Nm, Point, Polygon, Rect};
+
+/// Which points contours, taken together, have inside.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum FillRule {
+    /// Those that they wind round any number of times but none.
+    #[default]
+    NonZero,
+    /// Those from which a ray crosses them an odd number of times.
+    EvenOdd,
+}
+
+/// The inside of `contours` by `rule`: as simple polygons, one for each connected piece, holes
+/// included.
+#[must_use]
+pub fn filled(contours: &[Vec<Point>], rule: FillRule) -> Vec<Polygon> {
+    let mut overlay = Overlay::new(contours.iter().map(Vec::len).sum());
+    let int: Vec<Vec<IntPoint<i32>>> =
+        contours.iter().map(|ring| ring.iter().copied().map(int).collect()).collect();
+    let rule = match rule {
+        FillRule::NonZero => LibraryRule::NonZero,
+        FillRule::EvenOdd => LibraryRule::EvenOdd,
+    };
+    polygons(overlay.simplify_source(&int, rule))
+}
+
+/// The area where `contours`, taken together, wind round a point any number of times but none: as
+/// [`filled`] has it.
+#[must_use]
+pub fn clean(contours: &[Vec<Point>]) -> Vec<Polygon> {
+    filled(contours, FillRule::NonZero)
+}
+
+/// What at least one of `polygons` covers, one polygon for each connected piece.
+///
+/// Each must be simple, as [`clean`] and the other functions here return them.
+#[must_use]
+pub fn union<'a>(polygons: impl IntoIterator<Item = &'a Polygon>) -> Vec<Polygon> {
+    let mut overlay = Overlay::new(0);
+    polygons.into_iter().for_each(|polygon| add(&mut overlay, polygon, ShapeType::Subject));
+    self::polygons(overlay.overlay(OverlayRule::Subject, LibraryRule::NonZero))
+}
+
+/// What `subject` covers and none of `clips` does; polygons as for [`union`].
+#[must_use]
+pub fn difference<'a>(subject: &Polygon, clips: impl IntoIterator<Item = &'a Polygon>) -> Vec<Polygon> {
+    let mut overlay = Overlay::new(0);
+    add(&mut overlay, subject, ShapeType::Subject);
+    clips.into_iter().for_each(|clip| add(&mut overlay, clip, ShapeType::Clip));
+    polygons(overlay.overlay(OverlayRule::Difference, LibraryRule::NonZero))
+}
+
+/// What both cover; polygons as for [`union`].
+#[must_use]
+pub fn intersection(a: &Polygon, b: &Polygon) -> Vec<Polygon> {
+    let mut overlay = Overlay::new(0);
+    add(&mut overlay, a, ShapeType::Subject);
+    add(&mut overlay, b, ShapeType::Clip);
+    polygons(overlay.overlay(OverlayRule::Intersect, LibraryRule::NonZero))
+}
+
+/// `polygon` grown by `by` on every side, with round corners within `tolerance`; shrunk where `by`
+/// is negative. Polygons as for [`union`].
+#[must_use]
+pub fn offset(polygon: &Polygon, by: Nm, tolerance: Nm) -> Vec<Polygon> {
+    let radius = by.abs().to_f64().max(1.0);
+    let step = 2.0 * libm::acos(1.0 - (tolerance.to_f64().max(1.0) / radius).min(1.0));
+    let max_step = Angle::from_radians(step).unwrap_or(ArcOptions::MAX_STEP);
+    let join = IntLineJoin::Round(ArcOptions { max_step, ..ArcOptions::default() });
+    let style = IntOutlineStyle::new(int_length(by)).line_join(join);
+    let contours: Vec<Vec<IntPoint<i32>>> =
+        polygon.contours().iter().map(|ring| ring.iter().copied().map(int).collect()).collect();
+    polygons(contours.outline(&style).unwrap_or_default())
+}
+
+/// How many pairs of edges that may cross cost as much as a vertex: measured, 0.13 µs beside 1 µs.
+const CROSSINGS: u64 = 8;
+
+/// Whether the edges of `contours` cross so often that a boolean of them would take minutes and
+/// gigabytes. Contours of fewer than four thousand points are never tangled.
+#[must_use]
+pub fn is_tangled<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> bool {
+    Tangle::of(contours).is_too_much()
+}
+
+/// What a boolean of `contours` takes, in vertices: about a microsecond each.
+#[must_use]
+pub fn effort<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> u64 {
+    Tangle::of(contours).effort()
+}
+
+/// What a boolean of some contours has to look at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Tangle {
+    edges: u64,
+    /// An estimate from a sample of the edges: how many others each may cross, going by their
+    /// bounds.
+    crossings: u64,
+}
+
+impl Tangle {
+    pub(super) fn of<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> Self {
+        /// Chosen: a fraction of what the boolean itself takes, and enough to tell a tangle from a
+        /// plane.
+        const SAMPLE: usize = 64;
+        let edges: Vec<Rect> = contours
+            .flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)).map(|(&a, &b)| Rect::new(a, b)))
+            .collect();
+        let sample = edges.iter().step_by(edges.len().div_ceil(SAMPLE).max(1));
+        let sampled = sample.clone().count().max(1);
+        let touched: usize =
+            sample.map(|edge| edges.iter().filter(|other| edge.touches(**other)).count()).sum();
+        // Each edge touches itself and the two beside it.
+        let others = touched.saturating_sub(3 * sampled);
+        Self {
+            edges: edges.len() as u64,
+            crossings: (others as u64 * edges.len() as u64) / (2 * sampled as u64),
+        }
+    }
+
+    pub(super) const fn effort(self) -> u64 {
+        self.edges + self.crossings / CROSSINGS
+    }
+
+    pub(super) const fn is_too_much(self) -> bool {
+        const FEW: u64 = 4096;
+        const PAIRS: u64 = 20_000_000;
+        self.edges >= FEW && self.crossings > PAIRS
+    }
+}
+
+fn add(overlay: &mut Overlay<i32>, polygon: &Polygon, kind: ShapeType) {
+    for ring in polygon.contours() {
+        overlay.add_path_iter(ring.iter().copied().map(int), kind);
+    }
+}
+
+fn polygons(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> Vec<Polygon> {
+    let point = |p: IntPoint<i32>| Point::new(Nm::new(i64::from(p.x)), Nm::new(i64::from(p.y)));
+    let rings = |shape: Vec<Vec<_>>| shape.into_iter().map(|ring| ring.into_iter().map(point).collect());
+    shapes.into_iter().filter_map(|shape| Polygon::new(rings(shape).collect())).collect()
+}
+
+/// The library's point. Coordinates of a board are in range; those of a margin beyond it are drawn
+/// back to the range.
+fn int(p: Point) -> IntPoint<i32> {
+    IntPoint::new(int_length(p.x), int_length(p.y))
+}
+
+fn int_length(nm: Nm) -> i32 {
+    i32::try_from(nm.clamp(Nm::MIN, Nm::MAX).get()).expect("the range of Nm fits 31 bits")
+}
