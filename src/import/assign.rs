@@ -4,33 +4,15 @@
 use std::path::{Path, PathBuf};
 
 use super::archive::{Found, Gathered, name_of, read_file};
+use super::describe::describe;
 use super::error::{self, Error, find, locate};
 use super::jobfile::Job;
 use super::layers::{self, Function, Kind, Role};
-use super::load::{Selection, describe};
+use super::selection::Selection;
+use super::vote::{Assigned, Vote, Witness};
 use super::{contradiction, naming, settle};
 use crate::board::{Side, Warning, Words};
 use crate::import::flaw;
-
-/// Which of the gathered files is what, as indices.
-#[derive(Debug, Default)]
-pub(super) struct Assigned {
-    pub(super) front: Option<usize>,
-    pub(super) back: Option<usize>,
-    pub(super) outline: Option<usize>,
-    pub(super) drill: Vec<usize>,
-    /// Layers that are not milled, with what they are.
-    pub(super) aside: Vec<(usize, String)>,
-    /// Files whose role a person chose.
-    pub(super) by_hand: Vec<usize>,
-    /// What the board is called.
-    pub(super) name: String,
-    /// Where it was looked for, for messages.
-    pub(super) place: String,
-    pub(super) warnings: Vec<Warning>,
-    /// A copper layer whose side nothing tells, and which is taken for the front.
-    pub(super) guessed: Option<usize>,
-}
 
 impl Gathered {
     /// Adds the files of `selection` that do not lie under the given paths.
@@ -108,26 +90,6 @@ pub(super) fn assign(
     set_aside(&roles, gathered, &mut assigned);
     assigned.name = naming::board_name(gathered, paths, selection, &job, &assigned);
     Ok(assigned)
-}
-
-/// What is known of one file's role, and how well.
-pub(super) struct Vote {
-    pub(super) file: usize,
-    pub(super) role: Option<Role>,
-    /// The side that the witness tells, of a layer of any kind.
-    pub(super) side: Option<Side>,
-    pub(super) witness: Witness,
-}
-
-/// Who says so; a later one is believed before an earlier.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Witness {
-    /// The file's name.
-    Name,
-    /// Its X2 attribute.
-    Function,
-    /// The job file.
-    Job,
 }
 
 /// A file that a person named must be something that can be read.

@@ -4,13 +4,13 @@
 //! Where a wrong guess would cut the wrong side or the wrong thing, that is an error; where the
 //! attribute is believed before the name, it is said.
 
+use super::advice::quoted;
 use super::archive::{Found, Gathered};
-use super::assign::{Vote, Witness};
 use super::error::{Error, find, locate};
 use super::layers::{self, Kind, Role};
-use super::load::Selection;
 use super::naming;
-use super::unusable::quoted;
+use super::selection::Selection;
+use super::vote::{Vote, Witness};
 use crate::board::{Side, Warning, Words};
 use crate::import::flaw;
 

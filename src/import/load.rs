@@ -3,58 +3,21 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use super::advice::{LEAVE_ASIDE, NO_DRILL, quoted};
 use super::archive::{Found, Gathered, name_of, read_file};
-use super::assign::{Assigned, assign};
+use super::assign::assign;
+use super::build::{Build, Loaded};
+use super::describe::describe;
 use super::error::Error;
 use super::excellon::{self, Context};
 use super::gerber::{ApertureList, Image};
 use super::layers::Kind;
-use super::unusable::{LEAVE_ASIDE, quoted};
-use super::{drawing, gerber_drill, kicad, off_board, outline, picture, whole_board};
-use crate::board::{
-    Axis, Board, Copper, Diagnostic, Feature, Hole, Outline, Shape, Side, Source, Warning, Words,
-};
-use crate::geometry::{Nm, Point, Rect};
+use super::selection::{Need, Selection};
+use super::vote::Assigned;
+use super::{drawing_board, gerber_drill, kicad, off_board, outline, picture_board, whole_board};
+use crate::board::{Axis, Copper, Diagnostic, Hole, Outline, Side, Source, Warning, Words};
+use crate::geometry::{Nm, Rect};
 use crate::import::flaw;
-
-/// What a person says of the files, where names do not tell or tell wrong.
-#[derive(Clone, Debug, Default)]
-pub struct Selection {
-    /// The copper of the front.
-    pub front: Option<PathBuf>,
-    /// The copper of the back.
-    pub back: Option<PathBuf>,
-    /// The edge of the board.
-    pub outline: Option<PathBuf>,
-    /// The drill files; where any is given, no other is taken.
-    pub drill: Vec<PathBuf>,
-    /// Files and folders that are left aside, by name or by the end of their path.
-    pub skip: Vec<PathBuf>,
-    /// Whether no drill file is taken, whatever there is.
-    pub no_drill: bool,
-    /// What the board is called.
-    pub name: Option<String>,
-    /// How far apart two lines of the outline may end and still meet; [`outline::GAP`] where it is
-    /// left open.
-    pub outline_gap: Option<Nm>,
-    /// What is said of pictures.
-    pub picture: picture::Options,
-    /// What is said of drawings.
-    pub drawing: drawing::Options,
-}
-
-/// A board with what is known of where it came from.
-#[derive(Clone, Debug)]
-pub struct Loaded {
-    /// The board.
-    pub board: Board,
-    /// The files it was read from and the layers left aside, each with its role.
-    pub sources: Vec<Source>,
-    /// What was repaired, guessed or left out.
-    pub warnings: Vec<Warning>,
-    /// Files and folders beside them that are no layer of a board.
-    pub ignored: Vec<String>,
-}
 
 /// Reads the board in `paths`: folders, zip archives and single files, mixed, or one KiCad board.
 /// Folders inside folders are not looked into.
@@ -78,16 +41,8 @@ pub fn survey(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error>
     put_together(paths, selection, Need::AnyLayer)
 }
 
-/// What a board must have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Need {
-    /// Something to be done, and no doubt about what.
-    Job,
-    AnyLayer,
-}
-
 fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Loaded, Error> {
-    if let Some(loaded) = drawing::load(paths, selection, need, of_files)? {
+    if let Some(loaded) = drawing_board::load(paths, selection, need, of_files)? {
         return Ok(loaded);
     }
     of_files(paths, selection, need)
@@ -95,7 +50,7 @@ fn put_together(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<
 
 /// The board of a picture, of a KiCad board, or of layers.
 fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Loaded, Error> {
-    if let Some(loaded) = picture::board(paths, selection)? {
+    if let Some(loaded) = picture_board::load(paths, selection)? {
         return Ok(loaded);
     }
     let mut gathered = Gathered::under(paths, &selection.skip)?;
@@ -145,7 +100,7 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
         Side::Front => Selection { front: told, ..Selection::default() },
         Side::Back => Selection { back: told, ..Selection::default() },
     };
-    if let Some(loaded) = drawing::load(&[], &selection, Need::AnyLayer, of_files)? {
+    if let Some(loaded) = drawing_board::load(&[], &selection, Need::AnyLayer, of_files)? {
         return Ok(loaded);
     }
     let shown = path.display().to_string();
@@ -170,18 +125,7 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })
 }
 
-/// A board in the making.
-pub(super) struct Build {
-    pub(super) board: Board,
-    pub(super) sources: Vec<Source>,
-    pub(super) warnings: Vec<Warning>,
-}
-
 impl Build {
-    pub(super) fn new(name: String) -> Self {
-        Self { board: Board { name, ..Board::default() }, sources: Vec::new(), warnings: Vec::new() }
-    }
-
     fn coppers(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
         let file = |index: usize| &gathered.files[index];
         let read = |index: Option<usize>| {
@@ -214,42 +158,6 @@ impl Build {
             Need::Job => self.require_copper(&read),
             Need::AnyLayer => Ok(()),
         }
-    }
-
-    /// Takes over a copper layer; one that draws nothing is a warning.
-    pub(super) fn copper(&mut self, file: &Found, image: Image, side: Side) {
-        let mut warnings = image.warnings;
-        let name = &file.name;
-        self.sources.push(Source { role: format!("{side}-copper"), ..image.source });
-        let (features, bare): (Vec<Feature>, Vec<Feature>) = image.features.into_iter().partition(has_area);
-        if let Some(first) = bare.first() {
-            let message = format!("{} features of {name} have no width and so no copper", bare.len());
-            let warning = flaw::ZERO_WIDTH_COPPER.warning(message).at(first.shape.anchor());
-            warnings.push(warning.caused_by(file.at_line(first.line)));
-        }
-        if features.is_empty() {
-            let warning = flaw::EMPTY_COPPER.warning(format!("{name} draws no copper"));
-            warnings.push(warning.caused_by(file.first_line()));
-        }
-        self.warnings.extend(warnings.into_iter().map(|warning| warning.on(side)));
-        if features.is_empty() {
-            return;
-        }
-        let copper = Copper { side, features, attributes: image.attributes };
-        match side {
-            Side::Front => self.board.front = Some(copper),
-            Side::Back => self.board.back = Some(copper),
-        }
-    }
-
-    /// A board without copper is an error.
-    pub(super) fn require_copper(&self, read: &[&Found]) -> Result<(), Error> {
-        if self.board.front.is_some() || self.board.back.is_some() {
-            return Ok(());
-        }
-        let shown = read.iter().map(|file| file.shown.as_str()).collect::<Vec<_>>().join(", ");
-        let hint = "check that the layer was exported with its content";
-        Err(Error::content(&shown, "the board has no copper: nothing is drawn", hint))
     }
 
     fn outline(&mut self, gathered: &Gathered, assigned: &Assigned, gap: Nm) -> Result<(), Error> {
@@ -309,74 +217,6 @@ impl Build {
         warnings.retain(|warning| !(any && warning.is(&flaw::DRILL_WITHOUT_HOLES)));
         self.warnings.append(&mut warnings);
         Ok(())
-    }
-
-    /// Takes over `holes`, less those that another file has drilled already.
-    pub(super) fn add_holes(&mut self, holes: Vec<Hole>, file: &Found, warnings: &mut Vec<Warning>) {
-        /// The cell in which two holes of different files are looked for.
-        const CELL: i64 = 20_000;
-        let cell = |p: Point| (p.x.get().div_euclid(CELL), p.y.get().div_euclid(CELL));
-        let mut known: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-        for (index, hole) in self.board.holes.iter().enumerate() {
-            known.entry(cell(hole.path.start)).or_default().push(index);
-        }
-        let mut doubles = None::<(u32, Point, u32)>;
-        let before = std::mem::take(&mut self.board.holes);
-        let fresh: Vec<Hole> = holes
-            .into_iter()
-            .filter(|hole| {
-                let (x, y) = cell(hole.path.start);
-                let near = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
-                let double =
-                    near.filter_map(|cell| known.get(&cell)).flatten().any(|&i| same_hole(&before[i], hole));
-                if double {
-                    let (count, at, line) = doubles.unwrap_or((0, hole.path.start, hole.line));
-                    doubles = Some((count + 1, at, line));
-                }
-                !double
-            })
-            .collect();
-        self.board.holes = before;
-        self.board.holes.extend(fresh);
-        if let Some((count, at, line)) = doubles {
-            let message = format!(
-                "{count} holes of {} stand in another drill file too and are drilled once",
-                file.name
-            );
-            let warning = flaw::DUPLICATE_HOLES.warning(message).at(at);
-            warnings.push(warning.caused_by(file.at_line(line)));
-        }
-    }
-
-    /// A board as wide as a table is a unit taken for another.
-    pub(super) fn warn_of_size(&mut self) {
-        /// Chosen: the largest panels are 610 mm long; an inch taken for a millimetre makes 25 mm
-        /// wider than this.
-        const WIDEST: Nm = Nm::from_mm(620);
-        let Some(bounds) = self.board.bounds() else { return };
-        if bounds.width().max(bounds.height()) > WIDEST {
-            let (width, height) = (bounds.width(), bounds.height());
-            let message =
-                format!("the board is {width:.1} × {height:.1} mm: the unit of a file may be another one");
-            self.warnings.push(flaw::SIZE_IMPLAUSIBLE.warning(message));
-        }
-    }
-
-    /// A board of a metre is none: a file is in another unit than it says.
-    pub(super) fn refuse_size(&self, place: &str) -> Result<(), Error> {
-        /// Chosen: beyond what any mill for boards reaches, and below a board of 50 mm whose
-        /// millimetres are taken for inches.
-        const METRE: Nm = Nm::from_mm(1000);
-        let bounds = self.board.bounds().filter(|bounds| bounds.width().max(bounds.height()) > METRE);
-        let Some(bounds) = bounds else { return Ok(()) };
-        let (width, height) = (bounds.width(), bounds.height());
-        let what =
-            format!("the board is {width:.1} × {height:.1} mm: a file is not in the unit that it says");
-        Err(Error::content(
-            place,
-            what,
-            "`inspect` lists the unit of each file; have the wrong one written again",
-        ))
     }
 
     /// An outline that is none, and nothing beside it to mill.
@@ -472,25 +312,6 @@ fn gerber_holes(
     Ok((holes, source))
 }
 
-/// Whether two files mean the same hole: within a rounding to 0.001 inch.
-fn same_hole(a: &Hole, b: &Hole) -> bool {
-    const NEAR: Nm = Nm::from_um(20);
-    let near = |p: Point, q: Point| (p.x - q.x).abs() <= NEAR && (p.y - q.y).abs() <= NEAR;
-    near(a.path.start, b.path.start)
-        && near(a.path.end(), b.path.end())
-        && (a.diameter - b.diameter).abs() <= Nm::from_um(50)
-        && a.path.segments.len() == b.path.segments.len()
-}
-
-fn has_area(feature: &Feature) -> bool {
-    match &feature.shape {
-        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => {
-            *radius > Nm::ZERO
-        }
-        Shape::Polygon(_) => true,
-    }
-}
-
 /// Fails for a file that draws nothing and has no end: what it had was cut off. One that was
 /// written empty has its end.
 fn refuse_cut_off(file: &Found, is_empty: bool, warnings: &[Warning]) -> Result<(), Error> {
@@ -514,35 +335,6 @@ fn read_gerber(gathered: &Gathered, file: &Found, wanted: &str) -> Result<Image,
     };
     Err(Error::content(&file.shown, format!("{what} where {wanted} (Gerber) was expected"), hint))
 }
-
-/// What a file is that is no layer, in a few words.
-pub(super) fn describe(bytes: &[u8]) -> &'static str {
-    const KNOWN: [(&[u8], &str); 9] = [
-        (b"\x89PNG", "a PNG picture"),
-        (b"\xff\xd8\xff", "a JPEG picture"),
-        (b"%PDF", "a PDF document"),
-        (b"PK", "a zip archive"),
-        (b"(kicad_sch", "a KiCad schematic and not its board (.kicad_pcb)"),
-        (b"<?xml", "an XML file"),
-        (b"<!doctype", "a web page, as a failed download leaves"),
-        (b"<html", "a web page, as a failed download leaves"),
-        (b"g21", "a G-code program"),
-    ];
-    if bytes.iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
-        return "an empty file";
-    }
-    let lower = bytes[..bytes.len().min(16)].to_ascii_lowercase();
-    let begins = |start: &[u8]| bytes.starts_with(start) || lower.starts_with(start);
-    let text = |b: &u8| b.is_ascii_graphic() || b.is_ascii_whitespace() || *b >= 0xa0;
-    match KNOWN.iter().find(|(start, _)| begins(start)) {
-        Some((_, what)) => what,
-        None if bytes.iter().take(4096).all(text) => "a text of another kind",
-        None => "a file of another kind",
-    }
-}
-
-/// What to do about a drill file that cannot be read, if nothing else.
-pub(super) const NO_DRILL: Words = Words::of("{no-drill} does all but the holes");
 
 /// A copper layer that may be either side: a back that is not mirrored is a ruined board.
 fn side_unknown(file: &Found) -> Error {

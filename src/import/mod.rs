@@ -11,13 +11,17 @@
 //! the formats stand alone and never touch the file system.
 //! A [`picture`] of copper is a board by itself.
 
+mod advice;
 mod archive;
 mod assign;
+mod build;
+mod claims;
 mod contradiction;
+mod describe;
 mod design;
 mod digest;
 pub mod drawing;
-pub mod dxf;
+mod drawing_board;
 mod error;
 pub mod excellon;
 pub mod flaw;
@@ -31,13 +35,18 @@ mod naming;
 mod off_board;
 pub mod outline;
 pub mod picture;
+mod picture_board;
+mod selection;
 mod settle;
-pub mod svg;
 pub mod text;
 mod unusable;
+mod vote;
 mod wheel;
 mod whole_board;
 
+pub use build::Loaded;
 pub use digest::sha256;
+pub use drawing::{dxf, svg};
 pub use error::{Diagnosis, Error};
-pub use load::{Loaded, Selection, load, load_copper, survey};
+pub use load::{load, load_copper, survey};
+pub use selection::Selection;

@@ -3,10 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use super::archive::{Gathered, name_of};
-use super::assign::Assigned;
 use super::jobfile::Job;
 use super::layers;
-use super::load::Selection;
+use super::selection::Selection;
+use super::vote::Assigned;
 
 /// The name without its extension.
 pub(super) fn stem(name: &str) -> &str {

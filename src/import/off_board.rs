@@ -1,8 +1,8 @@
 //! Holes that lie off the board: another board's, in another unit, or digits that were damaged.
 
+use super::advice::NO_DRILL;
 use super::archive::Found;
 use super::error::Error;
-use super::load::NO_DRILL;
 use crate::board::{Hole, Sentence, Warning, Words};
 use crate::geometry::{Nm, Rect};
 use crate::import::flaw;

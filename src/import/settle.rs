@@ -2,10 +2,10 @@
 //! do not.
 
 use super::archive::{Found, Gathered};
-use super::assign::{Vote, Witness};
 use super::error::Error;
 use super::layers::Role;
 use super::outline;
+use super::vote::{Vote, Witness};
 use crate::board::{Side, Warning, Words};
 use crate::geometry::{Nm, Point, Rect};
 use crate::import::flaw;

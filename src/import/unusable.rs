@@ -14,13 +14,10 @@
 //! What says nothing of the kind (a README, a list of parts, G-code) is listed as no layer. In
 //! between are texts that are no prose, and folders named like a layer: they are warned of.
 
-use super::archive::Gathered;
-use super::error::Error;
+use super::describe::describe;
 use super::jobfile::Job;
-use super::layers::{self, Kind, Role, function_of, role_by_function};
-use super::load::{Selection, describe};
-use super::naming;
-use crate::board::{Side, Warning, Words};
+use super::layers::{self, Role, function_of, role_by_function};
+use crate::board::{Side, Warning};
 use crate::import::flaw;
 
 /// How much of a file is looked at.
@@ -29,14 +26,14 @@ const HEAD: usize = 1 << 16;
 /// Something among the files of a board that is no layer by its content.
 #[derive(Clone, Debug)]
 pub(super) struct Unusable {
-    name: String,
-    shown: String,
-    form: Form,
+    pub(super) name: String,
+    pub(super) shown: String,
+    pub(super) form: Form,
 }
 
 /// What it is.
 #[derive(Clone, Debug)]
-enum Form {
+pub(super) enum Form {
     /// A file, with its first [`HEAD`] bytes.
     File(Vec<u8>),
     /// A folder.
@@ -60,7 +57,7 @@ impl Unusable {
     }
 
     /// What it is, in a few words.
-    fn what(&self) -> &'static str {
+    pub(super) fn what(&self) -> &'static str {
         match &self.form {
             Form::File(head) => describe(head),
             Form::Folder => "a folder",
@@ -69,7 +66,7 @@ impl Unusable {
     }
 
     /// What it is meant for, and which mark says so; none where nothing does.
-    fn claim(&self, shared: usize, job: &Job) -> Option<(Meant, &'static str)> {
+    pub(super) fn claim(&self, shared: usize, job: &Job) -> Option<(Meant, &'static str)> {
         let head = match &self.form {
             Form::File(head) => head.as_slice(),
             Form::Folder | Form::Special(_) => &[],
@@ -104,7 +101,7 @@ impl Unusable {
     }
 
     /// What a person must know of it where nothing says that it is a layer.
-    fn doubt(&self, shared: usize) -> Option<Warning> {
+    pub(super) fn doubt(&self, shared: usize) -> Option<Warning> {
         let role = || layers::role_by_name(&self.name, shared).and_then(meant);
         match &self.form {
             Form::File(head)
@@ -128,7 +125,7 @@ impl Unusable {
 
 /// What a file is for that must not get lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Meant {
+pub(super) enum Meant {
     Copper(Side),
     Outline,
     Drill,
@@ -147,19 +144,6 @@ impl std::fmt::Display for Meant {
     }
 }
 
-impl Meant {
-    /// Whether a person has named another file for it.
-    fn is_chosen(self, selection: &Selection) -> bool {
-        match self {
-            Self::Copper(Side::Front) => selection.front.is_some(),
-            Self::Copper(Side::Back) => selection.back.is_some(),
-            Self::Outline => selection.outline.is_some(),
-            Self::Drill => selection.no_drill || !selection.drill.is_empty(),
-            Self::Layer => false,
-        }
-    }
-}
-
 /// What of a role must not get lost: masks and silkscreens are not milled.
 const fn meant(role: Role) -> Option<Meant> {
     match role {
@@ -169,53 +153,6 @@ const fn meant(role: Role) -> Option<Meant> {
         Role::Group(_) => Some(Meant::Layer),
         Role::Other(_) => None,
     }
-}
-
-impl Gathered {
-    /// Fails for what is meant as a layer and cannot be read as one; returns what is doubtful.
-    pub(super) fn refuse_unusable(&self, job: &Job, selection: &Selection) -> Result<Vec<Warning>, Error> {
-        let names: Vec<&str> = self.files.iter().map(|file| naming::stem(&file.name)).collect();
-        let mut warnings = Vec::new();
-        let mut refused = Vec::new();
-        for odd in &self.unusable {
-            let shared = layers::shared_start(&[&names[..], &[naming::stem(&odd.name)]].concat());
-            match odd.claim(shared, job) {
-                Some((meant, _)) if meant.is_chosen(selection) => {}
-                Some((Meant::Drill, _)) if self.has_text_beside(odd) => {
-                    let message =
-                        format!("{} is a binary drill file; the text file beside it is read", odd.name);
-                    warnings.push(flaw::BINARY_DRILL_FILE.warning(message));
-                }
-                Some((meant, mark)) => refused.push((odd, meant, mark)),
-                None => warnings.extend(odd.doubt(shared)),
-            }
-        }
-        let Some((first, meant, mark)) = refused.first() else { return Ok(warnings) };
-        let mut what = format!("{}, but {mark} says that it is {meant}", first.what());
-        let others: Vec<&str> = refused[1..].iter().map(|(odd, ..)| odd.name.as_str()).collect();
-        if !others.is_empty() {
-            what += &format!("; {} too cannot be used: {}", others.len(), others.join(", "));
-        }
-        let hint = LEAVE_ASIDE.with([&quoted(&first.name)]);
-        Err(Error::content(&first.shown, what, hint))
-    }
-
-    /// Whether `odd` is a binary drill file whose text lies beside it, as Altium writes both.
-    fn has_text_beside(&self, odd: &Unusable) -> bool {
-        let Form::File(head) = &odd.form else { return false };
-        let stem = naming::stem(&odd.name);
-        let same = |name: &str| naming::stem(name).eq_ignore_ascii_case(stem);
-        is_binary_drill(head) && self.files.iter().any(|file| file.kind == Kind::Excellon && same(&file.name))
-    }
-}
-
-/// What to do about a file that cannot be used, put its name in.
-pub(super) const LEAVE_ASIDE: Words = Words::of("export it again, or leave it aside: {skip} {0}");
-
-/// A name as a shell takes it.
-pub(super) fn quoted(name: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "._-+/".contains(c);
-    if name.chars().all(plain) { name.to_owned() } else { format!("'{name}'") }
 }
 
 /// Whether drill files are called so, and much else too: Altium's and Proteus' are `.TXT`.
@@ -260,7 +197,7 @@ fn is_program(bytes: &[u8]) -> bool {
 
 /// Whether every byte has an odd number of bits: the paper tape's code (EIA RS-244), which Altium
 /// still writes.
-fn is_binary_drill(bytes: &[u8]) -> bool {
+pub(super) fn is_binary_drill(bytes: &[u8]) -> bool {
     !bytes.is_empty() && bytes.iter().all(|b| b.count_ones() % 2 == 1)
 }
 

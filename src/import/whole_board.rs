@@ -6,13 +6,14 @@
 
 use std::path::PathBuf;
 
+use super::advice::quoted;
 use super::archive::{Found, Gathered};
+use super::build::{Build, Loaded};
 use super::error::Error;
 use super::jobfile::Job;
 use super::layers::Kind;
-use super::load::{Build, Loaded, Need, Selection};
 use super::naming;
-use super::unusable::quoted;
+use super::selection::{Need, Selection};
 use super::{kicad, outline};
 use crate::board::{Side, Source, Words};
 use crate::import::flaw;

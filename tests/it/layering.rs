@@ -135,7 +135,6 @@ fn every_top_level_module_has_a_row() {
 /// Circles between the files of one module that are still there: those of the engine and of the
 /// simulation are being rewritten.
 const CIRCLES: &[&str] = &[
-    "import: archive assign contradiction drawing dxf gerber_drill load naming off_board picture settle svg unusable whole_board",
     "job: auto by_net cutting holding layer options output_name sense settings tools written",
     "job: describe inspect",
     "job: pipeline stock",

@@ -1,10 +1,10 @@
 //! Which part of a drawing is which layer of a board.
 
-use super::role_of;
 use crate::artwork::{Artwork, Drawn, Figure, Layer, diameter};
+use crate::board::Side;
 use crate::geometry::Nm;
 use crate::import::error::Error;
-use crate::import::layers::Role;
+use crate::import::layers::{self, Role};
 
 /// The widest circle among bare lines that is a hole. Chosen: of boards and panels drawn so, the
 /// widest hole for a screw; a wider circle is cut out.
@@ -12,24 +12,24 @@ const WIDEST_HOLE: Nm = Nm::from_um(6_500);
 
 /// The figures of one role.
 #[derive(Clone, Debug)]
-pub(super) struct Part {
-    pub(super) role: Role,
-    pub(super) figures: Vec<Figure>,
+pub(in crate::import) struct Part {
+    pub(in crate::import) role: Role,
+    pub(in crate::import) figures: Vec<Figure>,
 }
 
 /// What a drawing's own layers tell.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Parts {
-    pub(super) parts: Vec<Part>,
+pub(in crate::import) struct Parts {
+    pub(in crate::import) parts: Vec<Part>,
     /// Layers that are left aside, with what they are where that is known.
-    pub(super) aside: Vec<(String, Option<&'static str>)>,
+    pub(in crate::import) aside: Vec<(String, Option<&'static str>)>,
     /// What nobody told, in words; none where the names did.
-    pub(super) guess: Option<&'static str>,
+    pub(in crate::import) guess: Option<&'static str>,
 }
 
 impl Parts {
     /// The parts of `artwork` by the names of its layers, or by what is drawn.
-    pub(super) fn of(artwork: &Artwork) -> Self {
+    pub(in crate::import) fn of(artwork: &Artwork) -> Self {
         let roles: Vec<(&Layer, Option<Role>)> =
             artwork.layers.iter().map(|layer| (layer, role_of(&layer.name))).collect();
         let is_told =
@@ -61,7 +61,7 @@ impl Parts {
         let figures: Vec<Figure> = artwork.layers.iter().flat_map(|layer| &layer.figures).cloned().collect();
         if figures.iter().any(covers) {
             parts.guess = Some("all of it is taken for the copper of the front");
-            parts.add(Role::Copper(crate::board::Side::Front), &figures);
+            parts.add(Role::Copper(Side::Front), &figures);
             return parts;
         }
         let circles = |figure: &Figure| match figure.paths() {
@@ -96,7 +96,11 @@ fn covers(figure: &Figure) -> bool {
 }
 
 /// The layer `name` of a drawing.
-pub(super) fn layer<'a>(artwork: &'a Artwork, shown: &str, name: &str) -> Result<&'a Layer, Error> {
+pub(in crate::import) fn layer<'a>(
+    artwork: &'a Artwork,
+    shown: &str,
+    name: &str,
+) -> Result<&'a Layer, Error> {
     artwork.layer(name).ok_or_else(|| {
         const SHOWN: usize = 12;
         let names: Vec<&str> =
@@ -111,4 +115,20 @@ pub(super) fn layer<'a>(artwork: &'a Artwork, shown: &str, name: &str) -> Result
         };
         Error::content(shown, what, hint)
     })
+}
+
+/// What a layer is for, by its name; none where that does not tell.
+pub(in crate::import) fn role_of(name: &str) -> Option<Role> {
+    // Fritzing numbers copper from below.
+    match name.to_ascii_lowercase().as_str() {
+        "copper0" => return Some(Role::Copper(Side::Back)),
+        // One side drawn by itself, as `draw --stage copper` does.
+        "copper1" | "copper" => return Some(Role::Copper(Side::Front)),
+        "hole" | "drills" | "bohrungen" => return Some(Role::Drill),
+        "board" => return Some(Role::Outline),
+        _ => {}
+    }
+    // As a file of no known extension.
+    let role = layers::role_by_name(&format!("{}.layer", name.replace('.', "_")), 0);
+    role.filter(|role| !matches!(role, Role::Group(_)))
 }

@@ -2,18 +2,18 @@
 
 use std::path::{Path, PathBuf};
 
-use super::told::{self, Part, Parts};
-use super::{Drawing, split};
+use super::archive::{Found, name_of, read_file};
+use super::build::{Build, Loaded};
+use super::drawing::{self, Drawing, Part, Parts, split};
+use super::error::Error;
+use super::gerber::Image;
+use super::layers::{Kind, Role};
+use super::selection::{Need, Selection};
+use super::{naming, outline, picture};
 use crate::artwork::{self, Figure, Layer};
 use crate::board::{Attributes, Axis, Feature, Hole, Shape, Side, Source, Words};
 use crate::geometry::{Nm, Path as Course};
-use crate::import::archive::{Found, name_of, read_file};
-use crate::import::error::Error;
 use crate::import::flaw;
-use crate::import::gerber::Image;
-use crate::import::layers::{Kind, Role};
-use crate::import::load::{Build, Loaded, Need, Selection};
-use crate::import::{naming, outline, picture};
 
 /// A drawing that was named.
 struct Named {
@@ -27,7 +27,7 @@ struct Named {
 
 /// The board of drawings among what was named; none where there is no drawing. `others` puts a
 /// board together from the other files.
-pub(in crate::import) fn load(
+pub(super) fn load(
     paths: &[PathBuf],
     selection: &Selection,
     need: Need,
@@ -90,10 +90,10 @@ fn named_as(path: &Path, role: Option<Role>, selection: &Selection) -> Result<Op
     }
     let shown = file.display().to_string();
     let bytes = read_file(&file, &shown)?;
-    if !super::looks_like(&bytes) {
+    if !drawing::looks_like(&bytes) {
         return Ok(None);
     }
-    let drawing = super::read(&name_of(&file), &bytes, &selection.drawing)?;
+    let drawing = drawing::read(&name_of(&file), &bytes, &selection.drawing)?;
     let file = Found { name: name_of(&file), shown, bytes, kind: Kind::Unknown, named: true };
     Ok(Some(Named { file, drawing, layer, role }))
 }
@@ -118,7 +118,7 @@ fn add(build: &mut Build, named: &Named, selection: &Selection) -> Result<(), Er
     let artwork = match layer {
         None => &drawing.artwork,
         Some(name) => {
-            let kept = told::layer(&drawing.artwork, &file.shown, name)?.clone();
+            let kept = drawing::layer(&drawing.artwork, &file.shown, name)?.clone();
             whole = artwork::Artwork { layers: vec![kept] };
             &whole
         }

@@ -25,12 +25,12 @@ mod wide;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::digest;
-use super::drawing::{Drawing, Options, Unit};
-use super::error::Error;
-use super::flaw;
 use crate::artwork::Artwork;
 use crate::board::{Source, Words};
+use crate::import::digest;
+use crate::import::drawing::{Drawing, Options, Unit};
+use crate::import::error::Error;
+use crate::import::flaw;
 use entity::{Refusal, Sheet};
 use file::Dxf;
 use pairs::{NoNumber, SENTINEL};

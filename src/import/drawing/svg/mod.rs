@@ -23,12 +23,12 @@ use std::sync::Arc;
 
 use usvg::fontdb;
 
-use super::digest;
-use super::drawing::{Drawing, Options};
-use super::error::Error;
-use super::flaw;
 use crate::artwork::Artwork;
 use crate::board::{Source, Words};
+use crate::import::digest;
+use crate::import::drawing::{Drawing, Options};
+use crate::import::error::Error;
+use crate::import::flaw;
 use document::Document;
 use size::Size;
 

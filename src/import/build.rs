@@ -1,0 +1,159 @@
+//! A board in the making.
+
+use std::collections::BTreeMap;
+
+use super::archive::Found;
+use super::error::Error;
+use super::gerber::Image;
+use crate::board::{Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
+use crate::geometry::{Nm, Point};
+use crate::import::flaw;
+
+/// A board with what is known of where it came from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The board.
+    pub board: Board,
+    /// The files it was read from and the layers left aside, each with its role.
+    pub sources: Vec<Source>,
+    /// What was repaired, guessed or left out.
+    pub warnings: Vec<Warning>,
+    /// Files and folders beside them that are no layer of a board.
+    pub ignored: Vec<String>,
+}
+
+/// A board in the making.
+pub(super) struct Build {
+    pub(super) board: Board,
+    pub(super) sources: Vec<Source>,
+    pub(super) warnings: Vec<Warning>,
+}
+
+impl Build {
+    pub(super) fn new(name: String) -> Self {
+        Self { board: Board { name, ..Board::default() }, sources: Vec::new(), warnings: Vec::new() }
+    }
+
+    /// Takes over a copper layer; one that draws nothing is a warning.
+    pub(super) fn copper(&mut self, file: &Found, image: Image, side: Side) {
+        let mut warnings = image.warnings;
+        let name = &file.name;
+        self.sources.push(Source { role: format!("{side}-copper"), ..image.source });
+        let (features, bare): (Vec<Feature>, Vec<Feature>) = image.features.into_iter().partition(has_area);
+        if let Some(first) = bare.first() {
+            let message = format!("{} features of {name} have no width and so no copper", bare.len());
+            let warning = flaw::ZERO_WIDTH_COPPER.warning(message).at(first.shape.anchor());
+            warnings.push(warning.caused_by(file.at_line(first.line)));
+        }
+        if features.is_empty() {
+            let warning = flaw::EMPTY_COPPER.warning(format!("{name} draws no copper"));
+            warnings.push(warning.caused_by(file.first_line()));
+        }
+        self.warnings.extend(warnings.into_iter().map(|warning| warning.on(side)));
+        if features.is_empty() {
+            return;
+        }
+        let copper = Copper { side, features, attributes: image.attributes };
+        match side {
+            Side::Front => self.board.front = Some(copper),
+            Side::Back => self.board.back = Some(copper),
+        }
+    }
+
+    /// A board without copper is an error.
+    pub(super) fn require_copper(&self, read: &[&Found]) -> Result<(), Error> {
+        if self.board.front.is_some() || self.board.back.is_some() {
+            return Ok(());
+        }
+        let shown = read.iter().map(|file| file.shown.as_str()).collect::<Vec<_>>().join(", ");
+        let hint = "check that the layer was exported with its content";
+        Err(Error::content(&shown, "the board has no copper: nothing is drawn", hint))
+    }
+
+    /// Takes over `holes`, less those that another file has drilled already.
+    pub(super) fn add_holes(&mut self, holes: Vec<Hole>, file: &Found, warnings: &mut Vec<Warning>) {
+        /// The cell in which two holes of different files are looked for.
+        const CELL: i64 = 20_000;
+        let cell = |p: Point| (p.x.get().div_euclid(CELL), p.y.get().div_euclid(CELL));
+        let mut known: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
+        for (index, hole) in self.board.holes.iter().enumerate() {
+            known.entry(cell(hole.path.start)).or_default().push(index);
+        }
+        let mut doubles = None::<(u32, Point, u32)>;
+        let before = std::mem::take(&mut self.board.holes);
+        let fresh: Vec<Hole> = holes
+            .into_iter()
+            .filter(|hole| {
+                let (x, y) = cell(hole.path.start);
+                let near = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
+                let double =
+                    near.filter_map(|cell| known.get(&cell)).flatten().any(|&i| same_hole(&before[i], hole));
+                if double {
+                    let (count, at, line) = doubles.unwrap_or((0, hole.path.start, hole.line));
+                    doubles = Some((count + 1, at, line));
+                }
+                !double
+            })
+            .collect();
+        self.board.holes = before;
+        self.board.holes.extend(fresh);
+        if let Some((count, at, line)) = doubles {
+            let message = format!(
+                "{count} holes of {} stand in another drill file too and are drilled once",
+                file.name
+            );
+            let warning = flaw::DUPLICATE_HOLES.warning(message).at(at);
+            warnings.push(warning.caused_by(file.at_line(line)));
+        }
+    }
+
+    /// A board as wide as a table is a unit taken for another.
+    pub(super) fn warn_of_size(&mut self) {
+        /// Chosen: the largest panels are 610 mm long; an inch taken for a millimetre makes 25 mm
+        /// wider than this.
+        const WIDEST: Nm = Nm::from_mm(620);
+        let Some(bounds) = self.board.bounds() else { return };
+        if bounds.width().max(bounds.height()) > WIDEST {
+            let (width, height) = (bounds.width(), bounds.height());
+            let message =
+                format!("the board is {width:.1} × {height:.1} mm: the unit of a file may be another one");
+            self.warnings.push(flaw::SIZE_IMPLAUSIBLE.warning(message));
+        }
+    }
+
+    /// A board of a metre is none: a file is in another unit than it says.
+    pub(super) fn refuse_size(&self, place: &str) -> Result<(), Error> {
+        /// Chosen: beyond what any mill for boards reaches, and below a board of 50 mm whose
+        /// millimetres are taken for inches.
+        const METRE: Nm = Nm::from_mm(1000);
+        let bounds = self.board.bounds().filter(|bounds| bounds.width().max(bounds.height()) > METRE);
+        let Some(bounds) = bounds else { return Ok(()) };
+        let (width, height) = (bounds.width(), bounds.height());
+        let what =
+            format!("the board is {width:.1} × {height:.1} mm: a file is not in the unit that it says");
+        Err(Error::content(
+            place,
+            what,
+            "`inspect` lists the unit of each file; have the wrong one written again",
+        ))
+    }
+}
+
+/// Whether two files mean the same hole: within a rounding to 0.001 inch.
+fn same_hole(a: &Hole, b: &Hole) -> bool {
+    const NEAR: Nm = Nm::from_um(20);
+    let near = |p: Point, q: Point| (p.x - q.x).abs() <= NEAR && (p.y - q.y).abs() <= NEAR;
+    near(a.path.start, b.path.start)
+        && near(a.path.end(), b.path.end())
+        && (a.diameter - b.diameter).abs() <= Nm::from_um(50)
+        && a.path.segments.len() == b.path.segments.len()
+}
+
+fn has_area(feature: &Feature) -> bool {
+    match &feature.shape {
+        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => {
+            *radius > Nm::ZERO
+        }
+        Shape::Polygon(_) => true,
+    }
+}
