@@ -10,7 +10,8 @@ use crate::toolpath::{Placement, Program, Section, Statistics, ToolKind, measure
 use crate::verify::carving::{self, Text};
 use crate::verify::{Cutter, CutterKind};
 
-use super::pipeline::{GENERATOR, zero};
+use super::pipeline::GENERATOR;
+use super::stock::zero;
 use super::{Error, Settings};
 
 /// What is milled.

@@ -19,28 +19,8 @@ use crate::topology::{Extent, NetId};
 use crate::voronoi::{Boundaries, Owner};
 
 use super::choice::Strategy;
-use super::layer::Plan;
+use super::plan::{Chosen, Plan, Tried};
 use super::{Error, Settings};
-
-/// What was tried, and taken.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Chosen {
-    /// The plans in the order in which they were tried: regions, loops, and what mixes them.
-    pub tried: Vec<Tried>,
-    /// Which of them was taken.
-    pub taken: usize,
-}
-
-/// A plan that was tried.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tried {
-    /// How many nets have a loop.
-    pub loops: usize,
-    /// How long the machine runs for it.
-    pub seconds: f64,
-    /// How many gaps or frames it leaves uncut that join nets.
-    pub joined: usize,
-}
 
 /// Loops are tried that are at most so long beside the edge of the net's region. Measured on the
 /// corpus by `examples/strategies`: finer steps and other bounds gain less than one part in a

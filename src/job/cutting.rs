@@ -5,11 +5,11 @@ use crate::geometry::Nm;
 use crate::toolpath::{Heights, Tool, ToolKind};
 use crate::voronoi::Widening;
 
+use super::checked::{self, given, positive};
 use super::choice::{Sites, Strategy};
 use super::quantity::Length;
-use super::settings::{given, positive};
 use super::tools::{self, Fetched, Workshop};
-use super::{Error, Options, sense};
+use super::{Error, Options};
 
 /// A tool that isolates.
 #[derive(Clone, Debug)]
@@ -120,7 +120,7 @@ fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
         }
         Some(overlap) => overlap.of(kerf),
     };
-    sense::count("passes", options.passes, 1..=1000)?;
+    checked::count("passes", options.passes, 1..=1000)?;
     let width = match (options.width, options.passes) {
         _ if options.clear == Some(true) => EVERYTHING,
         (Some(width), _) => positive("width", Some(width))?,
@@ -162,4 +162,24 @@ fn not_a_drill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
             problem: format!("`{}` cannot cut sideways: name a vbit or an endmill", tool.name),
         }),
     }
+}
+
+/// The finest pixel.
+const FINEST: Nm = Nm::from_um(1);
+
+/// The pixel that finds boundaries, as it is told.
+pub(super) fn pixel(options: &Options) -> Result<Option<Nm>, Error> {
+    let inch = Nm::from_um(25_400);
+    checked::count("dpi", options.dpi, 1..=25_400)?;
+    let (key, pixel) = match options.dpi {
+        Some(dpi) => ("dpi", Some(Nm::new((inch.get() + i64::from(dpi) / 2) / i64::from(dpi)))),
+        None => ("pixel", given("pixel", options.pixel)?),
+    };
+    if let Some(pixel) = pixel.filter(|&pixel| pixel < FINEST) {
+        return Err(Error::Value {
+            key,
+            problem: format!("a pixel of {} is finer than 0.001mm, the finest", Length(pixel)),
+        });
+    }
+    Ok(pixel)
 }

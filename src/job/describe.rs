@@ -11,7 +11,6 @@ use crate::report::document::{
 };
 use crate::topology::{Gap, NetId, Nets};
 
-use super::inspect::size;
 use super::pipeline::GENERATOR;
 use super::{Chosen, Job, Layer, Settings, Written};
 
@@ -124,4 +123,9 @@ pub(super) fn drills(holes: &[Hole]) -> Vec<DrillEntry> {
     }
     let entry = |(diameter, (holes, slots))| DrillEntry { diameter_mm: Millimetres(diameter), holes, slots };
     by_diameter.into_iter().map(entry).collect()
+}
+
+/// Width and height of a board.
+pub(super) fn size(board: &Board) -> Option<[Millimetres; 2]> {
+    board.bounds().map(|bounds| [Millimetres(bounds.width()), Millimetres(bounds.height())])
 }

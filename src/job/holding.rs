@@ -3,8 +3,8 @@
 use crate::geometry::{Nm, Point};
 use crate::toolpath::strategy::TabPlaces;
 
-use super::settings::given;
-use super::{Error, Options, sense};
+use super::checked::{self, given};
+use super::{Error, Options};
 
 /// Where tabs hold the board.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,6 +44,6 @@ pub(super) fn holding(options: &Options) -> Result<Holding, Error> {
         return Ok(Holding::At(options.tab_at.iter().map(|&place| place.into()).collect()));
     }
     let spacing = given("tab-spacing", options.tab_spacing)?;
-    sense::count("tabs", options.tabs, 0..=1000)?;
+    checked::count("tabs", options.tabs, 0..=1000)?;
     Ok(spacing.map_or_else(|| Holding::Count(options.tabs.unwrap_or(0)), Holding::Spacing))
 }

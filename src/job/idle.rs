@@ -1,9 +1,11 @@
 //! What was asked for and changes nothing: told, so that nobody believes it did.
 
 use crate::board::diagnostic::planning;
-use crate::board::{Warning, Words};
+use crate::board::{Copper, Warning, Words};
 
-use super::{Layer, Options, Settings, Sites};
+use super::by_net::{names, without_net};
+use super::{Layer, Options, Pattern, Settings, Sites};
+use crate::topology::NetId;
 
 impl Settings {
     /// The first of the `given` options that changes nothing beside the other settings, and what to
@@ -46,6 +48,21 @@ impl Settings {
         ];
         idle.into_iter().find(|(_, is_idle, _)| *is_idle).map(|(option, _, hint)| (option, Words::of(hint)))
     }
+}
+
+/// A `pattern-without-net` for each pattern that means no net of any layer.
+pub(super) fn patterns<'a>(
+    layers: impl Iterator<Item = (&'a Copper, &'a Layer)> + Clone,
+    settings: &Settings,
+) -> Vec<Warning> {
+    let means_one = |pattern: &Pattern| {
+        layers.clone().any(|(copper, layer)| {
+            let mut ids = (0..).map(NetId).take(layer.nets.nets().len());
+            ids.any(|id| pattern.matches_any(&names(copper, &layer.nets, id)))
+        })
+    };
+    let idle = settings.strategy_for.iter().filter(|own| !means_one(&own.nets));
+    idle.map(|own| without_net(&own.nets, "it decides on no strategy")).collect()
 }
 
 /// Warns of each isolating tool that cuts nothing on any side: a wider or a finer one cuts all it

@@ -1,9 +1,9 @@
 //! What is known of a board before anything is planned: sizes, nets, gaps, holes.
 
-use crate::board::{Board, Copper, Outline, Side};
+use crate::board::{Copper, Outline, Side};
 use crate::import::Loaded;
 use crate::report::Inspection;
-use crate::report::document::{Millimetres, SCHEMA_VERSION, WarningEntry};
+use crate::report::document::{SCHEMA_VERSION, WarningEntry};
 use crate::report::inspection::InspectedLayer;
 use crate::report::methods::MethodsEntry;
 use crate::report::prediction::PredictionEntry;
@@ -11,7 +11,7 @@ use crate::topology::{self, Electrical, Nets, Sampling};
 
 use super::Settings;
 use super::choice::Topology;
-use super::describe::{drills, gap_entry, net_entries};
+use super::describe::{drills, gap_entry, net_entries, size};
 use super::layer::method;
 
 /// What is known of a board before anything is done to it.
@@ -51,11 +51,6 @@ pub fn inspect(loaded: &Loaded, settings: &Settings) -> Inspection {
         drills: drills(&board.holes),
         warnings,
     }
-}
-
-/// Width and height of a board.
-pub(super) fn size(board: &Board) -> Option<[Millimetres; 2]> {
-    board.bounds().map(|bounds| [Millimetres(bounds.width()), Millimetres(bounds.height())])
 }
 
 fn inspected(copper: &Copper, nets: &Nets, outline: Option<&Outline>, settings: &Settings) -> InspectedLayer {

@@ -5,13 +5,13 @@ use crate::board::{Board, Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate, share};
-use crate::toolpath::{Order, Placement, Program, Section, measure};
+use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, NetId, Nets, Translucency};
 use crate::voronoi::{self, Boundaries, Boundary, Diagram, Frame, Loops, Owner, SiteKind};
 
-use super::auto::{self, Chosen, Tried};
 use super::choice::{self, Sites, Topology};
-use super::{Cutting, Error, Settings, by_net};
+use super::plan::{Chosen, Plan};
+use super::{Cutting, Error, Settings, auto, by_net};
 
 /// What became of one side.
 pub struct Layer {
@@ -112,16 +112,6 @@ struct Planned<'a> {
     settings: &'a Settings,
 }
 
-/// How a side is isolated when some of its nets have loops.
-pub(super) struct Plan {
-    diagram: Diagram,
-    pub(super) boundaries: Boundaries,
-    lap: Option<Path>,
-    sections: Vec<Section>,
-    warnings: Vec<Warning>,
-    stages: Stages,
-}
-
 impl Planned<'_> {
     fn plan(&self, board: &Board, looped: Vec<NetId>) -> Result<Plan, Error> {
         let Self { copper, nets, gap, placement, settings } = *self;
@@ -158,22 +148,6 @@ impl Planned<'_> {
         }
         let lap = lap.cloned();
         Ok(Plan { diagram, boundaries, lap, sections, warnings, stages })
-    }
-}
-
-impl Plan {
-    /// What the plan costs, with loops round so many nets.
-    pub(super) fn tried(&self, loops: usize, settings: &Settings) -> Tried {
-        let sections = self.sections.clone();
-        let program = Program { title: String::new(), notes: Vec::new(), safe: settings.safe, sections };
-        let measured = measure(&program, &settings.machine);
-        let changes = f64::from(measured.tool_changes) * f64::from(settings.machine.tool_change) / 1000.0;
-        let skips = settings.narrow == choice::Narrow::Skip;
-        let joins = |warning: &&Warning| {
-            warning.is(&planning::FRAME_NOT_CUT) || (skips && warning.is(&planning::GAP_NARROWER_THAN_TOOL))
-        };
-        let joined = self.warnings.iter().filter(joins).count();
-        Tried { loops, seconds: measured.seconds + changes, joined }
     }
 }
 

@@ -2,6 +2,7 @@
 //! the defaults.
 
 use super::Options;
+use super::tools::Library;
 
 impl Options {
     /// These, and where they leave something open, `others`.
@@ -19,7 +20,7 @@ impl Options {
         };
         let depth_is_open = self.depth.is_none() && self.kerf.is_none();
         let (depth, kerf) = if depth_is_open { (others.depth, others.kerf) } else { (self.depth, self.kerf) };
-        let tools = self.tools.clone().with(others.tools.yielding(&self));
+        let tools = self.tools.clone().with(yielding(others.tools, &self));
         let tabs_are_open = self.tabs.is_none() && self.tab_spacing.is_none() && self.tab_at.is_empty();
         let (tabs, tab_spacing, tab_at) = if tabs_are_open {
             (others.tabs, others.tab_spacing, others.tab_at)
@@ -107,4 +108,14 @@ impl Options {
             tools,
         }
     }
+}
+
+/// These tools; what `options` say for every tool, no table says.
+fn yielding(tools: Library, options: &Options) -> Library {
+    tools.each(|tool| {
+        tool.feed = tool.feed.filter(|_| options.feed.is_none());
+        tool.plunge = tool.plunge.filter(|_| options.plunge.is_none());
+        tool.spindle = tool.spindle.filter(|_| options.spindle.is_none());
+        tool.depth = tool.depth.filter(|_| options.depth.is_none() && options.kerf.is_none());
+    })
 }

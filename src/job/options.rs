@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use crate::gcode::dialect::ToolChange;
 use crate::toolpath::{Angle, Direction, Feed, Material};
 
-use super::by_net::StrategyFor;
 use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::machine::{MachineChoice, in_settings};
 use super::output_name::OutputName;
@@ -14,6 +13,7 @@ use super::overlap::Overlap;
 use super::own_lines::OwnLines;
 use super::pattern::Pattern;
 use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
+use super::strategy_for::StrategyFor;
 use super::tools::{Library, ToolChoice};
 use super::turns;
 use crate::gcode::dialect::Blend;

@@ -10,13 +10,13 @@ use crate::geometry::Nm;
 use crate::import::{Loaded, flaw};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
-use crate::toolpath::{Order, Origin, Placement, Program, Section};
+use crate::toolpath::{Order, Placement, Program, Section};
 use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
 use super::rivet::rivet;
-use super::stock::Stock;
-use super::{Error, Layer, Narrow, Part, Settings, Written, by_net, idle, numbering, tag};
+use super::stock::{Stock, zero};
+use super::{Error, Layer, Narrow, Part, Settings, Written, idle, numbering, tag};
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
@@ -82,7 +82,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         files.into_iter().map(|program| (part(layer.side), layer.side, program))
     }));
     let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
-    warnings.extend(by_net::idle(sides, settings));
+    warnings.extend(idle::patterns(sides, settings));
     warnings.extend(idle::tools(&layers, settings));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
@@ -235,22 +235,6 @@ fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings)
         safe: settings.safe,
         sections,
     }
-}
-
-/// Where zero is, for whoever sets it.
-pub(super) fn zero(settings: &Settings) -> String {
-    let place = match settings.origin {
-        Origin::LowerLeft => "the lower left corner of the board",
-        Origin::Keep => "where the files have it",
-        Origin::Center => "the middle of the board",
-    };
-    let (x, y) = (settings.offset.x, settings.offset.y);
-    let moved = if (x, y) == (Nm::ZERO, Nm::ZERO) {
-        String::new()
-    } else {
-        format!(", less {x:.3} mm and {y:.3} mm")
-    };
-    format!("zero: x y {place}{moved}, z the top of the copper")
 }
 
 fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Vec<Section>, Vec<Warning>) {

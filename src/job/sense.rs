@@ -2,10 +2,9 @@
 
 use crate::geometry::Nm;
 use crate::toolpath::{Feed, ToolKind};
-use crate::verify;
 
+use super::checked::{given, wrong};
 use super::quantity::{Length, Triple};
-use super::settings::{given, positive};
 use super::{Cutting, Error, Options, Profile};
 
 /// The options with what a machine says where a person left it open: its dialect, and the default
@@ -25,76 +24,6 @@ pub(super) fn defaults_for(profile: Option<&Profile>, mut options: Options) -> O
         options.spindle = options.spindle.or(turns.filter(|_| turns != usual.spindle));
     }
     options
-}
-
-/// A number as large as it can be meant: the command line says the same, a settings file has
-/// nothing else that does.
-pub(super) fn count(
-    key: &'static str,
-    count: Option<u32>,
-    range: std::ops::RangeInclusive<u32>,
-) -> Result<(), Error> {
-    match count.filter(|count| !range.contains(count)) {
-        None => Ok(()),
-        Some(count) => {
-            let problem = format!("`{count}` makes no sense: expected {} to {}", range.start(), range.end());
-            Err(Error::Value { key, problem })
-        }
-    }
-}
-
-/// The height for travel: one that clears the surface as a rapid must.
-pub(super) fn travel_height(key: &'static str, height: Option<Length>) -> Result<Nm, Error> {
-    let safe = positive(key, height)?;
-    let least = verify::Settings::default().clearance;
-    if safe < least {
-        return wrong(key, safe, &format!("the tool travels {} above the surface at least", Length(least)));
-    }
-    Ok(safe)
-}
-
-/// How much each of the passes down to `depth` takes.
-pub(super) fn step(key: &'static str, step: Option<Length>, depth: Nm) -> Result<Option<Nm>, Error> {
-    /// Chosen: of a board of 2 mm each would take 2 µm.
-    const MOST: i64 = 1000;
-    let step = given(key, step)?;
-    if let Some(step) = step.filter(|&step| step * MOST < depth) {
-        return wrong(key, step, &format!("down to {} that would be more than {MOST} steps", Length(depth)));
-    }
-    Ok(step)
-}
-
-/// How far a drill may differ from its hole.
-pub(super) fn drill_tolerance(options: &Options) -> Result<Nm, Error> {
-    let tolerance = options.drill_tolerance.expect("the defaults leave no length open").nm();
-    if tolerance < Nm::ZERO {
-        wrong("drill-tolerance", tolerance, "it must be zero or more")
-    } else {
-        Ok(tolerance)
-    }
-}
-
-/// Diameter and distance of the holes on whose pins the board is flipped, which lie beside it.
-pub(super) fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
-    let margin = positive("alignment-margin", options.alignment_margin)?;
-    let Some(diameter) = given("alignment-holes", options.alignment_holes)? else { return Ok(None) };
-    if margin < diameter / 2 {
-        let expected = format!("holes of {} so far from the board reach into it", Length(diameter));
-        return wrong("alignment-margin", margin, &expected);
-    }
-    Ok(Some((diameter, margin)))
-}
-
-/// How deep the holes for pins go, which must be through the board.
-pub(super) fn alignment_depth(options: &Options, thickness: Nm) -> Result<Option<Nm>, Error> {
-    let depth = given("alignment-depth", options.alignment_depth)?;
-    match depth.filter(|&depth| depth <= thickness) {
-        Some(depth) => {
-            let expected = format!("a board of {} is not drilled through", Length(thickness));
-            wrong("alignment-depth", depth, &expected)
-        }
-        None => Ok(depth),
-    }
 }
 
 /// How far the machine goes.
@@ -141,8 +70,4 @@ pub(super) fn kerfs(cuttings: &[Cutting]) -> Result<(), Error> {
             Err(Error::Value { key: "tool", problem })
         }
     }
-}
-
-fn wrong<T>(key: &'static str, value: Nm, expected: &str) -> Result<T, Error> {
-    Err(Error::Value { key, problem: format!("`{}` makes no sense: {expected}", Length(value)) })
 }

@@ -3,24 +3,23 @@
 //! Options say what a person asked for; settings say what will be done, so that later stages check
 //! nothing again.
 
-use crate::board::{Side, Words};
+use crate::board::Side;
 use crate::gcode::Dialect;
-use crate::gcode::dialect::{self, OwnCode, ToolChange, TouchOff};
-use crate::geometry::{Nm, Point, Vector};
-use crate::toolpath::{self, Angle, Direction, DrillSpeeds, Feed, Heights, Machine, Tool, ToolKind};
+use crate::geometry::{Nm, Vector};
+use crate::toolpath::{self, Angle, Direction, DrillSpeeds, Heights, Machine, Tool};
 
 use super::Error;
 use super::Options;
-use super::by_net::StrategyFor;
+use super::checked::{self, given, positive};
 use super::choice::{DrillSide, Narrow, Origin, Sites, Strategy, Topology};
-use super::cutting::{Cutting, frame_margin, isolation, sites};
+use super::cutting::{Cutting, frame_margin, isolation, pixel, sites};
 use super::holding::{Holding, holding};
 use super::output_name;
-use super::own_lines::OwnLines;
 use super::pattern::Pattern;
-use super::quantity::{DrillChoice, Drills, Length, Tiles, ToolChangeAt, Triple, Wait};
-use super::sense;
-use super::tools::{ToolChoice, Workshop, point_angle};
+use super::quantity::{Length, Tiles, ToolChangeAt};
+use super::strategy_for::StrategyFor;
+use super::tools::Workshop;
+use super::{controller, cutting_out, drilling, sense};
 
 /// Everything a job needs to know, complete and checked.
 ///
@@ -145,9 +144,6 @@ const PINS: Nm = Nm::from_mm(3);
 /// zeroes are off, and little of what lies below.
 const BELOW: Nm = Nm::from_um(100);
 
-/// The finest pixel.
-const FINEST: Nm = Nm::from_um(1);
-
 /// The pixel of pictures: 1000 to the inch.
 const PICTURE: Nm = Nm::new(25_400);
 
@@ -175,21 +171,21 @@ impl Settings {
             feed: options.feed.expect(open),
             plunge: options.plunge.expect(open),
             spindle: options.spindle.expect(open),
-            drilling: drill_speeds(&options),
-            point: tip_angle(&options)?,
+            drilling: drilling::drill_speeds(&options),
+            point: drilling::tip_angle(&options)?,
         };
-        let cutout_tool = end_mill(
+        let cutout_tool = cutting_out::end_mill(
             "cutout-tool",
             workshop.fetch("cutout-tool", options.cutout_tool.as_ref().expect(open))?.tool,
         )?;
-        let drills = drills(options.drills.as_ref(), &workshop)?;
-        let safe = sense::travel_height("safe-z", options.safe_z)?;
+        let drills = drilling::drills(options.drills.as_ref(), &workshop)?;
+        let safe = checked::travel_height("safe-z", options.safe_z)?;
         let heights = |cut: Nm, step: Option<Nm>| Heights { safe, approach: APPROACH.min(safe), cut, step };
         let cutout_depth = positive("cutout-depth", options.cutout_depth)?;
         let tab_height = positive("tab-height", options.tab_height)?;
         let tabs = holding(&options)?;
-        let tiles = tiles(&options, &cutout_tool)?;
-        let dialect = dialect(&options, options.dialect.clone().expect(open).0)?;
+        let tiles = cutting_out::tiles(&options, &cutout_tool)?;
+        let dialect = controller::dialect(&options, options.dialect.clone().expect(open).0)?;
         output_name::check(&options.output_name)?;
         if tabs != Holding::Count(0) && tab_height >= cutout_depth {
             let problem = format!(
@@ -205,14 +201,14 @@ impl Settings {
         let through = thickness + positive("break-through", options.break_through)?;
         let drill_depth = given("drill-depth", options.drill_depth)?;
         let drill_safe = match options.drill_safe_z {
-            Some(_) => sense::travel_height("drill-safe-z", options.drill_safe_z)?,
+            Some(_) => checked::travel_height("drill-safe-z", options.drill_safe_z)?,
             None => safe,
         };
         let deep = drill_depth.unwrap_or(through);
         let drilling = Heights {
             safe: drill_safe,
             approach: APPROACH.min(drill_safe),
-            ..heights(deep, sense::step("drill-peck", options.drill_peck, deep)?)
+            ..heights(deep, checked::step("drill-peck", options.drill_peck, deep)?)
         };
         Ok(Self {
             frame_margin: frame_margin(&options, &isolation)?,
@@ -223,11 +219,11 @@ impl Settings {
             tiles,
             tool_change: options.tool_change_at,
             park: options.park.expect(open),
-            alignment: sense::alignment(&options)?,
+            alignment: drilling::alignment(&options)?,
             drilling,
             drill_tips: drill_depth.is_none(),
             one_drill: options.one_drill == Some(true),
-            alignment_depth: sense::alignment_depth(&options, thickness)?.unwrap_or(thickness + PINS),
+            alignment_depth: drilling::alignment_depth(&options, thickness)?.unwrap_or(thickness + PINS),
             rivet: given("rivet", options.rivet)?,
             narrow: options.narrow.expect(open),
             rotate: options.rotate.expect(open),
@@ -238,17 +234,19 @@ impl Settings {
             drill_speeds: workshop.drilling,
             drill_tip_angle: workshop.point,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
-            drill_tolerance: sense::drill_tolerance(&options)?,
+            drill_tolerance: drilling::drill_tolerance(&options)?,
             drill_bore: options.drill_bore.expect(open) || options.drill_bore_from.is_some(),
             drill_bore_from: given("drill-bore-from", options.drill_bore_from)?,
             drill_bore_tool: match &options.drill_bore_tool {
-                Some(choice) => end_mill("drill-bore-tool", workshop.fetch("drill-bore-tool", choice)?.tool)?,
+                Some(choice) => {
+                    cutting_out::end_mill("drill-bore-tool", workshop.fetch("drill-bore-tool", choice)?.tool)?
+                }
                 None => cutout_tool.clone(),
             },
             drill_side: up(options.drill_side),
             cutout_side: up(options.cutout_side),
-            outline_gap: outline_gap(&options)?,
-            cutout: heights(cutout_depth, sense::step("cutout-pass", options.cutout_pass, cutout_depth)?),
+            outline_gap: cutting_out::outline_gap(&options)?,
+            cutout: heights(cutout_depth, checked::step("cutout-pass", options.cutout_pass, cutout_depth)?),
             cutout_tool,
             strategy: options.strategy.expect(open),
             strategy_for: options.strategy_for.clone(),
@@ -271,7 +269,7 @@ impl Settings {
                 Origin::Center => toolpath::Origin::Center,
             },
             direction: options.direction,
-            cutout_ramp: ramp(options.cutout_ramp)?,
+            cutout_ramp: cutting_out::ramp(options.cutout_ramp)?,
             tabs,
             tab_width: positive("tab-width", options.tab_width)?,
             tab_height,
@@ -302,199 +300,11 @@ impl Settings {
     }
 }
 
-/// `base`, with what the options say differs.
-fn dialect(options: &Options, base: Dialect) -> Result<Dialect, Error> {
-    let tool_change = options.tool_change.unwrap_or(base.tool_change);
-    if !base.changes.contains(&tool_change) {
-        return Err(Error::Value { key: "tool-change", problem: unheld(tool_change, &base) });
-    }
-    if options.at_tool_change.is_some() && tool_change == ToolChange::Files {
-        let problem = format!("in {} each tool has a file of its own, and is changed within none", base.name);
-        return Err(Error::Value { key: "at-tool-change", problem });
-    }
-    let lines = |own: Option<&OwnLines>| own.map_or_else(Vec::new, |own| own.lines().to_vec());
-    let touch_off = options.tool_probe.map(|plate| touch_off(plate, options, &base)).transpose()?;
-    Ok(Dialect {
-        touch_off,
-        own: OwnCode {
-            before: lines(options.before.as_ref()),
-            at_tool_change: lines(options.at_tool_change.as_ref()),
-            after: lines(options.after.as_ref()),
-        },
-        spin_up: options.spin_up.map_or(base.spin_up, |Wait { milliseconds }| milliseconds),
-        rapid: rapids(options).unwrap_or(base.rapid),
-        tool_change,
-        blend: base.blend.map(|own| options.blend.unwrap_or(own)),
-        ..base
-    })
-}
-
-/// How fast a person's machine goes level and straight up or down, for programs that must say it;
-/// none where its profile does not.
-fn rapids(options: &Options) -> Option<[Feed; 2]> {
-    let profile = options.machine.as_ref().filter(|machine| machine.0.rapid.is_some())?;
-    let machine = profile.0.machine();
-    Some([machine.level_rapid(), machine.rapid[2]])
-}
-
-/// The plate that tools touch, for a controller whose programs can.
-fn touch_off(Triple([x, y, z]): Triple, options: &Options, base: &Dialect) -> Result<TouchOff, Error> {
-    let wrong = |problem| Err(Error::Value { key: "tool-probe", problem });
-    if base.sets_height.is_none() {
-        let reason = base.no_probe.as_deref().unwrap_or("no word is known that sets zero by a touch");
-        let known = dialect::ALL.iter().filter(|dialect| dialect.sets_height.is_some());
-        let known: Vec<&str> = known.map(|dialect| dialect.name.as_ref()).collect();
-        return wrong(format!(
-            "{} cannot touch a tool off within a program: {reason}; expected {}, or touch off by hand",
-            base.name,
-            known.join(" or ")
-        ));
-    }
-    let safe = sense::travel_height("safe-z", options.safe_z)?;
-    if z.nm() < Nm::ZERO || z.nm() >= safe {
-        let words =
-            Words::of("a plate at {0} makes no sense: expected a height from 0mm up to below {1} ({safe-z})");
-        return wrong(words.with([&z, &Length(safe)]).to_string());
-    }
-    Ok(TouchOff { at: Point::new(x.nm(), y.nm()), height: z.nm() })
-}
-
-/// Why a way of changing tools cannot be asked for: a machine that does not stand still cuts on
-/// with the tool that is in.
-fn unheld(change: ToolChange, base: &Dialect) -> String {
-    let word = match change {
-        ToolChange::M6 => "M6",
-        ToolChange::Pause => "M0",
-        ToolChange::PauseWithText => "M0 with a text",
-        ToolChange::Files => "the end of a program",
-    };
-    let held: Vec<&str> = base.changes.iter().map(|change| change.word()).collect();
-    format!(
-        "{} does not wait at {word} until the tool is changed: expected {}; for a controller or a sender that does, say so in a dialect of your own",
-        base.name,
-        held.join(" or ")
-    )
-}
-
-/// Room between tiles, beside the cutter. Chosen: the stock between two boards stays in one piece.
-const BETWEEN_TILES: Nm = Nm::from_mm(2);
-
-fn tiles(options: &Options, cutout_tool: &Tool) -> Result<Option<(Tiles, Nm)>, Error> {
-    let spacing = given("tile-spacing", options.tile_spacing)?;
-    let spacing = spacing.unwrap_or(cutout_tool.width_at(Nm::ZERO) + BETWEEN_TILES);
-    Ok(options.tile.filter(|tiles| tiles.columns * tiles.rows > 1).map(|tiles| (tiles, spacing)))
-}
-
 /// The side that is up: the front unless another is said.
 fn up(side: Option<DrillSide>) -> Side {
     match side {
         None | Some(DrillSide::Front) => Side::Front,
         Some(DrillSide::Back) => Side::Back,
-    }
-}
-
-/// How drills are run: as fast as the machine turns, or, where nothing is known of it, as fast as
-/// its cutters are to turn.
-pub(super) fn drill_speeds(options: &Options) -> DrillSpeeds {
-    let machine = options.machine.as_ref().map(|machine| machine.0.machine());
-    let usual = options.spindle.expect("the defaults leave nothing open");
-    let turns = match machine.and_then(|machine| machine.spindle) {
-        Some((least, most)) if most < u32::MAX => (least, most),
-        Some((least, _)) => (least, usual.max(least)),
-        None => (0, usual),
-    };
-    DrillSpeeds {
-        plunge: options.drill_plunge,
-        spindle: options.drill_spindle,
-        material: options.material.unwrap_or_default(),
-        turns,
-        most: machine.and_then(|machine| machine.feed).map(|[.., z]| z),
-    }
-}
-
-fn tip_angle(options: &Options) -> Result<Angle, Error> {
-    let angle = options.drill_tip_angle.expect("the defaults leave nothing open");
-    point_angle(angle).map_err(|problem| Error::Value { key: "drill-tip-angle", problem })
-}
-
-fn ramp(angle: Option<Angle>) -> Result<Option<Angle>, Error> {
-    if let Some(angle) = angle.filter(|&angle| angle <= Angle::ZERO || angle >= Angle::from_degrees(90)) {
-        let problem = format!("`{angle}` is no ramp: expected an angle between 0deg and 90deg");
-        return Err(Error::Value { key: "cutout-ramp", problem });
-    }
-    Ok(angle)
-}
-
-/// A length that may be left open.
-pub(super) fn given(key: &'static str, length: Option<Length>) -> Result<Option<Nm>, Error> {
-    length.map(|length| positive(key, Some(length))).transpose()
-}
-
-/// The drills at hand.
-fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Result<Vec<Tool>, Error> {
-    let drill = |choice: &DrillChoice| match choice {
-        DrillChoice::Diameter(length) => {
-            let diameter = positive("drills", Some(*length))?;
-            Ok(workshop.fetch("drills", &ToolChoice::Kind(ToolKind::Drill { diameter }))?.tool)
-        }
-        DrillChoice::Named(name) => {
-            let tool = workshop.fetch("drills", &ToolChoice::Named(name.clone()))?.tool;
-            if matches!(tool.kind, ToolKind::Drill { .. }) {
-                return Ok(tool);
-            }
-            Err(Error::Value { key: "drills", problem: format!("`{name}` is no drill") })
-        }
-    };
-    choices.map_or_else(|| Ok(Vec::new()), |Drills(all)| all.iter().map(drill).collect())
-}
-
-pub(super) fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {
-    let length = length.expect("the defaults leave no length open");
-    if length.nm() > Nm::ZERO {
-        return Ok(length.nm());
-    }
-    if length.nm() < Nm::ZERO && key.ends_with("depth") {
-        let problem = format!("depths are positive here: write `{}`, not `{length}`", Length(-length.nm()));
-        return Err(Error::Value { key, problem });
-    }
-    Err(Error::Value { key, problem: format!("`{length}` makes no sense: it must be more than zero") })
-}
-
-/// A gap of nothing leaves the outline as it is drawn.
-fn outline_gap(options: &Options) -> Result<Nm, Error> {
-    /// Chosen: wider gaps are sides that are missing, not corners.
-    const WIDEST: Nm = Nm::from_mm(5);
-    let gap = options.outline_gap.expect("the defaults leave no length open");
-    if gap.nm() < Nm::ZERO || gap.nm() > WIDEST {
-        let problem = format!("`{gap}` makes no sense: it must be from 0mm to {}", Length(WIDEST));
-        return Err(Error::Value { key: "outline-gap", problem });
-    }
-    Ok(gap.nm())
-}
-
-fn pixel(options: &Options) -> Result<Option<Nm>, Error> {
-    let inch = Nm::from_um(25_400);
-    sense::count("dpi", options.dpi, 1..=25_400)?;
-    let (key, pixel) = match options.dpi {
-        Some(dpi) => ("dpi", Some(Nm::new((inch.get() + i64::from(dpi) / 2) / i64::from(dpi)))),
-        None => ("pixel", given("pixel", options.pixel)?),
-    };
-    if let Some(pixel) = pixel.filter(|&pixel| pixel < FINEST) {
-        return Err(Error::Value {
-            key,
-            problem: format!("a pixel of {} is finer than 0.001mm, the finest", Length(pixel)),
-        });
-    }
-    Ok(pixel)
-}
-
-fn end_mill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
-    match tool.kind {
-        ToolKind::EndMill { .. } => Ok(tool),
-        ToolKind::VBit { .. } | ToolKind::Drill { .. } => {
-            let problem = format!("`{}` cannot cut sideways through a board: name an endmill", tool.name);
-            Err(Error::Value { key, problem })
-        }
     }
 }
 

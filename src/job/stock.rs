@@ -10,9 +10,8 @@
 use crate::board::{Board, Hole, Plating, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect, Vector};
 use crate::toolpath::strategy::{Drilling, drill};
-use crate::toolpath::{Heights, Order, Placement, Program, Tiling, alignment_holes};
+use crate::toolpath::{Heights, Order, Origin, Placement, Program, Tiling, alignment_holes};
 
-use super::pipeline::zero;
 use super::{Settings, Tiles};
 
 /// A board in its stock.
@@ -113,4 +112,20 @@ impl Stock {
         };
         Some((program, warnings))
     }
+}
+
+/// Where zero is, for whoever sets it.
+pub(super) fn zero(settings: &Settings) -> String {
+    let place = match settings.origin {
+        Origin::LowerLeft => "the lower left corner of the board",
+        Origin::Keep => "where the files have it",
+        Origin::Center => "the middle of the board",
+    };
+    let (x, y) = (settings.offset.x, settings.offset.y);
+    let moved = if (x, y) == (Nm::ZERO, Nm::ZERO) {
+        String::new()
+    } else {
+        format!(", less {x:.3} mm and {y:.3} mm")
+    };
+    format!("zero: x y {place}{moved}, z the top of the copper")
 }

@@ -13,9 +13,9 @@ use serde::Deserialize;
 use crate::geometry::Nm;
 use crate::toolpath::{Angle, BUILT_IN, CARBIDE_POINT, DrillSpeeds, Feed, ParseToolError, Tool, ToolKind};
 
+use super::Error;
 use super::quantity::{Length, text};
 use super::turns;
-use super::{Error, Options};
 
 /// A tool as a person names it: by its shape, or by what a table or voromill calls it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -193,14 +193,9 @@ impl Library {
         self.0.is_empty()
     }
 
-    /// These tools; what `options` say for every tool, no table says.
-    pub(super) fn yielding(mut self, options: &Options) -> Self {
-        for tool in self.0.values_mut() {
-            tool.feed = tool.feed.filter(|_| options.feed.is_none());
-            tool.plunge = tool.plunge.filter(|_| options.plunge.is_none());
-            tool.spindle = tool.spindle.filter(|_| options.spindle.is_none());
-            tool.depth = tool.depth.filter(|_| options.depth.is_none() && options.kerf.is_none());
-        }
+    /// These tools, each changed.
+    pub(super) fn each(mut self, change: impl FnMut(&mut OwnTool)) -> Self {
+        self.0.values_mut().for_each(change);
         self
     }
 
@@ -254,57 +249,6 @@ impl Library {
                 point: None,
             })
         })
-    }
-}
-
-/// Every tool a person can name, for looking at.
-#[derive(Debug)]
-pub struct Workbench {
-    options: Options,
-}
-
-impl Workbench {
-    /// The tools of a settings file, and those that are built in.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Value`] as for any job with these settings.
-    pub fn new(options: Options) -> Result<Self, Error> {
-        let settings = super::Settings::resolve(options)?;
-        Ok(Self { options: settings.options().clone() })
-    }
-
-    /// All tools that have names, those that are built in first.
-    #[must_use]
-    pub fn all(&self) -> Vec<ToolChoice> {
-        self.options.tools.names().into_iter().map(ToolChoice::Named).collect()
-    }
-
-    /// The number that a person's own tool has in the machine's table, if its table says one.
-    #[must_use]
-    pub fn number(&self, choice: &ToolChoice) -> Option<u32> {
-        match choice {
-            ToolChoice::Named(name) => self.options.tools.number(name),
-            ToolChoice::Kind(_) => None,
-        }
-    }
-
-    /// The tool that `choice` means.
-    ///
-    /// # Errors
-    ///
-    /// [`Error::Value`] for a name that nobody knows.
-    pub fn fetch(&self, choice: &ToolChoice) -> Result<Tool, Error> {
-        let open = "resolved options leave nothing open";
-        let workshop = Workshop {
-            library: &self.options.tools,
-            feed: self.options.feed.expect(open),
-            plunge: self.options.plunge.expect(open),
-            spindle: self.options.spindle.expect(open),
-            drilling: super::settings::drill_speeds(&self.options),
-            point: self.options.drill_tip_angle.expect(open),
-        };
-        workshop.fetch("tools", choice).map(|fetched| fetched.tool)
     }
 }
 
@@ -378,6 +322,7 @@ impl Workshop<'_> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Options;
     use super::*;
 
     fn options(text: &str) -> Options {

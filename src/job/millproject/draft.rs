@@ -9,9 +9,9 @@ use crate::geometry::Nm;
 use crate::job::choice::{DialectChoice, DrillSide, Origin};
 use crate::job::output_name::OutputName;
 use crate::job::overlap::Overlap;
+use crate::job::part::Part;
 use crate::job::quantity::{DrillChoice, Drills, Length, Place, Tiles, Wait};
 use crate::job::tools::OwnTool;
-use crate::job::written::Part;
 use crate::toolpath::{Direction, ToolKind};
 
 use super::left;

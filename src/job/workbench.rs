@@ -1,0 +1,57 @@
+//! Every tool a person can name, for looking at.
+
+use super::drilling::drill_speeds;
+use super::tools::{ToolChoice, Workshop};
+use super::{Error, Options, Settings};
+use crate::toolpath::Tool;
+
+/// Every tool a person can name, for looking at.
+#[derive(Debug)]
+pub struct Workbench {
+    options: Options,
+}
+
+impl Workbench {
+    /// The tools of a settings file, and those that are built in.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] as for any job with these settings.
+    pub fn new(options: Options) -> Result<Self, Error> {
+        let settings = Settings::resolve(options)?;
+        Ok(Self { options: settings.options().clone() })
+    }
+
+    /// All tools that have names, those that are built in first.
+    #[must_use]
+    pub fn all(&self) -> Vec<ToolChoice> {
+        self.options.tools.names().into_iter().map(ToolChoice::Named).collect()
+    }
+
+    /// The number that a person's own tool has in the machine's table, if its table says one.
+    #[must_use]
+    pub fn number(&self, choice: &ToolChoice) -> Option<u32> {
+        match choice {
+            ToolChoice::Named(name) => self.options.tools.number(name),
+            ToolChoice::Kind(_) => None,
+        }
+    }
+
+    /// The tool that `choice` means.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for a name that nobody knows.
+    pub fn fetch(&self, choice: &ToolChoice) -> Result<Tool, Error> {
+        let open = "resolved options leave nothing open";
+        let workshop = Workshop {
+            library: &self.options.tools,
+            feed: self.options.feed.expect(open),
+            plunge: self.options.plunge.expect(open),
+            spindle: self.options.spindle.expect(open),
+            drilling: drill_speeds(&self.options),
+            point: self.options.drill_tip_angle.expect(open),
+        };
+        workshop.fetch("tools", choice).map(|fetched| fetched.tool)
+    }
+}
