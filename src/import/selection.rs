@@ -22,8 +22,8 @@ pub struct Selection {
     pub no_drill: bool,
     /// What the board is called.
     pub name: Option<String>,
-    /// How far apart two lines of the outline may end and still meet; [`outline::GAP`](super::outline::GAP) where it is
-    /// left open.
+    /// How far apart two lines of the outline may end and still meet; where it is left open,
+    /// [`outline::GAP`](super::outline::GAP).
     pub outline_gap: Option<Nm>,
     /// What is said of pictures.
     pub picture: picture::Options,
