@@ -78,19 +78,35 @@
 //! # }
 //! ```
 
+#[cfg(feature = "mill")]
 pub mod artwork;
+#[cfg(feature = "mill")]
 pub mod board;
+#[cfg(feature = "mill")]
 pub mod coupling;
+#[cfg(feature = "mill")]
 pub mod gcode;
+#[cfg(feature = "mill")]
 pub mod geometry;
+#[cfg(feature = "mill")]
 pub mod grid;
+#[cfg(feature = "mill")]
 pub mod import;
+#[cfg(feature = "mill")]
 pub mod job;
+#[cfg(feature = "mill")]
 pub mod prediction;
+#[cfg(feature = "raster")]
 pub mod raster;
+#[cfg(feature = "mill")]
 pub mod report;
+#[cfg(feature = "mill")]
 pub mod toolpath;
+#[cfg(feature = "mill")]
 pub mod topology;
+#[cfg(feature = "mill")]
 pub mod vectorize;
+#[cfg(feature = "mill")]
 pub mod verify;
+#[cfg(feature = "mill")]
 pub mod voronoi;

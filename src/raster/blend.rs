@@ -36,6 +36,13 @@ impl Window {
 ///
 /// From the ninth layer on nothing is left of a component but its being there.
 ///
+/// ```
+/// use voromill::raster::blend::mix;
+///
+/// assert_eq!(mix([[200, 0, 0]]), [100, 0, 0], "half of the nearest");
+/// assert_eq!(mix([[200, 0, 0], [0, 0, 100]]), [100, 0, 25], "and a quarter of the next");
+/// ```
+///
 /// [Vona and Rus, VIsolate, § III-A.2]: super#references
 #[must_use]
 pub fn mix(layers: impl IntoIterator<Item = [u8; 3]>) -> [u8; 3] {
@@ -54,6 +61,20 @@ pub fn mix(layers: impl IntoIterator<Item = [u8; 3]>) -> [u8; 3] {
 /// depth. Row by row from the top.
 ///
 /// However many primitives of one label lie on a pixel, they count once, at the nearest.
+///
+/// ```
+/// use voromill::raster::blend::{Window, render_translucent};
+/// use voromill::raster::{Label, PixelPoint, Scene, Surface};
+///
+/// let mut scene = Scene::new(4, 1);
+/// for (label, x) in [(1, 0.5), (2, 3.5)] {
+///     let apex = PixelPoint::from_f64(x, 0.5);
+///     scene.add(Label(label), Surface::Cone { apex, offset: 0.0, limit: Some(2.0) });
+/// }
+/// let colors = [[0; 3], [200, 0, 0], [0, 0, 200]];
+/// let picture = render_translucent(&scene, &colors, Window::all(&scene));
+/// assert_eq!(picture, [[100, 0, 0], [100, 0, 50], [50, 0, 100], [0, 0, 100]], "both in the middle");
+/// ```
 ///
 /// # Panics
 ///
@@ -74,6 +95,18 @@ pub fn render_translucent(scene: &Scene, colors: &[[u8; 3]], window: Window) -> 
 }
 
 /// Counts the fragments on every pixel: how often it is drawn over. Row by row from the top.
+///
+/// ```
+/// use voromill::raster::blend::{Window, render_overdraw};
+/// use voromill::raster::{Label, PixelPoint, Scene, Surface};
+///
+/// let mut scene = Scene::new(4, 1);
+/// for x in [0.5, 1.5] {
+///     let apex = PixelPoint::from_f64(x, 0.5);
+///     scene.add(Label(1), Surface::Cone { apex, offset: 0.0, limit: Some(1.0) });
+/// }
+/// assert_eq!(render_overdraw(&scene, Window::all(&scene)), [2, 2, 1, 0], "two cones, three pixels wide");
+/// ```
 ///
 /// # Panics
 ///

@@ -2,10 +2,9 @@
 
 use std::ops::Range;
 
-use pulp::{Arch, Simd, WithSimd};
-
 use super::cell::Cell;
 use super::lanes::Lanes;
+use super::simd::{Arch, Simd, WithSimd};
 use super::subpixel::sample;
 use super::{Fragment, Label};
 

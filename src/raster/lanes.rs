@@ -2,7 +2,7 @@
 
 use std::ops::{Add, Div, Mul, Sub};
 
-use pulp::Simd;
+use super::simd::Simd;
 
 /// As many single-precision numbers as the processor works on at once; each lane for itself,
 /// correctly rounded.

@@ -23,6 +23,14 @@ pub fn rim_corners(radius: f64, error: f64) -> u32 {
 }
 
 /// The fan of a cone: the distance to `apex` as far as `reach` pixels.
+///
+/// ```
+/// use voromill::raster::{PixelPoint, Surface, mesh};
+///
+/// let fan = mesh::cone(PixelPoint::from_pixels(50, 50), 40.0, 0.5);
+/// assert_eq!(fan.len() as u32, mesh::rim_corners(40.0, 0.5), "a triangle for each side of the rim");
+/// assert!(fan.iter().all(|face| matches!(face, Surface::Triangle { depths: [0.0, ..], .. })), "from the apex");
+/// ```
 #[must_use]
 pub fn cone(apex: PixelPoint, reach: f64, error: f64) -> Vec<Surface> {
     let rim = rim(apex, reach, error);
@@ -98,7 +106,6 @@ fn round(center: PixelPoint, radius: f64, corners: u32) -> Vec<PixelPoint> {
 
 /// A point moved by pixels, rounded to 1/256.
 fn moved(point: PixelPoint, x: f64, y: f64) -> PixelPoint {
-    #[expect(clippy::cast_possible_truncation, reason = "rounded to a step")]
-    let step = |at: SubPx, by: f64| SubPx::new(at.raw() + (by * 256.0).round() as i32);
+    let step = |at: SubPx, by: f64| SubPx::new(at.raw() + SubPx::from_f64(by).raw());
     PixelPoint::new(step(point.x, x), step(point.y, y))
 }

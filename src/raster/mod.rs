@@ -32,8 +32,11 @@
 //!
 //! [`render()`] draws a picture into [`Buffers`]; [`stream()`] hands out finished tiles in a fixed
 //! order, for pictures larger than memory, and can leave out those that one owner has to itself.
-//! [`Picker`] lists what lies at a pixel, [`blend`] makes pictures of layers, [`mesh`] tessellates
-//! the surfaces as the papers did, [`view`] looks at them from the side.
+//! [`Picker`] lists what lies at a pixel, [`blend`] makes pictures of layers, a [`Palette`] gives
+//! labels their colours, [`mesh`] tessellates the surfaces as the papers did, [`view`] looks at
+//! them from the side. `examples/engine` is a crate that has all of this and nothing else of this
+//! one: `default-features = false, features = ["raster"]`. With `simd` beside it the engine draws
+//! on as many pixels at once as the processor takes, and gets the same bits.
 //!
 //! # Laws
 //!
@@ -168,10 +171,13 @@ mod lanes;
 pub mod mesh;
 mod mosaic;
 mod node;
+mod palette;
 mod pick;
 mod primitive;
 mod render;
 mod scene;
+#[cfg(not(feature = "simd"))]
+mod simd;
 mod stream;
 mod subpixel;
 mod surface;
@@ -179,8 +185,12 @@ mod thin;
 mod tile;
 pub mod view;
 
+#[cfg(feature = "simd")]
+use pulp as simd;
+
 pub use bits::{Bits, Node};
 pub use fragment::{Fragment, Label};
+pub use palette::Palette;
 pub use pick::{Picker, Picks};
 pub use render::{Buffers, render};
 pub use scene::Scene;

@@ -1,13 +1,12 @@
 //! Depth bounds of many cells at once: the hierarchical z-buffer of the engine.
 
-use pulp::{Arch, Simd, WithSimd};
-
 use super::Scene;
 use super::bin::{Bin, Candidate, index};
 use super::canvas::{Field, LANES};
 use super::cell::Cell;
 use super::lanes::Lanes;
 use super::primitive::{Reach, SLACK, Shape};
+use super::simd::{Arch, Simd, WithSimd};
 
 /// Pieces along a side of the largest mosaic: as many as a processor works on at once.
 pub(super) const ACROSS: usize = LANES as usize;

@@ -40,6 +40,25 @@ impl SubPx {
         Self::new(pixels * Self::STEPS)
     }
 
+    /// The coordinate nearest to a number of pixels; halfway between two the one farther from zero.
+    ///
+    /// ```
+    /// use voromill::raster::SubPx;
+    ///
+    /// assert_eq!(SubPx::from_f64(1.5).raw(), 384, "in 1/256");
+    /// assert_eq!(SubPx::from_f64(-0.001).to_pixels(), 0.0, "the nearest");
+    /// ```
+    ///
+    /// # Panics
+    ///
+    /// Where that lies outside the range.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "`as` saturates, beyond the range")]
+    pub fn from_f64(pixels: f64) -> Self {
+        assert!(!pixels.is_nan(), "a coordinate of the pixel plane is a number");
+        Self::new((pixels * f64::from(Self::STEPS)).round() as i32)
+    }
+
     /// The steps.
     #[must_use]
     pub const fn raw(self) -> i32 {
@@ -85,6 +104,16 @@ impl PixelPoint {
     #[must_use]
     pub const fn from_pixels(x: i32, y: i32) -> Self {
         Self { x: SubPx::from_pixels(x), y: SubPx::from_pixels(y) }
+    }
+
+    /// The point nearest to (`x`, `y`) in pixels.
+    ///
+    /// # Panics
+    ///
+    /// As [`SubPx::from_f64`].
+    #[must_use]
+    pub fn from_f64(x: f64, y: f64) -> Self {
+        Self { x: SubPx::from_f64(x), y: SubPx::from_f64(y) }
     }
 
     /// Both coordinates in steps.

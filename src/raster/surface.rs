@@ -84,6 +84,18 @@ pub enum Surface {
     /// Flat at `depth` wherever the contours enclose the sample (each closed from its last point to
     /// its first). A sample on an edge is inside on a left or top edge and outside on a right or
     /// bottom one.
+    ///
+    /// ```
+    /// # use voromill::raster::*;
+    /// # let p = PixelPoint::from_f64;
+    /// let mut scene = Scene::new(6, 4);
+    /// let triangle = vec![p(0.0, 0.0), p(6.0, 0.0), p(0.0, 4.0)];
+    /// scene.add(Label(1), Surface::Polygon { contours: vec![triangle], rule: FillRule::NonZero, depth: 0.0 });
+    /// # let mut picture = Buffers::new();
+    /// # render(&scene, &mut picture);
+    /// # let rows: Vec<String> = picture.labels().chunks(6).map(|row| row.iter().map(|&l| if l > 0 { '#' } else { '.' }).collect()).collect();
+    /// assert_eq!(rows, ["#####.", "####..", "##....", "#....."]);
+    /// ```
     Polygon {
         /// Closed rings of points; those of fewer than three points enclose nothing.
         contours: Vec<Vec<PixelPoint>>,
@@ -94,6 +106,16 @@ pub enum Surface {
     },
     /// A triangle whose depth runs evenly between its corners. Covers as a polygon does, either way
     /// round.
+    ///
+    /// ```
+    /// # use voromill::raster::*;
+    /// # let p = PixelPoint::from_f64;
+    /// let mut scene = Scene::new(6, 1);
+    /// scene.add(Label(1), Surface::Triangle { corners: [p(0.0, 0.0), p(8.0, 0.0), p(0.0, 8.0)], depths: [0.0, 8.0, 0.0] });
+    /// # let mut picture = Buffers::new();
+    /// # render(&scene, &mut picture);
+    /// assert_eq!(picture.depths(), [0.5, 1.5, 2.5, 3.5, 4.5, 5.5], "as deep as they are to the right");
+    /// ```
     Triangle {
         /// Its corners.
         corners: [PixelPoint; 3],
@@ -101,6 +123,16 @@ pub enum Surface {
         depths: [f32; 3],
     },
     /// The distance to a point.
+    ///
+    /// ```
+    /// # use voromill::raster::*;
+    /// # let p = PixelPoint::from_f64;
+    /// let mut scene = Scene::new(5, 1);
+    /// scene.add(Label(1), Surface::Cone { apex: p(2.5, 0.5), offset: 0.5, limit: Some(1.0) });
+    /// # let mut picture = Buffers::new();
+    /// # render(&scene, &mut picture);
+    /// assert_eq!(picture.depths(), [f32::INFINITY, 0.5, 0.0, 0.5, f32::INFINITY], "half a pixel thick");
+    /// ```
     Cone {
         /// The point.
         apex: PixelPoint,
@@ -110,6 +142,19 @@ pub enum Surface {
         limit: Option<f32>,
     },
     /// The distance to a segment.
+    ///
+    /// ```
+    /// # use voromill::raster::*;
+    /// # let p = PixelPoint::from_f64;
+    /// let mut scene = Scene::new(6, 5);
+    /// let (from, to) = (p(2.5, 2.5), p(4.5, 2.5));
+    /// let (caps, sides) = (Caps::None, Sides::Both);
+    /// scene.add(Label(1), Surface::Curtain { from, to, caps, sides, offset: 0.0, limit: Some(1.5) });
+    /// # let mut picture = Buffers::new();
+    /// # render(&scene, &mut picture);
+    /// # let rows: Vec<String> = picture.labels().chunks(6).map(|row| row.iter().map(|&l| if l > 0 { '#' } else { '.' }).collect()).collect();
+    /// assert_eq!(rows, ["......", "..###.", "..###.", "..###.", "......"], "its strip");
+    /// ```
     Curtain {
         /// Where it starts.
         from: PixelPoint,
@@ -128,6 +173,19 @@ pub enum Surface {
     ///
     /// The radius is the mean of the two that the end points give. The strip of an arc is its
     /// sector.
+    ///
+    /// ```
+    /// # use voromill::raster::*;
+    /// # let p = PixelPoint::from_f64;
+    /// let mut scene = Scene::new(7, 7);
+    /// let (center, start) = (p(3.5, 3.5), p(6.5, 3.5));
+    /// let (spin, caps) = (Spin::Clockwise, Caps::None);
+    /// scene.add(Label(1), Surface::Ring { center, start, end: start, spin, caps, offset: 0.0, limit: Some(0.5) });
+    /// # let mut picture = Buffers::new();
+    /// # render(&scene, &mut picture);
+    /// # let rows: Vec<String> = picture.labels().chunks(7).map(|row| row.iter().map(|&l| if l > 0 { '#' } else { '.' }).collect()).collect();
+    /// assert_eq!(rows, ["..###..", ".#...#.", "#.....#", "#.....#", "#.....#", ".#...#.", "..###.."], "a circle");
+    /// ```
     Ring {
         /// The point it runs round.
         center: PixelPoint,

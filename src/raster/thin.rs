@@ -21,7 +21,6 @@
 //! boards, with the patterns that delete ends: the program Cisolate, whose figures for its own
 //! example this reproduces.
 
-use bitvec::prelude::{BitVec, Lsb0};
 use rayon::prelude::*;
 
 use super::bits::{Bits, ones};
@@ -58,16 +57,16 @@ pub fn thin(set: &Bits) -> Thinned {
         ages[y * width + x] = 1;
     }
     // Rows near which nothing changed in either of the last two passes need not be looked at again.
-    let mut awake = BitVec::<u32, Lsb0>::repeat(true, height);
+    let mut awake = vec![true; height];
     let mut before = awake.clone();
     let (mut generations, mut idle) = (0_u32, 0);
     while idle < 2 {
         let is_even = generations % 2 == 0;
         generations += 1;
-        let looked_at = awake.clone() | before.clone();
+        let looked_at: Vec<bool> = awake.iter().zip(&before).map(|(awake, before)| awake | before).collect();
         let changed = pass(&now, &mut next, &looked_at, is_even);
         let age = u16::try_from(generations).unwrap_or(u16::MAX);
-        (before, awake) = (awake, BitVec::repeat(false, height));
+        (before, awake) = (awake, vec![false; height]);
         for &row in &changed {
             let near = row.saturating_sub(1)..(row + 2).min(height);
             awake[near].fill(true);
@@ -92,7 +91,7 @@ pub fn thin(set: &Bits) -> Thinned {
 }
 
 /// One pass over the rows that are `looked_at`; the rows that changed, in order.
-fn pass(now: &Bits, next: &mut Bits, looked_at: &BitVec<u32, Lsb0>, is_even: bool) -> Vec<usize> {
+fn pass(now: &Bits, next: &mut Bits, looked_at: &[bool], is_even: bool) -> Vec<usize> {
     let (stride, height) = (now.stride, now.height());
     let none = vec![0_u64; stride];
     let bands = next.words.par_chunks_mut(stride * BAND).enumerate();

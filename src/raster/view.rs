@@ -41,6 +41,9 @@ pub enum Projection {
 /// Where a picture is taken from and how large it is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct View {
+    /// How far the plane is turned about its origin before it is looked at: in radians, against the
+    /// clock as seen from above.
+    pub azimuth: f64,
     /// How space is laid on the picture.
     pub projection: Projection,
     /// Columns and rows.
@@ -59,16 +62,40 @@ const LIGHT: [f64; 3] = [-0.36, 0.48, -0.8];
 /// Draws faces with flat shading: 3 bytes a pixel, row by row from the top.
 ///
 /// Faces behind the eye or far beyond the picture are left out.
+///
+/// ```
+/// use voromill::raster::view::{Face, Projection, View, draw};
+///
+/// // A wall along x, seen from above and a little from the front, then turned by a right angle.
+/// let wall = [[0.0, 0.0, 0.0], [9.0, 0.0, 0.0], [9.0, 0.0, -6.0]];
+/// let face = Face { corners: wall, color: [250; 3] };
+/// let view = View {
+///     azimuth: 0.0,
+///     projection: Projection::Oblique { tilt: 0.6 },
+///     size: (20, 20),
+///     origin: [10.0, 10.0],
+///     background: [0; 3],
+///     edges: None,
+/// };
+/// let seen = |view: &View| draw(&[face], view).iter().filter(|&&pixel| pixel != [0; 3]).count();
+/// assert!(seen(&view) > 15, "it is 9 long and 4.8 high");
+/// let aside = View { azimuth: std::f64::consts::FRAC_PI_2, ..view };
+/// assert_eq!(seen(&aside), 0, "its plane now holds the line of sight");
+/// ```
 #[must_use]
 pub fn draw(faces: &[Face], view: &View) -> Vec<[u8; 3]> {
     let mut scene = Scene::new(view.size.0, view.size.1);
+    let turn = libm::sincos(view.azimuth);
     for (label, face) in (1..).map(Label).zip(faces) {
-        let [Some(a), Some(b), Some(c)] = face.corners.map(|corner| view.project(corner)) else { continue };
+        let [Some(a), Some(b), Some(c)] = face.corners.map(|corner| view.project(turned(turn, corner)))
+        else {
+            continue;
+        };
         scene.add(label, Surface::Triangle { corners: [a.0, b.0, c.0], depths: [a.1, b.1, c.1] });
     }
     let mut buffers = Buffers::new();
     render(&scene, &mut buffers);
-    let colors: Vec<_> = faces.iter().map(shaded).collect();
+    let colors: Vec<_> = faces.iter().map(|face| shaded(face, turn)).collect();
     let labels = buffers.labels();
     let width = view.size.0 as usize;
     let differs = |at: usize, other: usize| labels.get(other).is_some_and(|&label| label != labels[at]);
@@ -83,9 +110,14 @@ pub fn draw(faces: &[Face], view: &View) -> Vec<[u8; 3]> {
     (0..labels.len()).map(pixel).collect()
 }
 
+/// A point of space after a turn, given by its sine and cosine.
+fn turned((sin, cos): (f64, f64), [x, y, z]: [f64; 3]) -> [f64; 3] {
+    [x * cos + y * sin, y * cos - x * sin, z]
+}
+
 /// The colour of a face: brighter the more squarely the light falls on it, from whichever side.
-fn shaded(face: &Face) -> [u8; 3] {
-    let [a, b, c] = face.corners;
+fn shaded(face: &Face, turn: (f64, f64)) -> [u8; 3] {
+    let [a, b, c] = face.corners.map(|corner| turned(turn, corner));
     let minus = |p: [f64; 3], q: [f64; 3]| [p[0] - q[0], p[1] - q[1], p[2] - q[2]];
     let (u, v) = (minus(b, a), minus(c, a));
     let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
@@ -94,6 +126,27 @@ fn shaded(face: &Face) -> [u8; 3] {
     let light = if length > 0.0 { (dot(normal, LIGHT) / length).abs() } else { 1.0 };
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
     face.color.map(|component| (f64::from(component) * (0.35 + 0.65 * light)) as u8)
+}
+
+impl Face {
+    /// The face of a [`Surface::Triangle`], its depths as z: what [`mesh`](super::mesh) makes of
+    /// cones, curtains and rings. None for any other surface.
+    ///
+    /// ```
+    /// use voromill::raster::view::Face;
+    /// use voromill::raster::{PixelPoint, mesh};
+    ///
+    /// let cone = mesh::cone(PixelPoint::from_pixels(20, 10), 8.0, 0.1);
+    /// let faces: Vec<_> = cone.iter().filter_map(|surface| Face::of(surface, [200; 3])).collect();
+    /// assert_eq!(faces.len(), cone.len(), "each triangle is a face");
+    /// assert_eq!(faces[0].corners[0], [20.0, 10.0, 0.0], "the apex");
+    /// ```
+    #[must_use]
+    pub fn of(surface: &Surface, color: [u8; 3]) -> Option<Self> {
+        let Surface::Triangle { corners, depths } = surface else { return None };
+        let at = |i: usize| [corners[i].x.to_pixels(), corners[i].y.to_pixels(), f64::from(depths[i])];
+        Some(Self { corners: [0, 1, 2].map(at), color })
+    }
 }
 
 impl View {
@@ -121,8 +174,7 @@ impl View {
                 (center[0] + (x - center[0]) * scale, center[1] + y * scale, -scale)
             }
         };
-        #[expect(clippy::cast_possible_truncation, reason = "rounded to a step; checked to be in range")]
-        let step = |at: f64| (at.abs() < 4e6).then(|| SubPx::new((at * 256.0).round() as i32));
+        let step = |at: f64| (at.abs() < 4e6).then(|| SubPx::from_f64(at));
         let place = PixelPoint::new(step(x + self.origin[0])?, step(y + self.origin[1])?);
         #[expect(clippy::cast_possible_truncation, reason = "rounded correctly")]
         let depth = depth as f32;

@@ -414,6 +414,7 @@ fn a_view_shows_faces_and_edges() {
     let far_away =
         Face { corners: [[0.0, 0.0, 9.0], [16.0, 0.0, 9.0], [16.0, 8.0, 9.0]], color: [0, 0, 255] };
     let view = View {
+        azimuth: 0.0,
         projection: Projection::Above,
         size: (16, 8),
         origin: [0.0, 0.0],

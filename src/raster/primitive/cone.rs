@@ -1,10 +1,9 @@
 //! The distance to a point, as a surface.
 
-use pulp::Simd;
-
 use super::super::PixelPoint;
 use super::super::canvas::{Field, Slope};
 use super::super::lanes::Lanes;
+use super::super::simd::Simd;
 use super::stroke::StrokeLanes;
 use super::{Bounds, Stroke};
 

@@ -1,11 +1,10 @@
 //! The distance to a segment, as a surface.
 
-use pulp::Simd;
-
 use super::super::canvas::{Field, Slope};
 use super::super::half_plane::{Convex, HalfPlane};
 use super::super::lanes::Lanes;
 use super::super::mosaic::Mosaic;
+use super::super::simd::Simd;
 use super::super::{Caps, PixelPoint, Sides};
 use super::cone::floats;
 use super::stroke::StrokeLanes;

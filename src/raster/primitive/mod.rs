@@ -21,6 +21,7 @@ use super::cell::Cell;
 use super::half_plane::{Convex, Cover};
 use super::lanes::Lanes;
 use super::mosaic::Mosaic;
+use super::simd::Scalar;
 use super::subpixel::sample;
 use super::{Label, Surface};
 
@@ -154,7 +155,7 @@ impl Shape {
 
 /// What a field says to one pixel.
 fn at<F: Field>(field: &F, column: i32, row: i32) -> f32 {
-    let simd = pulp::Scalar;
+    let simd = Scalar;
     F::depth(field.row(simd, position(row)), Lanes::splat(simd, position(column))).value
 }
 

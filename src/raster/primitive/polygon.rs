@@ -2,13 +2,12 @@
 
 use std::ops::Range;
 
-use pulp::Simd;
-
 use super::super::bin::Bin;
 use super::super::canvas::{Canvas, Extent, Field, SIDE, Slope, count, put};
 use super::super::cell::Cell;
 use super::super::lanes::Lanes;
 use super::super::mosaic::{ACROSS, Cuts};
+use super::super::simd::Simd;
 use super::super::subpixel::sample;
 use super::super::{FillRule, Fragment, Label, PixelPoint};
 use super::Bounds;

@@ -2,13 +2,12 @@
 
 use std::ops::Range;
 
-use pulp::Simd;
-
 use super::super::canvas::{Canvas, Extent, Field, Slope};
 use super::super::cell::Cell;
 use super::super::half_plane::{Convex, Cover, HalfPlane};
 use super::super::lanes::Lanes;
 use super::super::mosaic::Mosaic;
+use super::super::simd::Simd;
 use super::super::subpixel::sample;
 use super::super::{Caps, Label, PixelPoint, Spin};
 use super::cone::floats;

@@ -1,9 +1,8 @@
 //! How a distance becomes a depth: the half-width and the limit of a surface.
 
-use pulp::Simd;
-
 use super::super::canvas::Slope;
 use super::super::lanes::Lanes;
+use super::super::simd::Simd;
 
 /// How distance becomes depth: the half-width of a stroke and where it ends.
 #[derive(Clone, Copy, Debug)]

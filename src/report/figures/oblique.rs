@@ -104,10 +104,8 @@ impl Turned {
     }
 
     fn face(&self, surface: &Surface, color: [u8; 3]) -> Option<Face> {
-        let Surface::Triangle { corners, depths } = surface else { return None };
-        let at =
-            |i: usize| self.corner(corners[i].x.to_pixels(), corners[i].y.to_pixels(), f64::from(depths[i]));
-        Some(Face { corners: [0, 1, 2].map(at), color })
+        let face = Face::of(surface, color)?;
+        Some(Face { corners: face.corners.map(|[x, y, z]| self.corner(x, y, z)), ..face })
     }
 
     /// A band along an axis, with a dot at either end: above the crest by half its width, so that
@@ -155,6 +153,7 @@ impl Turned {
         #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
         let size = [0, 1].map(|i| (high[i] - low[i] + 2.0 * margin) as u32);
         View {
+            azimuth: 0.0,
             projection: Projection::Oblique { tilt: self.tilt },
             size: (size[0], size[1]),
             origin: [margin - low[0], margin - low[1]],

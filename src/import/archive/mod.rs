@@ -1,11 +1,14 @@
 //! From paths to files in memory: folders, zip archives and single files, mixed.
 
-use std::collections::BTreeMap;
+#[cfg(feature = "zip")]
+mod zipped;
+#[cfg(not(feature = "zip"))]
+#[path = "no_zip.rs"]
+mod zipped;
+
 use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
-
-use zip::result::ZipError;
 
 use super::error::{self, Error, locate};
 use super::gerber::ApertureList;
@@ -18,13 +21,6 @@ use crate::board::{SourceSpan, Words};
 ///
 /// Chosen: a Gerber of a 600 mm panel has some 50 MB; ten times that.
 const MOST_BYTES: u64 = 512 << 20;
-
-/// How much an archive may unpack to at least, and how many times its own size beyond that. Gerber
-/// packs to a tenth; an archive that packs to less than a hundredth is made to fill the memory.
-const UNPACKED: (u64, u64) = (64 << 20, 100);
-
-/// The most entries of an archive that are looked at.
-const MOST_ENTRIES: usize = 10_000;
 
 /// A file that may belong to the board.
 #[derive(Clone, Debug)]
@@ -174,60 +170,6 @@ impl Gathered {
         Ok(())
     }
 
-    fn zip(&mut self, shown: &str, bytes: Vec<u8>) -> Result<(), Error> {
-        let limit = (UNPACKED.1 * bytes.len() as u64).clamp(UNPACKED.0, MOST_BYTES);
-        let broken = |error: ZipError| broken_zip(shown, &error);
-        let mut archive = zip::ZipArchive::new(io::Cursor::new(&bytes)).map_err(broken)?;
-        let doubled =
-            archive.has_duplicate_names().then(|| doubled(&bytes, archive.central_directory_start()));
-        let doubled = doubled.flatten();
-        if archive.len() > MOST_ENTRIES {
-            let what = format!("the zip archive has {} entries, more than {MOST_ENTRIES}", archive.len());
-            return Err(Error::content(shown, what, "give the folder of one board"));
-        }
-        if let Some(name) = doubled {
-            let what = format!("two entries of the zip archive are called {name}, with different contents");
-            return Err(Error::content(shown, what, "unpack it, keep the right one, and give the folder"));
-        }
-        let mut entries: Vec<(String, usize)> = Vec::new();
-        for index in 0..archive.len() {
-            let entry = archive.by_index_raw(index).map_err(broken)?;
-            let name = String::from_utf8_lossy(entry.name_raw()).replace('\\', "/");
-            if name.starts_with("__MACOSX/") {
-                continue;
-            }
-            if entry.is_dir() {
-                let (full, name) = (format!("{shown}/{name}"), last_of(name.trim_end_matches('/')));
-                if !self.skips(&full) {
-                    self.unusable.push(Unusable::folder(name, full));
-                }
-                continue;
-            }
-            entries.push((name, index));
-        }
-        entries.sort();
-        let mut left = limit;
-        for (full, index) in entries {
-            let name = last_of(&full);
-            if self.skips(&format!("{shown}/{full}")) {
-                continue;
-            }
-            if !self.looks_for(&name) {
-                self.ignored.push(name);
-                continue;
-            }
-            let entry = archive.by_index(index).map_err(broken)?;
-            let mut content = Vec::new();
-            entry.take(left + 1).read_to_end(&mut content).map_err(|error| broken(ZipError::Io(error)))?;
-            left = left.checked_sub(content.len() as u64).ok_or_else(|| {
-                let what = format!("the zip archive unpacks to more than {} MiB", limit >> 20);
-                Error::content(shown, what, "unpack it yourself if you trust it, and give the folder")
-            })?;
-            self.take(name, format!("{shown}/{full}"), decoded(content), false);
-        }
-        Ok(())
-    }
-
     /// Whether a file of a folder or an archive is opened.
     fn looks_for(&self, name: &str) -> bool {
         if self.boards { is_board(name) } else { worth_reading(name) }
@@ -261,11 +203,6 @@ pub(super) fn name_of(path: &Path) -> String {
     name.or_else(real).unwrap_or_default()
 }
 
-/// The last part of the name of an archive's entry.
-fn last_of(full: &str) -> String {
-    full.rsplit('/').next().unwrap_or(full).to_owned()
-}
-
 /// What a path is that is neither a folder nor a file that can be read to its end.
 fn special(path: &Path) -> Option<&'static str> {
     match fs::metadata(path) {
@@ -275,27 +212,6 @@ fn special(path: &Path) -> Option<&'static str> {
         Err(error) if error.kind() != io::ErrorKind::NotFound && !path.is_symlink() => None,
         Err(_) => Some("a link to nothing"),
     }
-}
-
-/// The name of two entries with different contents, from the directory at the end of an archive.
-///
-/// Of entries of one name the library shows the last only. The directory's records begin with
-/// PK\x01\x02 and have the checksum at byte 16, both lengths behind it, and the name at byte 46
-/// (APPNOTE 6.3.10 §4.3.12).
-fn doubled(archive: &[u8], start: u64) -> Option<String> {
-    let mut rest = archive.get(usize::try_from(start).ok()?..)?;
-    let mut seen = BTreeMap::new();
-    while rest.starts_with(b"PK\x01\x02") {
-        let length =
-            |at: usize| Some(usize::from(u16::from_le_bytes(rest.get(at..at + 2)?.try_into().ok()?)));
-        let (name, extra, comment) = (length(28)?, length(30)?, length(32)?);
-        let (content, name) = (rest.get(16..28)?, rest.get(46..46 + name)?);
-        if seen.insert(name, content).is_some_and(|before| before != content) {
-            return Some(String::from_utf8_lossy(name).into_owned());
-        }
-        rest = rest.get(46 + name.len() + extra + comment..)?;
-    }
-    None
 }
 
 /// Texts of two bytes a character as texts of one or more (UTF-8), and all without a byte order
@@ -339,31 +255,6 @@ pub(super) fn read_file(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
         return Err(Error::content(shown, what, "no layer of a board is as large"));
     }
     Ok(decoded(bytes))
-}
-
-/// Why an archive cannot be read, in the words of someone who downloaded it.
-fn broken_zip(shown: &str, error: &ZipError) -> Error {
-    match error {
-        ZipError::InvalidPassword | ZipError::UnsupportedArchive(ZipError::PASSWORD_REQUIRED) => {
-            Error::content(
-                shown,
-                "the zip archive is encrypted",
-                "unpack it with its password and give the folder",
-            )
-        }
-        ZipError::UnsupportedArchive(_) | ZipError::CompressionMethodNotSupported(_) => {
-            let what = format!("the zip archive cannot be read: {error}");
-            Error::content(shown, what, "unpack it and give the folder")
-        }
-        _ => {
-            let what = "the zip archive is damaged or was cut off";
-            Error::content(
-                shown,
-                what,
-                "download or pack it again, or unpack it yourself and give the folder",
-            )
-        }
-    }
 }
 
 fn unreadable(shown: &str, error: &io::Error) -> Error {
