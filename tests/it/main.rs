@@ -11,6 +11,7 @@ mod coupling;
 mod damage;
 mod diagnostics;
 mod dialect_files;
+mod docs;
 mod drawings;
 mod drills;
 mod euler;
