@@ -69,7 +69,7 @@ impl Config {
 
     /// Fails for an option that was given here and changes nothing beside the others.
     fn judge(&self, settings: &Settings) -> Result<(), Failure> {
-        settings.idle(&self.given.0).map_or(Ok(()), |(option, hint)| {
+        settings.without_effect(&self.given.0).map_or(Ok(()), |(option, hint)| {
             Err(Failure::new(format!("--{option} has no effect with these options"), hint))
         })
     }

@@ -411,7 +411,7 @@ impl Drawn {
 }
 
 impl Stage {
-    /// Whether the lap round copper without an outline can be seen.
+    /// Whether the frame cut round copper without an outline can be seen.
     const fn shows_frame(self) -> bool {
         match self {
             Self::Copper | Self::Nets | Self::Translucent | Self::Thinning => false,

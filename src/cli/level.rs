@@ -113,7 +113,7 @@ impl Level {
         shared.report(&format!(
             "{}: {} motions below {:.3} mm follow a surface from {low:.3} mm to {high:.3} mm, {} lines more\n{name}: {}, {columns} by {rows} probed points\n{accepted}",
             output.display(),
-            done.bent,
+            done.levelled,
             done.safe,
             done.added,
             format,

@@ -217,12 +217,12 @@ impl Mask {
 
     /// Fails for an option that changes nothing of what is made.
     fn judge(&self, format: Format) -> Result<(), Failure> {
-        let idle = [
+        let without_effect = [
             ("dpi", self.dpi.is_some() && format != Format::Png, "without pixels"),
             ("gap", self.gap.is_some() && self.what != Kind::Regions, "that has no regions"),
             ("clearance", self.clearance.is_some() && self.what != Kind::Mask, "that has no openings"),
         ];
-        if let Some((option, _, what)) = idle.into_iter().find(|(_, is_idle, _)| *is_idle) {
+        if let Some((option, _, what)) = without_effect.into_iter().find(|(_, has_none, _)| *has_none) {
             return Err(Failure::new(format!("--{option} has no effect on a mask {what}"), "leave it out"));
         }
         Ok(())

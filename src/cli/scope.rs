@@ -19,9 +19,9 @@ pub(super) fn hidden(command: Command) -> Command {
     command.mut_subcommands(move |sub| {
         let (name, options) = (sub.get_name().to_owned(), options.clone());
         sub.mut_args(move |argument| {
-            let is_idle =
+            let has_no_effect =
                 options.contains(&argument.get_id().to_string()) && !takes(&name, argument.get_id().as_str());
-            if is_idle { argument.hide(true) } else { argument }
+            if has_no_effect { argument.hide(true) } else { argument }
         })
     })
 }
@@ -29,8 +29,11 @@ pub(super) fn hidden(command: Command) -> Command {
 /// Fails for the first option of a job that was given to a subcommand to which it means nothing.
 pub(super) fn check(matches: &ArgMatches) -> Result<(), Failure> {
     let Some((name, given)) = matches.subcommand() else { return Ok(()) };
-    let idle = options().into_iter().filter(|option| !takes(name, option));
-    match idle.into_iter().find(|option| given.value_source(option) == Some(ValueSource::CommandLine)) {
+    let without_effect = options().into_iter().filter(|option| !takes(name, option));
+    match without_effect
+        .into_iter()
+        .find(|option| given.value_source(option) == Some(ValueSource::CommandLine))
+    {
         None => Ok(()),
         Some(option) => {
             let no = if matches!(option.as_str(), "frame" | "min_width") { "no-" } else { "" };

@@ -187,13 +187,14 @@ const PROGRAMS: [&str; 8] = ["ngc", "nc", "gcode", "gc", "g", "cnc", "tap", "iso
 
 /// A length that a program was made with, as the first that says so says.
 fn length(programs: &[Program], setting: &str) -> Option<Nm> {
-    programs.iter().find_map(|program| verify::said(&program.text, setting)?.parse().ok())
+    programs.iter().find_map(|program| verify::declared_setting(&program.text, setting)?.parse().ok())
 }
 
 /// How far a hole may be from its diameter, as the programs say.
 fn diameter(programs: &[Program], usual: Nm) -> Nm {
-    let is_one =
-        |program: &Program| verify::said(&program.text, "one-drill").is_some_and(|said| said == "true");
+    let is_one = |program: &Program| {
+        verify::declared_setting(&program.text, "one-drill").is_some_and(|said| said == "true")
+    };
     if programs.iter().any(is_one) {
         return verify::Settings::ANY_DIAMETER;
     }
@@ -203,7 +204,7 @@ fn diameter(programs: &[Program], usual: Nm) -> Nm {
 /// How many tabs each board was given, where that is known of all.
 fn tabs(programs: &[Program]) -> Option<u32> {
     let of = |program: &Program| {
-        let said = |setting| verify::said(&program.text, setting);
+        let said = |setting| verify::declared_setting(&program.text, setting);
         let elsewhere = said("tab-spacing").or_else(|| said("tab-at"));
         if elsewhere.is_some() { None } else { said("tabs")?.parse().ok() }
     };
@@ -280,15 +281,16 @@ impl Verify {
     fn leave_out(&self, board: &mut Board, programs: &[Program]) {
         let mut patterns = self.ignore.clone();
         if patterns.is_empty() {
-            let said = programs.iter().filter_map(|program| verify::said(&program.text, "ignore"));
+            let said =
+                programs.iter().filter_map(|program| verify::declared_setting(&program.text, "ignore"));
             let all: BTreeSet<String> = said
                 .flat_map(|names| names.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
                 .collect();
             patterns = all.iter().filter_map(|name| name.parse().ok()).collect();
         }
-        let said = programs.iter().find_map(|program| verify::said(&program.text, "topology"));
+        let said = programs.iter().find_map(|program| verify::declared_setting(&program.text, "topology"));
         let topology: Option<Topology> = said.and_then(|name| of_word(&name.to_ascii_lowercase()).ok());
-        let said = programs.iter().find_map(|program| verify::said(&program.text, "rivet"));
+        let said = programs.iter().find_map(|program| verify::declared_setting(&program.text, "rivet"));
         if let Some(wider) = said.and_then(|length| length.parse().ok()) {
             job::rivet(board, wider);
         }
@@ -330,7 +332,7 @@ impl Verify {
             return Ok(thickness);
         }
         let said = programs.iter().filter_map(|program| {
-            let text = verify::said(&program.text, "thickness")?;
+            let text = verify::declared_setting(&program.text, "thickness")?;
             Some((program, text.parse::<Nm>().ok().filter(|&thickness| thickness > Nm::ZERO)?))
         });
         let said: Vec<(&Program, Nm)> = said.collect();
@@ -351,7 +353,8 @@ impl Verify {
 
     /// How many boards there are.
     fn tiles(&self, programs: &[Program]) -> Result<Option<verify::Tiles>, Failure> {
-        let said = |setting| programs.iter().find_map(|program| verify::said(&program.text, setting));
+        let said =
+            |setting| programs.iter().find_map(|program| verify::declared_setting(&program.text, setting));
         let tiles = self.tile.or_else(|| said("tile")?.parse().ok());
         let Some(Tiles { columns, rows }) = tiles.filter(|tiles| tiles.columns * tiles.rows > 1) else {
             return Ok(None);

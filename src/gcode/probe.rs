@@ -90,7 +90,7 @@ pub fn write_probe(touching: &Touching, dialect: &Dialect, header: &Header) -> R
         }
         let (z, feed) = (writer.length(-touching.depth), touching.feed.number());
         writer.line(&format!("G38.2 Z{z} F{feed}"));
-        writer.lift(height);
+        writer.retract(height);
     }
     if dialect.touches == Touches::Logged {
         writer.line("(PROBECLOSE)");

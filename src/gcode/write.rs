@@ -83,7 +83,7 @@ impl<'a> Writer<'a> {
         }
         self.own(|own| &own.before);
         self.modes();
-        self.lift(highest(program));
+        self.retract(highest(program));
     }
 
     /// What numbers and words mean from here on.
@@ -128,7 +128,7 @@ impl<'a> Writer<'a> {
                 // Whoever changes the tool may have moved the machine: the next place is written in
                 // full.
                 self.at = None;
-                self.lift(Nm::new(height * self.unit));
+                self.retract(Nm::new(height * self.unit));
             }
             if let Some(plate) = self.dialect.touch_off {
                 self.touch_off(plate, height);
@@ -161,7 +161,7 @@ impl<'a> Writer<'a> {
         self.line(&format!("G38.2 Z-2 F{SLOW}"));
         self.line("G90");
         self.line(&format!("{sets} Z{}", self.number(top)));
-        self.lift(Nm::new(from * self.unit));
+        self.retract(Nm::new(from * self.unit));
         self.comment(TOUCH_OFF_ENDS);
         // What comes after says all anew, as after any lines that programs may be read without.
         (self.at, self.feed) = (None, None);
@@ -179,7 +179,7 @@ impl<'a> Writer<'a> {
     pub(super) fn finish(&mut self, program: &Program) {
         let safe = self.round(program.safe);
         if self.height.is_some_and(|height| height < safe) {
-            self.lift(program.safe);
+            self.retract(program.safe);
         }
         self.stop();
         self.own(|own| &own.after);
@@ -196,7 +196,7 @@ impl<'a> Writer<'a> {
     }
 
     /// Up to the safe height, whatever the height is: after a tool change nobody knows.
-    pub(super) fn lift(&mut self, safe: Nm) {
+    pub(super) fn retract(&mut self, safe: Nm) {
         let z = self.round(safe);
         let mut line = format!("G0 Z{}", self.number(z));
         self.rapid_feed(&mut line);

@@ -79,7 +79,7 @@ fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Load
         .into_iter()
         .flatten()
         .chain(assigned.drill.iter().copied());
-    build.wheels(&gathered, read.map(|index| &gathered.files[index]))?;
+    build.aperture_lists(&gathered, read.map(|index| &gathered.files[index]))?;
     let used = |list: &ApertureList| build.sources.contains(list.source());
     let unused = gathered.lists.iter().filter(|list| !used(list)).map(|list| list.file.clone()).collect();
     let ignored =
@@ -120,7 +120,7 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
         read_gerber(&gathered, &found, "a copper layer")?
     };
     build.copper(&found, image, side);
-    build.wheels(&gathered, [&found])?;
+    build.aperture_lists(&gathered, [&found])?;
     build.require_copper(&[&found])?;
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })
 }
@@ -236,7 +236,7 @@ impl Build {
     }
 
     /// Lists the aperture lists that `files` draw with.
-    fn wheels<'a>(
+    fn aperture_lists<'a>(
         &mut self,
         gathered: &'a Gathered,
         files: impl IntoIterator<Item = &'a Found>,

@@ -30,6 +30,7 @@ mod gerber_drill;
 mod jobfile;
 pub mod kicad;
 mod layers;
+mod lists;
 mod load;
 mod naming;
 mod off_board;
@@ -41,7 +42,6 @@ mod settle;
 pub mod text;
 mod unusable;
 mod vote;
-mod wheel;
 mod whole_board;
 
 pub use build::Loaded;

@@ -77,14 +77,15 @@ fn depth_of(tool: &Tool, own: Option<Nm>, options: &Options) -> Result<Nm, Error
     }
 }
 
-/// The least way between copper and the lap round it that is taken unasked. Chosen: what boards
-/// keep between copper and copper, so that the lap is no narrower a place than the rest.
+/// The least way between copper and the frame cut round it that is taken unasked. Chosen: what
+/// boards keep between copper and copper, so that the frame cut is no narrower a place than the
+/// rest.
 const LEAST_MARGIN: Nm = Nm::from_um(200);
 /// The same where copper is cleared, or belongs to nobody, farther out. Chosen.
 const ROOM: Nm = Nm::from_mm(1);
 
-/// How far the lap round copper without an outline keeps from it: so that the cut itself is clear,
-/// and as far as the gap is to be cleared.
+/// How far the frame cut round copper without an outline keeps from it: so that the cut itself is
+/// clear, and as far as the gap is to be cleared.
 pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm, Error> {
     let kerf = cuttings.iter().map(Cutting::kerf).max().unwrap_or(Nm::ZERO);
     let Some(margin) = given("frame-margin", options.frame_margin)? else {

@@ -64,7 +64,10 @@ impl Layer {
             boundaries: self.boundaries.edges.len(),
             vertices: self.boundaries.nodes.len(),
             boundary_length_mm: Millimetres(self.boundary_length()),
-            frame_length_mm: self.lap.as_ref().map(|lap| Millimetres(Nm::from_f64(lap.length()))),
+            frame_length_mm: self
+                .frame_cut
+                .as_ref()
+                .map(|frame_cut| Millimetres(Nm::from_f64(frame_cut.length()))),
             negligible_gaps: 0,
             strategy: self.chosen.as_ref().map(strategy_entry),
             coupling: None,

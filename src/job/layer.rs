@@ -28,7 +28,7 @@ pub struct Layer {
     /// The diagram's lines.
     pub boundaries: Boundaries,
     /// The frame cut round the frame, where one is cut.
-    pub lap: Option<Path>,
+    pub frame_cut: Option<Path>,
     /// How the side lies on the machine: the back mirrored.
     pub placement: Placement,
     /// What the machine does to it, a section for each tool that has something to cut.
@@ -76,7 +76,7 @@ impl Layer {
             (plan(by_net::looped(&strategies))?, None)
         };
         stages.extend(&plan.stages);
-        let Plan { diagram, boundaries, lap, sections, warnings: found, .. } = plan;
+        let Plan { diagram, boundaries, frame_cut, sections, warnings: found, .. } = plan;
         let mut warnings = topology::names_check(copper, &nets);
         warnings.extend(found);
         Ok(Self {
@@ -86,7 +86,7 @@ impl Layer {
             gap,
             diagram,
             boundaries,
-            lap,
+            frame_cut,
             placement,
             sections,
             chosen,
@@ -130,7 +130,7 @@ impl Planned<'_> {
             |(boundaries, _)| [("edges", boundaries.edges.len()), ("nodes", boundaries.nodes.len())],
         );
         let frame = needed_frame(&diagram, &boundaries);
-        let lap = frame.as_ref().filter(|_| settings.frame);
+        let frame_cut = frame.as_ref().filter(|_| settings.frame);
         let (shares, passes) = stages.run(
             format!("{side}: passes"),
             || shares(&diagram, &boundaries, settings),
@@ -138,16 +138,16 @@ impl Planned<'_> {
         );
         let (sections, narrow) = stages.run(
             format!("{side}: moves"),
-            || cut(side, nets, &shares, lap, placement, settings),
+            || cut(side, nets, &shares, frame_cut, placement, settings),
             |(sections, _)| [("moves", sections.iter().map(|section| section.moves.len()).sum())],
         );
         let mut warnings = diagram.warnings().to_vec();
         warnings.extend(unplaced.into_iter().chain(passes).chain(narrow).map(|warning| warning.on(side)));
-        if frame.is_some() && lap.is_none() {
+        if frame.is_some() && frame_cut.is_none() {
             warnings.push(planning::FRAME_NOT_CUT.warning(FRAME_NOT_CUT).on(side));
         }
-        let lap = lap.cloned();
-        Ok(Plan { diagram, boundaries, lap, sections, warnings, stages })
+        let frame_cut = frame_cut.cloned();
+        Ok(Plan { diagram, boundaries, frame_cut, sections, warnings, stages })
     }
 }
 

@@ -16,7 +16,7 @@ use crate::topology::{self, Electrical};
 use super::ignore::ignore;
 use super::rivet::rivet;
 use super::stock::{Stock, zero};
-use super::{Error, Layer, Narrow, Part, Settings, Written, idle, numbering, tag};
+use super::{Error, Layer, Narrow, Part, Settings, Written, effect, numbering, tag};
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
@@ -82,8 +82,8 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         files.into_iter().map(|program| (part(layer.side), layer.side, program))
     }));
     let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
-    warnings.extend(idle::patterns(sides, settings));
-    warnings.extend(idle::tools(&layers, settings));
+    warnings.extend(effect::patterns(sides, settings));
+    warnings.extend(effect::tools(&layers, settings));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
         let side = settings.drill_side;

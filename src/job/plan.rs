@@ -33,7 +33,7 @@ pub struct Tried {
 pub(super) struct Plan {
     pub(super) diagram: Diagram,
     pub(super) boundaries: Boundaries,
-    pub(super) lap: Option<Path>,
+    pub(super) frame_cut: Option<Path>,
     pub(super) sections: Vec<Section>,
     pub(super) warnings: Vec<Warning>,
     pub(super) stages: Stages,

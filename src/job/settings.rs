@@ -19,7 +19,7 @@ use super::pattern::Pattern;
 use super::quantity::{Length, Tiles, ToolChangeAt};
 use super::strategy_for::StrategyFor;
 use super::tools::Workshop;
-use super::{controller, cutting_out, drilling, sense};
+use super::{controller, cutting_out, drilling, validate};
 
 /// Everything a job needs to know, complete and checked.
 ///
@@ -56,9 +56,9 @@ pub struct Settings {
     /// The pixel of the picture that finds the boundaries, at most; none for as coarse as the
     /// smallest gap allows.
     pub pixel: Option<Nm>,
-    /// Whether a lap is cut round copper without an outline.
+    /// Whether a frame cut is made round copper without an outline.
     pub frame: bool,
-    /// How far that lap keeps from copper.
+    /// How far the frame cut keeps from copper.
     pub frame_margin: Nm,
     /// Whether with core axes every region holds at least its net's copper.
     pub min_width: bool,
@@ -162,7 +162,7 @@ impl Settings {
     /// [`Error::Value`] for the first setting whose value makes no sense.
     pub fn resolve(options: Options) -> Result<Self, Error> {
         let profile = options.machine.as_ref().map(|machine| machine.0.clone());
-        let mut options = sense::defaults_for(profile.as_ref(), options).or(Options::defaults());
+        let mut options = validate::defaults_for(profile.as_ref(), options).or(Options::defaults());
         let thickness = positive("thickness", options.thickness)?;
         options.cutout_depth.get_or_insert(Length(thickness + BELOW));
         let open = "the defaults leave nothing open";
@@ -197,7 +197,7 @@ impl Settings {
         }
         let machine = profile.map_or_else(Machine::default, |profile| profile.machine());
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
-        sense::kerfs(&isolation)?;
+        validate::kerfs(&isolation)?;
         let through = thickness + positive("break-through", options.break_through)?;
         let drill_depth = given("drill-depth", options.drill_depth)?;
         let drill_safe = match options.drill_safe_z {
@@ -212,7 +212,7 @@ impl Settings {
         };
         Ok(Self {
             frame_margin: frame_margin(&options, &isolation)?,
-            adaptive_depth: sense::adaptive_depth(&options, &isolation)?,
+            adaptive_depth: validate::adaptive_depth(&options, &isolation)?,
             isolation,
             safe,
             ignore: options.ignore.clone(),
@@ -258,7 +258,7 @@ impl Settings {
             topology: options.topology.expect(open),
             tolerance: positive("tolerance", options.tolerance)?,
             machine: Machine {
-                travel: sense::machine_travel(&options)?.or(machine.travel),
+                travel: validate::machine_travel(&options)?.or(machine.travel),
                 spin_up: dialect.spin_up,
                 ..machine
             },

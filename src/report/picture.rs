@@ -84,7 +84,7 @@ pub fn boundaries(side: &Shown<'_>, grid: Grid) -> Canvas {
 /// The clearance from which on a boundary is as free as it can be shown to be.
 const FREE: Nm = Nm::from_mm(1);
 
-/// The freedom of each stretch of boundary over dimmed copper: how far its narrower end is from
+/// The clearance of each stretch of boundary over dimmed copper: how far its narrower end is from
 /// copper, red to blue.
 #[must_use]
 pub fn heat(side: &Shown<'_>, grid: Grid) -> Canvas {
@@ -93,14 +93,14 @@ pub fn heat(side: &Shown<'_>, grid: Grid) -> Canvas {
     for edge in side.boundaries.edges.iter().filter(|edge| !edge.is_border()) {
         for ((from, &segment), room) in edge.path.steps().zip(edge.clearance.windows(2)) {
             let stretch = Path { start: from, segments: vec![segment] };
-            canvas.stroke(&stretch, width, freedom(room[0].min(room[1])), 1.0);
+            canvas.stroke(&stretch, width, clearance_colour(room[0].min(room[1])), 1.0);
         }
     }
     canvas
 }
 
 /// Red at no room, over yellow, to blue from [`FREE`] on.
-fn freedom(room: Nm) -> Rgb {
+fn clearance_colour(room: Nm) -> Rgb {
     let way = |part: i64| u8::try_from(part.clamp(0, 255)).unwrap_or(u8::MAX);
     let share = room.get() * 510 / FREE.get();
     if share < 255 { HOT.towards(WARM, way(share)) } else { WARM.towards(COLD, way(share - 255)) }

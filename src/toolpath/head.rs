@@ -27,7 +27,7 @@ impl Head {
 
     /// To the safe height over `point`, by way of the safe height.
     pub(super) fn over(&mut self, point: Point) {
-        self.lift();
+        self.retract();
         let to = Position::over(point, self.heights.safe);
         if self.at != Some(to) {
             self.at = Some(to);
@@ -105,7 +105,7 @@ impl Head {
     }
 
     /// Straight up to the safe height, if it is not there.
-    pub(super) fn lift(&mut self) {
+    pub(super) fn retract(&mut self) {
         self.rapid_to(self.heights.safe);
     }
 
@@ -121,7 +121,7 @@ impl Head {
 
     /// All moves, retracted at the end.
     pub(super) fn finish(mut self) -> Vec<Move> {
-        self.lift();
+        self.retract();
         self.moves
     }
 }

@@ -4,7 +4,7 @@ use crate::board::{Board, Shape, Side};
 use crate::gcode::read::{self, Motion, Note, Way};
 use crate::geometry::{Arc, Nm, Point};
 
-use super::stated::{Stated, said};
+use super::declared::{Declared, declared_setting};
 use super::{Cutter, CutterKind, Error, Placement, Program, Role, Settings, origin};
 
 /// A program, followed.
@@ -84,21 +84,21 @@ impl Machining {
         if listing.motions.is_empty() {
             return Err(Error::NoMotion(program.file.clone()));
         }
-        let mut stated = Stated::read(&program.text);
-        let point = said(&program.text, "drill-tip-angle");
+        let mut declared = Declared::read(&program.text);
+        let point = declared_setting(&program.text, "drill-tip-angle");
         if let Some(degrees) = point.and_then(|angle| angle.strip_suffix("deg")?.parse::<f64>().ok()) {
-            stated.cutters.iter_mut().for_each(|(_, cutter)| *cutter = cutter.pointed(degrees));
+            declared.cutters.iter_mut().for_each(|(_, cutter)| *cutter = cutter.pointed(degrees));
         }
-        let tools = Tools { only: program.cutter, stated: &stated.cutters };
-        let role = match program.role.or(stated.role) {
+        let tools = Tools { only: program.cutter, declared: &declared.cutters };
+        let role = match program.role.or(declared.role) {
             Some(role) => role,
             None => {
                 guess(&listing.motions, &tools, board).ok_or_else(|| Error::NoSide(program.file.clone()))?
             }
         };
         let placement = program.placement.or_else(|| {
-            let front = origin(stated.origin.as_deref().unwrap_or("keep"), stated.degrees, board)?;
-            Some(Placement { mirror: stated.mirror, shift: front.shift + stated.offset, ..front })
+            let front = origin(declared.origin.as_deref().unwrap_or("keep"), declared.degrees, board)?;
+            Some(Placement { mirror: declared.mirror, shift: front.shift + declared.offset, ..front })
         });
         let placement = placement.unwrap_or_default();
         let file = program.file.clone();
@@ -173,14 +173,14 @@ impl Machining {
 /// The tools of a program by line.
 struct Tools<'a> {
     only: Option<Cutter>,
-    stated: &'a [(u32, Cutter)],
+    declared: &'a [(u32, Cutter)],
 }
 
 impl Tools<'_> {
     /// The tool that cuts in `line`.
     fn at(&self, line: u32) -> Option<Cutter> {
-        let before = self.stated.partition_point(|(from, _)| *from <= line);
-        self.only.or_else(|| Some(self.stated[before.checked_sub(1)?].1))
+        let before = self.declared.partition_point(|(from, _)| *from <= line);
+        self.only.or_else(|| Some(self.declared[before.checked_sub(1)?].1))
     }
 }
 

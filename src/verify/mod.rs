@@ -21,6 +21,7 @@ pub mod check;
 mod contours;
 mod crowd;
 mod cutter;
+mod declared;
 mod diff;
 mod edges;
 mod flood;
@@ -39,7 +40,6 @@ mod report;
 mod ruling;
 mod sheet;
 mod spans;
-mod stated;
 mod tiles;
 mod walls;
 mod width;
@@ -56,11 +56,11 @@ use crate::topology::Nets;
 
 pub use crate::board::Severity;
 pub use cutter::{Cutter, CutterKind, ParseCutterError};
+pub use declared::declared_setting;
 pub use diff::{Change, Comparison, Region, Spot, diff};
 pub use placement::Placement;
 pub use register::{Orientation, register};
 pub use report::{Finding, Judged, Report};
-pub use stated::said;
 pub use tiles::Tiles;
 
 use bores::Bores;

@@ -101,10 +101,13 @@ fn a_cache_key_changes_with_files_and_settings_and_with_nothing_else() {
 fn without_an_outline_the_frame_is_cut_unless_told_otherwise() {
     let layer = "blinker/blinker-B_Cu.gbr";
     let (framed, _) = job(layer, "");
-    assert!(framed.layers[0].lap.is_some(), "a frame cut round the copper");
+    assert!(framed.layers[0].frame_cut.is_some(), "a frame cut round the copper");
     assert!(warned(&framed, "outline-missing"), "and why: {:?}", framed.warnings);
     let (open, _) = job(layer, "frame = false");
-    assert!(open.layers[0].lap.is_none() && warned(&open, "frame-not-cut"), "said, as nets stay joined");
+    assert!(
+        open.layers[0].frame_cut.is_none() && warned(&open, "frame-not-cut"),
+        "said, as nets stay joined"
+    );
     assert!(cut_mm(&open, Part::Back) < cut_mm(&framed, Part::Back), "and less is cut");
 }
 
@@ -112,7 +115,7 @@ fn without_an_outline_the_frame_is_cut_unless_told_otherwise() {
 fn outlines_go_round_every_net_and_take_longer() {
     let (voronoi, _) = job("blinker", "");
     let (outline, _) = job("blinker", "strategy = \"outline\"");
-    assert!(outline.layers[0].lap.is_none(), "no net reaches the edge");
+    assert!(outline.layers[0].frame_cut.is_none(), "no net reaches the edge");
     assert!(cut_mm(&outline, Part::Back) > cut_mm(&voronoi, Part::Back), "the paper's saving");
 }
 

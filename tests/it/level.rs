@@ -1,4 +1,5 @@
-//! Programs bent to a surface: the same depth below it everywhere, and everything else as it was.
+//! Programs levelled to a surface: the same depth below it everywhere, and everything else as it
+//! was.
 
 use std::fs;
 use std::path::Path;
@@ -31,7 +32,7 @@ fn bump(x: f64, y: f64) -> f64 {
     0.08 * libm::sin(x / 9.0) * libm::cos(y / 7.0) + 0.002 * x
 }
 
-fn bent(text: &str, map: &HeightMap) -> Levelled {
+fn levelled(text: &str, map: &HeightMap) -> Levelled {
     level(text, map, &Levelling::default()).unwrap_or_else(|error| panic!("{error}\n{text}"))
 }
 
@@ -71,14 +72,14 @@ fn programs(dialect: &str) -> Vec<(String, String)> {
 }
 
 #[test]
-fn every_cut_of_every_program_keeps_its_depth_below_a_bent_surface() {
+fn every_cut_of_every_program_keeps_its_depth_below_a_surface_that_is_not_flat() {
     let map = map(15, 5.0, bump);
     // What is left to rounding: the last digit of z, and of the ends of arcs.
     let tolerance = Nm::from_um(5).to_f64() + 150.0;
     let differing = ["grbl", "linuxcnc", "marlin", "reprapfirmware", "smoothieware", "tinyg"];
     for dialect in ALL.iter().filter(|dialect| differing.contains(&dialect.name.as_ref())) {
         for (part, text) in programs(&dialect.name) {
-            let done = bent(&text, &map);
+            let done = levelled(&text, &map);
             let (before, after) = (read(&text).unwrap(), read(&done.text).unwrap());
             let depths: Vec<Nm> = before.motions.iter().filter_map(|motion| motion.to.z).collect();
             let mut cuts = 0;
@@ -117,7 +118,7 @@ fn comments_tools_speeds_and_travel_stay_to_the_letter() {
     let map = map(15, 5.0, bump);
     for dialect in ["grbl", "linuxcnc", "marlin"] {
         for (part, text) in programs(dialect) {
-            let done = bent(&text, &map);
+            let done = levelled(&text, &map);
             let kept = |text: &str| -> Vec<String> {
                 let coordinates =
                     |line: &&str| !line.starts_with(['G', 'X', 'Y', 'Z']) || line.contains("Z2");
@@ -140,16 +141,16 @@ fn a_tilted_plane_gives_exact_heights_without_splitting_what_is_straight() {
     let plane = map(3, 20.0, |x, y| 0.1 + x * 0.004 - y * 0.002);
     let text = "G21 G90\nG0 Z2\nG0 X0 Y0\nG1 Z-0.1 F100\nG1 X30 Y10 F200\nX12.5\nG0 Z2\nM2\n";
     let expected = "G21 G90\nG0 Z2\nG0 X0 Y0\nG1 Z0 F100\nG1 X30 Y10 Z0.1 F200\nX12.5 Z0.03\nG0 Z2\nM2\n";
-    let done = bent(text, &plane);
+    let done = levelled(text, &plane);
     assert_eq!(done.text, expected, "z is that of the plane, a tenth below");
-    assert_eq!((done.bent, done.added), (4, 0), "four motions are low");
+    assert_eq!((done.levelled, done.added), (4, 0), "four motions are low");
 }
 
 #[test]
 fn arcs_follow_as_helices_and_a_circle_comes_back() {
     let plane = map(3, 20.0, |x, _| x * 0.01);
     let text = "G21 G90 G17\nG0 Z2\nG0 X20 Y10\nG1 Z-0.1 F100\nG2 X20 Y10 I-5 J0 (round)\nG0 Z2\nM2\n";
-    let done = bent(text, &plane);
+    let done = levelled(text, &plane);
     assert!(done.added > 3, "a circle on a slope is split: {}", done.text);
     let listing = read(&done.text).unwrap();
     let arcs: Vec<&Motion> =
@@ -167,7 +168,7 @@ fn arcs_follow_as_helices_and_a_circle_comes_back() {
 }
 
 #[test]
-fn cycles_increments_inches_and_modal_lines_are_bent_as_they_are_written() {
+fn cycles_increments_inches_and_modal_lines_are_levelled_as_they_are_written() {
     let flat = map(3, 30.0, |_, _| 0.254);
     let cases = [
         (
@@ -188,7 +189,7 @@ fn cycles_increments_inches_and_modal_lines_are_bent_as_they_are_written() {
         ),
     ];
     for (text, expected) in cases {
-        assert_eq!(bent(text, &flat).text, expected, "a surface a quarter of a millimetre high");
+        assert_eq!(levelled(text, &flat).text, expected, "a surface a quarter of a millimetre high");
     }
 }
 
@@ -196,7 +197,7 @@ fn cycles_increments_inches_and_modal_lines_are_bent_as_they_are_written() {
 fn a_pause_in_a_line_that_is_split_comes_after_all_of_it() {
     let ridge = map(3, 20.0, |x, _| if (10.0..20.0).contains(&x) { 0.2 } else { 0.0 });
     let text = "G90\nG0 Z2\nX0 Y0\nG1 Z-0.1 F100\n/G1 X30 F200 M0 (over the ridge)\nM2\n";
-    let done = bent(text, &ridge);
+    let done = levelled(text, &ridge);
     let flat =
         |text: &str| text.lines().filter(|line| line.contains('/')).map(str::to_owned).collect::<Vec<_>>();
     assert_eq!(flat(&done.text)[0].matches("M0").count(), 0, "not before the ridge: {}", done.text);
@@ -297,7 +298,7 @@ fn maps_that_are_none_say_why() {
 }
 
 #[test]
-fn programs_that_cannot_be_bent_say_why_and_where() {
+fn programs_that_cannot_be_levelled_say_why_and_where() {
     let map = map(3, 10.0, |_, _| 0.1);
     let error = |text: &str| level(text, &map, &Levelling::default()).expect_err(text);
     let outside = error("G90\nG0 Z2\nX0 Y0\nG1 Z-1 F1\nX30\n");
@@ -358,17 +359,17 @@ proptest! {
         let um = height * 50;
         let height = Nm::from_um(um);
         let flat = map(5, 15.0, |_, _| height.to_mm());
-        let done = bent(&text, &flat);
+        let done = levelled(&text, &flat);
         prop_assert_eq!(done.added, 0, "nothing is split");
         if height == Nm::ZERO {
             prop_assert_eq!(&done.text, &text, "the same text");
         }
         // Inches are written to a quarter of a micrometre.
-        for ((p, z), (place, bent)) in ends(&text).into_iter().zip(ends(&done.text)) {
+        for ((p, z), (place, levelled)) in ends(&text).into_iter().zip(ends(&done.text)) {
             let planned = z.map(|z| if z < done.safe { z + height } else { z });
             prop_assert_eq!(p, place, "x and y stay: {}", done.text);
-            let off = planned.zip(bent).map_or(Nm::ZERO, |(planned, bent)| (planned - bent).abs());
-            prop_assert!(planned.is_some() == bent.is_some() && off <= Nm::new(127), "{planned:?}, not {bent:?}: {}", done.text);
+            let off = planned.zip(levelled).map_or(Nm::ZERO, |(planned, levelled)| (planned - levelled).abs());
+            prop_assert!(planned.is_some() == levelled.is_some() && off <= Nm::new(127), "{planned:?}, not {levelled:?}: {}", done.text);
         }
     }
 
@@ -432,10 +433,10 @@ fn g_code_of_the_users_own_stays_as_it_is() {
         format!("{own}G21 G90\nG0 Z2\n{own}G0 Z2\nG0 X1 Y1\nG1 Z-0.1 F100\nG1 X4\nG0 Z2\n{own}M2\n")
     };
     let map = map(4, 5.0, bump);
-    let (plain, with) = (bent(&program(""), &map), bent(&program(own), &map));
+    let (plain, with) = (levelled(&program(""), &map), levelled(&program(own), &map));
     assert_eq!(with.text.matches(own).count(), 3, "as it was:\n{}", with.text);
     assert_eq!(with.text.replace(own, ""), plain.text, "and all else as without it");
-    assert!(plain.text != program(""), "which is bent");
+    assert!(plain.text != program(""), "which is levelled");
 }
 
 /// LinuxCNC's own interpreter takes the program, where `LCNC_ROOT` says where LinuxCNC is.
@@ -460,16 +461,16 @@ fn accepted_by_linuxcnc(text: &str, dialect: &Dialect) {
 }
 
 #[test]
-fn linuxcnc_takes_bent_programs() {
+fn linuxcnc_takes_levelled_programs() {
     let linuxcnc = Dialect::by_name("linuxcnc").expect("built in");
     let map = map(15, 5.0, bump);
     for (_, text) in programs("linuxcnc") {
-        accepted_by_linuxcnc(&bent(&text, &map).text, linuxcnc);
+        accepted_by_linuxcnc(&levelled(&text, &map).text, linuxcnc);
     }
 }
 
 #[test]
-fn the_command_bends_a_program_and_says_what_it_did() {
+fn the_command_levels_a_program_and_says_what_it_did() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures");
     let map = fixtures.join("level/grbl.log");
@@ -533,7 +534,7 @@ fn a_touch_two_millimetres_low_is_refused_by_its_place_unless_it_is_accepted() {
 }
 
 #[test]
-fn the_walkthrough_bends_its_front() {
+fn the_walkthrough_levels_its_front() {
     let folder = tempfile::TempDir::new().expect("a folder");
     let crate_root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let named = |path: &str| crate_root.join(path).to_string_lossy().into_owned();

@@ -104,7 +104,7 @@ pub enum MapError {
     },
 }
 
-/// Why a program cannot be bent to a map.
+/// Why a program cannot be levelled to a map.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LevelError {

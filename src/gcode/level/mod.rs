@@ -1,4 +1,4 @@
-//! Bending a program to the surface that the machine really has.
+//! Levelling a program: adapting it to the surface that the machine really has.
 //!
 //! A sheet of copper lies a tenth of a millimetre higher here than there, as much as a cut is deep;
 //! so machinists touch it in a grid of points before they cut. [`level()`] takes the [`HeightMap`]
@@ -18,21 +18,21 @@
 //!
 //! Tried and left: splitting at every line of the grid and evenly between them is what others do,
 //! and made programs three to ten times as long; splitting where the surface leaves the chord by
-//! more than the tolerance (Douglas and Peucker's way) makes a program on a gently bent sheet a
+//! more than the tolerance (Douglas and Peucker's way) makes a program on a gently curved sheet a
 //! tenth longer.
 
-mod bend;
 mod course;
 mod error;
 mod format;
 mod height_map;
+mod leveller;
 mod modal;
 mod outlier;
 mod touch;
 mod words;
 
-pub use bend::{Levelled, Levelling, level};
 pub use error::{LevelError, MapError};
 pub use format::{FORMATS, Format, Frame};
 pub use height_map::HeightMap;
+pub use leveller::{Levelled, Levelling, level};
 pub use outlier::Outlier;

@@ -23,7 +23,7 @@ pub fn without_own_code(text: &str) -> Cow<'_, str> {
 /// The same, without the touches of tools on their plate too: both stay as they are where a program
 /// is levelled to a surface.
 #[must_use]
-pub fn without_unbent(text: &str) -> Cow<'_, str> {
+pub fn without_unlevelled(text: &str) -> Cow<'_, str> {
     without(text, &[OWN, TOUCH_OFF])
 }
 

@@ -153,7 +153,7 @@ pub(super) fn read<'a>(
         let mut reader = Reader::new(name, bytes, options);
         reader.reading = reading;
         if let Some(list) = list {
-            reader.take_wheel(list);
+            reader.take_list(list);
         }
         reader
     };

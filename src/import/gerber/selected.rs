@@ -15,7 +15,7 @@ use super::state::Linear;
 
 impl<'a> Reader<'a> {
     /// Takes the apertures of `list` for those of the file.
-    pub(super) fn take_wheel(&mut self, list: &'a ApertureList) {
+    pub(super) fn take_list(&mut self, list: &'a ApertureList) {
         self.list = Some(list);
         for (&number, entry) in &list.entries {
             if let Entry::Known(template) = entry {

@@ -3,7 +3,7 @@
 //! A hole is a helix down to the bottom and a full turn there; what is wider than two cutters is
 //! cleared from the middle outwards. Along the wall one more turn follows at the bottom, the spring
 //! pass, which takes what the cutter left by giving way. A slot is the same round its whole length:
-//! an obround, deeper with every lap.
+//! an obround, deeper with every turn.
 //!
 //! ```text
 //!     ╭───────────────╮      the cutter's middle runs (width − cutter) / 2
@@ -17,8 +17,8 @@ use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Heights, Placement, Section, Tool};
 
-/// A lap of the helix goes down at most this part of the cutter's width. Chosen.
-const LAP: i64 = 2;
+/// A turn of the helix goes down at most this part of the cutter's width. Chosen.
+const TURN: i64 = 2;
 
 /// Whether `mill` can make this hole: it fits in, and a slot is one straight way.
 pub(super) fn fits(hole: &Hole, mill: &Tool, tolerance: Nm) -> bool {
@@ -57,7 +57,7 @@ fn reaches(width: Nm, cutter: Nm) -> Vec<Nm> {
     if last <= cutter / 2 {
         return vec![last];
     }
-    // The first lap crosses the axis, and laps a little less than a cutter apart clear everything
+    // The first turn crosses the axis, and turns a little less than a cutter apart clear everything
     // between them.
     let first = cutter * 9 / 20;
     let apart = (cutter.get() * 9 / 10).max(1);
@@ -67,13 +67,13 @@ fn reaches(width: Nm, cutter: Nm) -> Vec<Nm> {
 
 /// One obround (a circle where both ends are one) down to the bottom, and `turns` there.
 fn mill_out(head: &mut Head, a: Point, b: Point, reach: Nm, turns: u32, mill: &Tool, heights: Heights) {
-    let most = mill.width_at(Nm::ZERO) / LAP;
-    let lap = heights.step.unwrap_or(most).min(most).max(Nm::new(1));
-    let depths = Heights { step: Some(lap), ..heights };
+    let most = mill.width_at(Nm::ZERO) / TURN;
+    let turn = heights.step.unwrap_or(most).min(most).max(Nm::new(1));
+    let depths = Heights { step: Some(turn), ..heights };
     if reach == Nm::ZERO && a == b {
         head.over(a);
         depths.passes().for_each(|depth| head.plunge(depth));
-        return head.lift();
+        return head.retract();
     }
     let way = b - a;
     let aside = if a == b { Vector::new(reach, Nm::ZERO) } else { across(way, reach) };
@@ -82,7 +82,7 @@ fn mill_out(head: &mut Head, a: Point, b: Point, reach: Nm, turns: u32, mill: &T
     head.plunge(Nm::ZERO);
     depths.passes().for_each(|depth| head.descend(&laps, depth, mill.feed));
     (0..turns).for_each(|_| head.follow(&laps, mill.feed));
-    head.lift();
+    head.retract();
 }
 
 /// A vector of this length a quarter turn clockwise of `way`.

@@ -58,7 +58,7 @@ pub struct Isolation<'a> {
     pub direction: Option<Direction>,
 }
 
-/// Cuts every boundary that `role` says to cut, once, and the closed `laps` (the frame) beside.
+/// Cuts every boundary that `role` says to cut, once, and the closed `frame_cuts` beside.
 ///
 /// `name` says what people call an owner, for the warnings: one `gap-narrower-than-tool` per
 /// boundary whose clearance falls below half the kerf, that of the least depth where the tool may
@@ -66,7 +66,7 @@ pub struct Isolation<'a> {
 pub fn isolate(
     label: impl Into<String>,
     boundaries: &Boundaries,
-    laps: &[Path],
+    frame_cuts: &[Path],
     role: impl Fn(&Boundary) -> Role,
     name: impl Fn(Owner) -> String,
     settings: &Isolation<'_>,
@@ -93,7 +93,7 @@ pub fn isolate(
     if settings.direction.is_none() {
         ways.extend(boundaries.links.iter().map(|link| Way::link(link, settings)));
     }
-    ways.extend(laps.iter().map(|lap| Way::lap(lap, settings)));
+    ways.extend(frame_cuts.iter().map(|path| Way::frame_cut(path, settings)));
     (
         Section {
             tool: settings.tool.clone(),
@@ -145,7 +145,7 @@ impl<'a> Way<'a> {
         }
     }
 
-    fn lap(path: &Path, settings: &Isolation<'_>) -> Self {
+    fn frame_cut(path: &Path, settings: &Isolation<'_>) -> Self {
         Self {
             path: settings.placement.path(path),
             clearance: Cow::Borrowed(&[]),
@@ -199,7 +199,7 @@ fn vertex(path: &Path, index: usize) -> Point {
 fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move> {
     let links: Vec<Link> = ways.iter().map(|way| way.link).collect();
     let trails =
-        walk(nodes.len(), &links, WORTH * lift_seconds(settings.heights, settings.tool, settings.machine));
+        walk(nodes.len(), &links, WORTH * retract_seconds(settings.heights, settings.tool, settings.machine));
     let mut lines: Vec<Line> = trails.iter().filter_map(|trail| Line::along(ways, trail)).collect();
     let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
     let mut head = Head::new(settings.heights, settings.tool.plunge);
@@ -248,7 +248,7 @@ fn cut_line(head: &mut Head, line: &mut Line, settings: &Isolation<'_>) {
     }
 }
 
-/// A trail as one path, with the clearance at each vertex; none along a lap.
+/// A trail as one path, with the clearance at each vertex; none along a frame cut.
 struct Line {
     path: Path,
     clearance: Vec<Option<Nm>>,
@@ -338,7 +338,7 @@ const EXPECTED_HOP: Nm = Nm::from_mm(5);
 
 /// What a retract costs: up, over, down to the approach height, the plunge, and each time from a
 /// standstill to a standstill.
-pub(super) fn lift_seconds(heights: Heights, tool: &Tool, machine: &Machine) -> f64 {
+pub(super) fn retract_seconds(heights: Heights, tool: &Tool, machine: &Machine) -> f64 {
     let Heights { safe, approach, cut, .. } = heights;
     let (level, vertical) = (machine.level_acceleration(), machine.acceleration[2]);
     let stop = tool.feed.nm_per_second() / level.nm_per_s2();

@@ -18,8 +18,8 @@
 //! reads; another one may read curves otherwise, and then all programs are of another revision.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
+use crate::verify::declared::origins;
 use crate::verify::report::Finding;
-use crate::verify::stated::origins;
 use crate::verify::{Input, Program};
 
 const KIND: Diagnostic = Diagnostic {

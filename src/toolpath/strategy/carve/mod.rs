@@ -23,7 +23,7 @@ use crate::toolpath::trails::{Link, Step, walk};
 use crate::toolpath::{Heights, Machine, Placement, Section, Tool, ToolKind};
 use crate::voronoi::medial::MedialAxis;
 
-use super::isolate::{WORTH, lift_seconds};
+use super::isolate::{WORTH, retract_seconds};
 use clip::{Pass, Piece, Tip};
 use fit::Fit;
 
@@ -145,8 +145,8 @@ fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
             ways.push(Line { path: settings.placement.path(&path), depths });
         }
     }
-    let lift = WORTH * lift_seconds(settings.heights, settings.tool, settings.machine);
-    let trails = walk(nodes, &links, lift);
+    let retract = WORTH * retract_seconds(settings.heights, settings.tool, settings.machine);
+    let trails = walk(nodes, &links, retract);
     let mut lines: Vec<Line> = trails.iter().filter_map(|trail| joined(&ways, trail)).collect();
     lines.extend(axis.dots.iter().filter_map(|&dot| {
         let place = axis.nodes[dot as usize];

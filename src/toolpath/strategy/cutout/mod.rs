@@ -206,7 +206,7 @@ fn cut_ring(head: &mut Head, ring: &Ring, middles: &[f64], settings: &Cutout<'_>
         let down = Pass::new(ring, before, before, None);
         down.cut(head, Pass::new(ring, Nm::ZERO, heights.cut, settings.ramp).ramp, middles, settings);
     }
-    head.lift();
+    head.retract();
 }
 
 /// Once round a contour.

@@ -1,4 +1,4 @@
-//! What was asked for and changes nothing: told, so that nobody believes it did.
+//! Options that were given and have no effect: told, so that nobody believes they had.
 
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning, Words};
@@ -13,12 +13,12 @@ impl Settings {
     ///
     /// A settings file may have it: it is for many boards.
     #[must_use]
-    pub fn idle(&self, given: &Options) -> Option<(&'static str, Words)> {
+    pub fn without_effect(&self, given: &Options) -> Option<(&'static str, Words)> {
         let all = self.options();
         let is_wide = all.width.is_some() || all.passes.is_some() || all.clear == Some(true);
         let is_held = all.tabs != Some(0) || all.tab_spacing.is_some() || !all.tab_at.is_empty();
         let bores = self.drill_bore || self.alignment.is_some();
-        let idle = [
+        let without = [
             ("overlap", given.overlap.is_some() && !is_wide, "say {width}, {passes} or {clear} too"),
             ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "leave {drill-bore}=false out"),
             ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "say {tile} too"),
@@ -46,7 +46,10 @@ impl Settings {
                 "say {sites} core too",
             ),
         ];
-        idle.into_iter().find(|(_, is_idle, _)| *is_idle).map(|(option, _, hint)| (option, Words::of(hint)))
+        without
+            .into_iter()
+            .find(|(_, has_none, _)| *has_none)
+            .map(|(option, _, hint)| (option, Words::of(hint)))
     }
 }
 
@@ -61,8 +64,8 @@ pub(super) fn patterns<'a>(
             ids.any(|id| pattern.matches_any(&names(copper, &layer.nets, id)))
         })
     };
-    let idle = settings.strategy_for.iter().filter(|own| !means_one(&own.nets));
-    idle.map(|own| without_net(&own.nets, "it decides on no strategy")).collect()
+    let without = settings.strategy_for.iter().filter(|own| !means_one(&own.nets));
+    without.map(|own| without_net(&own.nets, "it decides on no strategy")).collect()
 }
 
 /// Warns of each isolating tool that cuts nothing on any side: a wider or a finer one cuts all it
@@ -71,23 +74,24 @@ pub(super) fn tools(layers: &[Layer], settings: &Settings) -> Vec<Warning> {
     let tools = settings.isolation.iter().map(|cutting| &cutting.tool);
     let cuts =
         |name: &str| layers.iter().flat_map(|layer| &layer.sections).any(|section| section.tool.name == name);
-    let idle = tools.filter(|tool| !layers.is_empty() && !cuts(&tool.name));
-    idle.map(|tool| {
-        let message =
-            format!("`{}` cuts nothing: it fits nowhere, or the other tools leave it nothing", tool.name);
-        planning::TOOL_CUTS_NOTHING.warning(message)
-    })
-    .collect()
+    let without = tools.filter(|tool| !layers.is_empty() && !cuts(&tool.name));
+    without
+        .map(|tool| {
+            let message =
+                format!("`{}` cuts nothing: it fits nowhere, or the other tools leave it nothing", tool.name);
+            planning::TOOL_CUTS_NOTHING.warning(message)
+        })
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn idle(text: &str) -> Option<&'static str> {
+    fn without_effect(text: &str) -> Option<&'static str> {
         let given = Options::from_toml("f", text).expect(text);
         let settings = Settings::resolve(given.clone()).expect(text);
-        settings.idle(&given).map(|(option, _)| option)
+        settings.without_effect(&given).map(|(option, _)| option)
     }
 
     #[test]
@@ -101,16 +105,20 @@ mod tests {
             ("alignment-margin = \"9mm\"", "alignment-holes = \"3mm\""),
         ] {
             let name = alone.split(' ').next();
-            assert_eq!(idle(alone), name, "{alone}");
-            assert_eq!(idle(&format!("{alone}\n{other}")), None, "{alone} with {other}");
+            assert_eq!(without_effect(alone), name, "{alone}");
+            assert_eq!(without_effect(&format!("{alone}\n{other}")), None, "{alone} with {other}");
         }
-        assert_eq!(idle("tabs = 0\ntab-width = \"3mm\""), Some("tab-width"), "no tab");
-        assert_eq!(idle("frame = false\nframe-margin = \"1mm\""), Some("frame-margin"), "no lap");
+        assert_eq!(without_effect("tabs = 0\ntab-width = \"3mm\""), Some("tab-width"), "no tab");
         assert_eq!(
-            idle("drill-depth = \"2mm\"\nbreak-through = \"1mm\""),
+            without_effect("frame = false\nframe-margin = \"1mm\""),
+            Some("frame-margin"),
+            "no frame cut"
+        );
+        assert_eq!(
+            without_effect("drill-depth = \"2mm\"\nbreak-through = \"1mm\""),
             Some("break-through"),
             "one depth"
         );
-        assert_eq!(idle(""), None, "nothing was given");
+        assert_eq!(without_effect(""), None, "nothing was given");
     }
 }

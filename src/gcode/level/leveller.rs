@@ -6,7 +6,7 @@
 use std::fmt::Write as _;
 
 use super::words::{Pointer, Word, words};
-use crate::gcode::read::{Listing, Motion, Place, Way, lines, read, without_unbent};
+use crate::gcode::read::{Listing, Motion, Place, Way, lines, read, without_unlevelled};
 use crate::geometry::{Arc, Nm, Point};
 
 use super::course::Course;
@@ -14,7 +14,7 @@ use super::error::LevelError;
 use super::height_map::HeightMap;
 use super::modal::{Modal, arc_word};
 
-/// How a program is bent.
+/// How a program is levelled.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Levelling {
     /// How far the tool may leave its depth below the surface between the points where the program
@@ -23,8 +23,8 @@ pub struct Levelling {
     /// How far outside the touched area the program may cut; the surface is taken to go on level
     /// there.
     pub margin: Nm,
-    /// The height from which on nothing is bent; none for the height of the program's lowest level
-    /// rapid.
+    /// The height from which on nothing is levelled; none for the height of the program's lowest
+    /// level rapid.
     pub safe: Option<Nm>,
     /// What the program says of it, in a comment before its first word.
     pub note: String,
@@ -38,7 +38,7 @@ impl Default for Levelling {
     }
 }
 
-/// A bent program.
+/// A levelled program.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Levelled {
     /// The program.
@@ -46,14 +46,14 @@ pub struct Levelled {
     /// The height from which on it is as it was.
     pub safe: Nm,
     /// How many motions go below that.
-    pub bent: usize,
+    pub levelled: usize,
     /// How many lines were added to split them.
     pub added: usize,
     /// The lowest and highest surface below them; none where nothing goes below the safe height.
     pub heights: Option<[Nm; 2]>,
 }
 
-/// Bends a program to the surface of `map`. The user's own G-code and the touch of a tool within
+/// Levels a program to the surface of `map`. The user's own G-code and the touch of a tool within
 /// one of ours stay as they are: what follows them says anew what is in force and where it goes.
 ///
 /// # Errors
@@ -61,7 +61,7 @@ pub struct Levelled {
 /// [`LevelError`] for a program that cannot be followed, that cuts outside the touched area, that
 /// goes down before it says where, or that travels lower than the surface is high.
 pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Levelled, LevelError> {
-    let ours = without_unbent(text);
+    let ours = without_unlevelled(text);
     let listing = read(&ours)?;
     if let Some((line, what)) = listing.indirect {
         return Err(LevelError::Indirect { line, what });
@@ -71,22 +71,22 @@ pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Level
     if height >= safe {
         return Err(LevelError::High { height, x: place.x, y: place.y, safe });
     }
-    let mut bender = Bender::new(map, levelling, safe);
+    let mut leveller = Leveller::new(map, levelling, safe);
     let mut motions = listing.motions.chunk_by(|a, b| a.line == b.line).peekable();
     for ((number, source), ours) in (1_u32..).zip(lines(text)).zip(lines(&ours)) {
         let own = motions.next_if(|own| own[0].line == number).unwrap_or_default();
         if listing.end.is_some_and(|end| number > end) || ours != source {
-            bender.lines.push(source.to_owned());
+            leveller.lines.push(source.to_owned());
         } else {
-            bender.line(Pointer { line: number, source }, own)?;
+            leveller.line(Pointer { line: number, source }, own)?;
         }
     }
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
-    let mut out = bender.lines.join(end);
+    let mut out = leveller.lines.join(end);
     if text.ends_with('\n') {
         out.push_str(end);
     }
-    Ok(Levelled { text: out, safe, ..bender.done })
+    Ok(Levelled { text: out, safe, ..leveller.done })
 }
 
 /// The height of the lowest level rapid, or where there is none the highest z.
@@ -99,13 +99,13 @@ fn travel(listing: &Listing) -> Nm {
     listing.motions.iter().filter_map(level).min().or_else(highest).unwrap_or(Nm::ZERO)
 }
 
-struct Bender<'a> {
+struct Leveller<'a> {
     map: &'a HeightMap,
     slope: f64,
     levelling: &'a Levelling,
     safe: Nm,
     modal: Modal,
-    /// Where the bent program is; in x and y, at the end of a line, where the program is.
+    /// Where the levelled program is; in x and y, at the end of a line, where the program is.
     at: Place,
     /// Z and R of the last drilling cycle.
     cycle: Option<(Nm, Nm)>,
@@ -114,9 +114,9 @@ struct Bender<'a> {
     done: Levelled,
 }
 
-impl<'a> Bender<'a> {
+impl<'a> Leveller<'a> {
     fn new(map: &'a HeightMap, levelling: &'a Levelling, safe: Nm) -> Self {
-        let done = Levelled { text: String::new(), safe, bent: 0, added: 0, heights: None };
+        let done = Levelled { text: String::new(), safe, levelled: 0, added: 0, heights: None };
         Self {
             map,
             slope: map.slope(),
@@ -174,7 +174,7 @@ impl<'a> Bender<'a> {
         Ok(())
     }
 
-    /// Where the pieces of a motion end, bent; one alone where it need not be split.
+    /// Where the pieces of a motion end, levelled; one alone where it need not be split.
     fn ends(&mut self, motion: &Motion) -> Result<Vec<Place>, LevelError> {
         let (from, to) = (motion.from, motion.to);
         if !self.is_low(from.z) && !self.is_low(to.z) {
@@ -187,7 +187,7 @@ impl<'a> Bender<'a> {
             (_, start) => Course::Line { from: start.unwrap_or(end), to: end },
         };
         self.stay_inside(&course, motion.line)?;
-        self.done.bent += 1;
+        self.done.levelled += 1;
         let below = from.z.or(to.z).unwrap_or(Nm::ZERO);
         let rise = to.z.map_or(0.0, |z| (z - below).to_f64());
         let splits = course.splits(self.map, self.slope, self.levelling.tolerance);
@@ -200,7 +200,7 @@ impl<'a> Bender<'a> {
                 let (x, y) = course.at(fraction);
                 (self.snapped(Point::from_f64(x, y)), Some(below + Nm::from_f64(rise * fraction)))
             };
-            ends.push(Place { x: Some(point.x), y: Some(point.y), z: z.map(|z| self.bent(point, z)) });
+            ends.push(Place { x: Some(point.x), y: Some(point.y), z: z.map(|z| self.levelled(point, z)) });
         }
         Ok(ends)
     }
@@ -210,7 +210,7 @@ impl<'a> Bender<'a> {
     }
 
     /// The height that z below the safe height becomes over a point.
-    fn bent(&mut self, point: Point, z: Nm) -> Nm {
+    fn levelled(&mut self, point: Point, z: Nm) -> Nm {
         if z >= self.safe {
             return z;
         }
@@ -293,8 +293,8 @@ impl<'a> Bender<'a> {
         let mut given = (bottom, retract);
         if self.is_low(Some(bottom)) {
             self.stay_inside(&Course::Line { from: hole, to: hole }, line)?;
-            self.done.bent += 1;
-            given = (self.bent(hole, bottom), self.bent(hole, retract));
+            self.done.levelled += 1;
+            given = (self.levelled(hole, bottom), self.levelled(hole, retract));
         }
         let mut text = pointer.source.to_owned();
         let (bottom_before, retract_before) = self.cycle.unzip();

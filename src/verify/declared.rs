@@ -9,7 +9,7 @@ use super::{Cutter, Role};
 
 /// What the comments of a program say.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Stated {
+pub(super) struct Declared {
     /// The tools, each with the line from which it is in the spindle.
     pub(super) cutters: Vec<(u32, Cutter)>,
     /// What the program is for.
@@ -24,16 +24,16 @@ pub(super) struct Stated {
     pub(super) mirror: Option<Nm>,
 }
 
-impl Stated {
+impl Declared {
     /// Reads the comments of `text`.
     pub(super) fn read(text: &str) -> Self {
-        let mut stated = Self::default();
+        let mut declared = Self::default();
         for (line, number) in lines(text).zip(1_u32..) {
             for comment in comments(line) {
-                stated.comment(comment.trim(), number);
+                declared.comment(comment.trim(), number);
             }
         }
-        stated
+        declared
     }
 
     fn comment(&mut self, comment: &str, line: u32) {
@@ -73,7 +73,7 @@ impl Stated {
 /// A long value stands in several comments; what no comment can hold is `^` and two hexadecimal
 /// digits for each byte.
 #[must_use]
-pub fn said(text: &str, setting: &str) -> Option<String> {
+pub fn declared_setting(text: &str, setting: &str) -> Option<String> {
     let value =
         |comment: &str| Some(comment.trim().strip_prefix(setting)?.strip_prefix(' ')?.trim().to_owned());
     let parts: Vec<String> = lines(text).take(HEADER).flat_map(comments).filter_map(value).collect();
@@ -160,19 +160,19 @@ mod tests {
     fn our_own_comments_are_understood() {
         let text = "(blinker back isolation)\n(tool vbit:0.1mm:30deg)\n(origin lower-left)\n\
                     (mirrored left to right about the vertical line x = 12.500 mm)\nG21\n(fit tool 2: endmill:1mm)\n";
-        let stated = Stated::read(text);
-        assert_eq!(stated.role, Some(Role::Isolation(Side::Back)), "from the title");
-        assert_eq!(stated.mirror, Some(Nm::from_um(12_500)), "the axis");
-        assert_eq!(stated.origin.as_deref(), Some("lower-left"), "the origin");
-        let lines: Vec<u32> = stated.cutters.iter().map(|(line, _)| *line).collect();
+        let declared = Declared::read(text);
+        assert_eq!(declared.role, Some(Role::Isolation(Side::Back)), "from the title");
+        assert_eq!(declared.mirror, Some(Nm::from_um(12_500)), "the axis");
+        assert_eq!(declared.origin.as_deref(), Some("lower-left"), "the origin");
+        let lines: Vec<u32> = declared.cutters.iter().map(|(line, _)| *line).collect();
         assert_eq!(lines, [2, 6], "each from its line on");
-        assert_eq!(said(text, "origin").as_deref(), Some("lower-left"), "a setting");
+        assert_eq!(declared_setting(text, "origin").as_deref(), Some("lower-left"), "a setting");
         let long = "(ignore NET-^28D1-K^29 A^2A)\n(ignore gr^C3^B6n)\n(made by x)\n";
         assert_eq!(
-            said(long, "ignore").as_deref(),
+            declared_setting(long, "ignore").as_deref(),
             Some("NET-(D1-K) A* gr\u{f6}n"),
             "in parts, as it was meant"
         );
-        assert_eq!(said(text, "ignore"), None, "none");
+        assert_eq!(declared_setting(text, "ignore"), None, "none");
     }
 }
