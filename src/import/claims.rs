@@ -3,8 +3,9 @@
 use super::advice::{LEAVE_ASIDE, quoted};
 use super::archive::Gathered;
 use super::error::Error;
+use super::format::Kind;
 use super::jobfile::Job;
-use super::layers::{self, Kind};
+use super::layers;
 use super::naming;
 use super::selection::Selection;
 use super::unusable::{Form, Meant, Unusable, is_binary_drill};

@@ -7,7 +7,8 @@
 use super::advice::quoted;
 use super::archive::{Found, Gathered};
 use super::error::{Error, find, locate};
-use super::layers::{self, Kind, Role};
+use super::format::Kind;
+use super::layers::{self, Role};
 use super::naming;
 use super::selection::Selection;
 use super::vote::{Vote, Witness};

@@ -31,34 +31,6 @@ pub(super) enum Role {
     Other(&'static str),
 }
 
-/// What kind of file it is, by content.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Kind {
-    /// Gerber.
-    Gerber,
-    /// Excellon.
-    Excellon,
-    /// A KiCad board, which has all layers.
-    Kicad,
-    /// Neither.
-    Unknown,
-}
-
-impl Kind {
-    /// Looks at the content.
-    pub(super) fn of(bytes: &[u8]) -> Self {
-        if super::kicad::looks_like(bytes) {
-            Self::Kicad
-        } else if excellon::looks_like(bytes) {
-            Self::Excellon
-        } else if super::gerber::looks_like(bytes) {
-            Self::Gerber
-        } else {
-            Self::Unknown
-        }
-    }
-}
-
 /// The value of `.FileFunction`, wherever in the head of a file it stands.
 pub(super) fn function_of(bytes: &[u8]) -> Option<String> {
     const NAME: &[u8] = b"TF.FileFunction,";

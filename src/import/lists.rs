@@ -9,8 +9,8 @@ use std::path::Path;
 
 use super::archive::{Found, Gathered, name_of, read_file};
 use super::error::Error;
+use super::format::Kind;
 use super::gerber::{self, ApertureList, Image, Options};
-use super::layers::Kind;
 use super::naming::stem;
 
 impl Gathered {

@@ -10,8 +10,8 @@ use super::build::{Build, Loaded};
 use super::describe::describe;
 use super::error::Error;
 use super::excellon::{self, Context};
+use super::format::Kind;
 use super::gerber::{ApertureList, Image};
-use super::layers::Kind;
 use super::selection::{Need, Selection};
 use super::vote::Assigned;
 use super::{drawing_board, gerber_drill, kicad, off_board, outline, picture_board, whole_board};
@@ -265,13 +265,7 @@ impl Build {
             let file = &gathered.files[*index];
             self.sources.push(Source {
                 file: file.name.clone(),
-                format: match file.kind {
-                    Kind::Gerber => "gerber",
-                    Kind::Excellon => "excellon",
-                    Kind::Kicad => "kicad-pcb",
-                    Kind::Unknown => "unknown",
-                }
-                .to_owned(),
+                format: file.kind.name().to_owned(),
                 role: format!("ignored ({what})"),
                 units: String::new(),
                 number_format: String::new(),

@@ -54,6 +54,7 @@ mod raster;
 mod real_boards;
 mod resolutions;
 mod rules;
+mod sets;
 mod snapshot;
 mod strategies;
 mod thinning;

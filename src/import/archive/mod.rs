@@ -11,9 +11,9 @@ use std::io::{self, Read};
 use std::path::{Component, Path, PathBuf};
 
 use super::error::{self, Error, locate};
+use super::format::Kind;
 use super::gerber::ApertureList;
 use super::jobfile::Job;
-use super::layers::Kind;
 use super::unusable::Unusable;
 use crate::board::{SourceSpan, Words};
 
