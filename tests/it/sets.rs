@@ -1,4 +1,4 @@
-//! Open sets are lists: a member is a file of its own and a line in the list, and none is forgotten.
+//! Open sets are lists: a member is a file of its own and a line in the list; none is forgotten.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -32,10 +32,12 @@ fn text(file: &str) -> String {
 /// The names that stand before `::` in a list of constants.
 fn listed(file: &str, list: &str) -> BTreeSet<String> {
     let text = text(file);
-    let body = text.split(list).nth(1).expect("the list").split("];").next().expect("its end").to_owned();
+    let after = text.split(list).nth(1).expect("the list");
+    let (_, after) = after.split_once('=').expect("what it is");
+    let body = after.split("];").next().expect("its end");
     let name =
-        |entry: &str| Some(entry.trim().trim_start_matches(['[', '&']).split_once("::")?.0.trim().to_owned());
-    body.split_once('[').expect("a list").1.split(',').filter_map(name).collect()
+        |entry: &str| Some(entry.trim().trim_start_matches(['&', '[']).trim().split_once("::")?.0.to_owned());
+    body.split(',').filter_map(name).collect()
 }
 
 #[test]
@@ -50,8 +52,8 @@ fn every_format_of_files_is_a_folder_and_an_entry() {
     let of_layers =
         import::FORMATS.iter().map(|format| format.name.split('-').next().expect("a name").to_owned());
     let mut expected: BTreeSet<String> = of_layers.collect();
-    // Those of drawings, pictures, and what edges are joined by.
-    expected.extend(["drawing", "picture", "outline"].map(ToOwned::to_owned));
+    // Those of drawings, pictures, what edges are joined by, and what files lie in.
+    expected.extend(["drawing", "picture", "outline", "archive"].map(ToOwned::to_owned));
     assert_eq!(folders("import"), expected, "layers and boards");
     let drawings: BTreeSet<String> = drawing::FORMATS.iter().map(|format| format.name.to_owned()).collect();
     assert_eq!(folders("import/drawing"), drawings, "drawings");
