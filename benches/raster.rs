@@ -9,6 +9,9 @@
 
 mod usage;
 
+#[path = "../tests/it/random.rs"]
+mod random;
+
 use std::path::Path;
 use std::time::Instant;
 
@@ -17,16 +20,14 @@ use voromill::raster::{
     Buffers, Caps, Label, Options, Picker, PixelPoint, Scene, Sides, SubPx, Surface, render, stream,
 };
 
+use random::splitmix64;
+
 /// SplitMix64: the same scene on every machine.
 struct Random(u64);
 
 impl Random {
     fn below(&mut self, limit: i32) -> i32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let high = (z ^ (z >> 31)) >> 32;
+        let high = splitmix64(&mut self.0) >> 32;
         i32::try_from((high * u64::from(limit.unsigned_abs())) >> 32).expect("below the limit")
     }
 }

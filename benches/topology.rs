@@ -1,21 +1,22 @@
 //! Time to find the nets of layers of 10³ … 10⁶ features: per feature it should stay the same.
 
+#[path = "../tests/it/random.rs"]
+mod random;
+
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 use voromill::board::{Attributes, Axis, Copper, Feature, Shape, Side};
 use voromill::geometry::{Nm, Point, Polygon, Rect, Vector};
 use voromill::topology::{Method, recover, smallest_gap};
 
+use random::splitmix64;
+
 /// A splitmix64 generator: the same layer on every machine.
 struct Random(u64);
 
 impl Random {
     fn below(&mut self, bound: i64) -> i64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        i64::try_from((z ^ (z >> 31)) >> 33).expect("31 bits") % bound
+        i64::try_from(splitmix64(&mut self.0) >> 33).expect("31 bits") % bound
     }
 }
 

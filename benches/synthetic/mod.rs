@@ -2,7 +2,12 @@
 //! fine-pitch field, a plane with thermals or a field of holes with traces between, all of it with
 //! gaps of 0.2 mm and more.
 
+#[path = "../../tests/it/random.rs"]
+mod random;
+
 use std::fmt::Write as _;
+
+use random::splitmix64;
 
 /// Millimetres along a side of a tile.
 const TILE: i64 = 10;
@@ -12,11 +17,7 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, bound: u64) -> i64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        i64::try_from((((z ^ (z >> 31)) >> 32) * bound) >> 32).expect("32 bits")
+        i64::try_from(((splitmix64(&mut self.0) >> 32) * bound) >> 32).expect("32 bits")
     }
 }
 

@@ -1,18 +1,19 @@
 //! Boards at random that look like boards: chips and passive parts on a grid, traces between pads
 //! where there is room, on some of them a plane.
 
+#[path = "../../tests/it/random.rs"]
+mod splitmix;
+
 use std::fmt::Write as _;
+
+use splitmix::splitmix64;
 
 /// A splitmix64 generator: the same boards on every machine.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        splitmix64(&mut self.0)
     }
 
     /// From `low` to `high`, both included.

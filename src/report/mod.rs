@@ -30,6 +30,7 @@ pub mod terminal;
 pub mod thinning;
 pub mod translucent;
 pub mod verdict;
+mod xml;
 
 pub use canvas::Canvas;
 pub use document::Document;

@@ -14,6 +14,7 @@ use crate::topology::NetId;
 use super::ink::{Ink, pen, units};
 use super::palette::{Rgb, vivid};
 use super::picture::{Shown, Ways};
+use super::xml::escaped;
 
 /// What is drawn over the copper.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,10 +101,6 @@ pub fn side(shown: &Shown<'_>, area: Rect, over: Over) -> String {
 /// The attributes of lines.
 fn line(colour: &str, opacity: f64) -> String {
     format!("stroke=\"{colour}\" stroke-opacity=\"{opacity}\" fill=\"none\"")
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// In user units, halves up.

@@ -10,6 +10,7 @@ use crate::board::Side;
 use crate::verify::{Finding, Report, Severity, check};
 
 use super::quantity::{Millimetres, Place, SCHEMA_VERSION, json as to_json};
+use super::xml::escaped;
 
 /// A verdict as data.
 #[derive(Clone, Debug, Serialize)]
@@ -246,7 +247,7 @@ impl Verdict {
             let _ = write!(text, "<testcase classname=\"voromill\" name=\"{}\">", check.kind.code);
             if let Some(first) = found.first() {
                 let lines: String = found.iter().map(|f| format!("{}{}\n", place(f), f.message)).collect();
-                let (message, lines) = (escape(&first.message), escape(&lines));
+                let (message, lines) = (escaped(&first.message), escaped(&lines));
                 let _ = write!(text, "<failure message=\"{message}\">{lines}</failure>");
             }
             text.push_str("</testcase>\n");
@@ -310,8 +311,4 @@ fn place(finding: &FindingEntry) -> String {
         text.push_str(": ");
     }
     text
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -12,6 +12,21 @@ pub(crate) struct RectIndex {
     tree: StaticAABB2DIndex<i64>,
 }
 
+/// Boxes by place, numbered as they come, each as left, bottom, right and top; none where there is
+/// no box.
+pub(crate) fn boxes(boxes: impl ExactSizeIterator<Item = [f64; 4]>) -> Option<StaticAABB2DIndex<f64>> {
+    let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
+    for [left, bottom, right, top] in boxes {
+        builder.add(left, bottom, right, top);
+    }
+    builder.build().ok()
+}
+
+/// The box round two places.
+pub(crate) fn spanned(a: (f64, f64), b: (f64, f64)) -> [f64; 4] {
+    [a.0.min(b.0), a.1.min(b.1), a.0.max(b.0), a.1.max(b.1)]
+}
+
 impl RectIndex {
     /// The index of `rects`, numbered as they come.
     pub(crate) fn new(rects: impl ExactSizeIterator<Item = Rect>) -> Self {

@@ -43,7 +43,7 @@ pub use differences::{Differences, Missed, Reason, differences};
 pub use electrical::{Electrical, ElectricalNet, electrical};
 pub use extent::{Extent, extents};
 pub use gap::{Gap, smallest_gap};
-pub(crate) use index::RectIndex;
+pub(crate) use index::{RectIndex, boxes, spanned};
 pub use names::{islands_of_names, names_check};
 pub use nets::{Net, NetId, Nets};
 pub use proximity::{Near, Proximity};

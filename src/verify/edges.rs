@@ -1,8 +1,9 @@
 //! Distances to the edges of areas, by an index of boxes.
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Polygon;
+use crate::topology::{boxes, spanned};
 
 /// A point in nanometres.
 type Spot = (f64, f64);
@@ -26,11 +27,8 @@ impl Edges {
     pub(super) fn new(areas: &[Polygon]) -> Self {
         let edges: Vec<(Spot, Spot)> =
             areas.iter().flat_map(Polygon::edges).map(|(a, b)| (a.to_f64(), b.to_f64())).collect();
-        let mut builder = StaticAABB2DIndexBuilder::new(edges.len());
-        for (a, b) in &edges {
-            builder.add(a.0.min(b.0), a.1.min(b.1), a.0.max(b.0), a.1.max(b.1));
-        }
-        Self { edges, tree: builder.build().ok() }
+        let tree = boxes(edges.iter().map(|&(a, b)| spanned(a, b)));
+        Self { edges, tree }
     }
 
     /// Where the horizontal line at `y` crosses edges.

@@ -8,17 +8,14 @@ use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
 
 use crate::oracle::distance::distances;
 use crate::oracle::polyline;
+use crate::random::splitmix64;
 
 /// A splitmix64 generator.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     pub(crate) fn below(&mut self, bound: i64) -> i64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let high = i64::from(u32::try_from((z ^ (z >> 31)) >> 33).expect("31 bits"));
+        let high = i64::from(u32::try_from(splitmix64(&mut self.0) >> 33).expect("31 bits"));
         (high * bound) >> 31
     }
 }

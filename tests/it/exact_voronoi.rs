@@ -9,7 +9,9 @@ use voromill::topology::{self, Method, NetId, Nets};
 use voromill::voronoi::{Diagram, Owner, Settings, exact};
 
 use crate::oracle::field::Spot;
+use crate::oracle::parabola::parabola;
 use crate::oracle::polyline;
+use crate::random::splitmix64;
 
 /// Curves by the two nets that they part.
 type Curves = BTreeMap<(NetId, NetId), Vec<Vec<Spot>>>;
@@ -19,11 +21,7 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, bound: i32) -> i32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        let high = (z ^ (z >> 31)) >> 33;
+        let high = splitmix64(&mut self.0) >> 33;
         i32::try_from((high * u64::from(bound.unsigned_abs())) >> 31).expect("below the bound")
     }
 }
@@ -147,31 +145,7 @@ fn curve(
         }
         [(_, None), (_, None)] | [(_, Some(_)), (_, Some(_))] => return Some(vec![from, to]),
     };
-    Some(parabola(point, line, from, to))
-}
-
-/// Points equally far from `focus` and a line, between two of them, so close together that chords
-/// are within some nanometres.
-fn parabola(focus: Spot, [a, b]: [Spot; 2], from: Spot, to: Spot) -> Vec<Spot> {
-    let way = [b[0] - a[0], b[1] - a[1]];
-    let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
-    let along = way.map(|x| x / length);
-    let local = |p: Spot| {
-        let off = [p[0] - a[0], p[1] - a[1]];
-        [off[0] * along[0] + off[1] * along[1], off[1] * along[0] - off[0] * along[1]]
-    };
-    let [x, height] = local(focus);
-    let (start, end) = (local(from)[0], local(to)[0]);
-    let count = ((end - start).abs() / 3_000.0).ceil().max(1.0);
-    let mut points = Vec::new();
-    let mut place = 0.0;
-    while place <= count {
-        let u = start + (end - start) * place / count;
-        let v = ((u - x) * (u - x) / height + height) / 2.0;
-        points.push([a[0] + along[0] * u - along[1] * v, a[1] + along[1] * u + along[0] * v]);
-        place += 1.0;
-    }
-    points
+    Some(parabola(point, line, from, to, |length, _| (length / 3_000.0).ceil().max(1.0)))
 }
 
 /// What voromill has between different nets.

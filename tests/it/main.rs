@@ -49,6 +49,7 @@ mod pictures;
 mod planner;
 mod pocket;
 mod programs;
+mod random;
 mod random_boards;
 mod raster;
 mod real_boards;

@@ -10,6 +10,7 @@ use voromill::voronoi::medial::{MedialAxis, Pruning};
 
 use crate::certified_diagram::Random;
 use crate::oracle::field::Spot;
+use crate::oracle::parabola::parabola;
 use crate::oracle::polyline;
 
 /// Areas with holes: random rings on a grid, less others.
@@ -115,7 +116,7 @@ fn exact(area: &Polygon) -> Option<Vec<Curve>> {
         };
         let points = match sites {
             [(a, Some(end)), (b, None)] | [(b, None), (a, Some(end))] => {
-                parabola(ends(a)[end], ends(b), from, to)
+                parabola(ends(a)[end], ends(b), from, to, chords)
             }
             [(_, None), (_, None)] | [(_, Some(_)), (_, Some(_))] => vec![from, to],
         };
@@ -139,29 +140,10 @@ fn site(diagram: &Exact, edge: EdgeIndex) -> (usize, Option<usize>) {
     (cell.source_index().usize(), end)
 }
 
-/// Points equally far from `focus` and a line, between two of them.
-fn parabola(focus: Spot, [a, b]: [Spot; 2], from: Spot, to: Spot) -> Vec<Spot> {
-    let way = [b[0] - a[0], b[1] - a[1]];
-    let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
-    let along = way.map(|x| x / length);
-    let local = |p: Spot| {
-        let off = [p[0] - a[0], p[1] - a[1]];
-        [off[0] * along[0] + off[1] * along[1], off[1] * along[0] - off[0] * along[1]]
-    };
-    let [x, height] = local(focus);
-    let (start, end) = (local(from)[0], local(to)[0]);
-    // Chords stay within some nanometres of it.
+/// How many chords stay within some nanometres of a parabola.
+fn chords(length: f64, height: f64) -> f64 {
     let step = (height.abs() / 20.0).clamp(50.0, 10_000.0);
-    let count = ((end - start).abs() / step).ceil().clamp(4.0, 20_000.0);
-    let mut points = Vec::new();
-    let mut place = 0.0;
-    while place <= count {
-        let u = start + (end - start) * place / count;
-        let v = ((u - x) * (u - x) / height + height) / 2.0;
-        points.push([a[0] + along[0] * u - along[1] * v, a[1] + along[1] * u + along[0] * v]);
-        place += 1.0;
-    }
-    points
+    (length / step).ceil().clamp(4.0, 20_000.0)
 }
 
 /// Whether a place lies inside, by crossings.

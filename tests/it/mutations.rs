@@ -17,6 +17,7 @@ use rayon::prelude::*;
 use voromill::import::{Loaded, load};
 
 use crate::layers::boards;
+use crate::random::splitmix64;
 use crate::real_boards;
 
 /// What is done to a board.
@@ -104,11 +105,7 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, end: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut bits = self.0;
-        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        usize::try_from((bits ^ (bits >> 31)) % end.max(1) as u64).expect("below a usize")
+        usize::try_from(splitmix64(&mut self.0) % end.max(1) as u64).expect("below a usize")
     }
 }
 

@@ -6,6 +6,7 @@
 use std::fmt::Write as _;
 
 use crate::geometry::{Arc, Nm, Path, Point, Rect, Segment, Turn};
+use crate::report::xml::escaped;
 
 use super::outline::outline;
 use super::sheet::Sheet;
@@ -32,10 +33,6 @@ pub fn drawing(sheet: &Sheet) -> String {
     }
     text.push_str("</g>\n</svg>\n");
     text
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
 }
 
 /// As short as it is exact.

@@ -28,6 +28,7 @@ pub use motion::{Machined, ProgramDrawing, ToolUse};
 
 use super::Document;
 use super::ink::{Ink, place, um};
+use super::xml::escaped;
 
 /// What a page shows.
 #[derive(Clone, Debug, Serialize)]
@@ -144,8 +145,8 @@ impl Page<'_> {
         // Within a script nothing but its end has a meaning.
         let data = self.to_json().replace('<', "\\u003c");
         let parts = [
-            ("{{title}}", escape(&self.report.board)),
-            ("{{generator}}", escape(&self.report.generator)),
+            ("{{title}}", escaped(&self.report.board)),
+            ("{{generator}}", escaped(&self.report.generator)),
             ("{{style}}", include_str!("../html/page.css").to_owned()),
             ("{{script}}", SCRIPTS.concat()),
             ("{{data}}", data),
@@ -170,8 +171,4 @@ fn fill(template: &str, parts: &[(&str, String)]) -> String {
     }
     page.push_str(rest);
     page
-}
-
-fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }

@@ -1,9 +1,10 @@
 //! What a program mills: how deep at each place, exactly for a cone that moves straight.
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::gcode::read::{Listing, Motion, Way};
 use crate::geometry::{Arc, Nm, Rect};
+use crate::topology::boxes;
 use crate::verify::cutter::Cutter;
 use crate::verify::edges::length;
 
@@ -42,12 +43,8 @@ impl Milled {
         for (listing, cutter) in programs {
             listing.motions.iter().for_each(|motion| swept(motion, cutter, chord, &mut sweeps));
         }
-        let mut builder = StaticAABB2DIndexBuilder::new(sweeps.len());
-        for sweep in &sweeps {
-            let [left, bottom, right, top] = sweep.bounds();
-            builder.add(left, bottom, right, top);
-        }
-        Self { sweeps, tree: builder.build().ok() }
+        let tree = boxes(sweeps.iter().map(Sweep::bounds));
+        Self { sweeps, tree }
     }
 
     /// How deep it is milled at a place; zero where it is not.

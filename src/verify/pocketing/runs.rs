@@ -6,10 +6,10 @@
 //! ```
 
 use rayon::prelude::*;
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::{Point, Polygon};
-use crate::topology::DisjointSets;
+use crate::topology::{DisjointSets, boxes, spanned};
 use crate::verify::edges::{Edges, length};
 
 /// A point in nanometres.
@@ -79,16 +79,12 @@ const FAR: f64 = 1e10;
 
 impl Sweeps {
     pub(super) fn new(sweeps: Vec<Sweep>) -> Self {
-        let mut builder = StaticAABB2DIndexBuilder::new(sweeps.len());
-        for Sweep { from, to, radius, .. } in &sweeps {
-            builder.add(
-                from.0.min(to.0) - radius,
-                from.1.min(to.1) - radius,
-                from.0.max(to.0) + radius,
-                from.1.max(to.1) + radius,
-            );
-        }
-        Self { sweeps, tree: builder.build().ok() }
+        let reach = |sweep: &Sweep| {
+            let ([left, bottom, right, top], radius) = (spanned(sweep.from, sweep.to), sweep.radius);
+            [left - radius, bottom - radius, right + radius, top + radius]
+        };
+        let tree = boxes(sweeps.iter().map(reach));
+        Self { sweeps, tree }
     }
 
     /// Whether a place was swept before a motion, no less deep than `least`.

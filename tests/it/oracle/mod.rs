@@ -2,5 +2,6 @@
 
 pub(crate) mod distance;
 pub(crate) mod field;
+pub(crate) mod parabola;
 pub(crate) mod polyline;
 pub(crate) mod raster;

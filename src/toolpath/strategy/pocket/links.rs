@@ -10,8 +10,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
+use crate::topology::{boxes, spanned};
 use crate::voronoi::medial::nest::Nest;
 
 use super::course::{Course, Spot, between, distance, part_nearest};
@@ -54,12 +55,9 @@ struct Level {
 
 impl Level {
     fn new(segments: Vec<(usize, usize)>, courses: &[Course]) -> Self {
-        let mut builder = StaticAABB2DIndexBuilder::new(segments.len());
-        for &(number, i) in &segments {
-            let [a, b] = courses[number].segment(i);
-            builder.add(a.0.min(b.0), a.1.min(b.1), a.0.max(b.0), a.1.max(b.1));
-        }
-        Self { segments, tree: builder.build().ok() }
+        let ends = |&(number, i): &(usize, usize)| courses[number].segment(i);
+        let tree = boxes(segments.iter().map(ends).map(|[a, b]| spanned(a, b)));
+        Self { segments, tree }
     }
 
     /// Shows the segments within a box of `reach` round `p`.
