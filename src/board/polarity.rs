@@ -31,7 +31,7 @@ impl Polarity {
     }
 }
 
-/// The most vertices that erasing may take in, all features together, [`CROSSINGS`] that may be
+/// The most vertices that erasing may take in, all features together, eight crossings that may be
 /// counting as one. Chosen: below ten seconds of work; a plane from which ten thousand rings are
 /// erased takes in a million.
 pub const EFFORT: u64 = 8_000_000;

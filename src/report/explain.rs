@@ -1,7 +1,7 @@
 //! What each code means: what was found, what it does to the board, and what to try.
 //!
 //! Three lists are put together here: the checks of [`verify`](crate::verify), the flaws of files
-//! that [`import`] knows, and what is noticed while programs are made, [`planning`].
+//! that [`import`](crate::import) knows, and what is noticed while programs are made, `planning`.
 
 use std::fmt::Write as _;
 

@@ -1,4 +1,4 @@
-//! Drawings (SVG, DXF) → [`Artwork`], and drawings as layers of a board.
+//! Drawings (SVG, DXF) → [`Artwork`](crate::artwork::Artwork), and drawings as layers of a board.
 //!
 //! A drawing tells by the names of its layers which of them are copper, edge and holes, in the
 //! words that Gerber files have; or a person tells, with `--front x.svg` for all of a drawing or
