@@ -166,7 +166,7 @@ class Panel {
       const rows = coupling.pairs.map(({ between, boundary_mm: length, length_over_gap: over, capacitance_pf: farads }) =>
         [between.join(' and '), length.toFixed(1), over.voronoi.toFixed(0), farads.voronoi.toFixed(2), farads.as_drawn.toFixed(2)]);
       const { voronoi, as_drawn: drawn } = coupling.capacitance_pf;
-      return make('details', {}, make('summary', {}, make('b', {}, `Coupling, ${side}`), make('span', { class: 'count' }, `${regions.toFixed(1)} pF`)),
+      return make('details', {}, make('summary', {}, make('b', {}, `Coupling, ${side}`), make('span', { class: 'count' }, `${voronoi.toFixed(1)} pF`)),
         make('p', { class: 'how' }, `An estimate: coplanar strips ${mm(coupling.kerf_mm)} apart on ${coupling.thickness_mm} mm of permittivity ${coupling.permittivity}. In all ${voronoi.toFixed(1)} pF; as drawn, without the copper beside it, ${drawn.toFixed(1)} pF.`),
         this.table(['Nets', 'mm', 'Length/gap', 'pF', 'as drawn'], rows));
     });
