@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use serde::Serialize;
 use voromill::board::{Copper, Diagnostic, FLATTEN, Feature, Side, Warning, polarity};
 use voromill::gcode::Input as Origin;
@@ -17,6 +17,7 @@ use voromill::report::verdict::FindingEntry;
 use voromill::verify::Finding;
 
 use super::config::Config;
+use super::format::Format;
 use super::input::{Colour, Input, dpi};
 use super::output::Output;
 use super::{Failure, Shared};
@@ -68,12 +69,6 @@ pub(super) struct Work {
 
     #[command(flatten)]
     config: Config,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
 }
 
 /// The programs of one command, as all of its run that is common needs them.

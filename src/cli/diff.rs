@@ -5,12 +5,13 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use voromill::geometry::Nm;
 use voromill::report::comparison::{Compared, picture, to_json};
 use voromill::report::png;
 use voromill::verify::{self, Comparison, Cutter, Program, diff};
 
+use super::format::Format;
 use super::output::Output;
 use super::{Failure, Shared};
 
@@ -62,12 +63,6 @@ Examples:
   voromill diff old/board-front.ngc new/board-front.ngc -o diff.png
   voromill diff out-main/ out-branch/ -o pictures/
   voromill diff a.nc b.nc --tool endmill:0.2mm --format json";
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
-}
 
 /// The endings of program files.
 const ENDINGS: [&str; 7] = ["ngc", "nc", "gcode", "gco", "tap", "cnc", "g"];

@@ -1,9 +1,10 @@
 //! `voromill inspect`: what is in the files, before anything is made of them.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use voromill::job::{Pattern, coupling, inspect, paper};
 
 use super::config::Config;
+use super::format::Format;
 use super::input::Input;
 use super::{Failure, Shared};
 
@@ -44,12 +45,6 @@ pub(super) struct Inspect {
 
     #[command(flatten)]
     config: Config,
-}
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
 }
 
 impl Inspect {

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 use rayon::prelude::*;
 use voromill::board::Side;
 use voromill::import::sha256;
@@ -14,6 +14,7 @@ use voromill::report::stages::Stages;
 use voromill::verify::{Report, Severity};
 
 use super::config::Config;
+use super::format::Format;
 use super::input::Input;
 use super::leftovers::Leftovers;
 use super::output::Output;
@@ -80,12 +81,6 @@ Examples:
   voromill mill board/ -o out --tool endmill:0.2mm --depth 0.08mm --limit 1mm
   voromill mill board-B_Cu.gbr board.drl -o out --cutout-tool endmill:2mm
   voromill mill --millproject millproject      the options of pcb2gcode, as far as there is a counterpart";
-
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Format {
-    Text,
-    Json,
-}
 
 impl Mill {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {

@@ -8,6 +8,7 @@ mod diff;
 mod draw;
 mod explain;
 mod failure;
+mod format;
 mod given;
 mod help;
 mod init;

@@ -1,4 +1,5 @@
-//! Which odd nodes are joined by a second cut: a matching in which staying alone costs half a lift.
+//! Which odd nodes are joined by a second cut: a matching in which staying alone costs half a
+//! retract.
 //!
 //! Nearest pairs first, then alternating chains: a pair is taken apart, one of the two joins a near
 //! node, whose partner is loose in turn, and so on a few steps; whatever makes the sum smaller is

@@ -1,4 +1,4 @@
-//! The boundary graph walked in few trails: what is cut in one go without a lift.
+//! The boundary graph walked in few trails: what is cut in one go without a retract.
 //!
 //! A trail passes each edge once. A connected graph with 2k nodes of odd degree needs k trails
 //! (Euler); cutting an edge a second time makes the two odd nodes at its ends even and saves a
@@ -23,7 +23,7 @@ pub(super) struct Link {
     pub ends: Option<(u32, u32)>,
     /// How long cutting it takes.
     pub seconds: f64,
-    /// Whether it has to be cut; one that need not be serves to save lifts.
+    /// Whether it has to be cut; one that need not be serves to save retracts.
     pub must: bool,
 }
 
@@ -37,9 +37,9 @@ pub(super) struct Step {
 }
 
 /// The trails, in a fixed order, that together pass every link that must be cut. A link is passed
-/// twice, or one passed that need not be, where that takes less than `lift` seconds and saves a
-/// lift.
-pub(super) fn walk(nodes: usize, links: &[Link], lift: f64) -> Vec<Vec<Step>> {
+/// twice, or one passed that need not be, where that takes less than `retract` seconds and saves a
+/// retract.
+pub(super) fn walk(nodes: usize, links: &[Link], retract: f64) -> Vec<Vec<Step>> {
     let mut trails: Vec<Vec<Step>> = Vec::new();
     let mut passes: Vec<Pass> = Vec::new();
     for (index, link) in links.iter().enumerate() {
@@ -49,7 +49,7 @@ pub(super) fn walk(nodes: usize, links: &[Link], lift: f64) -> Vec<Vec<Step>> {
             _ => {}
         }
     }
-    let (again, there_and_back) = joins(nodes, links, &passes, lift);
+    let (again, there_and_back) = joins(nodes, links, &passes, retract);
     for index in again.into_iter().chain(there_and_back.iter().flat_map(|&index| [index; 2])) {
         let ends = links[index].ends.expect("only links with ends join");
         passes.push(Pass { link: Some(index), ends });
@@ -59,7 +59,7 @@ pub(super) fn walk(nodes: usize, links: &[Link], lift: f64) -> Vec<Vec<Step>> {
     trails
 }
 
-/// An edge of the multigraph that is walked; without a link it stands for a lift.
+/// An edge of the multigraph that is walked; without a link it stands for a retract.
 #[derive(Clone, Copy, Debug)]
 struct Pass {
     link: Option<usize>,
@@ -78,14 +78,16 @@ fn odd(nodes: usize, passes: &[Pass]) -> Vec<bool> {
 
 /// The links to be passed once more, and those to be passed there and back.
 ///
-/// Odd nodes are joined in pairs where the way between takes less than `lift`; where two such ways
-/// share a link, passing it neither time joins the same four nodes for less. What is then closed is
-/// joined to others by links there and back ([`bridges`]).
-fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> (Vec<usize>, Vec<usize>) {
+/// Odd nodes are joined in pairs where the way between takes less than `retract`; where two such
+/// ways share a link, passing it neither time joins the same four nodes for less. What is then
+/// closed is joined to others by links there and back ([`bridges`]).
+fn joins(nodes: usize, links: &[Link], passes: &[Pass], retract: f64) -> (Vec<usize>, Vec<usize>) {
     let odd = odd(nodes, passes);
     let graph = Adjacency::new(nodes, links.iter().map(|link| link.ends));
-    let mut pairs: Vec<Pair> =
-        (0..nodes).filter(|&node| odd[node]).flat_map(|from| near(from, &odd, &graph, links, lift)).collect();
+    let mut pairs: Vec<Pair> = (0..nodes)
+        .filter(|&node| odd[node])
+        .flat_map(|from| near(from, &odd, &graph, links, retract))
+        .collect();
     // Both of two near nodes may have found the other; the way from the smaller is kept.
     pairs.sort_by_key(|pair| (pair.from.min(pair.to), pair.from.max(pair.to), pair.from));
     pairs.dedup_by_key(|pair| (pair.from.min(pair.to), pair.from.max(pair.to)));
@@ -96,7 +98,7 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> (Vec<usize
     let candidates: Vec<Candidate> = pairs.iter().map(candidate).collect();
     let mut again = vec![false; links.len()];
     let chosen: Vec<&Pair> =
-        matching::join(nodes, &candidates, lift / 2.0).into_iter().map(|index| &pairs[index]).collect();
+        matching::join(nodes, &candidates, retract / 2.0).into_iter().map(|index| &pairs[index]).collect();
     for pair in &chosen {
         pair.way.iter().for_each(|&link| again[link] ^= true);
     }
@@ -109,14 +111,20 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], lift: f64) -> (Vec<usize
             part.union(a, b);
         }
     }
-    let there_and_back = bridges(links, &again, &alone, &mut part, lift);
+    let there_and_back = bridges(links, &again, &alone, &mut part, retract);
     spare(links, &alone, &chosen, &mut part, &mut again);
     ((0..links.len()).filter(|&link| again[link]).collect(), there_and_back)
 }
 
 /// The links that need not be cut and, passed there and back, make one trail of what is closed and
 /// another part; the shortest first. `alone` are the odd nodes that are not joined.
-fn bridges(links: &[Link], again: &[bool], alone: &[bool], part: &mut DisjointSets, lift: f64) -> Vec<usize> {
+fn bridges(
+    links: &[Link],
+    again: &[bool],
+    alone: &[bool],
+    part: &mut DisjointSets,
+    retract: f64,
+) -> Vec<usize> {
     let mut is_cut = vec![false; alone.len()];
     for link in links.iter().filter(|link| link.must) {
         if let Some((a, _)) = link.ends {
@@ -127,7 +135,7 @@ fn bridges(links: &[Link], again: &[bool], alone: &[bool], part: &mut DisjointSe
     for (node, _) in (0..).zip(alone).filter(|(_, alone)| **alone) {
         is_open[part.find(node) as usize] = true;
     }
-    let free = |&link: &usize| !links[link].must && !again[link] && 2.0 * links[link].seconds < lift;
+    let free = |&link: &usize| !links[link].must && !again[link] && 2.0 * links[link].seconds < retract;
     let mut short: Vec<usize> = (0..links.len()).filter(free).collect();
     short.sort_by(|&a, &b| links[a].seconds.total_cmp(&links[b].seconds).then(a.cmp(&b)));
     let mut chosen = Vec::new();
@@ -191,8 +199,8 @@ struct Seconds(u64);
 /// pads, or where traces point at a centre, hundreds lie within the time of a retract.
 const NEAREST: usize = 12;
 
-/// The nearest odd nodes within `lift` seconds of `from`, by Dijkstra's algorithm.
-fn near(from: usize, odd: &[bool], graph: &Adjacency, links: &[Link], lift: f64) -> Vec<Pair> {
+/// The nearest odd nodes within `retract` seconds of `from`, by Dijkstra's algorithm.
+fn near(from: usize, odd: &[bool], graph: &Adjacency, links: &[Link], retract: f64) -> Vec<Pair> {
     let mut best = Reached::default();
     let mut queue = BinaryHeap::from([Reverse((Seconds(0), from))]);
     best.insert(from, (0.0, None));
@@ -210,7 +218,7 @@ fn near(from: usize, odd: &[bool], graph: &Adjacency, links: &[Link], lift: f64)
         }
         for &(link, next) in graph.of(node) {
             let longer = seconds + links[link].seconds.max(0.0);
-            if longer < lift && best.get(&next).is_none_or(|known| longer < known.0) {
+            if longer < retract && best.get(&next).is_none_or(|known| longer < known.0) {
                 best.insert(next, (longer, Some((link, node))));
                 queue.push(Reverse((Seconds(longer.to_bits()), next)));
             }
@@ -253,7 +261,7 @@ impl Adjacency {
     }
 }
 
-/// Adds lifts between the odd nodes of each connected part, so that all nodes are even.
+/// Adds retracts between the odd nodes of each connected part, so that all nodes are even.
 fn close(nodes: usize, passes: &mut Vec<Pass>) {
     let mut part = DisjointSets::new(nodes);
     for pass in passes.iter() {
@@ -306,7 +314,7 @@ fn circuits(nodes: usize, passes: &[Pass]) -> Vec<Vec<Walked>> {
     circuits
 }
 
-/// The trails of a circuit between its lifts.
+/// The trails of a circuit between its retracts.
 fn split(circuit: &[Walked], passes: &[Pass]) -> Vec<Vec<Step>> {
     let first_lift = circuit.iter().position(|&(pass, _)| passes[pass].link.is_none());
     let (before, after) = circuit.split_at(first_lift.unwrap_or(0));
