@@ -316,8 +316,8 @@ fn circuits(nodes: usize, passes: &[Pass]) -> Vec<Vec<Walked>> {
 
 /// The trails of a circuit between its retracts.
 fn split(circuit: &[Walked], passes: &[Pass]) -> Vec<Vec<Step>> {
-    let first_lift = circuit.iter().position(|&(pass, _)| passes[pass].link.is_none());
-    let (before, after) = circuit.split_at(first_lift.unwrap_or(0));
+    let first_retract = circuit.iter().position(|&(pass, _)| passes[pass].link.is_none());
+    let (before, after) = circuit.split_at(first_retract.unwrap_or(0));
     let mut trails = vec![Vec::new()];
     for &(pass, backwards) in after.iter().chain(before) {
         match passes[pass].link {
@@ -363,7 +363,7 @@ mod tests {
     }
 
     #[test]
-    fn a_link_that_need_not_be_cut_serves_only_to_save_a_lift() {
+    fn a_link_that_need_not_be_cut_serves_only_to_save_a_retract() {
         let mut square = [link(0, 1, 1.0), link(2, 3, 1.0), link(1, 2, 0.1), link(3, 0, 5.0)];
         (square[2].must, square[3].must) = (false, false);
         let trails = walk(4, &square, 0.5);
