@@ -40,16 +40,12 @@ fn stages(path: &Path, features: usize) {
     let copper = loaded.board.copper(Side::Front).expect("a front");
     let nets = counted(features, "nets", || topology::recover(copper, Method::Contact));
     let settings = voronoi::Settings::default();
-    let diagram = Diagram::new(copper, &nets, None, &settings).expect("a small board");
-    let (width, height) = (diagram.grid().width(), diagram.grid().height());
-    let drawn = counted(features, "draw", || diagram.pixels_drawn());
+    let diagram =
+        counted(features, "diagram", || Diagram::new(copper, &nets, None, &settings).expect("a small board"));
     drop(counted(features, "boundaries", || diagram.boundaries()));
     drop((diagram, nets));
     let settings = Settings::resolve(Options::default()).expect("the defaults");
     drop(counted(features, "all of it", || job::mill(loaded, &settings).expect("it is milled")));
-    #[expect(clippy::cast_precision_loss, reason = "a share")]
-    let share = 100.0 * drawn as f64 / (f64::from(width) * f64::from(height));
-    println!("{features:8}  {drawn} pixels drawn, {share:.0} % of {width} × {height}");
 }
 
 fn counted<T>(features: usize, stage: &str, work: impl FnOnce() -> T) -> T {

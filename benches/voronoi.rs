@@ -1,14 +1,11 @@
-//! Boundaries by stage, over boards and resolutions: `cargo bench --bench voronoi [-- BOARD…]`,
-//! where a board is the name of one of `fixtures/boards` or a number of features for a synthetic
-//! one.
+//! Boundaries by stage, over boards: `cargo bench --bench voronoi [-- BOARD…]`, where a board is
+//! the name of one of `fixtures/boards` or a number of features for a synthetic one.
 //!
-//! * *regions*: the tiles that a boundary crosses are drawn, and nothing made of them;
-//! * *trace and place*: what `Diagram::boundaries` takes beside drawing and fitting. A piece of
-//!   boundary is placed as it is traced, on the worker that drew its tile, so there is no line to
-//!   be drawn between the two;
-//! * *fit*: lines and arcs through all placed points.
+//! * *diagram*: what `Diagram::new` takes;
+//! * *boundaries*: what `Diagram::boundaries` takes beside that and fitting;
+//! * *fit*: lines and arcs through all places.
 //!
-//! A plain program: each board and resolution runs in a process of its own, on one thread, so that
+//! A plain program: each board runs in a process of its own, on one thread, so that
 //! its peak memory can be told and its time be that of the processor, whatever else the machine
 //! does.
 #![allow(clippy::print_stdout, reason = "a program that prints its figures")]
@@ -29,15 +26,14 @@ use voromill::voronoi::{Diagram, Settings, fit_points};
 
 use usage::{cpu_seconds, peak_mib};
 
-/// Names board and resolution to the process that measures them.
+/// Names the board to the process that measures it.
 const ONE: &str = "VOROMILL_VORONOI_ONE";
-const RESOLUTIONS: [i64; 4] = [250, 500, 1000, 2000];
 /// Each stage is repeated for so many CPU seconds.
 const ENOUGH: f64 = 0.5;
 
-/// What is measured of one board at one resolution.
+/// What is measured of one board.
 struct Figures {
-    /// CPU seconds to draw, to trace and place, to fit, and for all of it.
+    /// CPU seconds for the diagram, for boundaries, for fitting, and for all of it.
     seconds: [f64; 4],
     /// Peak resident memory in MiB.
     peak: f64,
@@ -45,69 +41,54 @@ struct Figures {
 
 fn main() {
     if let Some(asked) = std::env::var_os(ONE) {
-        let asked = asked.into_string().expect("a board and a resolution");
-        let (board, dpi) = asked.split_once(' ').expect("a board and a resolution");
-        return one(board, dpi.parse().expect("a number"));
+        return one(&asked.into_string().expect("a board"));
     }
     let mut boards: Vec<String> =
         std::env::args().skip(1).filter(|argument| !argument.starts_with('-')).collect();
     if boards.is_empty() {
         boards = ["regulator", "qfn-breakout", "1000", "10000"].map(str::to_owned).to_vec();
     }
-    println!(
-        "| board | DPI | regions s | trace and place s | fit s | all s | peak MiB | × time | × memory |"
-    );
-    println!("|---|---|---|---|---|---|---|---|---|");
+    println!("| board | diagram s | boundaries s | fit s | all s | peak MiB |");
+    println!("|---|---|---|---|---|---|");
     for board in boards {
-        let mut before: Option<Figures> = None;
-        for dpi in RESOLUTIONS {
-            let found = measured(&board, dpi);
-            let [regions, placed, fitted, all] = found.seconds;
-            let growth = before.map_or(" | ".to_owned(), |before| {
-                format!("{:.2} | {:.2}", all / before.seconds[3], found.peak / before.peak)
-            });
-            println!(
-                "| {board} | {dpi} | {regions:.4} | {placed:.4} | {fitted:.5} | {all:.4} | {:.1} | {growth} |",
-                found.peak
-            );
-            before = Some(found);
-        }
+        let Figures { seconds: [diagram, boundaries, fitted, all], peak } = measured(&board);
+        println!("| {board} | {diagram:.4} | {boundaries:.4} | {fitted:.5} | {all:.4} | {peak:.1} |");
     }
 }
 
 /// The figures of a process of its own.
-fn measured(board: &str, dpi: i64) -> Figures {
+fn measured(board: &str) -> Figures {
     let own = std::env::current_exe().expect("a program has a name");
-    let output = Command::new(own).env(ONE, format!("{board} {dpi}")).output().expect("it starts");
+    let output = Command::new(own).env(ONE, board).output().expect("it starts");
     let text = String::from_utf8_lossy(&output.stdout);
     let numbers: Vec<f64> = text.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-    let [regions, placed, fitted, all, peak] = numbers[..] else {
-        panic!("{board} at {dpi} DPI: {}", String::from_utf8_lossy(&output.stderr))
+    let [diagram, boundaries, fitted, all, peak] = numbers[..] else {
+        panic!("{board}: {}", String::from_utf8_lossy(&output.stderr))
     };
-    Figures { seconds: [regions, placed, fitted, all], peak }
+    Figures { seconds: [diagram, boundaries, fitted, all], peak }
 }
 
-/// Measures one board at one resolution and prints the figures.
-fn one(board: &str, dpi: i64) {
+/// Measures one board and prints the figures.
+fn one(board: &str) {
     let alone = rayon::ThreadPoolBuilder::new().num_threads(1).use_current_thread();
     alone.build_global().expect("the first pool");
     let board = load(board);
     let copper = board.copper(Side::Front).expect("a front");
     let nets = topology::recover(copper, Method::Contact);
-    let settings = Settings { pitch: Nm::new(25_400_000 / dpi), ..Settings::default() };
+    let settings = Settings::default();
     let diagram = || Diagram::new(copper, &nets, board.outline.as_ref(), &settings).expect("a diagram");
     // Boundaries first: what is asked for after them must not count as their peak.
     let all = mean(|| _ = black_box(diagram().boundaries()));
     let peak = peak_mib().expect("a Linux");
-    let regions = mean(|| _ = black_box(diagram().pixels_drawn()));
-    // With a tolerance of a nanometre every placed point is a vertex.
+    let found = mean(|| _ = black_box(diagram()));
+    // With a tolerance of a nanometre every place is a vertex.
     let bare = Settings { tolerance: Nm::new(1), arcs: false, ..settings.clone() };
     let placed =
         Diagram::new(copper, &nets, board.outline.as_ref(), &bare).expect("a diagram").boundaries().0;
     let lines: Vec<Vec<Point>> = placed.edges.iter().map(|edge| edge.path.flatten(Nm::new(1))).collect();
     let fit = |line: &Vec<Point>| _ = black_box(fit_points(line.iter().copied(), settings.tolerance));
     let fitted = mean(|| lines.iter().for_each(fit));
-    println!("{regions} {} {fitted} {all} {peak}", all - regions - fitted);
+    println!("{found} {} {fitted} {all} {peak}", all - found - fitted);
 }
 
 fn load(board: &str) -> Board {

@@ -48,10 +48,9 @@
 //! 2. **Exact where it decides.** Lengths are integer nanometres; orientation, containment and
 //!    contact are decided in integers.
 //! 3. **The certificate decides.** Voronoi vertices and edges are solved on the exact distances of
-//!    the copper's edges, and hold because an empty circle says so: what is cut between nets does
-//!    not depend on any pixel. Where regions are limited (outlines, wide isolation) or core axes
-//!    are the sites, a picture still says what meets what, and every point is then moved to where
-//!    its exact distances are equal.
+//!    the copper's edges, or of core axes, and hold because an empty circle says so; loops and
+//!    passes are level sets of the same diagram. No pixel has a part in what is cut; the picture of
+//!    the regions judges it.
 //! 4. **Nothing in silence.** What is skipped, too narrow or off the board is a
 //!    [`Warning`](board::Warning) with a place; broken input is an error naming file, line, column
 //!    and what was expected; no output is half-written.

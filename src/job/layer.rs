@@ -65,7 +65,7 @@ impl Layer {
             stages.run(format!("{side}: smallest gap"), || topology::smallest_gap(copper, &nets), |_| []);
         let strategies = by_net::strategies(copper, &nets, settings);
         let plan = |looped: Vec<NetId>| {
-            let planned = Planned { copper, nets: &nets, gap: gap.as_ref(), placement: &placement, settings };
+            let planned = Planned { copper, nets: &nets, placement: &placement, settings };
             planned.plan(board, looped)
         };
         let (plan, chosen) = if strategies.contains(&choice::Strategy::Auto) {
@@ -107,20 +107,19 @@ impl Layer {
 struct Planned<'a> {
     copper: &'a Copper,
     nets: &'a Nets,
-    gap: Option<&'a Gap>,
     placement: &'a Placement,
     settings: &'a Settings,
 }
 
 impl Planned<'_> {
     fn plan(&self, board: &Board, looped: Vec<NetId>) -> Result<Plan, Error> {
-        let Self { copper, nets, gap, placement, settings } = *self;
+        let Self { copper, nets, placement, settings } = *self;
         let side = copper.side;
         let mut stages = Stages::default();
         let diagram = stages
             .run(
                 format!("{side}: Voronoi diagram"),
-                || diagram(copper, nets, board.outline.as_ref(), gap, looped, settings),
+                || diagram(copper, nets, board.outline.as_ref(), looped, settings),
                 |_| [],
             )
             .map_err(|reason| Error::Voronoi { side, reason })?;
@@ -133,7 +132,7 @@ impl Planned<'_> {
         let frame_cut = frame.as_ref().filter(|_| settings.frame);
         let (shares, passes) = stages.run(
             format!("{side}: passes"),
-            || shares(&diagram, &boundaries, settings),
+            || shares((copper, nets), &diagram, &boundaries, settings),
             |(shares, _)| [("edges", shares.iter().map(|(_, share)| share.edges.len()).sum())],
         );
         let (sections, narrow) = stages.run(
@@ -166,10 +165,7 @@ pub(super) fn plain(
     outline: Option<&Outline>,
     settings: &Settings,
 ) -> Result<(Diagram, Boundaries, Vec<Warning>), Error> {
-    let gap = topology::smallest_gap(copper, nets);
-    let pitch = gap.map_or(COARSEST, |gap| COARSEST.min((gap.width / PIXELS_A_GAP).max(FINEST)));
     let settings = voronoi::Settings {
-        pitch,
         tolerance: settings.tolerance,
         frame: Frame::Hull(settings.frame_margin),
         ..voronoi::Settings::default()
@@ -201,38 +197,15 @@ pub(super) fn method(topology: Topology) -> Method {
     }
 }
 
-/// How many pixels the narrowest gap is wide, at least. Chosen: with two a gap may fall between
-/// pixel centres and be seen only in places; the third is for slanted ones.
-const PIXELS_A_GAP: i64 = 3;
-/// The finest pixel that a narrow gap asks for: finer gaps no cutter fits.
-const FINEST: Nm = Nm::from_um(5);
-/// The coarsest pixel that is taken unasked. Chosen: half as many again save next to nothing.
-const COARSEST: Nm = Nm::from_um(100);
-/// The same as a part of the kerf where cuts follow the copper at a distance, which pixels must
-/// tell from each other. Chosen.
-const PIXELS_A_KERF: i64 = 4;
-
-/// The pixel that sees the smallest gap, and what the settings ask for.
-fn pitch(settings: &Settings, gap: Option<&Gap>, has_loops: bool) -> Nm {
-    let follows = has_loops
-        || settings.limit.is_some()
-        || (settings.sites == Sites::Core && settings.min_width)
-        || settings.isolation.iter().any(|cutting| cutting.widening.is_some());
-    let unasked = if follows { COARSEST.min(settings.finest_kerf() / PIXELS_A_KERF) } else { COARSEST };
-    let asked = settings.pixel.unwrap_or(unasked);
-    gap.map_or(asked, |gap| asked.min((gap.width / PIXELS_A_GAP).max(FINEST)))
-}
-
 /// The diagram in which some nets have a loop.
 fn diagram(
     copper: &Copper,
     nets: &Nets,
     outline: Option<&Outline>,
-    gap: Option<&Gap>,
     looped: Vec<NetId>,
     settings: &Settings,
 ) -> Result<Diagram, voronoi::Error> {
-    let plain = diagram_settings(settings, pitch(settings, gap, !looped.is_empty()));
+    let plain = diagram_settings(settings);
     // Half the kerf, and what fitting may take of it: a loop never touches the copper it goes
     // round.
     let radius = settings.kerf() / 2 + settings.tolerance;
@@ -245,9 +218,9 @@ fn diagram(
     }
 }
 
-fn diagram_settings(settings: &Settings, pitch: Nm) -> voronoi::Settings {
+fn diagram_settings(settings: &Settings) -> voronoi::Settings {
     voronoi::Settings {
-        pitch,
+        pitch: settings.pixel.unwrap_or(voronoi::Settings::default().pitch),
         sites: match settings.sites {
             Sites::Copper => SiteKind::Copper,
             Sites::Core => SiteKind::Core,
@@ -269,6 +242,7 @@ fn diagram_settings(settings: &Settings, pitch: Nm) -> voronoi::Settings {
 /// What each tool cuts, with its kerf, the widest first: its share of the boundaries, and the
 /// passes beside them. With what is to be said of passes.
 fn shares(
+    copper: (&Copper, &Nets),
     diagram: &Diagram,
     boundaries: &Boundaries,
     settings: &Settings,
@@ -279,7 +253,7 @@ fn shares(
     for (cutting, base) in settings.isolation.iter().zip(share(boundaries, &kerfs)) {
         let all = match &cutting.widening {
             Some(widening) => {
-                let (all, found) = diagram.widened(base, widening, &cut);
+                let (all, found) = diagram.widened(copper, base, widening, &cut);
                 warnings.extend(found);
                 all
             }

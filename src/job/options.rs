@@ -104,8 +104,7 @@ macro_rules! job_options {
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub overlap: Option<Overlap>,
 
-    /// Pixel of the picture that finds boundaries where they are not found exactly, at most;
-    /// smaller where a warning asks for it [default: as the smallest gap needs, 0.005mm to 0.1mm]
+    /// Pixel of pictures of the regions; cuts do not depend on it [default: 0.0254mm]
     #[arg(long, value_name = "LENGTH", conflicts_with = "dpi", help_heading = "Isolation")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Length>,

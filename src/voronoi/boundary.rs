@@ -12,55 +12,40 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::geometry::Point;
+use crate::geometry::{Nm, Point};
 
 use super::clip::{Node, Piece};
 use super::exact;
 use super::fit;
 use super::plane::Spot;
-use super::{BACKGROUND, Boundaries, Diagram, Owner};
-
-/// The number of nobody among the owners of the certified diagram.
-const NOBODY: u32 = u32::MAX;
+use super::{BACKGROUND, Boundaries, Diagram, NOBODY, Owner};
 
 impl Diagram {
     /// The boundaries of the certified diagram, and where it contradicts itself.
-    pub(super) fn certified_boundaries(&self, diagram: &exact::Diagram) -> (Boundaries, Vec<Point>) {
-        let (chains, level) = match self.settings.limit {
-            None => (Some(diagram.chains()), f64::INFINITY),
-            Some(limit) => {
-                (diagram.limited_chains(limit.to_f64(), NOBODY, self.settings.enclosed), limit.to_f64())
-            }
-        };
+    pub(super) fn certified_boundaries(&self) -> (Boundaries, Vec<Point>) {
+        let chains = self.chains.clone();
         let is_whole = chains.is_some();
-        let (mut pieces, mut torn) = self.on_board(diagram, chains.unwrap_or_default(), level);
+        let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
+        let (mut pieces, mut torn) = self.on_board(&self.certified, chains.unwrap_or_default(), level);
         if !is_whole {
             torn.push(Spot::from(self.border.window.min()));
         }
-        let faults = diagram.faults().iter().copied().chain(torn.iter().map(|at| at.rounded())).collect();
+        let faults = self.certified.faults().iter().copied().chain(torn.iter().map(|at| at.rounded()));
+        let faults = faults.collect();
         merge_stubs(&mut pieces, self.settings.tolerance.to_f64() / 2.0);
         (self.fitted(&pieces), faults)
     }
 
-    /// The pieces on the board where copper is just so many nanometres away, and where they
-    /// contradict the border; none where the diagram contradicts itself.
-    pub(super) fn level_pieces(
-        &self,
-        diagram: &exact::Diagram,
-        level: f64,
-    ) -> Option<(Vec<Piece>, Vec<Spot>)> {
-        Some(self.on_board(diagram, diagram.curves_at(level, NOBODY, self.settings.enclosed)?, level))
-    }
-
     /// What of chains lies on the board, and what contradicts the border.
-    fn on_board(
+    pub(super) fn on_board(
         &self,
         diagram: &exact::Diagram,
         mut chains: Vec<exact::Chain>,
         level: f64,
     ) -> (Vec<Piece>, Vec<Spot>) {
         chains.retain(|chain| ![chain.left, chain.right].contains(&exact::WALL));
-        let owner = |p: Spot| diagram.owner_near(p, level, NOBODY);
+        let in_band = |p: Spot| self.band.as_ref().and_then(|band| band.owner_at(p));
+        let owner = |p: Spot| in_band(p).or_else(|| diagram.owner_near(p, level, NOBODY));
         super::clip::within(&self.border, chains, owner, |net| match net {
             NOBODY => BACKGROUND,
             net => Owner::Net(crate::topology::NetId(net)).number(),
@@ -68,7 +53,7 @@ impl Diagram {
     }
 
     /// Pieces fitted, with nodes in the order in which they are met.
-    fn fitted(&self, pieces: &[Piece]) -> Boundaries {
+    pub(super) fn fitted(&self, pieces: &[Piece]) -> Boundaries {
         // Two nodes that fall on the same nanometre are one, and nothing runs between them.
         let fit = |piece: &Piece| {
             let fitted = fit::fit(&piece.samples, self.settings.tolerance, self.settings.arcs)?;

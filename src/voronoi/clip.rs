@@ -16,7 +16,7 @@ use super::OUTSIDE;
 use super::edge::Border;
 use super::exact::Chain;
 use super::plane::Spot;
-use super::span::Sample;
+use super::sample::Sample;
 
 /// Where a piece ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -40,6 +40,11 @@ pub(super) struct Piece {
 }
 
 impl Piece {
+    /// Whether it runs along the border.
+    pub(super) const fn is_border(&self) -> bool {
+        self.left == OUTSIDE || self.right == OUTSIDE
+    }
+
     /// Makes it begin at the end that comes first by place, so that it does not matter from where
     /// it was found.
     fn orient(&mut self) {

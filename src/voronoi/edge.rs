@@ -10,13 +10,13 @@ use crate::geometry::{Nm, Path, Point, Polygon, Rect};
 
 use super::Settings;
 use super::plane::Spot;
-use super::site::{Reach, Rings};
+use super::site::Rings;
 
-/// The border of the picture.
+/// What is cut, and what is drawn, ends here.
 pub(super) struct Border {
     /// What lies within it.
     pub(super) inside: Vec<Polygon>,
-    /// The rectangle that the picture must show.
+    /// The rectangle that a picture shows.
     pub(super) window: Rect,
     /// The rings of the border, for distances.
     pub(super) rings: Rings,
@@ -74,14 +74,9 @@ impl Border {
         contours
     }
 
-    /// How far `p` lies beyond the border, in nanometres; negative on the board.
-    pub(super) fn distance(&self, p: Spot) -> f64 {
-        self.reach(p).distance
-    }
-
-    /// The same, and which way it grows.
-    pub(super) fn reach(&self, p: Spot) -> Reach {
-        self.rings.border(0..self.ring_count, p)
+    /// Whether `p` lies on the board.
+    pub(super) fn holds(&self, p: Spot) -> bool {
+        self.inside.iter().any(|inside| inside.contains(p.rounded()))
     }
 
     /// Whether any of a shape's area lies on the board: a pad round a drawn hole does, though its

@@ -11,7 +11,7 @@
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 
 use super::plane::Spot;
-use super::span::{CHORD, Sample};
+use super::sample::{CHORD, Sample};
 
 /// Clearance may dip between vertices by this much before a vertex is kept there, in nanometres.
 const DIP: f64 = 2_000.0;
@@ -21,11 +21,10 @@ const RADII: std::ops::Range<f64> = 5_000.0..2e8;
 /// Shorter arcs are left to lines, in nanometres. Chosen: a few of the last digits of any dialect,
 /// so that none begins and ends on the same and goes all the way round.
 const SHORTEST: f64 = 5_000.0;
-/// The part of the tolerance that fitting uses. Chosen: with less than half, paths from two
-/// pictures of the same board differ by no more than the tolerance, and so do the distances to
-/// either side, for a point off the middle by t is nearer to one side than to the other by 2 t. At
-/// 1, that difference went beyond the tolerance at 12 % of the points of a dense board, at 0.6 at 1
-/// %, for a sixth more segments.
+/// The part of the tolerance that fitting uses. Chosen: with less than half, distances to
+/// either side differ by no more than the tolerance, for a point off the middle by t is nearer to
+/// one side than to the other by 2 t. At 1, that difference went beyond the tolerance at 12 % of
+/// the points of a dense board, at 0.6 at 1 %, for a sixth more segments.
 const SHARE: f64 = 0.45;
 /// A minimum is looked for at most so many vertices apart; beyond, the search would become
 /// quadratic.

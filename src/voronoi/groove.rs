@@ -1,9 +1,9 @@
 //! Passes end where a cut has cleared already.
 //!
 //! ```text
-//!    pass ───────────────╮            In the picture a cut is drawn a pixel narrower than what it clears ┄, so that no strip between that and a
-//!    ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄│┄┄┄         pass falls between pixel centres; so passes run on into what is cleared. What they have there is taken
-//!    ━━━━━━━━━━━━━━━━━━━━━┿━━ cut     out again, by its exact distance from the cut.
+//!    pass ───────────────╮            A pass runs on for as long as it clears anything that a cut does not: up to where
+//!    ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄│┄┄┄         it comes nearer to the cut than passes do to each other.
+//!    ━━━━━━━━━━━━━━━━━━━━━┿━━ cut
 //! ```
 
 use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
@@ -11,10 +11,9 @@ use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 use crate::geometry::Nm;
 
 use super::Boundary;
+use super::clip::{Node, Piece};
 use super::plane::Spot;
-use super::span::{Span, Vertex};
-use super::stitch::Line;
-use super::trace::Corner;
+use super::sample::Sample;
 
 /// A pass goes on until it is so much nearer to a cut than it need be, in nanometres, so that one
 /// along the very edge of what is cleared is one pass. Chosen.
@@ -26,7 +25,7 @@ const STEP: f64 = 10_000.0;
 const HALVINGS: usize = 12;
 
 /// Where a part of a pass ends.
-pub(super) const END: Corner = Corner { column: 0, row: 0, branch: false, node: true, open: false };
+pub(super) const END: Node = Node::Vertex(0);
 
 /// What cuts have cleared for passes.
 pub(super) struct Grooves {
@@ -69,18 +68,19 @@ impl Grooves {
     }
 
     /// What is left of a pass.
-    pub(super) fn take_out(&self, line: Line) -> Vec<Line> {
-        let mut walk = Walk { grooves: self, is_cleared: false, parts: vec![vec![line.vertices[0]]] };
-        if self.holds(line.vertices[0].at) {
+    pub(super) fn take_out(&self, piece: Piece) -> Vec<Piece> {
+        let first = piece.samples[0];
+        let mut walk = Walk { grooves: self, is_cleared: false, parts: vec![vec![first]] };
+        if self.holds(first.at) {
             (walk.is_cleared, walk.parts) = (true, Vec::new());
         }
         let begins_cleared = walk.is_cleared;
-        line.vertices.windows(2).for_each(|ends| walk.go(ends[0], ends[1]));
+        piece.samples.windows(2).for_each(|pair| walk.go(&pair[0], &pair[1]));
         let mut parts = walk.parts;
-        if line.ends.is_none() && !begins_cleared && parts.len() == 1 && !walk.is_cleared {
-            return vec![line];
+        if piece.ends.is_none() && !begins_cleared && parts.len() == 1 && !walk.is_cleared {
+            return vec![piece];
         }
-        if line.ends.is_none()
+        if piece.ends.is_none()
             && !begins_cleared
             && !walk.is_cleared
             && let Some(mut last) = parts.pop()
@@ -89,8 +89,9 @@ impl Grooves {
             last.extend(parts.remove(0).into_iter().skip(1));
             parts.push(last);
         }
-        let ends = line.ends.or(Some((END, END)));
-        let part = |vertices| Line { vertices, left: line.left, right: line.right, ends };
+        let Piece { left, right, ends, .. } = piece;
+        let ends = ends.or(Some([END; 2]));
+        let part = |samples| Piece { left, right, samples, ends };
         parts.into_iter().filter(|part| part.len() > 1).map(part).collect()
     }
 }
@@ -99,25 +100,25 @@ impl Grooves {
 struct Walk<'a> {
     grooves: &'a Grooves,
     is_cleared: bool,
-    parts: Vec<Vec<Vertex>>,
+    parts: Vec<Vec<Sample>>,
 }
 
 impl Walk<'_> {
-    /// Goes on from one vertex to the next.
-    fn go(&mut self, from: Vertex, to: Vertex) {
-        let span = Span::new(from, to);
-        let count = ((to.at - from.at).length() / STEP).ceil().max(1.0);
+    /// Goes on from one sample to the next.
+    fn go(&mut self, from: &Sample, to: &Sample) {
+        let length = (to.at - from.at).length();
+        let count = (length / STEP).ceil().max(1.0);
         // Nothing of a chord is left for as long as the cut is nearer than it need be.
-        let step = if from.has_course() || to.has_course() { f64::INFINITY } else { span.length() / count };
+        let step = length / count;
         let mut i = 1.0;
         while i <= count {
-            let distance = self.grooves.distance(span.place(i / count));
+            let distance = self.grooves.distance(from.toward(to, i / count).at);
             if self.changes(distance) {
-                let crossing = span.vertex(self.crossing(&span, (i - 1.0) / count, i / count));
-                if !self.is_cleared {
-                    self.part().push(crossing);
-                } else {
+                let crossing = from.toward(to, self.crossing([from, to], (i - 1.0) / count, i / count));
+                if self.is_cleared {
                     self.parts.push(vec![crossing]);
+                } else {
+                    self.part().push(crossing);
                 }
                 self.is_cleared = !self.is_cleared;
             }
@@ -125,11 +126,11 @@ impl Walk<'_> {
             i = (i + sure.floor().max(1.0)).min(if i < count { count } else { f64::INFINITY });
         }
         if !self.is_cleared {
-            self.part().push(to);
+            self.part().push(*to);
         }
     }
 
-    fn part(&mut self) -> &mut Vec<Vertex> {
+    fn part(&mut self) -> &mut Vec<Sample> {
         self.parts.last_mut().expect("what is not cleared has begun")
     }
 
@@ -139,13 +140,13 @@ impl Walk<'_> {
     }
 
     /// Where between two places it changes.
-    fn crossing(&self, span: &Span, mut before: f64, mut after: f64) -> f64 {
+    fn crossing(&self, [from, to]: [&Sample; 2], mut before: f64, mut after: f64) -> f64 {
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(before, after);
-            if self.changes(self.grooves.distance(span.place(middle))) {
-                after = middle
+            if self.changes(self.grooves.distance(from.toward(to, middle).at)) {
+                after = middle;
             } else {
-                before = middle
+                before = middle;
             }
         }
         f64::midpoint(before, after)

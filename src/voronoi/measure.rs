@@ -3,14 +3,14 @@
 use crate::geometry::{Path, Point};
 
 use super::plane::Spot;
-use super::{Boundaries, Diagram, Owner};
+use super::{Boundaries, Diagram, Owner, SiteKind};
 
 impl Diagram {
-    /// How far the nearest copper is from `place`, in nanometres; none where the sites are not the
-    /// copper's edges.
+    /// How far the nearest edge of copper is from `place`, in nanometres; none where distances are
+    /// not to the copper's edges.
     #[must_use]
     pub fn clearance_at(&self, place: Point) -> Option<f64> {
-        self.near.as_ref().map(|near| near.distance(&self.sites, place.into()))
+        (self.settings.sites == SiteKind::Copper).then(|| self.certified.distance(place.into()))
     }
 }
 

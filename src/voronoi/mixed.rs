@@ -12,10 +12,10 @@
 //!       region of C
 //! ```
 //!
-//! First all nets are gone round in one picture. The loops of those that are to have one cut what
-//! remains of the board into fields; in each field a diagram of the nets that lie in it is drawn,
-//! so that nothing is parted where a loop has parted it already: a field with one net has no
-//! boundary. The ends of the fields' boundaries become junctions of the loops.
+//! First all nets are gone round. The loops of those that are to have one cut what remains of the
+//! board into fields; each field has a diagram of the nets that lie in it, so that nothing is
+//! parted where a loop has parted it already: a field with one net has no boundary. The ends of
+//! the fields' boundaries become junctions of the loops.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -40,7 +40,7 @@ pub struct Loops {
     pub radius: Nm,
 }
 
-/// What a diagram with loops knows beside the picture in which every net has one.
+/// What a diagram with loops knows beside the one in which every net has one.
 pub(super) struct Mixed {
     looped: Vec<bool>,
     loops: Boundaries,
@@ -48,6 +48,10 @@ pub(super) struct Mixed {
     /// What is left of the board, piece by piece.
     fields: Vec<Diagram>,
 }
+
+/// A boundary that ends so near to a loop ends on it. Chosen: many times what the border of a field
+/// may leave the loops, and less than any kerf.
+const LEASH: Nm = Nm::from_um(38);
 
 /// How far the border of a field may leave the loops: its boundaries are led on to the loops
 /// themselves. Chosen: far below any kerf, and few corners.
@@ -86,11 +90,8 @@ impl Mixed {
 
     /// The loops with the boundaries of all fields.
     pub(super) fn boundaries(&self, all: &Diagram) -> (Boundaries, Vec<Warning>) {
-        let clearance = |p: Point| match &all.near {
-            Some(near) => Nm::from_f64(near.distance(&all.sites, p.into())),
-            None => Nm::MAX,
-        };
-        let leash = 1.5 * all.grid.pitch().to_f64();
+        let clearance = |p: Point| Nm::from_f64(all.certified.distance(p.into()));
+        let leash = LEASH.to_f64();
         let in_frame =
             |edge: &Boundary| all.frame().is_some_and(|frame| foot(frame, middle(edge)).2 <= leash);
         let mut junctions = Junctions::new(self.loops.clone(), leash);
@@ -164,14 +165,14 @@ fn fields(
 
 /// What the board is without `taken`.
 ///
-/// Along an outline loops end as coarsely as pixels are, and a strip may remain: whatever is
-/// narrower than three pixels is none.
+/// Along an outline loops are cut a little beside it, and a strip may remain: whatever is
+/// narrower than twice the leash is none.
 fn pieces(all: &Diagram, taken: &[Polygon]) -> Vec<Polygon> {
     let left = all.border.inside.iter().flat_map(|board| polarity::difference(board, taken));
     if all.border.frame.is_some() {
         return left.collect();
     }
-    let strip = (all.grid.pitch() * 3 / 2).min(all.settings.limit.unwrap_or(Nm::MAX) / 2);
+    let strip = LEASH.min(all.settings.limit.unwrap_or(Nm::MAX) / 2);
     let shrunk = left.flat_map(|piece| polarity::offset(&piece, -strip, FLAT));
     shrunk.flat_map(|piece| polarity::offset(&piece, strip, FLAT)).collect()
 }

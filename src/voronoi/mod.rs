@@ -2,69 +2,56 @@
 //! to III-D).
 //!
 //! ```text
-//!  Copper, Nets ── exact ──▶ vertices, edges ── chain ──▶ chains ── clip ──▶ pieces ── fit ──▶ Boundaries
-//!        │                                                            │
-//!        │                                           edge: where the board ends
-//!        ╰─ seed ──▶ sites ── raster ──▶ tiles ── trace ──▶ pieces ── stitch ──▶ lines ── fit ──▶ Boundaries
+//!  Copper, Nets ── certified ──▶ Diagram ── chain, level ──▶ chains ── clip ──▶ pieces ── fit ──▶ Boundaries
+//!        │                          │                            │
+//!        │                          │                     edge: where the board ends
+//!        │                          ╰── passes, residual, link ──▶ wide isolation
+//!        ╰─ seed ──▶ sites ── raster ──▶ pictures of the regions
 //! ```
 //!
-//! Boundaries between nets, the loops round them where regions have a limit, and further passes
-//! beside them come from the certified diagram of [`exact`], which no pixel has a part in. What it
-//! does not answer for comes from a picture: core axes as sites, nets that touch, as Algorithm 1
-//! alone may leave them, loops round some nets and not others, and layers on which the diagram
-//! contradicts itself. There the picture says which regions meet and where boundaries branch, and
-//! the exact distances of the features say where the boundary runs ([`place`](self)).
+//! Everything that is cut comes from the certified diagram of [`exact`], which no pixel has a part
+//! in: boundaries between nets are its edges between owners; the loops round nets whose regions
+//! have a limit, and passes beside a cut, are level sets of its clearance; what passes leave is
+//! found along its medial axis; between core axes it is a diagram of these, which the copper's
+//! [`band`](self) overrules. Loops round some nets and not others cut the board into fields with a
+//! diagram each.
 //!
-//! Of a picture only tiles that a boundary may cross are drawn, each on a worker that at once
-//! traces and places what it sees; no stage holds a picture of the whole board. Labels are sites,
-//! so a pixel names the feature that it is nearest to, and placing costs a few distances.
+//! The rasterizer draws the same regions from cones and curtains, tile by tile, for whoever looks
+//! at them. The two share no code: that they agree, pixel for pixel and on both sides of each
+//! boundary, is a test on all layers of the corpus (`tests/it/certified_boundaries.rs`).
 
-mod artifact;
+mod band;
 mod boundary;
-mod bridge;
+mod certified;
 mod clip;
-mod copper;
-mod cross;
 mod edge;
 pub mod exact;
 mod fit;
 mod frame;
 mod groove;
 mod junction;
-mod keep_off;
 mod link;
 mod measure;
 pub mod medial;
 mod mixed;
-mod near;
-mod overlooked;
 pub mod paper;
 mod part;
 mod passes;
-mod place;
 mod plane;
-mod rim;
+mod residual;
+mod sample;
 mod seed;
 mod site;
-mod span;
-mod speck;
 mod spike;
-mod stitch;
-mod sweep;
-mod tip;
-mod trace;
-mod trim;
-mod vicinity;
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
+use crate::board::diagnostic::planning;
 use crate::board::{Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect};
 use crate::grid::{Grid, GridError};
 use crate::raster::{self, Scene, TileContent};
-use crate::topology::{NetId, Nets, smallest_gap};
+use crate::topology::{NetId, Nets};
 
 pub use fit::fit_points;
 pub use frame::Frame;
@@ -72,19 +59,19 @@ pub use link::Link;
 pub use mixed::Loops;
 pub use passes::Widening;
 
-use copper::Edges;
+use band::Band;
+use certified::Owned;
 use edge::Border;
 use mixed::Mixed;
-use near::{Insides, Near};
-use place::Unplaced;
 use seed::Sites;
-use stitch::Line;
-use tip::Tips;
 
 /// The owner number of nothing at all.
 const BACKGROUND: u32 = 0;
 /// The owner number of what lies beyond the border.
 const OUTSIDE: u32 = 1;
+
+/// The number of nobody among the owners of the certified diagram.
+const NOBODY: u32 = u32::MAX;
 
 /// How far beyond the reach of regions the wall round everything stands. Chosen.
 const BEYOND: Nm = Nm::from_um(100);
@@ -187,7 +174,7 @@ pub enum SiteKind {
 /// How boundaries are found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
-    /// The side of a pixel. Gaps narrower than about a pixel and a half may be missed.
+    /// The side of a pixel of pictures of the regions.
     pub pitch: Nm,
     /// What distances are measured to.
     pub sites: SiteKind,
@@ -252,10 +239,6 @@ pub struct Diagram {
     sites: Sites,
     /// The owner of each label: a table of its own, because every pixel asks.
     owners: Vec<u32>,
-    /// The sites by place, where they are the copper's edges.
-    near: Option<Near>,
-    /// The copper's own edges, where the sites are not they.
-    edges: Option<Edges>,
     border: Border,
     grid: Grid,
     settings: Settings,
@@ -265,8 +248,15 @@ pub struct Diagram {
     warnings: Vec<Warning>,
     /// What makes it one of loops and of boundaries midway, where nets differ.
     mixed: Option<Box<Mixed>>,
-    /// The certified diagram, where distances are to the copper's edges and nothing limits them.
-    certified: Option<Box<exact::Diagram>>,
+    /// The certified diagram of the sites.
+    certified: Box<exact::Diagram>,
+    /// The boundaries, before they are cut at the border; none where the diagram contradicts
+    /// itself.
+    chains: Option<Vec<exact::Chain>>,
+    /// What belongs to the copper's nets whatever core axes say.
+    band: Option<Box<Band>>,
+    /// Whether each net has anything on the board.
+    kept: Vec<bool>,
 }
 
 impl Diagram {
@@ -288,7 +278,7 @@ impl Diagram {
         let aside = nets_beyond(copper, nets, &border);
         let warnings = aside.iter().map(|&(net, at)| {
             let message = format!("{} lies outside the board's outline and was left aside", nets.label(net));
-            Warning::new("copper-outside-board", message).at(at).on(copper.side)
+            planning::COPPER_OUTSIDE_BOARD.warning(message).at(at).on(copper.side)
         });
         let warnings = warnings.collect();
         if aside.len() == nets.nets().len() {
@@ -297,7 +287,8 @@ impl Diagram {
         let mut kept = vec![true; nets.nets().len()];
         aside.iter().for_each(|(net, _)| kept[net.index()] = false);
         let keep = |feature: usize| kept[nets.of(feature).index()];
-        Ok(Self { warnings, ..Self::within(border, copper, nets, settings, keep)? })
+        let diagram = Self::within(border, copper, nets, settings, keep)?;
+        Ok(Self { warnings, kept, ..diagram })
     }
 
     /// The diagram, within `border`, of the features that `keep` accepts.
@@ -309,47 +300,60 @@ impl Diagram {
         keep: impl Fn(usize) -> bool,
     ) -> Result<Self, Error> {
         let sites = Sites::new(copper, nets, settings, &keep);
-        let (near, edges) = match settings.sites {
-            SiteKind::Copper => (Near::new(&sites), None),
-            SiteKind::Core => (None, Edges::new(copper, nets, settings, &keep)),
-        };
         let grid = Grid::covering(border.window, settings.pitch)?;
-        let certified = is_certain(copper, nets, settings).then(|| {
-            let owner = |feature: usize| keep(feature).then(|| nets.of(feature).0);
-            let mut generators = exact::Generators::of_copper(copper, owner);
-            Box::new(match (settings.limit, copper.bounds()) {
-                (Some(limit), Some(bounds)) => {
-                    // Where copper is nearer than the limit, the wall is not.
-                    generators.wall(bounds.inflate(limit.min(FARTHEST) * 3 + BEYOND));
-                    let floor = FLOOR.min(limit / 2);
-                    exact::Diagram::new(generators, settings.kind(floor), exact::Space::Within)
-                }
-                _ => {
-                    let space = exact::Space::Window(border.bounds().unwrap_or(border.window));
-                    exact::Diagram::new(generators, exact::Kind::Owners, space)
-                }
-            })
-        });
-        let (owners, settings, side) = (sites.owners(), settings.clone(), copper.side);
-        let copper = copper.bounds().unwrap_or(border.window);
-        let (warnings, mixed) = (Vec::new(), None);
+        let bounds = copper.bounds().unwrap_or(border.window);
+        let owned = match settings.sites {
+            SiteKind::Copper => Owned::copper(copper, nets, &keep),
+            SiteKind::Core => Owned::axes(copper, nets, &keep),
+        };
+        let (certified, mut chains) = match settings.limit {
+            Some(limit) => {
+                // Where copper is nearer than the limit, the wall is not.
+                let wall = bounds.inflate(limit.min(FARTHEST) * 3 + BEYOND);
+                owned.diagram(
+                    settings.kind(FLOOR.min(limit / 2)),
+                    exact::Space::Within,
+                    Some(wall),
+                    |diagram| diagram.limited_chains(limit.to_f64(), NOBODY, settings.enclosed),
+                )
+            }
+            None => {
+                let space = exact::Space::Window(border.bounds().unwrap_or(border.window));
+                owned.diagram(exact::Kind::Owners, space, None, |diagram| Some(diagram.chains()))
+            }
+        };
+        let mut band = None;
+        let width = settings.min_width.map(Band::width).filter(|_| !owned.is_of_one());
+        if let (SiteKind::Core, Some(width)) = (settings.sites, width) {
+            let (room, floor) = Band::room(width);
+            let copper = Owned::copper(copper, nets, &keep);
+            let wall = Some(bounds.inflate(room));
+            let edges = |diagram: &exact::Diagram| diagram.limited_chains(width.to_f64(), NOBODY, true);
+            let (copper, edges) =
+                copper.diagram(exact::Kind::Above(floor), exact::Space::Within, wall, edges);
+            let level = settings.limit.map_or(f64::INFINITY, Nm::to_f64);
+            let round = Band::new(copper, width, edges.unwrap_or_default());
+            chains = chains.map(|chains| round.around(chains, |p| certified.owner_near(p, level, NOBODY)));
+            band = Some(Box::new(round));
+        }
         Ok(Self {
+            owners: sites.owners(),
             sites,
-            owners,
-            near,
-            edges,
             border,
             grid,
-            settings,
-            side,
-            copper,
-            warnings,
-            mixed,
-            certified,
+            settings: settings.clone(),
+            side: copper.side,
+            copper: bounds,
+            warnings: Vec::new(),
+            mixed: None,
+            certified: Box::new(certified),
+            chains,
+            band,
+            kept: vec![true; nets.nets().len()],
         })
     }
 
-    /// The grid on which boundaries are found.
+    /// The grid of a picture of the board.
     #[must_use]
     pub const fn grid(&self) -> &Grid {
         &self.grid
@@ -424,111 +428,30 @@ impl Diagram {
         buffers.depths().to_vec()
     }
 
-    /// How many pixels are drawn to find the boundaries: those of the tiles that no one owner has
-    /// to itself.
-    #[must_use]
-    pub fn pixels_drawn(&self) -> u64 {
-        let mut drawn = 0;
-        let area = |tile: raster::Tile<'_>| u64::from(tile.width) * u64::from(tile.height);
-        raster::stream(&self.scene(&self.grid), &sweep::options(Vec::new()), area, |area| drawn += area);
-        drawn
-    }
-
     fn scene(&self, grid: &Grid) -> Scene {
         self.sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
     }
 
-    /// The boundaries between all regions, with what could not be placed and what was too small to
-    /// be cut.
+    /// The boundaries between all regions, with a warning where they contradict each other.
     #[must_use]
     pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
         if let Some(mixed) = &self.mixed {
             return mixed.boundaries(self);
         }
-        if let Some(certified) = &self.certified {
-            let (boundaries, faults) = self.certified_boundaries(certified);
-            if faults.is_empty() {
-                return (boundaries, Vec::new());
-            }
-        }
-        self.traced()
+        let (boundaries, faults) = self.certified_boundaries();
+        (boundaries, self.torn(&faults, "boundaries").into_iter().collect())
     }
 
-    /// Where the certified diagram contradicts itself, so that the picture is traced instead:
-    /// nowhere, unless the program is at fault.
+    /// Where the certified diagram contradicts itself: nowhere, unless the program is at fault.
     #[must_use]
     pub fn faults(&self) -> Vec<Point> {
-        let faults = |certified: &exact::Diagram| self.certified_boundaries(certified).1;
-        self.certified.as_deref().map_or(Vec::new(), faults)
+        self.certified_boundaries().1
     }
 
-    /// The same by tracing the picture.
-    #[must_use]
-    pub fn traced(&self) -> (Boundaries, Vec<Warning>) {
-        let stitcher = self.trace(&self.scene(&self.grid));
-        let mut warnings = Vec::new();
-        let (traced, torn) = (stitcher.unplaced, stitcher.torn());
-        let mut lines = stitcher.lines();
-        let unplaced = traced.join(self.extend_tips(&mut lines));
-        if let Some(level) = self.settings.limit {
-            self.keep_off(&mut lines, level);
-        }
-        let sizes = artifact::Sizes { stub: self.settings.tolerance / 2, sliver: self.grid.pitch() * 2 };
-        warnings.extend(sizes.merge(&mut lines));
-        self.border.follow(&mut lines, self.grid.pitch());
-        warnings.extend(self.not_placed(unplaced, "boundary points"));
-        warnings.extend(self.torn(torn, "boundaries"));
-        (self.graph(lines), warnings)
-    }
-
-    /// What is to be said of lines, of what they are, that end where they should go on.
-    fn torn(&self, torn: Unplaced, what: &str) -> Option<Warning> {
-        let message = format!("{} ends of {what} hang loose: a fault of the program", torn.count);
-        Some(Warning::new("boundary-torn", message).at(torn.first?.rounded()).on(self.side))
-    }
-
-    /// Places the nodes that the picture left open; returns what is not where it belongs. Among
-    /// core axes with copper above them, no open one is.
-    fn extend_tips(&self, lines: &mut Vec<Line>) -> Unplaced {
-        let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
-        let insides = self.settings.limit.map(|_| Insides::new(&self.sites));
-        if let Some(tips) = self.tips(insides.as_ref(), level) {
-            return tips.extend(lines);
-        }
-        let mut unplaced = Unplaced::default();
-        tip::open_nodes(lines).values().for_each(|ends| unplaced.add(tip::end_vertex(lines, ends[0]).at));
-        unplaced
-    }
-
-    /// What completes lines where sites are known by place: regions reach so many nanometres.
-    fn tips<'a>(&'a self, insides: Option<&'a Insides>, level: f64) -> Option<Tips<'a>> {
-        let near = self.near.as_ref()?;
-        Some(Tips { sites: &self.sites, near, insides, border: &self.border, level })
-    }
-
-    /// What is to be said of points, of what they are, that are not where they belong.
-    fn not_placed(&self, unplaced: Unplaced, what: &str) -> Option<Warning> {
-        let message = format!(
-            "{} {what} kept their pixel's place, up to {:.3} mm off: use smaller pixels to place them exactly",
-            unplaced.count,
-            self.grid.pitch()
-        );
-        let first = unplaced.first?.rounded();
-        Some(Warning::new("boundary-not-placed", message).at(first).on(self.side))
-    }
-
-    /// Lines fitted, with nodes in the order in which lines meet them.
-    fn graph(&self, lines: Vec<Line>) -> Boundaries {
-        // Two nodes that fall on the same nanometre are one, and nothing runs between them.
-        let fit = |line: Line| {
-            let mut samples = span::samples(&line.vertices);
-            if let Some(edges) = &self.edges {
-                samples = edges.keep_off(&samples, self.sites.band.to_f64());
-            }
-            let fitted = fit::fit(&samples, self.settings.tolerance, self.settings.arcs)?;
-            Some((fitted, (line.left, line.right), line.ends.is_none()))
-        };
-        Boundaries::of(lines.into_par_iter().filter_map(fit).collect())
+    /// What is to be said of places where lines, of what they are, do not go on as they should.
+    fn torn(&self, faults: &[Point], what: &str) -> Option<Warning> {
+        let message = format!("{} ends of {what} hang loose: a fault of the program", faults.len());
+        Some(planning::BOUNDARY_TORN.warning(message).at(*faults.first()?).on(self.side))
     }
 }
 
@@ -555,12 +478,6 @@ impl Boundaries {
         let edges = fitted.into_iter().map(edge).collect();
         Self { nodes, edges, links: Vec::new() }
     }
-}
-
-/// Whether the certified diagram answers for these settings: it knows the edges of copper, of nets
-/// that do not touch.
-fn is_certain(copper: &Copper, nets: &Nets, settings: &Settings) -> bool {
-    settings.sites == SiteKind::Copper && smallest_gap(copper, nets).is_none_or(|gap| gap.width > Nm::ZERO)
 }
 
 /// The nets of which nothing lies on the board, each with a place.

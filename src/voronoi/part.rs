@@ -6,10 +6,9 @@
 //!   ╰──────────╯        ╰──●───────╯
 //! ```
 
-use crate::geometry::{Path, Point, Segment};
+use crate::geometry::{Arc, Path, Point, Segment, Turn};
 
 use super::plane::{Spot, nearest_on_chord};
-use super::site::foot_on_arc;
 use super::{Boundary, NodeId};
 
 /// A place on a boundary where it is to be parted.
@@ -126,4 +125,29 @@ fn begin_at(edge: &mut Boundary, first: usize) {
     edge.clearance.pop();
     edge.clearance.rotate_left(first);
     edge.clearance.push(edge.clearance[0]);
+}
+
+/// The point of `arc` nearest to `p`.
+fn foot_on_arc(p: Spot, arc: &Arc) -> Spot {
+    let (from, to) = match arc.turn {
+        Turn::CounterClockwise => (arc.start, arc.end),
+        Turn::Clockwise => (arc.end, arc.start),
+    };
+    nearest_on_arc(p, arc.center.into(), arc.radius(), from.into(), to.into(), from == to)
+}
+
+/// The point of a counter-clockwise arc nearest to `p`.
+fn nearest_on_arc(p: Spot, center: Spot, radius: f64, from: Spot, to: Spot, whole: bool) -> Spot {
+    let (way, a, b) = (p - center, from - center, to - center);
+    let wide = a.cross(b) < 0.0 || (a.cross(b) <= 0.0 && a.dot(b) < 0.0 && a.cross(way) < 0.0);
+    let within = if wide {
+        !(b.cross(way) > 0.0 && way.cross(a) > 0.0)
+    } else {
+        a.cross(way) >= 0.0 && way.cross(b) >= 0.0
+    };
+    if (whole || within) && way.length() > 0.0 {
+        return center + way * (radius / way.length());
+    }
+    let (to_from, to_to) = (p - from, p - to);
+    if to_from.dot(to_from) <= to_to.dot(to_to) { from } else { to }
 }

@@ -8,11 +8,12 @@
 //! whose corners were flattened into a hundred edges costs a dozen.
 
 use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
-use crate::geometry::{Arc, Nm, Path, Point, Polygon};
+use crate::geometry::{Arc, Nm, Point, Polygon};
 use crate::grid::Grid;
 use crate::raster::{Caps, FillRule, Label, Scene, Sides, Spin, Surface};
 use crate::topology::Nets;
 
+use super::certified::axis;
 use super::edge::Border;
 use super::plane::Spot;
 use super::site::{Form, Rings, Site};
@@ -75,22 +76,6 @@ impl Sites {
         sites
     }
 
-    /// The label of what earlier cuts have cleared: the last one.
-    pub(super) fn groove(&self) -> u32 {
-        u32::try_from(self.sites.len() - 1).expect("below 2³² sites")
-    }
-
-    /// Draws what lies within `reach` pixels of `path` as cleared.
-    pub(super) fn add_groove(&self, scene: &mut Scene, grid: &Grid, path: &Path, reach: f32) {
-        let points = path.flatten(grid.pitch() / 8);
-        for pair in points.windows(2) {
-            let (from, to) = (grid.pixel(pair[0]), grid.pixel(pair[1]));
-            let (caps, sides) = (Caps::Both, Sides::Both);
-            let surface = Surface::Curtain { from, to, caps, sides, offset: reach, limit: Some(0.0) };
-            scene.add(Label(self.groove()), surface);
-        }
-    }
-
     /// Who owns each label.
     pub(super) fn owners(&self) -> Vec<u32> {
         self.sites.iter().map(|site| site.owner).collect()
@@ -130,7 +115,7 @@ impl Sites {
     /// The paper's approximate core medial axis (§III-D), its copper above it where asked
     /// (§III-D.2).
     fn add_core(&mut self, feature: &Feature, owner: u32, min_width: bool, tolerance: f64) {
-        match core(feature) {
+        match axis(feature) {
             Some(Axis::Flash(p)) => self.push(Form::Point(p.into()), 0.0, owner, false),
             Some(Axis::Line(a, b)) => self.push(Form::Line(a.into(), b.into()), 0.0, owner, false),
             Some(Axis::Arc(arc)) => self.add_arc(&arc, 0.0, owner, false),
@@ -200,7 +185,7 @@ impl Sites {
                     offset,
                     limit,
                 },
-                Form::Arc { center, from, to, .. } => Surface::Ring {
+                Form::Arc { center, from, to } => Surface::Ring {
                     center: at(*center),
                     start: at(*from),
                     end: at(*to),
@@ -225,20 +210,6 @@ impl Sites {
             scene.add(Label(label), surface);
         }
         scene
-    }
-}
-
-/// The axis of a feature, if its copper still holds the axis: clear polarity may have cut it away.
-pub(super) fn core(feature: &Feature) -> Option<Axis> {
-    let probe = match feature.axis {
-        Axis::Flash(p) => p,
-        Axis::Line(a, b) => a.midpoint(b),
-        Axis::Arc(arc) => Spot::from(Point::from_f64(arc.at(0.5).0, arc.at(0.5).1)).rounded(),
-        Axis::Region => return None,
-    };
-    match &feature.shape {
-        Shape::Polygon(polygon) => polygon.contains(probe).then_some(feature.axis),
-        Shape::Disc { .. } | Shape::Stroke { .. } | Shape::Arc { .. } => Some(feature.axis),
     }
 }
 

@@ -7,8 +7,8 @@
 //!   ▓▓│  ┌────── far    just so long that nothing stays.
 //! ```
 //!
-//! In a narrow wedge the picture shows a corner cut off, where it becomes thinner than a pixel:
-//! what turns within a quarter of a kerf is one corner.
+//! Corners of copper are often rounded by a few short edges: what turns within a quarter of a kerf
+//! is one corner.
 
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 

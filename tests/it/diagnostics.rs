@@ -55,11 +55,9 @@ fn a_code_stands_in_the_register_alone() {
     // Plain words are also values of options, and one option is called as what it is about.
     let is_word = |code: &str| !code.contains('-') || code == "outline-gap";
     for file in sources(&src()).into_iter().filter(|file| !is_register(file)) {
-        // The diagram is being rewritten; until then it gives its codes as text.
-        let is_diagram = file.starts_with(src().join("voronoi"));
         for text in texts(&file) {
             let known = kinds.iter().any(|kind| kind.code == text && !is_word(kind.code));
-            if known && !is_diagram {
+            if known {
                 strays.push(format!("{}: {text}", file.display()));
             }
         }

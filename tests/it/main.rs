@@ -53,7 +53,6 @@ mod random;
 mod random_boards;
 mod raster;
 mod real_boards;
-mod resolutions;
 mod rules;
 mod sets;
 mod snapshot;

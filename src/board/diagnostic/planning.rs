@@ -33,23 +33,11 @@ diagnostics! {
         "{blend} has no effect",
         "leave {blend} out, or set the machine to round corners off";
 
-    BOUNDARY_ARTIFACTS: Info =
-        "boundary-artifacts",
-        "parts of boundaries smaller than the tolerance were merged",
-        "none that could be seen",
-        "nothing";
-
-    BOUNDARY_NOT_PLACED: Warning =
-        "boundary-not-placed",
-        "parts of a boundary lie where the picture has them, and not exactly",
-        "cuts there are off by up to a pixel",
-        "use smaller pixels ({pixel})";
-
     BOUNDARY_TORN: Warning =
         "boundary-torn",
         "a boundary ends where nothing else begins",
         "two nets may stay joined there: this is a fault of voromill",
-        "use smaller pixels ({pixel}), and report it with the board";
+        "report it with the board";
 
     CARVED_OUTSIDE: Error =
         "carved-outside",

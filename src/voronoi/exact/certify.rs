@@ -7,7 +7,7 @@ use super::form::Place;
 use super::{Diagram, Edge, Vertex};
 use crate::geometry::Point;
 use crate::voronoi::plane::Spot;
-use crate::voronoi::span::{CLEARANCE_CHORD, Sample};
+use crate::voronoi::sample::{CLEARANCE_CHORD, Sample};
 
 /// What a certificate contradicts.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use super::seed::FIRST_REACH;
 use super::{Diagram, Edge, Link, WALL};
 use crate::voronoi::plane::Spot;
-use crate::voronoi::span::{CHORD, Sample};
+use crate::voronoi::sample::{CHORD, Sample};
 
 /// Edges in a row between the same two owners.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,6 +130,11 @@ impl Diagram {
     pub(in crate::voronoi) fn owner_near(&self, p: Spot, level: f64, nobody: u32) -> Option<u32> {
         let (off, owner) = self.nearest_edge(p)?;
         Some(if off <= level || self.is_copper(p) { owner } else { nobody })
+    }
+
+    /// How far the nearest edge of copper is, from whichever side, in nanometres.
+    pub(in crate::voronoi) fn distance(&self, p: Spot) -> f64 {
+        self.nearest_edge(p).map_or(f64::INFINITY, |(off, _)| off)
     }
 
     /// How far the nearest edge is, from whichever side, and its owner.

@@ -78,7 +78,7 @@ impl<'a> Bodies<'a> {
     }
 
     /// Whether copper lies at `p`; what rings keep free ends within them where `beyond` says so.
-    fn hold(&self, p: Spot, beyond: bool) -> bool {
+    pub(super) fn hold(&self, p: Spot, beyond: bool) -> bool {
         let bodies = &self.diagram.generators.bodies;
         let found = self.index.as_ref().map_or(Vec::new(), |index| index.query(p.x, p.y, p.x, p.y));
         let is_open = |body: &&Body| matches!(body, Body::Rings { open: true, .. });
@@ -162,7 +162,7 @@ impl Diagram {
                 let slack = (to - from) * 1e-6;
                 let is_known = |&at: &f64| at > from - slack && at < to + slack;
                 if !feet[number as usize].iter().any(is_known) && !bodies.cover(foot, normal) {
-                    self.shoot(growth, number, foot, normal);
+                    self.shoot(growth, (number, foot, normal), Some(&bodies));
                     self.grow(growth);
                 }
             }

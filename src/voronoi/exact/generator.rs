@@ -23,11 +23,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use crate::board::{Copper, FLATTEN, Shape};
-use crate::geometry::{Arc, Nm, Point, Polygon, Rect};
+use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Vector};
 use crate::voronoi::plane::Spot;
 
 use super::WALL;
 use super::form::{Form, Place, SLAB, clockwise, unit};
+use super::slit::without_slits;
 
 /// No generator.
 const NONE: u32 = u32::MAX;
@@ -39,6 +40,19 @@ const DRIFT: f64 = 1_000.0;
 /// Two edges that turn by less, in radians, are one for all that is nearest to their corner.
 /// Derived: 100 mm away the distances to them differ by half a tie where both count.
 const STRAIGHT: f64 = 3e-6;
+
+/// A corner that lies off the chord between its neighbours by no more, in nanometres, is none: what
+/// rounding to whole nanometres leaves of three points.
+const ROUNDING: f64 = 1.5;
+
+/// The share of a shake where a nanometre matters.
+const SHARE: f64 = 0.05;
+
+/// The rounding where a nanometre matters: what floats leave of a straight edge.
+const EXACT: f64 = 1e-3;
+
+/// So many corners in a row are none at most, so that looking does not take the square of them.
+const LONGEST_RUN: usize = 64;
 
 /// So far from a foot its normal is looked at, in nanometres. Chosen.
 const AHEAD: f64 = 1_000.0;
@@ -67,6 +81,12 @@ pub struct Generators {
     pub(super) bodies: Vec<Body>,
     discs: FxHashMap<(Point, i64, u32), u32>,
     strokes: FxHashSet<(Point, Point, i64, u32)>,
+    /// Zero, or which of many ways points are moved.
+    attempt: u32,
+    /// Whether what one owner has may lie in pieces.
+    pub(super) is_loose: bool,
+    /// Whether owners may be so near to each other that a nanometre matters.
+    pub(super) is_close: bool,
 }
 
 impl Generators {
@@ -74,6 +94,49 @@ impl Generators {
     #[must_use]
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// None yet; each point of those to come is moved by up to two nanometres, as the number of the
+    /// attempt says, the same point alike, so that equal distances differ; by a twentieth of that
+    /// where owners may be close ([`Generators::keep_all`]). The first attempt, zero, leaves all as
+    /// it is.
+    #[must_use]
+    pub fn shaken(attempt: u32) -> Self {
+        Self { attempt, ..Self::default() }
+    }
+
+    /// Says that what one owner has may lie in pieces, as core axes do: copper that hangs together
+    /// has one rightmost point, each piece of these its own.
+    pub const fn loosen(&mut self) {
+        self.is_loose = true;
+    }
+
+    /// Says that owners may be nearer to each other than slits are wide: then polygons keep theirs,
+    /// and every corner.
+    pub const fn keep_all(&mut self) {
+        self.is_close = true;
+    }
+
+    /// Where a point is moved to.
+    fn moved(&self, p: Point) -> Point {
+        let [x, y] = if self.is_close { [0; 2] } else { self.steps(p) };
+        p + Vector::new(Nm::new(x), Nm::new(y))
+    }
+
+    /// The place of a point that has been moved: where owners are close, this alone moves it.
+    fn spot(&self, p: Point) -> Spot {
+        let [x, y] = if self.is_close { self.steps(p) } else { [0; 2] };
+        Spot::from(p) + Spot::new(Nm::new(x).to_f64(), Nm::new(y).to_f64()) * SHARE
+    }
+
+    /// How far a point is moved along either axis, in nanometres.
+    fn steps(&self, p: Point) -> [i64; 2] {
+        if self.attempt == 0 {
+            return [0; 2];
+        }
+        let [x, y] = [p.x, p.y].map(|nm| nm.get().cast_unsigned());
+        let hash = mixed(mixed(mixed(u64::from(self.attempt)) ^ x) ^ y);
+        [hash >> 32, hash & u64::from(u32::MAX)].map(|bits| i64::try_from(bits % 5).expect("below five") - 2)
     }
 
     /// How many there are.
@@ -104,10 +167,15 @@ impl Generators {
     pub fn add(&mut self, shape: &Shape, owner: u32) {
         match shape {
             Shape::Disc { center, radius } => {
-                self.disc(*center, radius.get(), owner);
+                self.disc(self.moved(*center), radius.get(), owner);
             }
-            Shape::Stroke { from, to, radius } => self.stroke(*from, *to, radius.get(), owner),
-            Shape::Arc { arc, radius } => self.arc(arc, radius.get(), owner),
+            Shape::Stroke { from, to, radius } => {
+                self.stroke(self.moved(*from), self.moved(*to), radius.get(), owner);
+            }
+            Shape::Arc { arc, radius } => {
+                let [start, end, center] = [arc.start, arc.end, arc.center].map(|p| self.moved(p));
+                self.arc(&Arc { start, end, center, ..*arc }, radius.get(), owner);
+            }
             Shape::Polygon(polygon) => self.polygon(polygon, owner),
         }
     }
@@ -123,7 +191,10 @@ impl Generators {
     }
 
     fn rings(&mut self, polygon: &Polygon, owner: impl Fn(usize) -> u32, inwards: bool) {
-        let rings: Vec<Vec<Point>> = polygon.contours().iter().map(|ring| simple(ring)).collect();
+        let moved = |ring: &Vec<Point>| ring.iter().map(|&p| self.moved(p)).collect::<Vec<_>>();
+        let rounding = if self.is_close { EXACT } else { ROUNDING };
+        let simple = |ring: Vec<Point>| simple(ring, rounding);
+        let rings: Vec<Vec<Point>> = polygon.contours().iter().map(|ring| simple(moved(ring))).collect();
         let largest = rings.iter().map(|ring| twice_area(ring)).max_by_key(|area| area.unsigned_abs());
         let backwards = largest.is_some_and(|area| area < 0);
         let first = self.number();
@@ -131,7 +202,10 @@ impl Generators {
             if backwards != inwards {
                 ring.reverse();
             }
-            self.ring(&ring, owner(i));
+            let rings = if self.is_close { vec![ring] } else { without_slits(vec![ring]) };
+            for ring in rings {
+                self.ring(&simple(ring), owner(i));
+            }
         }
         self.bodies.push(Body::Rings { edges: first..self.number(), open: inwards });
     }
@@ -139,19 +213,6 @@ impl Generators {
     /// Adds the sides of a rectangle that holds all else; the space inside it is free.
     pub fn wall(&mut self, rect: Rect) {
         self.inside(&Polygon::rectangle(rect), |_| WALL);
-    }
-
-    /// The same without walls, which were added last.
-    pub(super) fn without_wall(&self) -> Self {
-        let mut copper = self.clone();
-        let first = self.owners.iter().position(|&owner| owner == WALL).unwrap_or(self.len());
-        copper.forms.truncate(first);
-        copper.owners.truncate(first);
-        copper.ends.truncate(first);
-        copper
-            .bodies
-            .retain(|body| !matches!(body, Body::Rings { edges, .. } if edges.start as usize >= first));
-        copper
     }
 
     /// The number of the next one.
@@ -171,7 +232,7 @@ impl Generators {
         let first = self.number();
         for i in 0..n {
             let next = (i + 1) % n;
-            let form = Form::line(ring[i].into(), ring[next].into());
+            let form = Form::line(self.spot(ring[i]), self.spot(ring[next]));
             self.push(form, owner, [corners[i], corners[next]]);
         }
         let count = self.number() - first;
@@ -206,7 +267,7 @@ impl Generators {
         if let Some(&known) = self.discs.get(&(center, radius, owner)) {
             return known;
         }
-        let disc = self.push(Form::disc(center.into(), Nm::new(radius).to_f64()), owner, [NONE; 2]);
+        let disc = self.push(Form::disc(self.spot(center), Nm::new(radius).to_f64()), owner, [NONE; 2]);
         self.discs.insert((center, radius, owner), disc);
         self.bodies.push(Body::Disc(disc));
         disc
@@ -218,7 +279,7 @@ impl Generators {
         if from == to || !self.strokes.insert((from, to, radius, owner)) {
             return;
         }
-        self.sides(from.into(), to.into(), Nm::new(radius).to_f64(), owner, discs);
+        self.sides(self.spot(from), self.spot(to), Nm::new(radius).to_f64(), owner, discs);
     }
 
     /// The two sides of a stroke.
@@ -233,19 +294,36 @@ impl Generators {
     fn arc(&mut self, arc: &Arc, radius: i64, owner: u32) {
         let half = Nm::new(radius).to_f64();
         let whole = arc.start == arc.end;
-        let Some((center, reach)) = centred(arc) else {
+        let Some((center, reach)) = self.centred(arc) else {
             let points: Vec<Point> = std::iter::once(arc.start).chain(arc.flatten(FLATTEN)).collect();
             points.windows(2).for_each(|pair| self.stroke(pair[0], pair[1], radius, owner));
             return;
         };
         let (from, to) = if arc.sweep() > 0.0 { (arc.start, arc.end) } else { (arc.end, arc.start) };
-        let sector = (!whole).then(|| [from, to].map(|end| unit(Spot::from(end) - center)));
+        let sector = (!whole).then(|| [from, to].map(|end| unit(self.spot(end) - center)));
         let ends = if whole { [NONE; 2] } else { [from, to].map(|end| self.disc(end, radius, owner)) };
         let outer = Form::Circle { center, radius: reach + half, hollow: false, sector };
         let outer = self.push(outer, owner, ends);
         let inner = Form::Circle { center, radius: reach - half, hollow: true, sector };
         let inner = (reach > half).then(|| self.push(inner, owner, ends));
         self.bodies.push(Body::Band(outer, inner));
+    }
+
+    /// The centre and radius of an arc that meets both its ends; none where the radii differ too
+    /// much.
+    fn centred(&self, arc: &Arc) -> Option<(Spot, f64)> {
+        let [a, b, center] = [arc.start, arc.end, arc.center].map(|p| self.spot(p));
+        if arc.start == arc.end {
+            return Some((center, arc.radius()));
+        }
+        if arc.drift() > DRIFT {
+            return None;
+        }
+        // The foot of the centre on the perpendicular bisector of the chord.
+        let (middle, along) = (a.midpoint(b), unit(b - a));
+        let moved = center - along * (center - middle).dot(along);
+        let small = (moved - center).length() <= DRIFT;
+        small.then(|| (moved, f64::midpoint((a - moved).length(), (b - moved).length())))
     }
 
     /// Whether two generators have the same foot and normal where one ends on the other.
@@ -259,20 +337,12 @@ impl Generators {
     }
 }
 
-/// The centre and radius of an arc that meets both its ends; none where the radii differ too much.
-fn centred(arc: &Arc) -> Option<(Spot, f64)> {
-    let (a, b, center) = (Spot::from(arc.start), Spot::from(arc.end), Spot::from(arc.center));
-    if arc.start == arc.end {
-        return Some((center, arc.radius()));
-    }
-    if arc.drift() > DRIFT {
-        return None;
-    }
-    // The foot of the centre on the perpendicular bisector of the chord.
-    let (middle, along) = (a.midpoint(b), unit(b - a));
-    let moved = center - along * (center - middle).dot(along);
-    let small = (moved - center).length() <= DRIFT;
-    small.then(|| (moved, f64::midpoint((a - moved).length(), (b - moved).length())))
+/// A hash of a number: the step of splitmix64 (S. Vigna, after G. Steele et al., 2014).
+const fn mixed(number: u64) -> u64 {
+    let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
 }
 
 /// Twice the signed area of the triangle.
@@ -293,22 +363,38 @@ fn twice_area(ring: &[Point]) -> i128 {
     ring.windows(2).map(|pair| cross(origin, pair[0], pair[1])).sum()
 }
 
-/// A ring without repeated points and without points on straight edges.
-fn simple(ring: &[Point]) -> Vec<Point> {
-    let mut points = ring.to_vec();
+/// A ring without repeated points and without those that say nothing: on straight edges, or off
+/// them by no more than `rounding` nanometres.
+fn simple(mut points: Vec<Point>, rounding: f64) -> Vec<Point> {
     points.dedup();
     while points.len() > 1 && points.first() == points.last() {
         points.pop();
     }
     let n = points.len();
-    let straight = |i: usize| {
+    let is_corner = |i: usize| {
         let (a, b, c) = (points[(i + n - 1) % n], points[i], points[(i + 1) % n]);
-        cross(a, b, c) == 0 && !is_back(a, b, c)
+        is_back(a, b, c) || Spot::from(b).distance_to_chord(a.into(), c.into()) > rounding
     };
-    if n < 3 {
-        return points;
+    let Some(first) = (0..n).find(|&i| is_corner(i)).filter(|_| n > 3) else { return points };
+    points.rotate_left(first);
+    let mut kept = vec![points[0]];
+    let mut last = 0;
+    for next in 1..=n {
+        // As far on as what lies between says nothing.
+        let end = points[(next + 1) % n];
+        let from = points[last];
+        let is_straight = next < n
+            && next - last < LONGEST_RUN
+            && !is_back(from, points[next], end)
+            && points[last + 1..=next]
+                .iter()
+                .all(|&p| Spot::from(p).distance_to_chord(from.into(), end.into()) <= rounding);
+        if !is_straight && next < n {
+            kept.push(points[next]);
+            last = next;
+        }
     }
-    (0..n).filter(|&i| !straight(i)).map(|i| points[i]).collect()
+    if kept.len() > 2 { kept } else { points }
 }
 
 /// Generators by place, with the breaks of discs.

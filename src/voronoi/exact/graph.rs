@@ -42,7 +42,7 @@ fn cell(p: Spot) -> [i64; 2] {
 
 impl Growth {
     /// The junction at the place of another, or where the same generators are tied all the way
-    /// there.
+    /// there, or three owners where they are hardly apart.
     fn known(&self, junction: &Junction) -> Option<u32> {
         let Junction { at, clearance, .. } = *junction;
         let reach = resolution(self.tie, clearance);
@@ -50,8 +50,12 @@ impl Growth {
         let cells = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
         let known = cells.filter_map(|cell| self.by_place.get(&cell)).flatten().copied();
         let off = |i: u32| (self.junctions[i as usize].at - at).length();
+        let is_alike = |other: &Junction| {
+            let is_star = junction.owners.len() > 2 && other.owners == junction.owners;
+            is_star || other.tied == junction.tied
+        };
         let one = known.filter(|&i| {
-            off(i) <= 2.0 * self.tie || (off(i) <= reach && self.junctions[i as usize].tied == junction.tied)
+            off(i) <= 2.0 * self.tie || (off(i) <= reach && is_alike(&self.junctions[i as usize]))
         });
         one.min_by(|&a, &b| off(a).total_cmp(&off(b)))
     }
@@ -105,7 +109,7 @@ impl Growth {
 fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Junction {
     let slot = Slot { left: pair.right, right: pair.left, way: way * -1.0, edge: None };
     let tied = vec![pair.left.min(pair.right), pair.left.max(pair.right)];
-    Junction { at, clearance, tied, slots: vec![slot], is_end: true }
+    Junction { at, clearance, tied, owners: Vec::new(), slots: vec![slot], is_end: true }
 }
 
 impl Diagram {

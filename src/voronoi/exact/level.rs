@@ -18,7 +18,7 @@ use super::chain::Chain;
 use super::form::{Form, Place, turn, unit};
 use super::{Diagram, Edge, Kind, Link, NOBODY};
 use crate::voronoi::plane::Spot;
-use crate::voronoi::span::{CHORD, CLEARANCE_CHORD, Sample};
+use crate::voronoi::sample::{CHORD, CLEARANCE_CHORD, Sample};
 
 /// A level lies above its number by this much, in nanometres, so that what is exactly so wide on a
 /// grid is on one side of it. Chosen: more than rounding, less than the grid.
@@ -391,12 +391,9 @@ impl Diagram {
         nobody: u32,
         enclosed: bool,
     ) -> Option<Vec<Chain>> {
-        debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
         let crossings = self.crossings(level);
         let mut chains = self.chains_below(&crossings);
-        let parts = (!enclosed).then(|| self.parts_above(&crossings));
-        let wanted = |place: u32| parts.as_ref().is_none_or(|parts| !parts.is_enclosed(place));
-        chains.extend(self.level_chains(&crossings, true, nobody, wanted)?);
+        chains.extend(self.curves(&crossings, nobody, enclosed)?);
         Some(chains)
     }
 
@@ -409,11 +406,15 @@ impl Diagram {
         nobody: u32,
         enclosed: bool,
     ) -> Option<Vec<Chain>> {
+        self.curves(&self.crossings(level), nobody, enclosed)
+    }
+
+    /// The curves of a level, as [`Diagram::curves_at`] has them.
+    fn curves(&self, crossings: &Crossings, nobody: u32, enclosed: bool) -> Option<Vec<Chain>> {
         debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
-        let crossings = self.crossings(level);
-        let parts = (!enclosed).then(|| self.parts_above(&crossings));
+        let parts = (!enclosed).then(|| self.parts_above(crossings));
         let wanted = |place: u32| parts.as_ref().is_none_or(|parts| !parts.is_enclosed(place));
-        self.level_chains(&crossings, true, nobody, wanted)
+        self.level_chains(crossings, true, nobody, wanted)
     }
 
     /// The chains between owners, as far as they lie below the level.

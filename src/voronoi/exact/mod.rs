@@ -33,8 +33,12 @@
 //! used. With [`Kind::Owners`] the graph is complete if every owner's copper is connected.
 //! Distances that differ by less than a *tie* are equal; where one tie leaves an end loose, all is
 //! walked anew with another, and what no tie resolves is a fault, for which
-//! [`Diagram`](super::Diagram) traces the picture instead. None of the 47 layers of real boards
-//! needs that, and none of 600 random scenes did before places in copper were told, too.
+//! [`Diagram`](super::Diagram) shakes the copper by two nanometres and walks again. None of the 47
+//! layers of real boards needs that, at six levels each and in both kinds of level sets.
+//!
+//! Polygons come with slits and with corners that are only rounding: rings that lead in to a hole
+//! and out again along themselves (`slit`), and points within a nanometre and a half of the chord
+//! between their neighbours. Neither becomes a generator: what they part no distance tells.
 //!
 //! With [`Kind::MedialAxis`] less is proven: of 1200 random scenes two break a certificate, where
 //! an edge steps over an event. What one owner encloses is found from the edges that lie open
@@ -58,6 +62,7 @@
 //! Pappus (circles that touch three given ones).
 
 mod apollonius;
+mod axis;
 mod certify;
 mod chain;
 mod enclosed;
@@ -68,6 +73,7 @@ mod graph;
 mod level;
 mod query;
 mod seed;
+mod slit;
 mod vertex;
 mod walk;
 
@@ -82,6 +88,7 @@ pub use certify::Violation;
 pub use generator::Generators;
 pub use level::LevelCurve;
 
+pub(super) use axis::OnAxis;
 pub(super) use chain::Chain;
 
 /// The number of no generator.
@@ -179,18 +186,6 @@ impl Diagram {
             }
         }
         diagram
-    }
-
-    /// The diagram of the same copper within a wall, for level sets: a [`Kind::Above`] or
-    /// [`Kind::Between`]; none where either contradicts itself.
-    pub(super) fn within_wall(&self, wall: Rect, kind: Kind) -> Option<Self> {
-        if !self.faults.is_empty() {
-            return None;
-        }
-        let mut generators = self.generators.without_wall();
-        generators.wall(wall);
-        let diagram = Self::new(generators, kind, Space::Within);
-        diagram.faults.is_empty().then_some(diagram)
     }
 
     /// The diagram before any edge is known.

@@ -2,7 +2,7 @@
 
 use super::{Diagram, Edge};
 use crate::voronoi::plane::Spot;
-use crate::voronoi::span::Sample;
+use crate::voronoi::sample::Sample;
 
 impl Diagram {
     /// Points along an edge from its beginning to its end, with the distance to the generators:

@@ -11,6 +11,8 @@
 //! The medial axis of one connected part of the free space is connected; what one owner encloses
 //! has a part of its own, to which the normals of edges that lie open lead (`exposed`).
 
+use std::collections::BTreeMap;
+
 use super::exposed::Bodies;
 use super::form::{Form, Place};
 use super::graph::Growth;
@@ -27,12 +29,14 @@ const EVENTS: usize = 1_000_000;
 impl Diagram {
     /// Sows all seeds, and grows what comes of them.
     pub(super) fn sow(&self, growth: &mut Growth, space: Space) {
-        // Of what lies outside all else the rightmost point may be at the end of free space.
-        let bodies = (space == Space::Within).then(|| Bodies::new(self));
+        // Of what lies outside all else the rightmost point may be at the end of free space, and a
+        // piece of what is loose lies in another.
+        let is_covered = space == Space::Within || self.generators.is_loose;
+        let bodies = is_covered.then(|| Bodies::new(self));
         let right = Spot::new(1.0, 0.0);
         for (generator, foot) in self.rightmost() {
             if bodies.as_ref().is_none_or(|bodies| !bodies.cover(foot, right)) {
-                self.shoot(growth, generator, foot, right);
+                self.shoot(growth, (generator, foot, right), bodies.as_ref());
             }
         }
         self.grow(growth);
@@ -45,17 +49,20 @@ impl Diagram {
         }
     }
 
-    /// The rightmost point of each owner, with the generator that has it.
+    /// The rightmost point of each owner, with the generator that has it; of each disc, where what
+    /// an owner has may lie in pieces.
     fn rightmost(&self) -> Vec<(u32, Spot)> {
         let right = Spot::new(1.0, 0.0);
-        let mut found: std::collections::BTreeMap<u32, (f64, u32, Spot)> = std::collections::BTreeMap::new();
+        let is_loose = self.generators.is_loose;
+        let key = |i: u32| (self.owner(i), if is_loose { i } else { 0 });
+        let mut found: BTreeMap<(u32, u32), (f64, u32, Spot)> = BTreeMap::new();
         for (i, form) in (0_u32..).zip(self.forms()) {
             let Form::Circle { hollow: false, .. } = form else { continue };
             let (foot, _) = form.foot(Place::Toward(right));
             if form.slack(foot) < 0.0 {
                 continue;
             }
-            let best = found.entry(self.owner(i)).or_insert((f64::NEG_INFINITY, i, foot));
+            let best = found.entry(key(i)).or_insert((f64::NEG_INFINITY, i, foot));
             if foot.x > best.0 {
                 *best = (foot.x, i, foot);
             }
@@ -64,8 +71,13 @@ impl Diagram {
     }
 
     /// Follows the normal of a generator to where another is equally near, and plants what begins
-    /// there.
-    pub(super) fn shoot(&self, growth: &mut Growth, generator: u32, foot: Spot, normal: Spot) {
+    /// there, unless `bodies` hold it.
+    pub(super) fn shoot(
+        &self,
+        growth: &mut Growth,
+        (generator, foot, normal): (u32, Spot, Spot),
+        bodies: Option<&Bodies<'_>>,
+    ) {
         let [left, bottom, right, top] = self.window;
         let farthest = (right - left) + (top - bottom);
         let mut reach = FIRST_REACH;
@@ -97,6 +109,10 @@ impl Diagram {
             return;
         };
         let at = foot + normal * s;
+        // A ray from what is not the rightmost of its owner there may lead through copper.
+        if self.generators.is_loose && bodies.is_some_and(|bodies| bodies.hold(at, false)) {
+            return;
+        }
         let is_low = match self.kind {
             Kind::Above(floor) | Kind::Between(floor) => {
                 s < floor.to_f64() && self.owner(generator) == self.owner(other)

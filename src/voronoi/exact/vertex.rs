@@ -26,6 +26,9 @@ pub(super) const SNAP: f64 = 1.0;
 /// Feet nearer to each other than this have one direction, beside what a tie may turn them by.
 const SAME: f64 = 1e-6;
 
+/// The same of two owners, between which a boundary runs however near they are: rounding is less.
+const APART: f64 = 1e-9;
+
 /// A generator tied at a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tied {
@@ -51,6 +54,9 @@ pub(super) struct Junction {
     pub(super) at: Spot,
     pub(super) clearance: f64,
     pub(super) tied: Vec<u32>,
+    /// The owners that are tied where they may be so near to each other that their generators
+    /// change within rounding; else none.
+    pub(super) owners: Vec<u32>,
     pub(super) slots: Vec<Slot>,
     /// Whether any number of edges may end here.
     pub(super) is_end: bool,
@@ -97,7 +103,17 @@ impl Diagram {
         generators.sort_unstable();
         generators.dedup();
         let is_end = slots.is_empty();
-        Some(Junction { at, clearance, tied: generators, slots, is_end })
+        let owners = self.owners_of(&generators);
+        Some(Junction { at, clearance, tied: generators, owners, slots, is_end })
+    }
+
+    /// The owners of tied generators, ascending, where these alone tell a vertex from another.
+    fn owners_of(&self, tied: &[u32]) -> Vec<u32> {
+        let is_close = self.generators.is_close;
+        let mut owners: Vec<u32> = tied.iter().filter(|_| is_close).map(|&i| self.owner(i)).collect();
+        owners.sort_unstable();
+        owners.dedup();
+        owners
     }
 
     /// The generators among some that are `clearance` far from `p`, by the direction of their feet,
@@ -135,15 +151,19 @@ impl Diagram {
         tied.sort_by(|a, b| {
             turn(from, a.toward).total_cmp(&turn(from, b.toward)).then(a.generator.cmp(&b.generator))
         });
-        let same = SAME + 2.0 * self.tie / clearance.max(self.tie);
-        let is_same = |a: Spot, b: Spot| a.dot(b) > 0.0 && a.cross(b).abs() < same;
+        let turned = 2.0 * self.tie / clearance.max(self.tie);
+        let is_same = |a: &Tied, b: &Tied| {
+            let is_one = self.owner(a.generator) == self.owner(b.generator);
+            let same = turned + if is_one { SAME } else { APART };
+            a.toward.dot(b.toward) > 0.0 && a.toward.cross(b.toward).abs() < same
+        };
         // Begin after a gap between two directions, so that no group is cut in two.
         let n = tied.len();
-        if let Some(gap) = (0..n).find(|&i| !is_same(tied[(i + n - 1) % n].toward, tied[i].toward)) {
+        if let Some(gap) = (0..n).find(|&i| !is_same(&tied[(i + n - 1) % n], &tied[i])) {
             tied.rotate_left(gap);
         }
         for i in 1..n {
-            let step = usize::from(!is_same(tied[i - 1].toward, tied[i].toward));
+            let step = usize::from(!is_same(&tied[i - 1], &tied[i]));
             tied[i].group = tied[i - 1].group + step;
         }
         tied

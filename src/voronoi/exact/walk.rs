@@ -26,6 +26,8 @@ const LEAST: f64 = 20_000.0;
 /// What comes nearer by less than this a unit of way only touches; if it enters after all, the end
 /// of the step shows it. Rounding is less.
 const FLAT: f64 = 1e-6;
+/// The same of what belongs to another owner than both.
+const LEAST_FLAT: f64 = 1e-9;
 
 /// Who cannot step so far has come to where two generators touch, in nanometres.
 const SHORTEST: f64 = 1e-4;
@@ -325,7 +327,9 @@ impl Diagram {
                 let off = (at - start).length();
                 let is_near = off < 2.0 * self.tie || (was_tied && off < near);
                 let entering = (other.away(at) - form.away(at)).dot(pair.way(at));
-                if (is_near && entering > -0.1) || entering >= -FLAT {
+                // Between two owners nothing hands over: however flatly one comes, it enters.
+                let flat = if self.is_strange(pair, c) { LEAST_FLAT } else { FLAT };
+                if (is_near && entering > -0.1) || entering >= -flat {
                     continue;
                 }
                 first = Some((along, at, s, c));
@@ -340,6 +344,11 @@ impl Diagram {
             return first;
         }
         self.entry(pair, main, here, next, missed?)
+    }
+
+    /// Whether a generator belongs to neither owner of a pair.
+    fn is_strange(&self, pair: &Pair, c: u32) -> bool {
+        [pair.left, pair.right].into_iter().all(|i| i == NOBODY || self.owner(i) != self.owner(c))
     }
 
     /// Where a generator comes nearer that touches too flatly for an equation: by halving.

@@ -22,7 +22,7 @@ mod pruning;
 use rayon::prelude::*;
 
 use super::exact::{Diagram, Generators, Kind, Space};
-use crate::geometry::{Nm, Point, Polygon, Vector};
+use crate::geometry::{Point, Polygon};
 
 use joining::join;
 use pruning::prune;
@@ -74,7 +74,7 @@ pub struct MedialAxis {
 const CHORD: f64 = 100.0;
 
 /// How often the corners of an area are moved by a nanometre or two where its diagram has a flaw.
-const ATTEMPTS: u64 = 4;
+const ATTEMPTS: u32 = 4;
 
 impl MedialAxis {
     /// The medial axis of areas, each by itself; polygons as a boolean returns them.
@@ -107,14 +107,15 @@ impl MedialAxis {
     }
 }
 
-/// The diagram of an area with the fewest faults: of the area as it is, unless that has any.
+/// The diagram of an area with the fewest faults: of the area as it is, unless that has any, else
+/// of one shaken a little.
 fn flawless(area: &Polygon) -> Diagram {
-    let mut best = inside(area);
+    let mut best = inside(area, 0);
     for attempt in 1..=ATTEMPTS {
         if best.faults().is_empty() {
             break;
         }
-        let other = inside(&shaken(area, attempt));
+        let other = inside(area, attempt);
         if other.faults().len() < best.faults().len() {
             best = other;
         }
@@ -122,24 +123,8 @@ fn flawless(area: &Polygon) -> Diagram {
     best
 }
 
-fn inside(area: &Polygon) -> Diagram {
-    let mut generators = Generators::new();
+fn inside(area: &Polygon, attempt: u32) -> Diagram {
+    let mut generators = Generators::shaken(attempt);
     generators.inside(area, |ring| u32::try_from(ring).expect("below 2³² rings"));
     Diagram::new(generators, Kind::MedialAxis, Space::Within)
-}
-
-/// The same area with each corner moved by up to two nanometres, so that equal distances differ.
-fn shaken(area: &Polygon, attempt: u64) -> Polygon {
-    let mut state = attempt;
-    let mut step = || {
-        // A splitmix64 generator.
-        state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        Nm::new(i64::try_from((z >> 32) % 5).expect("below five") - 2)
-    };
-    let mut moved = |p: &Point| *p + Vector::new(step(), step());
-    let rings = area.contours().iter().map(|ring| ring.iter().map(&mut moved).collect()).collect();
-    Polygon::new(rings).expect("as many points as before")
 }

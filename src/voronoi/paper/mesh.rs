@@ -20,8 +20,8 @@ use crate::geometry::{Arc, Nm, Point, Rect};
 use crate::grid::Grid;
 use crate::raster::{FillRule, Label, PixelPoint, Scene, Surface, mesh};
 use crate::topology::{NetId, Nets};
+use crate::voronoi::certified;
 use crate::voronoi::plane::Spot;
-use crate::voronoi::seed;
 
 /// The label of the frame.
 const FRAME: Label = Label(1);
@@ -111,7 +111,7 @@ impl<'a> Mesh<'a> {
         let mut skeletons: BTreeMap<u32, Skeleton> = BTreeMap::new();
         for (index, feature) in self.copper.features.iter().enumerate() {
             let skeleton = skeletons.entry(self.nets.of(index).0).or_default();
-            match seed::core(feature) {
+            match certified::axis(feature) {
                 Some(Axis::Flash(center)) => skeleton.flashes.push(center),
                 Some(Axis::Line(from, to)) if from == to => skeleton.flashes.push(from),
                 Some(Axis::Line(from, to)) => skeleton.strokes.push((from, to)),

@@ -189,11 +189,6 @@ fn drawn() -> impl Strategy<Value = Drawn> {
 }
 
 impl Drawing {
-    /// Whether its outline layer has holes or slots.
-    pub(super) fn has_drawn_holes(&self) -> bool {
-        !self.drawn.is_empty()
-    }
-
     /// The copper.
     pub(super) fn copper(&self) -> String {
         let mut pen = Pen::default();

@@ -17,7 +17,7 @@ use voromill::gcode::read;
 use voromill::import::Loaded;
 use voromill::import::gerber::{self, Image};
 use voromill::import::outline;
-use voromill::job::{self, Job, Options, Settings, Sites};
+use voromill::job::{self, Job, Options, Settings};
 use voromill::verify::{Finding, Severity};
 
 use crate::euler;
@@ -90,7 +90,7 @@ fn is_told(finding: &Finding, job: &Job) -> bool {
 }
 
 /// Which law is broken, if one is.
-fn judge(board: &Board, settings: &str, has_drawn_holes: bool) -> Result<(), String> {
+fn judge(board: &Board, settings: &str) -> Result<(), String> {
     let options = Options::from_toml("voromill.toml", settings).expect("settings");
     let settings = Settings::resolve(options).expect("settings that make sense");
     let (job, alone) = (mill(board, &settings, 2)?, mill(board, &settings, 1)?);
@@ -100,16 +100,10 @@ fn judge(board: &Board, settings: &str, has_drawn_holes: bool) -> Result<(), Str
         }
         read(&program.text).map_err(|error| format!("it does not read back: {error}"))?;
     }
-    // Among core axes some nodes keep their pixel's place, and say so; then two may lie on one
-    // another, and borders run together.
-    // Boards with drawn holes are asked what is cut, not where each vertex lies: a point of a pass
-    // beside a hole may keep its pixel's place, and says so.
-    let is_placed = settings.sites != Sites::Core && !has_drawn_holes;
-    let faulty = |code: &str| code == "boundary-torn" || (code == "boundary-not-placed" && is_placed);
-    if let Some(fault) = job.warnings.iter().find(|warning| faulty(warning.code())) {
+    if let Some(fault) = job.warnings.iter().find(|warning| warning.code() == "boundary-torn") {
         return Err(format!("{} at {:?}: {}", fault.code(), fault.at, fault.message));
     }
-    for layer in job.layers.iter().filter(|_| is_placed) {
+    for layer in &job.layers {
         euler::wrong(&layer.boundaries).map_or(Ok(()), Err)?;
     }
     let report = job.verify(&settings).map_err(|error| error.to_string())?;
@@ -125,7 +119,7 @@ fn judge_drawing(drawing: &Drawing, side: Side, settings: &str) -> Result<(), St
     let Some(copper) = copper(&drawing.copper(), side)? else { return Ok(()) };
     let edge = copper.bounds().and_then(|bounds| drawing.edge(bounds));
     let board = board(copper, edge.as_deref())?;
-    judge(&board, settings, drawing.has_drawn_holes())
+    judge(&board, settings)
         .map_err(|wrong| edge.map_or(wrong.clone(), |edge| format!("{wrong}\nwith the edge\n{edge}")))
 }
 
@@ -166,6 +160,6 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let copper = copper(&text, Side::Front).expect("readable").expect("copper");
         let board = board(copper, None).expect("a board");
-        assert_eq!(judge(&board, settings, false), Ok(()), "{name}");
+        assert_eq!(judge(&board, settings), Ok(()), "{name}");
     }
 }

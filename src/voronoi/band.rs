@@ -1,0 +1,228 @@
+//! Boundaries midway between core axes, and round the copper where it reaches across them (the
+//! paper's §III-D and III-D.2).
+//!
+//! ```text
+//!   ───── axis of A ─────           Midway between the axes ╌ a boundary may run through the copper of a wide trace. So every region
+//!                                   holds its net's copper and a band round it at least: there the boundary runs along the edge of the
+//!   ╌╌╌╌╌╌╌●      ●╌╌╌╌╌╌╌╌╌        band, from where the one crosses the other to where it crosses it again.
+//!      ▓▓▓▓│▓▓▓▓▓▓│▓▓▓
+//!      ▓▓▓▓╰──────╯▓▓▓ axis of B    Where bands of two nets meet, it runs midway between their copper.
+//! ```
+
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+
+use crate::geometry::Nm;
+
+use super::exact::{Chain, Diagram};
+use super::plane::Spot;
+use super::sample::Sample;
+use super::{BEYOND, FLOOR, NOBODY};
+
+/// What a band is wide at least, so that its edge is one. Chosen: no cutter is as true.
+const LEAST: Nm = Nm::from_um(1);
+
+/// The first number of the nodes of axes, and of places where bands cross what is between axes.
+const OF_AXES: u32 = 1 << 30;
+const OF_CROSSINGS: u32 = 1 << 31;
+
+/// The copper with the band round it that belongs to its net whatever the axes say.
+pub(super) struct Band {
+    copper: Diagram,
+    width: f64,
+    /// What parts bands from each other, and their edges, which have nobody on their right.
+    chains: Vec<Chain>,
+}
+
+/// A place where two chains cross: between which samples of the one, and how far from the first to
+/// the second.
+#[derive(Clone, Copy)]
+struct Crossing {
+    sample: usize,
+    part: f64,
+    at: Spot,
+    node: u32,
+}
+
+impl Band {
+    /// How wide it is where so much is asked for.
+    pub(super) fn width(asked: Nm) -> Nm {
+        asked.max(LEAST)
+    }
+
+    /// How far the wall round all copper is from it, and how narrow slits are not looked at, for a
+    /// diagram that knows a band of this width.
+    pub(super) fn room(width: Nm) -> (Nm, Nm) {
+        (width * 3 + BEYOND, FLOOR.min(width / 2))
+    }
+
+    /// The band in a diagram of copper, with its edges and what parts it from others.
+    pub(super) const fn new(copper: Diagram, width: Nm, chains: Vec<Chain>) -> Self {
+        Self { copper, width: width.to_f64(), chains }
+    }
+
+    /// The owner of the copper in whose band a place lies, if it does.
+    pub(super) fn owner_at(&self, p: Spot) -> Option<u32> {
+        self.copper.owner_near(p, self.width, NOBODY).filter(|&owner| owner != NOBODY)
+    }
+
+    /// The boundaries of regions that hold their band at least, of those `between` the axes, whose
+    /// cells `owner` knows. With them come the distances to copper.
+    pub(super) fn around(&self, between: Vec<Chain>, owner: impl Fn(Spot) -> Option<u32>) -> Vec<Chain> {
+        let is_edge = |chain: &&Chain| chain.right == NOBODY;
+        let edges: Vec<&Chain> = self.chains.iter().filter(is_edge).collect();
+        let inner = self.chains.iter().filter(|chain| !is_edge(chain)).cloned();
+        let (of_edges, of_axes) = crossings(&edges, &between);
+        let mut all: Vec<Chain> = inner.collect();
+        for (edge, found) in edges.into_iter().zip(of_edges) {
+            for part in parted(edge.clone(), found) {
+                let right = middle(&part.samples).and_then(&owner).unwrap_or(NOBODY);
+                if right != part.left {
+                    all.push(Chain { right, ..part });
+                }
+            }
+        }
+        for (chain, found) in between.into_iter().zip(of_axes) {
+            let ends = chain.ends.map(|ends| ends.map(|end| end + OF_AXES));
+            let parts = parted(Chain { ends, ..chain }, found).into_iter();
+            all.extend(
+                parts.filter(|part| middle(&part.samples).is_some_and(|at| self.owner_at(at).is_none())),
+            );
+        }
+        for sample in all.iter_mut().flat_map(|chain| &mut chain.samples) {
+            sample.clearance = self.copper.distance(sample.at);
+        }
+        all
+    }
+}
+
+/// The place midway along a chain.
+fn middle(samples: &[Sample]) -> Option<Spot> {
+    let length: f64 = samples.windows(2).map(|pair| (pair[1].at - pair[0].at).length()).sum();
+    let mut left = length / 2.0;
+    for pair in samples.windows(2) {
+        let way = pair[1].at - pair[0].at;
+        if way.length() >= left && way.length() > 0.0 {
+            return Some(pair[0].at + way * (left / way.length()));
+        }
+        left -= way.length();
+    }
+    samples.first().map(|sample| sample.at)
+}
+
+/// The edges of bands lie off their place by this, in nanometres, for whoever asks what crosses
+/// them, so that nothing that ends on them goes through just there. Chosen: more than rounding.
+const OFF: Spot = Spot::new(0.137, 0.071);
+
+/// What crosses an edge so near to its end, in nanometres, crosses at the end: there bands part,
+/// and what runs between them goes on between axes. Chosen: many times what chords lie off.
+const AT_END: f64 = 2_000.0;
+
+/// The edges of bands, by place.
+struct Edges<'a> {
+    chains: &'a [&'a Chain],
+    /// The chain of each segment, and the sample that it leads to.
+    segments: Vec<(usize, usize)>,
+    index: Option<StaticAABB2DIndex<f64>>,
+}
+
+impl<'a> Edges<'a> {
+    fn new(chains: &'a [&'a Chain]) -> Self {
+        let of = |(i, chain): (usize, &&'a Chain)| (1..chain.samples.len()).map(move |to| (i, to));
+        let segments: Vec<(usize, usize)> = chains.iter().enumerate().flat_map(of).collect();
+        let mut edges = Self { chains, segments, index: None };
+        let mut builder = StaticAABB2DIndexBuilder::new(edges.segments.len());
+        for [a, b] in edges.segments.iter().map(|&place| edges.ends(place)) {
+            builder.add(a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y));
+        }
+        edges.index = builder.build().ok();
+        edges
+    }
+
+    fn ends(&self, (chain, to): (usize, usize)) -> [Spot; 2] {
+        let samples = &self.chains[chain].samples;
+        [samples[to - 1].at + OFF, samples[to].at + OFF]
+    }
+
+    /// Shows where the way from `p` to `q` crosses: which segment, how far along the way, and how
+    /// far along the segment.
+    fn crossed(&self, [p, q]: [Spot; 2], mut show: impl FnMut((usize, usize), f64, f64)) {
+        let Some(index) = &self.index else { return };
+        let is_left = |from: Spot, to: Spot, at: Spot| (to - from).cross(at - from) > 0.0;
+        for i in index.query(p.x.min(q.x), p.y.min(q.y), p.x.max(q.x), p.y.max(q.y)) {
+            let [a, b] = self.ends(self.segments[i]);
+            if is_left(a, b, p) != is_left(a, b, q) && is_left(p, q, a) != is_left(p, q, b) {
+                let (way, side) = (q - p, b - a);
+                let part = (side.cross(a - p) / side.cross(way)).clamp(0.0, 1.0);
+                let along = ((p + way * part - a).length() / side.length()).min(1.0);
+                show(self.segments[i], part, along);
+            }
+        }
+    }
+}
+
+/// Where the edges of bands and what is between axes cross each other, by chain of the one and of
+/// the other, in their order.
+fn crossings(edges: &[&Chain], between: &[Chain]) -> (Vec<Vec<Crossing>>, Vec<Vec<Crossing>>) {
+    let by_place = Edges::new(edges);
+    let mut of_edges = vec![Vec::new(); edges.len()];
+    let mut of_axes = vec![Vec::new(); between.len()];
+    let mut new = OF_CROSSINGS;
+    for (chain, of_chain) in between.iter().zip(&mut of_axes) {
+        for (sample, pair) in chain.samples.windows(2).enumerate() {
+            let (p, q) = (pair[0].at, pair[1].at);
+            by_place.crossed([p, q], |(edge, to), part, along| {
+                let at = p + (q - p) * part;
+                let samples = &edges[edge].samples;
+                let last = samples.len() - 1;
+                let ends = edges[edge].ends.map(|[from, to]| [(samples[0], from), (samples[last], to)]);
+                let end = ends.into_iter().flatten().find(|(end, _)| (end.at - at).length() < AT_END);
+                if let Some((end, node)) = end {
+                    of_chain.push(Crossing { sample, part, at: end.at, node });
+                } else {
+                    of_chain.push(Crossing { sample, part, at, node: new });
+                    of_edges[edge].push(Crossing { sample: to - 1, part: along, at, node: new });
+                    new += 1;
+                }
+            });
+        }
+    }
+    for found in of_edges.iter_mut().chain(&mut of_axes) {
+        found.sort_by(|a, b| {
+            a.sample.cmp(&b.sample).then(a.part.total_cmp(&b.part)).then(a.node.cmp(&b.node))
+        });
+    }
+    (of_edges, of_axes)
+}
+
+/// The parts of a chain between its crossings.
+fn parted(chain: Chain, crossings: Vec<Crossing>) -> Vec<Chain> {
+    let (Some(&first), Some(&last)) = (crossings.first(), crossings.last()) else { return vec![chain] };
+    let Chain { left, right, samples, ends } = chain;
+    let sample =
+        |crossing: Crossing| Sample { at: crossing.at, clearance: samples[crossing.sample].clearance };
+    let part = |samples, ends| Chain { left, right, samples, ends: Some(ends) };
+    let mut parts = Vec::with_capacity(crossings.len() + 1);
+    for pair in crossings.windows(2) {
+        let [from, to] = [pair[0], pair[1]];
+        let mut between = vec![sample(from)];
+        between.extend_from_slice(&samples[from.sample + 1..=to.sample.max(from.sample)]);
+        between.push(sample(to));
+        parts.push(part(between, [from.node, to.node]));
+    }
+    let mut head = samples[..=first.sample].to_vec();
+    head.push(sample(first));
+    let mut tail = vec![sample(last)];
+    tail.extend_from_slice(&samples[last.sample + 1..]);
+    match ends {
+        Some([from, to]) => {
+            parts.insert(0, part(head, [from, first.node]));
+            parts.push(part(tail, [last.node, to]));
+        }
+        // A loop: its beginning and its end are one part.
+        None => {
+            tail.extend_from_slice(&head[1..]);
+            parts.push(part(tail, [last.node, first.node]));
+        }
+    }
+    parts
+}

@@ -1,0 +1,139 @@
+//! The certified diagram of a layer's copper, or of its core axes.
+//!
+//! Where a diagram contradicts itself, which equal distances may make it do, the copper is shaken:
+//! every point is moved by up to two nanometres, the same point alike. Nets whose copper touches,
+//! as Algorithm 1 alone may leave them, have one owner here, since nothing can part them.
+
+use std::borrow::Cow;
+
+use crate::board::{Axis, Copper, Feature, Shape};
+use crate::geometry::{Nm, Point, Rect};
+use crate::topology::{self, Method, Nets, smallest_gap};
+
+use super::exact::{Diagram, Generators, Kind, Space};
+
+/// Copper is shaken so often at most. Chosen: once is rare.
+const ATTEMPTS: u32 = 4;
+
+/// What distances are measured to, with its owners.
+pub(super) struct Owned<'a> {
+    shapes: Vec<(Cow<'a, Shape>, u32)>,
+    /// Whether what one owner has may lie in pieces.
+    is_loose: bool,
+    /// Whether owners are nearer to each other than [`CLOSE`].
+    is_close: bool,
+}
+
+impl<'a> Owned<'a> {
+    /// The copper of the features that `keep` accepts.
+    pub(super) fn copper(copper: &'a Copper, nets: &Nets, keep: impl Fn(usize) -> bool) -> Self {
+        let shape = |feature: &'a Feature| Cow::Borrowed(&feature.shape);
+        Self { shapes: owned(copper, nets, keep, shape), is_loose: false, is_close: is_close(copper, nets) }
+    }
+
+    /// Their core axes, or their copper where it does not hold its axis.
+    pub(super) fn axes(copper: &'a Copper, nets: &Nets, keep: impl Fn(usize) -> bool) -> Self {
+        let radius = Nm::ZERO;
+        let shape = |feature: &'a Feature| match axis(feature) {
+            Some(Axis::Flash(center)) => Cow::Owned(Shape::Disc { center, radius }),
+            Some(Axis::Line(from, to)) => Cow::Owned(Shape::Stroke { from, to, radius }),
+            Some(Axis::Arc(arc)) => Cow::Owned(Shape::Arc { arc, radius }),
+            Some(Axis::Region) | None => Cow::Borrowed(&feature.shape),
+        };
+        Self { shapes: owned(copper, nets, keep, shape), is_loose: true, is_close: is_close(copper, nets) }
+    }
+
+    /// Whether one owner has all.
+    pub(super) fn is_of_one(&self) -> bool {
+        self.shapes.windows(2).all(|pair| pair[0].1 == pair[1].1)
+    }
+
+    /// The diagram of these edges of copper, which a wall may enclose, and what is `asked` of it;
+    /// where that or the diagram contradicts itself, of the copper shaken. None for the one that is
+    /// at fault in the end.
+    pub(super) fn diagram<T>(
+        &self,
+        kind: Kind,
+        space: Space,
+        wall: Option<Rect>,
+        asked: impl Fn(&Diagram) -> Option<T>,
+    ) -> (Diagram, Option<T>) {
+        let attempt = |attempt: u32| {
+            let mut generators = Generators::shaken(attempt);
+            if self.is_loose {
+                generators.loosen();
+            }
+            if self.is_close {
+                generators.keep_all();
+            }
+            self.shapes.iter().for_each(|(shape, owner)| generators.add(shape, *owner));
+            if let Some(wall) = wall {
+                generators.wall(wall);
+            }
+            let diagram = Diagram::new(generators, kind, space);
+            let answer = if diagram.faults().is_empty() { asked(&diagram) } else { None };
+            (diagram, answer)
+        };
+        let first = attempt(0);
+        if first.1.is_some() {
+            return first;
+        }
+        (1..=ATTEMPTS).map(attempt).find(|(_, answer)| answer.is_some()).unwrap_or(first)
+    }
+}
+
+/// Nets nearer to each other than this have all their corners. Chosen: more than the corners and
+/// slits that others lose.
+const CLOSE: Nm = Nm::new(100);
+
+fn is_close(copper: &Copper, nets: &Nets) -> bool {
+    smallest_gap(copper, nets).is_some_and(|gap| gap.width < CLOSE)
+}
+
+/// The shapes of the features that `keep` accepts, each with the first of the nets that its own one
+/// touches.
+fn owned<'a>(
+    copper: &'a Copper,
+    nets: &Nets,
+    keep: impl Fn(usize) -> bool,
+    shape: impl Fn(&'a Feature) -> Cow<'a, Shape>,
+) -> Vec<(Cow<'a, Shape>, u32)> {
+    let pieces = pieces(copper, nets);
+    let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
+    kept.map(|(number, feature)| (shape(feature), pieces[nets.of(number).index()])).collect()
+}
+
+/// The axis of a feature, if its copper still holds it: clear polarity may have cut it away.
+pub(super) fn axis(feature: &Feature) -> Option<Axis> {
+    let probe = match feature.axis {
+        Axis::Flash(p) => p,
+        Axis::Line(a, b) => a.midpoint(b),
+        Axis::Arc(arc) => Point::from_f64(arc.at(0.5).0, arc.at(0.5).1),
+        Axis::Region => return None,
+    };
+    match &feature.shape {
+        Shape::Polygon(polygon) => polygon.contains(probe).then_some(feature.axis),
+        Shape::Disc { .. } | Shape::Stroke { .. } | Shape::Arc { .. } => Some(feature.axis),
+    }
+}
+
+/// Of each net the first of those whose copper it touches.
+fn pieces(copper: &Copper, nets: &Nets) -> Vec<u32> {
+    let mut first: Vec<u32> = (0_u32..).take(nets.nets().len()).collect();
+    if smallest_gap(copper, nets).is_none_or(|gap| gap.width > Nm::ZERO) {
+        return first;
+    }
+    let touching = topology::recover(copper, Method::Contact);
+    loop {
+        let before = first.clone();
+        for piece in touching.nets() {
+            let members = || piece.features.iter().map(|&feature| nets.of(feature as usize).index());
+            if let Some(least) = members().map(|net| first[net]).min() {
+                members().for_each(|net| first[net] = least);
+            }
+        }
+        if first == before {
+            return first;
+        }
+    }
+}
