@@ -13,7 +13,7 @@ use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use crate::geometry::Nm;
 
-use super::exact::{Chain, Diagram};
+use super::exact::{Chain, Diagram, WALL};
 use super::plane::Spot;
 use super::sample::Sample;
 use super::{BEYOND, FLOOR, NOBODY};
@@ -41,6 +41,9 @@ struct Crossing {
     part: f64,
     at: Spot,
     node: u32,
+    /// What lies on the other side of the one behind the place and ahead of it: of an edge the
+    /// owner between axes, of what is between axes the owner of the band, or nobody.
+    sides: [u32; 2],
 }
 
 impl Band {
@@ -56,13 +59,15 @@ impl Band {
     }
 
     /// The band in a diagram of copper, with its edges and what parts it from others.
-    pub(super) const fn new(copper: Diagram, width: Nm, chains: Vec<Chain>) -> Self {
+    pub(super) fn new(copper: Diagram, width: Nm, mut chains: Vec<Chain>) -> Self {
+        // The wall is no copper.
+        chains.retain(|chain| chain.left != WALL && chain.right != WALL);
         Self { copper, width: width.to_f64(), chains }
     }
 
     /// The owner of the copper in whose band a place lies, if it does.
     pub(super) fn owner_at(&self, p: Spot) -> Option<u32> {
-        self.copper.owner_near(p, self.width, NOBODY).filter(|&owner| owner != NOBODY)
+        self.copper.owner_near(p, self.width, NOBODY).filter(|&owner| owner != NOBODY && owner != WALL)
     }
 
     /// The boundaries of regions that hold their band at least, of those `between` the axes, whose
@@ -74,8 +79,9 @@ impl Band {
         let (of_edges, of_axes) = crossings(&edges, &between);
         let mut all: Vec<Chain> = inner.collect();
         for (edge, found) in edges.into_iter().zip(of_edges) {
-            for part in parted(edge.clone(), found) {
-                let right = middle(&part.samples).and_then(&owner).unwrap_or(NOBODY);
+            for (part, sides) in parted(edge.clone(), found) {
+                let by_place = || middle(&part.samples).and_then(&owner).unwrap_or(NOBODY);
+                let right = agreed(sides).unwrap_or_else(by_place);
                 if right != part.left {
                     all.push(Chain { right, ..part });
                 }
@@ -83,15 +89,25 @@ impl Band {
         }
         for (chain, found) in between.into_iter().zip(of_axes) {
             let ends = chain.ends.map(|ends| ends.map(|end| end + OF_AXES));
-            let parts = parted(Chain { ends, ..chain }, found).into_iter();
-            all.extend(
-                parts.filter(|part| middle(&part.samples).is_some_and(|at| self.owner_at(at).is_none())),
-            );
+            for (part, sides) in parted(Chain { ends, ..chain }, found) {
+                let by_place = || middle(&part.samples).and_then(|at| self.owner_at(at)).unwrap_or(NOBODY);
+                if agreed(sides).unwrap_or_else(by_place) == NOBODY {
+                    all.push(part);
+                }
+            }
         }
         for sample in all.iter_mut().flat_map(|chain| &mut chain.samples) {
             sample.clearance = self.copper.distance(sample.at);
         }
         all
+    }
+}
+
+/// What the crossings at its ends say of a part, if they say one thing.
+fn agreed(sides: [Option<u32>; 2]) -> Option<u32> {
+    match sides {
+        [Some(first), Some(last)] => (first == last).then_some(first),
+        [first, last] => first.or(last),
     }
 }
 
@@ -112,10 +128,6 @@ fn middle(samples: &[Sample]) -> Option<Spot> {
 /// The edges of bands lie off their place by this, in nanometres, for whoever asks what crosses
 /// them, so that nothing that ends on them goes through just there. Chosen: more than rounding.
 const OFF: Spot = Spot::new(0.137, 0.071);
-
-/// What crosses an edge so near to its end, in nanometres, crosses at the end: there bands part,
-/// and what runs between them goes on between axes. Chosen: many times what chords lie off.
-const AT_END: f64 = 2_000.0;
 
 /// The edges of bands, by place.
 struct Edges<'a> {
@@ -143,9 +155,9 @@ impl<'a> Edges<'a> {
         [samples[to - 1].at + OFF, samples[to].at + OFF]
     }
 
-    /// Shows where the way from `p` to `q` crosses: which segment, how far along the way, and how
-    /// far along the segment.
-    fn crossed(&self, [p, q]: [Spot; 2], mut show: impl FnMut((usize, usize), f64, f64)) {
+    /// Shows where the way from `p` to `q` crosses: which segment, how far along the way and along
+    /// the segment, whether the way leaves the band, and whether the segment goes to its left.
+    fn crossed(&self, [p, q]: [Spot; 2], mut show: impl FnMut((usize, usize), [f64; 2], [bool; 2])) {
         let Some(index) = &self.index else { return };
         let is_left = |from: Spot, to: Spot, at: Spot| (to - from).cross(at - from) > 0.0;
         for i in index.query(p.x.min(q.x), p.y.min(q.y), p.x.max(q.x), p.y.max(q.y)) {
@@ -154,7 +166,7 @@ impl<'a> Edges<'a> {
                 let (way, side) = (q - p, b - a);
                 let part = (side.cross(a - p) / side.cross(way)).clamp(0.0, 1.0);
                 let along = ((p + way * part - a).length() / side.length()).min(1.0);
-                show(self.segments[i], part, along);
+                show(self.segments[i], [part, along], [is_left(a, b, p), is_left(p, q, b)]);
             }
         }
     }
@@ -170,19 +182,15 @@ fn crossings(edges: &[&Chain], between: &[Chain]) -> (Vec<Vec<Crossing>>, Vec<Ve
     for (chain, of_chain) in between.iter().zip(&mut of_axes) {
         for (sample, pair) in chain.samples.windows(2).enumerate() {
             let (p, q) = (pair[0].at, pair[1].at);
-            by_place.crossed([p, q], |(edge, to), part, along| {
+            by_place.crossed([p, q], |(edge, to), [part, along], [leaves, is_leftward]| {
+                let (band, (left, right)) = (edges[edge].left, (chain.left, chain.right));
+                let sides = if leaves { [band, NOBODY] } else { [NOBODY, band] };
+                let of_edge = if is_leftward { [right, left] } else { [left, right] };
                 let at = p + (q - p) * part;
-                let samples = &edges[edge].samples;
-                let last = samples.len() - 1;
-                let ends = edges[edge].ends.map(|[from, to]| [(samples[0], from), (samples[last], to)]);
-                let end = ends.into_iter().flatten().find(|(end, _)| (end.at - at).length() < AT_END);
-                if let Some((end, node)) = end {
-                    of_chain.push(Crossing { sample, part, at: end.at, node });
-                } else {
-                    of_chain.push(Crossing { sample, part, at, node: new });
-                    of_edges[edge].push(Crossing { sample: to - 1, part: along, at, node: new });
-                    new += 1;
-                }
+                let crossing = Crossing { sample, part, at, node: new, sides };
+                of_chain.push(crossing);
+                of_edges[edge].push(Crossing { sample: to - 1, part: along, sides: of_edge, ..crossing });
+                new += 1;
             });
         }
     }
@@ -194,20 +202,23 @@ fn crossings(edges: &[&Chain], between: &[Chain]) -> (Vec<Vec<Crossing>>, Vec<Ve
     (of_edges, of_axes)
 }
 
-/// The parts of a chain between its crossings.
-fn parted(chain: Chain, crossings: Vec<Crossing>) -> Vec<Chain> {
-    let (Some(&first), Some(&last)) = (crossings.first(), crossings.last()) else { return vec![chain] };
+/// The parts of a chain between its crossings, with what these say of each.
+fn parted(chain: Chain, crossings: Vec<Crossing>) -> Vec<(Chain, [Option<u32>; 2])> {
+    let (Some(&first), Some(&last)) = (crossings.first(), crossings.last()) else {
+        return vec![(chain, [None; 2])];
+    };
     let Chain { left, right, samples, ends } = chain;
     let sample =
         |crossing: Crossing| Sample { at: crossing.at, clearance: samples[crossing.sample].clearance };
-    let part = |samples, ends| Chain { left, right, samples, ends: Some(ends) };
+    let part = |samples, ends, sides| (Chain { left, right, samples, ends: Some(ends) }, sides);
+    let ([before, _], [_, after]) = (first.sides, last.sides);
     let mut parts = Vec::with_capacity(crossings.len() + 1);
     for pair in crossings.windows(2) {
         let [from, to] = [pair[0], pair[1]];
         let mut between = vec![sample(from)];
         between.extend_from_slice(&samples[from.sample + 1..=to.sample.max(from.sample)]);
         between.push(sample(to));
-        parts.push(part(between, [from.node, to.node]));
+        parts.push(part(between, [from.node, to.node], [Some(from.sides[1]), Some(to.sides[0])]));
     }
     let mut head = samples[..=first.sample].to_vec();
     head.push(sample(first));
@@ -215,13 +226,13 @@ fn parted(chain: Chain, crossings: Vec<Crossing>) -> Vec<Chain> {
     tail.extend_from_slice(&samples[last.sample + 1..]);
     match ends {
         Some([from, to]) => {
-            parts.insert(0, part(head, [from, first.node]));
-            parts.push(part(tail, [last.node, to]));
+            parts.insert(0, part(head, [from, first.node], [None, Some(before)]));
+            parts.push(part(tail, [last.node, to], [Some(after), None]));
         }
         // A loop: its beginning and its end are one part.
         None => {
             tail.extend_from_slice(&head[1..]);
-            parts.push(part(tail, [last.node, first.node]));
+            parts.push(part(tail, [last.node, first.node], [Some(after), Some(before)]));
         }
     }
     parts
