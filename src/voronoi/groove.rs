@@ -21,6 +21,9 @@ const DEEP: f64 = 5_000.0;
 /// Places this far apart are looked at, in nanometres. Chosen: less than what passes share, for any
 /// kerf that is worth widening.
 const STEP: f64 = 10_000.0;
+/// Cuts are looked for no farther beyond their reach, in nanometres. Chosen: there are more of them
+/// to look at than steps to be saved.
+const FARTHEST: f64 = 400_000.0;
 /// Where a pass ends is halved so often.
 const HALVINGS: usize = 12;
 
@@ -50,11 +53,10 @@ impl Grooves {
         Some(Self { chords, index: builder.build().ok()?, reach: reach.to_f64() })
     }
 
-    /// How far `p` is from the nearest cut, in nanometres; no more than the reach.
-    fn distance(&self, p: Spot) -> f64 {
-        let mut nearest = self.reach;
-        let [left, bottom, right, top] =
-            [p.x - self.reach, p.y - self.reach, p.x + self.reach, p.y + self.reach];
+    /// How far `p` is from the nearest cut, in nanometres; no more than `look`.
+    fn distance(&self, p: Spot, look: f64) -> f64 {
+        let mut nearest = look;
+        let [left, bottom, right, top] = [p.x - look, p.y - look, p.x + look, p.y + look];
         self.index.visit_query(left, bottom, right, top, &mut |i: usize| {
             let (a, b) = self.chords[i];
             nearest = nearest.min(p.distance_to_chord(a, b));
@@ -64,13 +66,13 @@ impl Grooves {
 
     /// Whether nothing is left to clear at `p`.
     pub(super) fn holds(&self, p: Spot) -> bool {
-        self.distance(p) < self.reach
+        self.distance(p, self.reach) < self.reach
     }
 
     /// What is left of a pass.
     pub(super) fn take_out(&self, piece: Piece) -> Vec<Piece> {
         let first = piece.samples[0];
-        let mut walk = Walk { grooves: self, is_cleared: false, parts: vec![vec![first]] };
+        let mut walk = Walk { grooves: self, is_cleared: false, parts: vec![vec![first]], look: self.reach };
         if self.holds(first.at) {
             (walk.is_cleared, walk.parts) = (true, Vec::new());
         }
@@ -101,6 +103,9 @@ struct Walk<'a> {
     grooves: &'a Grooves,
     is_cleared: bool,
     parts: Vec<Vec<Sample>>,
+    /// How far cuts are looked for: farther where there are none, so that long ways from them are
+    /// long steps.
+    look: f64,
 }
 
 impl Walk<'_> {
@@ -108,11 +113,11 @@ impl Walk<'_> {
     fn go(&mut self, from: &Sample, to: &Sample) {
         let length = (to.at - from.at).length();
         let count = (length / STEP).ceil().max(1.0);
-        // Nothing of a chord is left for as long as the cut is nearer than it need be.
+        // Distances change no faster than the way goes: what is far from changing is stepped over.
         let step = length / count;
         let mut i = 1.0;
         while i <= count {
-            let distance = self.grooves.distance(from.toward(to, i / count).at);
+            let distance = self.look(from.toward(to, i / count).at);
             if self.changes(distance) {
                 let crossing = from.toward(to, self.crossing([from, to], (i - 1.0) / count, i / count));
                 if self.is_cleared {
@@ -122,12 +127,21 @@ impl Walk<'_> {
                 }
                 self.is_cleared = !self.is_cleared;
             }
-            let sure = if self.is_cleared { (self.grooves.reach - distance) / step } else { 0.0 };
-            i = (i + sure.floor().max(1.0)).min(if i < count { count } else { f64::INFINITY });
+            let Grooves { reach, .. } = *self.grooves;
+            let spare = if self.is_cleared { reach - distance } else { distance - (reach - DEEP) };
+            i = (i + (spare / step).floor().max(1.0)).min(if i < count { count } else { f64::INFINITY });
         }
         if !self.is_cleared {
             self.part().push(*to);
         }
+    }
+
+    /// How far a place is from the nearest cut; no more than is looked for.
+    fn look(&mut self, p: Spot) -> f64 {
+        let distance = self.grooves.distance(p, self.look);
+        let wider = if distance < self.look { distance } else { 2.0 * self.look };
+        self.look = wider.clamp(self.grooves.reach, self.grooves.reach + FARTHEST);
+        distance
     }
 
     fn part(&mut self) -> &mut Vec<Sample> {
@@ -143,7 +157,7 @@ impl Walk<'_> {
     fn crossing(&self, [from, to]: [&Sample; 2], mut before: f64, mut after: f64) -> f64 {
         for _ in 0..HALVINGS {
             let middle = f64::midpoint(before, after);
-            if self.changes(self.grooves.distance(from.toward(to, middle).at)) {
+            if self.changes(self.grooves.distance(from.toward(to, middle).at, self.grooves.reach)) {
                 after = middle;
             } else {
                 before = middle;

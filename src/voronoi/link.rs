@@ -40,7 +40,9 @@ pub(super) struct Rules<'a> {
     pub(super) clearance: &'a (dyn Fn(Spot) -> f64 + Sync),
     /// How near to copper a cut may come.
     pub(super) nearest: f64,
-    /// How long a link may be at first, in nanometres: about a step from pass to pass.
+    /// How far passes lie apart, in nanometres: where links are looked for first.
+    pub(super) step: f64,
+    /// How long a link from a loose end may be: to the next pass or the one after it.
     pub(super) short: f64,
     /// How long it may be at most.
     pub(super) longest: f64,
@@ -90,24 +92,22 @@ impl Rules<'_> {
     }
 }
 
-/// The edges of a graph by place, and which of them hang together.
-struct Web<'a> {
-    graph: &'a Boundaries,
+/// Segments of edges by place.
+struct Segments {
     /// The edge and the segment of each box.
-    segments: Vec<(usize, usize)>,
+    places: Vec<(usize, usize)>,
     index: StaticAABB2DIndex<f64>,
-    /// Which edges are of one part.
-    parts: DisjointSets,
 }
 
-impl<'a> Web<'a> {
-    /// Those of what is cut; none where nothing is.
-    fn new(graph: &'a Boundaries) -> Option<Self> {
-        let mut segments = Vec::new();
+impl Segments {
+    /// Those of the edges that are cut and that `keep` accepts; none where there are none.
+    fn of(graph: &Boundaries, keep: impl Fn(usize) -> bool) -> Option<Self> {
+        let mut places = Vec::new();
         let mut boxes = Vec::new();
-        for (number, edge) in graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border()) {
+        let cut = graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border());
+        for (number, edge) in cut.filter(|(number, _)| keep(*number)) {
             for (i, (from, segment)) in edge.path.steps().enumerate() {
-                segments.push((number, i));
+                places.push((number, i));
                 boxes.push(Path { start: from, segments: vec![*segment] }.bounds());
             }
         }
@@ -116,8 +116,24 @@ impl<'a> Web<'a> {
             let [low, high] = [bounds.min(), bounds.max()].map(Spot::from);
             builder.add(low.x, low.y, high.x, high.y);
         }
+        Some(Self { places, index: builder.build().ok()? })
+    }
+}
+
+/// The edges of a graph by place, and which of them hang together.
+struct Web<'a> {
+    graph: &'a Boundaries,
+    segments: Segments,
+    /// Which edges are of one part.
+    parts: DisjointSets,
+}
+
+impl<'a> Web<'a> {
+    /// Those of what is cut; none where nothing is.
+    fn new(graph: &'a Boundaries) -> Option<Self> {
+        let segments = Segments::of(graph, |_| true)?;
         let parts = DisjointSets::new(graph.edges.len());
-        let mut web = Self { graph, segments, index: builder.build().ok()?, parts };
+        let mut web = Self { graph, segments, parts };
         let mut at_node: Vec<Option<usize>> = vec![None; graph.nodes.len()];
         for (number, edge) in graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border()) {
             for node in edge.ends.into_iter().flat_map(|(a, b)| [a, b]) {
@@ -138,13 +154,20 @@ impl<'a> Web<'a> {
         self.parts.union(member(a), member(b));
     }
 
-    /// The shortest way from a vertex to each edge within `reach` that `wanted` accepts, the
-    /// nearest first.
-    fn ways(&self, from: (usize, usize), reach: f64, wanted: impl Fn(usize) -> bool) -> Vec<Way> {
+    /// The shortest way from a vertex to each edge of some `segments` within `reach` that `wanted`
+    /// accepts, the nearest first.
+    fn ways(
+        &self,
+        from: (usize, usize),
+        segments: &Segments,
+        reach: f64,
+        wanted: impl Fn(usize) -> bool,
+    ) -> Vec<Way> {
         let p = Spot::from(vertex(&self.graph.edges[from.0].path, from.1));
         let mut nearest: BTreeMap<usize, Way> = BTreeMap::new();
-        self.index.visit_query(p.x - reach, p.y - reach, p.x + reach, p.y + reach, &mut |i: usize| {
-            let (edge, segment) = self.segments[i];
+        let Segments { places, index } = segments;
+        index.visit_query(p.x - reach, p.y - reach, p.x + reach, p.y + reach, &mut |i: usize| {
+            let (edge, segment) = places[i];
             if !wanted(edge) {
                 return;
             }
@@ -186,6 +209,13 @@ impl<'a> Web<'a> {
         let both = ends.flat_map(|(edge, last, (a, b))| [(edge, 0, a), (edge, last, b)]);
         both.filter(|&(_, _, node)| alone(node)).map(|(edge, vertex, _)| (edge, vertex)).collect()
     }
+}
+
+/// The number that comes most often, of several the least.
+fn largest(numbers: impl Iterator<Item = u32>) -> u32 {
+    let mut count: BTreeMap<u32, usize> = BTreeMap::new();
+    numbers.for_each(|number| *count.entry(number).or_default() += 1);
+    count.into_iter().rev().max_by_key(|&(_, count)| count).map_or(0, |(number, _)| number)
 }
 
 fn member(edge: usize) -> u32 {
@@ -243,19 +273,23 @@ impl Boundaries {
         let place = |&(edge, at): &(usize, usize)| Spot::from(vertex(&self.edges[edge].path, at));
         let keeps_off = |way: &Way| rules.keeps_off(place(&way.from), way.to.2.into());
         let loose = web.loose_ends().into_par_iter().flat_map_iter(|from| {
-            let ways = web.ways(from, rules.short, |edge| edge != from.0).into_iter();
+            let ways = web.ways(from, &web.segments, rules.short, |edge| edge != from.0).into_iter();
             ways.filter_map(|way| keeps_off(&way).map(|clearance| (way, clearance))).take(CHOICES)
         });
         for (way, clearance) in loose.collect::<Vec<_>>() {
             web.unite(way.from.0, way.to.0);
             chosen.add(&self, &way, clearance);
         }
-        let mut reach = rules.short;
+        let mut reach = (rules.step + FINE).min(rules.longest);
         loop {
             let part = web.parts.clone().representatives();
+            // Mostly one part has nearly all: from there only the others are looked for.
+            let largest = largest(web.segments.places.iter().map(|&(edge, _)| part[edge]));
+            let Some(others) = Segments::of(&self, |edge| part[edge] != largest) else { break };
             let between = web.vertices().into_par_iter().flat_map_iter(|from| {
                 let home = part[from.0];
-                web.ways(from, reach, |edge| part[edge] != home)
+                let segments = if home == largest { &others } else { &web.segments };
+                web.ways(from, segments, reach, |edge| part[edge] != home)
             });
             let mut ways: Vec<Way> = between.collect();
             ways.sort_by(Way::compare);

@@ -129,6 +129,7 @@ impl Diagram {
         let rules = Rules {
             clearance: &|at| diagram.distance(at),
             nearest: (widening.kerf / 2).to_f64(),
+            step: step.to_f64(),
             short: (widening.kerf * 3 / 2).to_f64(),
             longest: widening.width.min(LONGEST).to_f64(),
         };

@@ -3,6 +3,8 @@
 //! A vertex is known by its place; what arrives there continues in the slot that looks back. So
 //! each edge is walked once, and two ends that do not find each other are a fault with a place.
 
+use std::sync::OnceLock;
+
 use rustc_hash::FxHashMap;
 
 use super::form::turn;
@@ -258,6 +260,7 @@ impl Diagram {
             slots.into_iter().map(link).collect()
         };
         self.leaving = order.iter().map(leaving).collect();
+        self.stretches = self.edges.iter().map(|_| OnceLock::new()).collect();
         let vertex = |&old: &usize| {
             let Junction { at, clearance, tied, .. } = &growth.junctions[old];
             Vertex { at: (at.x, at.y), clearance: *clearance, tied: tied.clone() }

@@ -39,6 +39,9 @@ const BACK: f64 = 2_000.0;
 /// at most twice in a turn round it, and generators end there.
 const HALVINGS: u32 = 2;
 
+/// Places are found to so many nanometres. Chosen: a nanometre is rounded away in the end.
+const EXACT: f64 = 1e-4;
+
 /// Where a level set crosses an edge.
 #[derive(Clone, Copy, Debug)]
 struct Crossing {
@@ -58,7 +61,7 @@ pub(super) struct Crossings {
 
 /// A place on an edge.
 #[derive(Clone, Copy, Debug)]
-struct Knot {
+pub(super) struct Knot {
     at: Spot,
     clearance: f64,
 }
@@ -173,14 +176,7 @@ impl Diagram {
         if low - 2.0 * reach > found.level || high + 2.0 * reach < found.level {
             return;
         }
-        let mut knots = vec![from];
-        self.halve_knots(edge, from, to, HALVINGS, &mut knots);
-        let mut stationary = vec![from];
-        for pair in knots.windows(2) {
-            stationary.extend(self.turning(edge, pair[0], pair[1]));
-            stationary.push(pair[1]);
-        }
-        for pair in stationary.windows(2) {
+        for pair in self.stretches[number as usize].get_or_init(|| self.stretches_of(edge)).windows(2) {
             let [a, b] = [pair[0], pair[1]];
             let rises = b.clearance > found.level;
             if (a.clearance > found.level) != rises {
@@ -188,6 +184,19 @@ impl Diagram {
                 found.all.push(Crossing { edge: number, at, rises });
             }
         }
+    }
+
+    /// The places between which the clearance along an edge only rises or only falls.
+    fn stretches_of(&self, edge: &Edge) -> Vec<Knot> {
+        let (from, to) = (self.knot(edge.from), self.knot(edge.to));
+        let mut knots = vec![from];
+        self.halve_knots(edge, from, to, HALVINGS, &mut knots);
+        let mut stretches = vec![from];
+        for pair in knots.windows(2) {
+            stretches.extend(self.turning(edge, pair[0], pair[1]));
+            stretches.push(pair[1]);
+        }
+        stretches
     }
 
     fn halve_knots(&self, edge: &Edge, a: Knot, b: Knot, left: u32, knots: &mut Vec<Knot>) {
@@ -215,6 +224,9 @@ impl Diagram {
             return None;
         }
         for _ in 0..60 {
+            if (b.at - a.at).length() < EXACT {
+                break;
+            }
             let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { break };
             let middle = Knot { at, clearance };
             if (self.slope(edge, at) > 0.0) == (first > 0.0) { a = middle } else { b = middle }
@@ -225,6 +237,9 @@ impl Diagram {
     fn crossing_between(&self, edge: &Edge, mut a: Knot, mut b: Knot, level: f64) -> Spot {
         let rises = b.clearance > level;
         for _ in 0..60 {
+            if (b.at - a.at).length() < EXACT {
+                break;
+            }
             let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { break };
             let middle = Knot { at, clearance };
             if (clearance > level) == rises { b = middle } else { a = middle }

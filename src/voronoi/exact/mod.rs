@@ -77,11 +77,14 @@ mod slit;
 mod vertex;
 mod walk;
 
+use std::sync::OnceLock;
+
 use crate::geometry::{Nm, Point, Rect};
 use crate::voronoi::plane::Spot;
 
 use form::Form;
 use generator::Index;
+use level::Knot;
 use vertex::TIES;
 
 pub use certify::Violation;
@@ -159,6 +162,8 @@ pub struct Diagram {
     edges: Vec<Edge>,
     /// What leaves each vertex, counter-clockwise.
     leaving: Vec<Vec<Link>>,
+    /// Of each edge that a level set was asked for, where its clearance turns.
+    stretches: Vec<OnceLock<Vec<Knot>>>,
     faults: Vec<Point>,
 }
 
@@ -202,8 +207,18 @@ impl Diagram {
             let [left, bottom, right, top] = window;
             window = [left.min(low.x), bottom.min(low.y), right.max(high.x), top.max(high.y)];
         }
-        let (vertices, edges, leaving, faults) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { generators, index, kind, tie: TIES[0], window, vertices, edges, leaving, faults }
+        Self {
+            generators,
+            index,
+            kind,
+            tie: TIES[0],
+            window,
+            vertices: Vec::new(),
+            edges: Vec::new(),
+            leaving: Vec::new(),
+            stretches: Vec::new(),
+            faults: Vec::new(),
+        }
     }
 
     /// The vertices, by place.
