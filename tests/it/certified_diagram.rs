@@ -281,6 +281,58 @@ fn a_level_that_all_but_touches_an_edge_goes_round_no_corner_again() {
     }
 }
 
+/// Two discs and two strokes of one owner, from one micrometre too near to matter to one too far:
+/// what a step sees of the neck must not decide where the edge ends.
+#[test]
+fn a_neck_about_as_wide_as_the_floor_is_followed_from_both_sides_or_from_none() {
+    let um = |x: i64, y: i64| at(1_000, x, y);
+    for gap in (19_000..21_000).step_by(97) {
+        let far = um(2_000, 0) + voromill::geometry::Vector::new(Nm::new(gap), Nm::ZERO);
+        let stroke =
+            |x: i64, y: i64, to: Point| Shape::Stroke { from: um(x, y), to, radius: Nm::from_um(100) };
+        let shapes = [
+            Shape::Disc { center: um(0, 0), radius: Nm::from_um(1_000) },
+            Shape::Disc { center: far, radius: Nm::from_um(1_000) },
+            stroke(-1_500, 2_000, um(3_500, 2_100)),
+            stroke(-1_500, -2_200, um(3_500, -2_000)),
+        ];
+        let mut generators = Generators::new();
+        shapes.iter().for_each(|shape| generators.add(shape, 0));
+        generators.wall(Rect::new(um(-5_000, -5_000), um(8_000, 5_000)));
+        let diagram = Diagram::new(generators, Kind::Above(Nm::from_um(10)), Space::Within);
+        assert_eq!(diagram.faults(), [], "a gap of {gap} nm");
+        assert!(diagram.level_set(50_000.0).is_some(), "a gap of {gap} nm");
+    }
+}
+
+/// The end of a stroke beside a disc, turned a little at a time: from one side of the stroke to the
+/// other a boundary runs by half a turn, of which no direction is midway by rounding.
+#[test]
+fn half_a_turn_round_the_end_of_a_stroke_keeps_clear_of_it() {
+    for step in 0..360_i64 {
+        let angle = f64::from(i32::try_from(step).expect("a degree")).to_radians();
+        let spot = |reach: f64| Point::from_f64(reach * angle.cos(), reach * angle.sin());
+        let mut generators = Generators::new();
+        let radius = Nm::from_um(100);
+        generators.add(&Shape::Stroke { from: spot(1_000_000.0), to: spot(4_000_000.0), radius }, 0);
+        generators.add(&Shape::Disc { center: Point::default(), radius: Nm::from_um(800) }, 1);
+        let diagram = Diagram::new(generators, Kind::Owners, Space::Around(Nm::from_mm(1)));
+        assert_eq!(diagram.faults(), [], "{step}°");
+        let along = |(x, y): (f64, f64)| x * angle.cos() + y * angle.sin();
+        for edge in diagram.edges() {
+            for pair in diagram.profile(edge, 1_000.0).windows(2) {
+                let [((ax, ay), _), ((bx, by), _)] = [pair[0], pair[1]];
+                let (x, y) = (f64::midpoint(ax, bx), f64::midpoint(ay, by));
+                let end = along((x, y)).clamp(1_000_000.0, 4_000_000.0);
+                let [disc, stroke] = [x.hypot(y) - 800_000.0, {
+                    (x - end * angle.cos()).hypot(y - end * angle.sin()) - 100_000.0
+                }];
+                assert!((disc - stroke).abs() < 3_000.0, "{step}°: {disc} and {stroke} nm off at {x}, {y}");
+            }
+        }
+    }
+}
+
 #[test]
 fn an_edge_between_two_discs_is_a_hyperbola_with_its_clearance() {
     let disc = |x: i64, radius: i64| Shape::Disc { center: at(1_000, x, 0), radius: Nm::from_um(radius) };

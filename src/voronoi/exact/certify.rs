@@ -3,7 +3,7 @@
 
 use rayon::prelude::*;
 
-use super::form::Place;
+use super::form::{Place, halfway};
 use super::{Diagram, Edge, Vertex};
 use crate::geometry::Point;
 use crate::voronoi::plane::Spot;
@@ -53,17 +53,7 @@ impl Diagram {
         let form = &pair.forms[main];
         let middle = match (form.place(a), form.place(b)) {
             (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
-            (Place::Toward(u), Place::Toward(v)) => {
-                let (sense, half) = (pair.sense(main), super::form::unit(u + v));
-                let (u, v) = if sense > 0.0 { (u, v) } else { (v, u) };
-                if u.cross(v) < 0.0 && (u - v).dot(u - v) > 1e-12 {
-                    Place::Toward(half * -1.0)
-                } else if half.dot(half) < 0.5 {
-                    Place::Toward(Spot::new(-u.y, u.x))
-                } else {
-                    Place::Toward(half)
-                }
-            }
+            (Place::Toward(u), Place::Toward(v)) => Place::Toward(halfway(u, v, pair.sense(main))),
             (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => return None,
         };
         pair.at(main, middle)

@@ -21,6 +21,9 @@ use crate::voronoi::plane::Spot;
 /// rounding, less than any real gap.
 const OFF: f64 = 20.0;
 
+/// The same where owners may be a nanometre apart.
+const OFF_CLOSE: f64 = 0.25;
+
 /// Shorter pieces of an edge are none, in nanometres. Chosen: no cutter fits what they enclose.
 const SHORT: f64 = 200.0;
 
@@ -74,7 +77,8 @@ impl<'a> Bodies<'a> {
 
     /// Whether copper lies off an edge with this foot and normal.
     pub(super) fn cover(&self, foot: Spot, normal: Spot) -> bool {
-        self.hold(foot + normal * OFF, true)
+        let off = if self.diagram.generators.is_close { OFF_CLOSE } else { OFF };
+        self.hold(foot + normal * off, true)
     }
 
     /// Whether copper lies at `p`; what rings keep free ends within them where `beyond` says so.

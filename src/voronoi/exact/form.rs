@@ -38,6 +38,19 @@ pub(super) enum Form {
     Circle { center: Spot, radius: f64, hollow: bool, sector: Option<[Spot; 2]> },
 }
 
+/// The direction midway between two, in the sense of travel: +1 counter-clockwise, −1 clockwise.
+/// Two that are the same but for rounding are one, not all the way round.
+pub(super) fn halfway(u: Spot, v: Spot, sense: f64) -> Spot {
+    let (u, v) = if sense > 0.0 { (u, v) } else { (v, u) };
+    if u.dot(v) < 0.0 {
+        // The chord is long: a quarter clockwise of it.
+        unit(clockwise(v - u))
+    } else {
+        let is_short = u.cross(v) >= 0.0 || (u - v).dot(u - v) <= 1e-12;
+        unit(u + v) * if is_short { 1.0 } else { -1.0 }
+    }
+}
+
 /// The place of a foot on a form.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Place {
@@ -146,9 +159,10 @@ impl Form {
         }
     }
 
-    /// Whether `p` has a foot on it, and lies on the free side but for `tie` nanometres.
-    pub(super) fn counts(&self, p: Spot, tie: f64) -> bool {
-        self.distance(p) >= -tie && self.slack(p) >= -SLAB
+    /// Whether `p` has a foot on it but for `slab` nanometres, and lies on the free side but for
+    /// `tie`.
+    pub(super) fn counts(&self, p: Spot, tie: f64, slab: f64) -> bool {
+        self.distance(p) >= -tie && self.slack(p) >= -slab
     }
 
     /// Whether `p` is the centre of a hollow circle, from which every place of it is equally far;

@@ -192,7 +192,9 @@ impl Generators {
 
     fn rings(&mut self, polygon: &Polygon, owner: impl Fn(usize) -> u32, inwards: bool) {
         let moved = |ring: &Vec<Point>| ring.iter().map(|&p| self.moved(p)).collect::<Vec<_>>();
-        let rounding = if self.is_close { EXACT } else { ROUNDING };
+        // The inside of shapes is taken as it is: there every corner may have an axis.
+        let is_exact = self.is_close || inwards;
+        let rounding = if is_exact { EXACT } else { ROUNDING };
         let simple = |ring: Vec<Point>| simple(ring, rounding);
         let rings: Vec<Vec<Point>> = polygon.contours().iter().map(|ring| simple(moved(ring))).collect();
         let largest = rings.iter().map(|ring| twice_area(ring)).max_by_key(|area| area.unsigned_abs());
@@ -202,7 +204,7 @@ impl Generators {
             if backwards != inwards {
                 ring.reverse();
             }
-            let rings = if self.is_close { vec![ring] } else { without_slits(vec![ring]) };
+            let rings = if is_exact { vec![ring] } else { without_slits(vec![ring]) };
             for ring in rings {
                 self.ring(&simple(ring), owner(i));
             }

@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use rustc_hash::FxHashMap;
 
 use super::form::turn;
-use super::vertex::{Junction, SNAP, Slot, resolution};
+use super::vertex::{Junction, Slot, resolution};
 use super::walk::{Event, Pair};
 use super::{Diagram, Edge, Space, Vertex};
 use crate::voronoi::plane::Spot;
@@ -17,6 +17,7 @@ use crate::voronoi::plane::Spot;
 #[derive(Default)]
 pub(super) struct Growth {
     tie: f64,
+    snap: f64,
     pub(super) junctions: Vec<Junction>,
     edges: Vec<Edge>,
     /// The junctions of each cell of the plane.
@@ -47,7 +48,7 @@ impl Growth {
     /// there, or three owners where they are hardly apart.
     fn known(&self, junction: &Junction) -> Option<u32> {
         let Junction { at, clearance, .. } = *junction;
-        let reach = resolution(self.tie, clearance);
+        let reach = resolution([self.tie, self.snap], clearance);
         let [low, high] = [cell(at - Spot::new(reach, reach)), cell(at + Spot::new(reach, reach))];
         let cells = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
         let known = cells.filter_map(|cell| self.by_place.get(&cell)).flatten().copied();
@@ -117,7 +118,7 @@ fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Junction {
 impl Diagram {
     /// Finds all vertices and edges.
     pub(super) fn walk_all(&mut self, space: Space) {
-        let mut growth = Growth { tie: self.tie, ..Growth::default() };
+        let mut growth = Growth { tie: self.tie, snap: self.snap(), ..Growth::default() };
         self.sow(&mut growth, space);
         self.finish(growth);
     }
@@ -157,7 +158,7 @@ impl Diagram {
     /// direction in which it arrives.
     fn next(&self, growth: &Growth, from: u32, mut pair: Pair) -> Option<(Pair, Junction, Spot)> {
         let home = &growth.junctions[from as usize];
-        let near = resolution(self.tie, home.clearance) + SNAP;
+        let near = self.resolution(home.clearance) + self.snap();
         let mut start = home.at;
         for _ in 0..RETRIES {
             let event = self.follow(&pair, start, &home.tied);
@@ -200,6 +201,10 @@ impl Diagram {
             }
             Event::Junction { mut at, mut clearance, mut third, .. } => {
                 for _ in 0..RETRIES {
+                    if clearance < self.floor(pair) {
+                        let way = pair.way(at);
+                        return Some((dead_end(pair, at, clearance, way), way));
+                    }
                     if let Some(junction) = self.junction(at, clearance, [pair.left, pair.right, third]) {
                         return Some((junction, pair.way(at)));
                     }
@@ -210,9 +215,7 @@ impl Diagram {
                 }
                 None
             }
-            Event::Window { at, clearance, way } | Event::Floor { at, clearance, way } => {
-                Some((dead_end(pair, at, clearance, way), way))
-            }
+            Event::Window { at, clearance, way } => Some((dead_end(pair, at, clearance, way), way)),
             Event::Contact { at, way } => Some((dead_end(pair, at, 0.0, way), way)),
             Event::Fault => None,
         }

@@ -15,7 +15,7 @@
 //! (offset curves from the diagram).
 
 use super::chain::Chain;
-use super::form::{Form, Place, turn, unit};
+use super::form::{Form, Place, halfway, turn};
 use super::{Diagram, Edge, Kind, Link, NOBODY};
 use crate::voronoi::plane::Spot;
 use crate::voronoi::sample::{CHORD, CLEARANCE_CHORD, Sample};
@@ -586,15 +586,9 @@ fn swept(sense: f64, u: Spot, v: Spot) -> f64 {
 fn arc(center: Spot, radius: f64, [u, v]: [Spot; 2], sense: f64, closed: bool, add: &mut impl FnMut(Spot)) {
     let swept = swept(sense, u, v);
     if closed || (1e-9..4.0 - 1e-9).contains(&swept) {
-        let left = unit(Spot::new(-u.y, u.x)) * sense;
-        let (half, straight) = (unit(u + v), u.dot(v));
-        let middle = match (closed, swept < 1.9, swept > 2.1) {
-            (true, ..) => u * -1.0,
-            (_, true, _) => half,
-            (_, _, true) => half * -1.0,
-            _ => left,
-        };
+        let middle = if closed { u * -1.0 } else { halfway(u, v, sense) };
         // The height of the arc over its chord.
+        let straight = u.dot(v);
         let height = radius * (1.0 - ((1.0 + straight.clamp(-1.0, 1.0)) / 2.0).sqrt());
         if closed || swept >= 1.0 || height > CHORD {
             arc(center, radius, [u, middle], sense, false, add);

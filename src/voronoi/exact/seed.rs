@@ -90,7 +90,7 @@ impl Diagram {
                 }
                 let Some(s) = form.meet(foot, normal).filter(|&s| s > self.tie) else { return };
                 let nearer = nearest.is_none_or(|known| (s, c) < known);
-                if nearer && form.counts(foot + normal * s, self.tie) {
+                if nearer && form.counts(foot + normal * s, self.tie, self.slab()) {
                     nearest = Some((s, c));
                 }
             });
@@ -109,8 +109,9 @@ impl Diagram {
             return;
         };
         let at = foot + normal * s;
-        // A ray from what is not the rightmost of its owner there may lead through copper.
-        if self.generators.is_loose && bodies.is_some_and(|bodies| bodies.hold(at, false)) {
+        // A ray from what is not the rightmost of its owner, or one along an edge, may lead through
+        // copper.
+        if bodies.is_some_and(|bodies| bodies.hold(at, true)) {
             return;
         }
         let is_low = match self.kind {

@@ -13,8 +13,7 @@
 //! events.
 
 use super::apollonius;
-use super::form::{Form, Place, SLAB, clockwise, unit};
-use super::vertex::resolution;
+use super::form::{Form, Place, clockwise, halfway, unit};
 use super::{Diagram, Kind, NOBODY};
 use crate::voronoi::plane::Spot;
 
@@ -26,7 +25,7 @@ const LEAST: f64 = 20_000.0;
 /// What comes nearer by less than this a unit of way only touches; if it enters after all, the end
 /// of the step shows it. Rounding is less.
 const FLAT: f64 = 1e-6;
-/// The same of what belongs to another owner than both.
+/// The same of what belongs to another owner than both, where owners may be close.
 const LEAST_FLAT: f64 = 1e-9;
 
 /// Who cannot step so far has come to where two generators touch, in nanometres.
@@ -55,8 +54,6 @@ pub(super) enum Event {
     Junction { at: Spot, clearance: f64, third: u32, way: Spot },
     /// Where the window ends.
     Window { at: Spot, clearance: f64, way: Spot },
-    /// Where copper of one owner comes too near to matter.
-    Floor { at: Spot, clearance: f64, way: Spot },
     /// Where the two generators touch each other.
     Contact { at: Spot, way: Spot },
     /// Nowhere that can be explained.
@@ -132,7 +129,6 @@ impl Diagram {
         let mut here = Here { at: start, clearance: form.distance(start).max(0.0), place: form.place(start) };
         let end = self.nearest_end(pair, main, &here);
         let mut stride = STRIDE;
-        let floor = self.floor(pair);
         for _ in 0..STEPS {
             let Some((mut next, mut is_end)) = self.step(pair, main, &here, end.as_ref(), stride) else {
                 return pair.contact(&here, self.tie);
@@ -148,9 +144,6 @@ impl Diagram {
                 return Event::Junction { at, clearance, third, way: pair.way(at) };
             }
             let Here { at, clearance, .. } = next;
-            if clearance < floor && clearance < here.clearance {
-                return Event::Floor { at, clearance, way: pair.way(at) };
-            }
             if leaves {
                 return Event::Window { at, clearance, way: pair.way(at) };
             }
@@ -164,8 +157,8 @@ impl Diagram {
         Event::Fault
     }
 
-    /// Nearer to copper an edge is not followed.
-    fn floor(&self, pair: &Pair) -> f64 {
+    /// What is nearer to copper ends an edge: what lies beyond does not matter.
+    pub(super) fn floor(&self, pair: &Pair) -> f64 {
         match self.kind {
             Kind::Above(floor) | Kind::Between(floor)
                 if pair.right != NOBODY && self.owner(pair.left) == self.owner(pair.right) =>
@@ -194,8 +187,9 @@ impl Diagram {
                     Form::Line { .. } => 1.0,
                     Form::Circle { center, .. } => (here.at - center).length(),
                 };
-                let is_behind = matches!(form, Form::Circle { .. }) && (4.0 - ahead) * out <= 2.0 * SLAB;
-                if ahead * out <= SLAB || is_behind {
+                let is_behind =
+                    matches!(form, Form::Circle { .. }) && (4.0 - ahead) * out <= 2.0 * self.slab();
+                if ahead * out <= self.slab() || is_behind {
                     continue;
                 }
                 let Some((at, clearance)) = pair.at(side, place) else { continue };
@@ -271,7 +265,7 @@ impl Diagram {
         for _ in 0..60 {
             let place = match (inside.place, outside.place) {
                 (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
-                (Place::Toward(a), Place::Toward(b)) => Place::Toward(unit(a + b)),
+                (Place::Toward(a), Place::Toward(b)) => Place::Toward(halfway(a, b, pair.sense(main))),
                 (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => break,
             };
             let Some((at, clearance)) = pair.at(main, place) else { break };
@@ -306,7 +300,7 @@ impl Diagram {
         ];
         let mut first: Option<Hit> = None;
         let mut missed: Option<u32> = None;
-        let near = resolution(self.tie, here.clearance);
+        let near = self.resolution(here.clearance);
         self.index.visit(look, |c| {
             if c == pair.left || c == pair.right || self.joined_to(pair, c) {
                 return;
@@ -321,7 +315,7 @@ impl Diagram {
                 let place = form.place(at);
                 let along = form.progress(here.place, place, sense);
                 let limit = first.map_or(ahead, |hit| hit.0);
-                if !(along > 0.0 && along <= limit) || other.slack(at) < -SLAB || s < -self.tie {
+                if !(along > 0.0 && along <= limit) || other.slack(at) < -self.slab() || s < -self.tie {
                     continue;
                 }
                 let off = (at - start).length();
@@ -334,8 +328,8 @@ impl Diagram {
                 }
                 first = Some((along, at, s, c));
             }
-            let nearer =
-                other.distance(next.at) < next.clearance - self.tie && other.counts(next.at, self.tie);
+            let nearer = other.distance(next.at) < next.clearance - self.tie
+                && other.counts(next.at, self.tie, self.slab());
             if nearer && missed.is_none_or(|known| c < known) {
                 missed = Some(c);
             }
@@ -346,9 +340,10 @@ impl Diagram {
         self.entry(pair, main, here, next, missed?)
     }
 
-    /// Whether a generator belongs to neither owner of a pair.
+    /// Whether a generator belongs to neither owner of a pair, where owners may be close.
     fn is_strange(&self, pair: &Pair, c: u32) -> bool {
-        [pair.left, pair.right].into_iter().all(|i| i == NOBODY || self.owner(i) != self.owner(c))
+        self.generators.is_close
+            && [pair.left, pair.right].into_iter().all(|i| i == NOBODY || self.owner(i) != self.owner(c))
     }
 
     /// Where a generator comes nearer that touches too flatly for an equation: by halving.
@@ -358,12 +353,13 @@ impl Diagram {
         for _ in 0..80 {
             let place = match (clear.place, hit.place) {
                 (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
-                (Place::Toward(a), Place::Toward(b)) => Place::Toward(unit(a + b)),
+                (Place::Toward(a), Place::Toward(b)) => Place::Toward(halfway(a, b, pair.sense(main))),
                 (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => break,
             };
             let Some((at, clearance)) = pair.at(main, place) else { break };
             let middle = Here { at, clearance, place };
-            let nearer = other.distance(at) < clearance - self.tie / 4.0 && other.counts(at, self.tie);
+            let nearer =
+                other.distance(at) < clearance - self.tie / 4.0 && other.counts(at, self.tie, self.slab());
             if nearer { hit = middle } else { clear = middle }
         }
         let along = form.progress(here.place, hit.place, pair.sense(main));

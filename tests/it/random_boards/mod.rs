@@ -156,6 +156,9 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         ("band", SETTINGS[6]),
         ("facing-corners", SETTINGS[0]),
         ("gap-of-a-micrometre", SETTINGS[3]),
+        ("half-turn-round-an-end", SETTINGS[0]),
+        ("hole-a-nanometre-wider", SETTINGS[1]),
+        ("nonagon-in-its-hole", SETTINGS[3]),
     ] {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let copper = copper(&text, Side::Front).expect("readable").expect("copper");
