@@ -58,6 +58,7 @@ fn ring(path: &Path) -> Option<Vec<Point>> {
 
 /// The circle through the corners of `ring`, unless some leave it or few are there.
 fn circle(ring: &[Point]) -> Option<(Point, Nm)> {
+    /// The fewest corners of a ring that is a circle. Chosen.
     const FEWEST: usize = 8;
     let (area, center) = middle(ring)?;
     let reach = |&p: &Point| libm::hypot(p.to_f64().0 - center.0, p.to_f64().1 - center.1);

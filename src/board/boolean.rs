@@ -139,7 +139,9 @@ impl Tangle {
     }
 
     pub(super) const fn is_too_much(self) -> bool {
+        /// Edges below which any number of crossings is worked out. Chosen.
         const FEW: u64 = 4096;
+        /// Crossings beyond which a layer of more edges is refused. Chosen.
         const PAIRS: u64 = 20_000_000;
         self.edges >= FEW && self.crossings > PAIRS
     }

@@ -38,9 +38,7 @@ pub const EFFORT: u64 = 8_000_000;
 
 /// Why the copper of a sequence of objects cannot be worked out in reasonable time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "clear objects erase too much of each other's work: more than {EFFORT} vertices, or too many crossings"
-)]
+#[error("clear objects (LPC) overlap too much: more than {EFFORT} vertices, or too many crossings")]
 pub struct TooMuch;
 
 /// The copper that a sequence of objects leaves: every dark one less all clear ones after it.

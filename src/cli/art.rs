@@ -9,7 +9,7 @@ use voromill::board::{Copper, Diagnostic, FLATTEN, Feature, Side, Warning, polar
 use voromill::gcode::Input as Origin;
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::drawing::Unit;
-use voromill::import::{self, Loaded, flaw, text::text};
+use voromill::import::{self, Loaded, diagnostic, text::text};
 use voromill::job::{self, Art, Length, OneTool, Settings};
 use voromill::report;
 use voromill::report::document::{Figures, ProgramEntry, SCHEMA_VERSION, WarningEntry};
@@ -154,10 +154,10 @@ impl Work {
         if (self.json || self.format == Format::Json) && !to_stdout {
             super::print(&self.to_json(&name, &made, judged.as_ref(), &warnings))?;
         } else {
-            let mut told = if self.output.is_some() { made.summary() } else { String::new() };
-            told.extend(judged.as_ref().map(|judged| made.verdict(judged)));
-            told += &lines(findings);
-            if to_stdout { shared.say(&told) } else { shared.report(&told)? }
+            let mut summary = if self.output.is_some() { made.summary() } else { String::new() };
+            summary.extend(judged.as_ref().map(|judged| made.verdict(judged)));
+            summary += &lines(findings);
+            if to_stdout { shared.say(&summary) } else { shared.report(&summary)? }
         }
         Ok(if findings.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
@@ -267,7 +267,7 @@ impl Shapes {
         match (&self.text, &self.font, &self.path) {
             (Some(words), Some(font), _) => lettering(words, font, self.height.nm()),
             (_, _, Some(path)) => drawn(path, input, settings),
-            (..) => Err(Failure::new("there is nothing to mill", "name a file, or --text and --font")),
+            (..) => Err(Failure::new("there is nothing to mill", "give a file, or --text and --font")),
         }
     }
 }
@@ -291,7 +291,7 @@ fn borrowed(texts: &[(String, String)]) -> Vec<(&str, &str)> {
     texts.iter().map(|(name, text)| (name.as_str(), text.as_str())).collect()
 }
 
-/// How many pixels a picture is wide.
+/// How many pixels a picture is wide. Chosen: fills a screen.
 const WIDTH: u32 = 1600;
 
 /// Writes a file for each tool, called as asked for but for its tag, and a picture.
@@ -302,8 +302,10 @@ fn write(output: &Path, picture: Option<(&Path, Vec<u8>)>, programs: &[OneTool])
     }
     if output == Path::new("-") {
         let [one] = programs else {
-            let cause =
-                format!("each of {} tools has a program of its own, and stdout takes one", programs.len());
+            let cause = format!(
+                "each of {} tools has a program of its own, but stdout takes only one",
+                programs.len()
+            );
             return Err(Failure::new(cause, "name a file: -o NAME.ngc"));
         };
         staged.commit()?;
@@ -383,7 +385,7 @@ fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure
     // What is said of boards and their outlines is of no use here; and what a solder mask calls
     // negative, what it draws, are its openings.
     let is_of_use = |kind: &Diagnostic| {
-        !kind.is_of_the_outline() && ![flaw::NEGATIVE_FILE, flaw::COPPER_MISSING].contains(kind)
+        !kind.is_of_the_outline() && ![diagnostic::NEGATIVE_FILE, diagnostic::COPPER_MISSING].contains(kind)
     };
     let warnings = loaded.warnings.into_iter().filter(|warning| is_of_use(warning.kind));
     Ok(Art { name: loaded.board.name, areas, inputs: inputs.collect(), warnings: warnings.collect() })

@@ -37,8 +37,8 @@ impl Config {
     pub(super) fn judge_paper(&self) -> Result<(), Failure> {
         let given = self.given.0.listed();
         let Some((option, _)) = given.iter().find(|(option, _)| *option != "strategy") else { return Ok(()) };
-        let cause = format!("--{option} has no effect on what the paper's program makes");
-        Err(Failure::new(cause, "leave it out, or --paper; --strategy outline is taken"))
+        let cause = format!("--{option} has no effect with --paper");
+        Err(Failure::new(cause, "leave out one of them; of these options --paper takes only --strategy"))
     }
 
     /// The tools that the settings know.
@@ -50,8 +50,8 @@ impl Config {
     fn resolved(&self, input: &Input, of_board: Options) -> Result<Settings, Failure> {
         let from_file = Self::found(self.config.as_deref(), &input.paths())?;
         let project = input.project()?;
-        let told = self.given.0.clone().or(project.options.clone()).or(from_file);
-        let settings = Settings::resolve(told.or(of_board));
+        let given = self.given.0.clone().or(project.options.clone()).or(from_file);
+        let settings = Settings::resolve(given.or(of_board));
         let settings = settings.map_err(|error| self.explain(error, &project))?;
         self.judge(&settings)?;
         Ok(settings)

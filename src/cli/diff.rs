@@ -36,8 +36,8 @@ pub(super) struct Diff {
     #[arg(long, short, value_name = "OUT")]
     output: Option<PathBuf>,
 
-    /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: as the programs' comments
-    /// say]
+    /// The tool, such as `vbit:0.1mm:30deg` or `endmill:0.2mm` [default: from the programs'
+    /// comments]
     #[arg(long, value_name = "TOOL")]
     tool: Option<Cutter>,
 

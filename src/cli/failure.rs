@@ -26,13 +26,13 @@ impl Failure {
         let hint = match error.kind() {
             Kind::NotFound => "check the name",
             Kind::PermissionDenied | Kind::ReadOnlyFilesystem => {
-                "check who may do that there, or name another place"
+                "check the permissions, or choose another place"
             }
-            Kind::StorageFull | Kind::QuotaExceeded => "make room, or name another place",
+            Kind::StorageFull | Kind::QuotaExceeded => "free some space, or choose another place",
             Kind::NotADirectory | Kind::AlreadyExists => {
-                "a file is where a folder must be: name another place"
+                "there is a file where a folder must be: choose another place"
             }
-            Kind::IsADirectory => "a folder is where a file must be: name another place",
+            Kind::IsADirectory => "there is a folder where a file must be: choose another place",
             _ => "",
         };
         Self::new(format!("cannot {doing} {}: {}", path.display(), plain(error)), hint)

@@ -25,19 +25,19 @@ pub(super) struct Input {
     #[arg(long, value_name = "FILE")]
     millproject: Option<PathBuf>,
 
-    /// File with the front copper, where its name does not tell
+    /// File with the front copper, if not known by its name
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     front: Option<PathBuf>,
 
-    /// File with the back copper, where its name does not tell
+    /// File with the back copper, if not known by its name
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     back: Option<PathBuf>,
 
-    /// File with the outline of the board, where its name does not tell
+    /// File with the outline of the board, if not known by its name
     #[arg(long, value_name = "FILE", help_heading = "Files")]
     outline: Option<PathBuf>,
 
-    /// File with holes, where its name does not tell; may be given several times
+    /// File with holes, if not known by its name; may be given several times
     #[arg(long = "drill", value_name = "FILE", help_heading = "Files")]
     drill_files: Vec<PathBuf>,
 
@@ -103,7 +103,7 @@ pub(super) enum Colour {
 
 pub(super) fn dpi(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| (10.0..=30_000.0).contains(number));
-    number.ok_or_else(|| "expected from 10 to 30000 pixels to the inch".to_owned())
+    number.ok_or_else(|| "expected from 10 to 30000 pixels per inch".to_owned())
 }
 
 fn area(text: &str) -> Result<f64, String> {
@@ -160,7 +160,7 @@ impl Input {
         }
         let shown: String = warnings.iter().map(|warning| warning.to_text()).collect();
         let all = shown.trim_end();
-        let cause = format!("--deny-warnings allows no warning, and here are {}:\n{all}", warnings.len());
+        let cause = format!("--deny-warnings is set, and there are {}:\n{all}", warnings.len());
         Err(Failure::new(cause, "repair the files, or leave --deny-warnings out"))
     }
 
@@ -264,8 +264,8 @@ impl Input {
         };
         let paths = self.paths();
         if paths.is_empty() {
-            let hint = "name files, a folder or an archive, or `front` and `back` in the project";
-            return Err(Failure::new("the millproject names no file of a board", hint));
+            let hint = "give files, a folder or an archive, or set `front` and `back` in the project";
+            return Err(Failure::new("the millproject gives no file of a board", hint));
         }
         let mut loaded = read(&paths, &selection)?;
         loaded.warnings.extend(project.left);

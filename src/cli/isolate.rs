@@ -33,7 +33,7 @@ pub(super) struct Isolate {
     #[arg(long, value_enum)]
     side: Option<SideName>,
 
-    /// The program that the paper's own program writes: pixels of 500 DPI, its simplified paths in
+    /// The program as the paper's software writes it: pixels of 500 DPI, its simplified paths in
     /// its order; to compare with, not to mill
     #[arg(long)]
     paper: bool,
@@ -51,8 +51,8 @@ impl Isolate {
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
         loaded.board.leave_copper(self.side.map(Side::from));
         if loaded.board.front.is_some() && loaded.board.back.is_some() {
-            let hint = "name the file of one layer, say --side, or use `voromill mill`";
-            return Err(Failure::new("there is copper for both sides, and a program is for one", hint));
+            let hint = "give the file of one layer, set --side, or use `voromill mill`";
+            return Err(Failure::new("there is copper on both sides, but a program is for one", hint));
         }
         if loaded.board.front.is_none() && loaded.board.back.is_none() {
             return Err(job::Error::NoCopper("in these files".to_owned()).into());
@@ -98,7 +98,7 @@ impl Isolate {
 /// Several tools where each has a file of its own, and what to do about it.
 fn several_tools(dialect: &Dialect, tools: usize) -> Failure {
     let cause = format!(
-        "in {} each of {tools} tools has a file of its own, and this command writes one",
+        "with the dialect {} each of {tools} tools has a file of its own, but this command writes only one",
         dialect.name
     );
     let all = "`voromill mill` writes them all";
@@ -108,7 +108,7 @@ fn several_tools(dialect: &Dialect, tools: usize) -> Failure {
         let word = &dialect.pause;
         format!("{all}; --tool-change pause waits at {word} within one, for tools that all reach as far down")
     } else {
-        format!("{all}; or say one --tool")
+        format!("{all}; or use one --tool")
     };
     Failure::new(cause, hint)
 }

@@ -16,7 +16,7 @@ use voromill::report::document::{OutputEntry, WarningEntry};
 /// The endings of programs, beside that of the dialect.
 const PROGRAMS: [&str; 7] = ["ngc", "nc", "gcode", "gc", "tap", "cnc", "g"];
 
-/// How many names are shown of many.
+/// How many names are shown of many. Chosen: fits a line.
 const SHOWN: usize = 5;
 
 /// Files of earlier runs.
@@ -79,9 +79,8 @@ impl Leftovers {
         let mut warnings = Vec::new();
         if !self.changed.is_empty() {
             let names = named(&self.changed);
-            let message = format!(
-                "an earlier run wrote {names} into {folder}, this run does not, and it was changed since: it stays"
-            );
+            let message =
+                format!("{names} in {folder} is from an earlier run and was changed since: it is kept");
             warnings.push(planning::STALE_OUTPUT.warning(message));
         }
         if !self.others.is_empty() {
@@ -105,7 +104,7 @@ impl Leftovers {
         let removed = if names.is_empty() {
             String::new()
         } else {
-            format!("  removed from {}, of an earlier run: {}\n", folder.display(), named(&names))
+            format!("  removed from {}, written by an earlier run: {}\n", folder.display(), named(&names))
         };
         self.warnings(folder).iter().map(WarningEntry::to_text).fold(removed, |text, warning| text + &warning)
     }

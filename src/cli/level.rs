@@ -137,7 +137,10 @@ impl Level {
         let Some(place) = self.zero_at else { return Ok((map, format.name)) };
         if !map.area().inflate(self.margin()?).contains(place.into()) {
             let problem = format!("--zero-at: nothing was probed near {place}");
-            return Err(Failure::new(problem, "say a place of the map, in the program's coordinates"));
+            return Err(Failure::new(
+                problem,
+                "give a position on the map, in the coordinates of the program",
+            ));
         }
         Ok((map.zeroed_at(place.into()), format.name))
     }
@@ -146,7 +149,7 @@ impl Level {
     fn margin(&self) -> Result<Nm, Failure> {
         let margin = self.margin.nm();
         if margin < Nm::ZERO {
-            let problem = format!("--margin: `{}` makes no sense: expected zero or more", self.margin);
+            let problem = format!("--margin: `{}` is invalid: expected zero or more", self.margin);
             return Err(Failure::new(problem, ""));
         }
         Ok(margin)
@@ -176,12 +179,12 @@ fn off(outliers: &[Outlier]) -> String {
 
 fn positive(option: &str, length: Length) -> Result<Nm, Failure> {
     /// A cut split more often than each micrometre of height is longer than any machine has
-    /// patience for.
+    /// patience for. Chosen.
     const LEAST: Nm = Nm::from_um(1);
     if length.nm() >= LEAST {
         return Ok(length.nm());
     }
-    Err(Failure::new(format!("{option}: `{length}` makes no sense: expected at least {}", Length(LEAST)), ""))
+    Err(Failure::new(format!("{option}: `{length}` is invalid: expected at least {}", Length(LEAST)), ""))
 }
 
 fn read(path: &Path) -> Result<String, Failure> {
@@ -203,12 +206,10 @@ fn beside(program: &Path) -> PathBuf {
 fn hint(error: &LevelError) -> &'static str {
     match error {
         LevelError::Outside { .. } => {
-            "probe a larger area, allow more with --margin, or lay the program where it was probed"
+            "probe a larger area, allow more with --margin, or move the program to the probed area"
         }
-        LevelError::High { .. } => {
-            "raise the program's height for travel, or set z to zero anew and probe again"
-        }
-        LevelError::Nowhere { .. } => "say with --safe-z from which height on nothing is to be levelled",
+        LevelError::High { .. } => "raise the travel height of the program, or zero Z again and probe again",
+        LevelError::Nowhere { .. } => "set with --safe-z the height above which nothing is levelled",
         _ => "",
     }
 }
@@ -216,9 +217,9 @@ fn hint(error: &LevelError) -> &'static str {
 fn map_hint(error: &MapError) -> &'static str {
     match error {
         MapError::Zero { .. } => {
-            "say it with --map-zero X,Y,Z (what $# shows for G54), or keep a status report with WCO: in the log"
+            "set it with --map-zero X,Y,Z (what $# shows for G54), or keep a status report with WCO: in the log"
         }
-        MapError::Steep { .. } => "--map-unit says what the map counts; or probe that place again",
+        MapError::Steep { .. } => "set the unit of the map with --map-unit, or probe that place again",
         MapError::Contradicting { .. } => "leave the wrong one out of the file, or probe that place again",
         MapError::Missing { .. } | MapError::Count { .. } => {
             "probe what is missing, or the whole board again"

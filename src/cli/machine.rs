@@ -32,7 +32,7 @@ enum Action {
     /// The profile of a machine, as TOML, from what its controller says: Grbl's answer to $$, or a
     /// LinuxCNC ini file
     Import {
-        /// A file with that; `-` for stdin
+        /// The file; `-` for stdin
         file: PathBuf,
     },
 }
@@ -53,7 +53,7 @@ impl Machine {
                     Some((_, text)) => super::print(text),
                     None => {
                         let cause = format!("no machine is called `{name}`");
-                        Err(Failure::new(cause, "`voromill machine list` shows those that are known"))
+                        Err(Failure::new(cause, "`voromill machine list` shows the known ones"))
                     }
                 }
             }

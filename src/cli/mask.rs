@@ -54,11 +54,11 @@ pub(super) struct Mask {
     #[arg(long, value_name = "LENGTH", default_value = "0mm", help_heading = "Mask")]
     margin: Length,
 
-    /// Ink what is not meant, and leave bare what is
+    /// Invert: ink what is otherwise left bare
     #[arg(long, help_heading = "Mask")]
     negative: bool,
 
-    /// Exchange left and right
+    /// Mirror left to right
     #[arg(long, help_heading = "Mask")]
     mirror: bool,
 
@@ -118,7 +118,7 @@ impl Format {
             "pdf" => Self::Pdf,
             "gbr" | "ger" => Self::Gerber,
             _ => {
-                let cause = format!("{} does not say what to write", output.display());
+                let cause = format!("the format of {} is unknown", output.display());
                 return Err(Failure::new(cause, "let its name end in .png, .svg, .pdf or .gbr"));
             }
         })
@@ -135,7 +135,7 @@ impl FromStr for Scale {
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         let number = |text: &str| {
             let number = text.trim().parse::<f64>().ok().filter(|number| (0.5..=2.0).contains(number));
-            number.ok_or_else(|| format!("`{text}` is no scale: expected from 0.5 to 2, such as 1.002"))
+            number.ok_or_else(|| format!("`{text}` is not a scale: expected from 0.5 to 2, such as 1.002"))
         };
         match text.split_once(',') {
             Some((x, y)) => Ok(Self(number(x)?, number(y)?)),
@@ -160,7 +160,7 @@ impl Mask {
         let placing =
             Placing { mirrored: self.mirror != seen_from_behind, scale: (self.scale.0, self.scale.1) };
         let sheet = placing.place(sheet);
-        let mut said = format!(
+        let mut line = format!(
             "{}: {}, {:.3} × {:.3} mm",
             self.output.display(),
             sheet.describe(),
@@ -171,22 +171,22 @@ impl Mask {
             Format::Svg => mask::drawing(&sheet).into_bytes(),
             Format::Pdf => mask::page(&sheet),
             Format::Gerber => mask::film(&sheet).into_bytes(),
-            Format::Png => self.png(sheet, &mut said)?,
+            Format::Png => self.png(sheet, &mut line)?,
         };
         if placing.mirrored {
-            said.push_str(", mirrored");
+            line.push_str(", mirrored");
         }
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
         let mut output = Output::new();
         output.stage(&self.output, &bytes)?;
         output.commit()?;
-        shared.report(&format!("{said}\n"))
+        shared.report(&format!("{line}\n"))
     }
 
-    fn png(&self, sheet: Sheet, said: &mut String) -> Result<Vec<u8>, Failure> {
+    fn png(&self, sheet: Sheet, line: &mut String) -> Result<Vec<u8>, Failure> {
         let dpi = self.dpi.unwrap_or(1200);
         let (width, height) = mask::bitmap_size(&sheet, dpi).map_err(job::Error::from)?;
-        said.push_str(&format!(", {width} × {height} pixels at {dpi} DPI"));
+        line.push_str(&format!(", {width} × {height} pixels at {dpi} DPI"));
         Ok(mask::bitmap(sheet, dpi).map_err(job::Error::from)?)
     }
 

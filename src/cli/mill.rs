@@ -92,8 +92,8 @@ impl Mill {
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let folder = self.output.clone().or(self.input.project()?.output).filter(|_| !self.cache_key);
         if folder.is_none() && !self.cache_key {
-            let hint = "say -o OUT, or output-dir in the project";
-            return Err(Failure::new("nothing says where to write", hint));
+            let hint = "set -o OUT, or output-dir in the project";
+            return Err(Failure::new("no output folder is given", hint));
         }
         let Some(folder) = &folder else {
             drop(progress);

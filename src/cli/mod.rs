@@ -62,15 +62,15 @@ Examples:
   voromill verify out/*.ngc --board board/     what programs do to the board, from any CAM
   voromill diff old/ new/                      what copper changes between programs
   voromill draw board/ --stage voronoi -o v.png  a picture of one stage
-  voromill mask board/ -o front.png --dpi 1200 a mask for etching, lasers or UV light
+  voromill mask board/ -o front.png --dpi 1200  a mask for etching, lasers or UV light
   voromill carve logo.png -o logo.ngc --tool vbit:0.1mm:60deg --picture-dpi 600
-                                               a V-bit into shapes, as deep as they are wide
+                                               V-carve shapes, as deep as they are wide
   voromill pocket plate.svg -o plate.ngc --tool endmill:3mm --depth 4mm --depth-pass 1mm
-                                               shapes milled to a flat floor
+                                               mill shapes to a flat floor
   voromill probe board/ -o probe.ngc           probe the surface of the board on the machine
   voromill level front.ngc --map probe.txt     adapt a program to the probed surface
   voromill tools                               the tools, and their kerf at several depths
-  voromill machine list                        the machines whose figures are known
+  voromill machine list                        the built-in machine profiles
   voromill explain gouge                       what the code behind a message means
   voromill init                                write voromill.toml with every setting and its default
 

@@ -8,7 +8,7 @@ use clap::{Arg, Command};
 const HEAD: &str = "\
 # Options
 
-`voromill explain --options` writes this page; a test holds it to the program. What several commands take alike is
+`voromill explain --options` writes this page; a test holds it to the program. Options that several commands share are
 listed once. `voromill init` writes every setting of a job into `voromill.toml`, where the same names are keys.
 
 | value | what to write |
@@ -116,6 +116,6 @@ fn row(argument: &Arg) -> Row {
         .collect();
     let is_listed = takes_value && !argument.is_hide_possible_values_set() && !possible.is_empty();
     let what = if is_listed { format!("{help}: {}", possible.join(", ")) } else { help };
-    let heading = argument.get_help_heading().unwrap_or("What is read, and the rest").to_owned();
+    let heading = argument.get_help_heading().unwrap_or("Input, and the rest").to_owned();
     Row { heading, option, what, default }
 }

@@ -45,13 +45,13 @@ Examples:
 A tool of your own, in voromill.toml:
   [tools.engraver-20]
   kind = \"vbit\"            # vbit, endmill or drill
-  tip = \"0.1mm\"            # a vbit's; an endmill and a drill have a diameter
+  tip = \"0.1mm\"            # of a vbit; endmill and drill have a diameter
   angle = \"20deg\"
-  feed = \"300mm/min\"       # what is left out is as in the settings
+  feed = \"300mm/min\"       # keys left out are as in the settings
   plunge = \"100mm/min\"
   spindle = 20000
   number = 3               # in the machine's tool table
-  kerf = \"0.15mm\"          # or depth: how it isolates";
+  kerf = \"0.15mm\"          # or depth: for isolation";
 
 /// The depths at which kerfs are shown unless others are asked for. Chosen: about one to six times
 /// common copper.

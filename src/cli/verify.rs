@@ -193,7 +193,7 @@ fn length(programs: &[Program], setting: &str) -> Option<Nm> {
 /// How far a hole may be from its diameter, as the programs say.
 fn diameter(programs: &[Program], usual: Nm) -> Nm {
     let is_one = |program: &Program| {
-        verify::declared_setting(&program.text, "one-drill").is_some_and(|said| said == "true")
+        verify::declared_setting(&program.text, "one-drill").is_some_and(|declared| declared == "true")
     };
     if programs.iter().any(is_one) {
         return verify::Settings::ANY_DIAMETER;
@@ -204,9 +204,9 @@ fn diameter(programs: &[Program], usual: Nm) -> Nm {
 /// How many tabs each board was given, where that is known of all.
 fn tabs(programs: &[Program]) -> Option<u32> {
     let of = |program: &Program| {
-        let said = |setting| verify::declared_setting(&program.text, setting);
-        let elsewhere = said("tab-spacing").or_else(|| said("tab-at"));
-        if elsewhere.is_some() { None } else { said("tabs")?.parse().ok() }
+        let declared = |setting| verify::declared_setting(&program.text, setting);
+        let elsewhere = declared("tab-spacing").or_else(|| declared("tab-at"));
+        if elsewhere.is_some() { None } else { declared("tabs")?.parse().ok() }
     };
     programs.iter().find_map(of)
 }
@@ -281,17 +281,18 @@ impl Verify {
     fn leave_out(&self, board: &mut Board, programs: &[Program]) {
         let mut patterns = self.ignore.clone();
         if patterns.is_empty() {
-            let said =
+            let declared =
                 programs.iter().filter_map(|program| verify::declared_setting(&program.text, "ignore"));
-            let all: BTreeSet<String> = said
+            let all: BTreeSet<String> = declared
                 .flat_map(|names| names.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
                 .collect();
             patterns = all.iter().filter_map(|name| name.parse().ok()).collect();
         }
-        let said = programs.iter().find_map(|program| verify::declared_setting(&program.text, "topology"));
-        let topology: Option<Topology> = said.and_then(|name| of_word(&name.to_ascii_lowercase()).ok());
-        let said = programs.iter().find_map(|program| verify::declared_setting(&program.text, "rivet"));
-        if let Some(wider) = said.and_then(|length| length.parse().ok()) {
+        let declared =
+            programs.iter().find_map(|program| verify::declared_setting(&program.text, "topology"));
+        let topology: Option<Topology> = declared.and_then(|name| of_word(&name.to_ascii_lowercase()).ok());
+        let declared = programs.iter().find_map(|program| verify::declared_setting(&program.text, "rivet"));
+        if let Some(wider) = declared.and_then(|length| length.parse().ok()) {
             job::rivet(board, wider);
         }
         // That a pattern means no net was said when the program was made.
@@ -331,38 +332,38 @@ impl Verify {
         if let Some(thickness) = self.thickness {
             return Ok(thickness);
         }
-        let said = programs.iter().filter_map(|program| {
+        let declared = programs.iter().filter_map(|program| {
             let text = verify::declared_setting(&program.text, "thickness")?;
             Some((program, text.parse::<Nm>().ok().filter(|&thickness| thickness > Nm::ZERO)?))
         });
-        let said: Vec<(&Program, Nm)> = said.collect();
-        let Some(&(first, thickness)) = said.first() else {
+        let declared: Vec<(&Program, Nm)> = declared.collect();
+        let Some(&(first, thickness)) = declared.first() else {
             return Ok(board.thickness.unwrap_or(verify::Settings::default().board));
         };
-        match said.iter().find(|(_, other)| *other != thickness) {
+        match declared.iter().find(|(_, other)| *other != thickness) {
             None => Ok(thickness),
             Some((other, otherwise)) => {
                 let cause = format!(
                     "{} is for a board of {thickness:.3} mm, {} for one of {otherwise:.3} mm",
                     first.file, other.file
                 );
-                Err(Failure::new(cause, "say how thick the board is: --thickness 1.6mm"))
+                Err(Failure::new(cause, "set the thickness of the board: --thickness 1.6mm"))
             }
         }
     }
 
     /// How many boards there are.
     fn tiles(&self, programs: &[Program]) -> Result<Option<verify::Tiles>, Failure> {
-        let said =
+        let declared =
             |setting| programs.iter().find_map(|program| verify::declared_setting(&program.text, setting));
-        let tiles = self.tile.or_else(|| said("tile")?.parse().ok());
+        let tiles = self.tile.or_else(|| declared("tile")?.parse().ok());
         let Some(Tiles { columns, rows }) = tiles.filter(|tiles| tiles.columns * tiles.rows > 1) else {
             return Ok(None);
         };
-        let spacing = self.tile_spacing.or_else(|| said("tile-spacing")?.parse().ok());
+        let spacing = self.tile_spacing.or_else(|| declared("tile-spacing")?.parse().ok());
         let Some(spacing) = spacing else {
-            let cause = format!("nothing says how far the {columns}x{rows} boards are apart");
-            return Err(Failure::new(cause, "say it: --tile-spacing 3mm"));
+            let cause = format!("the distance between the {columns}x{rows} boards is unknown");
+            return Err(Failure::new(cause, "set it: --tile-spacing 3mm"));
         };
         Ok(Some(verify::Tiles { columns, rows, spacing }))
     }
@@ -384,7 +385,7 @@ impl Verify {
             format!(" --rotate {}deg", found.degrees)
         };
         let (x, y) = (found.shift.x, found.shift.y);
-        shared.say(&format!("{}: lies as with --offset {x:.4}mm,{y:.4}mm{mirror}{turned}\n", program.file));
+        shared.say(&format!("{}: placed as with --offset {x:.4}mm,{y:.4}mm{mirror}{turned}\n", program.file));
         program.placement = Some(found);
         Ok(())
     }

@@ -467,7 +467,8 @@ const TOUCH_OFF_ENDS: &str = "touch-off ends";
 const OWN_BEGINS: &str = "own G-code begins";
 const OWN_ENDS: &str = "own G-code ends";
 
-/// How far chords may leave an arc that is written as lines.
+/// How far chords may leave an arc that is written as lines. Chosen: below the resolution of the
+/// machine.
 const CHORD: Nm = Nm::from_um(1);
 
 /// How far the radii at an arc's two ends may differ: LinuxCNC refuses more than 1.27 µm, Grbl more

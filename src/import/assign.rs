@@ -13,7 +13,7 @@ use super::selection::Selection;
 use super::vote::{Assigned, Vote, Witness};
 use super::{contradiction, naming, settle};
 use crate::board::{Side, Warning, Words};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 impl Gathered {
     /// Adds the files of `selection` that do not lie under the given paths.
@@ -124,7 +124,7 @@ fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
                 let start = error::line(bytes, u32::try_from(error.line()).unwrap_or(u32::MAX)).start;
                 let at = (start + error.column().saturating_sub(1)).min(bytes.len());
                 let span = locate(name, bytes, at..at + 1);
-                warnings.push(flaw::JOB_FILE_UNREADABLE.warning(message).caused_by(span));
+                warnings.push(diagnostic::JOB_FILE_UNREADABLE.warning(message).caused_by(span));
             }
         }
     }
@@ -133,7 +133,7 @@ fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
     };
     for (file, _) in merged.files.iter().filter(missing) {
         let message = format!("the job file lists {file}, which is not among the files");
-        let warning = flaw::JOB_FILE_INCOMPLETE.warning(message);
+        let warning = diagnostic::JOB_FILE_INCOMPLETE.warning(message);
         let places = gathered.jobs.iter().filter_map(|(name, bytes)| {
             let at = find(bytes, file.as_bytes())?;
             Some(locate(name, bytes, at..at + file.len()))
@@ -155,12 +155,13 @@ fn witness(gathered: &Gathered, job: &Job) -> Vec<Vote> {
             let role = layers::role_by_name(&file.name, shared)?;
             Some((Function { role, side: None }, Witness::Name))
         };
-        let told = by_job.or_else(by_function).or_else(by_name);
-        let side = told.and_then(|(function, _)| function.side);
-        let told =
-            told.map(|(Function { role, .. }, witness)| (by_content(role, witness, file.kind), witness));
-        let told = told.or_else(|| (file.kind == Kind::Excellon).then_some((Role::Drill, Witness::Name)));
-        let (role, witness) = told.map_or((None, Witness::Name), |(role, witness)| (Some(role), witness));
+        let declared = by_job.or_else(by_function).or_else(by_name);
+        let side = declared.and_then(|(function, _)| function.side);
+        let declared =
+            declared.map(|(Function { role, .. }, witness)| (by_content(role, witness, file.kind), witness));
+        let declared =
+            declared.or_else(|| (file.kind == Kind::Excellon).then_some((Role::Drill, Witness::Name)));
+        let (role, witness) = declared.map_or((None, Witness::Name), |(role, witness)| (Some(role), witness));
         Vote { file: index, role, side, witness }
     };
     gathered.files.iter().enumerate().map(vote).collect()
@@ -204,8 +205,8 @@ fn take_the_only_one(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigne
         assigned.front = Some(vote.file);
         assigned.guessed = Some(vote.file);
         let file = &gathered.files[vote.file];
-        let message = format!("nothing tells the side of {}, so it is taken for the front", file.name);
-        assigned.warnings.push(flaw::SIDE_ASSUMED.warning(message).caused_by(file.first_line()));
+        let message = format!("the side of {} is unknown; it is read as front copper", file.name);
+        assigned.warnings.push(diagnostic::SIDE_ASSUMED.warning(message).caused_by(file.first_line()));
     }
 }
 
@@ -220,8 +221,10 @@ fn set_aside(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigned) {
             None => {
                 let file = &gathered.files[vote.file];
                 if !assigned.by_hand.contains(&vote.file) {
-                    let message = format!("nothing tells what layer {} is, so it is left aside", file.name);
-                    assigned.warnings.push(flaw::ROLE_UNKNOWN.warning(message).caused_by(file.first_line()));
+                    let message = format!("the layer of {} is unknown; the file is ignored", file.name);
+                    assigned
+                        .warnings
+                        .push(diagnostic::ROLE_UNKNOWN.warning(message).caused_by(file.first_line()));
                 }
                 "unknown role"
             }

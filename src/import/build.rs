@@ -7,7 +7,7 @@ use super::error::Error;
 use super::gerber::Image;
 use crate::board::{Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// A board with what is known of where it came from.
 #[derive(Clone, Debug)]
@@ -41,12 +41,12 @@ impl Build {
         self.sources.push(Source { role: format!("{side}-copper"), ..image.source });
         let (features, bare): (Vec<Feature>, Vec<Feature>) = image.features.into_iter().partition(has_area);
         if let Some(first) = bare.first() {
-            let message = format!("{} features of {name} have no width and so no copper", bare.len());
-            let warning = flaw::ZERO_WIDTH_COPPER.warning(message).at(first.shape.anchor());
+            let message = format!("{} objects of {name} have no width and draw no copper", bare.len());
+            let warning = diagnostic::ZERO_WIDTH_COPPER.warning(message).at(first.shape.anchor());
             warnings.push(warning.caused_by(file.at_line(first.line)));
         }
         if features.is_empty() {
-            let warning = flaw::EMPTY_COPPER.warning(format!("{name} draws no copper"));
+            let warning = diagnostic::EMPTY_COPPER.warning(format!("{name} draws no copper"));
             warnings.push(warning.caused_by(file.first_line()));
         }
         self.warnings.extend(warnings.into_iter().map(|warning| warning.on(side)));
@@ -72,7 +72,8 @@ impl Build {
 
     /// Takes over `holes`, less those that another file has drilled already.
     pub(super) fn add_holes(&mut self, holes: Vec<Hole>, file: &Found, warnings: &mut Vec<Warning>) {
-        /// The cell in which two holes of different files are looked for.
+        /// The cell in which two holes of different files are looked for. In nanometres; as wide as
+        /// holes of one place may be apart (`same_hole`).
         const CELL: i64 = 20_000;
         let cell = |p: Point| (p.x.get().div_euclid(CELL), p.y.get().div_euclid(CELL));
         let mut known: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
@@ -99,10 +100,10 @@ impl Build {
         self.board.holes.extend(fresh);
         if let Some((count, at, line)) = doubles {
             let message = format!(
-                "{count} holes of {} stand in another drill file too and are drilled once",
+                "{count} holes of {} are in another drill file too; they are drilled once",
                 file.name
             );
-            let warning = flaw::DUPLICATE_HOLES.warning(message).at(at);
+            let warning = diagnostic::DUPLICATE_HOLES.warning(message).at(at);
             warnings.push(warning.caused_by(file.at_line(line)));
         }
     }
@@ -116,8 +117,8 @@ impl Build {
         if bounds.width().max(bounds.height()) > WIDEST {
             let (width, height) = (bounds.width(), bounds.height());
             let message =
-                format!("the board is {width:.1} × {height:.1} mm: the unit of a file may be another one");
-            self.warnings.push(flaw::SIZE_IMPLAUSIBLE.warning(message));
+                format!("the board is {width:.1} × {height:.1} mm: the unit of a file may be wrong");
+            self.warnings.push(diagnostic::SIZE_IMPLAUSIBLE.warning(message));
         }
     }
 
@@ -129,18 +130,14 @@ impl Build {
         let bounds = self.board.bounds().filter(|bounds| bounds.width().max(bounds.height()) > METRE);
         let Some(bounds) = bounds else { return Ok(()) };
         let (width, height) = (bounds.width(), bounds.height());
-        let what =
-            format!("the board is {width:.1} × {height:.1} mm: a file is not in the unit that it says");
-        Err(Error::content(
-            place,
-            what,
-            "`inspect` lists the unit of each file; have the wrong one written again",
-        ))
+        let what = format!("the board is {width:.1} × {height:.1} mm: a file declares the wrong unit");
+        Err(Error::content(place, what, "`inspect` lists the unit of each file; export the wrong one again"))
     }
 }
 
 /// Whether two files mean the same hole: within a rounding to 0.001 inch.
 fn same_hole(a: &Hole, b: &Hole) -> bool {
+    /// Derived: a rounding to 0.001 inch is off by 13 µm at most. Two of them are 18 µm apart.
     const NEAR: Nm = Nm::from_um(20);
     let near = |p: Point, q: Point| (p.x - q.x).abs() <= NEAR && (p.y - q.y).abs() <= NEAR;
     near(a.path.start, b.path.start)

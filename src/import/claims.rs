@@ -10,7 +10,7 @@ use super::naming;
 use super::selection::Selection;
 use super::unusable::{Form, Meant, Unusable, is_binary_drill};
 use crate::board::{Side, Warning};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// Whether a person has named another file for it.
 const fn is_chosen(meant: Meant, selection: &Selection) -> bool {
@@ -34,19 +34,21 @@ impl Gathered {
             match odd.claim(shared, job) {
                 Some((meant, _)) if is_chosen(meant, selection) => {}
                 Some((Meant::Drill, _)) if self.has_text_beside(odd) => {
-                    let message =
-                        format!("{} is a binary drill file; the text file beside it is read", odd.name);
-                    warnings.push(flaw::BINARY_DRILL_FILE.warning(message));
+                    let message = format!(
+                        "{} is a binary drill file; the text file of the same name is read",
+                        odd.name
+                    );
+                    warnings.push(diagnostic::BINARY_DRILL_FILE.warning(message));
                 }
                 Some((meant, mark)) => refused.push((odd, meant, mark)),
                 None => warnings.extend(odd.doubt(shared)),
             }
         }
         let Some((first, meant, mark)) = refused.first() else { return Ok(warnings) };
-        let mut what = format!("{}, but {mark} says that it is {meant}", first.what());
+        let mut what = format!("{}, but by {mark} it should be {meant}", first.what());
         let others: Vec<&str> = refused[1..].iter().map(|(odd, ..)| odd.name.as_str()).collect();
         if !others.is_empty() {
-            what += &format!("; {} too cannot be used: {}", others.len(), others.join(", "));
+            what += &format!("; {} more cannot be read: {}", others.len(), others.join(", "));
         }
         let hint = LEAVE_ASIDE.with([&quoted(&first.name)]);
         Err(Error::content(&first.shown, what, hint))

@@ -13,7 +13,7 @@ use super::naming;
 use super::selection::Selection;
 use super::vote::{Vote, Witness};
 use crate::board::{Side, Warning, Words};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 fn shared_start(gathered: &Gathered) -> usize {
     let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
@@ -57,10 +57,9 @@ const fn who(witness: Witness) -> &'static str {
     }
 }
 
-const LEAVE_DRILL: Words =
-    Words::of("export the drill file again as Excellon, or leave it aside: {skip} {0}");
+const LEAVE_DRILL: Words = Words::of("export the drill file again as Excellon, or ignore it: {skip} {0}");
 const LEAVE_LAYER: Words =
-    Words::of("export the layer again, say with {drill} that it has holes, or leave it aside: {skip} {0}");
+    Words::of("export the layer again, read it as a drill file: {drill} {0}, or ignore it: {skip} {0}");
 
 /// A file whose name says drill and whose content says layer, or the other way round, or one named
 /// for one side that calls itself the other: one of the two is wrong, and guessing cuts the wrong
@@ -78,9 +77,9 @@ pub(super) fn refuse(gathered: &Gathered, votes: &[Vote], selection: &Selection)
         let (what, hint) = match (named, file.kind, vote.role) {
             (Some(Role::Drill), Kind::Gerber, Some(Role::Copper(_))) if vote.witness == Witness::Function => {
                 (
-                    "named like a drill file, but it is a Gerber file that calls itself copper (.FileFunction)",
+                    "named like a drill file, but it is a Gerber file that declares itself copper (.FileFunction)",
                     Words::of(
-                        "export the drill file again, or say with {front} or {back} that this is copper",
+                        "export the drill file again, or choose this file as copper with {front} or {back}",
                     )
                     .into(),
                 )
@@ -88,7 +87,7 @@ pub(super) fn refuse(gathered: &Gathered, votes: &[Vote], selection: &Selection)
             (Some(Role::Drill), Kind::Gerber, Some(Role::Other("drill drawing")))
                 if selection.drill.is_empty() =>
             {
-                let what = "named like a drill file, but it is a Gerber file that does not say what it draws";
+                let what = "named like a drill file, but it is a Gerber file without a file function";
                 (what, LEAVE_DRILL.with([&name]))
             }
             (Some(Role::Copper(_) | Role::Outline | Role::Group(_)), Kind::Excellon, Some(Role::Drill))
@@ -109,15 +108,19 @@ fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
     let shared = shared_start(gathered);
     for vote in votes.iter().filter(|vote| vote.witness > Witness::Name) {
         let file = &gathered.files[vote.file];
-        let (Some(told), Some(side)) = (vote.role, vote.side) else { continue };
+        let (Some(declared), Some(side)) = (vote.role, vote.side) else { continue };
         let Some((named, named_side)) = named(file, shared) else { continue };
-        let is_copper = matches!(told, Role::Copper(_)) || matches!(named, Some(Role::Copper(_)));
+        let is_copper = matches!(declared, Role::Copper(_)) || matches!(named, Some(Role::Copper(_)));
         if named_side.is_some_and(|named| named != side) && is_copper {
             let like = named.map_or("a layer", what);
             let like = if named.is_some_and(is_sided) { like.to_owned() } else { on_side(like, named_side) };
-            let calls = if is_sided(told) { what(told).to_owned() } else { on_side(what(told), Some(side)) };
-            let message = format!("named like {like}, but {} calls it {calls}", who(vote.witness));
-            let hint = Words::of("say which it is: {front} {0} or {back} {0}, or leave it aside: {skip} {0}");
+            let calls = if is_sided(declared) {
+                what(declared).to_owned()
+            } else {
+                on_side(what(declared), Some(side))
+            };
+            let message = format!("named like {like}, but {} declares {calls}", who(vote.witness));
+            let hint = Words::of("choose its side: {front} {0} or {back} {0}, or ignore it: {skip} {0}");
             return Err(Error::content(&file.shown, message, hint.with([&quoted(&file.name)])));
         }
     }
@@ -131,32 +134,33 @@ pub(super) fn disputed(gathered: &Gathered, votes: &[Vote]) -> Vec<Warning> {
     let mut warnings = Vec::new();
     for vote in votes.iter().filter(|vote| vote.witness > Witness::Name) {
         let file = &gathered.files[vote.file];
-        let Some(told) = vote.role else { continue };
-        let kind = layers::kind_by_name(&file.name, shared).filter(|named| !agree(*named, told));
+        let Some(declared) = vote.role else { continue };
+        let kind = layers::kind_by_name(&file.name, shared).filter(|named| !agree(*named, declared));
         let other_side = || {
             layers::side_by_name(&file.name, shared)
-                .filter(|side| vote.side.is_some_and(|told| told != *side))
+                .filter(|side| vote.side.is_some_and(|declared| declared != *side))
         };
         let like = match (kind, other_side()) {
             (Some(named), _) => what(named).to_owned(),
             (None, side @ Some(_)) => on_side("a layer", side),
             (None, None) => continue,
         };
-        let calls = if kind.is_some() { what(told).to_owned() } else { on_side(what(told), vote.side) };
+        let calls =
+            if kind.is_some() { what(declared).to_owned() } else { on_side(what(declared), vote.side) };
         let so =
-            if matches!(told, Role::Other(_)) { "so it is not milled" } else { "so it is taken for that" };
+            if matches!(declared, Role::Other(_)) { "so it is not milled" } else { "so it is read as that" };
         let message =
-            format!("{} is named like {like}, but {} calls it {calls}, {so}", file.name, who(vote.witness));
+            format!("{} is named like {like}, but {} declares {calls}, {so}", file.name, who(vote.witness));
         let place = find(&file.bytes, b"FileFunction,").filter(|_| vote.witness == Witness::Function);
         let span = place.map_or_else(|| file.first_line(), |at| locate(&file.name, &file.bytes, at..at + 12));
-        warnings.push(flaw::LAYER_DISPUTED.warning(message).caused_by(span));
+        warnings.push(diagnostic::LAYER_DISPUTED.warning(message).caused_by(span));
     }
     warnings
 }
 
 /// Whether what a name says and what a file says of itself can both be true, or neither is milled.
-const fn agree(named: Role, told: Role) -> bool {
-    match (named, told) {
+const fn agree(named: Role, declared: Role) -> bool {
+    match (named, declared) {
         (Role::Copper(_), Role::Copper(_))
         | (Role::Outline, Role::Outline)
         | (Role::Drill, Role::Drill | Role::Other(_))

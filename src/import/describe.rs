@@ -7,10 +7,10 @@ pub(super) fn describe(bytes: &[u8]) -> &'static str {
         (b"\xff\xd8\xff", "a JPEG picture"),
         (b"%PDF", "a PDF document"),
         (b"PK", "a zip archive"),
-        (b"(kicad_sch", "a KiCad schematic and not its board (.kicad_pcb)"),
+        (b"(kicad_sch", "a KiCad schematic, not its board (.kicad_pcb)"),
         (b"<?xml", "an XML file"),
-        (b"<!doctype", "a web page, as a failed download leaves"),
-        (b"<html", "a web page, as a failed download leaves"),
+        (b"<!doctype", "a web page, perhaps from a failed download"),
+        (b"<html", "a web page, perhaps from a failed download"),
         (b"g21", "a G-code program"),
     ];
     if bytes.iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
@@ -21,7 +21,7 @@ pub(super) fn describe(bytes: &[u8]) -> &'static str {
     let text = |b: &u8| b.is_ascii_graphic() || b.is_ascii_whitespace() || *b >= 0xa0;
     match KNOWN.iter().find(|(start, _)| begins(start)) {
         Some((_, what)) => what,
-        None if bytes.iter().take(4096).all(text) => "a text of another kind",
-        None => "a file of another kind",
+        None if bytes.iter().take(4096).all(text) => "a text file of unknown type",
+        None => "a file of unknown type",
     }
 }

@@ -14,7 +14,7 @@ use super::{naming, outline, picture};
 use crate::artwork::{self, Figure, Layer};
 use crate::board::{Attributes, Axis, Feature, Hole, Shape, Side, Source, Words};
 use crate::geometry::{Nm, Path as Course};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// A drawing that was named.
 struct Named {
@@ -41,26 +41,26 @@ pub(super) fn load(
         (&mut rest.back, Role::Copper(Side::Back)),
         (&mut rest.outline, Role::Outline),
     ];
-    let mut told = Vec::new();
+    let mut chosen = Vec::new();
     for (slot, role) in slots {
         if let Some(drawing) =
             slot.as_ref().map(|path| named_as(path, Some(role), selection)).transpose()?.flatten()
         {
             named.push(drawing);
-            told.extend(slot.take());
+            chosen.extend(slot.take());
         }
     }
     for path in std::mem::take(&mut rest.drill) {
         match named_as(&path, Some(Role::Drill), selection)? {
             Some(drawing) => {
                 named.push(drawing);
-                told.push(path);
+                chosen.push(path);
             }
             None => rest.drill.push(path),
         }
     }
     let mut left = Vec::new();
-    for path in paths.iter().filter(|path| !told.contains(path)) {
+    for path in paths.iter().filter(|path| !chosen.contains(path)) {
         match named_as(path, None, selection)? {
             Some(drawing) => named.push(drawing),
             None => left.push(path.clone()),
@@ -103,9 +103,8 @@ fn refuse_pictures<'a>(paths: impl Iterator<Item = &'a PathBuf>) -> Result<(), E
     for path in paths.filter(|path| path.is_file()) {
         let shown = path.display().to_string();
         if picture::is_picture(path, &read_file(path, &shown)?) {
-            let what =
-                "a picture and a drawing do not make one board: nothing tells how they lie on each other";
-            return Err(Error::content(&shown, what, "name the picture alone"));
+            let what = "a picture and a drawing cannot be combined: their alignment is unknown";
+            return Err(Error::content(&shown, what, "give the picture alone"));
         }
     }
     Ok(())
@@ -132,19 +131,16 @@ fn add(build: &mut Build, named: &Named, selection: &Selection) -> Result<(), Er
         None => Parts::of(artwork),
     };
     if let Some(guess) = parts.guess {
-        let message = format!("no layer of {} has a name that tells what it is for: {guess}", file.name);
-        build.warnings.push(flaw::DRAWING_GUESSED.warning(message));
+        let message = format!("no layer of {} has a known name: {guess}", file.name);
+        build.warnings.push(diagnostic::DRAWING_GUESSED.warning(message));
     }
     let called = |name: &str| if name.is_empty() { "no name".to_owned() } else { format!("`{name}`") };
     let unknown: Vec<String> =
         parts.aside.iter().filter(|(_, what)| what.is_none()).map(|(name, _)| called(name)).collect();
     if !unknown.is_empty() {
         let listed = unknown.join(", ");
-        let message = format!(
-            "layers of {} whose names do not tell what they are for are left aside: {listed}",
-            file.name
-        );
-        build.warnings.push(flaw::DRAWING_LAYERS.warning(message));
+        let message = format!("layers of {} with unknown names are ignored: {listed}", file.name);
+        build.warnings.push(diagnostic::DRAWING_LAYERS.warning(message));
     }
     for (name, what) in &parts.aside {
         let what = what.unwrap_or("unknown role");
@@ -166,7 +162,7 @@ fn add(build: &mut Build, named: &Named, selection: &Selection) -> Result<(), Er
 /// Puts aside what other files had for a role that a drawing takes.
 fn replace(build: &mut Build, role: &str) {
     for source in build.sources.iter_mut().filter(|source| source.role == role) {
-        source.role = format!("ignored (another {role} was named)");
+        source.role = format!("ignored (another {role} was chosen)");
         source.design = String::new();
     }
 }
@@ -250,7 +246,7 @@ fn holes(build: &mut Build, named: &Named, figures: &[Figure]) {
             }
         }
     }
-    // Coordinates that were rounded make one size several.
+    // Coordinates that were rounded make one size several. Chosen: a micrometre.
     const STEP: f64 = 1_000.0;
     for hole in &mut holes {
         hole.diameter = Nm::from_f64((hole.diameter.to_f64() / STEP).round() * STEP).max(Nm::from_um(1));
@@ -265,11 +261,11 @@ fn holes(build: &mut Build, named: &Named, figures: &[Figure]) {
     let mut warnings = Vec::new();
     if let Some(first) = left_out.first() {
         let message = format!(
-            "{} figures of the holes in {} are neither round nor obround, so no drill makes them",
+            "{} shapes among the holes of {} are neither round nor obround and are not drilled",
             left_out.len(),
             named.file.name
         );
-        let warning = flaw::NOT_A_HOLE.warning(message);
+        let warning = diagnostic::NOT_A_HOLE.warning(message);
         let at = first.bounds().map(|bounds| bounds.min()).unwrap_or_default();
         warnings.push(warning.at(at).caused_by(named.file.at_line(first.line)));
     }
@@ -281,20 +277,22 @@ fn holes(build: &mut Build, named: &Named, figures: &[Figure]) {
 /// What a board must have.
 fn finish(build: &mut Build, file: &Found, need: Need) -> Result<(), Error> {
     let has_copper = build.board.front.is_some() || build.board.back.is_some();
-    let missing = [flaw::COPPER_MISSING, flaw::OUTLINE_MISSING, flaw::SIZE_IMPLAUSIBLE];
+    let missing = [diagnostic::COPPER_MISSING, diagnostic::OUTLINE_MISSING, diagnostic::SIZE_IMPLAUSIBLE];
     build.warnings.retain(|warning| !missing.contains(warning.kind));
     if !has_copper {
-        build.warnings.push(flaw::COPPER_MISSING.warning("no copper layer is among the files"));
+        build.warnings.push(diagnostic::COPPER_MISSING.warning("there is no copper layer among the files"));
     }
     if !build.sources.iter().any(|source| source.role == "outline") {
-        let message = "no outline is among the files, so the board's edge is not known";
-        build.warnings.push(flaw::OUTLINE_MISSING.warning(message));
+        let message = "there is no outline among the files, so the edge of the board is unknown";
+        build.warnings.push(diagnostic::OUTLINE_MISSING.warning(message));
     }
     build.warn_of_size();
     if need == Need::Job {
         build.refuse_size(&file.shown)?;
         if !has_copper && build.board.holes.is_empty() && build.board.outline.is_none() {
-            let hint = Words::of("name the layers of the drawing, or say {front}, {outline} or {drill}");
+            let hint = Words::of(
+                "name the layers of the drawing, or choose them with {front}, {outline} or {drill}",
+            );
             return Err(Error::content(&file.shown, "nothing of it can be milled", hint));
         }
     }

@@ -94,7 +94,8 @@ impl Error {
     }
 }
 
-/// The bytes of an offending text that are shown; the rest of a longer one is cut.
+/// The bytes of an offending text that are shown; the rest of a longer one is cut. Chosen: fits a
+/// line with the message round it.
 const SHOWN: usize = 60;
 
 /// The place of the bytes `place` of a file: CR, LF and CR LF each end a line.
@@ -189,15 +190,15 @@ pub(in crate::import) struct Warnings<'a> {
     kinds: BTreeMap<&'static str, Found>,
 }
 
-/// A flaw, where it stands first, and how often it does.
+/// A diagnostic, where it occurs first, and how often.
 #[derive(Debug)]
 struct Found {
-    flaw: &'static Diagnostic,
+    diagnostic: &'static Diagnostic,
     place: Range<usize>,
     count: u32,
 }
 
-/// How many different messages of one code are kept; the rest are only counted.
+/// How many different messages of one code are kept; the rest are only counted. Chosen.
 const KEPT_OF_A_KIND: u32 = 8;
 
 impl<'a> Warnings<'a> {
@@ -206,22 +207,23 @@ impl<'a> Warnings<'a> {
         Self { file, bytes, found: BTreeMap::new(), kinds: BTreeMap::new() }
     }
 
-    /// Notes a flaw at the bytes `place`. The same flaw and message again only counts.
+    /// Notes a diagnostic at the bytes `place`. The same diagnostic and message again only counts.
     pub(in crate::import) fn add(
         &mut self,
-        flaw: &'static Diagnostic,
+        diagnostic: &'static Diagnostic,
         place: Range<usize>,
         message: impl Into<String>,
     ) {
-        let key = (flaw.code, message.into());
+        let key = (diagnostic.code, message.into());
         if let Some(found) = self.found.get_mut(&key) {
             found.count += 1;
             return;
         }
-        let kind = self.kinds.entry(flaw.code).or_insert(Found { flaw, place: place.clone(), count: 0 });
+        let kind =
+            self.kinds.entry(diagnostic.code).or_insert(Found { diagnostic, place: place.clone(), count: 0 });
         kind.count += 1;
         if kind.count <= KEPT_OF_A_KIND {
-            self.found.insert(key, Found { flaw, place, count: 1 });
+            self.found.insert(key, Found { diagnostic, place, count: 1 });
         } else if kind.count == KEPT_OF_A_KIND + 1 {
             kind.place = place;
         }
@@ -237,8 +239,8 @@ impl<'a> Warnings<'a> {
         }
         let more = self.kinds.into_values().filter(|kind| kind.count > KEPT_OF_A_KIND);
         found.extend(more.map(|kind| (format!("{} more of this kind", kind.count - KEPT_OF_A_KIND), kind)));
-        let warning = |(message, Found { flaw, place, .. }): (String, Found)| {
-            flaw.warning(message).caused_by(locate(self.file, self.bytes, place))
+        let warning = |(message, Found { diagnostic, place, .. }): (String, Found)| {
+            diagnostic.warning(message).caused_by(locate(self.file, self.bytes, place))
         };
         found.into_iter().map(warning).collect()
     }
@@ -247,7 +249,7 @@ impl<'a> Warnings<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::import::flaw;
+    use crate::import::diagnostic;
 
     #[test]
     fn every_kind_of_line_end_counts_once() {
@@ -278,7 +280,7 @@ mod tests {
     fn a_habit_is_reported_once_with_a_count() {
         let mut warnings = Warnings::new("f", b"abc");
         for _ in 0..3 {
-            warnings.add(&flaw::MISSING_STAR, 1..2, "does it");
+            warnings.add(&diagnostic::MISSING_STAR, 1..2, "does it");
         }
         let warnings = warnings.finish();
         assert_eq!(warnings.len(), 1, "one entry");

@@ -3,7 +3,7 @@
 
 use crate::board::{Axis, Feature, Hole, Shape, Warning};
 use crate::geometry::{Nm, Path, Point, Segment};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::archive::Found;
 use super::gerber::Image;
@@ -28,10 +28,10 @@ pub(super) fn holes(file: &Found, image: &Image) -> (Vec<Hole>, Option<Warning>)
     }
     let warning = left_out.map(|(count, at, line)| {
         let message = format!(
-            "{count} shapes of the drill file {} are neither round nor obround, so no drill makes them",
+            "{count} shapes of the drill file {} are neither round nor obround and are not drilled",
             file.name
         );
-        flaw::NOT_A_HOLE.warning(message).at(at).caused_by(file.at_line(line))
+        diagnostic::NOT_A_HOLE.warning(message).at(at).caused_by(file.at_line(line))
     });
     (holes, warning)
 }

@@ -47,11 +47,9 @@ impl Gathered {
             lists => {
                 let names: BTreeSet<&str> = lists.iter().map(|list| list.file.as_str()).collect();
                 let names = names.into_iter().collect::<Vec<_>>().join(", ");
-                let what = format!("its apertures (RS-274-D) could stand in any of several lists: {names}");
-                let hint = format!(
-                    "name the right one like the file, {}.apt, or leave the others out",
-                    stem(&file.name)
-                );
+                let what = format!("its apertures (RS-274-D) may be in any of several lists: {names}");
+                let hint =
+                    format!("rename the right one to {}.apt, or leave the others out", stem(&file.name));
                 Err(Error::content(&file.shown, what, hint))
             }
         }

@@ -17,7 +17,7 @@ use super::vote::Assigned;
 use super::{drawing_board, gerber_drill, kicad, off_board, outline, picture_board, whole_board};
 use crate::board::{Axis, Copper, Diagnostic, Hole, Outline, Side, Source, Warning, Words};
 use crate::geometry::{Nm, Rect};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// Reads the board in `paths`: folders, zip archives and single files, mixed, or one KiCad board.
 /// Folders inside folders are not looked into.
@@ -152,7 +152,8 @@ impl Build {
         match need {
             _ if read.is_empty() && (!has_more || doubtful) => Err(no_copper(gathered, assigned)),
             _ if read.is_empty() => {
-                self.warnings.push(flaw::COPPER_MISSING.warning("no copper layer is among the files"));
+                self.warnings
+                    .push(diagnostic::COPPER_MISSING.warning("there is no copper layer among the files"));
                 Ok(())
             }
             Need::Job => self.require_copper(&read),
@@ -162,8 +163,8 @@ impl Build {
 
     fn outline(&mut self, gathered: &Gathered, assigned: &Assigned, gap: Nm) -> Result<(), Error> {
         let Some(file) = assigned.outline.map(|index| &gathered.files[index]) else {
-            let message = "no outline layer is among the files, so the board's edge is not known";
-            self.warnings.push(flaw::OUTLINE_MISSING.warning(message));
+            let message = "there is no outline layer among the files, so the edge of the board is unknown";
+            self.warnings.push(diagnostic::OUTLINE_MISSING.warning(message));
             return Ok(());
         };
         let image = read_gerber(gathered, file, "an outline layer")?;
@@ -193,7 +194,7 @@ impl Build {
                     refuse_cut_off(file, drilling.holes.is_empty(), &drilling.warnings)
                         .map_err(|error| error.or(NO_DRILL))?;
                     let by_hand = assigned.by_hand.contains(&index);
-                    let is_off = |warning: &&Warning| warning.is(&flaw::DRILL_OFF_BOARD);
+                    let is_off = |warning: &&Warning| warning.is(&diagnostic::DRILL_OFF_BOARD);
                     if let Some(off) = drilling.warnings.iter().find(is_off)
                         && need == Need::Job
                         && !by_hand
@@ -214,7 +215,7 @@ impl Build {
         }
         // Programs write an empty file for a kind of hole that a board does not have.
         let any = !self.board.holes.is_empty();
-        warnings.retain(|warning| !(any && warning.is(&flaw::DRILL_WITHOUT_HOLES)));
+        warnings.retain(|warning| !(any && warning.is(&diagnostic::DRILL_WITHOUT_HOLES)));
         self.warnings.append(&mut warnings);
         Ok(())
     }
@@ -228,9 +229,9 @@ impl Build {
             return Ok(());
         }
         let is_outline =
-            |warning: &&Warning| [flaw::OUTLINE_OPEN, flaw::OUTLINE_EMPTY].contains(warning.kind);
+            |warning: &&Warning| [diagnostic::OUTLINE_OPEN, diagnostic::OUTLINE_EMPTY].contains(warning.kind);
         let why = self.warnings.iter().find(is_outline);
-        let why = why.map_or("it draws no edge", |warning| warning.message.as_str());
+        let why = why.map_or("it draws no outline", |warning| warning.message.as_str());
         let hint = "without copper and holes there is nothing else to mill";
         Err(Error::content(&outline.shown, why, hint))
     }
@@ -310,9 +311,9 @@ fn gerber_holes(
 /// written empty has its end.
 fn refuse_cut_off(file: &Found, is_empty: bool, warnings: &[Warning]) -> Result<(), Error> {
     const CUT_OFF: [Diagnostic; 3] =
-        [flaw::MISSING_END_OF_FILE, flaw::MISSING_END_OF_DRILL_FILE, flaw::TRUNCATED_FILE];
+        [diagnostic::MISSING_END_OF_FILE, diagnostic::MISSING_END_OF_DRILL_FILE, diagnostic::TRUNCATED_FILE];
     if is_empty && warnings.iter().any(|warning| CUT_OFF.contains(warning.kind)) {
-        let what = "nothing is drawn, and the file has no end: its content was cut off";
+        let what = "the file draws nothing and has no end: it is truncated";
         let hint = LEAVE_ASIDE.with([&quoted(&file.name)]);
         return Err(Error::content(&file.shown, what, hint));
     }
@@ -332,8 +333,8 @@ fn read_gerber(gathered: &Gathered, file: &Found, wanted: &str) -> Result<Image,
 
 /// A copper layer that may be either side: a back that is not mirrored is a ruined board.
 fn side_unknown(file: &Found) -> Error {
-    let hint = Words::of("say it: {front} {0} or {back} {0}").with([&file.shown]);
-    Error::content(&file.shown, "nothing tells which side of the board this copper is", hint)
+    let hint = Words::of("choose it: {front} {0} or {back} {0}").with([&file.shown]);
+    Error::content(&file.shown, "the side of this copper layer is unknown", hint)
 }
 
 /// Why nothing could be milled, with what was found instead.
@@ -349,9 +350,9 @@ fn no_copper(gathered: &Gathered, assigned: &Assigned) -> Error {
         format!("no copper layer found among {}", found.join(", "))
     };
     let hint = if gathered.folders.is_empty() {
-        Words::of("name it with {front} or {back}").into()
+        Words::of("choose it with {front} or {back}").into()
     } else {
-        Words::of("name it with {front} or {back}, or give the folder that holds it: {0}")
+        Words::of("choose it with {front} or {back}, or give the folder that holds it: {0}")
             .with([&gathered.folders.join(", ")])
     };
     Error::content(&assigned.place, what, hint)

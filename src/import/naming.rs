@@ -67,8 +67,8 @@ fn shared_head<'a>(a: &'a str, b: &str) -> &'a str {
 /// A layer's stem without the part that tells its role: `amp-F_Cu` is the board `amp`.
 fn without_role(stem: &str) -> &str {
     let mut marks = stem.char_indices().filter(|(_, c)| !c.is_ascii_alphanumeric()).map(|(i, _)| i);
-    let told = marks.find(|&i| layers::role_by_name(&stem[i..], 0).is_some());
-    told.map_or(stem, |i| &stem[..i])
+    let mark = marks.find(|&i| layers::role_by_name(&stem[i..], 0).is_some());
+    mark.map_or(stem, |i| &stem[..i])
 }
 
 /// What a folder or an archive is called, or the folder that a file lies in.

@@ -5,7 +5,7 @@ use super::archive::Found;
 use super::error::Error;
 use crate::board::{Hole, Sentence, Warning, Words};
 use crate::geometry::{Nm, Rect};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// How far off a hole of a board's own frame may lie. Chosen: tooling holes lie in the 5 mm that
 /// panels have round them.
@@ -17,7 +17,7 @@ const FARTHEST: Nm = Nm::from_mm(300);
 
 /// Holes most of which lie beside the board, however they are read.
 pub(super) fn most(file: &Found, off: &Warning) -> Error {
-    let hint = Words::of("say {drill} {0} if they are right").with([&file.name]).then(NO_DRILL);
+    let hint = Words::of("if they are right, use {drill} {0}").with([&file.name]).then(NO_DRILL);
     Error::content(&file.shown, off.message.as_str(), hint)
 }
 
@@ -40,10 +40,10 @@ pub(super) fn some(file: &Found, holes: &[Hole], board: Rect) -> Option<Stray> {
         holes.len(),
         file.name
     );
-    let warning = flaw::HOLES_OFF_BOARD.warning(message).at(farthest.path.start);
+    let warning = diagnostic::HOLES_OFF_BOARD.warning(message).at(farthest.path.start);
     let refusal = (distance > FARTHEST).then(|| {
         let what = format!("a {what} of line {} lies {distance:.1} mm off the board", farthest.line);
-        let hint = Sentence::from("a number of the file may be damaged, or in another unit").then(NO_DRILL);
+        let hint = Sentence::from("a number in the file may be damaged, or in the wrong unit").then(NO_DRILL);
         Error::content(&file.shown, what, hint)
     });
     Some(Stray { warning: warning.caused_by(file.at_line(farthest.line)), refusal })

@@ -24,21 +24,16 @@ pub(super) fn load(paths: &[PathBuf], selection: &Selection) -> Result<Option<Lo
     let Some(&first) = pictures.first() else { return Ok(None) };
     let others = paths.iter().chain(&selection.front).chain(&selection.back).chain(&selection.outline);
     if let Some(other) = others.chain(&selection.drill).find(|path| !pictures.contains(path)) {
-        let what =
-            "a picture and other files do not make one board: nothing tells how they lie on each other";
-        return Err(Error::content(&other.display().to_string(), what, "name the picture alone"));
+        let what = "a picture and other files cannot be combined: their alignment is unknown";
+        return Err(Error::content(&other.display().to_string(), what, "give the picture alone"));
     }
     let (front, back) = match (&selection.front, &selection.back) {
         (None, None) => (pictures.first().copied(), None),
         (front, back) => (front.as_ref(), back.as_ref()),
     };
     if let Some(open) = pictures.iter().find(|path| front != Some(**path) && back != Some(**path)) {
-        let hint = Words::of("name the picture of each side with {front} and {back}");
-        return Err(Error::content(
-            &open.display().to_string(),
-            "nothing tells which side this picture shows",
-            hint,
-        ));
+        let hint = Words::of("choose the picture of each side with {front} and {back}");
+        return Err(Error::content(&open.display().to_string(), "the side of this picture is unknown", hint));
     }
     let name = selection.name.clone().unwrap_or_else(|| naming::stem(&name_of(first)).to_owned());
     let mut loaded = Loaded {

@@ -8,7 +8,7 @@ use super::outline;
 use super::vote::{Vote, Witness};
 use crate::board::{Side, Warning, Words};
 use crate::geometry::{Nm, Point, Rect};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// gEDA's numbered groups: the first is the component side, the last the solder side, where nothing
 /// better tells. The file whose side that is a guess of: of one layer alone that is not the first.
@@ -90,8 +90,9 @@ pub(super) fn outlines(votes: &mut [Vote], gathered: &Gathered, warnings: &mut V
             .iter_mut()
             .filter(|vote| vote.file == index)
             .for_each(|vote| vote.role = Some(Role::Other("outline")));
-        let message = format!("{} is not taken for the outline: it {reason}", gathered.files[index].name);
-        warnings.push(flaw::OUTLINE_TWICE.warning(message).caused_by(gathered.files[index].first_line()));
+        let message = format!("{} is not used as the outline: it {reason}", gathered.files[index].name);
+        warnings
+            .push(diagnostic::OUTLINE_TWICE.warning(message).caused_by(gathered.files[index].first_line()));
     }
 }
 
@@ -104,6 +105,7 @@ fn edge_of(gathered: &Gathered, file: &Found) -> Option<Rect> {
 
 /// Whether two edges lie within half a millimetre of each other, as their corners have it.
 fn alike(a: Rect, b: Rect) -> bool {
+    /// Chosen.
     const NEAR: Nm = Nm::from_um(500);
     let near = |p: Point, q: Point| (p.x - q.x).abs() <= NEAR && (p.y - q.y).abs() <= NEAR;
     near(a.min(), b.min()) && near(a.max(), b.max())

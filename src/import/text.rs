@@ -15,16 +15,16 @@ use crate::geometry::{Nm, Point, Polygon};
 #[non_exhaustive]
 pub enum TextError {
     /// The file is no font.
-    #[error("this is no font: expected a TrueType or OpenType file ({0})")]
+    #[error("this is not a font: expected a TrueType or OpenType file ({0})")]
     Font(String),
     /// A character without a glyph.
     #[error("the font has no glyph for `{0}`")]
     Glyph(char),
     /// Nothing but space.
-    #[error("there is nothing to see in the text `{0}`")]
+    #[error("the text `{0}` draws nothing")]
     Empty(String),
     /// So large that it leaves the range of lengths, or so small that nothing is left.
-    #[error("letters of {0:.3} mm make no sense: expected from 0.1 mm to 500 mm")]
+    #[error("a text height of {0:.3} mm is out of range: expected from 0.1 mm to 500 mm")]
     Height(Nm),
 }
 
@@ -114,7 +114,7 @@ impl Pen {
     }
 }
 
-/// A curve is cut into so many chords at most.
+/// A curve is cut into so many chords at most. Chosen.
 const MOST_CHORDS: f64 = 4096.0;
 
 fn length([x, y]: [f64; 2]) -> f64 {

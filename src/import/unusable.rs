@@ -18,9 +18,9 @@ use super::describe::describe;
 use super::jobfile::Job;
 use super::layers::{self, Role, function_of, role_by_function};
 use crate::board::{Side, Warning};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
-/// How much of a file is looked at.
+/// How much of a file is looked at. Chosen: enough to see what a text is.
 const HEAD: usize = 1 << 16;
 
 /// Something among the files of a board that is no layer by its content.
@@ -76,7 +76,7 @@ impl Unusable {
             let function = function_of(head)?;
             meant(role_by_function(&function)?).map(|meant| (meant, "its file function"))
         };
-        let by_lines = || has_lines_of_holes(head).then_some((Meant::Drill, "what it has on most lines"));
+        let by_lines = || has_lines_of_holes(head).then_some((Meant::Drill, "most of its lines"));
         let by_name = || self.by_name(shared, head).map(|meant| (meant, "its name"));
         by_job().or_else(by_function).or_else(by_lines).or_else(by_name)
     }
@@ -111,12 +111,12 @@ impl Unusable {
                     && !is_binary_drill(head) =>
             {
                 let message =
-                    format!("nothing tells what {} is ({}), so it is left aside", self.name, describe(head));
-                Some(flaw::FILE_NOT_UNDERSTOOD.warning(message))
+                    format!("the type of {} is unknown ({}); it is ignored", self.name, describe(head));
+                Some(diagnostic::FILE_NOT_UNDERSTOOD.warning(message))
             }
             Form::Folder => role().map(|meant| {
-                let message = format!("the folder {}, named like {}, is not looked into", self.name, meant);
-                flaw::FOLDER_NOT_READ.warning(message)
+                let message = format!("the folder {}, named like {}, is not read", self.name, meant);
+                diagnostic::FOLDER_NOT_READ.warning(message)
             }),
             Form::File(_) | Form::Special(_) => None,
         }

@@ -16,7 +16,7 @@ use super::naming;
 use super::selection::{Need, Selection};
 use super::{kicad, outline};
 use crate::board::{Side, Source, Words};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// What is to be read: `gathered`, or where it has no layer the boards under `paths`, if any.
 pub(super) fn instead(
@@ -62,8 +62,8 @@ pub(super) fn load(mut gathered: Gathered, selection: &Selection, need: Need) ->
     if gathered.skips_layer("Edge.Cuts") {
         build.sources.push(aside(layout.edge.source, "outline"));
     } else if layout.edge.features.is_empty() {
-        let message = "nothing is drawn on Edge.Cuts, so the board's edge is not known";
-        build.warnings.push(flaw::OUTLINE_MISSING.warning(message));
+        let message = "nothing is drawn on Edge.Cuts, so the edge of the board is unknown";
+        build.warnings.push(diagnostic::OUTLINE_MISSING.warning(message));
     } else {
         let gap = selection.outline_gap.unwrap_or(outline::GAP);
         let joined = outline::join(&file.name, &file.bytes, &layout.edge.features, gap);
@@ -99,21 +99,21 @@ fn refuse_company(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
     let boards: Vec<&Found> = gathered.files.iter().filter(is_board).collect();
     let first = boards[0];
     if let Some(other) = boards.get(1) {
-        let what = format!("{} KiCad boards are here, and one is read at a time", boards.len());
+        let what = format!("there are {} KiCad boards, and only one can be read", boards.len());
         let hint = format!("give one of them: {}, {}", quoted(&first.shown), quoted(&other.shown));
         return Err(Error::content(&first.shown, what, hint));
     }
     let single = [&selection.front, &selection.back, &selection.outline].into_iter().flatten();
     if single.chain(&selection.drill).next().is_some() {
-        let what = "a KiCad board has all layers, so none can be named beside it";
+        let what = "a KiCad board has all layers, so no layer file can be given with it";
         let hint = Words::of(
-            "give the board alone; {skip} F.Cu, {skip} B.Cu or {skip} Edge.Cuts leaves a layer of it aside",
+            "give the board alone; {skip} F.Cu, {skip} B.Cu or {skip} Edge.Cuts ignores a layer of it",
         );
         return Err(Error::content(&first.shown, what, hint));
     }
     let other = gathered.files.iter().find(|file| file.kind != Kind::Kicad).map(|file| &file.name);
     if let Some(other) = other.or_else(|| gathered.jobs.first().map(|(name, _)| name)) {
-        let what = format!("a KiCad board has all layers, and {other} is another one");
+        let what = format!("a KiCad board has all layers, but {other} was given too");
         return Err(Error::content(
             &first.shown,
             what,

@@ -98,7 +98,7 @@ pub(super) fn texts(programs: &[OneTool]) -> Vec<Text<'_>> {
 pub(super) fn others<'a>(programs: &[OneTool], texts: &[(&'a str, &'a str)]) -> Result<Vec<Text<'a>>, Error> {
     if texts.len() != programs.len() {
         let problem =
-            format!("expected a program for each of {} tools, and here are {}", programs.len(), texts.len());
+            format!("expected a program for each of {} tools, but there are {}", programs.len(), texts.len());
         return Err(Error::Value { key: "check", problem });
     }
     let cutters = programs.iter().map(|one| cutter(one.program.sections[0].tool.kind));

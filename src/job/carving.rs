@@ -49,7 +49,7 @@ pub struct Engraving {
 /// The narrowest tip that clears corners of a floor. Chosen: finer loops would take days.
 const BLUNTEST: Nm = Nm::from_um(20);
 
-/// As deep as any tool.
+/// As deep as any tool. Chosen.
 const BOTTOMLESS: Nm = Nm::from_mm(100);
 
 /// The share of the tolerance that what is left out may take. Chosen: lines and arcs have the rest.
@@ -59,7 +59,7 @@ const SHARE: f64 = 0.3;
 /// tolerance of the cut.
 const TOLERATED: Nm = Nm::from_um(10);
 
-/// Places are looked at so far apart at least, and so many of them at most.
+/// Places are looked at so far apart at least, and so many of them at most. Chosen.
 const FINEST: Nm = Nm::from_um(10);
 const MOST_PLACES: f64 = 4e5;
 
@@ -115,7 +115,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         step: how.step,
     };
     let mut warnings = art.warnings.clone();
-    warnings.extend(flaws(&axis, &areas, tool, how));
+    warnings.extend(shape_warnings(&axis, &areas, tool, how));
     let flat = how.flat.as_ref().zip(how.max_depth);
     let floor =
         flat.map(|(mill, depth)| strategy::Floor::new(&areas, &axis, tool, depth, mill, settings.tolerance));
@@ -147,7 +147,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     let mut programs = Vec::new();
     for (number, (tag, section)) in (1..).zip(sections) {
         let what = if tag.is_empty() { "carving" } else { "floor" };
-        let (one, found) = written(&art, (tag, what, number), section, settings, said(settings, how));
+        let (one, found) = written(&art, (tag, what, number), section, settings, declared(settings, how));
         programs.push(one);
         warnings.extend(found);
     }
@@ -170,36 +170,35 @@ fn v_bit(settings: &Settings) -> Result<&Tool, Error> {
     match settings.isolation.as_slice() {
         [one] if matches!(one.tool.kind, ToolKind::VBit { .. }) => Ok(&one.tool),
         [one] => {
-            wrong(format!("`{}` is no V-bit: carving needs one, such as vbit:0.1mm:60deg", one.tool.kind))
+            wrong(format!("`{}` is not a V-bit: carving needs one, such as vbit:0.1mm:60deg", one.tool.kind))
         }
-        several => wrong(format!("carving takes one V-bit, and here are {} tools", several.len())),
+        several => wrong(format!("carving takes one V-bit, but there are {} tools", several.len())),
     }
 }
 
 fn judge(how: &Carving, tool: &Tool) -> Result<(), Error> {
     let positive = |key: &'static str, length: Option<Nm>| match length {
-        Some(length) if length <= Nm::ZERO => Err(Error::Value {
-            key,
-            problem: format!("{length:.3} mm makes no sense: it must be above zero"),
-        }),
+        Some(length) if length <= Nm::ZERO => {
+            Err(Error::Value { key, problem: format!("{length:.3} mm is invalid: it must be above zero") })
+        }
         _ => Ok(()),
     };
     positive("max-depth", how.max_depth)?;
     positive("depth-pass", how.step)?;
     positive("margin", how.raised)?;
     if how.corner < Angle::ZERO || how.corner >= Angle::from_degrees(180) {
-        let problem = format!("{} makes no sense: expected from 0deg to below 180deg", how.corner);
+        let problem = format!("{} is invalid: expected from 0deg to below 180deg", how.corner);
         return Err(Error::Value { key: "corner", problem });
     }
     let Some(flat) = &how.flat else { return Ok(()) };
     let wrong = |problem: String| Err(Error::Value { key: "flat", problem });
     match (flat.kind, tool.kind) {
         (ToolKind::VBit { .. } | ToolKind::Drill { .. }, _) => {
-            wrong(format!("`{}` is no end mill: a flat floor needs one, such as endmill:3mm", flat.kind))
+            wrong(format!("`{}` is not an end mill: a flat floor needs one, such as endmill:3mm", flat.kind))
         }
-        _ if how.max_depth.is_none() => {
-            wrong(Words::of("without {max-depth} nothing is too wide, and no floor is flat").to_string())
-        }
+        _ if how.max_depth.is_none() => wrong(
+            Words::of("without {max-depth} no place is too wide, and there is no flat floor").to_string(),
+        ),
         (_, ToolKind::VBit { tip, .. }) if tip < BLUNTEST => wrong(format!(
             "a V-bit clears what the end mill does not reach with its tip, which must be {BLUNTEST:.2} mm or wider"
         )),
@@ -209,7 +208,7 @@ fn judge(how: &Carving, tool: &Tool) -> Result<(), Error> {
 }
 
 /// What the tool cannot do of the areas.
-fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Vec<Warning> {
+fn shape_warnings(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let ToolKind::VBit { tip, .. } = tool.kind else { return warnings };
     if let Some(&fault) = axis.faults.first() {
@@ -239,11 +238,11 @@ fn flaws(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Ve
     warnings
 }
 
-/// What is wider by less is no flat place, in mm².
+/// What is wider by less is no flat place, in mm². Chosen.
 const LEAST_WIDE: f64 = 1e-3;
 
 /// The settings that matter, for the header.
-fn said(settings: &Settings, how: &Carving) -> Vec<(String, String)> {
+fn declared(settings: &Settings, how: &Carving) -> Vec<(String, String)> {
     let mut listed = settings.options().listed();
     listed.retain(|(option, _)| CARVING_OPTIONS.contains(&option.as_str()));
     let mut say = |name: &str, length: Option<Nm>| {

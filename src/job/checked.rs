@@ -22,7 +22,7 @@ pub(super) fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, 
         let problem = format!("depths are positive here: write `{}`, not `{length}`", Length(-length.nm()));
         return Err(Error::Value { key, problem });
     }
-    Err(Error::Value { key, problem: format!("`{length}` makes no sense: it must be more than zero") })
+    Err(Error::Value { key, problem: format!("`{length}` is invalid: it must be more than zero") })
 }
 
 /// A number as large as it can be meant: the command line says the same, a settings file has
@@ -31,7 +31,7 @@ pub(super) fn count(key: &'static str, count: Option<u32>, range: RangeInclusive
     match count.filter(|count| !range.contains(count)) {
         None => Ok(()),
         Some(count) => {
-            let problem = format!("`{count}` makes no sense: expected {} to {}", range.start(), range.end());
+            let problem = format!("`{count}` is invalid: expected {} to {}", range.start(), range.end());
             Err(Error::Value { key, problem })
         }
     }
@@ -58,7 +58,7 @@ pub(super) fn step(key: &'static str, step: Option<Length>, depth: Nm) -> Result
     Ok(step)
 }
 
-/// A value that makes no sense, and what was expected.
+/// A value that is invalid, and what was expected.
 pub(super) fn wrong<T>(key: &'static str, value: Nm, expected: &str) -> Result<T, Error> {
-    Err(Error::Value { key, problem: format!("`{}` makes no sense: {expected}", Length(value)) })
+    Err(Error::Value { key, problem: format!("`{}` is invalid: {expected}", Length(value)) })
 }

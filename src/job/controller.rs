@@ -18,7 +18,10 @@ pub(super) fn dialect(options: &Options, base: Dialect) -> Result<Dialect, Error
         return Err(Error::Value { key: "tool-change", problem: unheld(tool_change, &base) });
     }
     if options.at_tool_change.is_some() && tool_change == ToolChange::Files {
-        let problem = format!("in {} each tool has a file of its own, and is changed within none", base.name);
+        let problem = format!(
+            "with the dialect {} each tool has a file of its own, and no program has a tool change",
+            base.name
+        );
         return Err(Error::Value { key: "at-tool-change", problem });
     }
     let lines = |own: Option<&OwnLines>| own.map_or_else(Vec::new, |own| own.lines().to_vec());
@@ -50,11 +53,12 @@ fn rapids(options: &Options) -> Option<[Feed; 2]> {
 fn touch_off(Triple([x, y, z]): Triple, options: &Options, base: &Dialect) -> Result<TouchOff, Error> {
     let wrong = |problem| Err(Error::Value { key: "tool-probe", problem });
     if base.sets_height.is_none() {
-        let reason = base.no_probe.as_deref().unwrap_or("no word is known that sets zero by a touch");
+        let reason =
+            base.no_probe.as_deref().unwrap_or("no command is known that sets zero after touching off");
         let known = dialect::ALL.iter().filter(|dialect| dialect.sets_height.is_some());
         let known: Vec<&str> = known.map(|dialect| dialect.name.as_ref()).collect();
         return wrong(format!(
-            "{} cannot touch a tool off within a program: {reason}; expected {}, or touch off by hand",
+            "{} cannot touch off a tool within a program: {reason}; expected {}, or touch off by hand",
             base.name,
             known.join(" or ")
         ));
@@ -62,7 +66,7 @@ fn touch_off(Triple([x, y, z]): Triple, options: &Options, base: &Dialect) -> Re
     let safe = travel_height("safe-z", options.safe_z)?;
     if z.nm() < Nm::ZERO || z.nm() >= safe {
         let words =
-            Words::of("a plate at {0} makes no sense: expected a height from 0mm up to below {1} ({safe-z})");
+            Words::of("a plate at {0} is invalid: expected a height from 0mm up to below {1} ({safe-z})");
         return wrong(words.with([&z, &Length(safe)]).to_string());
     }
     Ok(TouchOff { at: Point::new(x.nm(), y.nm()), height: z.nm() })
@@ -79,7 +83,7 @@ fn unheld(change: ToolChange, base: &Dialect) -> String {
     };
     let held: Vec<&str> = base.changes.iter().map(|change| change.word()).collect();
     format!(
-        "{} does not wait at {word} until the tool is changed: expected {}; for a controller or a sender that does, say so in a dialect of your own",
+        "{} does not wait at {word} until the tool is changed: expected {}; for a controller or a sender that does, write a dialect of your own",
         base.name,
         held.join(" or ")
     )

@@ -107,7 +107,7 @@ pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm
     Ok(margin)
 }
 
-/// Wider than any gap.
+/// Wider than any gap. Chosen.
 const EVERYTHING: Nm = Nm::from_mm(1000);
 
 /// How wide the gap is to be, from a width or a number of passes.
@@ -116,7 +116,7 @@ fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
         None => kerf / 10,
         Some(overlap) if overlap.of(kerf) < Nm::ZERO || overlap.of(kerf) >= kerf => {
             let problem =
-                format!("passes that share `{overlap}` of a kerf of {} do not advance", Length(kerf));
+                format!("an overlap of `{overlap}` leaves no stepover with a kerf of {}", Length(kerf));
             return Err(Error::Value { key: "overlap", problem });
         }
         Some(overlap) => overlap.of(kerf),
@@ -165,7 +165,7 @@ fn not_a_drill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
     }
 }
 
-/// The finest pixel.
+/// The finest pixel. Chosen: what [`Grid`](crate::grid::Grid) takes.
 const FINEST: Nm = Nm::from_um(1);
 
 /// The pixel that finds boundaries, as it is told.

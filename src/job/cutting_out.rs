@@ -20,7 +20,7 @@ pub(super) fn tiles(options: &Options, cutout_tool: &Tool) -> Result<Option<(Til
 /// How steeply the cutter goes down along the contour.
 pub(super) fn ramp(angle: Option<Angle>) -> Result<Option<Angle>, Error> {
     if let Some(angle) = angle.filter(|&angle| angle <= Angle::ZERO || angle >= Angle::from_degrees(90)) {
-        let problem = format!("`{angle}` is no ramp: expected an angle between 0deg and 90deg");
+        let problem = format!("`{angle}` is not a ramp angle: expected an angle between 0deg and 90deg");
         return Err(Error::Value { key: "cutout-ramp", problem });
     }
     Ok(angle)
@@ -32,7 +32,7 @@ pub(super) fn outline_gap(options: &Options) -> Result<Nm, Error> {
     const WIDEST: Nm = Nm::from_mm(5);
     let gap = options.outline_gap.expect("the defaults leave no length open");
     if gap.nm() < Nm::ZERO || gap.nm() > WIDEST {
-        let problem = format!("`{gap}` makes no sense: it must be from 0mm to {}", Length(WIDEST));
+        let problem = format!("`{gap}` is invalid: it must be from 0mm to {}", Length(WIDEST));
         return Err(Error::Value { key: "outline-gap", problem });
     }
     Ok(gap.nm())

@@ -45,7 +45,7 @@ pub(super) fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Resul
             if matches!(tool.kind, ToolKind::Drill { .. }) {
                 return Ok(tool);
             }
-            Err(Error::Value { key: "drills", problem: format!("`{name}` is no drill") })
+            Err(Error::Value { key: "drills", problem: format!("`{name}` is not a drill") })
         }
     };
     choices.map_or_else(|| Ok(Vec::new()), |Drills(all)| all.iter().map(drill).collect())
@@ -66,7 +66,7 @@ pub(super) fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
     let margin = positive("alignment-margin", options.alignment_margin)?;
     let Some(diameter) = given("alignment-holes", options.alignment_holes)? else { return Ok(None) };
     if margin < diameter / 2 {
-        let expected = format!("holes of {} so far from the board reach into it", Length(diameter));
+        let expected = format!("at this distance holes of {} reach into the board", Length(diameter));
         return wrong("alignment-margin", margin, &expected);
     }
     Ok(Some((diameter, margin)))
@@ -77,7 +77,7 @@ pub(super) fn alignment_depth(options: &Options, thickness: Nm) -> Result<Option
     let depth = given("alignment-depth", options.alignment_depth)?;
     match depth.filter(|&depth| depth <= thickness) {
         Some(depth) => {
-            let expected = format!("a board of {} is not drilled through", Length(thickness));
+            let expected = format!("it does not go through a board of {}", Length(thickness));
             wrong("alignment-depth", depth, &expected)
         }
         None => Ok(depth),

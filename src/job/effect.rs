@@ -19,31 +19,31 @@ impl Settings {
         let is_held = all.tabs != Some(0) || all.tab_spacing.is_some() || !all.tab_at.is_empty();
         let bores = self.drill_bore || self.alignment.is_some();
         let without = [
-            ("overlap", given.overlap.is_some() && !is_wide, "say {width}, {passes} or {clear} too"),
+            ("overlap", given.overlap.is_some() && !is_wide, "set {width}, {passes} or {clear} too"),
             ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "leave {drill-bore}=false out"),
-            ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "say {tile} too"),
+            ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "set {tile} too"),
             (
                 "alignment-margin",
                 given.alignment_margin.is_some() && self.alignment.is_none(),
-                "say {alignment-holes} too",
+                "set {alignment-holes} too",
             ),
             (
                 "alignment-depth",
                 given.alignment_depth.is_some() && self.alignment.is_none(),
-                "say {alignment-holes} too",
+                "set {alignment-holes} too",
             ),
             (
                 "break-through",
                 given.break_through.is_some() && all.drill_depth.is_some(),
                 "leave {drill-depth} out",
             ),
-            ("tab-width", given.tab_width.is_some() && !is_held, "say {tabs} too, which are none here"),
-            ("tab-height", given.tab_height.is_some() && !is_held, "say {tabs} too, which are none here"),
+            ("tab-width", given.tab_width.is_some() && !is_held, "set {tabs} too, which is 0 here"),
+            ("tab-height", given.tab_height.is_some() && !is_held, "set {tabs} too, which is 0 here"),
             ("frame-margin", given.frame_margin.is_some() && !self.frame, "leave {no-frame} out"),
             (
                 "no-min-width",
                 given.min_width.is_some() && self.sites == Sites::Copper,
-                "say {sites} core too",
+                "set {sites} core too",
             ),
         ];
         without
@@ -65,7 +65,7 @@ pub(super) fn patterns<'a>(
         })
     };
     let without = settings.strategy_for.iter().filter(|own| !means_one(&own.nets));
-    without.map(|own| without_net(&own.nets, "it decides on no strategy")).collect()
+    without.map(|own| without_net(&own.nets, "it sets no strategy")).collect()
 }
 
 /// Warns of each isolating tool that cuts nothing on any side: a wider or a finer one cuts all it

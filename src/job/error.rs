@@ -22,7 +22,7 @@ pub enum Error {
         /// What is wrong there.
         problem: String,
     },
-    /// A setting whose value makes no sense, by itself or beside another.
+    /// A setting whose value is invalid, by itself or beside another.
     #[error("{key}: {problem}")]
     Value {
         /// Its name on the command line.
@@ -67,23 +67,23 @@ impl Error {
     pub fn hint(&self) -> Words {
         Words::of(match self {
             Self::Settings { file, .. } if !file.ends_with(".toml") => {
-                "docs/millproject.md says what is taken over, and how"
+                "see docs/millproject.md for what is taken over, and how"
             }
             Self::Settings { .. } => "`voromill init` writes a file with every key and its default",
             Self::Value { .. } | Self::Import(_) => "",
-            Self::Page(_) => "without the page ({no-html}) the programs are written as they are",
-            Self::Verify(_) => "with {no-verify} the programs are written unjudged",
+            Self::Page(_) => "with {no-html} the programs are written without the page",
+            Self::Verify(_) => "with {no-verify} the programs are written without verification",
             Self::NoCopper(_) => {
-                "`voromill inspect` shows what was found; {front} and {back} name the copper files"
+                "`voromill inspect` shows what was found; {front} and {back} choose the copper files"
             }
             Self::Narrow(_) => {
-                "take a finer {tool} or less {depth}, let a V-bit rise with {adaptive-depth}, or allow it with {narrow} centre"
+                "use a narrower {tool} or less {depth}, raise a V-bit in narrow gaps with {adaptive-depth}, or allow it with {narrow} centre"
             }
             Self::Truncated(_) => {
                 "plot or copy the file again; `voromill inspect` and `draw` show what is left of it"
             }
             Self::Voronoi { reason: voronoi::Error::NoCopper, .. } => {
-                "`voromill inspect` shows what was read; {outline} names another outline"
+                "`voromill inspect` shows what was read; {outline} chooses another outline"
             }
             Self::Voronoi { .. } | Self::Grid(_) => "choose a larger {pixel}, or a smaller {window}",
         })

@@ -52,15 +52,16 @@ fn thin(
         index += 1;
         left_out.binary_search(&nets.of(index - 1)).is_err()
     });
-    Some(said(&left_out, &nets, copper.side))
+    Some(warning(&left_out, &nets, copper.side))
 }
 
-fn said(left_out: &[topology::NetId], nets: &Nets, side: Side) -> Warning {
+fn warning(left_out: &[topology::NetId], nets: &Nets, side: Side) -> Warning {
+    /// Nets that a message lists. Chosen: fits a line.
     const SHOWN: usize = 5;
     let mut labels: Vec<String> = left_out.iter().take(SHOWN).map(|&id| nets.label(id)).collect();
     if left_out.len() > SHOWN {
         labels.push(format!("{} more", left_out.len() - SHOWN));
     }
-    let message = format!("not isolated, as asked: {}", labels.join(", "));
+    let message = format!("not isolated, as requested: {}", labels.join(", "));
     planning::NETS_IGNORED.warning(message).on(side)
 }

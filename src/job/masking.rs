@@ -83,7 +83,7 @@ fn openings(
     let sheet = Sheet::openings(board, copper, nets, area, clearance);
     if sheet.nets.is_empty() {
         let place =
-            format!("on the {} that is a pad: nothing is flashed, and no file calls it one", copper.side);
+            format!("on the {} that is a pad: nothing is flashed, and no file declares one", copper.side);
         return Err(Error::NoCopper(place));
     }
     let message = format!(
@@ -98,7 +98,7 @@ impl Masking {
     fn judge(&self) -> Result<(), Error> {
         let within = |key, length: Nm, least: Nm| {
             let problem =
-                format!("{length:.3} mm is no length for it: expected from {least:.3} mm to {WIDEST:.0} mm");
+                format!("{length:.3} mm is out of range: expected from {least:.3} mm to {WIDEST:.0} mm");
             if (least..=WIDEST).contains(&length) { Ok(()) } else { Err(Error::Value { key, problem }) }
         };
         within("gap", self.gap, NARROWEST)?;

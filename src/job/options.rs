@@ -176,7 +176,7 @@ macro_rules! job_options {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub direction: Option<Direction>,
 
-    /// Pause for the spindle to come up to speed [default: 3s, or as the dialect says]
+    /// Pause for the spindle to come up to speed [default: 3s, or as the dialect sets]
     #[arg(long, value_name = "TIME", help_heading = "Machine")]
     #[serde(with = "text", skip_serializing_if = "Option::is_none")]
     pub spin_up: Option<Wait>,
@@ -200,7 +200,7 @@ macro_rules! job_options {
     pub blend: Option<Blend>,
 
     /// How tools are changed: files (each tool has its own program), m6, pause (M0), or
-    /// pause-with-text, where the machine waits [default: as the dialect says]
+    /// pause-with-text, where the machine waits [default: as the dialect sets]
     #[arg(long, value_parser = choice::<ToolChange>(), hide_possible_values = true, value_name = "HOW", help_heading = "Machine")]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tool_change: Option<ToolChange>,
@@ -279,7 +279,7 @@ macro_rules! job_options {
     pub tool_probe: Option<Triple>,
 
     /// Thickness of the board, copper included: what holes and the cutout are made and verified
-    /// for; a KiCad board says it itself
+    /// for; a KiCad board declares it
     #[arg(long, value_name = "LENGTH", help_heading = "Drilling and cutting out")]
     #[serde(with = "text")]
     pub thickness: Option<Length>,

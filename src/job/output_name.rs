@@ -22,11 +22,11 @@ pub struct OutputName {
 pub enum ParseOutputNameError {
     /// No equals sign, or no program.
     #[error(
-        "`{0}` names no program: expected front, back, drill, cutout or alignment, and a file, such as front=top.ngc"
+        "`{0}` does not choose a program: expected front, back, drill, cutout or alignment, and a file, such as front=top.ngc"
     )]
     Form(String),
     /// With folders.
-    #[error("`{0}` is no name of a file: expected one without folders, such as top.ngc")]
+    #[error("`{0}` is not a file name: expected one without folders, such as top.ngc")]
     File(String),
 }
 
@@ -80,7 +80,7 @@ pub(super) fn check(names: &[OutputName]) -> Result<(), Error> {
         if let Some(other) = clash {
             return Err(Error::Value {
                 key: "output-name",
-                problem: format!("`{other}` and `{name}` do not go together"),
+                problem: format!("`{other}` and `{name}` exclude each other"),
             });
         }
     }

@@ -23,7 +23,7 @@ pub enum Overlap {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParseOverlapError {
     /// A part of the kerf that is no part of it.
-    #[error("`{0}` is no part of the kerf: expected 0% to 99.99%, such as `50%`")]
+    #[error("`{0}` is not a part of the kerf: expected 0% to 99.99%, such as `50%`")]
     Part(String),
     /// Neither a part nor a length.
     #[error("{0}, or a part of the kerf, such as `50%`")]

@@ -41,7 +41,8 @@ pub enum ParseOwnLinesError {
     },
 }
 
-/// The longest line. Marlin drops what is beyond 95 characters.
+/// The longest line. Marlin drops what is beyond 95 characters. Chosen: leaves room for a line
+/// number and a checksum.
 const LONGEST: usize = 90;
 
 impl OwnLines {

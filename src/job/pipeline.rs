@@ -7,7 +7,7 @@ use crate::board::{Board, Side, Source, Warning, Words};
 use crate::gcode::dialect::ToolChange;
 use crate::gcode::{Header, Input};
 use crate::geometry::Nm;
-use crate::import::{Loaded, flaw};
+use crate::import::{Loaded, diagnostic};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
 use crate::toolpath::{Order, Placement, Program, Section};
@@ -127,10 +127,10 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     );
     warnings.extend(programs.iter().filter_map(|program| program.warning.clone()));
     if board.outline.is_none() && !warnings.iter().any(|warning| warning.kind.is_of_the_outline()) {
-        warnings.push(planning::OUTLINE_MISSING.warning("no outline was named, so the board is not cut out"));
+        warnings.push(planning::OUTLINE_MISSING.warning("no outline was given, so the board is not cut out"));
     }
     if settings.options().blend.is_some() && settings.dialect.blend.is_none() {
-        let message = format!("{} has no word for how far corners may be rounded off", settings.dialect.name);
+        let message = format!("{} has no path blending (G64 P)", settings.dialect.name);
         let warning = planning::BLEND_UNKNOWN.warning(message);
         warnings.push(warning.so(Words::of("{blend} has no effect")));
     }
@@ -142,7 +142,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
 
 /// Fails for a file that was cut off.
 pub(super) fn refuse_cut_off(warnings: &[Warning]) -> Result<(), Error> {
-    let Some(cut_off) = warnings.iter().find(|warning| warning.is(&flaw::TRUNCATED_FILE)) else {
+    let Some(cut_off) = warnings.iter().find(|warning| warning.is(&diagnostic::TRUNCATED_FILE)) else {
         return Ok(());
     };
     let place =
@@ -153,13 +153,13 @@ pub(super) fn refuse_cut_off(warnings: &[Warning]) -> Result<(), Error> {
 /// Lowers what programs ask of the machine to what it can do; what is said of several programs is
 /// said once.
 fn restrained<'a>(programs: impl Iterator<Item = &'a mut Program>, settings: &Settings) -> Vec<Warning> {
-    let mut said: Vec<Warning> = Vec::new();
+    let mut warnings: Vec<Warning> = Vec::new();
     for warning in programs.flat_map(|program| settings.machine.restrain(program)) {
-        if said.iter().all(|other| other.text() != warning.text()) {
-            said.push(warning);
+        if warnings.iter().all(|other| other.text() != warning.text()) {
+            warnings.push(warning);
         }
     }
-    said
+    warnings
 }
 
 /// Both sides at once.

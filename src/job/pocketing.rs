@@ -61,7 +61,7 @@ const WITHIN: f64 = 500.0;
 /// the cut and what writing rounds.
 const TOLERATED: Nm = Nm::from_um(5);
 
-/// Rows are looked at so far apart at least, and so many of them at most.
+/// Rows are looked at so far apart at least, and so many of them at most. Chosen.
 const FINEST: Nm = Nm::from_um(5);
 const MOST_ROWS: i64 = 10_000;
 
@@ -108,7 +108,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
         let problem = format!("everything is narrower than `{}`: nothing is milled", finest.kind);
         return Err(Error::Value { key: "tool", problem });
     }
-    let found = flaws(&made.areas, finest, made.entries);
+    let found = shape_warnings(&made.areas, finest, made.entries);
     made.warnings.extend(found);
     Ok(made)
 }
@@ -132,7 +132,7 @@ impl Pocket {
         let nest = Nest::new(areas, |level| levels.at(level));
         if nest.flaws > 0 {
             let message = format!(
-                "the Voronoi diagram of {} areas has a flaw: their loops are offset polygons instead",
+                "the Voronoi diagram of {} areas is faulty: their loops are offset polygons instead",
                 nest.flaws
             );
             self.warnings.push(planning::LOOPS_BY_OFFSETS.warning(message));
@@ -164,7 +164,8 @@ impl Pocket {
         let (section, entries) = strategy::pocket(format!("{what} {}", art.name), &nest, &plan);
         let tag = if is_one_of_several { number.to_string() } else { String::new() };
         let number = u32::try_from(number).unwrap_or(u32::MAX);
-        let (one, found) = written(art, (&tag, what, number), section, settings, said(settings, &self.how));
+        let (one, found) =
+            written(art, (&tag, what, number), section, settings, declared(settings, &self.how));
         self.warnings.extend(found);
         if self.programs.is_empty() {
             let deepest = nest.loops.iter().map(|one| one.level).max().unwrap_or(0);
@@ -236,7 +237,7 @@ fn end_mills(settings: &Settings) -> Result<Vec<(&Tool, Heights)>, Error> {
     let end_mill = |cutting: &'_ Cutting| match cutting.tool.kind {
         ToolKind::EndMill { .. } => Ok(()),
         kind @ (ToolKind::VBit { .. } | ToolKind::Drill { .. }) => {
-            let problem = format!("`{kind}` is no end mill: a flat floor needs one, such as endmill:1mm");
+            let problem = format!("`{kind}` is not an end mill: a flat floor needs one, such as endmill:1mm");
             Err(Error::Value { key: "tool", problem })
         }
     };
@@ -244,17 +245,17 @@ fn end_mills(settings: &Settings) -> Result<Vec<(&Tool, Heights)>, Error> {
     Ok(settings.isolation.iter().map(|cutting| (&cutting.tool, cutting.heights)).collect())
 }
 
-/// Fails for what makes no sense with any tool.
+/// Fails for what is invalid with any tool.
 fn judge(how: &Pocketing) -> Result<(), Error> {
     let wrong = |key: &'static str, problem: String| Err(Error::Value { key, problem });
     if how.step.is_some_and(|step| step <= Nm::ZERO) {
-        return wrong("depth-pass", "a pass of nothing makes no sense: it must be above zero".to_owned());
+        return wrong("depth-pass", "a pass depth of zero is invalid: it must be above zero".to_owned());
     }
     if how.ramp <= Angle::ZERO || how.ramp >= Angle::from_degrees(90) {
-        return wrong("ramp", format!("{} makes no sense: expected above 0deg and below 90deg", how.ramp));
+        return wrong("ramp", format!("{} is invalid: expected above 0deg and below 90deg", how.ramp));
     }
     if how.raised.is_some_and(|margin| margin <= Nm::ZERO) {
-        return wrong("margin", "a margin of nothing makes no sense: it must be above zero".to_owned());
+        return wrong("margin", "a margin of zero is invalid: it must be above zero".to_owned());
     }
     Ok(())
 }
@@ -268,13 +269,13 @@ fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, E
         return wrong(
             "stepover",
             format!(
-                "`{}` is not between nothing and half the tool's diameter: farther apart, loops leave material in corners",
+                "`{}` is not between zero and half the tool diameter: farther apart, loops leave material in corners",
                 how.stepover
             ),
         );
     }
     if how.stock < Nm::ZERO || how.stock > diameter / 2 {
-        let problem = format!("{} is not between nothing and half the tool's diameter", Length(how.stock));
+        let problem = format!("{} is not between zero and half the tool diameter", Length(how.stock));
         return wrong("stock", problem);
     }
     // Each loop may be off its place by the tolerance.
@@ -287,20 +288,23 @@ fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, E
 }
 
 /// What the tool cannot do of the areas.
-fn flaws(areas: &[Polygon], tool: &Tool, entries: Entries) -> Vec<Warning> {
+fn shape_warnings(areas: &[Polygon], tool: &Tool, entries: Entries) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let radius = tool.width_at(Nm::ZERO) / 2;
     let narrow =
         areas.iter().filter(|area| offset(area, Nm::from_f64(WITHIN) - radius, Nm::from_um(1)).is_empty());
     let narrow = narrow.count();
     if narrow > 0 {
-        let message =
-            format!("{narrow} of {} areas are narrower than `{}`: they are left", areas.len(), tool.kind);
+        let message = format!(
+            "{narrow} of {} areas are narrower than `{}`: they are not milled",
+            areas.len(),
+            tool.kind
+        );
         warnings.push(planning::NARROWER_THAN_TOOL.warning(message));
     }
     if entries.straight > 0 {
         let message = format!(
-            "at {} places the tool goes straight down, since there is no room for a ramp: it must be one that can drill",
+            "at {} places the tool plunges straight down, since there is no room for a ramp: it must be centre-cutting",
             entries.straight
         );
         warnings.push(planning::PLUNGE_STRAIGHT_DOWN.warning(message));
@@ -309,7 +313,7 @@ fn flaws(areas: &[Polygon], tool: &Tool, entries: Entries) -> Vec<Warning> {
 }
 
 /// The settings that matter, for the header.
-fn said(settings: &Settings, how: &Pocketing) -> Vec<(String, String)> {
+fn declared(settings: &Settings, how: &Pocketing) -> Vec<(String, String)> {
     let mut listed = settings.options().listed();
     listed.retain(|(option, _)| {
         CARVING_OPTIONS.contains(&option.as_str()) || POCKETING_OPTIONS.contains(&option.as_str())

@@ -27,7 +27,7 @@ pub enum ProbeGrid {
 /// A text that is neither a length nor two numbers.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is no grid: expected the greatest distance between two probed points, such as `10mm`, or columns and rows, such as `7x5`"
+    "`{0}` is not a grid: expected the greatest distance between two probed points, such as `10mm`, or columns and rows, such as `7x5`"
 )]
 pub struct ParseProbeGridError(String);
 
@@ -133,7 +133,7 @@ impl Probing {
 }
 
 fn wrong<T>(key: &'static str, value: impl fmt::Display, expected: &str) -> Result<T, Error> {
-    Err(Error::Value { key, problem: format!("`{value}` makes no sense: {expected}") })
+    Err(Error::Value { key, problem: format!("`{value}` is invalid: {expected}") })
 }
 
 /// How many touches along `length` are no further apart than `spacing`, if that is a number of

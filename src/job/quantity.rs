@@ -37,7 +37,7 @@ const LONGEST_WAIT: f64 = 600_000.0;
 
 /// A text that is no time to wait.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no time to wait: expected up to ten minutes with a unit, such as `3s` or `200ms`")]
+#[error("`{0}` is not a pause: expected up to ten minutes with a unit, such as `3s` or `200ms`")]
 pub struct ParseWaitError(String);
 
 impl FromStr for Wait {
@@ -174,7 +174,7 @@ pub struct Tiles {
 
 /// A text that does not say columns and rows.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` does not say how many: expected columns and rows, 1 to 100 each, such as `3x2`")]
+#[error("`{0}` is not a number of columns and rows: expected, 1 to 100 each, such as `3x2`")]
 pub struct ParseTilesError(String);
 
 impl FromStr for Tiles {

@@ -144,7 +144,7 @@ const PINS: Nm = Nm::from_mm(3);
 /// zeroes are off, and little of what lies below.
 const BELOW: Nm = Nm::from_um(100);
 
-/// The pixel of pictures: 1000 to the inch.
+/// The pixel of pictures: 1000 to the inch. Chosen: the paper's are 500 to the inch.
 const PICTURE: Nm = Nm::new(25_400);
 
 impl Settings {
@@ -159,7 +159,7 @@ impl Settings {
     ///
     /// # Errors
     ///
-    /// [`Error::Value`] for the first setting whose value makes no sense.
+    /// [`Error::Value`] for the first setting whose value is invalid.
     pub fn resolve(options: Options) -> Result<Self, Error> {
         let profile = options.machine.as_ref().map(|machine| machine.0.clone());
         let mut options = validate::defaults_for(profile.as_ref(), options).or(Options::defaults());
@@ -321,7 +321,7 @@ mod tests {
     fn a_thick_board_is_cut_out_as_deep_as_it_is_thick() {
         let depth = |text: &str| settings(text).expect("settings that make sense").cutout.cut;
         assert_eq!(depth("thickness = \"3.2mm\""), Nm::from_um(3300), "as thick, and a little below");
-        assert_eq!(depth("thickness = \"3.2mm\"\ncutout-depth = \"1mm\""), Nm::from_um(1000), "as told");
+        assert_eq!(depth("thickness = \"3.2mm\"\ncutout-depth = \"1mm\""), Nm::from_um(1000), "as given");
     }
 
     #[test]

@@ -22,7 +22,7 @@ pub struct StrategyFor {
 /// Text that gives no strategy to nets.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` gives nets no strategy: expected a pattern and voronoi, outline or auto, such as GND*=outline"
+    "`{0}` is not a strategy for nets: expected a pattern and voronoi, outline or auto, such as GND*=outline"
 )]
 pub struct ParseStrategyForError(String);
 

@@ -137,7 +137,7 @@ impl Table {
             (ToolKind::Drill { .. }, Some(angle), _) => point_angle(angle).map(Some),
             (ToolKind::Drill { .. }, None, Some(true)) => Ok(Some(CARBIDE_POINT)),
             (ToolKind::VBit { .. } | ToolKind::EndMill { .. }, _, Some(_)) => {
-                Err("expected carbide for a drill alone".to_owned())
+                Err("expected carbide only for a drill".to_owned())
             }
             (..) => Ok(None),
         }
@@ -148,7 +148,7 @@ impl Table {
             (Shape::VBit, Some(tip), Some(angle), None) => ToolKind::VBit { tip: tip.nm(), angle },
             (Shape::VBit, ..) => return Err("expected tip and angle for a vbit".to_owned()),
             (Shape::EndMill, None, None, Some(diameter)) => ToolKind::EndMill { diameter: diameter.nm() },
-            (Shape::EndMill, ..) => return Err("expected diameter alone for an endmill".to_owned()),
+            (Shape::EndMill, ..) => return Err("expected only diameter for an endmill".to_owned()),
             (Shape::Drill, None, _, Some(diameter)) => ToolKind::Drill { diameter: diameter.nm() },
             (Shape::Drill, ..) => {
                 return Err(
@@ -165,7 +165,7 @@ pub(super) fn point_angle(angle: Angle) -> Result<Angle, String> {
     if angle > Angle::from_degrees(30) && angle < Angle::from_degrees(180) {
         return Ok(angle);
     }
-    Err(format!("`{angle}` is no drill's tip: expected an angle between 30deg and 180deg"))
+    Err(format!("`{angle}` is not the point angle of a drill: expected an angle between 30deg and 180deg"))
 }
 
 /// How deep a tool of this shape cuts a kerf, or why no depth does.
@@ -176,7 +176,7 @@ pub(super) fn depth_for(kind: ToolKind, kerf: Length) -> Result<Nm, String> {
             .filter(|&depth| depth > Nm::ZERO)
             .ok_or_else(|| format!("`{kind}` cuts wider than {kerf} at any depth")),
         ToolKind::EndMill { .. } | ToolKind::Drill { .. } => {
-            Err(format!("`{kind}` cuts {} at any depth: say the depth", Length(kind.width_at(Nm::ZERO))))
+            Err(format!("`{kind}` cuts {} at any depth: set the depth", Length(kind.width_at(Nm::ZERO))))
         }
     }
 }
@@ -357,13 +357,13 @@ mod tests {
     fn tables_that_are_no_tools_are_refused_where_they_stand() {
         for (table, expected) in [
             ("kind = \"vbit\"\ntip = \"0.1mm\"", "tip and angle"),
-            ("kind = \"endmill\"\ntip = \"0.1mm\"", "diameter alone"),
+            ("kind = \"endmill\"\ntip = \"0.1mm\"", "only diameter"),
             ("kind = \"endmill\"\ndiameter = \"0mm\"", "above zero"),
             ("kind = \"endmill\"\ndiameter = \"1mm\"\nkerf = \"2mm\"", "at any depth"),
             ("kind = \"vbit\"\ntip = \"0.1mm\"\nangle = \"30deg\"\nkerf = \"0.05mm\"", "wider"),
             ("kind = \"drill\"\ndiametre = \"1mm\"", "did you mean `diameter`"),
             ("kind = \"drill\"\ndiameter = \"1mm\"\nangle = \"190deg\"", "180deg"),
-            ("kind = \"endmill\"\ndiameter = \"1mm\"\ncarbide = true", "a drill alone"),
+            ("kind = \"endmill\"\ndiameter = \"1mm\"\ncarbide = true", "only for a drill"),
             ("kind = \"drill\"\ndiameter = \"1mm\"\nnumber = 0", "from 1"),
         ] {
             let error =

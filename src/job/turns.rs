@@ -6,7 +6,7 @@ use serde::de::{Deserializer, Error, Visitor};
 
 /// A text that is no number of turns.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is no spindle speed: expected turns per minute, such as `12000` or `12000rpm`")]
+#[error("`{0}` is not a spindle speed: expected revolutions per minute, such as `12000` or `12000rpm`")]
 pub struct ParseTurnsError(String);
 
 /// Turns per minute from a number, with its unit or without.
@@ -28,7 +28,7 @@ pub(super) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<
         type Value = u32;
 
         fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-            f.write_str("turns per minute, such as 12000")
+            f.write_str("revolutions per minute, such as 12000")
         }
 
         fn visit_i64<E: Error>(self, number: i64) -> Result<u32, E> {

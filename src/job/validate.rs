@@ -42,7 +42,7 @@ pub(super) fn adaptive_depth(options: &Options, cuttings: &[Cutting]) -> Result<
     let is_v_bit = |cutting: &&Cutting| matches!(cutting.tool.kind, ToolKind::VBit { .. });
     let deepest = cuttings.iter().filter(is_v_bit).map(|cutting| cutting.heights.cut).max();
     match deepest {
-        None => wrong("adaptive-depth", least, "only a V-bit cuts narrower where it rises"),
+        None => wrong("adaptive-depth", least, "only a V-bit cuts narrower when raised"),
         Some(deepest) if least >= deepest => wrong(
             "adaptive-depth",
             least,

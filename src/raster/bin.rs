@@ -233,6 +233,7 @@ impl Bin {
 }
 
 /// Pixels along a side of a cell that is cut into blocks; a larger one is cut into cells first.
+/// Chosen.
 const CELL: i32 = 160;
 
 const _: () = assert!(CELL / LANES <= SIDE, "a piece of a cell fits a block");

@@ -78,7 +78,7 @@ struct Row {
     cut: u32,
 }
 
-/// Pieces along a side that a square is cut into at most.
+/// Pieces along a side that a square is cut into at most. Chosen.
 const FAN: u32 = 8;
 
 /// Candidates in a row of squares beyond which its pieces are cut off a row at a time. In the

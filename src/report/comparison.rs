@@ -17,9 +17,9 @@ const NEWLY_CUT: Rgb = Rgb(0xff, 0x4d, 0x4d);
 /// What was cut and is left now.
 const NEWLY_LEFT: Rgb = Rgb(0x3d, 0xd6, 0x8c);
 
-/// Places that the short text shows for each file; the rest are counted.
+/// Places that the short text shows for each file; the rest are counted. Chosen.
 const SHOWN: usize = 5;
-/// Pixels along a side of a picture, at most.
+/// Pixels along a side of a picture, at most. Chosen: larger than a screen.
 const SIDE: u32 = 2400;
 
 /// Programs of the same name, compared.

@@ -1,13 +1,14 @@
 //! What each code means: what was found, what it does to the board, and what to try.
 //!
-//! Three lists are put together here: the checks of [`verify`](crate::verify), the flaws of files
-//! that [`import`](crate::import) knows, and what is noticed while programs are made, `planning`.
+//! Three lists are put together here: the checks of [`verify`](crate::verify), the diagnostics of
+//! files that [`import`](crate::import) knows, and what is noticed while programs are made,
+//! `planning`.
 
 use std::fmt::Write as _;
 
 use crate::board::Diagnostic;
 use crate::board::diagnostic::{Stage, planning};
-use crate::import::flaw;
+use crate::import::diagnostic;
 use crate::verify::check;
 
 const fn heading(stage: Stage) -> &'static str {
@@ -19,7 +20,7 @@ const fn heading(stage: Stage) -> &'static str {
 }
 
 /// What [`Diagnostic::effect`] is called.
-const fn effect(stage: Stage) -> &'static str {
+const fn effect_label(stage: Stage) -> &'static str {
     match stage {
         Stage::Verification | Stage::Planning => "effect",
         Stage::Files => "expected",
@@ -30,7 +31,7 @@ const fn effect(stage: Stage) -> &'static str {
 #[must_use]
 pub fn all() -> Vec<Diagnostic> {
     let checks = check::ALL.iter().map(|check| check.kind);
-    let mut all: Vec<Diagnostic> = checks.chain(planning::ALL).chain(flaw::ALL).copied().collect();
+    let mut all: Vec<Diagnostic> = checks.chain(planning::ALL).chain(diagnostic::ALL).copied().collect();
     all.sort_by_key(|kind| (kind.stage, kind.code));
     all
 }
@@ -58,11 +59,10 @@ pub fn list() -> String {
 /// `docs/findings.md`.
 #[must_use]
 pub fn page() -> String {
-    let mut text = "# Findings and warnings\n\nEach message ends with a code in brackets. `voromill explain CODE` prints \
-                    what is said here; a test holds this page to it.\n"
+    let mut text = "# Findings and warnings\n\nEach message ends with a code in brackets. `voromill explain CODE` prints the same text.\n"
         .to_owned();
     for same in all().chunk_by(|a, b| a.stage == b.stage) {
-        let (heading, cost) = (heading(same[0].stage), effect(same[0].stage));
+        let (heading, cost) = (heading(same[0].stage), effect_label(same[0].stage));
         let _ = write!(text, "\n## {heading}\n\n| code | what | {cost} | what to try |\n|---|---|---|---|\n");
         for Diagnostic { code, what, effect, advice, .. } in same {
             let cell = |words: &dyn ToString| words.to_string().replace('|', "\\|");
@@ -72,7 +72,7 @@ pub fn page() -> String {
     text
 }
 
-fn text(Diagnostic { code, stage, what, effect: told, advice, .. }: &Diagnostic) -> String {
-    let label = effect(*stage);
-    format!("{code}: {what}\n  {label:9} {told}\n  try       {advice}\n")
+fn text(Diagnostic { code, stage, what, effect, advice, .. }: &Diagnostic) -> String {
+    let label = effect_label(*stage);
+    format!("{code}: {what}\n  {label:9} {effect}\n  try       {advice}\n")
 }

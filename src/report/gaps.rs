@@ -22,7 +22,7 @@ impl Document {
     /// those that it all but fits.
     #[must_use]
     pub fn with_gaps_merged(mut self, kerf: Nm) -> Self {
-        let told = Settings::default().gouge;
+        let limit = Settings::default().gouge;
         let slight = SLIGHT.max(kerf / SLIGHT_PART);
         let lost = |entry: &WarningEntry| {
             entry.size_mm.filter(|_| *entry.kind == planning::GAP_NARROWER_THAN_TOOL).map(|lost| lost.0)
@@ -36,7 +36,7 @@ impl Document {
             // What verification tells of apart from what it does not.
             for deep in [true, false] {
                 let is_same = |entry: &WarningEntry| {
-                    entry.side == Some(layer.side) && lost(entry).is_some_and(|lost| (lost > told) == deep)
+                    entry.side == Some(layer.side) && lost(entry).is_some_and(|lost| (lost > limit) == deep)
                 };
                 merge(&mut self.warnings, is_same);
             }
@@ -47,7 +47,7 @@ impl Document {
     /// Leaves out the gaps whose places are among what verification found: they are its
     /// explanation.
     pub fn leave_out_explained_gaps(&mut self) {
-        let told = Settings::default().gouge;
+        let limit = Settings::default().gouge;
         let Some(verdict) = &self.verification else { return };
         let is_found = |entry: &WarningEntry, lost: Nm| {
             let mut gouges =
@@ -55,8 +55,9 @@ impl Document {
             gouges.any(|gouge| gouge.size_mm.is_some_and(|Millimetres(depth)| depth + FIT >= lost))
         };
         self.warnings.retain(|entry| {
-            let lost =
-                entry.size_mm.filter(|lost| *entry.kind == planning::GAP_NARROWER_THAN_TOOL && lost.0 > told);
+            let lost = entry
+                .size_mm
+                .filter(|lost| *entry.kind == planning::GAP_NARROWER_THAN_TOOL && lost.0 > limit);
             lost.is_none_or(|lost| !is_found(entry, lost.0))
         });
     }

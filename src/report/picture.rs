@@ -81,7 +81,7 @@ pub fn boundaries(side: &Shown<'_>, grid: Grid) -> Canvas {
     canvas
 }
 
-/// The clearance from which on a boundary is as free as it can be shown to be.
+/// The clearance from which on a boundary is as free as it can be shown to be. Chosen.
 const FREE: Nm = Nm::from_mm(1);
 
 /// The clearance of each stretch of boundary over dimmed copper: how far its narrower end is from
@@ -214,6 +214,7 @@ fn holes(canvas: &mut Canvas, holes: &[Hole]) {
 /// The name of each named net, beside its largest feature, where that is large enough to read it
 /// on.
 fn names(canvas: &mut Canvas, copper: &Copper, nets: &Nets) {
+    /// The smallest letters that are read, in pixels. Chosen.
     const HEIGHT: f32 = 9.0;
     for net in nets.nets().iter().filter(|net| !net.names.is_empty()) {
         let bounds = |feature: &u32| copper.features[*feature as usize].shape.bounds();
@@ -286,7 +287,7 @@ pub fn whole(board: &Board, margin: Nm) -> Option<Rect> {
     all.reduce(Rect::union).map(|bounds| bounds.inflate(margin))
 }
 
-/// The most pixels of a picture: with what it takes to draw it, about 2 GiB of memory.
+/// The most pixels of a picture: with what it takes to draw it, about 2 GiB of memory. Chosen.
 const MOST_PIXELS: i64 = 1 << 27;
 
 /// Refuses a grid whose picture would fill the memory.

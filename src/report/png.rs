@@ -17,7 +17,7 @@ const MEMORY: &str = "memory takes any bytes, and there are as many pixels as th
 const BAND: u32 = 240;
 
 /// Rows above a band that are drawn and thrown away: of what ends right above a picture, the
-/// drawing library lays the last row onto the picture's first.
+/// drawing library lays the last row onto the picture's first. Chosen.
 const APRON: u32 = 2;
 
 /// A picture of `grid` that `draw` paints band by band: it is given the grid of each, from the top.

@@ -19,7 +19,7 @@ use crate::grid::{Grid, GridError};
 const BACK: f64 = 0.8;
 const UP: f64 = 0.6;
 
-/// Where the light comes from: a direction of length one.
+/// Where the light comes from: a direction of length one. Chosen for the look.
 const LIGHT: [f64; 3] = [-0.48, 0.6, 0.64];
 
 /// What is not milled, and what is: colours that are lit. Chosen: walnut stained dark and bare.
@@ -28,7 +28,7 @@ const CUT: [f64; 3] = [226.0, 184.0, 130.0];
 /// How bright what no light reaches is.
 const SHADE: f64 = 0.25;
 
-/// What lies shallower counts as not milled, in nanometres.
+/// What lies shallower counts as not milled, in nanometres. Chosen: rounding.
 const SKIN: f64 = 1_000.0;
 
 /// The picture, as a PNG, of `area` where `depth` says how deep each place is milled, in

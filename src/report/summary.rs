@@ -7,7 +7,7 @@ use super::quantity::count;
 use crate::board::{self, Diagnostic, Severity};
 use crate::toolpath::duration;
 
-/// Warnings of one kind that are shown; the rest are counted.
+/// Warnings of one kind that are shown; the rest are counted. Chosen.
 const SHOWN: usize = 3;
 
 impl Document {
@@ -115,10 +115,10 @@ impl LayerEntry {
 /// there are none.
 #[must_use]
 pub fn warnings(warnings: &[WarningEntry], verbose: bool) -> String {
-    let told = || warnings.iter().filter(|warning| verbose || !warning.kind.is_bookkeeping());
-    let mut text = if told().next().is_none() { String::new() } else { "\n".to_owned() };
+    let shown = || warnings.iter().filter(|warning| verbose || !warning.kind.is_bookkeeping());
+    let mut text = if shown().next().is_none() { String::new() } else { "\n".to_owned() };
     let mut kinds: Vec<&Diagnostic> = Vec::new();
-    for warning in told() {
+    for warning in shown() {
         if !kinds.contains(&warning.kind) {
             kinds.push(warning.kind);
         }

@@ -27,7 +27,7 @@ pub enum Over {
     Cuts,
 }
 
-/// A user unit, in nanometres.
+/// A user unit, in nanometres. Chosen: below what programs write.
 const UNIT: i64 = 10;
 
 const COPPER: &str = "#d0894a";

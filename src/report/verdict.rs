@@ -114,7 +114,7 @@ impl From<&Report> for Verdict {
     }
 }
 
-/// Findings of one name that the short text shows; the rest are counted.
+/// Findings of one name that the short text shows; the rest are counted. Chosen.
 const SHOWN: usize = 5;
 
 impl Verdict {

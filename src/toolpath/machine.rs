@@ -149,7 +149,7 @@ impl Machine {
                 if within != tool.spindle {
                     let wanted = tool.spindle;
                     say(format!(
-                        "{name} is to turn at {wanted} rpm, and the spindle turns at {least} to {most} rpm: it gets {within} rpm"
+                        "{name} needs {wanted} rpm, but the spindle runs at {least} to {most} rpm: {within} rpm is used"
                     ));
                     tool.spindle = within;
                 }
@@ -167,7 +167,7 @@ impl Machine {
                     let (most, way) = if is_vertical { (z, "down") } else { (level, "sideways") };
                     if *feed > most {
                         say(format!(
-                            "{name} is to go {way} at {feed}, and the machine goes at {most} at most: it gets that"
+                            "{name} needs a feed of {feed} {way}, but the machine reaches {most}: that is used"
                         ));
                         *feed = most;
                     }

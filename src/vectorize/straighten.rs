@@ -9,10 +9,11 @@
 type Place = (f64, f64);
 
 /// How far the middle of a line's points may lie beside their ends, on average, in pixels: a curve
-/// bows to one side, a staircase to both.
+/// bows to one side, a staircase to both. Chosen.
 const BOW: f64 = 0.12;
 
 /// How far a corner may move, in pixels: along lines that nearly run alike, three times as far.
+/// Chosen.
 const REACH: f64 = 1.0;
 
 /// A closed line with few corners that leaves that through `points` by little more than
@@ -39,6 +40,7 @@ pub fn straighten(points: &[Place], tolerance: f64) -> Vec<Place> {
 
 /// The point at which the contour turns most: a corner, where it has one.
 fn sharpest(points: &[Place]) -> usize {
+    /// Points to either side between which a turn is seen. Chosen.
     const SPAN: usize = 4;
     let count = points.len();
     let turn = |at: usize| {

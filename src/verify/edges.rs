@@ -17,10 +17,11 @@ pub(super) struct Edges {
 /// A search begins with this, in nanometres, and doubles. Chosen.
 const FIRST: f64 = 50_000.0;
 
-/// Places nearer to each other than this lie side by side, in nanometres.
+/// Places nearer to each other than this lie side by side, in nanometres. Chosen: the resolution of
+/// coordinates.
 const NEXT: f64 = 0.5;
 
-/// No place is so far from an edge.
+/// No place is so far from an edge. In nanometres: ten metres. Chosen.
 const FAR: f64 = 1e10;
 
 impl Edges {

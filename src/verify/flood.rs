@@ -6,6 +6,9 @@
 //! narrowest place (Kruskal's maximum spanning tree). Pixels under the cuts come back last, so that
 //! parts that are cut apart join too, at a width below zero.
 //!
+//! J. B. Kruskal, *On the shortest spanning subtree of a graph and the traveling salesman problem*,
+//! Proceedings of the AMS 7, 1956.
+//!
 //! The picture finds the place; how wide it is there is asked of the exact shapes.
 
 use crate::geometry::{Nm, Point, Rect};

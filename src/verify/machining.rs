@@ -195,7 +195,7 @@ fn within_range(points: &[Point]) -> bool {
     points.iter().flat_map(|p| [p.x, p.y]).all(|coordinate| Nm::try_new(coordinate.get() * 2).is_ok())
 }
 
-/// How much half the kerf may change within a piece, and how much the depth.
+/// How much half the kerf may change within a piece, and how much the depth. In nanometres. Chosen.
 const STEP: f64 = 1_000.0;
 const SINK: f64 = 50_000.0;
 

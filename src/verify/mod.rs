@@ -166,6 +166,7 @@ pub struct Settings {
 
 impl Settings {
     /// As far as no hole's diameter is off: for holes that one drill drills, whatever they ask for.
+    /// Chosen.
     pub const ANY_DIAMETER: Nm = Nm::from_mm(100);
 }
 
@@ -211,7 +212,7 @@ pub enum Error {
         reason: ReadError,
     },
     /// A motion to where nothing is handled exactly.
-    #[error("{file}: line {line}: the place lies more than half a metre away")]
+    #[error("{file}: line {line}: the position is more than half a metre away")]
     Range {
         /// The program.
         file: String,
@@ -219,7 +220,7 @@ pub enum Error {
         line: u32,
     },
     /// Nothing says which tool cuts.
-    #[error("{file}: line {line}: nothing says what tool cuts here")]
+    #[error("{file}: line {line}: the tool that cuts here is unknown")]
     NoTool {
         /// The program.
         file: String,
@@ -227,7 +228,7 @@ pub enum Error {
         line: u32,
     },
     /// Nothing says which side a program isolates.
-    #[error("{0}: nothing says which side this isolates")]
+    #[error("{0}: the side that this isolates is unknown")]
     NoSide(String),
     /// The board has no copper there.
     #[error("{file}: the board has no copper on the {side}")]
@@ -238,7 +239,7 @@ pub enum Error {
         side: Side,
     },
     /// A program that was to be laid over the board, and fits nowhere.
-    #[error("{0}: nothing of it fits the board, however it is laid")]
+    #[error("{0}: it does not fit the board in any position")]
     Unplaced(String),
     /// A text without motions.
     #[error("{0}: no motion in it")]
@@ -253,10 +254,10 @@ impl Error {
     #[must_use]
     pub fn hint(&self) -> Words {
         Words::of(match self {
-            Self::NoTool { .. } => "name it: {tool} vbit:0.1mm:30deg, or endmill:0.2mm",
-            Self::NoSide(_) | Self::NoCopper { .. } => "name it: {side} front, or back",
+            Self::NoTool { .. } => "set it: {tool} vbit:0.1mm:30deg, or endmill:0.2mm",
+            Self::NoSide(_) | Self::NoCopper { .. } => "set it: {side} front, or back",
             Self::Grid(_) => "choose a larger {pixel}",
-            Self::Unplaced(_) => "say how it lies: {offset}, {mirror-axis}, {rotate}",
+            Self::Unplaced(_) => "set its placement: {offset}, {mirror-axis}, {rotate}",
             Self::Read { .. } | Self::Range { .. } | Self::NoMotion(_) => "",
         })
     }

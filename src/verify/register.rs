@@ -228,7 +228,7 @@ impl Map {
     }
 }
 
-/// How near a plunge must be to its hole.
+/// How near a plunge must be to its hole. Chosen.
 const HOLE: Nm = Nm::from_um(100);
 
 /// The shift that lays most plunges on holes: one that lays the first on one of them.

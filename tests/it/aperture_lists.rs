@@ -62,9 +62,9 @@ fn a_list_without_units_is_read_by_its_sizes_and_says_so() {
 #[test]
 fn what_a_list_leaves_open_is_an_error_that_says_what_is_missing() {
     for (name, words) in [
-        ("two_lists", ["one.apt, two.apt", "name the right one like the file"]),
-        ("no_format", ["board.apt says how numbers are written", "FORMAT 2.3"]),
-        ("unclear", ["D11, which board.apt:2 leaves unclear", "a thermal"]),
+        ("two_lists", ["one.apt, two.apt", "rename the right one to"]),
+        ("no_format", ["board.apt has a number format", "FORMAT 2.3"]),
+        ("unclear", ["D11, which board.apt:2 does not define clearly", "a thermal"]),
     ] {
         let message = board(&[folder(name)]).expect_err(name).render();
         for word in words {

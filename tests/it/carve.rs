@@ -238,7 +238,7 @@ fn a_layer_is_carved_and_what_makes_no_sense_is_refused() {
     is_refused(
         "carve",
         &[
-            (&["--tool", "endmill:1mm"], "is no V-bit"),
+            (&["--tool", "endmill:1mm"], "is not a V-bit"),
             (&["--max-depth", "0mm"], "above zero"),
             (&["--depth", "1mm"], "has no effect"),
             (&["--tool", "vbit:9.8mm:60deg"], "narrower than the tip"),

@@ -115,7 +115,7 @@ fn programs_have_the_names_and_tool_changes_that_are_asked_for() {
     assert_eq!(code, Some(2), "the report has that name");
     assert!(message.contains("two outputs would be out/regulator.json"), "{message}");
     let (_, _, summary) = mill(&["--blend", "0.01mm"]);
-    assert!(summary.contains("grbl has no word for"), "{summary}");
+    assert!(summary.contains("grbl has no path blending"), "{summary}");
 }
 
 #[test]

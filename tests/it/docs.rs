@@ -2,6 +2,8 @@
 //! names, and what is quoted of its output is today's.
 //!
 //! A block of commands that is not run says so where people see it: ```` ```sh not run ````.
+//!
+//! The examples of `--help` and the commands in running text are run on a board of two pads.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,6 +12,7 @@ use rayon::prelude::*;
 use tempfile::TempDir;
 
 use super::cli::{stderr, stdout, voromill};
+use super::words::literals;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -84,13 +87,16 @@ fn expanded(word: String, folder: &Path) -> Vec<String> {
 fn run(line: &str, folder: &Path) -> Result<String, String> {
     let line = line.trim_start_matches("cargo run --release -- ").trim_start_matches("voromill ");
     let mut words = words(line, folder);
-    let into = words.iter().position(|word| word == ">").map(|at| words.split_off(at).pop().expect("a name"));
+    let into = words
+        .iter()
+        .position(|word| word == ">" || word == ">>")
+        .map(|at| words.split_off(at).pop().expect("a name"));
     let done = voromill(folder, &words.iter().map(String::as_str).collect::<Vec<_>>());
     if let Some(into) = into {
         fs::write(folder.join(into), &done.stdout).expect("writable");
     }
     // Judging and comparing may find something.
-    let finds = ["verify", "diff"].contains(&words[0].as_str());
+    let finds = ["verify", "diff"].contains(&words[0].as_str()) || words.iter().any(|word| word == "--check");
     let text = stdout(&done) + &stderr(&done);
     match done.status.code() {
         Some(0) => Ok(text),
@@ -256,5 +262,158 @@ fn every_command_in_the_docs_runs() {
     let count: usize = done.iter().map(|(count, _)| count).sum();
     assert!(count > 60, "they are found: {count}");
     let wrong: Vec<String> = done.into_iter().flat_map(|(_, wrong)| wrong).collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+const COPPER: &str = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,2.0*%\n%ADD11C,0.5*%\nD10*\nX5000000Y3000000D03*\n\
+    X15000000Y3000000D03*\nX15000000Y7000000D03*\nD11*\nX5000000Y3000000D02*\nX5000000Y7000000D01*\nM02*\n";
+const OUTLINE: &str = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.1*%\nD10*\nX0Y0D02*\nX20000000Y0D01*\n\
+    X20000000Y10000000D01*\nX0Y10000000D01*\nX0Y0D01*\nM02*\n";
+const DRILL: &str = "M48\nMETRIC\nT1C0.8\n%\nT1\nX5.0Y3.0\nX15.0Y3.0\nM30\n";
+const LINUXCNC: &str = "[TRAJ]\nLINEAR_UNITS = mm\n\
+    [AXIS_X]\nMAX_VELOCITY = 20\nMAX_ACCELERATION = 100\nMIN_LIMIT = 0\nMAX_LIMIT = 200\n\
+    [AXIS_Y]\nMAX_VELOCITY = 20\nMAX_ACCELERATION = 100\nMIN_LIMIT = 0\nMAX_LIMIT = 200\n\
+    [AXIS_Z]\nMAX_VELOCITY = 10\nMAX_ACCELERATION = 50\nMIN_LIMIT = -50\nMAX_LIMIT = 0\n";
+
+/// What examples take for a person's own files, of a board with two pads and a trace.
+fn small_files(folder: &Path) {
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).expect("writable");
+    let copy = |from: &str, to: &str| {
+        fs::copy(root().join(from), folder.join(to)).unwrap_or_else(|error| panic!("{from}: {error}"));
+    };
+    let mask = COPPER.replace("C,2.0", "C,1.2");
+    let layers = [
+        ("board-F_Cu.gbr", COPPER),
+        ("board-B_Cu.gbr", COPPER),
+        ("board-F_Mask.gbr", &mask),
+        ("board-Edge_Cuts.gbr", OUTLINE),
+        ("board.drl", DRILL),
+    ];
+    fs::create_dir(folder.join("board")).expect("writable");
+    let mut archive = zip::ZipWriter::new(fs::File::create(folder.join("board.zip")).expect("writable"));
+    for (name, text) in layers {
+        write(name, text.as_bytes());
+        write(&format!("board/{name}"), text.as_bytes());
+        archive.start_file(name, zip::write::SimpleFileOptions::default()).expect("an entry");
+        std::io::Write::write_all(&mut archive, text.as_bytes()).expect("writable");
+    }
+    archive.finish().expect("an archive");
+    write("board-F_Silkscreen.gbr", COPPER.as_bytes());
+    copy("fixtures/kicad/shapes.kicad_pcb", "board.kicad_pcb");
+    copy("fixtures/level/board.hmap", "board.hmap");
+    for map in ["board.probe", "probe.txt", "board-front-probe.txt"] {
+        copy("fixtures/level/board.probe", map);
+    }
+    let touch = |(x, y): (i32, i32)| format!("[PRB:{}.000,{}.000,-31.200:1]\n", x - 120, y - 80);
+    let log: String = [(0, 0), (20, 0), (0, 10), (20, 10)].map(touch).concat();
+    write("grbl.log", log.as_bytes());
+    for font in ["DejaVuSans.ttf", "DejaVuSerif-Bold.ttf"] {
+        write(font, dejavu::sans::regular());
+    }
+    let plate = PLATE.replace("30mm", "10mm").replace("20mm", "8mm");
+    ["plate.svg", "sign.svg"].iter().for_each(|name| write(name, plate.as_bytes()));
+    write("logo.png", cross().as_bytes());
+    write("settings.txt", GRBL.as_bytes());
+    write("my-mill.ini", LINUXCNC.as_bytes());
+    write("millproject", PROJECT.replace("output-dir", "drill = board/board.drl\noutput-dir").as_bytes());
+    for line in
+        ["machine import settings.txt > mine.toml", "mill board/ -o out", "mask board/ -o scan.png --dpi 600"]
+    {
+        run(line, folder).unwrap_or_else(|error| panic!("{line}: {error}"));
+    }
+    for copies in ["old", "new", "out-main", "out-branch"] {
+        fs::create_dir(folder.join(copies)).expect("writable");
+        copied_file(folder, "out/board-front.ngc", &format!("{copies}/board-front.ngc"));
+    }
+    for name in ["front.ngc", "front.gcode", "flatcam.nc", "a.nc", "b.nc"] {
+        copied_file(folder, "out/board-front.ngc", name);
+    }
+    copied_file(folder, "out/board-back.ngc", "back.nc");
+    for line in [
+        "carve logo.png --picture-width 40mm -o logo.ngc --max-depth 2mm --depth-pass 0.5mm",
+        "pocket plate.svg -o plate.ngc --tool endmill:3mm --depth 4mm --depth-pass 1mm",
+    ] {
+        run(line, folder).unwrap_or_else(|error| panic!("{line}: {error}"));
+    }
+}
+
+fn copied_file(folder: &Path, from: &str, to: &str) {
+    fs::copy(folder.join(from), folder.join(to)).unwrap_or_else(|error| panic!("{from}: {error}"));
+}
+
+/// The commands of the examples in help texts, with where they stand: what follows two spaces is
+/// their description.
+fn examples() -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(root().join("src/cli")).expect("a folder") {
+        let path = entry.expect("an entry").path();
+        let code = fs::read_to_string(&path).expect("a source");
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        for (_, text) in literals(&code) {
+            let lines = text.lines().filter_map(|line| line.strip_prefix("  voromill "));
+            found
+                .extend(lines.map(|line| (name.clone(), line.split("  ").next().unwrap_or(line).to_owned())));
+        }
+    }
+    found
+}
+
+/// The commands in running text: code spans that begin with `voromill` and say more than a name.
+fn spans() -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    for page in pages() {
+        let text = fs::read_to_string(&page).expect("a page");
+        let place = page.strip_prefix(root()).expect("of ours").display().to_string();
+        let mut fenced = false;
+        let prose = |line: &&str| {
+            let fence = line.starts_with("```");
+            fenced ^= fence;
+            !fenced && !fence && !line.starts_with('#')
+        };
+        let prose = text.lines().filter(prose).collect::<Vec<_>>().join(" ");
+        let spans = prose.split('`').skip(1).step_by(2).filter_map(|span| span.strip_prefix("voromill "));
+        found.extend(spans.filter(|span| span.contains(' ')).map(|span| (place.clone(), own_words(span))));
+    }
+    found
+}
+
+/// A command with an example for what stands for any, and small files for large ones.
+fn own_words(span: &str) -> String {
+    let words = span.split_whitespace().map(|word| match word {
+        "CODE" => "gouge",
+        "COMMAND" => "mill",
+        "BOARD" | "FILE" => "board/",
+        "…" => "board/ -o out",
+        "fixtures/boards/regulator/regulator-F_Mask.gbr" => "board-F_Mask.gbr",
+        "fixtures/boards/regulator" => "board/",
+        "voromill" => "v",
+        _ => word,
+    });
+    let line = words.collect::<Vec<_>>().join(" ");
+    // Where a page speaks of an option it leaves out the board.
+    match line.as_str() {
+        "mill --millproject board/" => "mill --millproject millproject".to_owned(),
+        "draw --stage copper --dpi 500" => "draw board/ --stage copper --dpi 500 -o copper.png".to_owned(),
+        _ => line,
+    }
+}
+
+#[test]
+fn every_example_of_help_and_every_command_in_prose_runs() {
+    let own = TempDir::new().expect("a folder");
+    small_files(own.path());
+    let (examples, spans) = (examples(), spans());
+    assert!(examples.len() > 60 && spans.len() > 10, "they are found: {}, {}", examples.len(), spans.len());
+    let mut commands = [examples, spans].concat();
+    commands.sort_by(|a, b| a.1.cmp(&b.1));
+    commands.dedup_by(|a, b| a.1 == b.1);
+    let wrong: Vec<String> = commands
+        .par_iter()
+        .filter_map(|(place, line)| {
+            let folder = TempDir::new().expect("a folder");
+            copied(own.path(), folder.path());
+            run(line, folder.path()).err().map(|error| format!("{place}: {line}: {error}"))
+        })
+        .collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }

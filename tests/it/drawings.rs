@@ -193,9 +193,9 @@ fn a_drawing_mills_clean() {
 fn what_is_damaged_says_where() {
     let text = std::fs::read_to_string(fixture("layers.dxf")).expect("readable");
     for (damaged, expected) in [
-        (text.replace("43\n0.8", "43\n0,8"), "this is no number at `0,8`"),
-        (text.replace("0\nENDSEC\n0\nEOF\n", ""), "cut off"),
-        (text.replacen("8\nDrill", "eight\nDrill", 1), "a group code is no number at `eight`"),
+        (text.replace("43\n0.8", "43\n0,8"), "this is not a number at `0,8`"),
+        (text.replace("0\nENDSEC\n0\nEOF\n", ""), "truncated"),
+        (text.replacen("8\nDrill", "eight\nDrill", 1), "a group code is not a number at `eight`"),
     ] {
         let error = drawing::read("x.dxf", damaged.as_bytes(), &Options::default()).expect_err(expected);
         assert!(error.to_string().contains(expected), "{error}");
@@ -214,7 +214,7 @@ fn a_block_in_itself_is_drawn_once() {
     let drawing = read(&fixture("block_in_itself.dxf"), &Options::default()).expect("read");
     assert_eq!(drawing.source.counts["figures"], 1, "the pad of the one insert in the model");
     let told = format!("{:?}", drawing.warnings);
-    assert!(told.contains("2 inserts in a block that is in itself"), "{told}");
+    assert!(told.contains("2 inserts of a block into itself"), "{told}");
     // Each block inserts the one before twice: a million pads, each as wide as it is long.
     let text = std::fs::read_to_string(fixture("block_in_itself.dxf")).expect("readable");
     let insert = |name: &str| format!("0\nINSERT\n8\nF.Cu\n2\n{name}\n10\n1\n20\n1\n");

@@ -171,16 +171,16 @@ fn what_cannot_be_drilled_for_certain_is_an_error_with_its_place() {
             "M48\nMETRIC\nT1C0.8\n%\nT1\nG99X1.0Y1.0\nM30\n",
             "f.drl:6:1: a drill command that is not supported",
         ),
-        ("M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0X2.0\nM30\n", "f.drl:6:9: a second place in one line"),
+        ("M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0X2.0\nM30\n", "f.drl:6:9: a second position in one line"),
         ("M48\nMETRIC\nT1C0.8\n%\nT1\nG82\nX0Y0\nX5.0Y5.0\nM30\n", "f.drl:8:1: the corners of this package"),
         ("M48\nINCH\nT1C0.03\n%\nT1\nG82\nX0Y0\nX0.3Y0.3\nM30\n", "f.drl:8:1: a square package"),
         (
             "M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0G84X1000\nM30\n",
-            "f.drl:6:12: a circle too narrow for the drill",
+            "f.drl:6:12: a circle too small for its drill",
         ),
         (
             "M48\nMETRIC\nT1C0.8\n%\nT1\nG32X1.0Y1.0A0.4\nM30\n",
-            "f.drl:6:1: a circle too narrow for the router",
+            "f.drl:6:1: a circle too small for the router",
         ),
         ("M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0\nP3X1.0\nM30\n", "f.drl:7:1: P repeats a package"),
         (
@@ -257,7 +257,7 @@ fn broken_drill_files_end_in_words() {
     let cases = [
         ("drill_empty.drl", Err("the drill file is empty")),
         ("drill_no_holes.drl", Ok("drill-without-holes")),
-        ("drill_undefined_tool.drl", Err("its diameter is given nowhere")),
+        ("drill_undefined_tool.drl", Err("its diameter is not defined")),
         ("drill_truncated.drl", Ok("truncated-file")),
         ("drill_gerbv_bad_tool.exc", Ok("drill-without-holes")),
         ("drill_negative_diameter.drl", Err("a drill cannot have this diameter")),

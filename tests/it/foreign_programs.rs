@@ -89,16 +89,16 @@ fn a_place_of_the_machine_is_a_retract_where_it_can_only_be_one() {
     let known = [[1.0, 2.0, 3.0], [1.0, 2.0, NOWHERE], [5.0, 2.0, NOWHERE], [5.0, 2.0, 1.0]];
     let home = [[5.0, 2.0, NOWHERE], [NOWHERE, NOWHERE, NOWHERE], [0.0, 0.0, NOWHERE]];
     let listing = assert_ends(text, &[known.as_slice(), &home].concat());
-    assert_notes(&listing, &[(false, "above all work")]);
+    assert_notes(&listing, &[(false, "assumed to be above all work")]);
     let low = read("G21 G90 G0 X1 Y2 Z3\nG53 G0 Z-50\n").expect("followed");
-    assert_notes(&low, &[(true, "how high above the board")]);
+    assert_notes(&low, &[(true, "its height above the board")]);
 }
 
 #[test]
 fn a_cut_to_where_nobody_can_know_is_refused() {
     let cases = [
-        ("G21 G54 G0 X0 Y0 Z1\nG1 Z-.1 F9\nG55 G1 X5\n", "nobody can know"),
-        ("G21 G0 X0 Y0 Z-1\nG53 G1 X-50\n", "a cut to a place of the machine"),
+        ("G21 G54 G0 X0 Y0 Z1\nG1 Z-.1 F9\nG55 G1 X5\n", "an unknown position"),
+        ("G21 G0 X0 Y0 Z-1\nG53 G1 X-50\n", "a cut to a machine position"),
         ("G21 G0 X0 Y0 Z1\nG28\nG91 G1 X1 F9\n", "does not give"),
         ("G21 G41 D1\nG1 X1 F9\n", "cutter compensation since line 1"),
         ("G21 G0 X[#5221]\n", "only the controller knows"),
@@ -220,11 +220,11 @@ fn what_does_not_move_anything_is_noted_and_followed() {
     );
     let notes = [
         (true, "neither G20 nor G21"),
-        (true, "A is passed over"),
-        (true, "a checksum does not fit"),
+        (true, "A is ignored"),
+        (true, "the checksum of a line is wrong"),
         (false, "a command or a setting"),
-        (false, "behind `/`"),
-        (true, "M123 is not known"),
+        (false, "after `/`"),
+        (true, "M123 is unknown"),
         (true, "a comment does not end"),
     ];
     assert_notes(&listing, &notes);
@@ -236,7 +236,7 @@ fn a_probe_finds_the_surface_and_the_zero_it_sets() {
     let text = "G21 G90 G38.2 Z-10 F50\nG92 Z1.5\nG0 Z5\nX1 Y1\nG1 Z-0.1 F50\n";
     let expected = [[NOWHERE, NOWHERE, 0.0], [NOWHERE, NOWHERE, 5.0], [1.0, 1.0, 5.0], [1.0, 1.0, -0.1]];
     let listing = assert_ends(text, &expected);
-    assert_notes(&listing, &[(false, "taken to touch")]);
+    assert_notes(&listing, &[(false, "assumed to touch")]);
     let heights = "G20 G90 G0 X0 Y0 Z.1\nG38.2 Z-.1 F2\n#500 = #5063\nG0 Z.1\nG1 Z[#500 - 0.01]\n";
     assert_ends(heights, &[[0.0, 0.0, 2.54], [0.0, 0.0, 0.0], [0.0, 0.0, 2.54], [0.0, 0.0, -0.254]]);
 }
@@ -270,7 +270,7 @@ fn gathered() -> Vec<PathBuf> {
 }
 
 /// Why a program cannot be followed: the motion depends on what only the machine knows.
-const REASONS: [&str; 2] = ["cutter compensation", "nobody can know"];
+const REASONS: [&str; 4] = ["cutter compensation", "unknown position", "unknown depth", "unknown centre"];
 
 #[test]
 fn gathered_programs_are_read_or_say_what_only_the_machine_knows() {

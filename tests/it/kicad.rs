@@ -333,8 +333,8 @@ fn what_is_not_read_is_said() {
     let said: Vec<_> =
         loaded.warnings.iter().map(|warning| (warning.code(), warning.message.as_str())).collect();
     let expected = [
-        ("kicad-text", "the text `REV 1` on the front copper at (5.000, 3.000) is left out"),
-        ("kicad-not-read", "dimensions (dimension) on copper or the edge are not read"),
+        ("kicad-text", "the text `REV 1` on F.Cu at (5.000, 3.000) is not read"),
+        ("kicad-not-read", "dimensions (dimension) on copper or Edge.Cuts are not read"),
         (
             "kicad-blind-via",
             "a via that ends on an inner layer gets no hole, since inner layers are not milled",
@@ -348,7 +348,7 @@ fn what_is_not_read_is_said() {
 fn zones_that_are_not_filled_are_an_error_that_says_how_to_fill_them() {
     let board = fixture("boards/regulator/regulator.kicad_pcb");
     let error = import::load(&[board], &Selection::default()).expect_err("not filled").render();
-    assert!(error.contains("the zone of net GND on the front is not filled, and 1 more"), "{error}");
+    assert!(error.contains("the zone of net GND on F.Cu is not filled, and 1 more"), "{error}");
     assert!(error.contains("press B") && error.contains("regulator.kicad_pcb:539:3"), "{error}");
 }
 
@@ -499,8 +499,8 @@ fn what_is_wrong_is_shown_with_its_line() {
             "(kicad_pcb (footprint x (at 0 0) (pad 1 smd star (at 0 0) (size 1 1) (layers F.Cu))))",
             "unknown shape",
         ),
-        ("(kicad_pcb (general", "never ends"),
-        ("(kicad_sch)", "no KiCad board"),
+        ("(kicad_pcb (general", "has no end"),
+        ("(kicad_sch)", "not a KiCad board"),
     ];
     for (text, words) in cases {
         let error = import::kicad::read("x.kicad_pcb", text.as_bytes()).expect_err(text).render();
@@ -531,5 +531,5 @@ fn a_board_is_milled_and_verified_by_itself_with_its_thickness() {
     let told = voromill(&["mill", board, "-o", out, "--no-html", "--no-verify", "--thickness", "1mm"]);
     assert!(told.status.success(), "{}", String::from_utf8_lossy(&told.stderr));
     let program = std::fs::read_to_string(Path::new(out).join("shapes-front.ngc")).expect("a program");
-    assert!(program.contains("(thickness 1mm)") || program.contains("(thickness 1.0mm)"), "as told");
+    assert!(program.contains("(thickness 1mm)") || program.contains("(thickness 1.0mm)"), "as given");
 }

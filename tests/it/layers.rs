@@ -30,7 +30,7 @@ fn json(path: &Path) -> Value {
 /// it.
 fn board(path: &Path) -> Loaded {
     let loaded = load(&[path.to_owned()], &Selection::default()).or_else(|error| {
-        if !error.to_string().contains("which side") {
+        if !error.to_string().contains("the side of this copper layer is unknown") {
             return Err(error);
         }
         let front = json(&path.join("meta.json"))["layers"]["front"].as_str().map(|name| path.join(name));
@@ -233,9 +233,8 @@ fn a_function_that_contradicts_a_name_of_any_layer_is_said() {
     assert_eq!(
         disputed(&loaded),
         [
-            "amp-F_Cu.gbr is named like the front copper, but its .FileFunction calls it solder mask, so it is not milled",
-            "amp-F_Mask.gbr is named like solder mask, but its .FileFunction calls it the front copper, so it is taken for \
-             that",
+            "amp-F_Cu.gbr is named like the front copper, but its .FileFunction declares solder mask, so it is not milled",
+            "amp-F_Mask.gbr is named like solder mask, but its .FileFunction declares the front copper, so it is read as that",
         ],
         "both"
     );
@@ -337,7 +336,10 @@ fn a_single_file_is_the_side_that_it_or_a_person_says() {
         let path = folder.path(name);
         let error =
             load(std::slice::from_ref(&path), &Selection::default()).expect_err("a guess").to_string();
-        assert!(error.contains("which side") && error.contains("--back"), "{name}: {error}");
+        assert!(
+            error.contains("the side of this copper layer is unknown") && error.contains("--back"),
+            "{name}: {error}"
+        );
         let looked_at =
             survey(std::slice::from_ref(&path), &Selection::default()).expect("it may be looked at");
         assert_eq!(files_of(&looked_at, "front-copper"), [name], "as the front");
@@ -353,7 +355,7 @@ fn a_name_for_one_side_and_a_function_for_the_other_are_an_error() {
     let front = function("Copper,L1,Top");
     let folder = Folder::with(&[("amp-B_Cu.gbr", &front), ("amp-Edge_Cuts.gbr", SQUARE)]);
     let error = folder.load(&Selection::default()).expect_err("a contradiction");
-    assert!(error.contains("amp-B_Cu.gbr") && error.contains("calls it the front"), "{error}");
+    assert!(error.contains("amp-B_Cu.gbr") && error.contains("declares the front"), "{error}");
     let said = Selection { front: Some(folder.path("amp-B_Cu.gbr")), ..Selection::default() };
     assert_eq!(
         files_of(&folder.load(&said).expect("said"), "front-copper"),
@@ -394,7 +396,7 @@ fn an_outline_that_does_not_close_is_named_where_there_is_nothing_else() {
     assert_ne!(open, SQUARE, "one side is gone");
     let folder = Folder::with(&[("amp-Edge_Cuts.gbr", &open)]);
     let error = folder.load(&Selection::default()).expect_err("nothing to mill");
-    assert!(error.contains("amp-Edge_Cuts.gbr") && error.contains("does not close"), "{error}");
+    assert!(error.contains("amp-Edge_Cuts.gbr") && error.contains("is not closed"), "{error}");
 }
 
 #[test]

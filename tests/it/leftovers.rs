@@ -61,7 +61,7 @@ fn what_a_run_does_not_write_again_goes_unless_somebody_changed_it() {
     for name in ["blinker-back.svg", "old-front.ngc", "notes.txt"] {
         assert!(left.contains(&name.to_owned()), "{name} stays: {left:?}");
     }
-    assert!(said.contains("removed from out, of an earlier run: blinker-cutout.ngc"), "{said}");
+    assert!(said.contains("removed from out, written by an earlier run: blinker-cutout.ngc"), "{said}");
     assert!(said.contains("blinker-back.svg") && said.contains("changed since"), "{said}");
     assert!(said.contains("did not write: old-front.ngc") && !said.contains("notes.txt"), "{said}");
     let denied = voromill(

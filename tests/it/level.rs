@@ -250,10 +250,10 @@ fn every_format_gives_the_same_map() {
 #[test]
 fn maps_that_are_none_say_why() {
     let cases = [
-        ("G0 X1\n", "no height map"),
-        ("", "no height map"),
+        ("G0 X1\n", "not a height map"),
+        ("", "not a height map"),
         ("0 0 0\n1 0 0\n0 1 zero\n", "line 3"),
-        ("0 10 2\n0 10 2\n-1 1 50\n0 0 0\n10 0 0\n", "says 4 points, and has 2"),
+        ("0 10 2\n0 10 2\n-1 1 50\n0 0 0\n10 0 0\n", "declares 4 points, but has 2"),
         ("[PRB:1.000,2.000,3.000:1]\n", "zero"),
         // A probe that touched nothing is no touch.
         ("WCO:0,0,0\n[PRB:1.000,2.000,3.000:0]\n", "0 columns and 0 rows"),
@@ -277,7 +277,7 @@ fn maps_that_are_none_say_why() {
         ("0,5,1,25,0,03\n", "line 1: `0,5,1,25,0,03`: expected x, y and z, or the nine columns"),
         ("0 10 2\n0 10 2\n-1 1 50\n0 0 0 0\n", "line 4: `0 0 0 0`: expected x, y and z"),
         ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;0\n0;0;0\n", "line 5: `0;0;0`: expected as many heights as columns"),
-        ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;0\n", "says 4 points, and has 2"),
+        ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;0\n", "declares 4 points, but has 2"),
         ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;nan\n0;0\n", "line 4: `0;nan`"),
         (
             "0 0 0\n1 0 0\n0 1 0\n1 1 0\n1 0 0.2\n",
@@ -286,7 +286,7 @@ fn maps_that_are_none_say_why() {
         ("<heightmap MinX=\"0\">", "never closed"),
         (
             "<heightmap MinX=\"0\" MinY=\"0\" MaxX=\"1\" MaxY=\"1\" SizeX=\"2\" SizeY=\"2\"><point X=\"0\" Y=\"0\">0</point></heightmap>",
-            "says 4 points, and has 1",
+            "declares 4 points, but has 1",
         ),
         ("<heightmap MinX=\"0\" MinY=\"0\" MaxX=\"1\" MaxY=\"1\" SizeX=\"2\"></heightmap>", "SizeY"),
         ("0 0 0\n1 0 9\n0 1 0\n1 1 0\n", "rises by 9.000 mm"),

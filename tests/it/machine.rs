@@ -82,7 +82,7 @@ fn several_tools_in_one_file_are_refused_with_what_helps() {
     for (dialect, option) in [
         ("grbl", "--tool-change pause waits at M0"),
         ("linuxcnc", "--tool-change m6"),
-        ("tinyg", "say one --tool"),
+        ("tinyg", "use one --tool"),
     ] {
         let arguments = ["isolate", &board, "--side", "back", "-o", "x.ngc", "--dialect", dialect];
         let tools = ["--tool", "endmill:0.8mm", "--tool", "endmill:0.2mm", "--tool-change", "files"];
@@ -176,7 +176,7 @@ fn what_a_controller_says_becomes_a_machine_to_mill_with() {
     let done = voromill(folder.path(), &["machine", "import", "dump.txt"]);
     let error = stderr(&done);
     assert_eq!(done.status.code(), Some(2), "{error}");
-    assert!(error.contains("dump.txt: line 8: `-3` is no value for $121"), "{error}");
+    assert!(error.contains("dump.txt: line 8: `-3` is not a value for $121"), "{error}");
 }
 
 #[test]

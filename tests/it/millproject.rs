@@ -39,7 +39,7 @@ fn every_option_with_a_counterpart_is_taken_over() {
     assert!(left[0].starts_with("`drills-available`: a drill without tolerances"), "{left:?}");
     assert_eq!(
         &left[1..],
-        ["`nog91-1` is not taken over: the dialect says whether programs have G91.1"],
+        ["`nog91-1` is not taken over: the dialect sets whether programs have G91.1"],
         "one has no counterpart"
     );
     let place = project.left[1].source.as_ref().map(|source| (source.file.as_str(), source.line));
@@ -164,7 +164,7 @@ fn corners_names_and_tool_changes_are_as_the_project_says() {
         left,
         [
             "`drill-output` is not taken over: all files lie in output-dir",
-            "`milldrill-output` is not taken over: what is bored is in the program of the drills",
+            "`milldrill-output` is not taken over: bored holes are in the drill program",
             "`nog81` is not taken over: holes are drilled with G0 and G1",
         ],
         "what has no counterpart"
@@ -195,7 +195,7 @@ fn what_is_no_project_says_which_line() {
         ("zwork = 0.1", "a z below zero"),
         ("mill-feed = fast", "a speed"),
         ("metric = maybe", "true or false"),
-        ("mill-diameters = 0.1;0.2", "lengths between commas"),
+        ("mill-diameters = 0.1;0.2", "lengths, separated by commas"),
         ("tile-x = two", "a whole number"),
         ("drill-side = left", "front, back or auto"),
         ("milling-overlap = 120%", "less than 100%"),
@@ -292,7 +292,7 @@ fn holes_are_milled_from_the_diameter_that_the_project_says() {
     let all = settings(project("metric=1\nmilldrill=1\nmilldrill-diameter=0.7\nzmilldrill=-2"));
     assert_eq!((all.drill_bore_from, all.drilling.cut), (Some(um(700)), um(2000)), "all that it fits");
     let any = construct("any-drill").expect("a project");
-    assert!(told(&any).contains("takes any hole that it is nearest to"), "{}", told(&any));
+    assert!(told(&any).contains("is used for every hole nearest to it"), "{}", told(&any));
     assert_eq!(settings(any).drill_tolerance, Nm::from_mm(100), "any hole");
 }
 
@@ -467,7 +467,9 @@ fn fate(path: &Path) -> Fate {
     }
     let loaded = match import::load(&paths, &selection) {
         Ok(loaded) => loaded,
-        Err(error) if error.to_string().contains("the outline is not known") => return Fate::Refused,
+        Err(error) if error.to_string().contains("the outline of the board is not closed") => {
+            return Fate::Refused;
+        }
         Err(error) => panic!("{path:?}: {error}"),
     };
     let fate = if loaded.board.front.is_none() && loaded.board.back.is_none() {

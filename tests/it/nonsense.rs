@@ -27,11 +27,11 @@ fn what_is_no_board_is_told_what_it_is() {
     let cases: [(&str, &[u8], &str); 8] = [
         ("board.zip", b"<html><body>404 not found</body></html>", "a web page"),
         ("board.gbr", b"<!DOCTYPE html>\n<html>", "a web page"),
-        ("notes.txt", b"Dear manufacturer,\n", "a text of another kind"),
-        ("noise.gbr", b"\x01\x02\xfe\x03\x00\x7f\x80", "a file of another kind"),
-        ("board.kicad_sch", b"(kicad_sch (version 20221018))", "a KiCad schematic and not its board"),
+        ("notes.txt", b"Dear manufacturer,\n", "a text file of unknown type"),
+        ("noise.gbr", b"\x01\x02\xfe\x03\x00\x7f\x80", "a file of unknown type"),
+        ("board.kicad_sch", b"(kicad_sch (version 20221018))", "a KiCad schematic, not its board"),
         ("front.nc", b"G21\nG90\nG0 Z5\n", "a G-code program"),
-        ("cut.zip", b"PK\x03\x04\x14\x00\x00\x00\x08\x00", "damaged or was cut off"),
+        ("cut.zip", b"PK\x03\x04\x14\x00\x00\x00\x08\x00", "damaged or truncated"),
         ("empty.gbr", b"", "an empty file"),
     ];
     for (name, bytes, words) in cases {

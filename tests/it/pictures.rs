@@ -168,7 +168,7 @@ fn a_picture_is_as_large_as_it_is_told_or_says() {
     let doubled = right(&Options { dpi_unless_said: None, width: Some(width), ..OPTIONS });
     assert!((doubled / 2.0 - at_600).abs() < 1e-5, "by its width: {doubled}");
     let open = read("board", &bytes, &Options { dpi_unless_said: None, ..OPTIONS }).expect_err("no DPI");
-    for word in ["how large a pixel is", "--dpi 600", "--picture-width"] {
+    for word in ["has no resolution (DPI)", "--dpi 600", "--picture-width"] {
         assert!(open.to_string().contains(word), "{open}");
     }
 }
@@ -217,7 +217,7 @@ fn what_is_no_artwork_is_refused_with_its_reason() {
     let sum = crc(&huge[12..29]);
     huge[29..33].copy_from_slice(&sum.to_be_bytes());
     for (bytes, word) in [
-        (encoded(&photo.into(), ImageFormat::Png), "no two clear colours"),
+        (encoded(&photo.into(), ImageFormat::Png), "does not have two clear colours"),
         (encoded(&blank.into(), ImageFormat::Png), "one colour"),
         (whole[..whole.len() / 2].to_vec(), "cannot be read"),
         (huge, "60000 × 60000 pixels are too many"),
@@ -268,7 +268,7 @@ fn a_picture_is_a_board_of_its_own() {
     assert!(names.contains(&"scan-front.ngc".to_owned()), "{names:?}");
     assert!(names.iter().any(|name| name.starts_with("scan-drill-0.8mm")), "dots are drilled: {names:?}");
     let with_drill = run(&["inspect", "scan.png", "--drill", "scan.drl", "--picture-dpi", "600"]);
-    assert_eq!(with_drill.status.code(), Some(2), "nothing tells how they lie on each other");
+    assert_eq!(with_drill.status.code(), Some(2), "their alignment is unknown");
 }
 
 /// A pad with its dot.

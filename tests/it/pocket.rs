@@ -368,10 +368,10 @@ fn what_makes_no_sense_is_refused() {
     is_refused(
         "pocket",
         &[
-            (&["--tool", "vbit:0.1mm:30deg"], "is no end mill"),
-            (&["--tool", "endmill:1mm", "--stepover", "60%"], "half the tool's diameter"),
-            (&["--tool", "endmill:1mm", "--stepover", "0mm"], "half the tool's diameter"),
-            (&["--tool", "endmill:1mm", "--stock", "0.6mm"], "half the tool's diameter"),
+            (&["--tool", "vbit:0.1mm:30deg"], "is not an end mill"),
+            (&["--tool", "endmill:1mm", "--stepover", "60%"], "half the tool diameter"),
+            (&["--tool", "endmill:1mm", "--stepover", "0mm"], "half the tool diameter"),
+            (&["--tool", "endmill:1mm", "--stock", "0.6mm"], "half the tool diameter"),
             (&["--tool", "endmill:1mm", "--ramp", "0deg"], "above 0deg"),
             (&["--tool", "endmill:1mm", "--depth-pass", "0mm"], "above zero"),
             (&["--tool", "endmill:9.8mm"], "narrower than"),

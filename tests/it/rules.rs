@@ -343,7 +343,7 @@ fn millionths(text: &str) -> i64 {
     let negative = whole.starts_with('-');
     let digits: String = whole.trim_start_matches(['-', '+']).chars().chain(part.chars()).collect();
     let scale = 10_i64.pow(6 - u32::try_from(part.len()).expect("a few digits"));
-    let value = digits.parse::<i64>().unwrap_or_else(|_| panic!("`{text}` is no number")) * scale;
+    let value = digits.parse::<i64>().unwrap_or_else(|_| panic!("`{text}` is not a number")) * scale;
     if negative { -value } else { value }
 }
 
@@ -944,7 +944,7 @@ fn each_tool_touches_a_plate_before_it_turns_where_a_program_can_say_how_high_it
         let Some(touched) = rules.touched else {
             let options = Options::from_toml("f", &format!("dialect = \"{}\"\n{PLATE}", rules.name));
             let refused = Settings::resolve(options.expect("settings")).expect_err(rules.name).to_string();
-            assert!(refused.contains("cannot touch a tool off within a program: "), "{refused}");
+            assert!(refused.contains("cannot touch off a tool within a program: "), "{refused}");
             continue;
         };
         let (job, settings) = mill(&fixture("blinker"), rules.name, PLATE);
@@ -985,7 +985,7 @@ fn each_tool_touches_a_plate_before_it_turns_where_a_program_can_say_how_high_it
 #[test]
 fn a_plate_lies_below_the_way() {
     for (place, reason) in
-        [("0mm,0mm,-1mm", "makes no sense"), ("0mm,0mm,2mm", "--safe-z"), ("0mm,0mm", "three lengths")]
+        [("0mm,0mm,-1mm", "is invalid"), ("0mm,0mm,2mm", "--safe-z"), ("0mm,0mm", "three lengths")]
     {
         let options = Options::from_toml("f", &format!("tool-probe = \"{place}\""));
         let error = match options.map(Settings::resolve) {

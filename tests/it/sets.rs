@@ -7,7 +7,7 @@ use std::path::Path;
 use voromill::board::diagnostic::planning;
 use voromill::gcode::dialect;
 use voromill::gcode::level::FORMATS as MAPS;
-use voromill::import::{self, drawing, flaw};
+use voromill::import::{self, diagnostic, drawing};
 use voromill::verify::check;
 
 use super::layering::{code, src};
@@ -99,7 +99,7 @@ fn every_strategy_is_a_file_that_is_offered() {
 fn kinds_of_planning_are_in_the_order_of_their_codes() {
     let codes: Vec<&str> = planning::ALL.iter().map(|kind| kind.code).collect();
     assert!(codes.is_sorted_by(|a, b| a < b), "each once: {codes:?}");
-    let mut files: Vec<&str> = flaw::ALL.iter().map(|kind| kind.code).collect();
+    let mut files: Vec<&str> = diagnostic::ALL.iter().map(|kind| kind.code).collect();
     files.sort_unstable();
     let twice: Vec<_> = files.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
     assert_eq!(twice, ["missing-end-of-file"], "one code for layers and drill files alone");

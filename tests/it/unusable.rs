@@ -48,15 +48,15 @@ fn a_layer_that_cannot_be_read_is_an_error_that_says_how_to_leave_it_aside() {
         (b"", "an empty file"),
         (&[0; 400], "an empty file"),
         (b"<!DOCTYPE html>\n<html><body>404</body></html>\n", "a web page"),
-        (b"Dear manufacturer, see the other file.\n", "a text of another kind"),
-        (b"G04 #@! TF.FileFunction,Copper,L2,Bot*\nG04 made by hand*\n", "its content was cut off"),
+        (b"Dear manufacturer, see the other file.\n", "a text file of unknown type"),
+        (b"G04 #@! TF.FileFunction,Copper,L2,Bot*\nG04 made by hand*\n", "it is truncated"),
     ];
     for (bytes, what) in cases {
         let error = refused("amp-B_Cu.gbr", bytes);
         assert!(error.contains(what), "says what it is, {what}: {error}");
     }
     let error = refused("amp-B_Cu.gbr", b"");
-    assert!(error.contains("its name says that it is the copper of the back"), "{error}");
+    assert!(error.contains("by its name it should be the copper of the back"), "{error}");
     assert!(refused("amp-Edge_Cuts.gbr", b"").contains("the outline"), "so with an outline");
     assert!(refused("amp-new.gbr", b"").contains("a layer"), "and with an extension alone");
 }
@@ -76,7 +76,7 @@ fn a_damaged_drill_file_is_an_error() {
 fn what_a_job_file_or_an_attribute_calls_a_layer_must_be_readable() {
     let job = r#"{"FilesAttributes": [{"Path": "amp.dat", "FileFunction": "Copper,L2,Bot"}]}"#;
     let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp.gbrjob", job), ("amp.dat", "oops")]);
-    assert!(is_refused(&folder, "amp.dat").contains("the job file says"), "by the job file");
+    assert!(is_refused(&folder, "amp.dat").contains("by the job file"), "by the job file");
     let text = "; #@! TF.FileFunction,Plated,1,2,PTH\n; made by hand\n";
     assert!(refused("holes.dat", text.as_bytes()).contains("its file function"), "by its attribute");
 }
@@ -87,7 +87,7 @@ fn folders_links_to_nothing_and_pipes_named_like_layers_are_errors() {
     let folder = board();
     fs::remove_file(folder.path("amp-B_Cu.gbr")).expect("removed");
     std::os::unix::fs::symlink("elsewhere.gbr", folder.path("amp-B_Cu.gbr")).expect("linked");
-    assert!(is_refused(&folder, "amp-B_Cu.gbr").contains("a link to nothing"), "a dangling link");
+    assert!(is_refused(&folder, "amp-B_Cu.gbr").contains("a broken link"), "a dangling link");
     fs::remove_file(folder.path("amp-B_Cu.gbr")).expect("removed");
     fs::create_dir(folder.path("amp-B_Cu.gbr")).expect("made");
     assert!(is_refused(&folder, "amp-B_Cu.gbr").contains("a folder"), "a folder");

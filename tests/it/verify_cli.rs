@@ -161,7 +161,7 @@ fn mill_judges_what_it_writes() {
 fn where_a_program_lies_is_found_and_said() {
     let found = verify("pcb2gcode.nc", &["--register"]);
     assert_eq!(found.status.code(), Some(0), "{}{}", stdout(&found), stderr(&found));
-    assert!(stderr(&found).contains("lies as with --offset "), "{}", stderr(&found));
+    assert!(stderr(&found).contains("placed as with --offset "), "{}", stderr(&found));
     let lost = verify("pcb2gcode.nc", &[]);
     assert_eq!(lost.status.code(), Some(1), "as it is, it lies beside the board: {}", stdout(&lost));
 }

@@ -109,7 +109,7 @@ fn files(roots: &[&str]) -> Vec<PathBuf> {
 }
 
 /// The string literals of Rust code that have words in them, each with its line.
-fn literals(code: &str) -> Vec<(usize, String)> {
+pub(crate) fn literals(code: &str) -> Vec<(usize, String)> {
     let mut found = Vec::new();
     let (mut rest, mut line) = (code, 1);
     while let Some(first) = rest.chars().next() {

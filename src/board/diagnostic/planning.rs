@@ -12,7 +12,7 @@ diagnostics! {
     AXIS_INCOMPLETE: Warning =
         "axis-incomplete",
         "the medial axis of a carved shape may lack a branch",
-        "a corner may stay uncut: this is a fault of voromill",
+        "a corner may stay uncut: this is a bug in voromill",
         "look at the place, and report it with the file";
 
     BEYOND_THE_MACHINE: Warning =
@@ -23,62 +23,62 @@ diagnostics! {
 
     BEYOND_THE_MACHINE_SPEED: Warning =
         "beyond-the-machine-speed",
-        "a speed is asked for that the machine does not reach",
+        "a requested speed is outside the range of the machine",
         "the job takes longer, and the chip load is smaller than planned",
-        "choose a speed that the machine reaches ({feed}, {plunge}, {spindle}), or correct its profile ({machine})";
+        "choose a speed within that range ({feed}, {plunge}, {spindle}), or correct the profile ({machine})";
 
     BLEND_UNKNOWN: Warning =
         "blend-unknown",
-        "the dialect has no command for rounding corners off",
+        "the dialect has no path blending (G64 P)",
         "{blend} has no effect",
-        "leave {blend} out, or set the machine to round corners off";
+        "leave {blend} out, or set path blending on the machine";
 
     BOUNDARY_TORN: Warning =
         "boundary-torn",
-        "a boundary ends where nothing else begins",
-        "two nets may stay joined there: this is a fault of voromill",
+        "a boundary between nets has a dangling end",
+        "two nets may stay joined there: this is a bug in voromill",
         "report it with the board";
 
     CARVED_OUTSIDE: Error =
         "carved-outside",
-        "a program mills beside the shapes to be carved",
-        "the picture is spoilt there",
+        "a program mills outside the shapes to be carved",
+        "material that should stay is removed there",
         "check offset, scale and tool of the program";
 
     CARVED_TOO_DEEP: Error =
         "carved-too-deep",
-        "a program mills deeper than the shapes are wide",
+        "a program mills deeper than the width of the shapes allows",
         "edges of the shapes are cut away",
         "check the tool: its angle and its tip";
 
     CARVED_TOO_SHALLOW: Error =
         "carved-too-shallow",
-        "a program leaves what its tool could carve",
-        "lines come out thinner than they are",
+        "a program leaves material that its tool could carve",
+        "lines become thinner than drawn",
         "check the tool, and where Z is zero";
 
     COPPER_OUTSIDE_BOARD: Warning =
         "copper-outside-board",
         "copper lies outside the outline",
         "it is not milled: it is not on the board",
-        "nothing for drawing frames and text; where it belongs to the board, correct the outline ({outline})";
+        "nothing for drawing frames and text; if it belongs to the board, correct the outline ({outline})";
 
     CUT_OUT_NARROWER_THAN_TOOL: Warning =
         "cut-out-narrower-than-tool",
         "the cutter does not fit into a contour of the outline",
-        "the cut-out is not made",
+        "that contour is not cut",
         "use a thinner cutter ({cutout-tool})";
 
     FLAT_FITS_NOWHERE: Warning =
         "flat-fits-nowhere",
-        "the end mill of {flat} is wider than every floor",
+        "the end mill of {flat} fits nowhere",
         "the V-bit clears the floor alone, which takes longer",
         "use a thinner end mill ({flat})";
 
     FRAME_NOT_CUT: Warning =
         "frame-not-cut",
-        "without an outline, nothing is cut round the copper",
-        "copper at the edge stays joined to the clad around it",
+        "there is neither an outline nor a frame cut round the copper",
+        "nets at the edge stay joined through the copper around them",
         "give an outline ({outline}), or leave {no-frame} out";
 
     GAP_NARROWER_THAN_TOOL: Warning =
@@ -89,15 +89,15 @@ diagnostics! {
 
     LOOPS_BY_OFFSETS: Warning =
         "loops-by-offsets",
-        "the Voronoi diagram of a pocket has a flaw",
-        "its loops are offset polygons instead, which mill the same: this is a fault of voromill",
+        "the Voronoi diagram of a pocket is faulty",
+        "its loops are offset polygons instead, which mill the same: this is a bug in voromill",
         "report it with the file";
 
     MASK_FROM_PADS: Warning =
         "mask-from-pads",
-        "openings of a solder mask were made from the pads of the copper",
+        "solder-mask openings were made from the copper pads",
         "they may differ from those of the design",
-        "nothing, where that is what is wanted";
+        "nothing, if this is intended";
 
     MASK_GAP_TAKES_COPPER: Warning =
         "mask-gap-takes-copper",
@@ -114,14 +114,14 @@ diagnostics! {
     MASK_REGIONS_JOINED: Warning =
         "mask-regions-joined",
         "regions of nets meet",
-        "etching does not part these nets",
+        "etching does not separate these nets",
         "choose a larger {gap}";
 
     MILLPROJECT_OPTION: Warning =
         "millproject-option",
-        "an option of pcb2gcode has no effect here, or another one",
-        "programs differ from those of pcb2gcode in that",
-        "see docs/millproject.md for what to say instead";
+        "a pcb2gcode option has no effect here, or a different one",
+        "programs differ from those of pcb2gcode",
+        "see docs/millproject.md for what to use instead";
 
     NARROWER_THAN_TIP: Warning =
         "narrower-than-tip",
@@ -143,9 +143,9 @@ diagnostics! {
 
     NETS_IGNORED: Warning =
         "nets-ignored",
-        "nets are not isolated, as asked by {ignore}",
+        "nets are not isolated, as requested with {ignore}",
         "their copper is cut where a boundary of other nets runs",
-        "nothing, where that is what is wanted";
+        "nothing, if this is intended";
 
     NETS_JOINED: Warning =
         "nets-joined",
@@ -155,57 +155,57 @@ diagnostics! {
 
     NO_DRILL_FOR_HOLE: Warning =
         "no-drill-for-hole",
-        "no drill at hand has the diameter of a hole",
+        "no available drill fits the diameter of a hole",
         "the hole is not drilled",
         "add the drill ({drills}), allow more ({drill-tolerance}), or bore it ({drill-bore})";
 
     NO_PLACE_FOR_TABS: Warning =
         "no-place-for-tabs",
-        "fewer tabs than asked for find a place on a contour",
+        "a contour has no room for all tabs",
         "the board is held by fewer tabs",
-        "make tabs narrower ({tab-width}), or say where they go ({tab-at})";
+        "make tabs narrower ({tab-width}), or place them yourself ({tab-at})";
 
     OUTLINE_MISSING: Warning =
         "outline-missing",
-        "no outline was found, or none was named",
+        "no outline was found or given",
         "the board is not cut out",
-        "export the outline too, or name it with {outline} FILE";
+        "export the outline too, or choose it with {outline} FILE";
 
     PATTERN_WITHOUT_NET: Warning =
         "pattern-without-net",
-        "no net has a name that a pattern matches",
-        "the option that has the pattern has no effect",
+        "a pattern matches no net",
+        "the option with this pattern has no effect",
         "compare it with the names that `voromill inspect` lists";
 
     PLUNGE_STRAIGHT_DOWN: Warning =
         "plunge-straight-down",
         "a pocket is hardly wider than the tool",
-        "the tool goes straight down there, and one that does not cut in its middle breaks",
-        "use a thinner tool, or one that can drill";
+        "the tool plunges straight down there, and one that is not centre-cutting breaks",
+        "use a thinner tool, or a centre-cutting one";
 
     POCKET_OVERCUT: Error =
         "pocket-overcut",
-        "a tool comes nearer to the edge of a pocket than it is wide",
-        "the pocket becomes too large, or the program mills beside it",
+        "a tool cuts beyond the edge of a pocket",
+        "the pocket becomes too large, or the program mills outside it",
         "check offset, scale and tool of the program";
 
     POCKET_PASS_TOO_THICK: Error =
         "pocket-pass-too-thick",
-        "a pass takes more than {depth-pass} allows",
+        "a pass is deeper than {depth-pass} allows",
         "the tool may break",
         "mill the passes above it first";
 
     POCKET_PLUNGE_TOO_STEEP: Error =
         "pocket-plunge-too-steep",
-        "the tool goes down more steeply than {ramp} allows, where there is room",
-        "a tool that does not cut in its middle breaks",
-        "go down in a helix or along a ramp";
+        "the tool plunges more steeply than {ramp} allows, though there is room",
+        "a tool that is not centre-cutting breaks",
+        "plunge in a helix or along a ramp";
 
     POCKET_PLUNGES: Warning =
         "pocket-plunges",
         "the tool plunges more often than it needs to",
         "it takes longer, and each plunge wears the tool",
-        "link the loops within what is milled";
+        "link the loops inside the milled area";
 
     POCKET_RESIDUE: Error =
         "pocket-residue",
@@ -227,20 +227,20 @@ diagnostics! {
 
     STALE_OUTPUT: Warning =
         "stale-output",
-        "programs lie in the output folder that this run did not write",
-        "somebody may mill programs of different boards together",
+        "the output folder has programs that this run did not write",
+        "programs of different boards may be milled together",
         "move them, or write into another folder (-o)";
 
     TAB_OFF_THE_OUTLINE: Warning =
         "tab-off-the-outline",
-        "a tab is asked for where no contour is",
+        "a tab is requested where there is no contour",
         "the tab is left out",
-        "correct {tab-at}: coordinates are those of the files";
+        "correct {tab-at}: it takes the coordinates of the files";
 
     TOOL_CUTS_NOTHING: Warning =
         "tool-cuts-nothing",
         "a tool has nothing to cut",
-        "none: the other tools do all of it",
+        "none: the other tools cut everything",
         "leave it out of {tool}";
 
     WIDE_PLACE_LEFT: Warning =

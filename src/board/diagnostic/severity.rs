@@ -32,6 +32,6 @@ impl FromStr for Severity {
         [Self::Info, Self::Warning, Self::Error]
             .into_iter()
             .find(|severity| severity.to_string() == text)
-            .ok_or_else(|| format!("`{text}` is no severity: expected info, warning or error"))
+            .ok_or_else(|| format!("`{text}` is not a severity: expected info, warning or error"))
     }
 }

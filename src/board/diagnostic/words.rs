@@ -135,7 +135,7 @@ mod tests {
 
     #[test]
     fn names_are_shown_as_they_are_and_options_as_they_are_typed() {
-        let words = Words::of("say it: {front} {0} or {back} {0}");
+        let words = Words::of("choose it: {front} {0} or {back} {0}");
         assert_eq!(
             words.with([&"{skip}.gbr"]).to_string(),
             "say it: --front {skip}.gbr or --back {skip}.gbr"

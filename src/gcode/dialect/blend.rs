@@ -21,7 +21,7 @@ pub enum Blend {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParseBlendError {
     /// A length that rounds nothing off.
-    #[error("`{0}` rounds nothing off: expected a length above zero, or `machine`")]
+    #[error("`{0}` is not a blend tolerance: expected a length above zero, or `machine`")]
     Nothing(String),
     /// No length.
     #[error("{0}, or `machine`")]

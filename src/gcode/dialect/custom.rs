@@ -124,7 +124,7 @@ fn base<'de, D: Deserializer<'de>>(written: D) -> Result<&'static Dialect, D::Er
     let name = String::deserialize(written)?;
     Dialect::by_name(&name).ok_or_else(|| {
         let names = Dialect::names();
-        D::Error::custom(format!("`{name}` is no dialect to build on: expected one of {names}"))
+        D::Error::custom(format!("`{name}` is not a base dialect: expected one of {names}"))
     })
 }
 
@@ -135,7 +135,9 @@ fn extension<'de, D: Deserializer<'de>>(written: D) -> Result<Option<String>, D:
     if is_plain {
         return Ok(Some(ending));
     }
-    Err(D::Error::custom(format!("`{ending}` ends no file's name: expected up to ten letters and digits")))
+    Err(D::Error::custom(format!(
+        "`{ending}` is not a file extension: expected up to ten letters and digits"
+    )))
 }
 
 fn decimals<'de, D: Deserializer<'de>>(written: D) -> Result<Option<usize>, D::Error> {
@@ -161,7 +163,7 @@ where
         return Ok(Some(value));
     }
     let (least, most) = (sensible.start(), sensible.end());
-    Err(D::Error::custom(format!("`{value}` makes no sense: expected {least} to {most} {what}")))
+    Err(D::Error::custom(format!("`{value}` is invalid: expected {least} to {most} {what}")))
 }
 
 /// Lines as they will stand in a program: one each.

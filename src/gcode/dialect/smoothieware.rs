@@ -37,7 +37,7 @@ pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     spin_up: SPIN_UP,
     touches: Touches::Reported,
     sets_height: None,
-    no_probe: Some(Borrowed("how its programs could set zero by a touch is not known")),
+    no_probe: Some(Borrowed("how its programs could set zero after touching off is not known")),
     touch_off: None,
     condition: None,
     own: OwnCode::NONE,

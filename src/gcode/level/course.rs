@@ -50,7 +50,10 @@ impl Course {
     ///
     /// The surface is looked at so often that it cannot leave its chords by a fifth of the
     /// tolerance between two looks: it rises by `slope` at most. What is left of the tolerance is
-    /// for the pieces (Douglas and Peucker).
+    /// for the pieces.
+    ///
+    /// D. H. Douglas, T. K. Peucker, *Algorithms for the reduction of the number of points required
+    /// to represent a digitized line or its caricature*, The Canadian Cartographer 10, 1973.
     pub(super) fn splits(&self, map: &HeightMap, slope: f64, tolerance: Nm) -> Vec<f64> {
         let tolerance = tolerance.to_f64();
         let looks = count(self.length() * slope * 5.0 / tolerance);

@@ -21,20 +21,20 @@ pub enum MapError {
     },
     /// Not the form of any program that probes.
     #[error(
-        "this is no height map: expected bCNC's .probe, OpenCNCPilot's .hmap, Candle's .map, lines of x y z as LinuxCNC logs them, Grbl's [PRB:x,y,z:1] or TinyG's {{\"prb\":...}} lines"
+        "this is not a height map: expected bCNC's .probe, OpenCNCPilot's .hmap, Candle's .map, lines of x y z as LinuxCNC logs them, Grbl's [PRB:x,y,z:1] or TinyG's {{\"prb\":...}} lines"
     )]
     Unknown,
     /// XML that is broken.
     #[error("{0}")]
     Xml(String),
     /// A place or a height that no machine reaches.
-    #[error("line {0}: a place or a height of more than a metre: expected a map in the unit that was named")]
+    #[error("line {0}: a position or a height above one metre: expected a map in the given unit")]
     Range(usize),
     /// Fewer or more points than the file says.
-    #[error("the map says {said} points, and has {found}")]
+    #[error("the map declares {declared} points, but has {found}")]
     Count {
         /// So many it should have.
-        said: usize,
+        declared: usize,
         /// So many it has.
         found: usize,
     },
@@ -64,7 +64,7 @@ pub enum MapError {
     },
     /// Two heights of one place.
     #[error(
-        "line {line}: the surface is at {second:.3} mm at x = {x:.3} mm, y = {y:.3} mm, and line {other} has it at {first:.3} mm: expected heights of one place to agree"
+        "line {line}: the surface is at {second:.3} mm at x = {x:.3} mm, y = {y:.3} mm, and line {other} has it at {first:.3} mm: expected the same height at the same place"
     )]
     Contradicting {
         /// From 1.
@@ -82,7 +82,7 @@ pub enum MapError {
     },
     /// Steeper than any sheet: the unit is wrong, or a touch was.
     #[error(
-        "the surface rises by {rise:.3} mm within {run:.3} mm near x = {x:.3} mm, y = {y:.3} mm: expected the heights of a sheet, in the unit of its places"
+        "the surface rises by {rise:.3} mm within {run:.3} mm near x = {x:.3} mm, y = {y:.3} mm: expected the heights of a flat board, in the unit of x and y"
     )]
     Steep {
         /// How much higher.
@@ -96,7 +96,7 @@ pub enum MapError {
     },
     /// Places that count from the machine's zero.
     #[error(
-        "line {line}: the controller reports probed points from the machine's zero, and nothing here says where the work's zero is"
+        "line {line}: the controller reports probed points in machine coordinates, and the work zero is unknown"
     )]
     Zero {
         /// From 1.
@@ -142,7 +142,7 @@ pub enum LevelError {
         margin: Nm,
     },
     /// It goes down before it says where.
-    #[error("line {line}: it goes below {safe:.3} mm before it has said where in x and y")]
+    #[error("line {line}: it goes below {safe:.3} mm before x and y are given")]
     Nowhere {
         /// From 1.
         line: u32,

@@ -18,7 +18,7 @@
 //!
 //! Tried and left: splitting at every line of the grid and evenly between them is what others do,
 //! and made programs three to ten times as long; splitting where the surface leaves the chord by
-//! more than the tolerance (Douglas and Peucker's way) makes a program on a gently curved sheet a
+//! more than the tolerance (Douglas, Peucker 1973) makes a program on a gently curved sheet a
 //! tenth longer.
 
 mod course;

@@ -78,7 +78,7 @@ pub(super) fn words<'a>(pointer: Pointer<'a>) -> Result<Vec<Word<'a>>, ReadError
             },
             _ => {
                 let what = match byte {
-                    b'#' | b'[' => "variables and expressions are not followed",
+                    b'#' | b'[' => "variables and expressions are not supported",
                     b'$' => "this is a setting of the controller, not a program",
                     _ => "expected a letter and a number, such as X1.5",
                 };
@@ -104,7 +104,7 @@ fn rest(source: &str, at: usize) -> &str {
 
 fn reason(bytes: &[u8], at: usize) -> &'static str {
     match bytes[at + 1..].iter().find(|byte| !byte.is_ascii_whitespace()) {
-        Some(b'#' | b'[') => "variables and expressions are not followed",
+        Some(b'#' | b'[') => "variables and expressions are not supported",
         _ => "expected a number of at most 15 digits after the letter",
     }
 }

@@ -67,7 +67,7 @@ impl Block {
                     let word = Word { value: block.number(code, scope)?, column };
                     let polar = if byte == b'@' { &mut block.radius } else { &mut block.angle };
                     if polar.replace(word).is_some() {
-                        return Err(code.pointer.error(column, "the word stands twice in the line"));
+                        return Err(code.pointer.error(column, "the word is twice in the line"));
                     }
                 }
                 b'A'..=b'Z' => {
@@ -113,7 +113,7 @@ impl Block {
             'A' | 'B' | 'C' | 'U' | 'V' | 'W' | 'E' => self.others.push(letter),
             _ => {
                 if self.words[slot(letter)].replace(Word { value: number, column }).is_some() {
-                    return Err(code.pointer.error(column, "the letter stands twice in the line"));
+                    return Err(code.pointer.error(column, "the letter is twice in the line"));
                 }
             }
         }
@@ -143,12 +143,12 @@ impl Block {
         let at = usize::try_from(code.column()).unwrap_or(1) - 1;
         code.take(b'*');
         let before = code.clone();
-        let said: u8 = code
+        let expected: u8 = code
             .take_while(|byte| byte.is_ascii_digit())
             .parse()
             .map_err(|_| before.error("expected a checksum from 0 to 255"))?;
         let sum = code.pointer.source.bytes().take(at).fold(0, |sum, byte| sum ^ byte);
-        self.checksum = Some(sum == said);
+        self.checksum = Some(sum == expected);
         Ok(())
     }
 

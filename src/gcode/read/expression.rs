@@ -57,7 +57,7 @@ impl Parser<'_, '_> {
     fn value(&mut self) -> Result<f64, ReadError> {
         self.depth += 1;
         if self.depth > DEPTH {
-            return Err(self.code.error("brackets nest deeper than is followed"));
+            return Err(self.code.error("brackets are nested too deep"));
         }
         let value = match self.code.peek() {
             Some(b'[') => {
@@ -167,7 +167,11 @@ impl Parser<'_, '_> {
             "TAN" => libm::tan(x.to_radians()),
             _ => return Err(before.error("expected a function such as SIN, SQRT or ATAN")),
         };
-        if value.is_finite() { Ok(value) } else { Err(before.error(format!("{name} of {x} is no number"))) }
+        if value.is_finite() {
+            Ok(value)
+        } else {
+            Err(before.error(format!("{name} of {x} is not a number")))
+        }
     }
 }
 
@@ -203,7 +207,7 @@ fn apply(operator: &str, a: f64, b: f64) -> Result<f64, &'static str> {
         "OR" => truth(holds(a) || holds(b)),
         _ => truth(holds(a) != holds(b)),
     };
-    if value.is_finite() { Ok(value) } else { Err("the result is no number") }
+    if value.is_finite() { Ok(value) } else { Err("the result is not a number") }
 }
 
 #[cfg(test)]

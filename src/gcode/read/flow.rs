@@ -40,7 +40,7 @@ pub fn read(text: &str) -> Result<Listing, ReadError> {
             break;
         }
         if runs == 0 {
-            let what = format!("loops run {RUNS} lines and have no end: that is not followed");
+            let what = format!("loops run {RUNS} lines and have no end: this is not supported");
             return Err(pointer.error(1, what));
         }
         runs -= 1;
@@ -181,7 +181,7 @@ impl<'a> Flow<'a> {
         }
         let mut code = Code::new(pointer);
         if code.open_comment {
-            let what = "a comment does not end in its line: the rest of the line is taken for it";
+            let what = "a comment does not end in its line: the rest of the line is read as comment";
             self.machine.listing.note(true, pointer.line, what);
         }
         if source.contains(['o', 'O', ':']) {
@@ -212,11 +212,7 @@ impl<'a> Flow<'a> {
             let block = Block::default();
             self.machine.home_all(pointer, &block)?;
         }
-        self.machine.listing.note(
-            false,
-            pointer.line,
-            "a command or a setting of the controller: passed over",
-        );
+        self.machine.listing.note(false, pointer.line, "a command or a setting of the controller is ignored");
         Ok(())
     }
 
@@ -381,7 +377,7 @@ impl<'a> Flow<'a> {
 
     fn enter(&mut self, pointer: Pointer<'_>, call: Call) -> Result<(), ReadError> {
         if self.calls.len() >= CALLS {
-            let what = format!("more than {CALLS} subprograms call each other: that is not followed");
+            let what = format!("more than {CALLS} subprograms call each other: this is not supported");
             return Err(pointer.error(1, what));
         }
         self.at = call.first;
@@ -439,7 +435,7 @@ impl<'a> Flow<'a> {
             }
             Some(_) => self.leave(&Code::new(pointer)),
             None => {
-                let what = "M99 begins the program anew, for ever: followed once";
+                let what = "M99 repeats the program for ever: it is read once";
                 self.machine.listing.note(true, pointer.line, what);
                 self.at = self.lines.len();
                 Ok(())

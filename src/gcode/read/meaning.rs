@@ -193,11 +193,11 @@ fn of_g(key: u32) -> Meaning {
         80 | 90 | 150 | 430 | 490 | 500 | 600 | 610 | 611 | 640 | 690 | 960 | 970 => Nothing,
         70 => Refused("diameters on a lathe"),
         120 | 130 => Refused("a circular pocket, which controllers mill differently"),
-        160 => Refused("polar coordinates of Fanuc are not followed"),
-        510 => Refused("scaled coordinates are not followed"),
-        680 => Refused("rotated coordinates are not followed"),
+        160 => Refused("Fanuc polar coordinates are not supported"),
+        510 => Refused("scaled coordinates are not supported"),
+        680 => Refused("rotated coordinates are not supported"),
         760 | 870 | 880 => Refused("a cycle whose motion depends on the controller"),
-        _ => Refused("a code that is not known here, and may move the machine"),
+        _ => Refused("an unknown code, which may move the machine"),
     }
 }
 
@@ -225,7 +225,7 @@ fn of_m(key: u32) -> Meaning {
         | 2200..=2219
         | 4000
         | 9500 => Nothing,
-        470 | 970 => Refused("a jump to another line is not followed"),
+        470 | 970 => Refused("a jump to another line is not supported"),
         700 => Meaning::Save { again: false },
         710 => Nothing,
         720 => Meaning::Restore,

@@ -104,7 +104,7 @@ impl Gathered {
         match self.skipped.iter().find(|(_, met)| !met) {
             None => Ok(()),
             Some((path, _)) => {
-                let what = "no such file or folder among those given, so it cannot be left aside";
+                let what = "no such file or folder among those given, so it cannot be ignored";
                 Err(Error::content(
                     &path.display().to_string(),
                     what,
@@ -207,10 +207,10 @@ pub(super) fn name_of(path: &Path) -> String {
 fn special(path: &Path) -> Option<&'static str> {
     match fs::metadata(path) {
         Ok(meta) if meta.is_file() => None,
-        Ok(_) => Some("a pipe or a device and no file"),
+        Ok(_) => Some("a pipe or a device, not a file"),
         // Whatever else is wrong with it, reading it will tell.
         Err(error) if error.kind() != io::ErrorKind::NotFound && !path.is_symlink() => None,
-        Err(_) => Some("a link to nothing"),
+        Err(_) => Some("a broken link"),
     }
 }
 
@@ -220,7 +220,8 @@ fn special(path: &Path) -> Option<&'static str> {
 /// Editors of Windows save them so. Without a mark they are known by every other byte of the
 /// beginning, which is zero.
 fn decoded(bytes: Vec<u8>) -> Vec<u8> {
-    /// How many characters must be of plain ASCII where there is no mark.
+    /// How many characters must be of plain ASCII where there is no mark. Chosen: no other text
+    /// begins with eight zero bytes between eight letters.
     const ENOUGH: usize = 8;
     let of_ascii = |high: usize| {
         let pairs = bytes.chunks_exact(2).take(ENOUGH);
@@ -245,14 +246,14 @@ pub(super) fn read_file(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
     if !path.is_dir()
         && let Some(what) = special(path).filter(|_| path.exists())
     {
-        return Err(Error::content(shown, what, "write what comes from it into a file, and name that"));
+        return Err(Error::content(shown, what, "save its output to a file, and give that file"));
     }
     let file = File::open(path).map_err(|error| unreadable(shown, &error))?;
     let mut bytes = Vec::new();
     file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(shown, &error))?;
     if bytes.len() as u64 > MOST_BYTES {
         let what = format!("the file has more than {} MiB", MOST_BYTES >> 20);
-        return Err(Error::content(shown, what, "no layer of a board is as large"));
+        return Err(Error::content(shown, what, "no board layer is that large"));
     }
     Ok(decoded(bytes))
 }

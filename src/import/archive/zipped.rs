@@ -13,7 +13,7 @@ use crate::import::unusable::Unusable;
 /// packs to a tenth; an archive that packs to less than a hundredth is made to fill the memory.
 const UNPACKED: (u64, u64) = (64 << 20, 100);
 
-/// The most entries of an archive that are looked at.
+/// The most entries of an archive that are looked at. Chosen: a board has some dozen files.
 const MOST_ENTRIES: usize = 10_000;
 
 impl Gathered {
@@ -114,7 +114,7 @@ fn broken_zip(shown: &str, error: &ZipError) -> Error {
             Error::content(shown, what, "unpack it and give the folder")
         }
         _ => {
-            let what = "the zip archive is damaged or was cut off";
+            let what = "the zip archive is damaged or truncated";
             Error::content(
                 shown,
                 what,

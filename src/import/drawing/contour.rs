@@ -14,7 +14,7 @@ pub(in crate::import) type Place = (f64, f64);
 /// its radius off.
 const CIRCULAR: (f64, f64, f64) = (0.0003, 5_000.0, 30.0);
 
-/// The most chords of one curve.
+/// The most chords of one curve. Chosen: finer than any tolerance asks for.
 const MOST_CHORDS: f64 = 65_536.0;
 
 /// A connected path that grows.

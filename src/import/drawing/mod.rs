@@ -8,14 +8,14 @@
 mod contour;
 pub mod dxf;
 mod read;
+mod roles;
 mod sheet;
 pub mod svg;
-mod told;
 mod unit;
 
 pub(in crate::import) use contour::{Contour, Place};
 pub(in crate::import) use read::split;
 pub use read::{FORMATS, Format, looks_like, open, read};
+pub(in crate::import) use roles::{Part, Parts, layer, role_of};
 pub use sheet::{Drawing, Options};
-pub(in crate::import) use told::{Part, Parts, layer, role_of};
 pub use unit::Unit;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::sheet::{Drawing, Options};
-use super::{dxf, svg, told};
+use super::{dxf, roles, svg};
 use crate::import::archive::{name_of, read_file};
 use crate::import::error::Error;
 
@@ -39,7 +39,7 @@ fn format(bytes: &[u8]) -> Option<&'static Format> {
 pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Error> {
     match format(bytes) {
         Some(format) => (format.read)(name, bytes, options),
-        None => Err(Error::content(name, "this is no drawing", "expected an SVG or a DXF file")),
+        None => Err(Error::content(name, "this is not a drawing", "expected an SVG or a DXF file")),
     }
 }
 
@@ -53,7 +53,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Drawing, Error> {
     let shown = file.display().to_string();
     let mut drawing = read(&name_of(&file), &read_file(&file, &shown)?, options)?;
     if let Some(layer) = layer {
-        let kept = told::layer(&drawing.artwork, &shown, &layer)?.clone();
+        let kept = roles::layer(&drawing.artwork, &shown, &layer)?.clone();
         drawing.artwork.layers = vec![kept];
     }
     Ok(drawing)

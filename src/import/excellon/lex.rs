@@ -209,7 +209,7 @@ impl Lexer<'_> {
 
     fn unexpected(&self, start: usize, what: &str, expected: &str) -> Error {
         let end = (self.at + 1).clamp(start + 1, self.end.max(start + 1));
-        let hint = "the file may be damaged, or no Excellon drill file";
+        let hint = "the file may be damaged, or not an Excellon drill file";
         Error::syntax(self.file, self.bytes, start..end, what, expected, hint)
     }
 

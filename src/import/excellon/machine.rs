@@ -17,8 +17,8 @@ use super::lex::{Kind, Line, Word};
 use super::route::{Center, Interpolation};
 use crate::board::{Hole, Plating};
 use crate::geometry::{Nm, Path, Point, Vector};
+use crate::import::diagnostic;
 use crate::import::error::{Error, Warnings};
-use crate::import::flaw;
 
 /// The most holes that a file may have, repeats included.
 ///
@@ -67,7 +67,7 @@ pub(super) fn run(file: File<'_>, format: NumberFormat, warnings: &mut Warnings<
 
 /// The first holes of a file, to judge a number format by.
 pub(super) fn sample(file: File<'_>, format: NumberFormat) -> Result<Vec<Hole>, Error> {
-    /// Enough to tell one format from another.
+    /// Enough to tell one format from another. Chosen.
     const SAMPLE: usize = 20_000;
     let mut warnings = Warnings::new(file.name, file.bytes);
     let mut machine = Machine::new(file, format, &mut warnings, SAMPLE);
@@ -193,7 +193,7 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
         } else if name == "ICI" {
             self.absolute = fields.get(1).is_none_or(|field| field != "ON");
         } else if name.starts_with("M97") || name.starts_with("M98") {
-            self.warnings.add(&flaw::DRILLED_TEXT, place.clone(), "text to be drilled is left out");
+            self.warnings.add(&diagnostic::DRILLED_TEXT, place.clone(), "drilled text (M97, M98) is ignored");
             self.text_follows = true;
         } else if !WITHOUT_EFFECT.contains(&name) && !name.starts_with("M4") {
             self.left_out(name, place);
@@ -201,15 +201,15 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
     }
 
     pub(super) fn left_out(&mut self, what: &str, place: &Range<usize>) {
-        let message = format!("`{what}` is no drill command that is known, so it is left out");
-        self.warnings.add(&flaw::UNKNOWN_DRILL_COMMAND, place.clone(), message);
+        let message = format!("`{what}` is not a known drill command and is ignored");
+        self.warnings.add(&diagnostic::UNKNOWN_DRILL_COMMAND, place.clone(), message);
     }
 
     /// The same unit again says nothing new; another one changes what follows.
     pub(super) fn units(&mut self, units: Units, place: &Range<usize>) {
         if units != self.format.units && !self.file.disbelieved {
             let message = format!("the unit changes to {} here; what follows is read in it", units.name());
-            self.warnings.add(&flaw::UNIT_CHANGES, place.clone(), message);
+            self.warnings.add(&diagnostic::UNIT_CHANGES, place.clone(), message);
             self.format = NumberFormat { units, digits: units.default_digits(), zeros: self.format.zeros };
         }
     }
@@ -219,7 +219,7 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
             self.left_out(&char::from(letter.letter).to_string(), &letter.place);
         }
         if let Some(word) = block.twice {
-            return Err(self.wrong(word, "a second place in one line", "one X and one Y a line"));
+            return Err(self.wrong(word, "a second position in one line", "one X and one Y a line"));
         }
         if let Some(word) = block.tool {
             self.select(word, block.diameter)?;
@@ -242,13 +242,13 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
     pub(super) fn hole(&self, path: Path, line: &Line) -> Result<Hole, Error> {
         let Some(number) = self.tool else {
             let expected = "a line such as T01 before it";
-            return Err(self.wrong_line(line, "a hole is drilled before any tool is chosen", expected));
+            return Err(self.wrong_line(line, "a hole is drilled before any tool is selected", expected));
         };
         if let Some((_, error)) = self.broken.get(&number) {
             return Err(error.clone());
         }
         let Some(tool) = self.tools.get(&number) else {
-            let what = format!("tool T{number} drills here, but its diameter is given nowhere");
+            let what = format!("tool T{number} drills here, but its diameter is not defined");
             let hint = format!("add its diameter to the header: T{number}C0.8");
             let (file, bytes) = (self.file.name, self.file.bytes);
             return Err(Error::syntax(file, bytes, line.place.clone(), what, "a tool with a diameter", hint));
@@ -285,8 +285,8 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
     pub(super) fn too_far(&self, place: &Range<usize>) -> Error {
         let what =
             format!("coordinate beyond ±1073 mm (read as {}, {})", self.format.units.name(), self.format);
-        let hint = "the number format may be another one, or the file damaged";
-        Error::syntax(self.file.name, self.file.bytes, place.clone(), what, "a place on a board", hint)
+        let hint = "the number format may be wrong, or the file damaged";
+        Error::syntax(self.file.name, self.file.bytes, place.clone(), what, "a position on a board", hint)
     }
 
     pub(super) fn unknown(&self, word: &Word) -> Error {

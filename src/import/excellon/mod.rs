@@ -28,8 +28,8 @@ use std::collections::BTreeMap;
 
 use crate::board::{ApertureUse, Hole, Plating, Source, Warning};
 use crate::geometry::{Nm, Point};
+use crate::import::diagnostic;
 use crate::import::error::{Error, Warnings, last_line};
-use crate::import::flaw;
 use declared::Declared;
 use format::NumberFormat;
 use guess::Score;
@@ -70,11 +70,11 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
     let run = machine::run(file, reading.format, &mut warnings)?;
     reading.explain(file, context, &mut warnings);
     if let Some(line) = cut_off {
-        let message = "the file ends within a line, which is left out: it may have been cut off; if it was not, end it with M30";
-        warnings.add(&flaw::TRUNCATED_FILE, line.place, message);
+        let message = "the file ends within a line, which is ignored: it may be truncated; if it is not, end it with M30";
+        warnings.add(&diagnostic::TRUNCATED_FILE, line.place, message);
     } else if !declared.ended {
-        let message = "the file does not end with M30; if it was cut off, holes are missing";
-        warnings.add(&flaw::MISSING_END_OF_DRILL_FILE, last_line(bytes), message);
+        let message = "the file does not end with M30; if it is truncated, holes are missing";
+        warnings.add(&diagnostic::MISSING_END_OF_DRILL_FILE, last_line(bytes), message);
     }
     warn_of_size(&run, &mut warnings);
     for (number, (place, error)) in &run.broken {
@@ -82,11 +82,11 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
             Error::Syntax(diagnosis) => diagnosis.what.clone(),
             Error::Content { what, .. } => what.to_string(),
         };
-        let message = format!("{what}; nothing is drilled with tool T{number}, so it is left out");
-        warnings.add(&flaw::MALFORMED_TOOL, place.clone(), message);
+        let message = format!("{what}; tool T{number} drills nothing and is ignored");
+        warnings.add(&diagnostic::MALFORMED_TOOL, place.clone(), message);
     }
     if run.holes.is_empty() {
-        warnings.add(&flaw::DRILL_WITHOUT_HOLES, last_line(bytes), "the drill file has no holes");
+        warnings.add(&diagnostic::DRILL_WITHOUT_HOLES, last_line(bytes), "the drill file has no holes");
     }
     let source = source(file, &reading, &run);
     Ok(Drilling { holes: run.holes, source, function: declared.function, warnings: warnings.finish() })
@@ -95,7 +95,7 @@ pub fn read(name: &str, bytes: &[u8], context: &Context) -> Result<Drilling, Err
 /// Whether `bytes` begin like an Excellon drill file.
 #[must_use]
 pub fn looks_like(bytes: &[u8]) -> bool {
-    /// Lines that may pass before something tells: banners of comments are long.
+    /// Lines that may pass before something tells: banners of comments are long. Chosen.
     const FAR: usize = 400;
     let head = &bytes[..bytes.len().min(64 * 1024)];
     if head.contains(&b'*')
@@ -154,8 +154,7 @@ fn refuse_others(name: &str, bytes: &[u8]) -> Result<(), Error> {
         return Err(Error::content(name, "the drill file is empty", "export it again"));
     }
     if bytes.trim_ascii_start().starts_with(b"%%") {
-        let what =
-            "a Sieb & Meyer drill file, which says neither how wide its tools are nor in what unit it counts";
+        let what = "a Sieb & Meyer drill file, which declares neither tool diameters nor a unit";
         return Err(Error::content(
             name,
             what,
@@ -202,8 +201,8 @@ fn warn_of_size(run: &Run, warnings: &mut Warnings<'_>) {
     let used = |tool: u32| run.holes.iter().any(|hole| hole.tool == tool && !hole.is_slot());
     for (number, tool) in run.tools.iter().filter(|(number, tool)| tool.diameter > WIDEST && used(**number)) {
         let message =
-            format!("tool T{number} drills {:.3} mm wide holes: the unit may be another one", tool.diameter);
-        warnings.add(&flaw::DRILL_IMPLAUSIBLE, tool.place.clone(), message);
+            format!("tool T{number} has a diameter of {:.3} mm: the unit may be wrong", tool.diameter);
+        warnings.add(&diagnostic::DRILL_IMPLAUSIBLE, tool.place.clone(), message);
     }
 }
 
@@ -287,32 +286,34 @@ impl Reading {
         if self.against {
             let Score { inside: before, .. } = self.usual_score;
             let message = format!(
-                "as the file declares its numbers ({} {}) {before} of {holes} holes lie on the board; {read_as}, with all on the board and {on_pads} on pads",
+                "with the declared number format ({} {}) {before} of {holes} holes lie on the board; {read_as}, with all on the board and {on_pads} on pads",
                 self.usual.units.name(),
                 self.usual
             );
-            warnings.add(&flaw::DRILL_FORMAT_GUESSED, place(), message);
+            warnings.add(&diagnostic::DRILL_FORMAT_GUESSED, place(), message);
         } else if self.format != self.usual {
             let usual =
-                format!("{} {} puts {} there", self.usual.units.name(), self.usual, self.usual_score.on_pads);
+                format!("{} with {} {}", self.usual.units.name(), self.usual, self.usual_score.on_pads);
             let message = format!(
-                "the file does not say its number format; {read_as}, with {on_pads} of {holes} holes on pads ({usual})"
+                "the file does not declare its number format; {read_as}, with {on_pads} of {holes} holes on pads ({usual})"
             );
-            warnings.add(&flaw::DRILL_FORMAT_GUESSED, place(), message);
+            warnings.add(&diagnostic::DRILL_FORMAT_GUESSED, place(), message);
         } else if file.declared.units.is_none() {
             let message = format!(
-                "the file does not say its units; {read_as}, with {on_pads} of {holes} holes on pads"
+                "the file does not declare its units; {read_as}, with {on_pads} of {holes} holes on pads"
             );
-            warnings.add(&flaw::DRILL_UNITS_GUESSED, place(), message);
+            warnings.add(&diagnostic::DRILL_UNITS_GUESSED, place(), message);
         } else if self.rivals > 0 && undeclared && context.is_empty() {
-            let message = format!("the file does not say its number format, and no copper tells; {read_as}");
-            warnings.add(&flaw::DRILL_FORMAT_GUESSED, place(), message);
+            let message = format!(
+                "the file does not declare its number format, and there is no copper to compare with; {read_as}"
+            );
+            warnings.add(&diagnostic::DRILL_FORMAT_GUESSED, place(), message);
         }
         if !context.is_empty() && self.score.is_off() {
             let message = format!(
-                "only {inside} of {holes} holes lie on the board ({read_as}): drill and copper may not belong together"
+                "only {inside} of {holes} holes lie on the board ({read_as}): the drill file may belong to another board"
             );
-            warnings.add(&flaw::DRILL_OFF_BOARD, place(), message);
+            warnings.add(&diagnostic::DRILL_OFF_BOARD, place(), message);
         }
     }
 }

@@ -54,7 +54,7 @@ pub(super) enum Entry {
 }
 
 /// The largest list that is looked at: a wheel has 24 apertures, the longest list of a program some
-/// thousand.
+/// thousand. Chosen.
 const MOST_BYTES: usize = 1 << 20;
 
 impl ApertureList {
@@ -70,9 +70,9 @@ impl ApertureList {
             return None;
         }
         let prose = Prose::of(&text);
-        let said = prose.unit.or_else(|| rows.iter().find_map(|row| row.unit));
-        let size_unit = said.unwrap_or_else(|| likely_unit(&rows));
-        let guessed = (said.is_none() && rows.iter().any(|row| row.unit.is_none())).then_some(size_unit);
+        let declared = prose.unit.or_else(|| rows.iter().find_map(|row| row.unit));
+        let size_unit = declared.unwrap_or_else(|| likely_unit(&rows));
+        let guessed = (declared.is_none() && rows.iter().any(|row| row.unit.is_none())).then_some(size_unit);
         let mut entries = BTreeMap::new();
         for row in &rows {
             let entry = row.entry(row.unit.unwrap_or(size_unit));
@@ -81,7 +81,7 @@ impl ApertureList {
                 .and_modify(|before| merge(before, &entry, row.line))
                 .or_insert_with(|| entry.clone());
         }
-        let unit = prose.unit.or(said).unwrap_or(size_unit);
+        let unit = prose.unit.or(declared).unwrap_or(size_unit);
         let unit = if unit == "mm" { Unit::Millimetre } else { Unit::Inch };
         let source = Source { design: hashed(&entries), ..source(file, bytes, size_unit, entries.len()) };
         Some(Self { file: file.to_owned(), entries, format: prose.format, unit, guessed, source })
@@ -141,7 +141,7 @@ fn merge(before: &mut Entry, again: &Entry, line: u32) {
         _ => false,
     };
     if !same {
-        *before = Entry::Unclear { line, reason: "it stands there twice, and differs".to_owned() };
+        *before = Entry::Unclear { line, reason: "it is defined twice, differently".to_owned() };
     }
 }
 

@@ -41,10 +41,9 @@ impl Refusal {
                 "this file expands to too many polygon vertices".to_owned(),
                 format!("at most {limit} vertices, repeats and blocks expanded"),
             ),
-            Self::Range => (
-                "this object lies beyond what is handled exactly".to_owned(),
-                "copper within ±1073.741823 mm".to_owned(),
-            ),
+            Self::Range => {
+                ("this object is out of range".to_owned(), "copper within ±1073.741823 mm".to_owned())
+            }
             Self::Tangled => (
                 "this outline crosses itself too often".to_owned(),
                 "an outline that does not cross itself".to_owned(),

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::geometry::{Arc, Nm, Point, Turn, Vector};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::error::Error;
 use super::quadrants::{Quadrants, Reading};
@@ -33,7 +33,7 @@ impl<'a> Reader<'a> {
         if offset == Vector::default() {
             if from != to {
                 let message = "an arc without a centre (I and J) is read as a line";
-                self.warnings.add(&flaw::ARC_WITHOUT_CENTRE, place.clone(), message);
+                self.warnings.add(&diagnostic::ARC_WITHOUT_CENTRE, place.clone(), message);
             }
             return Ok(None);
         }
@@ -41,8 +41,8 @@ impl<'a> Reader<'a> {
         let signed = offset.x < Nm::ZERO || offset.y < Nm::ZERO;
         let quadrants = match self.reading.of(self.quadrants) {
             Quadrants::Single if signed => {
-                let message = "this arc has a negative offset, so it is read as G75, several quadrants";
-                self.warnings.add(&flaw::QUADRANT_MODE, place.clone(), message);
+                let message = "this arc has a negative offset, so it is read as G75, multi quadrant";
+                self.warnings.add(&diagnostic::QUADRANT_MODE, place.clone(), message);
                 Quadrants::Multi
             }
             quadrants => quadrants,
@@ -54,9 +54,8 @@ impl<'a> Reader<'a> {
         };
         let mismatch = center.distance(from) - center.distance(to);
         if mismatch.abs() > COARSE {
-            let message = "the start and the end of an arc lie at different distances from its centre; the radius is \
-                           changed evenly from one to the other";
-            self.warnings.add(&flaw::ARC_RADIUS_MISMATCH, place.clone(), message);
+            let message = "the start and the end of an arc lie at different distances from its centre; the radius is interpolated";
+            self.warnings.add(&diagnostic::ARC_RADIUS_MISMATCH, place.clone(), message);
         }
         let turn = if self.placement.mirrors() { turn.reversed() } else { turn };
         let (start, end) = (self.place(from, place)?, self.place(to, place)?);
@@ -100,12 +99,11 @@ impl<'a> Reader<'a> {
         {
             if let Some((other, misfits)) = radii.refutes(declared) {
                 let message = format!(
-                    "the file declares {name}, but its arcs are read as {}: {misfits} of {} would not end as far from their \
-                     centre as they begin, and now all do",
+                    "the file declares {name}, but its arcs are read as {}: {misfits} of {} would begin and end at different radii, and now none does",
                     other.describe(),
                     radii.count
                 );
-                self.warnings.add(&flaw::QUADRANT_MODE, radii.first, message);
+                self.warnings.add(&diagnostic::QUADRANT_MODE, radii.first, message);
             }
         }
         if undeclared.count == 0 {
@@ -115,33 +113,31 @@ impl<'a> Reader<'a> {
         let reason = match undeclared.verdict() {
             Verdict::Contradiction { single, multi } => {
                 let what = format!(
-                    "neither G74 nor G75 says how arcs are meant, and they contradict each other: of {count} arcs {} fit G74 \
-                     alone, and {} fit G75 alone, as this one",
+                    "neither G74 nor G75 is set, and the arcs contradict each other: of {count} arcs {} fit only G74, and {} fit only G75, as this one",
                     single.count, multi.count
                 );
                 let place = multi.first.clone();
                 return Err(self.error(place, what, "G74 or G75 before the first arc", WRITE_AGAIN));
             }
             Verdict::Single(misfits) => {
-                format!("as G75, {misfits} of {count} would not end as far from their centre as they begin")
+                format!("as G75, {misfits} of {count} would begin and end at different radii")
             }
             Verdict::Multi(misfits) => format!(
-                "as G74, {misfits} of {count} would not end as far from their centre as they begin, or be longer than a quarter"
+                "as G74, {misfits} of {count} would begin and end at different radii, or be longer than a quarter circle"
             ),
-            Verdict::Either => "their radii leave it open".to_owned(),
+            Verdict::Either => "their radii fit both".to_owned(),
         };
         if let Some(place) = undeclared.unfit {
-            let what = "neither G74 nor G75 says how arcs are meant, and this arc fits neither: its ends lie at different \
-                        distances from its centre";
+            let what = "neither G74 nor G75 is set, and this arc fits neither: its ends lie at different distances from its centre";
             return Err(self.error(place, what, "G74 or G75 before the first arc", WRITE_AGAIN));
         }
         let message = format!(
-            "neither G74 nor G75 says how arcs are meant; they are read as {}: {reason}",
+            "neither G74 nor G75 is set; arcs are read as {}: {reason}",
             self.reading.undeclared.describe()
         );
-        self.warnings.add(&flaw::QUADRANT_MODE, undeclared.first, message);
+        self.warnings.add(&diagnostic::QUADRANT_MODE, undeclared.first, message);
         Ok(())
     }
 }
 
-const WRITE_AGAIN: &str = "have the layer written with G75";
+const WRITE_AGAIN: &str = "export the layer with G75";

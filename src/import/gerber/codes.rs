@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::geometry::Turn;
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::error::Error;
 use super::lex::Number;
@@ -30,7 +30,7 @@ impl<'a> Reader<'a> {
                         return Err(error);
                     }
                     let message = format!("aperture D{code} is selected, but not defined");
-                    self.warnings.add(&flaw::UNDEFINED_APERTURE, place.clone(), message);
+                    self.warnings.add(&diagnostic::UNDEFINED_APERTURE, place.clone(), message);
                 }
                 Ok(None)
             }
@@ -72,14 +72,14 @@ impl<'a> Reader<'a> {
             Some(code @ 10..=12) => {
                 return Err(self.error(
                     place.clone(),
-                    format!("G{code}, scaled interpolation, is not handled"),
+                    format!("G{code}, scaled interpolation, is not supported"),
                     "G01, G02 or G03",
-                    "write the file anew with a tool of this century",
+                    "export the file again as RS-274X",
                 ));
             }
             _ => {
-                let message = "this G code is not known; it is left out";
-                self.warnings.add(&flaw::UNKNOWN_COMMAND, place.clone(), message);
+                let message = "this G code is unknown; it is ignored";
+                self.warnings.add(&diagnostic::UNKNOWN_COMMAND, place.clone(), message);
             }
         }
         Ok(())
@@ -90,8 +90,8 @@ impl<'a> Reader<'a> {
         if !self.unit_by_mode {
             self.unit = Some(unit);
         } else if self.unit != Some(unit) {
-            let message = "G70 or G71 contradicts %MO, which is followed";
-            self.warnings.add(&flaw::CONFLICTING_UNITS, place.clone(), message);
+            let message = "G70 or G71 contradicts %MO; %MO is used";
+            self.warnings.add(&diagnostic::CONFLICTING_UNITS, place.clone(), message);
         }
     }
 
@@ -100,9 +100,9 @@ impl<'a> Reader<'a> {
             Some(0 | 2) => self.ended = true,
             Some(1) => {}
             _ => self.warnings.add(
-                &flaw::UNKNOWN_COMMAND,
+                &diagnostic::UNKNOWN_COMMAND,
                 place.clone(),
-                "this M code is not known; it is left out",
+                "this M code is unknown; it is ignored",
             ),
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::board::{Axis, Feature, Shape};
 use crate::geometry::{Nm, Point};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::error::Error;
 use super::canvas::Refusal;
@@ -21,12 +21,12 @@ impl<'a> Reader<'a> {
             return Err(self.refused(contour.place, &Refusal::Tangled));
         }
         if !contour.closed {
-            let message = "the contour of a region does not end where it began; it is closed with a line";
-            self.warnings.add(&flaw::REGION_NOT_CLOSED, contour.place.clone(), message);
+            let message = "the contour of a region is not closed; a straight line closes it";
+            self.warnings.add(&diagnostic::REGION_NOT_CLOSED, contour.place.clone(), message);
         }
         if contour.pieces.is_empty() {
-            let message = "the contour of a region has no area; it is left out";
-            self.warnings.add(&flaw::NOTHING_DRAWN, contour.place, message);
+            let message = "the contour of a region has no area; it is ignored";
+            self.warnings.add(&diagnostic::NOTHING_DRAWN, contour.place, message);
             return Ok(());
         }
         self.counts.regions += 1;

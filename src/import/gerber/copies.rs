@@ -39,7 +39,7 @@ impl<'a> Reader<'a> {
             Some(number) => number.to_integer().and_then(|n| u32::try_from(n).ok()).filter(|n| *n >= 1),
         };
         let (Some(x), Some(y)) = (copies(b'X'), copies(b'Y')) else {
-            let expected = "how many copies there are in x and y, as in `%SRX2Y3I4.0J3.0*%`";
+            let expected = "numbers of copies in x and y, as in `%SRX2Y3I4.0J3.0*%`";
             return Err(self.error(place, "this is not a number of copies", expected, ""));
         };
         if (x, y) == (1, 1) {

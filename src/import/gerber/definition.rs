@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::geometry::Nm;
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::error::{Error, printable};
 use super::aperture::{Hole, Template};
@@ -40,8 +40,8 @@ impl<'a> Reader<'a> {
                 Error::Syntax(diagnosis) => diagnosis.what.clone(),
                 Error::Content { what, .. } => what.to_string(),
             };
-            let message = format!("{what}; nothing selects this aperture, so it is left out");
-            self.warnings.add(&flaw::MALFORMED_APERTURE, place, message);
+            let message = format!("{what}; this aperture is never selected and is ignored");
+            self.warnings.add(&diagnostic::MALFORMED_APERTURE, place, message);
         }
     }
 
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
         let function = self.attributes.aperture.clone();
         if self.apertures.insert(number, Aperture::new(template, function)).is_some() {
             let message = format!("aperture D{number} is defined twice; what follows uses the later one");
-            self.warnings.add(&flaw::APERTURE_DEFINED_TWICE, place, message);
+            self.warnings.add(&diagnostic::APERTURE_DEFINED_TWICE, place, message);
         }
         self.forget_aperture(number);
         Ok(())
@@ -96,8 +96,8 @@ impl<'a> Reader<'a> {
             b"C" | b"R" | b"O"
                 if numbers.iter().skip(usize::from(name != b"C") + 1).any(|n| n.mantissa < 0) =>
             {
-                let message = "a hole of an aperture is less than nothing; the aperture has none";
-                self.warnings.add(&flaw::NEGATIVE_HOLE, place.clone(), message);
+                let message = "the hole of an aperture has a negative size; the hole is ignored";
+                self.warnings.add(&diagnostic::NEGATIVE_HOLE, place.clone(), message);
                 self.standard(name[0], &numbers, unit, place)
             }
             b"C" | b"R" | b"O" | b"P" => self.standard(name[0], &numbers, unit, place),
@@ -126,9 +126,11 @@ impl<'a> Reader<'a> {
         place: &Range<usize>,
     ) -> Result<Template, Error> {
         let (least, expected) = match name {
-            b'C' => (1, "a diameter, and perhaps that of a hole: `C,1.5X0.8`"),
-            b'P' => (2, "a diameter, a number of vertices, and perhaps a rotation and a hole: `P,1.5X6X30`"),
-            _ => (2, "a width and a height, and perhaps the diameter of a hole: `R,1.5X0.6`"),
+            b'C' => (1, "a diameter, and optionally that of a hole: `C,1.5X0.8`"),
+            b'P' => {
+                (2, "a diameter, a number of vertices, and optionally a rotation and a hole: `P,1.5X6X30`")
+            }
+            _ => (2, "a width and a height, and optionally the diameter of a hole: `R,1.5X0.6`"),
         };
         let fault = |what: &str| self.error(place.clone(), what, expected, "");
         if numbers.len() < least {
@@ -136,7 +138,7 @@ impl<'a> Reader<'a> {
         }
         let length = |number: &Number| {
             let length = unit.length(*number).filter(|length| *length >= Nm::ZERO);
-            length.ok_or_else(|| fault("this is not a size of an aperture: below zero, or above a metre"))
+            length.ok_or_else(|| fault("this is not an aperture size: negative, or above one metre"))
         };
         let hole = |rest: &[Number]| {
             Ok(match rest {
@@ -195,7 +197,7 @@ impl<'a> Reader<'a> {
         }
         if self.macros.insert(name, Macro { body }).is_some() {
             let message = format!("the aperture macro `{}` is defined twice", printable(name));
-            self.warnings.add(&flaw::MACRO_DEFINED_TWICE, block.place(), message);
+            self.warnings.add(&diagnostic::MACRO_DEFINED_TWICE, block.place(), message);
         }
         Ok(())
     }

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::ops::Range;
 
 use crate::geometry::Nm;
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::error::{Error, printable};
 use super::lex::{Block, Number, is_blank};
@@ -49,24 +49,24 @@ impl<'a> Reader<'a> {
             b"IJ" if rest.iter().all(|b| b"ABL".contains(b) || is_blank(*b)) => Ok(()),
             b"IC" | b"IJ" | b"IO" | b"RO" => {
                 let code = printable(code);
-                let message = format!("%{code} was never used by tools and is not followed");
-                self.warnings.add(&flaw::UNKNOWN_COMMAND, place, message);
+                let message = format!("%{code} is not supported and is ignored");
+                self.warnings.add(&diagnostic::UNKNOWN_COMMAND, place, message);
                 Ok(())
             }
-            b"KO" => Err(self.error(place, "%KO, knockout, is not handled", "%LPC and %LPD", "")),
+            b"KO" => Err(self.error(place, "%KO, knockout, is not supported", "%LPC and %LPD", "")),
             b"IF" => {
                 let hint = "put the content of the other file in its place";
                 Err(self.error(
                     place,
-                    "%IF includes another file, which is not followed",
-                    "a file by itself",
+                    "%IF includes another file, which is not supported",
+                    "a file without includes",
                     hint,
                 ))
             }
             _ => {
                 let shown = printable(&block.text[..block.text.len().min(20)]);
-                let message = format!("`{shown}` is no command that is known; it is left out");
-                self.warnings.add(&flaw::UNKNOWN_COMMAND, place, message);
+                let message = format!("`{shown}` is not a known command; it is ignored");
+                self.warnings.add(&diagnostic::UNKNOWN_COMMAND, place, message);
                 Ok(())
             }
         }
@@ -77,7 +77,7 @@ impl<'a> Reader<'a> {
         let Some(number) = number else { return Ok(Nm::ZERO) };
         let unit = self.unit(place)?;
         unit.length(number).ok_or_else(|| {
-            self.error(place.clone(), "this length lies beyond what is handled", "at most 1073.741823 mm", "")
+            self.error(place.clone(), "this length is out of range", "at most 1073.741823 mm", "")
         })
     }
 

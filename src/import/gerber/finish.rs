@@ -3,7 +3,7 @@
 use crate::board::polarity::{self, Polarity};
 use crate::board::{ApertureUse, Axis, Feature, Shape, Source};
 use crate::geometry::{Polygon, Rect};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::design;
 use super::super::digest::sha256;
@@ -20,8 +20,8 @@ impl<'a> Reader<'a> {
         self.explain_malformed();
         let end = last_line(self.bytes);
         if self.region.is_some() {
-            let message = "the file ends within a region, which is ended there";
-            self.warnings.add(&flaw::TRUNCATED_FILE, end.clone(), message);
+            let message = "the file ends within a region, which is closed there";
+            self.warnings.add(&diagnostic::TRUNCATED_FILE, end.clone(), message);
             self.end_contour()?;
         }
         while self.canvas.innermost().is_some() {
@@ -30,9 +30,9 @@ impl<'a> Reader<'a> {
             if !repeated {
                 self.canvas.close_block();
                 self.warnings.add(
-                    &flaw::TRUNCATED_FILE,
+                    &diagnostic::TRUNCATED_FILE,
                     end.clone(),
-                    "the file ends within a block (%AB), which is left out",
+                    "the file ends within a block (%AB), which is ignored",
                 );
             }
         }
@@ -41,14 +41,14 @@ impl<'a> Reader<'a> {
             if !rest.iter().all(|&b| is_blank(b) || b == b'%') {
                 let place = self.lexer.position()..self.bytes.len();
                 self.warnings.add(
-                    &flaw::TEXT_AFTER_END,
+                    &diagnostic::TEXT_AFTER_END,
                     place,
-                    "what follows the end of the program (M02) is left out",
+                    "what follows the end of the file (M02) is ignored",
                 );
             }
         } else {
-            let message = "the file does not end with M02; it may have been cut off";
-            self.warnings.add(&flaw::MISSING_END_OF_FILE, end, message);
+            let message = "the file does not end with M02; it may be truncated";
+            self.warnings.add(&diagnostic::MISSING_END_OF_FILE, end, message);
         }
         self.into_image()
     }
@@ -59,8 +59,9 @@ impl<'a> Reader<'a> {
         if let Some(place) = self.negative.clone()
             && let Some(frame) = objects.iter().map(|(feature, _)| feature.shape.bounds()).reduce(Rect::union)
         {
-            let message = "a negative image (%IPNEG) has no extent of its own; its ground is the rectangle round its objects";
-            self.warnings.add(&flaw::NEGATIVE_IMAGE, place, message);
+            let message =
+                "a negative image (%IPNEG) has no extent of its own; the bounding box of its objects is used";
+            self.warnings.add(&diagnostic::NEGATIVE_IMAGE, place, message);
             for (_, polarity) in &mut objects {
                 *polarity = polarity.toggled();
             }
@@ -71,14 +72,15 @@ impl<'a> Reader<'a> {
         if self.attributes.negative {
             let words = b"FilePolarity,Negative";
             let place = find(self.bytes, words).map_or(0..0, |start| start..start + words.len());
-            let message = "the file calls its polarity negative (.FilePolarity); it is read as it is drawn, dark for copper";
-            self.warnings.add(&flaw::NEGATIVE_FILE, place, message);
+            let message =
+                "the file declares negative polarity (.FilePolarity); it is read as drawn, dark is copper";
+            self.warnings.add(&diagnostic::NEGATIVE_FILE, place, message);
         }
         let features = polarity::resolve(objects).map_err(|excess| {
-            Error::content(self.name, excess.to_string(), "have the layer written without clear objects")
+            Error::content(self.name, excess.to_string(), "export the layer without clear objects")
         })?;
         if features.is_empty() {
-            self.warnings.add(&flaw::NOTHING_DRAWN, last_line(self.bytes), "the file draws nothing");
+            self.warnings.add(&diagnostic::NOTHING_DRAWN, last_line(self.bytes), "the file draws nothing");
         }
         let function = self.attributes.function.clone();
         let attributes = self.attributes.into_sets();

@@ -118,7 +118,7 @@ pub fn lacks_apertures(bytes: &[u8]) -> bool {
 /// Whether `bytes` look like a Gerber file: by content, whatever the name.
 #[must_use]
 pub fn looks_like(bytes: &[u8]) -> bool {
-    /// Enough for the longest comment before the first command.
+    /// Enough for the longest comment before the first command. Chosen.
     const HEAD: usize = 1 << 16;
     let head = &bytes[..bytes.len().min(HEAD)];
     if head.starts_with(b"\x89PNG") || head.starts_with(b"PK") || head.starts_with(b"%PDF") {

@@ -9,7 +9,7 @@ use super::lex::is_blank;
 use super::reader::Reader;
 use super::state::{Format, Unit, Zeros};
 use crate::geometry::Nm;
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 impl<'a> Reader<'a> {
     /// The number format. Where none has been given yet, the file is searched for one that comes
@@ -22,7 +22,7 @@ impl<'a> Reader<'a> {
         let found = std::iter::from_fn(|| ahead.next()).find(|block| block.text.starts_with(b"FS"));
         if let Some(block) = found {
             self.warnings.add(
-                &flaw::LATE_FORMAT,
+                &diagnostic::LATE_FORMAT,
                 block.place(),
                 "the number format comes after the first coordinate",
             );
@@ -36,20 +36,20 @@ impl<'a> Reader<'a> {
         let bare = self.apertures.is_empty();
         self.format.ok_or_else(|| {
             if let Some(list) = self.list {
-                let what = format!("neither this file nor its aperture list {} says how numbers are written", list.file);
+                let what = format!("neither this file nor its aperture list {} has a number format", list.file);
                 let expected = "a number format: `%FSLAX23Y23*%` as the first line here, or `FORMAT 2.3` in the list";
-                let hint = "the program that plotted it shows its format among the plot settings";
+                let hint = "the plot settings of the CAD program show the format";
                 return self.error(place.clone(), what, expected, hint);
             }
             let (what, expected) = if bare {
-                let what = "this file (RS-274-D) says neither how its numbers are written nor what its apertures are";
+                let what = "this file (RS-274-D) has neither a number format nor aperture definitions";
                 (what, "a number format, `%FSLAX46Y46*%`, and apertures, `%ADD10C,0.25*%`, before the first coordinate, \
                      or an aperture list (.apt, .gap, .rep) beside the file")
             } else {
-                let what = "this file does not say how its numbers are written";
+                let what = "this file has no number format";
                 (what, "a number format, such as `%FSLAX46Y46*%`, before the first coordinate")
             };
-            self.error(place.clone(), what, expected, "have the file written as RS-274X")
+            self.error(place.clone(), what, expected, "export the file as RS-274X")
         })
     }
 
@@ -69,7 +69,7 @@ impl<'a> Reader<'a> {
                 "the unit, {}, comes after the first length; it holds for the whole file",
                 unit.name()
             );
-            self.warnings.add(&flaw::LATE_UNITS, block.place(), message);
+            self.warnings.add(&diagnostic::LATE_UNITS, block.place(), message);
             unit
         } else if let Some(list) = self.list {
             list.unit
@@ -83,8 +83,8 @@ impl<'a> Reader<'a> {
             } else {
                 "because in inches it would be wider than any board"
             };
-            let message = format!("the file does not say its unit; {} is assumed, {reason}", unit.name());
-            self.warnings.add(&flaw::MISSING_UNITS, place.clone(), message);
+            let message = format!("the file does not declare its unit; {} is assumed, {reason}", unit.name());
+            self.warnings.add(&diagnostic::MISSING_UNITS, place.clone(), message);
             unit
         };
         self.unit = Some(unit);
@@ -136,8 +136,8 @@ impl<'a> Reader<'a> {
         }
         if self.format.is_some_and(|before| before != format) {
             let message =
-                "the number format changes within the file; coordinates after it are read the new way";
-            self.warnings.add(&flaw::FORMAT_CHANGES, place, message);
+                "the number format changes within the file; coordinates after it are read with the new one";
+            self.warnings.add(&diagnostic::FORMAT_CHANGES, place, message);
         }
         self.format = Some(format);
         Ok(())
@@ -152,20 +152,15 @@ impl<'a> Reader<'a> {
         let unit = match text.trim_ascii() {
             b"MM" => Unit::Millimetre,
             b"IN" => Unit::Inch,
-            _ => return Err(self.error(place, "this unit is not known", "`%MOMM*%` or `%MOIN*%`", "")),
+            _ => return Err(self.error(place, "this unit is unknown", "`%MOMM*%` or `%MOIN*%`", "")),
         };
         if self.unit_by_mode && self.unit != Some(unit) {
-            let hint = "find out which of the two the file means, and delete the other";
-            return Err(self.error(
-                place,
-                "the file gives two units that contradict each other",
-                "one %MO",
-                hint,
-            ));
+            let hint = "find out which of the two is right, and delete the other";
+            return Err(self.error(place, "the file declares two different units", "one %MO", hint));
         }
         if self.unit.is_some_and(|before| before != unit) {
-            let message = "%MO contradicts G70 or G71 before it; %MO is followed";
-            self.warnings.add(&flaw::CONFLICTING_UNITS, place, message);
+            let message = "%MO contradicts G70 or G71 before it; %MO is used";
+            self.warnings.add(&diagnostic::CONFLICTING_UNITS, place, message);
         }
         (self.unit, self.unit_by_mode) = (Some(unit), true);
         Ok(())

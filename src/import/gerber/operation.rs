@@ -6,7 +6,7 @@ use std::sync::Arc as Shared;
 use crate::board::polarity::Polarity;
 use crate::board::{Axis, Feature, Shape};
 use crate::geometry::{Nm, Point, Rect};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::error::Error;
 use super::aperture::{Form, Template};
@@ -23,13 +23,14 @@ impl<'a> Reader<'a> {
         let operation = match (words.operation, self.operation) {
             (Some(operation), _) => operation,
             (None, Some(operation)) => {
-                let message = "a coordinate without D01, D02 or D03 repeats the one before";
-                self.warnings.add(&flaw::OPERATION_CODE_MISSING, place.clone(), message);
+                let message = "a coordinate without D01, D02 or D03 repeats the previous operation";
+                self.warnings.add(&diagnostic::OPERATION_CODE_MISSING, place.clone(), message);
                 operation
             }
             (None, None) => {
-                let message = "a coordinate without D01, D02 or D03, and none before it, moves as D02 does";
-                self.warnings.add(&flaw::OPERATION_CODE_MISSING, place.clone(), message);
+                let message =
+                    "a coordinate without D01, D02 or D03, and none before it, is read as a move (D02)";
+                self.warnings.add(&diagnostic::OPERATION_CODE_MISSING, place.clone(), message);
                 Operation::Move
             }
         };
@@ -75,7 +76,7 @@ impl<'a> Reader<'a> {
         coordinate.ok_or_else(|| {
             self.error(
                 at.clone(),
-                "this coordinate lies beyond what is handled",
+                "this coordinate is out of range",
                 "coordinates within ±1073.741823 mm",
                 "check the number format and the units of the file",
             )
@@ -94,7 +95,7 @@ impl<'a> Reader<'a> {
     pub(super) fn flash(&mut self, at: Point, block: &Block<'a>) -> Result<(), Error> {
         let place = block.place();
         if self.region.is_some() {
-            self.warnings.add(&flaw::FLASH_IN_REGION, place, "a flash within G36 and G37 is left out");
+            self.warnings.add(&diagnostic::FLASH_IN_REGION, place, "a flash between G36 and G37 is ignored");
             return Ok(());
         }
         let at = self.place(at, &place)?;
@@ -111,9 +112,9 @@ impl<'a> Reader<'a> {
         let shapes = draw::flash(&form, at);
         if shapes.is_empty() {
             self.warnings.add(
-                &flaw::NOTHING_DRAWN,
+                &diagnostic::NOTHING_DRAWN,
                 place,
-                format!("D{number} has no area; flashes of it are left out"),
+                format!("D{number} has no area; its flashes are ignored"),
             );
             return Ok(());
         }

@@ -15,8 +15,8 @@ impl Quadrants {
     /// As people say it.
     pub(super) const fn describe(self) -> &'static str {
         match self {
-            Self::Single => "G74, a quarter at most",
-            Self::Multi => "G75, several quadrants",
+            Self::Single => "G74, single quadrant",
+            Self::Multi => "G75, multi quadrant",
         }
     }
 }

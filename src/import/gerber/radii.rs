@@ -133,7 +133,7 @@ fn misfit(from: Point, to: Point, center: Point) -> f64 {
 /// be at, the one that both ends are equally far from (specification §8.1.10, G74); none where each
 /// would make it longer.
 pub(super) fn single_quadrant(from: Point, to: Point, offset: Vector, turn: Turn) -> Option<Point> {
-    /// A quarter, and a little for rounded coordinates.
+    /// A quarter, and a little for rounded coordinates. Chosen: 2 %.
     const QUARTER: f64 = std::f64::consts::FRAC_PI_2 * 1.02;
     let signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
     let candidates = signs.map(|(x, y)| from + Vector::new(offset.x * x, offset.y * y));

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 
 use crate::board::polarity::Polarity;
 use crate::geometry::{Point, Turn};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::error::{Error, Warnings, printable};
 use super::aperture::{Form, Template};
@@ -141,8 +141,11 @@ pub(super) fn read<'a>(
     options: &Options,
 ) -> Result<Image, Error> {
     if !looks_like(bytes) {
-        let what =
-            if bytes.iter().all(|&b| is_blank(b)) { "the file is empty" } else { "this is no Gerber file" };
+        let what = if bytes.iter().all(|&b| is_blank(b)) {
+            "the file is empty"
+        } else {
+            "this is not a Gerber file"
+        };
         return Err(Error::content(
             name,
             what,
@@ -244,27 +247,27 @@ impl<'a> Reader<'a> {
             End::Star => {}
             End::Percent => {
                 self.warnings.add(
-                    &flaw::MISSING_STAR,
+                    &diagnostic::MISSING_STAR,
                     place,
                     "a command does not end with `*`; it is read as if it did",
                 );
             }
             End::File if block.text.trim_ascii() == b"M02" || block.text.trim_ascii() == b"M00" => {
-                self.warnings.add(&flaw::MISSING_STAR, place, "the last command does not end with `*`");
+                self.warnings.add(&diagnostic::MISSING_STAR, place, "the last command does not end with `*`");
             }
             End::File if block.text.trim_ascii_end().is_empty() => return Ok(()),
             End::File => {
                 let message =
-                    "the file ends in the middle of a command, which is left out: it may have been cut off";
-                self.warnings.add(&flaw::TRUNCATED_FILE, place, message);
+                    "the file ends in the middle of a command, which is ignored: it may be truncated";
+                self.warnings.add(&diagnostic::TRUNCATED_FILE, place, message);
                 return Ok(());
             }
         }
         let extended = matches!(block.text, [b'A'..=b'Z', b'A'..=b'Z', ..]);
         self.bracketed ^= block.percents % 2 == 1;
         if extended != self.bracketed {
-            let message = "a `%` is missing before or after this; it is read as what it looks like";
-            self.warnings.add(&flaw::MISSING_PERCENT, block.place(), message);
+            let message = "a `%` is missing before or after this command; it is read as if it were there";
+            self.warnings.add(&diagnostic::MISSING_PERCENT, block.place(), message);
             self.bracketed = extended;
         }
         if extended { self.extended(block) } else { self.words(block.text, &block) }
@@ -294,7 +297,7 @@ impl<'a> Reader<'a> {
             let letter = letter.to_ascii_uppercase();
             if complete && letter != b'M' {
                 let message = "a command does not end with `*`; it is read as if it did";
-                self.warnings.add(&flaw::MISSING_STAR, place.clone(), message);
+                self.warnings.add(&diagnostic::MISSING_STAR, place.clone(), message);
                 self.operate(words, block)?;
                 (words, drawn, complete) = (Words::default(), false, false);
             }
@@ -324,8 +327,8 @@ impl<'a> Reader<'a> {
         let place = start..start + (text.len() - at).max(1);
         if at == 0 && !matches!(text[0], b'X' | b'Y' | b'D' | b'G' | b'I' | b'J') {
             let shown = printable(&text[..text.len().min(20)]);
-            let message = format!("`{shown}` is no command that is known; it is left out");
-            self.warnings.add(&flaw::UNKNOWN_COMMAND, place, message);
+            let message = format!("`{shown}` is not a known command; it is ignored");
+            self.warnings.add(&diagnostic::UNKNOWN_COMMAND, place, message);
             return Ok(());
         }
         Err(self.error(place, "this is not a command", "a letter and a number, as in `X1500`", ""))

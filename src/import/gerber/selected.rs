@@ -4,7 +4,7 @@ use std::ops::Range;
 use std::rc::Rc;
 
 use crate::geometry::Nm;
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 use super::super::error::Error;
 use super::aperture::Form;
@@ -24,10 +24,10 @@ impl<'a> Reader<'a> {
         }
         if let Some(unit) = list.guessed {
             let message = format!(
-                "the aperture list {} does not say its unit; its sizes are read as {unit}",
+                "the aperture list {} does not declare its unit; its sizes are read as {unit}",
                 list.file
             );
-            self.warnings.add(&flaw::APERTURE_UNITS_GUESSED, 0..0, message);
+            self.warnings.add(&diagnostic::APERTURE_UNITS_GUESSED, 0..0, message);
         }
     }
 
@@ -40,7 +40,7 @@ impl<'a> Reader<'a> {
                 place.clone(),
                 "this file draws with apertures that it does not define (RS-274-D)",
                 "aperture definitions, such as `%ADD10C,0.25*%`, or an aperture list (.apt, .gap, .rep) beside the file",
-                "have the file written as RS-274X, with its apertures embedded",
+                "export the file as RS-274X, with embedded apertures",
             )),
             Some(number) => Err(self.error(
                 place.clone(),
@@ -63,7 +63,7 @@ impl<'a> Reader<'a> {
         let (what, expected) = match self.list.and_then(|list| list.entries.get(&number)) {
             Some(Entry::Unclear { line, reason }) => {
                 let what = format!(
-                    "this draws with aperture D{number}, which {file}:{line} leaves unclear: {reason}"
+                    "this draws with aperture D{number}, which {file}:{line} does not define clearly: {reason}"
                 );
                 (what, "a shape with its sizes in the list")
             }
@@ -74,12 +74,7 @@ impl<'a> Reader<'a> {
                 (what, "the list that belongs to this file")
             }
         };
-        self.error(
-            place.clone(),
-            what,
-            expected,
-            "have the file written as RS-274X, with its apertures embedded",
-        )
+        self.error(place.clone(), what, expected, "export the file as RS-274X, with embedded apertures")
     }
 
     /// The transformation of apertures in force: mirrored, then rotated, then scaled (specification

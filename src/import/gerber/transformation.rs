@@ -19,7 +19,7 @@ impl<'a> Reader<'a> {
         self.polarity = match text.trim_ascii() {
             b"D" => Polarity::Dark,
             b"C" => Polarity::Clear,
-            _ => return Err(self.error(place, "this polarity is not known", "`%LPD*%` or `%LPC*%`", "")),
+            _ => return Err(self.error(place, "this polarity is unknown", "`%LPD*%` or `%LPC*%`", "")),
         };
         Ok(())
     }
@@ -40,7 +40,7 @@ impl<'a> Reader<'a> {
                 _ => {
                     return Err(self.error(
                         place,
-                        "this mirroring is not known",
+                        "this mirroring is unknown",
                         "`LMN`, `LMX`, `LMY` or `LMXY`",
                         "",
                     ));
@@ -66,7 +66,7 @@ impl<'a> Reader<'a> {
             _ => {
                 return Err(self.error(
                     place,
-                    "this image polarity is not known",
+                    "this image polarity is unknown",
                     "`%IPPOS*%` or `%IPNEG*%`",
                     "",
                 ));
@@ -89,12 +89,7 @@ impl<'a> Reader<'a> {
                     b"AXBY" => false,
                     b"AYBX" => true,
                     _ => {
-                        return Err(self.error(
-                            place,
-                            "these axes are not known",
-                            "`ASAXBY` or `ASAYBX`",
-                            "",
-                        ));
+                        return Err(self.error(place, "these axes are unknown", "`ASAXBY` or `ASAYBX`", ""));
                     }
                 };
             }
@@ -105,7 +100,7 @@ impl<'a> Reader<'a> {
                 let quarter = quarter.ok_or_else(|| {
                     self.error(
                         place.clone(),
-                        "this rotation is not known",
+                        "this rotation is unknown",
                         "`IR0`, `IR90`, `IR180` or `IR270`",
                         "",
                     )

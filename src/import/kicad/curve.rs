@@ -124,6 +124,7 @@ fn center(a: Point, b: Point, c: Point) -> (f64, f64) {
 
 /// An arc round a centre so far away that it is no coordinate: lines within [`FLATTEN`].
 fn flat_arc(start: Point, end: Point, (x, y): (f64, f64), turn: Turn) -> Vec<Point> {
+    /// The most lines of an arc. Chosen: as for other curves.
     const MOST: u32 = 65_536;
     let way = |p: Point| (p.to_f64().0 - x, p.to_f64().1 - y);
     let ((ax, ay), (bx, by)) = (way(start), way(end));

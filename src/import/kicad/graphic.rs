@@ -9,8 +9,8 @@ use super::ring::Drawing;
 use super::tree::Node;
 use crate::board::{Axis, Shape, polarity};
 use crate::geometry::{Arc, Nm, Point, Turn, Vector};
+use crate::import::diagnostic;
 use crate::import::error::Error;
-use crate::import::flaw;
 
 /// How the outline is drawn, and whether the inside is filled.
 #[derive(Clone, Copy)]
@@ -49,23 +49,23 @@ impl Reader<'_> {
         if let Some(style) = style.filter(|style| !matches!(style.raw(), b"solid" | b"default"))
             && !on_edge
         {
-            let message = format!("a line drawn with a pattern ({}) is read as a solid one", style.text());
-            self.warnings.add(&flaw::KICAD_LINE_STYLE, node.place(), message);
+            let message = format!("a line of style {} is read as solid", style.text());
+            self.warnings.add(&diagnostic::KICAD_LINE_STYLE, node.place(), message);
         }
-        let told = node.find("fill").and_then(|fill| match fill.argument(0) {
+        let declared = node.find("fill").and_then(|fill| match fill.argument(0) {
             Some(word) => Some(word),
             None => fill.find("type").and_then(|list| list.argument(0)),
         });
         // Where nothing is told: KiCad before version 6 filled polygons, and rings without a width.
-        let untold = match kind {
+        let default = match kind {
             b"poly" => !on_edge,
             b"circle" | b"rect" => width == Nm::ZERO,
             _ => false,
         };
-        let filled = told.map_or(untold, |word| !matches!(word.raw(), b"none" | b"no" | b"false"));
-        if let Some(word) = told.filter(|word| word.raw().ends_with(b"hatch")) {
-            let message = format!("an area filled with a pattern ({}) is read as a full one", word.text());
-            self.warnings.add(&flaw::KICAD_LINE_STYLE, node.place(), message);
+        let filled = declared.map_or(default, |word| !matches!(word.raw(), b"none" | b"no" | b"false"));
+        if let Some(word) = declared.filter(|word| word.raw().ends_with(b"hatch")) {
+            let message = format!("an area with fill {} is read as filled solid", word.text());
+            self.warnings.add(&diagnostic::KICAD_LINE_STYLE, node.place(), message);
         }
         Ok(Pen { width, filled })
     }
@@ -88,8 +88,8 @@ impl Reader<'_> {
         if let Some(radius) = node.find("radius")
             && self.length(radius, 0)? > Nm::ZERO
         {
-            let message = "the rounded corners of a rectangle are read as square ones";
-            self.warnings.add(&flaw::KICAD_LINE_STYLE, node.place(), message);
+            let message = "the rounded corners of a rectangle are read as square";
+            self.warnings.add(&diagnostic::KICAD_LINE_STYLE, node.place(), message);
         }
         let corners = [a, (b.0, a.1), b, (a.0, b.1)].map(|corner| frame.place(corner));
         Ok(area(&corners, pen))

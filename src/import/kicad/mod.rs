@@ -34,7 +34,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::error::Error;
 use super::gerber::Image;
-use super::{design, digest, flaw};
+use super::{design, diagnostic, digest};
 use crate::board::{Hole, Plating, Source, Warning};
 use crate::geometry::Nm;
 use reader::{Reader, Sheet};
@@ -83,8 +83,8 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Layout, Error> {
     let root = tree.root();
     let version = root.find("version").and_then(|version| version.argument(0));
     if let Some(version) = version.filter(|_| reader.version > NEWEST) {
-        let message = "the board was saved by a KiCad newer than 9, whose format is not known here";
-        reader.warnings.add(&flaw::KICAD_VERSION, version.place(), message);
+        let message = "the board was saved by a KiCad newer than 9, whose format voromill does not know";
+        reader.warnings.add(&diagnostic::KICAD_VERSION, version.place(), message);
     }
     let thickness = match root.find("general").and_then(|general| general.find("thickness")) {
         Some(list) => Some(reader.length(list, 0)?).filter(|&thickness| thickness > Nm::ZERO),

@@ -5,9 +5,9 @@ use crate::geometry::Nm;
 /// The length that `text` says in millimetres, rounded to the nanometre, halves away from zero;
 /// none where it is no number or lies beyond the range of coordinates.
 pub(super) fn length(text: &[u8]) -> Option<Nm> {
-    /// More digits than any coordinate in range has in front of the point and behind it.
+    /// More digits than any coordinate in range has in front of the point and behind it. Chosen.
     const DIGITS: usize = 30;
-    /// A power of ten beyond which nothing in range is left.
+    /// A power of ten beyond which nothing in range is left. Chosen.
     const POWER: i32 = 60;
     let (negative, text) = match text {
         [b'-', rest @ ..] => (true, rest),

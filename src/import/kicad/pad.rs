@@ -9,8 +9,8 @@ use super::ring::Ring;
 use super::tree::Node;
 use crate::board::{Attributes, Axis, Plating, Shape, Side};
 use crate::geometry::Nm;
+use crate::import::diagnostic;
 use crate::import::error::Error;
-use crate::import::flaw;
 
 /// A pad as it is on one side: what a padstack says of the layer counts before what the pad says.
 #[derive(Clone, Copy)]
@@ -180,9 +180,9 @@ impl Reader<'_> {
                 drawing.extend(self.graphic(piece, frame, false)?);
             } else if !matches!(piece.head(), b"gr_vector" | b"gr_bbox") {
                 self.warnings.add(
-                    &flaw::KICAD_NOT_READ,
+                    &diagnostic::KICAD_NOT_READ,
                     piece.place(),
-                    "a piece of a custom pad of an unknown kind is not read",
+                    "a primitive of a custom pad has an unknown type and is not read",
                 );
             }
         }

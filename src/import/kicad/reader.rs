@@ -11,8 +11,8 @@ use super::tree::{Node, Tree};
 use super::{head, number};
 use crate::board::{Attributes, Axis, Feature, Hole, Plating, Shape, Side};
 use crate::geometry::{Nm, Path, Point, Rect};
+use crate::import::diagnostic;
 use crate::import::error::{Error, Warnings};
-use crate::import::flaw;
 
 /// The copper of a side in the making.
 #[derive(Debug)]
@@ -91,7 +91,7 @@ impl<'a> Reader<'a> {
                 self.name,
                 self.bytes,
                 root.place().start..root.place().start + 1,
-                "this is no KiCad board",
+                "this is not a KiCad board",
                 "`(kicad_pcb …)`",
                 "",
             ));
@@ -169,11 +169,11 @@ impl<'a> Reader<'a> {
             b"target" => "targets",
             b"barcode" => "bar codes",
             b"table" => "tables",
-            _ => "things of an unknown kind",
+            _ => "objects of an unknown type",
         };
         let head = String::from_utf8_lossy(node.head()).into_owned();
-        let message = format!("{what} ({head}) on copper or the edge are not read");
-        self.warnings.add(&flaw::KICAD_NOT_READ, node.place(), message);
+        let message = format!("{what} ({head}) on copper or Edge.Cuts are not read");
+        self.warnings.add(&diagnostic::KICAD_NOT_READ, node.place(), message);
     }
 
     /// Draws a line, a circle, … on the layers that it names.
@@ -254,7 +254,7 @@ impl<'a> Reader<'a> {
     }
 
     fn out_of_range(&self, node: Node<'_>) -> Error {
-        let (what, expected) = ("this lies beyond what is handled exactly", "a place within ±1073.741823 mm");
+        let (what, expected) = ("this coordinate is out of range", "a coordinate within ±1073.741823 mm");
         Error::syntax(
             self.name,
             self.bytes,

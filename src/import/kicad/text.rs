@@ -11,8 +11,8 @@ use super::ring::Drawing;
 use super::tree::Node;
 use crate::board::{Attributes, Axis, Shape, Side, polarity};
 use crate::geometry::Polygon;
+use crate::import::diagnostic;
 use crate::import::error::Error;
-use crate::import::flaw;
 
 impl Reader<'_> {
     /// A text; `outlines` says whether those that it may carry are given in the board's frame.
@@ -43,14 +43,14 @@ impl Reader<'_> {
             None => None,
         };
         let on = match (layers.edge, layers.on(Side::Front)) {
-            (true, _) => "the edge",
-            (false, true) => "the front copper",
-            (false, false) => "the back copper",
+            (true, _) => "Edge.Cuts",
+            (false, true) => "F.Cu",
+            (false, false) => "B.Cu",
         };
         let at = place.map_or_else(String::new, |p| format!(" at ({:.3}, {:.3})", p.x, p.y));
         let shown: String = said.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let message = format!("the text `{shown}` on {on}{at} is left out");
-        self.warnings.add(&flaw::KICAD_TEXT, node.place(), message);
+        let message = format!("the text `{shown}` on {on}{at} is not read");
+        self.warnings.add(&diagnostic::KICAD_TEXT, node.place(), message);
         Ok(())
     }
 

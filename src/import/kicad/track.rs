@@ -8,8 +8,8 @@ use super::ring::Ring;
 use super::tree::Node;
 use crate::board::{Attributes, Axis, Plating, Shape, Side};
 use crate::geometry::{Nm, Point};
+use crate::import::diagnostic;
 use crate::import::error::Error;
-use crate::import::flaw;
 
 impl Reader<'_> {
     /// A straight track.
@@ -67,7 +67,7 @@ impl Reader<'_> {
             return self.via_hole(node, at, attributes.net.as_deref());
         }
         let message = "a via that ends on an inner layer gets no hole, since inner layers are not milled";
-        self.warnings.add(&flaw::KICAD_BLIND_VIA, node.place(), message);
+        self.warnings.add(&diagnostic::KICAD_BLIND_VIA, node.place(), message);
         Ok(())
     }
 
@@ -80,8 +80,8 @@ impl Reader<'_> {
             }
         };
         if drill <= Nm::ZERO {
-            let message = "a via without the size of its drill gets no hole";
-            self.warnings.add(&flaw::KICAD_VIA_WITHOUT_DRILL, node.place(), message);
+            let message = "a via without a drill size gets no hole";
+            self.warnings.add(&diagnostic::KICAD_VIA_WITHOUT_DRILL, node.place(), message);
         }
         self.drill(node, way(at, at), drill, Plating::Plated)
     }

@@ -101,11 +101,11 @@ impl<'a> Tree<'a> {
 
     fn not_a_list(&self, at: usize) -> Error {
         let place = at.min(self.bytes.len())..(at + 1).min(self.bytes.len());
-        Error::syntax(self.name, self.bytes, place, "this is no KiCad board", "`(kicad_pcb …)`", "")
+        Error::syntax(self.name, self.bytes, place, "this is not a KiCad board", "`(kicad_pcb …)`", "")
     }
 
     fn endless(&self, what: &str, place: Range<usize>) -> Error {
-        let what = format!("this {what} never ends: the file was cut off");
+        let what = format!("this {what} has no end: the file is truncated");
         let expected = if place.len() == 1 { "its end further down" } else { "its end" };
         Error::syntax(self.name, self.bytes, place, what, expected, "save the board again in KiCad")
     }

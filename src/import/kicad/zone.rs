@@ -12,8 +12,8 @@ use super::ring::Drawing;
 use super::tree::Node;
 use crate::board::{Axis, Shape, Side, polarity};
 use crate::geometry::{Nm, Point};
+use crate::import::diagnostic;
 use crate::import::error::Error;
-use crate::import::flaw;
 
 impl Reader<'_> {
     /// A zone; one that keeps copper out draws none.
@@ -24,9 +24,9 @@ impl Reader<'_> {
         }
         self.count("zones");
         if let Some(lines) = node.find("fill_segments") {
-            let what = "a zone filled with lines, as old versions could";
-            let expected = "a zone filled with areas";
-            let hint = "choose solid areas for it in KiCad, fill it (press B) and save";
+            let what = "a zone with line fill, as in old versions";
+            let expected = "a zone with solid fill";
+            let hint = "choose solid fill for it in KiCad, fill it (press B) and save";
             return Err(Error::syntax(self.name, self.bytes, lines.place(), what, expected, hint));
         }
         let pen = self.zone_pen(node)?;
@@ -96,8 +96,8 @@ impl Reader<'_> {
             return Err(Error::syntax(self.name, self.bytes, place, what, expected, hint));
         }
         for (place, name, _) in zones {
-            let message = format!("{name} was filled, and nothing of it is left");
-            self.warnings.add(&flaw::KICAD_ZONE_EMPTY, place, message);
+            let message = format!("{name} is filled, but has no copper");
+            self.warnings.add(&diagnostic::KICAD_ZONE_EMPTY, place, message);
         }
         Ok(())
     }
@@ -109,9 +109,9 @@ fn zone_name(node: Node<'_>, net: Option<&str>, layers: Layers) -> String {
     let called = name.filter(|name| !name.is_empty()).map_or_else(String::new, |name| format!(" {name}"));
     let of = net.map_or_else(String::new, |net| format!(" of net {net}"));
     let on = match (layers.on(Side::Front), layers.on(Side::Back)) {
-        (true, true) => "both sides",
-        (true, false) => "the front",
-        _ => "the back",
+        (true, true) => "F.Cu and B.Cu",
+        (true, false) => "F.Cu",
+        _ => "B.Cu",
     };
     format!("the zone{called}{of} on {on}")
 }

@@ -196,7 +196,7 @@ pub(super) fn drop_doubles(edges: &mut Vec<Edge>) {
     });
 }
 
-/// The most edges that are looked at for crossings; drawings of more are taken as they are.
+/// The most edges that are looked at for crossings; drawings of more are taken as they are. Chosen.
 const MOST: usize = 20_000;
 
 /// Parts edges where another one ends on them or crosses them; lines that lie on each other become

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 use super::edge::Edge;
 use super::{Notes, area_mm2};
 use crate::geometry::{Path, Point, Vector};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// The contour around each connected part of `edges`, counter-clockwise. No edge may lead nowhere.
 pub(super) fn outermost(edges: &[Edge], notes: &mut Notes<'_>) -> Vec<Path> {
@@ -33,7 +33,7 @@ pub(super) fn outermost(edges: &[Edge], notes: &mut Notes<'_>) -> Vec<Path> {
     if bounded > contours.len() {
         let at = walks.iter().find(|walk| leaving[&walk.from].len() > 2).map(|walk| (walk.from, walk.line));
         let message = "lines inside the outline touch it; only its outer edge is taken";
-        notes.add(&flaw::OUTLINE_PARTED, message, at);
+        notes.add(&diagnostic::OUTLINE_PARTED, message, at);
     }
     contours
 }

@@ -6,7 +6,7 @@ use std::iter::successors;
 use super::Notes;
 use super::edge::Edge;
 use crate::geometry::{Nm, Point, Rect};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// What an end that lies this near to another is not even worth mentioning: the rounding of a
 /// file's last digit.
@@ -108,7 +108,7 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
     if let Some((width, at)) = widest {
         let message =
             format!("{closed} gaps of the outline are closed, the widest of {:.3} mm", Nm::from_f64(width));
-        notes.add(&flaw::OUTLINE_GAP, message, Some((at, line_at(edges, at))));
+        notes.add(&diagnostic::OUTLINE_GAP, message, Some((at, line_at(edges, at))));
     }
 }
 
@@ -156,11 +156,11 @@ pub(super) fn note_joints(edges: &[Edge], mut joints: Vec<Joint>, notes: &mut No
     joints.retain(|(_, p, _)| edges.iter().any(|edge| edge.from == *p || edge.to == *p));
     let Some(&(widest, at, line)) = joints.iter().max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
     let message = format!(
-        "{} ends of the outline that touch the middle of another line are led to it, the farthest by {:.3} mm",
+        "{} ends of the outline that nearly touch the middle of another line are joined to it, the farthest by {:.3} mm",
         joints.len(),
         Nm::from_f64(widest)
     );
-    notes.add(&flaw::OUTLINE_GAP, message, Some((at, line)));
+    notes.add(&diagnostic::OUTLINE_GAP, message, Some((at, line)));
 }
 
 /// Whether `end` leaves `other` and is but what a line was drawn too far across it.
@@ -276,11 +276,11 @@ pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loos
     let loose = |edge: &Edge| [edge.from, edge.to].into_iter().find(|p| ends[p].count == 1);
     let place = left_out().find_map(|edge| Some((loose(edge)?, edge.line)))?;
     let message = format!(
-        "{} lines of the outline layer, {:.1} mm in all, close no contour and are left out",
+        "{} lines of the outline layer, {:.1} mm in all, belong to no closed contour and are ignored",
         left_out().count(),
         Nm::from_f64(length)
     );
-    notes.add(&flaw::OUTLINE_LOOSE_LINES, message, Some(place));
+    notes.add(&diagnostic::OUTLINE_LOOSE_LINES, message, Some(place));
     let mut dead = dead.into_iter();
     edges.retain(|_| !dead.next().unwrap_or(false));
     Some(Loose { length, bounds, place })

@@ -22,8 +22,8 @@ use std::collections::BTreeMap;
 use crate::board::Diagnostic;
 use crate::board::{Axis, Feature, Outline, Shape, Warning};
 use crate::geometry::{Nm, Path, Point};
+use crate::import::diagnostic;
 use crate::import::error::{last_line, line, locate};
-use crate::import::flaw;
 use edge::Edge;
 
 /// How far apart two ends may lie and still be taken for one corner.
@@ -48,7 +48,7 @@ pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
     let mut notes = Notes { file, bytes, lines: BTreeMap::new(), warnings: Vec::new() };
     let (mut edges, mut contours) = collect(features, &mut notes);
     if edges.is_empty() && contours.is_empty() {
-        notes.add(&flaw::OUTLINE_EMPTY, "the outline layer draws nothing that could be cut", None);
+        notes.add(&diagnostic::OUTLINE_EMPTY, "the outline layer has nothing that can be cut", None);
         return Joined { outline: None, warnings: notes.warnings };
     }
     edge::drop_doubles(&mut edges);
@@ -67,9 +67,8 @@ pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
     let closes = |outline: &Outline| !loose.as_ref().is_some_and(|loose| reaches_around(loose, outline));
     let outline = Outline::new(contours).filter(closes);
     if outline.is_none() {
-        let message =
-            "the outer edge of the board does not close, so the outline is not known; close it in the layer";
-        notes.add(&flaw::OUTLINE_OPEN, message, loose.map(|loose| loose.place));
+        let message = "the outline of the board is not closed; close it in the layer";
+        notes.add(&diagnostic::OUTLINE_OPEN, message, loose.map(|loose| loose.place));
     }
     Joined { outline, warnings: notes.warnings }
 }
@@ -92,8 +91,13 @@ pub(in crate::import::outline) struct Notes<'a> {
 
 impl Notes<'_> {
     /// Without a place, the file as a whole is meant.
-    fn add(&mut self, flaw: &'static Diagnostic, message: impl Into<String>, place: Option<(Point, u32)>) {
-        let warning = flaw.warning(message);
+    fn add(
+        &mut self,
+        diagnostic: &'static Diagnostic,
+        message: impl Into<String>,
+        place: Option<(Point, u32)>,
+    ) {
+        let warning = diagnostic.warning(message);
         let (warning, bytes) = match place {
             Some((at, number)) => (warning.at(at), line(self.bytes, number)),
             None => (warning, last_line(self.bytes)),
@@ -141,8 +145,8 @@ fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>
         notes.drawn(edge.to, edge.line);
     }
     if let Some(&first) = flashes.first() {
-        let message = format!("{} flashes on the outline layer are no edge and are left out", flashes.len());
-        notes.add(&flaw::OUTLINE_FLASHES, message, Some(first));
+        let message = format!("{} flashes on the outline layer are ignored", flashes.len());
+        notes.add(&diagnostic::OUTLINE_FLASHES, message, Some(first));
     }
     (edges, contours)
 }

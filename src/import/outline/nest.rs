@@ -3,17 +3,17 @@
 use super::{Notes, area_mm2};
 use crate::board::FLATTEN;
 use crate::geometry::{Path, Polygon};
-use crate::import::flaw;
+use crate::import::diagnostic;
 
 /// The smallest area of a contour, in mm²: below lie letters' eyes and doubled lines, which nothing
-/// is cut along.
+/// is cut along. Chosen.
 const SMALLEST: f64 = 0.05;
 
 /// Of the largest board's area, what a board beside it has at least. Chosen: letters of a title
 /// block stay below, and no panel mixes boards of such different sizes.
 const SHARE: f64 = 0.02;
 
-/// The most contours that are compared with each other; a layer of more is taken as it is.
+/// The most contours that are compared with each other; a layer of more is taken as it is. Chosen.
 const MOST: usize = 2_000;
 
 /// The contours without tiny ones, and without small ones that lie outside every board.
@@ -21,8 +21,8 @@ pub(super) fn without_decoration(mut contours: Vec<Path>, notes: &mut Notes<'_>)
     let tiny = |contour: &mut Path| area_mm2(contour).abs() < SMALLEST;
     let dropped: Vec<Path> = contours.extract_if(.., tiny).collect();
     if let Some(first) = dropped.first() {
-        let message = format!("{} contours below {SMALLEST} mm² are left out of the outline", dropped.len());
-        notes.add(&flaw::OUTLINE_TINY, message, notes.place(first.start));
+        let message = format!("{} contours below {SMALLEST} mm² are ignored in the outline", dropped.len());
+        notes.add(&diagnostic::OUTLINE_TINY, message, notes.place(first.start));
     }
     if contours.len() < 2 || contours.len() > MOST {
         return contours;
@@ -43,8 +43,8 @@ pub(super) fn without_decoration(mut contours: Vec<Path>, notes: &mut Notes<'_>)
     let beside: Vec<usize> = boards().filter(|&i| area(i) < SHARE * largest).collect();
     if let Some(&first) = beside.first() {
         let message =
-            format!("{} small contours beside the board are taken for lettering and left out", beside.len());
-        notes.add(&flaw::OUTLINE_LETTERING, message, notes.place(contours[first].start));
+            format!("{} small contours beside the board look like text and are ignored", beside.len());
+        notes.add(&diagnostic::OUTLINE_LETTERING, message, notes.place(contours[first].start));
     }
     let kept = |i: usize| !beside.contains(&i) && !nests[i].iter().any(|outer| beside.contains(outer));
     let kept: Vec<bool> = (0..rings.len()).map(kept).collect();

@@ -25,9 +25,9 @@ const FORMATS: &[(ImageFormat, &str)] = &[
     (ImageFormat::Pnm, "pnm"),
 ];
 
-/// The most pixels: with what it takes to decode and to trace them, below 2 GiB of memory.
+/// The most pixels: with what it takes to decode and to trace them, below 2 GiB of memory. Chosen.
 const MOST_PIXELS: u64 = 1 << 27;
-/// The most bytes that a decoder may ask for at once.
+/// The most bytes that a decoder may ask for at once. Chosen.
 const MOST_BYTES: u64 = 1 << 30;
 
 /// Pixels as values.
@@ -93,7 +93,7 @@ fn upright(
     let (width, height) = decoder.dimensions();
     if u64::from(width) * u64::from(height) > most {
         let what = format!("{width} × {height} pixels are too many: at most {most} are read");
-        return Err(Error::content(name, what, "save it with fewer pixels to the inch, or in parts"));
+        return Err(Error::content(name, what, "save it with fewer pixels per inch, or in parts"));
     }
     let orientation = decoder.orientation().map_err(broken)?;
     let mut picture = DynamicImage::from_decoder(decoder).map_err(broken)?;
@@ -118,8 +118,8 @@ fn contained<T: Send>(work: impl FnOnce() -> T + Send) -> Result<T, String> {
         let decoding = thread.spawn_scoped(scope, work).map_err(|error| error.to_string())?;
         decoding.join().map_err(|panic| {
             let words = panic.downcast_ref::<String>().map(String::as_str);
-            let words = words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("without a word");
-            format!("its decoder gave up ({words})")
+            let words = words.or_else(|| panic.downcast_ref::<&str>().copied()).unwrap_or("no reason given");
+            format!("its decoder failed ({words})")
         })
     })
 }
@@ -247,7 +247,7 @@ mod tests {
     fn a_decoder_that_panics_is_an_error() {
         let none: [u8; 0] = [];
         let words = contained(|| none[bytes_of_a_broken_file()]).expect_err("there is no such byte");
-        assert!(words.starts_with("its decoder gave up (index out of bounds"), "{words}");
+        assert!(words.starts_with("its decoder failed (index out of bounds"), "{words}");
         assert_eq!(contained(|| 7), Ok(7), "all others return");
     }
 

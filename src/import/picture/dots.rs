@@ -52,6 +52,7 @@ pub(super) fn part(
 /// Dots of which each differs from the next by less than a quarter of a pixel are of one drill:
 /// their mean, to a hundredth of a millimetre.
 fn drilled(dots: Vec<Dot>, scale: &Scale) -> Vec<Hole> {
+    /// In nanometres. Chosen: drills are sold by tenths of a millimetre.
     const STEP: f64 = 1e4;
     let pixel = scale.pixel.0.max(scale.pixel.1);
     let mut order: Vec<usize> = (0..dots.len()).collect();

@@ -20,8 +20,8 @@ use crate::board::{Axis, Feature, Hole, Shape, Source, Warning, Words, polarity}
 use crate::geometry::{Nm, Point, Polygon};
 use crate::vectorize::{self, Contour, Field, Inside, Level};
 
+use super::diagnostic;
 use super::error::Error;
-use super::flaw;
 
 use decode::Decoded;
 
@@ -110,7 +110,7 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Picture, Erro
     let copper = straightened(&contours, &scale, tolerance(&decoded.field, &level));
     if copper.is_empty() {
         let hint = Words::of(
-            "tell which colour is copper with {copper} dark or {copper} light, or leave {despeckle} out",
+            "set the colour of copper with {copper} dark or {copper} light, or leave {despeckle} out",
         );
         return Err(Error::content(name, "no copper is left of the picture", hint));
     }
@@ -153,12 +153,12 @@ pub fn pixels(name: &str, bytes: &[u8], options: &Options) -> Result<Pixels, Err
 /// The two classes of a picture's pixels, well apart.
 fn two_colours(name: &str, field: &Field) -> Result<Level, Error> {
     let Some(level) = vectorize::level(field) else {
-        let what = "all of the picture has one colour: nothing tells copper from bare board";
+        let what = "the picture has only one colour: there is no copper or no bare board";
         return Err(Error::content(name, what, "check that it is the right file"));
     };
     if level.separation < SEPARATION {
         let what = format!(
-            "the picture has no two clear colours ({:.0} % of its contrast lies between two, at least {:.0} % are needed): \
+            "the picture does not have two clear colours ({:.0} % of its contrast lies between two, at least {:.0} % is needed): \
              a photo, or a scan with shadows",
             level.separation * 100.0,
             SEPARATION * 100.0
@@ -184,8 +184,8 @@ fn copper_is_high(level: &Level, is_bright: bool, options: &Options, warnings: &
         let share = if is_high { level.share } else { 1.0 - level.share };
         let colour = if is_high == is_bright { "light" } else { "dark" };
         let message =
-            format!("copper is taken to be the {colour} part, {:.0} % of the picture", share * 100.0);
-        warnings.push(flaw::PICTURE_COLOUR_GUESSED.warning(message));
+            format!("copper is assumed to be the {colour} part, {:.0} % of the picture", share * 100.0);
+        warnings.push(diagnostic::PICTURE_COLOUR_GUESSED.warning(message));
         is_high
     });
     is_high != options.invert
@@ -255,9 +255,9 @@ impl Scale {
         let Some((x, y)) = dpi.filter(|(x, y)| x.min(*y) > 0.0) else {
             return Err(Error::content(
                 name,
-                "the picture does not say how large a pixel is",
+                "the picture has no resolution (DPI)",
                 Words::of(
-                    "say it: {picture-dpi} 600 (`mill` takes {dpi} 600 too), or {picture-width} 80mm for the whole picture",
+                    "set it: {picture-dpi} 600 (`mill` takes {dpi} 600 too), or {picture-width} 80mm for the whole picture",
                 ),
             ));
         };
@@ -265,8 +265,8 @@ impl Scale {
         let (width, height) = (columns * scale.pixel.0 / 1e6, rows * scale.pixel.1 / 1e6);
         if width.max(height) > WIDEST {
             let what =
-                format!("at {x:.0} DPI the picture is {width:.0} × {height:.0} mm: no board is so large");
-            return Err(Error::content(name, what, Words::of("say how large a pixel is: {picture-dpi} 600")));
+                format!("at {x:.0} DPI the picture is {width:.0} × {height:.0} mm: no board is that large");
+            return Err(Error::content(name, what, Words::of("set the resolution: {picture-dpi} 600")));
         }
         Ok(scale)
     }
@@ -303,12 +303,10 @@ impl Scale {
         let specks: Vec<&Contour> =
             kept.iter().filter(|contour| self.area(contour).abs() < SPECK * pixel).collect();
         if let Some(first) = specks.first() {
-            let message = format!(
-                "{} specks of less than four pixels are taken for copper or bare board",
-                specks.len()
-            );
+            let message =
+                format!("{} specks of less than four pixels are read as copper or bare board", specks.len());
             let at = first.points.first().map(|&p| self.point(p)).unwrap_or_default();
-            warnings.push(flaw::PICTURE_SPECKS.warning(message).at(at));
+            warnings.push(diagnostic::PICTURE_SPECKS.warning(message).at(at));
         }
         kept
     }

@@ -11,7 +11,7 @@ pub struct PerAxis<T>(pub [T; 3]);
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ParsePerAxisError<E> {
     /// Two, or more than three.
-    #[error("`{0}` is neither one figure for all axes nor three, with commas between, for x, y and z")]
+    #[error("`{0}` is neither one value for all axes nor three, separated by commas, for x, y and z")]
     Count(String),
     /// A part that is none.
     #[error("{0}")]

@@ -99,8 +99,9 @@ impl TryFrom<Table> for Profile {
     fn try_from(table: Table) -> Result<Self, String> {
         let base = match &table.base {
             None => Self { name: "my machine".to_owned(), ..Self::default() },
-            Some(base) => Self::ready(base)
-                .ok_or_else(|| format!("`{base}` is no machine to build on: expected one of {}", known()))?,
+            Some(base) => Self::ready(base).ok_or_else(|| {
+                format!("`{base}` is not a known base machine: expected one of {}", known())
+            })?,
         };
         let profile = Self {
             name: table.name.unwrap_or(base.name),
@@ -119,7 +120,7 @@ impl TryFrom<Table> for Profile {
         let lengths = profile.travel.map_or(Vec::new(), |travel| travel.0.to_vec());
         let lengths = lengths.into_iter().chain(profile.junction_deviation);
         if let Some(length) = lengths.into_iter().find(|length| length.nm() <= Nm::ZERO) {
-            return Err(format!("`{length}` makes no sense: travel and junction-deviation are above zero"));
+            return Err(format!("`{length}` is invalid: travel and junction-deviation are above zero"));
         }
         let most = profile.spindle_max.unwrap_or(u32::MAX);
         if most == 0 || profile.spindle_min.unwrap_or(0) > most {

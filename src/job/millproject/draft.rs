@@ -205,7 +205,7 @@ impl<'a> Draft<'a> {
             }
             "invert-gerbers" | "draw-gerber-lines" => {
                 if entry.flag()? {
-                    let expected = "false: what is drawn is copper here, and the gaps between are cut";
+                    let expected = "false: what is drawn is copper here, and the gaps are cut";
                     self.refused.push((Needs::Copper, entry.wrong(expected)));
                 }
             }
@@ -224,7 +224,7 @@ impl<'a> Draft<'a> {
                     return Err(entry.wrong("a length of zero or more"));
                 }
                 if diameter == Nm::ZERO {
-                    self.leave(entry, Words::of("a cutter has a width: that of {cutout-tool} is taken"));
+                    self.leave(entry, Words::of("a cutter has a width: that of {cutout-tool} is used"));
                 } else {
                     cutting.cutter.kind = ToolKind::EndMill { diameter };
                 }
@@ -313,7 +313,7 @@ impl<'a> Draft<'a> {
             "mirror-absolute" => {
                 self.leave(
                     entry,
-                    "the back is turned about the board's middle unless mirror-axis says where",
+                    "the back is mirrored about the middle of the board unless mirror-axis is set",
                 );
             }
             "mirror-axis" => options.mirror_axis = Some(Length(entry.length(units)?)),
@@ -397,7 +397,7 @@ impl<'a> Draft<'a> {
         options.drills = Some(Drills(drills));
         options.drill_tolerance = tolerance.map(Length);
         if is_any {
-            let reason = "a drill without tolerances takes any hole that it is nearest to: 0.8mm:-0.1mm:0.1mm takes those of 0.7 to 0.9 mm";
+            let reason = "a drill without tolerances is used for every hole nearest to it: 0.8mm:-0.1mm:0.1mm is used for 0.7 to 0.9 mm";
             self.advise(entry, reason);
         }
         Ok(())

@@ -21,31 +21,31 @@ enum Idle {
 const ORDER: &str = "voromill orders and joins its cuts its own way";
 /// What is written round the cuts.
 const FRAME: &str =
-    "{before} and {after} say what stands before and after a program, and nothing stands between cuts";
+    "{before} and {after} insert G-code before and after a program, and nothing is inserted between cuts";
 
 /// The options that are only told of, in the order of their names.
 const LEFT: &[(&str, Idle, &str)] = &[
     ("backtrack", Idle::Zero, ORDER),
-    ("config", Idle::Never, "one project is read"),
+    ("config", Idle::Never, "only one project is read"),
     ("dpi", Idle::Never, "copper is exact; {pixel} and {dpi} are of the picture that finds the boundaries"),
     ("eulerian-paths", Idle::Never, ORDER),
     ("fill-outline", Idle::Set, "an outline is a contour or an area, as its file draws it"),
     ("g0-horizontal-speed", Idle::Never, ORDER),
     ("g0-vertical-speed", Idle::Never, ORDER),
     ("ignore-warnings", Idle::Unset, "errors stay errors"),
-    ("metricoutput", Idle::Set, "programs count millimetres"),
-    ("milldrill-output", Idle::Never, "what is bored is in the program of the drills"),
+    ("metricoutput", Idle::Set, "programs are in millimetres"),
+    ("milldrill-output", Idle::Never, "bored holes are in the drill program"),
     ("min-path-length", Idle::Zero, ORDER),
     ("no-export", Idle::Unset, "`voromill draw` and `voromill inspect` show a board and write no programs"),
     ("nog81", Idle::Set, "holes are drilled with G0 and G1"),
-    ("nog91-1", Idle::Unset, "the dialect says whether programs have G91.1"),
-    ("optimise", Idle::Zero, "{tolerance} says how far a fitted cut may leave its place"),
-    ("optimize", Idle::Zero, "{tolerance} says how far a fitted cut may leave its place"),
+    ("nog91-1", Idle::Unset, "the dialect sets whether programs have G91.1"),
+    ("optimise", Idle::Zero, "{tolerance} sets how far a cut may be from its exact place"),
+    ("optimize", Idle::Zero, "{tolerance} sets how far a cut may be from its exact place"),
     ("outline-width", Idle::Never, "the middle of the outline's line is the board's edge"),
     ("path-finding-limit", Idle::Never, ORDER),
     ("post-milling-gcode", Idle::Never, FRAME),
     ("pre-milling-gcode", Idle::Never, FRAME),
-    ("preamble-text", Idle::Never, "what a program says first is what to mount and where zero is"),
+    ("preamble-text", Idle::Never, "a program begins with comments on what to mount and where zero is"),
     ("preserve-thermal-reliefs", Idle::Unset, "gaps within a net are not cut"),
     ("spindown-time", Idle::Zero, "no program waits for a spindle to stop"),
     ("svg", Idle::Never, "`{svg}` writes pictures of both sides"),

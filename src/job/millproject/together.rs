@@ -38,7 +38,7 @@ impl Draft<'_> {
         Ok(self.made)
     }
 
-    /// Fails for the first value that makes no sense and matters.
+    /// Fails for the first value that is invalid and matters.
     fn refuse(&mut self) -> Result<(), Wrong> {
         if let Some((overlap, entry)) = &self.isolating.overlap
             && overlap.of(Nm::from_mm(1)) < Nm::ZERO
@@ -110,7 +110,7 @@ impl Draft<'_> {
             }
             Some((_, entry)) => self.leave(
                 &entry,
-                "passes of a mill without a diameter lie on each other: say mill-diameters, or isolation-width",
+                "passes of a mill without a diameter lie on each other: set mill-diameters, or isolation-width",
             ),
             None => {}
         }
@@ -177,7 +177,7 @@ impl Draft<'_> {
         if let Some((_, entry)) = self.cutting.zbridges
             && self.cutting.bridges.is_none_or(|width| width <= Nm::ZERO)
         {
-            self.leave(&entry, "without bridges it says nothing");
+            self.leave(&entry, "without bridges it has no effect");
         }
     }
 
@@ -243,7 +243,9 @@ impl Draft<'_> {
             (Some(_), Some(absolute)) => {
                 self.leave(
                     &absolute,
-                    Words::of("heights count from work zero: zchange is left too, {park} says where"),
+                    Words::of(
+                        "heights count from work zero, so zchange is not taken over either: use {park}",
+                    ),
                 );
             }
             (Some(entry), None) => {
@@ -263,7 +265,7 @@ impl Draft<'_> {
             Some(_) => {}
             None => self.advise(
                 &entry,
-                Words::of("the dialect says how tools are changed; {tool-change} says another way"),
+                Words::of("the dialect sets how tools are changed; {tool-change} sets another way"),
             ),
         }
         Ok(())
@@ -278,14 +280,14 @@ impl Draft<'_> {
             let feed = self.probing.feed.map(|feed| Words::of(" {probe-feed} {0}").with([&feed]));
             let [grid, feed] = [grid, feed].map(Option::unwrap_or_default);
             let why = Words::of(
-                "`voromill probe {side} {0}{1}{2}` touches the board, `voromill level` adapts the program to what was found (docs/levelling.md)",
+                "`voromill probe {side} {0}{1}{2}` probes the board, `voromill level` adapts the program to the heights (docs/levelling.md)",
             );
             self.leave(&entry, why.with([&side, &grid, &feed]));
         }
     }
 }
 
-/// More passes than fit between any two nets.
+/// More passes than fit between any two nets. Chosen.
 const MOST_PASSES: u32 = 1000;
 
 /// Half of a speed, which is its own where it cannot be halved.

@@ -84,7 +84,9 @@ impl Entry<'_> {
     /// Lengths between commas or blanks.
     pub(super) fn lengths(&self, units: Units) -> Result<Vec<Nm>, Wrong> {
         let parts = self.parts().into_iter();
-        parts.map(|part| length(part, units).ok_or_else(|| self.wrong("lengths between commas"))).collect()
+        parts
+            .map(|part| length(part, units).ok_or_else(|| self.wrong("lengths, separated by commas")))
+            .collect()
     }
 
     /// A length above zero.
@@ -120,7 +122,7 @@ impl Entry<'_> {
         let millionths = is_turns.then(|| nanometres(&format!("{number}mm")).ok()).flatten();
         let a_minute = millionths.zip(a_minute(time)).and_then(|(turns, times)| turns.checked_mul(times));
         let turns = a_minute.filter(|&turns| turns >= 0).map(|turns| (turns + 500_000) / 1_000_000);
-        turns.and_then(|turns| u32::try_from(turns).ok()).ok_or_else(|| self.wrong("turns per minute"))
+        turns.and_then(|turns| u32::try_from(turns).ok()).ok_or_else(|| self.wrong("revolutions per minute"))
     }
 
     /// A time; a bare number counts milliseconds.

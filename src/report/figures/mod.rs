@@ -80,7 +80,7 @@ pub fn figures(subjects: &Subjects<'_>) -> Result<Vec<Figure>, FigureError> {
     Ok(vec![
         Figure {
             file: "figure-1.png",
-            caption: "One board made three ways: etched and tinned (left), milled along outlines (middle), milled along the boundaries of Voronoi regions (right). Grooves are drawn wider than the mill cuts them.",
+            caption: "One board made three ways: etched and tinned (left), milled along outlines (middle), milled along the boundaries of Voronoi regions (right). Cuts are drawn wider than they are milled.",
             painting: three_ways(board, copper, &nets)?,
         },
         Figure {
@@ -127,9 +127,9 @@ fn area(board: &Board, copper: &Copper) -> Rect {
     bounds.unwrap_or(Rect::new(crate::geometry::Point::default(), crate::geometry::Point::default()))
 }
 
-/// How far loops of Figure 1 run from copper.
+/// How far loops of Figure 1 run from copper. Chosen for the look.
 const RADIUS: Nm = Nm::from_um(150);
-/// Columns of each of its boards.
+/// Columns of each of its boards. Chosen for the look.
 const COLUMNS: u32 = 420;
 
 fn three_ways(board: &Board, copper: &Copper, nets: &Nets) -> Result<Painting, FigureError> {
@@ -223,5 +223,5 @@ const PREFACE: &str = "\
 
 The figures of [VIsolate](../README.md), drawn by voromill from boards of its own: how Voronoi toolpaths are found, step by step. This page and its
 pictures are written by `cargo run --release --example paper_figures` and held by a test (`tests/it/figures.rs`); with a board and a folder as arguments it draws
-others. No GPU has a part in them, and every machine draws the same pixels.
+others. No GPU is used, and every machine draws the same pixels.
 ";

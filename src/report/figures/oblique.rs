@@ -41,7 +41,7 @@ pub(super) struct Slopes<'a> {
     pub(super) axis: f64,
 }
 
-/// Pixels that each one shown is the mean of, in a row.
+/// Pixels that each one shown is the mean of, in a row. Chosen: smooth edges.
 const FINER: u32 = 3;
 const BLACK: [u8; 3] = [16, 16, 20];
 
@@ -128,6 +128,7 @@ impl Turned {
     }
 
     fn dot(&self, center: PixelPoint, radius: f64) -> Vec<Face> {
+        /// Corners of a dot. Chosen: looks round.
         const CORNERS: u32 = 24;
         let (x, y) = (center.x.to_pixels(), center.y.to_pixels());
         let rim = |i: u32| {

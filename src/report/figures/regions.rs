@@ -12,7 +12,7 @@ use crate::voronoi::{Diagram, Frame, Owner, Settings, SiteKind};
 use super::FigureError;
 use super::painting::Painting;
 
-/// Pixels that each one shown is the mean of, in a row.
+/// Pixels that each one shown is the mean of, in a row. Chosen: smooth edges.
 const FINER: u32 = 3;
 /// Colours of regions: light enough for black lines on them. Regions on a plane need six.
 pub(super) const LIGHT: [Rgb; 8] = [

@@ -11,7 +11,7 @@ use super::FigureError;
 use super::painting::Painting;
 use super::regions::{LIGHT, axes};
 
-/// Pixels that each one shown is the mean of, in a row.
+/// Pixels that each one shown is the mean of, in a row. Chosen: smooth edges.
 const FINER: u32 = 3;
 const WHITE: Rgb = Rgb(0xff, 0xff, 0xff);
 const BLACK: Rgb = Rgb(0x14, 0x14, 0x18);

@@ -46,11 +46,11 @@ function verdict(report) {
   const { verification, warnings } = report;
   const warned = verification ? verification.warnings + warnings.length : warnings.length;
   if (!verification) {
-    return { level: warned ? 'warning' : 'info', word: 'Not verified', text: warned ? count(warned, 'warning') : 'The programs were not judged.' };
+    return { level: warned ? 'warning' : 'info', word: 'Not verified', text: warned ? count(warned, 'warning') : 'The programs were not verified.' };
   }
   if (verification.errors) return { level: 'error', word: 'Do not mill yet', text: `${count(verification.errors, 'error')}, ${count(warned, 'warning')}` };
   if (warned) return { level: 'warning', word: 'Look before you mill', text: `no error, ${count(warned, 'warning')}` };
-  return { level: 'good', word: 'Verified', text: 'Milled on a picture and compared with the design: nothing found.' };
+  return { level: 'good', word: 'Verified', text: 'Simulated and compared with the design: nothing found.' };
 }
 
 class Panel {
@@ -73,7 +73,7 @@ class Panel {
     const first = this.stage.items.find(item => item.at);
     const judged = this.report.verification?.judged ?? [];
     const pixels = judged.map(entry => entry.pixel_mm).filter(Boolean);
-    const how = pixels.length ? `Judged from the text of the programs, on pixels of ${Math.round(Math.max(...pixels) * 1000)} µm; depths from exact geometry.` : null;
+    const how = pixels.length ? `Verified from the text of the programs, on pixels of ${Math.round(Math.max(...pixels) * 1000)} µm; depths from exact geometry.` : null;
     return make('section', { class: `verdict ${level}`, id: 'verdict' },
       make('strong', {}, word), make('p', {}, text), how ? make('p', { class: 'how' }, how) : null,
       first ? make('button', { class: 'show', id: 'show-first', on: { click: () => this.actions.select(first) } }, level === 'error' ? 'Show me the first error' : 'Show me') : null);

@@ -113,6 +113,8 @@ impl Pen {
 
     /// Bézier curves whose middles lie on the arc.
     fn arc(&mut self, arc: &Arc) {
+        /// The longest piece of an arc. Chosen: such a curve leaves the circle by 4 parts in a
+        /// million of the radius.
         const EIGHTH: f64 = std::f64::consts::FRAC_PI_4;
         let mut pieces = 1_u32;
         while arc.sweep().abs() > EIGHTH * f64::from(pieces) {

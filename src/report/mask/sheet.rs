@@ -216,14 +216,14 @@ fn owners(regions: &[Polygon], copper: &Copper, nets: &Nets) -> (Vec<Option<NetI
             |kind: &'static Diagnostic, message: String| kind.warning(message).at(first).on(copper.side);
         match anchors.find_map(find) {
             None => {
-                let message = format!("{} is left no region: --gap takes all of it", nets.label(id));
+                let message = format!("{} has no region left: --gap removes all of it", nets.label(id));
                 warnings.push(warn(&planning::MASK_NET_WITHOUT_REGION, message));
             }
             Some(at) => match owners[at] {
                 None => owners[at] = Some(id),
                 Some(other) => {
                     let message = format!(
-                        "{} and {} share a region: nothing parts them there",
+                        "{} and {} share a region: nothing separates them there",
                         nets.label(other),
                         nets.label(id)
                     );
@@ -251,7 +251,7 @@ fn owner_of(region: &Polygon, copper: &Copper, nets: &Nets) -> Option<NetId> {
 
 /// What is to be said of boundaries that have less than half a `gap` to copper: the gap takes some.
 fn narrow<'a>(boundaries: impl Iterator<Item = &'a Boundary>, gap: Nm, side: Side) -> Option<Warning> {
-    /// What fitting may take.
+    /// What fitting may take. Chosen: above the tolerance of the cuts.
     const SLACK: Nm = Nm::from_um(3);
     let tightest = |boundary: &Boundary| {
         let ends = std::iter::once(boundary.path.start).chain(boundary.path.segments.iter().map(Segment::to));
@@ -263,8 +263,7 @@ fn narrow<'a>(boundaries: impl Iterator<Item = &'a Boundary>, gap: Nm, side: Sid
     });
     let (room, at) = least?;
     let message = format!(
-        "copper is nearer than the gap of {gap:.3} mm at {count} boundaries, {:.3} mm at the narrowest: the gap takes \
-         of it",
+        "copper is nearer than the gap of {gap:.3} mm at {count} boundaries, {:.3} mm at the narrowest: the gap removes some of it",
         room * 2
     );
     Some(planning::MASK_GAP_TAKES_COPPER.warning(message).at(at).on(side))

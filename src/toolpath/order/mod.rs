@@ -6,6 +6,15 @@
 //! small double bridges, seeded, shake it where it is kept if the repaired tour is shorter, until
 //! many in a row were in vain. Of a few trails all orders are tried. Everything is bounded by
 //! counts, never by a clock, so the order depends on the trails alone.
+//!
+//! # Sources
+//!
+//! G. A. Croes, *A method for solving traveling-salesman problems*, Operations Research 6, 1958
+//! (2-opt). S. Lin, *Computer solutions of the traveling salesman problem*, Bell System Technical
+//! Journal 44, 1965 (3-opt). I. Or, *Traveling salesman-type combinatorial problems and their
+//! relation to the logistics of regional blood banking*, Northwestern University, 1976 (Or-opt).
+//! O. Martin, S. W. Otto, E. W. Felten, *Large-step Markov chains for the traveling salesman
+//! problem*, Complex Systems 5, 1991 (double bridges).
 
 mod few;
 mod ground;

@@ -102,7 +102,7 @@ fn bit(hole: &Hole, settings: &Drilling<'_>) -> Option<Tool> {
 
 /// The warning for a hole that no drill fits.
 fn missing(hole: &Hole) -> Warning {
-    let message = format!("no drill at hand is near {:.3} mm: the hole is left", hole.diameter);
+    let message = format!("no available drill is near {:.3} mm: the hole is not drilled", hole.diameter);
     planning::NO_DRILL_FOR_HOLE.warning(message).at(hole.path.start)
 }
 

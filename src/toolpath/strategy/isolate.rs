@@ -171,8 +171,8 @@ fn contention(
     let at = vertex(&boundary.path, index);
     let [left, right] = [boundary.left, boundary.right].map(&name);
     let done = match narrow {
-        Narrow::Centre => format!("it takes up to {:.1} µm of copper on each side", micrometres(lost)),
-        Narrow::Skip => "it is left out, and the two stay joined".to_owned(),
+        Narrow::Centre => format!("it removes up to {:.1} µm of copper on each side", micrometres(lost)),
+        Narrow::Skip => "it is not cut, and the two stay joined".to_owned(),
     };
     // The room is the gap where the cut is midway between copper. Along core axes it is not.
     let message = format!(

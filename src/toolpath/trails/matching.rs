@@ -3,7 +3,8 @@
 //!
 //! Nearest pairs first, then alternating chains: a pair is taken apart, one of the two joins a near
 //! node, whose partner is loose in turn, and so on a few steps; whatever makes the sum smaller is
-//! kept. (Edmonds' exact algorithm would be several hundred lines for the last percent.)
+//! kept. The exact algorithm (J. Edmonds, *Paths, trees, and flowers*, Canadian Journal of
+//! Mathematics 17, 1965) would be several hundred lines for the last percent.
 
 /// Two nodes that may be joined, the smaller first, and what joining them costs.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,6 +4,13 @@
 //! (Euler); cutting an edge a second time makes the two odd nodes at its ends even and saves a
 //! trail, so odd nodes are paired along shortest ways wherever that saves time (the Chinese
 //! postman's problem with an escape).
+//!
+//! # Sources
+//!
+//! C. Hierholzer, *Ueber die Möglichkeit, einen Linienzug ohne Wiederholung und ohne Unterbrechung
+//! zu umfahren*, Mathematische Annalen 6, 1873. M. Guan, *Graphic programming using odd or even
+//! points*, Chinese Mathematics 1, 1962. E. W. Dijkstra, *A note on two problems in connexion with
+//! graphs*, Numerische Mathematik 1, 1959.
 
 mod matching;
 

@@ -75,7 +75,7 @@ pub struct Carved {
 /// Places nearer to each other are one finding. Chosen.
 const APART: f64 = 500_000.0;
 
-/// Places nearer than this are the same, in nanometres.
+/// Places nearer than this are the same, in nanometres. Chosen: the resolution of coordinates.
 const SAME: f64 = 0.5;
 
 /// How much nearer the next chord of a curve may be than the one whose curve it is, in nanometres.
@@ -86,7 +86,7 @@ const BULGE: f64 = 5_000.0;
 /// tools are.
 const BESIDE: Nm = Nm::from_mm(1);
 
-/// So many findings of one kind are listed.
+/// So many findings of one kind are listed. Chosen.
 const MOST_LISTED: usize = 50;
 
 /// A place that is off: where, by how much (too deep above zero), and whether it lies in an area.
@@ -303,13 +303,13 @@ type Kind = (&'static Diagnostic, fn(&Off) -> bool, &'static str);
 /// The worst places of each kind, none near another.
 fn findings(off: &[Off]) -> Vec<Finding> {
     let kinds: [Kind; 3] = [
-        (&planning::CARVED_OUTSIDE, |off| !off.inside, "it mills what lies beside the areas"),
+        (&planning::CARVED_OUTSIDE, |off| !off.inside, "it mills outside the areas"),
         (
             &planning::CARVED_TOO_DEEP,
             |off| off.inside && off.by > 0.0,
             "it mills deeper than the areas are wide",
         ),
-        (&planning::CARVED_TOO_SHALLOW, |off| off.by < 0.0, "it leaves what its tool could mill"),
+        (&planning::CARVED_TOO_SHALLOW, |off| off.by < 0.0, "it leaves material that its tool could mill"),
     ];
     let mut findings = Vec::new();
     for (kind, is_one, what) in kinds {

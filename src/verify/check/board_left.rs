@@ -88,7 +88,7 @@ fn judged(
         State::Uncut => {
             let severity = if stretch.length > BURR { Severity::Error } else { Severity::Warning };
             let message = if stretch.left.is_finite() {
-                format!("along {length:.3} mm of the edge {left:.3} mm of board is left beyond it")
+                format!("along {length:.3} mm of the edge {left:.3} mm of material is left beyond it")
             } else {
                 format!("{length:.3} mm of the edge is not cut")
             };

@@ -19,7 +19,7 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     stage: Stage::Verification,
     severity: Severity::Error,
     what: Words::of("a motion at a feed that was never given"),
-    effect: Words::of("the controller stops with an error, or moves at a speed that nobody chose"),
+    effect: Words::of("the controller stops with an error, or moves at an unknown speed"),
     advice: Words::of("give a feed (F) with the first cut ({feed})"),
 };
 

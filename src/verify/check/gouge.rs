@@ -214,7 +214,7 @@ fn together(sheet: &Sheet<'_>, gouges: &[Gouge]) -> Option<Finding> {
 /// How often so little is taken that it is nothing.
 fn faint(sheet: &Sheet<'_>) -> Option<Finding> {
     let message = format!(
-        "{} times a cut removes less than a micrometre, or a hundredth of the kerf, of copper: that is not listed",
+        "{} times a cut removes less than a micrometre, or a hundredth of the kerf, of copper: these are not listed",
         sheet.hits.faint
     );
     (sheet.hits.faint > 0).then(|| Finding::new(NAME, Severity::Info, message))

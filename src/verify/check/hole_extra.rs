@@ -21,7 +21,7 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
-    what: Words::of("a hole that the board has not"),
+    what: Words::of("a hole that the board does not have"),
     effect: Words::of("a hole that the design does not have may cut a trace"),
     advice: Words::of("check that the program belongs to this board, and its offset"),
 };

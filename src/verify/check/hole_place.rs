@@ -22,7 +22,7 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
-    what: Words::of("a hole beside its place"),
+    what: Words::of("a hole off its place"),
     effect: Words::of("pins do not fit, and the pad round the hole is broken"),
     advice: Words::of("check offset, mirror axis and scale of the program"),
 };

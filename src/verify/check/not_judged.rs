@@ -19,8 +19,8 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,
-    what: Words::of("cuts so crowded that not all was looked at"),
-    effect: Words::of("nobody knows what became of the copper there"),
+    what: Words::of("too many cuts in one place to check all of them"),
+    effect: Words::of("the copper there is not verified"),
     advice: Words::of("look at the program: it cuts the same places hundreds of times"),
 };
 
@@ -38,7 +38,7 @@ fn unsure(sheet: &Sheet<'_>) -> Option<Finding> {
     let (first, more) = (nets.first()?, nets.len() - 1);
     let others = if more > 0 { format!(" and {more} more nets") } else { String::new() };
     let message =
-        format!("too many cuts cross to work out whether {first}{others} are whole and apart from others");
+        format!("too many cuts cross to verify that {first}{others} are whole and separate from others");
     Some(Finding::new(NAME, Severity::Warning, message).of(nets))
 }
 
@@ -52,7 +52,7 @@ fn many(sheet: &Sheet<'_>) -> Option<Finding> {
         .collect();
     let count: usize = left_out.iter().map(|(_, count)| count).sum();
     let nets = left_out.iter().map(|&(net, _)| sheet.nets.label(net));
-    let message = format!("{count} more cuts reach into nets, less deep than those that were looked at");
+    let message = format!("{count} more cuts reach into nets, less deep than those that were checked");
     (count > 0).then(|| Finding::new(NAME, Severity::Warning, message).of(nets))
 }
 
@@ -61,7 +61,7 @@ fn crowded(sheet: &Sheet<'_>) -> Option<Finding> {
     let count = sheet.crowded.iter().filter(|crowded| **crowded).count();
     let first = sheet.crowded.iter().position(|crowded| *crowded)?;
     let cut = sheet.cuts[first];
-    let message = format!("beside {count} cuts no slivers were looked for: hundreds of others run near each");
+    let message = format!("slivers were not checked beside {count} cuts: hundreds of others run near each");
     Some(Finding {
         at: Some(cut.swept.shape.anchor()),
         program: Some(cut.program.file.clone()),

@@ -27,7 +27,7 @@ const KIND: Diagnostic = Diagnostic {
     what: Words::of("a net cut in two"),
     effect: Words::of("a net is interrupted: one part of it is not connected to the other"),
     advice: Words::of(
-        "use a narrower tool, or a smaller {depth} with a V-bit; of another's program check tool and offset",
+        "use a narrower tool, or a smaller {depth} with a V-bit; for a program of other CAM check tool and offset",
     ),
 };
 

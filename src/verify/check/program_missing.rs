@@ -21,9 +21,9 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
-    what: Words::of("a side, drill or cutout that nobody wrote"),
+    what: Words::of("no program for a side, the holes or the cutout"),
     effect: Words::of("the board is not finished"),
-    advice: Words::of("make the missing program, or leave the layer aside with {skip}"),
+    advice: Words::of("make the missing program, or ignore the layer with {skip}"),
 };
 
 pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Whole(check) };

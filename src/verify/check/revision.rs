@@ -26,7 +26,7 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,
-    what: Words::of("a program that was made from other files than it is judged by"),
+    what: Words::of("a program that was made from other files than these"),
     effect: Words::of("the board is milled as it was before its files changed"),
     advice: Words::of("make the programs again from these files"),
 };

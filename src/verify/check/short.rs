@@ -29,7 +29,7 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
-    what: Words::of("two nets joined by copper that was left"),
+    what: Words::of("two nets joined by remaining copper"),
     effect: Words::of("current flows between nets that must be apart: the board does not work"),
     advice: Words::of(
         "isolate with a narrower cut ({tool}, or {depth} with a V-bit), and check that every cut goes through the copper ({depth}, `voromill level`)",

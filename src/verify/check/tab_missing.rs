@@ -31,9 +31,7 @@ const KIND: Diagnostic = Diagnostic {
     severity: Severity::Error,
     what: Words::of("a board cut out with nothing to hold it"),
     effect: Words::of("the board comes loose while it is cut out, and the cutter catches it"),
-    advice: Words::of(
-        "ask for tabs ({tabs} 4); of a board that is held otherwise say so (`verify {tabs} 0`)",
-    ),
+    advice: Words::of("ask for tabs ({tabs} 4); for a board that is held otherwise use `verify {tabs} 0`"),
 };
 
 pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
@@ -99,7 +97,7 @@ fn uneven(contours: &Contours<'_>, ring: &Ring, settings: &Settings) -> Option<(
     ways.sort_by(|a, b| b.length.total_cmp(&a.length));
     let is_uneven = ways.get(1).is_none_or(|next| ways[0].length > next.length * UNEVEN);
     let held = if tabs == 1 { "one tab".to_owned() } else { format!("{tabs} tabs") };
-    let message = format!("what falls out of a cut-out is held by {held}: one is not there");
+    let message = format!("the waste inside a cut-out is held by {held}: one is missing");
     is_uneven.then(|| (ways[0].at, message))
 }
 

@@ -24,7 +24,7 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
-    what: Words::of("an isolating cut that goes far deeper than the copper asks for"),
+    what: Words::of("an isolating cut that is far deeper than needed"),
     effect: Words::of("the cut is wider than planned, and may go through the board"),
     advice: Words::of("check the unit and the Z words of the program"),
 };
@@ -45,7 +45,7 @@ fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
     each_stretch(program, NAME, |motion| {
         let depth = -[motion.from.z, motion.to.z].into_iter().flatten().min()?;
         let wrong = motion.way != Way::Rapid && depth > most;
-        let message = || format!("a cut {depth:.3} mm deep, where {most:.3} mm are plenty");
+        let message = || format!("a cut {depth:.3} mm deep, where {most:.3} mm is enough");
         wrong.then(|| Wrong { severity: Severity::Error, message: message(), size: Some(depth) })
     })
 }

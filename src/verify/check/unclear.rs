@@ -21,7 +21,7 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,
-    what: Words::of("something that the program leaves open"),
+    what: Words::of("something that the program does not set"),
     effect: Words::of("what the machine does depends on the state that it is in"),
     advice: Words::of(
         "write it into the program: the unit (G21), the spindle speed (S), the coordinate system (G54)",

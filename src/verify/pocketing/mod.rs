@@ -79,10 +79,10 @@ const CHORD: Nm = Nm::new(100);
 /// Heights that differ by less are one, in nanometres: the last digit of a program, and rounding.
 const LEVEL: f64 = 1_500.0;
 
-/// So many findings of one kind are listed.
+/// So many findings of one kind are listed. Chosen.
 const MOST_LISTED: usize = 50;
 
-/// With less room than this part of its radius a tool may go straight down.
+/// With less room than this part of its radius a tool may go straight down. Chosen.
 const ROOM: f64 = 0.25;
 
 /// How much steeper than asked for is too steep: arcs are measured by their chords.
@@ -262,10 +262,10 @@ impl Judge<'_> {
             format!("it mills {:.1} µm below the floor", by / 1e3)
         });
         self.list(&planning::POCKET_PASS_TOO_THICK, thick, |by| {
-            format!("it mills at a depth of {:.3} mm what no pass above it has cleared", by / 1e6)
+            format!("it mills material at a depth of {:.3} mm that no pass above it has cleared", by / 1e6)
         });
         self.list(&planning::POCKET_PLUNGE_TOO_STEEP, steep, |_| {
-            "it goes down steeply into material where there is room for a ramp".to_owned()
+            "it plunges steeply into material where there is room for a ramp".to_owned()
         });
     }
 
@@ -334,7 +334,7 @@ fn is_clear(step: &Step, least: f64, sweeps: &Sweeps) -> bool {
     round.into_iter().all(|(right, up)| sweeps.clear((x + right, y + up), least, step.order))
 }
 
-/// A piece that is smaller is none, in nanometres.
+/// A piece that is smaller is none, in nanometres. Chosen: above rounding.
 const SMALL: Nm = Nm::from_um(4);
 
 /// How many pieces of areas, offset inwards to rising levels, have none of the next level in them.

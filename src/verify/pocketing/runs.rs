@@ -74,7 +74,7 @@ pub(super) struct Sweeps {
     tree: Option<StaticAABB2DIndex<f64>>,
 }
 
-/// No place is so far away.
+/// No place is so far away. In nanometres: ten metres. Chosen.
 const FAR: f64 = 1e10;
 
 impl Sweeps {

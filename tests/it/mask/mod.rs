@@ -259,11 +259,11 @@ fn the_program_writes_each_kind_and_says_how_large_it_is() {
         }
     }
     for (arguments, word) in [
-        (&["-o", "a.bmp"][..], "a.bmp does not say what to write"),
+        (&["-o", "a.bmp"][..], "the format of a.bmp is unknown"),
         (&["-o", "a.svg", "--dpi", "600"], "--dpi has no effect"),
         (&["-o", "a.svg", "--gap", "1mm"], "--gap has no effect"),
-        (&["-o", "a.svg", "--what", "regions", "--gap", "0.001mm"], "gap: 0.001 mm is no length"),
-        (&["-o", "a.svg", "--scale", "10"], "no scale"),
+        (&["-o", "a.svg", "--what", "regions", "--gap", "0.001mm"], "gap: 0.001 mm is out of range"),
+        (&["-o", "a.svg", "--scale", "10"], "not a scale"),
         (&["-o", "a.png", "--dpi", "25400", "--margin", "30mm"], "too many"),
     ] {
         let failed = mask(arguments);

@@ -1,6 +1,6 @@
 //! Candle's `.map` files.
 
-use super::{Format, Frame, Touch, Touches, exact, numbers, said};
+use super::{Format, Frame, Touch, Touches, content, exact, numbers};
 use crate::gcode::level::error::MapError;
 
 /// Candle's `.map`: x, y, width and height of the area; how many columns and rows, the lowest and
@@ -11,7 +11,7 @@ pub(super) const CANDLE: Format = Format { name: "Candle's height map", recognis
 /// The first three lines have four, four and three numbers, the second of them with whole numbers
 /// of places.
 fn recognises(text: &str) -> bool {
-    let mut lines = said(text).map(|(_, line)| line.contains(';').then(|| numbers(line)).flatten());
+    let mut lines = content(text).map(|(_, line)| line.contains(';').then(|| numbers(line)).flatten());
     let mut next = || lines.next().flatten().unwrap_or_default();
     let (area, grid, interpolation) = (next(), next(), next());
     let is_count = |value: f64| value >= 2.0 && (value - value.round()).abs() < 1e-9;
@@ -27,7 +27,7 @@ fn recognises(text: &str) -> bool {
     reason = "recognised as at least two; `as` saturates, and the rows are counted"
 )]
 fn read(text: &str, _: &Frame) -> Result<Touches, MapError> {
-    let mut lines = said(text);
+    let mut lines = content(text);
     let mut head = || lines.next().and_then(|(_, line)| numbers(line)).unwrap_or_default();
     let (area, grid, _) = (head(), head(), head());
     let ([x, y, width, height], [columns, rows, ..]) = (area.as_slice(), grid.as_slice()) else {
@@ -44,6 +44,10 @@ fn read(text: &str, _: &Frame) -> Result<Touches, MapError> {
             }),
         );
     }
-    let said = (columns * rows) as usize;
-    if touches.len() == said { Ok(touches) } else { Err(MapError::Count { said, found: touches.len() }) }
+    let declared = (columns * rows) as usize;
+    if touches.len() == declared {
+        Ok(touches)
+    } else {
+        Err(MapError::Count { declared, found: touches.len() })
+    }
 }

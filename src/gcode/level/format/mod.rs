@@ -81,7 +81,7 @@ fn numbers(line: &str) -> Option<Vec<f64>> {
 }
 
 /// Lines that say something, with their numbers from 1.
-fn said(text: &str) -> impl Iterator<Item = (usize, &str)> {
+fn content(text: &str) -> impl Iterator<Item = (usize, &str)> {
     let lines = (1..).zip(text.lines().map(str::trim));
     lines.filter(|(_, line)| !line.is_empty() && !line.starts_with(['#', ';', '(', '%']))
 }
@@ -90,7 +90,7 @@ fn said(text: &str) -> impl Iterator<Item = (usize, &str)> {
 fn exact(line: usize, text: &str, counts: &[usize], expected: &'static str) -> Result<Vec<f64>, MapError> {
     let wrong = |expected| Err(MapError::Line { line, text: text.to_owned(), expected });
     if has_decimal_commas(text) {
-        return wrong("expected points in numbers, such as 0.5: a comma parts them");
+        return wrong("expected decimal points in numbers, such as 0.5: a comma separates them");
     }
     match numbers(text) {
         Some(numbers) if counts.contains(&numbers.len()) => Ok(numbers),

@@ -39,9 +39,9 @@ fn read(text: &str, _: &Frame) -> Result<Touches, MapError> {
 
 /// The points, if there are as many as the map is large.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates; only compared")]
-fn complete(points: Touches, said: f64) -> Result<Touches, MapError> {
-    let said = said as usize;
-    if points.len() == said { Ok(points) } else { Err(MapError::Count { said, found: points.len() }) }
+fn complete(points: Touches, declared: f64) -> Result<Touches, MapError> {
+    let declared = declared as usize;
+    if points.len() == declared { Ok(points) } else { Err(MapError::Count { declared, found: points.len() }) }
 }
 
 fn number(node: Node<'_, '_>, name: &'static str) -> Result<f64, MapError> {

@@ -43,7 +43,7 @@ impl Machine {
         let (from_a, from_b) = (self.known(run, a)?, self.known(run, b)?);
         let to = self.target(run)?;
         let (Some(to_a), Some(to_b)) = (to[a], to[b]) else {
-            return Err(run.error(first, "an arc to a place that nobody can know: its zero is not given"));
+            return Err(run.error(first, "an arc to an unknown position: its zero is not given"));
         };
         let across = run.block.get(CENTERS[normal]).filter(|word| word.value != 0.0);
         if let Some(word) = across {
@@ -81,7 +81,7 @@ impl Machine {
                 (Some(word), Distance::Incremental) => from[index] + Nm::new(self.scaled(run, word)?),
                 (Some(word), Distance::Absolute) => {
                     let origin = self.axes[axis].origin(system);
-                    let unknown = || run.error(word, "a centre that nobody can know: its zero is not given");
+                    let unknown = || run.error(word, "an unknown centre: its zero is not given");
                     origin.ok_or_else(unknown)? + Nm::new(self.scaled(run, word)?)
                 }
             };

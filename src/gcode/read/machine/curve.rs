@@ -44,12 +44,12 @@ impl Machine {
     pub(super) fn curve(&mut self, run: Run<'_>, curve: Curve) -> Result<(), ReadError> {
         self.listing.is_indirect(run.line(), "a curve");
         if self.modal.plane != Plane::Xy {
-            return Err(run.refuse("curves are followed in the plane of the board (G17) alone"));
+            return Err(run.refuse("curves are supported only in the plane of the board (G17)"));
         }
         let from = [self.known(run, 0)?, self.known(run, 1)?].map(Nm::to_f64);
         let to = self.target(run)?;
         let (Some(x), Some(y)) = (to[0], to[1]) else {
-            return Err(run.refuse("a curve to a place that nobody can know: its zero is not given"));
+            return Err(run.refuse("a curve to an unknown position: its zero is not given"));
         };
         let end = [x.to_f64(), y.to_f64()];
         let offset = |machine: &Self, letters: [char; 2], none: Option<Spot>| {

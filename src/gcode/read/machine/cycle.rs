@@ -92,7 +92,7 @@ impl Machine {
         for _ in 0..repeats {
             let over = self.target(run)?;
             if incremental && run.block.get(AXES[normal]).is_none() && (over[a], over[b]) == (None, None) {
-                return Err(run.error(first, "a hole at a place that nobody can know"));
+                return Err(run.error(first, "a hole at an unknown position"));
             }
             self.hole(run, cycle, &Hole { over, bottom, retract, up }, normal)?;
         }
@@ -103,7 +103,7 @@ impl Machine {
     fn remember(&mut self, run: Run<'_>, normal: usize, incremental: bool) -> Result<(), ReadError> {
         let system = self.modal.system;
         let origin = if incremental { Some(Nm::ZERO) } else { self.axes[normal].origin(system) };
-        let unknown = || run.refuse("a depth that nobody can know: its zero is not given");
+        let unknown = || run.refuse("an unknown depth: its zero is not given");
         for letter in [AXES[normal], 'R'] {
             let Some(word) = run.block.get(letter) else { continue };
             let value = origin.ok_or_else(unknown)? + Nm::new(self.scaled(run, word)?);

@@ -184,11 +184,11 @@ impl Machine {
     fn remarks(&mut self, run: Run<'_>) {
         let (line, block) = (run.line(), run.block);
         for &letter in &block.others {
-            let what = if letter == 'E' { "the extruder" } else { "an axis that is not followed" };
-            self.listing.note(true, line, format!("{letter} is passed over: {what}"));
+            let what = if letter == 'E' { "the extruder" } else { "an axis that is not supported" };
+            self.listing.note(true, line, format!("{letter} is ignored: {what}"));
         }
         if block.checksum == Some(false) {
-            self.listing.note(true, line, "a checksum does not fit its line: a controller asks for it again");
+            self.listing.note(true, line, "the checksum of a line is wrong: a controller asks for it again");
         }
         if block.computed {
             self.listing.is_indirect(line, "a parameter or an expression");
@@ -197,7 +197,7 @@ impl Machine {
             self.listing.note(
                 false,
                 line,
-                "a line behind `/` is run: a switch of the machine may leave it out",
+                "a line after `/` is run: with block delete on, the machine skips it",
             );
         }
     }
@@ -241,13 +241,13 @@ impl Machine {
                     let tenth =
                         if order.key % 10 == 0 { String::new() } else { format!(".{}", order.key % 10) };
                     let message =
-                        format!("M{}{tenth} is not known: it is taken to move nothing", order.key / 10);
+                        format!("M{}{tenth} is unknown: it is assumed to move nothing", order.key / 10);
                     self.listing.note(true, run.line(), message);
                 }
                 Meaning::Refused(why) => return refuse(why),
             }
             if meaning(order.letter, order.key) == (Meaning::Save { again: true }) {
-                return refuse("what a subprogram restores at its end is not followed");
+                return refuse("what a subprogram restores at its end is not supported");
             }
         }
         if let Some(Ask::End) = orders.ask {

@@ -25,10 +25,10 @@ impl Machine {
             5061..=5063 | 2000..=2002 => {
                 let axis = (number % 1000 - if number < 5000 { 0 } else { 61 }) as usize;
                 let value = self.counted(axis, self.probed[axis]);
-                found(value, "what a probe found")
+                found(value, "a probe result")
             }
             5070 => Some(Ok(1.0)),
-            5161..=5186 => hidden("a place of the machine"),
+            5161..=5186 => hidden("a machine position"),
             #[expect(clippy::cast_precision_loss, reason = "a small unit")]
             5211..=5213 => {
                 let shift = self.axes[(number - 5211) as usize].shift();
@@ -81,7 +81,7 @@ impl Scope for Machine {
                     .ok_or_else(|| format!("nothing in the program gives #<{}> a value", text.to_lowercase()))
             }
             Name::Number(number) => self.numbered(*number).unwrap_or_else(|| {
-                let what = format!("#{number} is read before the program gives it a value: taken for zero");
+                let what = format!("#{number} is read before the program gives it a value: zero is assumed");
                 let line = self.line;
                 self.listing.note(true, line, what);
                 Ok(0.0)

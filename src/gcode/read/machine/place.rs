@@ -52,7 +52,7 @@ impl Machine {
     fn unit_is_used(&mut self, run: Run<'_>) {
         if !self.modal.unit_given {
             self.modal.unit_given = true;
-            let what = "neither G20 nor G21 before the first length: taken for millimetres";
+            let what = "neither G20 nor G21 before the first length: millimetres are assumed";
             self.listing.note(true, run.line(), what);
         }
     }
@@ -67,12 +67,12 @@ impl Machine {
         match origin.filter(|_| !self.axes[axis].sent) {
             Some(origin) => {
                 let letter = AXES[axis];
-                let what = format!("it begins where the machine stands in {letter}: taken for {letter}0");
+                let what = format!("it begins where the machine is in {letter}: {letter}0 is assumed");
                 self.listing.note(true, run.line(), what);
                 self.axes[axis].at = Some(origin);
                 Ok(origin)
             }
-            None => Err(run.refuse("a motion from a place of the machine that the program does not give")),
+            None => Err(run.refuse("a motion from a machine position that the program does not give")),
         }
     }
 
@@ -107,7 +107,7 @@ impl Machine {
             Special::Data => return self.data(run),
             Special::Home => return self.home(run),
             Special::Here | Special::Local => {
-                self.listing.is_indirect(run.line(), "a moved zero");
+                self.listing.is_indirect(run.line(), "a zero offset");
                 for (axis, letter) in AXES.into_iter().enumerate() {
                     let Some(word) = run.block.get(letter) else { continue };
                     let value = Nm::new(self.scaled(run, word)?);
@@ -130,7 +130,7 @@ impl Machine {
     fn data(&mut self, run: Run<'_>) -> Result<(), ReadError> {
         let Some(kind) = run.block.get('L') else {
             // Marlin and others: retract the filament, or a menu of the controller.
-            self.listing.note(true, run.line(), "G10 without L is passed over");
+            self.listing.note(true, run.line(), "G10 without L is ignored");
             return Ok(());
         };
         let which = run.block.get('P').map_or(Some(0), |word| index(word.value));
@@ -142,9 +142,9 @@ impl Machine {
             _ => return Err(wrong()),
         }
         if let Some(word) = run.block.get('R').filter(|word| word.value != 0.0) {
-            return Err(run.error(word, "a system that is turned is not followed"));
+            return Err(run.error(word, "a rotated coordinate system is not supported"));
         }
-        self.listing.is_indirect(run.line(), "a moved zero");
+        self.listing.is_indirect(run.line(), "a zero offset");
         let system = which.checked_sub(1).unwrap_or(self.modal.system);
         for (axis, letter) in AXES.into_iter().enumerate() {
             let Some(word) = run.block.get(letter) else { continue };
@@ -161,7 +161,7 @@ impl Machine {
 
     /// G28 and G30: by the place that the line gives, if any, to one that only the machine knows.
     fn home(&mut self, run: Run<'_>) -> Result<(), ReadError> {
-        self.listing.is_indirect(run.line(), "a place of the machine");
+        self.listing.is_indirect(run.line(), "a machine position");
         let named = AXES.map(|letter| run.block.get(letter).is_some());
         let all = !named.contains(&true);
         let mut by = self.axes.map(|axis| axis.at);
@@ -175,7 +175,7 @@ impl Machine {
         if by != self.axes.map(|axis| axis.at) {
             self.go(run, Way::Rapid, by)?;
         }
-        let what = "a place of the machine that the program does not give: taken for one above all work";
+        let what = "a machine position that the program does not give: it is assumed to be above all work";
         self.listing.note(false, run.line(), what);
         self.send(run, [0, 1, 2].map(|axis| all || named[axis]))
     }
@@ -186,7 +186,7 @@ impl Machine {
         pointer: Pointer<'_>,
         block: &Block,
     ) -> Result<(), ReadError> {
-        self.listing.is_indirect(pointer.line, "a place of the machine");
+        self.listing.is_indirect(pointer.line, "a machine position");
         self.send(Run { pointer, block }, [true; 3])
     }
 

@@ -25,7 +25,7 @@ impl Machine {
                     let turns = self.modal.speed.ok_or_else(|| {
                         run.error(
                             word,
-                            "a feed for each turn of the spindle, whose speed the program does not give",
+                            "a feed per revolution, but the program does not give the spindle speed",
                         )
                     })?;
                     self.modal.feed = Some(self.scaled(run, word)? * i64::from(turns));

@@ -58,7 +58,7 @@ impl Machine {
             let lead = run
                 .block
                 .get('K')
-                .ok_or_else(|| run.refuse("expected K, the way in a turn of the spindle"))?;
+                .ok_or_else(|| run.refuse("expected K, the feed per revolution of the spindle"))?;
             let turns = self.modal.speed.map_or(0, i64::from);
             self.modal.feed = Some(self.scaled(run, lead)?.abs() * turns);
             self.go(run, Way::Feed, to)?;
@@ -79,21 +79,22 @@ impl Machine {
             to[axis] = self.axes[axis].of_machine(value);
             unknown[axis] = to[axis].is_none();
         }
-        self.listing.is_indirect(run.line(), "a place of the machine");
+        self.listing.is_indirect(run.line(), "a machine position");
         let way = if self.modal.mode == Mode::Feed { Way::Feed } else { Way::Rapid };
         if !unknown.contains(&true) {
             return self.go(run, way, to);
         }
         let low = run.block.get('Z').filter(|word| unknown[2] && word.value < 0.0);
         if low.is_some() {
-            let what = "G53 with Z below the machine's zero: how high above the board that is, the program does not give";
+            let what = "G53 with Z below machine zero: its height above the board is unknown";
             self.listing.note(true, run.line(), what);
         } else {
-            let what = "a place of the machine that the program does not give: taken for one above all work";
+            let what =
+                "a machine position that the program does not give: it is assumed to be above all work";
             self.listing.note(false, run.line(), what);
         }
         if way == Way::Feed && (unknown[0] || unknown[1]) && self.axes[2].at.is_none_or(|z| z < Nm::ZERO) {
-            return Err(run.refuse("a cut to a place of the machine that the program does not give"));
+            return Err(run.refuse("a cut to a machine position that the program does not give"));
         }
         self.send(run, unknown)?;
         // What is known is gone to, too.
@@ -110,9 +111,13 @@ impl Machine {
         let down = to[2] != from[2] && to[2] < Some(Nm::ZERO);
         if down {
             to[2] = Some(Nm::ZERO);
-            self.listing.note(false, run.line(), "a probe: taken to touch the board's surface at Z0");
+            self.listing.note(
+                false,
+                run.line(),
+                "a probe: it is assumed to touch the surface of the board at Z0",
+            );
         } else {
-            self.listing.note(true, run.line(), "a probe: taken to go as far as it may");
+            self.listing.note(true, run.line(), "a probe: it is assumed to go to its end");
         }
         self.go(run, Way::Feed, to)?;
         for axis in 0..3 {
@@ -150,22 +155,19 @@ impl Machine {
     pub(super) fn go(&mut self, run: Run<'_>, way: Way, to: Target) -> Result<(), ReadError> {
         if self.listing.motions.len() >= MOTIONS {
             return Err(
-                run.refuse(format!("the program moves more than {MOTIONS} times, which is not followed"))
+                run.refuse(format!("the program moves more than {MOTIONS} times, which is not supported"))
             );
         }
         let from = self.place();
         let unknown = |axis: usize| to[axis].is_none() && self.axes[axis].at.is_some();
         let low = to[2].or(from.z).is_none_or(|z| z < Nm::ZERO);
         if way != Way::Rapid && (unknown(0) || unknown(1)) && low {
-            let what =
-                "a cut to a place that nobody can know: the program does not give the zero it counts from";
+            let what = "a cut to an unknown position: the program does not give its zero";
             return Err(run.refuse(what));
         }
         let z_lost = run.block.get('Z').is_some() && to[2].is_none() && !self.axes[2].sent;
         if way != Way::Rapid && z_lost {
-            return Err(
-                run.refuse("a cut to a depth that nobody can know: the program does not give its zero")
-            );
+            return Err(run.refuse("a cut to an unknown depth: the program does not give its zero"));
         }
         let [x, y, z] = to;
         let motion = Motion {

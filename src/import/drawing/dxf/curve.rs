@@ -7,7 +7,7 @@ use crate::board::FLATTEN;
 use crate::geometry::Turn;
 use crate::import::drawing::{Contour, Place};
 
-/// The most chords of one curve.
+/// The most chords of one curve. Chosen: finer than any tolerance asks for.
 const MOST_CHORDS: f64 = 65_536.0;
 
 /// A turned ellipse, or a circle, or a part of either, counter-clockwise in its own frame.

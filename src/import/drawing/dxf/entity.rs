@@ -15,7 +15,7 @@ use crate::board::polarity::{FillRule, Polarity};
 use crate::geometry::{Nm, Path};
 use crate::import::drawing::Contour;
 
-/// How deep inserts may lie in each other.
+/// How deep inserts may lie in each other. Chosen: drawings nest a handful.
 const DEEPEST: usize = 24;
 
 /// The most entities, inserted ones each time they are, and the most lines and arcs of them all.
@@ -64,7 +64,7 @@ pub(super) fn drawn(dxf: &Dxf<'_>, nanometres: f64) -> Result<Sheet, Refusal> {
     let scope = Scope { frame: Frame::scale(nanometres), layer: "0".to_owned(), within: Vec::new() };
     for entity in &dxf.entities {
         if entity.whole(67)? == 1 {
-            drawn.leave("entities of the paper's space");
+            drawn.leave("entities in paper space");
             continue;
         }
         drawn.entity(dxf, entity, &scope)?;
@@ -88,18 +88,18 @@ impl Sheet {
             return Ok(());
         }
         let Some(frame) = frame(entity, &scope.frame)? else {
-            self.leave("entities that are tilted out of the plane");
+            self.leave("entities that are tilted out of the XY plane");
             return Ok(());
         };
         if entity.kind == "INSERT" {
             return self.insert(dxf, entity, &frame, layer, &scope.within);
         }
         if entity.kind == "HATCH" && entity.whole(70)? == 0 {
-            self.leave("patterns of hatches, which are filled instead");
+            self.leave("hatch patterns, which are filled solid instead");
         }
         let figures = match made(entity, &frame, &scope.frame)? {
             Ok(figures) if figures.is_empty() => {
-                self.leave(&format!("{} without length", entity.kind));
+                self.leave(&format!("{} of zero length", entity.kind));
                 return Ok(());
             }
             Ok(figures) => figures,
@@ -134,11 +134,11 @@ impl Sheet {
         }
         let name = entity.text(2).unwrap_or_default().to_ascii_uppercase();
         let Some(block) = dxf.blocks.get(&name) else {
-            self.leave("inserts of a block that the file lacks");
+            self.leave("inserts of a missing block");
             return Ok(());
         };
         if within.len() >= DEEPEST || within.contains(&name) {
-            self.leave("inserts in a block that is in itself");
+            self.leave("inserts of a block into itself");
             return Ok(());
         }
         let within = [within, &[name]].concat();
@@ -219,7 +219,7 @@ fn made<'a>(entity: &'a Entity<'_>, frame: &Frame, world: &Frame) -> Result<Resu
         "ELLIPSE" => Ok(vec![ellipse(entity, world)?]),
         "SPLINE" => {
             let figure = spline(entity, world)?;
-            figure.map(|figure| vec![figure]).ok_or("splines whose numbers do not fit")
+            figure.map(|figure| vec![figure]).ok_or("invalid splines")
         }
         "SOLID" | "TRACE" => Ok(vec![solid(entity, frame)?]),
         "HATCH" => {
@@ -340,7 +340,9 @@ fn vertices(entity: &Entity<'_>) -> Result<Vec<Vertex>, NoNumber> {
 
 /// The corners of a polyline of the old kind, those of a spline's frame left out; none of a mesh.
 fn old_vertices(entity: &Entity<'_>) -> Result<Option<Vec<Vertex>>, NoNumber> {
+    /// Group code 70 of POLYLINE in the DXF reference: a 3D polygon mesh, a polyface mesh.
     const MESH: i64 = 16 | 64;
+    /// Group code 70 of VERTEX in the DXF reference: a control point of a spline's frame.
     const FRAME: i64 = 16;
     if entity.whole(70)? & MESH != 0 {
         return Ok(None);

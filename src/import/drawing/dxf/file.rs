@@ -169,9 +169,16 @@ impl<'a> Dxf<'a> {
             }
         }
         if open {
-            let what = "the drawing is cut off: its last section does not end";
+            let what = "the drawing is truncated: its last section has no end";
             let end = bytes.len().saturating_sub(1)..bytes.len();
-            return Err(Error::syntax(name, bytes, end, what, "ENDSEC and EOF", "fetch the file again"));
+            return Err(Error::syntax(
+                name,
+                bytes,
+                end,
+                what,
+                "ENDSEC and EOF",
+                "copy or export the file again",
+            ));
         }
         Ok(dxf)
     }

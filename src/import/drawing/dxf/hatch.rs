@@ -19,7 +19,7 @@ pub(super) fn area(entity: &Entity<'_>, frame: &Frame) -> Result<Option<Result<A
     let mut contours = Vec::new();
     for _ in 0..paths {
         let Some(flags) = reader.next_whole(92)? else { break };
-        /// A polyline, and not edges.
+        /// A polyline, and not edges. Bit 2 of group code 92 in the DXF reference.
         const POLYLINE: i64 = 2;
         let contour = if flags & POLYLINE == 0 { reader.edges()? } else { reader.polyline()? };
         if let Some(mut contour) = contour {

@@ -27,10 +27,10 @@ use std::ops::Range;
 
 use crate::artwork::Artwork;
 use crate::board::{Source, Words};
+use crate::import::diagnostic;
 use crate::import::digest;
 use crate::import::drawing::{Drawing, Options, Unit};
 use crate::import::error::Error;
-use crate::import::flaw;
 use entity::{Refusal, Sheet};
 use file::Dxf;
 use pairs::{NoNumber, SENTINEL};
@@ -64,17 +64,17 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 /// not say how long its unit is, and for one that shows nothing.
 pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Error> {
     if bytes.len() > MOST_BYTES {
-        let what = format!("{} MB are too much for a drawing", bytes.len() >> 20);
-        return Err(Error::content(name, what, "draw less of it"));
+        let what = format!("a drawing of {} MB is too large", bytes.len() >> 20);
+        return Err(Error::content(name, what, "simplify the drawing"));
     }
     let dxf = Dxf::read(name, bytes)?;
     let unit = unit(name, &dxf, options)?;
     let sheet = entity::drawn(&dxf, unit.nanometres()).map_err(|refusal| match refusal {
         Refusal::NoNumber(NoNumber(place)) => no_number(name, bytes, place),
         Refusal::Beyond(at) => {
-            let what = "an entity reaches farther than 1073 mm from zero";
-            let hint = Words::of("say how long a unit is with {unit}, or draw nearer to zero");
-            Error::syntax(name, bytes, at..at + 1, what, "a place within 1073 mm", hint)
+            let what = "an entity lies more than 1073 mm from the origin";
+            let hint = Words::of("set the unit with {unit}, or move the drawing to the origin");
+            Error::syntax(name, bytes, at..at + 1, what, "coordinates within ±1073 mm", hint)
         }
         Refusal::TooMany => {
             let what = "the drawing has more than two million entities, or four million lines and arcs";
@@ -85,16 +85,17 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
         sheet.left_out.iter().map(|(what, count)| format!("{count} {what}")).collect();
     if sheet.layers.is_empty() {
         let why = if left_out.is_empty() { String::new() } else { format!(": {}", left_out.join(", ")) };
-        let hint = "expected lines, arcs, polylines, splines or hatches in the model's space";
+        let hint = "expected lines, arcs, polylines, splines or hatches in model space";
         return Err(Error::content(name, format!("nothing is drawn in the DXF{why}"), hint));
     }
     let mut warnings = Vec::new();
     if !left_out.is_empty() {
-        warnings.push(flaw::DXF_LEFT_OUT.warning(format!("left out of {name}: {}", left_out.join(", "))));
+        warnings
+            .push(diagnostic::DXF_LEFT_OUT.warning(format!("left out of {name}: {}", left_out.join(", "))));
     }
     if !dxf.is_whole {
-        let message = format!("{name} has no EOF at its end, so something may be missing");
-        warnings.push(flaw::DXF_NO_END.warning(message));
+        let message = format!("{name} does not end with EOF; something may be missing");
+        warnings.push(diagnostic::DXF_NO_END.warning(message));
     }
     let source = source(name, bytes, &dxf, unit, &sheet);
     Ok(Drawing { artwork: Artwork { layers: sheet.layers }, source, warnings })
@@ -102,15 +103,15 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
 
 /// An error for what should be a number.
 fn no_number(name: &str, bytes: &[u8], place: Range<usize>) -> Error {
-    let hint = "a decimal comma is none: have the drawing written again, with decimal points";
-    Error::syntax(name, bytes, place, "this is no number", "a number such as 12.5", hint)
+    let hint = "export the drawing again with decimal points instead of commas";
+    Error::syntax(name, bytes, place, "this is not a number", "a number such as 12.5", hint)
 }
 
 /// What a person says, or the file.
 fn unit(name: &str, dxf: &Dxf<'_>, options: &Options) -> Result<Unit, Error> {
     options.unit.or(dxf.unit.map(|(unit, _)| unit)).ok_or_else(|| {
-        let what = "the drawing does not say how long its unit is ($INSUNITS)";
-        Error::content(name, what, Words::of("say it: {unit} mm, {unit} in or {unit} 0.1mm"))
+        let what = "the drawing does not declare its unit ($INSUNITS)";
+        Error::content(name, what, Words::of("set it: {unit} mm, {unit} in or {unit} 0.1mm"))
     })
 }
 
@@ -127,8 +128,8 @@ fn source(name: &str, bytes: &[u8], dxf: &Dxf<'_>, unit: Unit, sheet: &Sheet) ->
         file: name.to_owned(),
         format: if bytes.starts_with(SENTINEL) { "dxf-binary" } else { "dxf" }.to_owned(),
         role: String::new(),
-        units: dxf.unit.map_or("as told", |(_, name)| name).to_owned(),
-        number_format: format!("{version}, a unit is {unit}"),
+        units: dxf.unit.map_or("as given", |(_, name)| name).to_owned(),
+        number_format: format!("{version}, unit {unit}"),
         design: sha256.clone(),
         sha256,
         bytes: bytes.len() as u64,

@@ -82,7 +82,7 @@ fn text<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Pair<'a>>, Error> {
                 name,
                 bytes,
                 code,
-                "a group code is no number",
+                "a group code is not a number",
                 "a whole number on a line of its own, and its value on the next",
                 "save the drawing again",
             ));
@@ -118,8 +118,15 @@ fn binary<'a>(name: &str, bytes: &'a [u8]) -> Result<Vec<Pair<'a>>, Error> {
     while at < bytes.len() {
         let start = at;
         let cut_off = || {
-            let what = "the binary file is cut off";
-            Error::syntax(name, bytes, start..bytes.len(), what, "a whole value", "fetch the file again")
+            let what = "the binary file is truncated";
+            Error::syntax(
+                name,
+                bytes,
+                start..bytes.len(),
+                what,
+                "a whole value",
+                "copy or export the file again",
+            )
         };
         let mut take = |count: usize| {
             let taken = bytes.get(at..at.checked_add(count)?)?;

@@ -26,7 +26,8 @@ const STORED: [&str; 8] =
 /// The most elements that are read, entities unfolded. Chosen: ten times the largest drawing known.
 const MOST_ELEMENTS: u32 = 2_000_000;
 
-/// The deepest nesting of elements that is read.
+/// The deepest nesting of elements that is read. Chosen: drawings nest some dozen, and the stack
+/// holds far more.
 const DEEPEST: usize = 400;
 
 /// How much a group's name tells of a layer.
@@ -62,8 +63,8 @@ pub(super) struct Document {
 impl Document {
     pub(super) fn read(name: &str, bytes: &[u8]) -> Result<Self, Error> {
         let Ok(text) = str::from_utf8(bytes) else {
-            let what = "the SVG is not written in UTF-8";
-            return Err(Error::content(name, what, "save it again, as UTF-8 and not compressed"));
+            let what = "the SVG is not UTF-8";
+            return Err(Error::content(name, what, "save it again as uncompressed UTF-8"));
         };
         let text = text.trim_start_matches('\u{feff}');
         let xml = parse(name, text)?;

@@ -25,10 +25,10 @@ use usvg::fontdb;
 
 use crate::artwork::Artwork;
 use crate::board::{Source, Words};
+use crate::import::diagnostic;
 use crate::import::digest;
 use crate::import::drawing::{Drawing, Options};
 use crate::import::error::Error;
-use crate::import::flaw;
 use document::Document;
 use size::Size;
 
@@ -74,25 +74,25 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
     if painted.layers.iter().all(|layer| layer.figures.is_empty()) {
         let why = if left_out.is_empty() { String::new() } else { format!(": {}", left_out.join(", ")) };
         let hint = if document.texts > 0 && options.fonts.is_empty() {
-            Words::of("name a font for its texts with {font} FILE, or turn them into paths")
+            Words::of("choose a font for its texts with {font} FILE, or convert them to paths")
         } else {
             Words::of("check that the drawing has visible paths")
         };
         return Err(Error::content(name, format!("nothing is drawn in the SVG{why}"), hint));
     }
     if !left_out.is_empty() {
-        warnings.push(flaw::SVG_LEFT_OUT.warning(format!("left out of {name}: {}", left_out.join(", "))));
+        warnings
+            .push(diagnostic::SVG_LEFT_OUT.warning(format!("left out of {name}: {}", left_out.join(", "))));
     }
     if !painted.effects.is_empty() {
         let kinds: Vec<String> =
             painted.effects.iter().map(|(what, count)| format!("{count} {what}")).collect();
-        let message = format!("drawn as if they were not there in {name}: {}", kinds.join(", "));
-        warnings.push(flaw::SVG_EFFECTS.warning(message));
+        let message = format!("ignored in {name}: {}", kinds.join(", "));
+        warnings.push(diagnostic::SVG_EFFECTS.warning(message));
     }
     if painted.erased > 0 {
-        let message =
-            format!("{} white figures of {name} erase what was painted before them", painted.erased);
-        warnings.push(flaw::SVG_WHITE.warning(message));
+        let message = format!("{} white shapes of {name} erase what lies below them", painted.erased);
+        warnings.push(diagnostic::SVG_WHITE.warning(message));
     }
     let source = source(name, bytes, &document, &size, painted.figures());
     Ok(Drawing { artwork: Artwork { layers: painted.layers }, source, warnings })
@@ -108,8 +108,8 @@ fn settings<'a>(name: &str, options: &Options) -> Result<usvg::Options<'a>, Erro
         let before = fonts.len();
         fonts.load_font_data(font.as_ref().clone());
         if fonts.len() == before {
-            let what = Words::of("a file named with {font} is no font");
-            return Err(Error::content(name, what, "name a TrueType or OpenType font"));
+            let what = Words::of("a file given with {font} is not a font");
+            return Err(Error::content(name, what, "give a TrueType or OpenType font"));
         }
     }
     let faces: Vec<fontdb::ID> = fonts.faces().map(|face| face.id).collect();

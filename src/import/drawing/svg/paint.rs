@@ -14,7 +14,7 @@ use crate::geometry::{self, Nm, Segment};
 use crate::import::drawing::{Contour, Options, Place};
 use crate::import::error::Error;
 
-/// What is fainter is not seen.
+/// What is fainter is not seen. Chosen: a twentieth of the ink.
 const FAINTEST: f32 = 0.05;
 
 /// The least of each colour that is white. Chosen: what programs paint a page with.
@@ -77,7 +77,7 @@ impl Painted {
         let all = [
             (document.hidden, "hidden elements", "1 hidden element"),
             (self.unpainted, "paths without fill and stroke", "1 path without fill and stroke"),
-            (texts, "texts, for which {font} names no font", "1 text, for which {font} names no font"),
+            (texts, "texts without a font ({font})", "1 text without a font ({font})"),
             (document.images, "images", "1 image"),
         ];
         let present = all.into_iter().filter(|(count, ..)| *count > 0);
@@ -153,7 +153,7 @@ impl Painted {
         }
         if self.segments > MOST_SEGMENTS {
             let what = format!("the drawing has more than {MOST_SEGMENTS} lines and arcs");
-            return Err(Error::content(scope.name, what, "draw less of it, or without dashes"));
+            return Err(Error::content(scope.name, what, "simplify it, or draw it without dashes"));
         }
         self.layer(&scope.layer).extend(figures);
         Ok(())
@@ -260,11 +260,11 @@ impl Shape<'_> {
             contour.finish()
         });
         finished.collect::<Option<Vec<_>>>().ok_or_else(|| {
-            let what = "a path reaches farther than 1073 mm from the corner of the page";
+            let what = "a path lies more than 1073 mm from the corner of the page";
             Error::content(
                 self.scope.name,
                 what,
-                Words::of("say how long its unit is with {unit}, or draw it nearer"),
+                Words::of("set its unit with {unit}, or move it to the page"),
             )
         })
     }
@@ -308,7 +308,7 @@ fn is_circle(path: &geometry::Path) -> bool {
         Segment::Line { .. } => None,
     });
     let Some(Some(first)) = middles.next() else { return false };
-    /// Middles are rounded, and 32-bit floats.
+    /// Middles are rounded, and 32-bit floats. In nanometres; chosen.
     const SAME: f64 = 200.0;
     path.is_closed() && middles.all(|middle| middle.is_some_and(|p| p.distance(first) < SAME))
 }

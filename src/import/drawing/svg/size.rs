@@ -3,9 +3,9 @@
 use usvg::roxmltree;
 
 use crate::board::{Warning, Words};
+use crate::import::diagnostic;
 use crate::import::drawing::{Options, Place, Unit};
 use crate::import::error::Error;
-use crate::import::flaw;
 
 /// Units that are of one length on any page, and px, which CSS makes a 96th inch.
 const ABSOLUTE: [&str; 7] = ["mm", "cm", "in", "pt", "pc", "q", "px"];
@@ -34,7 +34,7 @@ impl Size {
         if let Some(unit) = options.unit {
             let pixel = Unit::of_nanometres(unit.nanometres() / pixels_a_unit(&root, tree));
             let pixel = pixel.unwrap_or(unit);
-            return Ok(Self { pixel, name: "as told".to_owned(), height });
+            return Ok(Self { pixel, name: "as given".to_owned(), height });
         }
         let sizes = ["width", "height"].map(|side| root.attribute(side).map(measure));
         let told = sizes.iter().flatten().find(|(_, unit)| ABSOLUTE.contains(&unit.as_str()));
@@ -52,13 +52,12 @@ impl Size {
             size.as_ref().is_some_and(|(number, unit)| unit.is_empty() && number.is_finite())
         };
         if !sizes.iter().any(is_plain) {
-            let what = "the drawing does not say how large it is: its page has no width in mm, in or px";
-            let hint =
-                Words::of("say how long its unit is: {unit} mm, {unit} in, {unit} 0.1mm or {unit} 90dpi");
+            let what = "the size of the drawing is unknown: its page has no width in mm, in or px";
+            let hint = Words::of("set its unit: {unit} mm, {unit} in, {unit} 0.1mm or {unit} 90dpi");
             return Err(Error::content(name, what, hint));
         }
-        let message = "the page has a width without a unit: it is taken for pixels of 1/96 inch";
-        warnings.push(flaw::SVG_UNIT_ASSUMED.warning(message));
+        let message = "the width of the page has no unit: it is read as pixels of 1/96 inch";
+        warnings.push(diagnostic::SVG_UNIT_ASSUMED.warning(message));
         Ok(Self { pixel: Unit::PIXEL, name: "px".to_owned(), height })
     }
 

@@ -49,7 +49,7 @@ impl Machine<'_, '_, '_> {
                 if pitch == Nm::ZERO || rows == Nm::ZERO {
                     return Err(self.wrong_line(
                         line,
-                        "a package whose holes lie in one place",
+                        "a package whose holes are all at one position",
                         "G82X0.1Y0.3",
                     ));
                 }
@@ -107,13 +107,13 @@ impl Machine<'_, '_, '_> {
             (Some(_), Some(_)) => {
                 return Err(self.wrong_line(
                     line,
-                    "a square package, whose rows may run either way",
-                    "its holes one by one, or in rows with R",
+                    "a square package, whose rows may be along x or y",
+                    "single holes, or rows with R",
                 ));
             }
             (None, None) => {
                 let what = format!(
-                    "the corners of this package do not lie {:.3} mm apart one way and a multiple of {:.3} mm the other",
+                    "the corners of this package are not {:.3} mm apart in one axis and a multiple of {:.3} mm in the other",
                     package.rows, package.pitch
                 );
                 return Err(self.wrong_line(line, &what, "opposite corners on the package's grid"));
@@ -154,7 +154,7 @@ impl Machine<'_, '_, '_> {
         if holes.is_empty() {
             return Err(self.wrong(
                 times,
-                "P repeats a package, and none came before it",
+                "P repeats a package, but there is none before it",
                 "G82 or G83 before it",
             ));
         }
@@ -175,11 +175,7 @@ impl Machine<'_, '_, '_> {
     fn drilled_circle(&mut self, block: &Block<'_>, line: &Line) -> Result<(), Error> {
         let center = self.target(self.at, block.x, block.y)?;
         let Some((Some(width), _)) = block.beyond else {
-            return Err(self.wrong_line(
-                line,
-                "a circle without a diameter",
-                "X and the diameter behind G84",
-            ));
+            return Err(self.wrong_line(line, "a circle without a diameter", "X and the diameter after G84"));
         };
         let thousandth = match self.format.units {
             Units::Inch => 25_400,
@@ -192,7 +188,7 @@ impl Machine<'_, '_, '_> {
         let tool = self.hole(Path { start: center, segments: vec![] }, line)?.diameter;
         if diameter < tool * 2 {
             let expected = "a diameter at least twice that of the drill";
-            return Err(self.wrong(width, "a circle too narrow for the drill that is to make it", expected));
+            return Err(self.wrong(width, "a circle too small for its drill", expected));
         }
         self.at = center;
         self.circle(center, (diameter - tool) / 2, Turn::CounterClockwise, line)
@@ -211,7 +207,7 @@ impl Machine<'_, '_, '_> {
         let tool = self.hole(Path { start: center, segments: vec![] }, line)?.diameter;
         if radius <= tool / 2 {
             let expected = "a radius above half the width of the router bit";
-            return Err(self.wrong_line(line, "a circle too narrow for the router bit", expected));
+            return Err(self.wrong_line(line, "a circle too small for the router bit", expected));
         }
         self.at = center;
         self.circle(center, radius - tool / 2, turn, line)

@@ -4,12 +4,12 @@ use std::ops::Range;
 
 use super::{Machine, Mode, Tool};
 use crate::geometry::{Nm, Turn, Vector};
+use crate::import::diagnostic;
 use crate::import::error::Error;
 use crate::import::excellon::block::Block;
 use crate::import::excellon::format::Units;
 use crate::import::excellon::lex::{Line, Word};
 use crate::import::excellon::route::Interpolation;
-use crate::import::flaw;
 
 impl Machine<'_, '_, '_> {
     /// Changes the tool, defining it where a diameter is given.
@@ -25,8 +25,8 @@ impl Machine<'_, '_, '_> {
             };
             self.broken.remove(&number);
             if size.number.decimals.is_none() {
-                let message = format!("the diameter has no decimal point and is taken for {diameter:.3} mm");
-                self.warnings.add(&flaw::DIAMETER_WITHOUT_POINT, size.place.clone(), message);
+                let message = format!("the diameter has no decimal point and is read as {diameter:.3} mm");
+                self.warnings.add(&diagnostic::DIAMETER_WITHOUT_POINT, size.place.clone(), message);
             }
             self.tools.insert(number, Tool { diameter, plating: self.plating, place: word.place.clone() });
         } else if let (false, Some(&diameter)) =
@@ -75,7 +75,7 @@ impl Machine<'_, '_, '_> {
             Some(4 | 7 | 34..=37 | 39 | 40 | 45..=47 | 85 | 87 | 92 | 93) => {}
             Some(41 | 42) => {
                 let message = "cutter compensation is not applied: the cut is centred on the programmed line";
-                self.warnings.add(&flaw::CUTTER_COMPENSATION, word.place.clone(), message);
+                self.warnings.add(&diagnostic::CUTTER_COMPENSATION, word.place.clone(), message);
             }
             Some(70) => self.units(Units::Inch, &word.place),
             Some(71) => self.units(Units::Mm, &word.place),
@@ -129,7 +129,7 @@ impl Machine<'_, '_, '_> {
             Some(21..=23 | 70 | 80 | 90) if block.repeats_pattern() => {}
             Some(21..=23 | 70 | 80 | 90) => {
                 let message = "swapped or mirrored axes are not applied outside a repeated pattern";
-                self.warnings.add(&flaw::AXES_NOT_SWAPPED, word.place.clone(), message);
+                self.warnings.add(&diagnostic::AXES_NOT_SWAPPED, word.place.clone(), message);
                 return Ok(true);
             }
             _ => self.left_out(&format!("M{:02}", word.number.digits), &word.place),

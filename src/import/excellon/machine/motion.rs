@@ -5,11 +5,11 @@ use std::ops::Range;
 use super::{Machine, Mode};
 use crate::board::Hole;
 use crate::geometry::{Path, Segment};
+use crate::import::diagnostic;
 use crate::import::error::Error;
 use crate::import::excellon::block::Block;
 use crate::import::excellon::lex::Line;
 use crate::import::excellon::route::{self, Center, Interpolation};
-use crate::import::flaw;
 
 impl Machine<'_, '_, '_> {
     /// Goes to X and Y of the block, drilling or routing as the mode has it.
@@ -50,8 +50,8 @@ impl Machine<'_, '_, '_> {
         self.at = self.target(from, block.x, block.y)?;
         let Some(hole) = &mut self.routing else {
             if interpolation != Interpolation::Rapid {
-                let message = "the router moves here without having been lowered (M15), so nothing is cut";
-                self.warnings.add(&flaw::ROUTER_NOT_LOWERED, line.place.clone(), message);
+                let message = "the router moves here without a plunge (M15) before it, so nothing is cut";
+                self.warnings.add(&diagnostic::ROUTER_NOT_LOWERED, line.place.clone(), message);
             }
             return Ok(());
         };

@@ -5,10 +5,10 @@ use std::ops::Range;
 use super::Machine;
 use crate::board::Hole;
 use crate::geometry::{Nm, Path, Point, Segment, Vector};
+use crate::import::diagnostic;
 use crate::import::error::Error;
 use crate::import::excellon::block::Block;
 use crate::import::excellon::lex::{Line, Word};
-use crate::import::flaw;
 
 impl Machine<'_, '_, '_> {
     /// `R#X#Y#`: the last hole again and again, each that much further.
@@ -30,12 +30,12 @@ impl Machine<'_, '_, '_> {
         }
         let axes = Axes::of(block);
         if axes.swapped && axes.mirrored.0 != axes.mirrored.1 {
-            let what = "swapped and mirrored axes, of which the manual does not say which comes first";
+            let what = "swapped and mirrored axes together, whose order the format does not define";
             return Err(self.wrong(word, what, "M70, M80, M90, M80 with M90, or all three"));
         }
         let Some((from, to)) = self.pattern else {
-            let message = "M02 repeats no pattern, as none was ended with M01";
-            self.warnings.add(&flaw::PATTERN_MISSING, word.place.clone(), message);
+            let message = "M02 repeats a pattern, but none was ended with M01";
+            self.warnings.add(&diagnostic::PATTERN_MISSING, word.place.clone(), message);
             return Ok(());
         };
         let to = to.unwrap_or(self.holes.len());

@@ -150,7 +150,7 @@ impl Row {
         let unclear = |reason: &str| Entry::Unclear { line: self.line, reason: reason.to_owned() };
         let lengths: Option<Vec<Nm>> =
             self.sizes.iter().take(3).map(|size| format!("{size}{unit}").parse().ok()).collect();
-        let Some(lengths) = lengths else { return unclear("its size is none") };
+        let Some(lengths) = lengths else { return unclear("its size cannot be read") };
         let (first, second) = (lengths[0], lengths.get(1).copied().unwrap_or(Nm::ZERO));
         // Three sizes are x, y and the hole.
         let hole = match lengths.get(2) {
@@ -175,7 +175,7 @@ impl Row {
             Shape::Ring => {
                 Template::Circle { diameter: first.max(second), hole: Hole::Round(first.min(second)) }
             }
-            Shape::Special(what) => return unclear(&format!("{what}, which a list does not describe")),
+            Shape::Special(what) => return unclear(&format!("{what}, whose shape the list does not define")),
         })
     }
 }

@@ -25,7 +25,7 @@ impl Settings<'_> {
     /// A setting as `parse` reads it; none where it is not there.
     fn get<T>(&self, number: u32, parse: impl Fn(&str) -> Option<T>) -> Result<Option<T>, ImportError> {
         let Some(&(line, value)) = self.0.get(&number) else { return Ok(None) };
-        let no = || ImportError::at(line, format!("`{value}` is no value for ${number}"));
+        let no = || ImportError::at(line, format!("`{value}` is not a value for ${number}"));
         parse(value).map(Some).ok_or_else(no)
     }
 
@@ -48,14 +48,14 @@ pub(super) fn read(name: &str, text: &str) -> Result<Draft, ImportError> {
     for (line, (number, value)) in (1..).zip(text.lines()).filter_map(|(n, line)| Some((n, setting(line)?))) {
         match settings.0.insert(number, (line, value)) {
             Some((_, before)) if before != value => {
-                let message = format!("${number} is said twice: {before} and {value}");
+                let message = format!("${number} is set twice: {before} and {value}");
                 return Err(ImportError::at(line, message));
             }
             _ => {}
         }
     }
     let missing = |first: u32, what: &str| {
-        ImportError::whole(format!("${first} to ${} are not all there: {what}", first + 2))
+        ImportError::whole(format!("${first} to ${} are not all set: {what}", first + 2))
     };
     let speed = |value: &str| format!("{value}mm/min").parse::<Feed>().ok();
     let acceleration = |value: &str| format!("{value}mm/s2").parse::<Acceleration>().ok();
@@ -72,7 +72,7 @@ pub(super) fn read(name: &str, text: &str) -> Result<Draft, ImportError> {
     if let Some(travel) = travel.filter(|text| !text.split(',').any(|length| length == "0mm")) {
         draft.text("travel", &travel);
     } else {
-        draft.notes.push("$130 to $132 do not say how far it goes".to_owned());
+        draft.notes.push("$130 to $132 do not give the travel".to_owned());
     }
     let rapid = settings.axes(110, speed)?.ok_or_else(|| missing(110, "the speeds of the axes"))?;
     draft.text("rapid", &rapid);
@@ -90,8 +90,8 @@ pub(super) fn read(name: &str, text: &str) -> Result<Draft, ImportError> {
             draft.number("spindle-max", most);
         }
         Some(most) => draft.notes.push(format!(
-            "$30 is {most}: S counts steps of the motor's voltage and not turns, so an S above {most} is full speed; \
-             set $30 to the turns per minute of your spindle and add spindle-max"
+            "$30 is {most}: S sets the motor voltage in steps, not the speed, so an S above {most} is full speed; \
+             set $30 to the maximum rpm of your spindle and add spindle-max"
         )),
         None => {}
     }

@@ -37,7 +37,7 @@ impl<'a> Ini<'a> {
         unit: &str,
     ) -> Result<Option<T>, ImportError> {
         let Some(entry) = self.find(section, key) else { return Ok(None) };
-        let no = |_| ImportError::at(entry.line, format!("`{}` is no value for {key}", entry.value));
+        let no = |_| ImportError::at(entry.line, format!("`{}` is not a value for {key}", entry.value));
         format!("{}{unit}", entry.value).parse().map(Some).map_err(no)
     }
 
@@ -54,7 +54,7 @@ impl<'a> Ini<'a> {
             }
         }
         Err(ImportError::whole(format!(
-            "nothing says [AXIS_{letter}]{key}, nor [JOINT_{joint}]{key}; files that are included are not read"
+            "neither [AXIS_{letter}]{key} nor [JOINT_{joint}]{key} is set; included files are not read"
         )))
     }
 }
@@ -81,12 +81,12 @@ pub(super) fn read(name: &str, text: &str) -> Result<Draft, ImportError> {
     let mut ini = Ini { entries: entries(text), unit: "mm" };
     let units = ini
         .find("TRAJ", "LINEAR_UNITS")
-        .ok_or_else(|| ImportError::whole("nothing says [TRAJ]LINEAR_UNITS: expected mm or inch"))?;
+        .ok_or_else(|| ImportError::whole("[TRAJ]LINEAR_UNITS is not set: expected mm or inch"))?;
     ini.unit = match units.value.to_ascii_lowercase().as_str() {
         "mm" | "metric" => "mm",
         "inch" | "in" | "imperial" => "in",
         other => {
-            return Err(ImportError::at(units.line, format!("`{other}` is no unit: expected mm or inch")));
+            return Err(ImportError::at(units.line, format!("`{other}` is not a unit: expected mm or inch")));
         }
     };
     let (unit, per_second, per_second_squared) =
@@ -107,16 +107,14 @@ pub(super) fn read(name: &str, text: &str) -> Result<Draft, ImportError> {
     }
     let mut draft = Draft::default();
     draft.notes.push(
-        "read from a LinuxCNC ini file; the junction deviation stands for the tolerance of G64 P".to_owned(),
+        "read from a LinuxCNC ini file; the junction deviation is set from the tolerance of G64 P".to_owned(),
     );
     draft.text("name", ini.find("EMC", "MACHINE").map_or(name, |entry| entry.value));
     draft.text("dialect", "linuxcnc");
     if travel.len() == 3 {
         draft.text("travel", &travel.join(","));
     } else {
-        draft
-            .notes
-            .push("not all axes say MIN_LIMIT and MAX_LIMIT, so nothing is known of its travel".to_owned());
+        draft.notes.push("not all axes have MIN_LIMIT and MAX_LIMIT, so the travel is unknown".to_owned());
     }
     draft.text("rapid", &rapid.join(","));
     draft.text("acceleration", &ramps.join(","));
@@ -124,7 +122,8 @@ pub(super) fn read(name: &str, text: &str) -> Result<Draft, ImportError> {
     for (key, setting) in [("spindle-min", "MIN_FORWARD_VELOCITY"), ("spindle-max", "MAX_FORWARD_VELOCITY")] {
         if let Some(entry) = ini.find("SPINDLE_0", setting) {
             let turns = entry.value.split('.').next().and_then(|whole| whole.parse().ok());
-            let no = || ImportError::at(entry.line, format!("`{}` is no value for {setting}", entry.value));
+            let no =
+                || ImportError::at(entry.line, format!("`{}` is not a value for {setting}", entry.value));
             draft.number(key, turns.ok_or_else(no)?);
         }
     }

@@ -8,7 +8,7 @@ use std::fmt::Write as _;
 use crate::geometry::Nm;
 
 /// The most travel that is written down: farther than any board is long, and within what a length
-/// can be.
+/// can be. Chosen.
 const FAR: Nm = Nm::from_mm(1000);
 
 /// Why no profile can be made of a text: the line, where there is one, and what was expected.

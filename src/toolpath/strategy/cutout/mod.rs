@@ -68,7 +68,7 @@ pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning
     let (wanted, count) = (board.contours().len(), inner.len() + outer.len());
     if count < wanted {
         let message = format!(
-            "the cutter of {:.3} mm does not fit into {} of {wanted} contours of the outline: they are left",
+            "the cutter of {:.3} mm does not fit into {} of {wanted} contours of the outline: they are not cut",
             radius * 2,
             wanted - count
         );
@@ -105,7 +105,7 @@ fn hold(inner: &[Ring], outer: &[Ring], settings: &Cutout<'_>, warnings: &mut Ve
         let wanted = wanted(ring, settings);
         let found = tabs::spread(ring, wanted.min(tabs::room(ring.length(), opening)), opening);
         if found.len() < wanted as usize {
-            let message = format!("only {} of {wanted} tabs find a place on a contour", found.len());
+            let message = format!("only {} of {wanted} tabs fit on a contour", found.len());
             warnings.push(planning::NO_PLACE_FOR_TABS.warning(message).at(ring.path().start));
         }
         held.push(found);
@@ -141,7 +141,7 @@ fn at_places(
         let Some(((off, along), index)) = measured.min_by(|a, b| a.0.0.total_cmp(&b.0.0)) else { continue };
         let taken = |other: &f64| tabs::apart(*other, along, rings[index].length()) < opening(settings);
         if off > (radius + NEAR).to_f64() {
-            let message = format!("a tab is wanted {:.1} mm off any contour, and left out", off / 1e6);
+            let message = format!("a tab is requested {:.1} mm off any contour, and left out", off / 1e6);
             warnings.push(planning::TAB_OFF_THE_OUTLINE.warning(message).at(place));
         } else if !held[index].iter().any(taken) {
             held[index].push(along);
@@ -175,7 +175,7 @@ fn cut_all(head: &mut Head, rings: &[Ring], held: &[Vec<f64>], settings: &Cutout
 
 /// Where a contour may be begun: anywhere but on a tab.
 fn entries(ring: &Ring, held: &[f64], settings: &Cutout<'_>) -> Vec<f64> {
-    /// Beside the corners, for contours that have none to begin at.
+    /// Beside the corners, for contours that have none to begin at. Chosen.
     const BETWEEN: u32 = 32;
     let opening = opening(settings);
     let even = (0..BETWEEN).map(|share| ring.length() * f64::from(share) / f64::from(BETWEEN));

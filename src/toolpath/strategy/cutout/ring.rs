@@ -124,7 +124,7 @@ impl Ring {
     /// How far `p` is from the ring, and where along it.
     pub(super) fn nearest(&self, p: Point) -> (f64, f64) {
         /// Places looked at along a segment; the nearest of them is near enough to say where a tab
-        /// is wanted.
+        /// is wanted. Chosen.
         const PLACES: u32 = 64;
         let places = (0..self.path.segments.len()).flat_map(|i| {
             let (begin, end) = (self.distances[i], self.distances[i + 1]);

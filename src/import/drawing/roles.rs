@@ -17,13 +17,13 @@ pub(in crate::import) struct Part {
     pub(in crate::import) figures: Vec<Figure>,
 }
 
-/// What a drawing's own layers tell.
+/// The layers of a drawing by role.
 #[derive(Clone, Debug, Default)]
 pub(in crate::import) struct Parts {
     pub(in crate::import) parts: Vec<Part>,
-    /// Layers that are left aside, with what they are where that is known.
+    /// Layers that are ignored, with their role where it is known.
     pub(in crate::import) aside: Vec<(String, Option<&'static str>)>,
-    /// What nobody told, in words; none where the names did.
+    /// What was guessed, in words; none where the names decided.
     pub(in crate::import) guess: Option<&'static str>,
 }
 
@@ -32,9 +32,9 @@ impl Parts {
     pub(in crate::import) fn of(artwork: &Artwork) -> Self {
         let roles: Vec<(&Layer, Option<Role>)> =
             artwork.layers.iter().map(|layer| (layer, role_of(&layer.name))).collect();
-        let is_told =
+        let is_known =
             |role: &Option<Role>| matches!(role, Some(Role::Copper(_) | Role::Outline | Role::Drill));
-        if !roles.iter().any(|(_, role)| is_told(role)) {
+        if !roles.iter().any(|(_, role)| is_known(role)) {
             return Self::guessed(artwork);
         }
         let mut parts = Self::default();
@@ -60,7 +60,7 @@ impl Parts {
         let mut parts = Self::default();
         let figures: Vec<Figure> = artwork.layers.iter().flat_map(|layer| &layer.figures).cloned().collect();
         if figures.iter().any(covers) {
-            parts.guess = Some("all of it is taken for the copper of the front");
+            parts.guess = Some("all of it is read as front copper");
             parts.add(Role::Copper(Side::Front), &figures);
             return parts;
         }
@@ -71,12 +71,11 @@ impl Parts {
         let is_hole = |figure: &Figure| circles(figure).is_some_and(|diameter| diameter <= WIDEST_HOLE);
         let (holes, edge): (Vec<Figure>, Vec<Figure>) = figures.into_iter().partition(is_hole);
         if edge.is_empty() {
-            parts.guess = Some("its circles are taken for holes");
+            parts.guess = Some("its circles are read as holes");
         } else if holes.is_empty() {
-            parts.guess = Some("its lines are taken for the board's edge");
+            parts.guess = Some("its lines are read as the outline");
         } else {
-            parts.guess =
-                Some("its lines are taken for the board's edge, its circles up to 6.5 mm for holes");
+            parts.guess = Some("its lines are read as the outline, its circles up to 6.5 mm as holes");
         }
         for (role, figures) in [(Role::Outline, edge), (Role::Drill, holes)] {
             if !figures.is_empty() {
@@ -102,12 +101,13 @@ pub(in crate::import) fn layer<'a>(
     name: &str,
 ) -> Result<&'a Layer, Error> {
     artwork.layer(name).ok_or_else(|| {
+        /// Layers that a message lists. Chosen: fits two lines.
         const SHOWN: usize = 12;
         let names: Vec<&str> =
             artwork.layers.iter().map(|layer| layer.name.as_str()).filter(|name| !name.is_empty()).collect();
         let more = if names.len() > SHOWN { ", …" } else { "" };
         let listed = names.iter().take(SHOWN).copied().collect::<Vec<_>>().join(", ");
-        let what = format!("the drawing has no layer `{name}` with anything on it");
+        let what = format!("the drawing has no layer `{name}`, or nothing is on it");
         let hint = if names.is_empty() {
             "its layers have no names".to_owned()
         } else {

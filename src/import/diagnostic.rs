@@ -12,65 +12,65 @@ diagnostics! {
 
     PICTURE_COLOUR_GUESSED: Warning =
         "picture-colour-guessed",
-        "Nobody told which colour is copper",
+        "The colour of copper was guessed",
         "the colour of copper, where it is not the rarer one",
-        "say {copper} dark or {copper} light";
+        "use {copper} dark or {copper} light";
 
     PICTURE_SPECKS: Warning =
         "picture-specks",
-        "Single pixels that nobody drew",
+        "Specks of single pixels",
         "copper and gaps of more than a few pixels",
-        "leave specks out with {despeckle} 0.05";
+        "remove specks with {despeckle} 0.05";
 
     // Of drawings.
 
     DRAWING_GUESSED: Warning =
         "drawing-role-guessed",
-        "Nobody told which layer of a drawing is for what",
-        "layers named as those of a board are: F.Cu, Edge.Cuts, drill",
-        "say {front} FILE, {outline} FILE or {drill} FILE, with #LAYER behind the name for one layer of it";
+        "The roles of the layers of a drawing were guessed",
+        "layers named as in KiCad: F.Cu, Edge.Cuts, drill",
+        "use {front} FILE, {outline} FILE or {drill} FILE, with #LAYER after the name for one layer";
 
     DRAWING_LAYERS: Warning =
         "drawing-layers-aside",
-        "Layers of a drawing that no name tells of, beside such as are told",
-        "layers named as those of a board are: F.Cu, Edge.Cuts, drill",
-        "say what they are: {front} FILE#LAYER, {outline} FILE#LAYER or {drill} FILE#LAYER";
+        "Layers of a drawing with unknown names, beside known ones",
+        "layers named as in KiCad: F.Cu, Edge.Cuts, drill",
+        "choose them with {front} FILE#LAYER, {outline} FILE#LAYER or {drill} FILE#LAYER";
 
     DXF_LEFT_OUT: Warning =
         "dxf-left-out",
-        "What of a DXF was not read",
+        "Entities of a DXF were not read",
         "lines, arcs, circles, polylines, ellipses, splines, solids, hatches and inserts of them",
-        "explode other things into these in the drawing program";
+        "explode other entities into these in the drawing program";
 
     DXF_NO_END: Warning =
         "dxf-no-end",
-        "A DXF without its last word",
-        "EOF as the last word of the file",
-        "fetch the file again, or have it written again";
+        "A DXF without EOF at its end",
+        "EOF at the end of the file",
+        "copy or export the file again";
 
     SVG_LEFT_OUT: Warning =
         "svg-left-out",
-        "What of an SVG was not read",
+        "Elements of an SVG were not read",
         "visible paths and shapes, and texts with a font",
-        "name a font with {font} FILE for texts; turn other things into paths";
+        "choose a font for texts with {font} FILE; convert other elements to paths";
 
     SVG_EFFECTS: Warning =
         "svg-effects",
-        "Effects of an SVG that are not followed",
+        "Effects of an SVG were ignored",
         "plain fills and strokes",
         "apply clipping, masks and filters in the drawing program, so that only paths are left";
 
     SVG_UNIT_ASSUMED: Warning =
         "svg-unit-assumed",
-        "The width of an SVG's page has no unit",
+        "The page width of an SVG has no unit",
         "a page with a width in mm or in",
-        "say how long one unit is: {unit} mm, or {unit} 90dpi for old Inkscape";
+        "set the unit: {unit} mm, or {unit} 90dpi for old Inkscape";
 
     SVG_WHITE: Warning =
         "svg-white-erases",
-        "White paint on an SVG",
-        "no white paint, or holes that it makes",
-        "delete white figures that are not meant to erase";
+        "White shapes in an SVG",
+        "no white shapes, or white shapes that make holes",
+        "delete white shapes that are not meant to erase";
 
     // Of Gerber files.
 
@@ -78,31 +78,31 @@ diagnostics! {
         "late-format",
         "The number format comes after coordinates",
         "`%FS…*%` before the first coordinate",
-        "have the file written with its number format in the header";
+        "export the file with its number format in the header";
 
     LATE_UNITS: Warning =
         "late-units",
         "The unit comes after numbers that need it",
         "`%MOMM*%` or `%MOIN*%` before the first number",
-        "have the file written with its unit in the header";
+        "export the file with its unit in the header";
 
     MISSING_UNITS: Warning =
         "missing-units",
-        "The unit never comes",
+        "The unit is missing",
         "`%MOMM*%` or `%MOIN*%` in the header",
-        "compare the board's size with what it should be; where it is 25.4 times off, add the unit";
+        "check the size of the board; if it is wrong by a factor of 25.4, add the unit";
 
     FORMAT_CHANGES: Warning =
         "format-changes",
         "A second number format",
         "one `%FS…*%` in a file",
-        "check that the features behind this place lie where they should";
+        "check the positions of the objects after this line";
 
     CONFLICTING_UNITS: Warning =
         "conflicting-units",
-        "A second unit that is not the first",
+        "A second, different unit",
         "one unit in a file",
-        "check that the features behind this place lie where they should";
+        "check the positions of the objects after this line";
 
     APERTURE_UNITS_GUESSED: Warning =
         "aperture-units-guessed",
@@ -112,117 +112,117 @@ diagnostics! {
 
     APERTURE_DEFINED_TWICE: Warning =
         "aperture-defined-twice",
-        "One number for two apertures",
+        "Two apertures with one number",
         "each `%ADD…*%` with a number of its own",
-        "check which of the two is meant; the later one holds from here on";
+        "check which of the two is right; the later one is used from here on";
 
     MACRO_DEFINED_TWICE: Warning =
         "macro-defined-twice",
-        "One name for two macros",
+        "Two aperture macros with one name",
         "each `%AM…*%` with a name of its own",
-        "check which of the two is meant; the later one holds from here on";
+        "check which of the two is right; the later one is used from here on";
 
     UNDEFINED_APERTURE: Warning =
         "undefined-aperture",
-        "An aperture that is chosen and not defined",
-        "an aperture that an `%ADD…*%` defined before",
-        "have the layer written again; nothing is lost as long as nothing is drawn with it";
+        "An aperture that is selected but not defined",
+        "an aperture that an `%ADD…*%` has defined",
+        "export the layer again; nothing is lost, since nothing is drawn with it";
 
     NEGATIVE_HOLE: Warning =
         "negative-hole",
         "An aperture with a hole of negative size",
         "a hole of a diameter above zero, or none",
-        "have the layer written again without the hole";
+        "export the layer again without the hole";
 
     MISSING_STAR: Warning =
         "missing-star",
-        "A command without its end",
+        "A command without its end character",
         "`*` at the end of every command",
-        "have the layer written again, or add the `*`";
+        "export the layer again, or add the `*`";
 
     MISSING_PERCENT: Warning =
         "missing-percent",
-        "An extended command without its brackets",
+        "An extended command without `%`",
         "`%` before and after commands of two letters",
-        "have the layer written again, or add the `%`";
+        "export the layer again, or add the `%`";
 
     MALFORMED_APERTURE: Warning =
         "malformed-aperture",
-        "An aperture that cannot be read and is not needed",
+        "An unused aperture that cannot be read",
         "an aperture definition, such as `%ADD10C,0.25*%`",
-        "have the layer written again if something of it is missing";
+        "export the layer again if something is missing";
 
     MALFORMED_TOOL: Warning =
         "malformed-tool",
-        "A drill that cannot be read and is not needed",
+        "An unused tool that cannot be read",
         "a tool with its diameter, such as `T1C0.8`",
         "count the holes that `inspect` lists";
 
     UNKNOWN_COMMAND: Warning =
         "unknown-command",
-        "A command that no Gerber specification has",
+        "An unknown Gerber command",
         "a command of the Gerber format",
-        "compare the copper drawn (`draw {stage} copper`) with what it should be";
+        "compare the copper drawn (`draw {stage} copper`) with the design";
 
     OPERATION_CODE_MISSING: Warning =
         "operation-code-missing",
-        "A coordinate that does not say what it is for",
+        "A coordinate without an operation code",
         "D01, D02 or D03 after a coordinate",
-        "have the layer written with an operation in every coordinate, as specifications since 2012 ask";
+        "export the layer with an operation code in every coordinate, as the specification asks since 2012";
 
     QUADRANT_MODE: Warning =
         "quadrant-mode",
-        "An arc without, or against, its quadrant mode",
+        "An arc without its quadrant mode, or with the wrong one",
         "`G75*` before the first arc",
-        "have the layer written with G75, and look at its arcs";
+        "export the layer with G75, and look at its arcs";
 
     ARC_WITHOUT_CENTRE: Warning =
         "arc-without-centre",
         "An arc without a centre",
-        "I and J, the way from the arc's start to its centre",
-        "look at this place of the layer; it is drawn as a line";
+        "I and J, the offset from the start of the arc to its centre",
+        "look at this place on the layer; it is drawn as a line";
 
     ARC_RADIUS_MISMATCH: Warning =
         "arc-radius-mismatch",
-        "An arc whose two ends lie at different distances from its centre",
-        "both ends at one distance from the centre",
-        "have the layer written with more decimals";
+        "An arc whose ends lie at different distances from its centre",
+        "both ends at the same distance from the centre",
+        "export the layer with more decimals";
 
     REGION_NOT_CLOSED: Warning =
         "region-not-closed",
-        "A contour that does not end where it began",
+        "A contour that is not closed",
         "a last point equal to the first",
         "look at the edge of this region: a straight line closes it";
 
     FLASH_IN_REGION: Warning =
         "flash-in-region",
-        "A flash where only edges may be",
+        "A flash inside a region",
         "D01 and D02 between G36 and G37",
-        "have the layer written again; if the pad is missing, it is this one";
+        "export the layer again; if a pad is missing, it is this one";
 
     NOTHING_DRAWN: Warning =
         "nothing-drawn",
-        "What leaves no copper",
-        "something that covers an area",
+        "An object without area",
+        "an object that covers an area",
         "check that the layer was exported with its content, and its apertures with a size";
 
     NEGATIVE_IMAGE: Warning =
         "negative-image",
         "A negative image",
         "`%IPPOS*%`",
-        "have the layer written positive: dark where copper is";
+        "export the layer positive: dark where copper is";
 
     NEGATIVE_FILE: Warning =
         "negative-file",
-        "A file that calls itself negative",
+        "A file that is declared negative",
         "`%TF.FilePolarity,Positive*%`",
-        "compare the copper drawn (`draw {stage} copper`) with what it should be";
+        "compare the copper drawn (`draw {stage} copper`) with the design";
 
     TEXT_AFTER_END: Warning =
         "text-after-end",
-        "What stands behind the end",
+        "Content after the end of the file",
         "nothing after `M02*`",
-        "have the layer written again where something is missing from it";
+        "export the layer again if something is missing";
 
     // Of any file.
 
@@ -230,18 +230,18 @@ diagnostics! {
         "missing-end-of-file",
         "A Gerber file without its end",
         "`M02*` at the end of the file",
-        "export or copy the file again; where it is whole, add the end";
+        "export or copy the file again; if it is complete, add the end";
 
     MISSING_END_OF_DRILL_FILE: Warning =
         "missing-end-of-file",
         "A drill file without its end",
         "`M30` at the end of the file",
-        "export or copy the file again; where it is whole, add the end";
+        "export or copy the file again; if it is complete, add the end";
 
     TRUNCATED_FILE: Warning =
         "truncated-file",
-        "A file that ends within something",
-        "the rest of what began here",
+        "A truncated file",
+        "the rest of what begins here",
         "export or copy the file again";
 
     // Of drill files.
@@ -250,97 +250,97 @@ diagnostics! {
         "diameter-without-point",
         "A diameter without a decimal point",
         "a diameter such as C0.8",
-        "compare the diameter with the drill table, and have the file written with decimal points";
+        "compare the diameter with the drill table, and export the file with decimal points";
 
     DRILL_FORMAT_GUESSED: Warning =
         "drill-format-guessed",
-        "A number format that the file leaves open",
+        "A file without a number format",
         "`METRIC` or `INCH` with `LZ` or `TZ`, or decimal points",
-        "have the file written with decimal points, and look at the holes on the copper";
+        "export the file with decimal points, and compare the holes with the copper";
 
     DRILL_UNITS_GUESSED: Warning =
         "drill-units-guessed",
-        "A unit that the file leaves open",
+        "A file without a unit",
         "`METRIC`, `INCH`, `M71` or `M72`",
-        "have the file written with a header, and look at the holes on the copper";
+        "export the file with a header, and compare the holes with the copper";
 
     DRILL_OFF_BOARD: Warning =
         "drill-off-board",
-        "Holes beside the copper",
+        "Holes outside the copper",
         "holes within the copper",
-        "check that the files belong to one board and have one origin, and the drill file its own unit";
+        "check that the files belong to one board, have the same origin, and that the unit of the drill file is right";
 
     HOLES_OFF_BOARD: Warning =
         "holes-off-board",
         "Some holes off the board",
-        "holes on the board, or in 5 mm of frame round it",
-        "look whether they are meant: what is drilled there is drilled into the bed";
+        "holes on the board, or at most 5 mm outside it",
+        "check whether they are intended: they are drilled into the bed";
 
     DRILL_IMPLAUSIBLE: Warning =
         "drill-implausible",
-        "A drill wider than any",
+        "A very large drill",
         "a drill of 10 mm at most",
-        "check the unit of the file; wider holes are better routed";
+        "check the unit of the file; larger holes are better milled";
 
     DRILL_WITHOUT_HOLES: Warning =
         "drill-without-holes",
-        "A drill file that drills nothing",
+        "A drill file without holes",
         "at least one hole",
-        "leave the file out where the board has no such holes";
+        "leave the file out if the board has no such holes";
 
     UNIT_CHANGES: Warning =
         "unit-changes",
         "A second unit in a drill file",
         "one unit in a file",
-        "check that the holes behind this place lie where they should";
+        "check the positions of the holes after this line";
 
     CUTTER_COMPENSATION: Warning =
         "cutter-compensation",
-        "A cut beside the programmed line",
-        "a path of the cutter's middle",
-        "have the slots written without G41 and G42";
+        "Cutter compensation in a drill file",
+        "a path of the cutter's centre",
+        "export the slots without G41 and G42";
 
     AXES_NOT_SWAPPED: Warning =
         "axes-not-swapped",
-        "Axes that change their names",
+        "Swapped or mirrored axes",
         "X to the right and Y up",
-        "have the file written without swapped axes, or turn the board";
+        "export the file without swapped axes, or rotate the board";
 
     ROUTER_NOT_LOWERED: Warning =
         "router-not-lowered",
-        "A cut in the air",
+        "A rout without a plunge",
         "M15 before a cut",
         "check whether a slot is missing";
 
     PATTERN_MISSING: Warning =
         "pattern-missing",
-        "A pattern repeated that was not drilled",
+        "A repeat without a pattern",
         "a pattern (M25 … M01) before it is repeated",
-        "have the file written without repeats";
+        "export the file without repeats";
 
     DRILLED_TEXT: Warning =
         "drilled-text",
-        "Letters to be drilled",
+        "Drilled text",
         "holes, slots and tools",
-        "have the file written without text; it is no part of the circuit";
+        "export the file without text; it is not part of the circuit";
 
     UNKNOWN_DRILL_COMMAND: Warning =
         "unknown-drill-command",
-        "A command that no drill machine is known to have",
+        "An unknown drill command",
         "a command of the Excellon format",
         "count the holes that `inspect` lists";
 
     NOT_A_HOLE: Warning =
         "not-a-hole",
-        "A shape that no drill makes",
+        "A shape that cannot be drilled",
         "round and obround shapes in a drill file",
-        "have the drill data written as Excellon";
+        "export the drill data as Excellon";
 
     DUPLICATE_HOLES: Warning =
         "duplicate-holes",
-        "Holes in two files",
+        "The same holes in two files",
         "each hole in one drill file",
-        "leave out the file that repeats the others ({drill} names those to read)";
+        "leave out the file that repeats the others ({drill} chooses those to read)";
 
     // Of the outline.
 
@@ -348,31 +348,31 @@ diagnostics! {
         "outline-empty",
         "An outline layer without lines",
         "lines and arcs along the edge of the board",
-        "export the outline layer again, or name another with {outline}";
+        "export the outline layer again, or choose another with {outline}";
 
     OUTLINE_OPEN: Warning =
         "outline-open",
-        "An outline that does not close",
+        "An outline that is not closed",
         "lines that meet at their ends, all round the board",
-        "close the edge in the board's program, or allow wider gaps with {outline-gap}";
+        "close the outline in the CAD program, or allow wider gaps with {outline-gap}";
 
     OUTLINE_FLASHES: Warning =
         "outline-flashes",
         "Flashes on the outline layer",
         "lines, arcs and regions on an outline layer",
-        "remove them from the layer where they are meant as holes, and drill them";
+        "if they are holes, move them to the drill file";
 
     OUTLINE_GAP: Warning =
         "outline-gap",
-        "Ends that did not meet",
+        "Gaps in the outline",
         "each line to end where the next begins",
-        "close the edge in the board's program";
+        "close the outline in the CAD program";
 
     OUTLINE_LOOSE_LINES: Warning =
         "outline-loose-lines",
-        "Lines that enclose nothing",
-        "lines that belong to a closed edge",
-        "look at the outline; lines of a drawing's frame or of dimensions may be left out";
+        "Open lines on the outline layer",
+        "lines that belong to a closed contour",
+        "look at the outline; lines of a drawing frame or of dimensions do no harm";
 
     OUTLINE_PARTED: Warning =
         "outline-parted",
@@ -382,9 +382,9 @@ diagnostics! {
 
     OUTLINE_TINY: Warning =
         "outline-tiny",
-        "Contours that nothing can be cut along",
+        "Contours that are too small to be cut",
         "contours wider than the tool",
-        "remove them from the layer; a small hole is drilled";
+        "remove them from the layer; small holes belong to the drill file";
 
     OUTLINE_LETTERING: Warning =
         "outline-lettering",
@@ -394,77 +394,77 @@ diagnostics! {
 
     OUTLINE_TWICE: Warning =
         "outline-twice",
-        "Two files with an edge",
+        "Several outline layers",
         "one outline layer",
         "choose one with {outline} FILE";
 
     OUTLINE_MISSING: Warning =
         "outline-missing",
-        "No file with an edge",
+        "No outline layer",
         "an outline layer among the files",
-        "export it too, or name it with {outline} FILE; without it the board is not cut out";
+        "export it too, or choose it with {outline} FILE; without it the board is not cut out";
 
     // Of the files together.
 
     JOB_FILE_UNREADABLE: Warning =
         "job-file-unreadable",
-        "A job file that is none",
+        "A job file that cannot be read",
         "a Gerber job file (.gbrjob)",
         "export the job file again, or remove it";
 
     JOB_FILE_INCOMPLETE: Warning =
         "job-file-incomplete",
-        "A job file with more files than there are",
+        "A job file that lists missing files",
         "all files of the job",
-        "export the board again, or name layers with {front}, {back}, {outline} and {drill}";
+        "export the board again, or choose layers with {front}, {back}, {outline} and {drill}";
 
     SIDE_ASSUMED: Warning =
         "side-assumed",
-        "A copper layer of either side",
-        "a name or file function that tells the side",
-        "name it with {front} FILE or {back} FILE";
+        "A copper layer whose side is unknown",
+        "a file name or file function with the side",
+        "choose it with {front} FILE or {back} FILE";
 
     LAYER_DISPUTED: Warning =
         "layer-disputed",
-        "A layer of any kind, of which name and file function say different things",
-        "a name and a file function that say the same",
-        "rename it, say with {front}, {back} or {outline} FILE what it is, or leave it aside with {skip} FILE";
+        "A layer whose name and file function differ",
+        "a file name and a file function that agree",
+        "rename it, choose it with {front}, {back} or {outline} FILE, or ignore it with {skip} FILE";
 
     ROLE_UNKNOWN: Warning =
         "role-unknown",
-        "A layer of any kind",
-        "a name or file function that tells the layer",
-        "where it is needed, name it with {front}, {back}, {outline} or {drill}";
+        "A layer whose role is unknown",
+        "a file name or file function of a layer",
+        "if it is needed, choose it with {front}, {back}, {outline} or {drill}";
 
     FILE_NOT_UNDERSTOOD: Warning =
         "file-not-understood",
-        "A text that is no prose, no layer and no drill file",
+        "A text file that is neither a document, a layer nor a drill file",
         "layers, drill files and documents",
-        "export it again where it is a drill file; else leave it aside with {skip}";
+        "export it again if it is a drill file; else ignore it with {skip}";
 
     FOLDER_NOT_READ: Warning =
         "folder-not-read",
-        "A folder inside the given one",
+        "A folder inside the given one that was not read",
         "all files of the board in one folder",
-        "give this folder too where it holds layers or drill files; else leave it aside with {skip}";
+        "give this folder too if it has layers or drill files; else ignore it with {skip}";
 
     BINARY_DRILL_FILE: Warning =
         "binary-drill-file",
-        "The tape of a drilling machine",
+        "A binary drill file",
         "a drill file as text (Excellon)",
-        "nothing, where the text file has the same holes; {skip} leaves the binary one aside";
+        "nothing, if the text file has the same holes; {skip} ignores the binary one";
 
     COPPER_MISSING: Warning =
         "copper-missing",
         "No copper",
         "a layer of copper",
-        "add a copper layer, or name it with {front} or {back}";
+        "add a copper layer, or choose it with {front} or {back}";
 
     ZERO_WIDTH_COPPER: Warning =
         "zero-width-copper",
         "Lines of no width on a copper layer",
         "apertures with a size",
-        "have the layer written with apertures; lines of no width are for outlines";
+        "export the layer with apertures; lines of no width are for outlines";
 
     EMPTY_COPPER: Warning =
         "empty-copper",
@@ -474,7 +474,7 @@ diagnostics! {
 
     SIZE_IMPLAUSIBLE: Warning =
         "size-implausible",
-        "A board as wide as a table",
+        "A very large board",
         "a board of 620 mm at most",
         "check the unit of each file with `inspect`";
 
@@ -482,20 +482,20 @@ diagnostics! {
 
     KICAD_TEXT: Warning =
         "kicad-text",
-        "A text that KiCad draws with a font of its own",
-        "copper whose shape is in the file",
-        "plot the board as Gerber in KiCad and give those files, where the text matters; nets do not change";
+        "A text in KiCad's stroke font",
+        "copper whose shape is stored in the file",
+        "if the text matters, plot the board as Gerber in KiCad and give those files; nets do not change";
 
     KICAD_NOT_READ: Warning =
         "kicad-not-read",
-        "Something drawn that is none of what is read",
+        "An object of an unknown type",
         "pads, tracks, vias, zones, lines, arcs, circles, rectangles, polygons and curves",
         "plot the board as Gerber in KiCad and give those files";
 
     KICAD_LINE_STYLE: Warning =
         "kicad-line-style",
-        "Dashes, hatches, round corners",
-        "solid lines, full areas and square corners on copper",
+        "A line style, fill or corner that is simplified",
+        "solid lines, solid fills and square corners on copper",
         "plot the board as Gerber in KiCad and give those files";
 
     KICAD_BLIND_VIA: Warning =
@@ -512,13 +512,13 @@ diagnostics! {
 
     KICAD_ZONE_EMPTY: Warning =
         "kicad-zone-empty",
-        "A zone that was filled with nothing",
+        "A zone whose fill is empty",
         "copper in a zone",
-        "nothing, where the zone has no room; else press B in KiCad and save";
+        "nothing, if the zone has no room; else press B in KiCad and save";
 
     KICAD_VERSION: Warning =
         "kicad-version",
-        "A board from the future",
+        "A board of a newer KiCad",
         "a board of KiCad 4 to 9",
         "compare what `draw` shows with KiCad, or plot the board as Gerber and give those files";
 }
