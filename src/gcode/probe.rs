@@ -119,7 +119,8 @@ impl ProbeError {
     fn new(dialect: &Dialect) -> Self {
         let known = ALL.iter().filter(|dialect| dialect.touches != Touches::None);
         let known: Vec<&str> = known.map(|dialect| dialect.name.as_ref()).collect();
-        let reason = dialect.no_probe.as_deref().unwrap_or("its description says so (touches = \"none\")");
+        let reason =
+            dialect.no_probe.as_deref().unwrap_or("its description declares so (touches = \"none\")");
         Self { dialect: dialect.name.to_string(), reason: reason.to_owned(), known: known.join(" or ") }
     }
 }

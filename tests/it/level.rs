@@ -267,12 +267,15 @@ fn maps_that_are_none_say_why() {
         ),
         (
             "{\"prb\":{\"e\":1,\"x\":1,\"y\":2,\"z\":3}}\n",
-            "line 1: the controller reports probed points from the machine's zero",
+            "line 1: the controller reports probed points in machine coordinates",
         ),
         // Numbers with commas, more columns than there are axes, two heights of one place.
-        ("0 0 0\n0,5 1,25 -0,03\n", "line 2: `0,5 1,25 -0,03`: expected points in numbers"),
-        ("0,5;1,25;-0,03\n", "line 1: `0,5;1,25;-0,03`: expected points in numbers"),
-        ("0 10 2\n0 10 2\n-1 1 50\n0,0 0,0 0,1\n", "line 4: `0,0 0,0 0,1`: expected points in numbers"),
+        ("0 0 0\n0,5 1,25 -0,03\n", "line 2: `0,5 1,25 -0,03`: expected decimal points in numbers"),
+        ("0,5;1,25;-0,03\n", "line 1: `0,5;1,25;-0,03`: expected decimal points in numbers"),
+        (
+            "0 10 2\n0 10 2\n-1 1 50\n0,0 0,0 0,1\n",
+            "line 4: `0,0 0,0 0,1`: expected decimal points in numbers",
+        ),
         ("0 0 0\n1 0 0 7\n", "line 2: `1 0 0 7`: expected x, y and z, or the nine columns"),
         ("0,5,1,25,0,03\n", "line 1: `0,5,1,25,0,03`: expected x, y and z, or the nine columns"),
         ("0 10 2\n0 10 2\n-1 1 50\n0 0 0 0\n", "line 4: `0 0 0 0`: expected x, y and z"),

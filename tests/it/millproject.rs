@@ -249,7 +249,7 @@ fn without_voronoi_nets_are_outlined_as_far_off_as_the_offset_says() {
     let plain = settings(project("metric=1\nzwork=-0.1"));
     assert_eq!((plain.strategy, plain.limit), (Strategy::Outline, None), "pcb2gcode's own default");
     let old = construct("offset").expect("a project");
-    assert!(told(&old).contains("the mill is taken to be twice as wide"), "{}", told(&old));
+    assert!(told(&old).contains("the mill is assumed to be twice as wide"), "{}", told(&old));
     let old = settings(old);
     assert_eq!(
         (old.strategy, old.limit, old.kerf()),

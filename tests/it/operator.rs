@@ -201,7 +201,7 @@ fn ones_own_lines_stand_where_they_are_asked_for() {
     assert!(voromill::gcode::read(&read).is_ok(), "what is ours is followed");
     let done = mill(&["--at-tool-change", "change.nc"]);
     assert!(
-        stderr(&done).contains("at-tool-change: in grbl each tool has a file of its own"),
+        stderr(&done).contains("at-tool-change: with the dialect grbl each tool has a file of its own"),
         "{}",
         stderr(&done)
     );

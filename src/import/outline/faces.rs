@@ -32,7 +32,7 @@ pub(super) fn outermost(edges: &[Edge], notes: &mut Notes<'_>) -> Vec<Path> {
     }
     if bounded > contours.len() {
         let at = walks.iter().find(|walk| leaving[&walk.from].len() > 2).map(|walk| (walk.from, walk.line));
-        let message = "lines inside the outline touch it; only its outer edge is taken";
+        let message = "lines inside the outline touch it; only its outer edge is used";
         notes.add(&diagnostic::OUTLINE_PARTED, message, at);
     }
     contours

@@ -149,7 +149,7 @@ impl Draft<'_> {
         if mills.is_empty() && usual_kerf(options) > offset * 2 {
             let diameter = offset * 2;
             options.tool = vec![ToolChoice::Kind(ToolKind::EndMill { diameter })];
-            self.advise(&entry, "without mill-diameters the mill is taken to be twice as wide");
+            self.advise(&entry, "without mill-diameters the mill is assumed to be twice as wide");
         }
     }
 

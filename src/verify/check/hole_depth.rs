@@ -25,7 +25,7 @@ const KIND: Diagnostic = Diagnostic {
     what: Words::of("a hole that does not go through the board"),
     effect: Words::of("the hole does not go through the board"),
     advice: Words::of(
-        "drill deeper ({break-through}, {drill-depth}), or say how thick the board is ({thickness})",
+        "drill deeper ({break-through}, {drill-depth}), or set the thickness of the board ({thickness})",
     ),
 };
 

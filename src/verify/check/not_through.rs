@@ -22,7 +22,7 @@ const KIND: Diagnostic = Diagnostic {
     severity: Severity::Error,
     what: Words::of("an edge that is not cut through the board"),
     effect: Words::of("the board does not come out of the stock"),
-    advice: Words::of("cut deeper ({cutout-depth}), or say how thick the board is ({thickness})"),
+    advice: Words::of("cut deeper ({cutout-depth}), or set the thickness of the board ({thickness})"),
 };
 
 pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Cutout(check) };
