@@ -281,7 +281,7 @@ fn small_files(folder: &Path) {
     let copy = |from: &str, to: &str| {
         fs::copy(root().join(from), folder.join(to)).unwrap_or_else(|error| panic!("{from}: {error}"));
     };
-    let mask = COPPER.replace("C,2.0", "C,1.2");
+    let mask = COPPER.replace("C,2.0", "C,1.0");
     let layers = [
         ("board-F_Cu.gbr", COPPER),
         ("board-B_Cu.gbr", COPPER),
@@ -310,7 +310,7 @@ fn small_files(folder: &Path) {
     for font in ["DejaVuSans.ttf", "DejaVuSerif-Bold.ttf"] {
         write(font, dejavu::sans::regular());
     }
-    let plate = PLATE.replace("30mm", "10mm").replace("20mm", "8mm");
+    let plate = PLATE.replace("30mm", "6mm").replace("20mm", "5mm");
     ["plate.svg", "sign.svg"].iter().for_each(|name| write(name, plate.as_bytes()));
     write("logo.png", cross().as_bytes());
     write("settings.txt", GRBL.as_bytes());
@@ -387,6 +387,7 @@ fn own_words(span: &str) -> String {
         "fixtures/boards/regulator/regulator-F_Mask.gbr" => "board-F_Mask.gbr",
         "fixtures/boards/regulator" => "board/",
         "voromill" => "v",
+        "14mm" => "3mm",
         _ => word,
     });
     let line = words.collect::<Vec<_>>().join(" ");

@@ -138,7 +138,7 @@ mod tests {
         let words = Words::of("choose it: {front} {0} or {back} {0}");
         assert_eq!(
             words.with([&"{skip}.gbr"]).to_string(),
-            "say it: --front {skip}.gbr or --back {skip}.gbr"
+            "choose it: --front {skip}.gbr or --back {skip}.gbr"
         );
         assert_eq!(words.options().collect::<Vec<_>>(), ["front", "back"], "names are no options");
         assert_eq!(Sentence::from("{front}").to_string(), "{front}", "not ours");

@@ -265,7 +265,7 @@ mod tests {
         let cases = [
             ("[1", "expected a `]`"),
             ("[1 / 0]", "division by zero"),
-            ("sqrt[-1]", "no number"),
+            ("sqrt[-1]", "not a number"),
             ("foo[1]", "expected a function"),
             ("#<gone>", "nothing sets GONE"),
             ("##1", "whole number of a parameter"),
@@ -275,6 +275,9 @@ mod tests {
             let error = of(text).expect_err(text);
             assert!(error.contains(reason), "`{text}` gives `{error}`, without `{reason}`");
         }
-        assert!(of(&"[".repeat(100_000)).is_err_and(|error| error.contains("deeper")), "the stack is safe");
+        assert!(
+            of(&"[".repeat(100_000)).is_err_and(|error| error.contains("nested too deep")),
+            "the stack is safe"
+        );
     }
 }
