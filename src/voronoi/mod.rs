@@ -277,7 +277,7 @@ impl Diagram {
         let border = Border::new(outline, copper, bounds, settings);
         let aside = nets_beyond(copper, nets, &border);
         let warnings = aside.iter().map(|&(net, at)| {
-            let message = format!("{} lies outside the board's outline and was left aside", nets.label(net));
+            let message = format!("{} lies outside the board's outline and is ignored", nets.label(net));
             planning::COPPER_OUTSIDE_BOARD.warning(message).at(at).on(copper.side)
         });
         let warnings = warnings.collect();
@@ -450,7 +450,7 @@ impl Diagram {
 
     /// What is to be said of places where lines, of what they are, do not go on as they should.
     fn torn(&self, faults: &[Point], what: &str) -> Option<Warning> {
-        let message = format!("{} ends of {what} hang loose: a fault of the program", faults.len());
+        let message = format!("{} ends of {what} are dangling: a bug in voromill", faults.len());
         Some(planning::BOUNDARY_TORN.warning(message).at(*faults.first()?).on(self.side))
     }
 }
