@@ -39,6 +39,7 @@ impl Extent {
 const CHORDS: Nm = Nm::from_um(2);
 
 /// Features that are joined at a time, so that not all of a large net's are polygons at once.
+/// Chosen.
 const PART: usize = 1024;
 
 /// The size of each net's copper, by number. Features that overlap count once,

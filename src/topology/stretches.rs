@@ -14,7 +14,7 @@ use crate::geometry::{Nm, Point, Rect};
 
 /// How long a stretch is, in nanometres. Chosen: a few times what cuts and traces are wide.
 const LONG: f64 = 1_500_000.0;
-/// Stretches of a shape at most: of one that is very long they are longer.
+/// Stretches of a shape at most: of one that is very long they are longer. Chosen.
 const MOST: u32 = 256;
 
 /// Rectangles that hold a long way together, those of its stretches; none for a shape that its

@@ -14,6 +14,7 @@ use super::plane::Spot;
 use super::sample::{CHORD, Sample};
 
 /// Clearance may dip between vertices by this much before a vertex is kept there, in nanometres.
+/// Chosen.
 const DIP: f64 = 2_000.0;
 /// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight.
 /// Chosen.
@@ -27,7 +28,7 @@ const SHORTEST: f64 = 5_000.0;
 /// the points of a dense board, at 0.6 at 1 %, for a sixth more segments.
 const SHARE: f64 = 0.45;
 /// A minimum is looked for at most so many vertices apart; beyond, the search would become
-/// quadratic.
+/// quadratic. Chosen.
 const REACH: usize = 4096;
 
 /// A fitted path with the clearance at its vertices: the start's, then each segment's end.

@@ -24,7 +24,7 @@ const STEP: f64 = 10_000.0;
 /// Cuts are looked for no farther beyond their reach, in nanometres. Chosen: there are more of them
 /// to look at than steps to be saved.
 const FARTHEST: f64 = 400_000.0;
-/// Where a pass ends is halved so often.
+/// Where a pass ends is halved so often. Chosen.
 const HALVINGS: usize = 12;
 
 /// Where a part of a pass ends.

@@ -52,7 +52,7 @@ pub(super) struct Rules<'a> {
 /// after it, and what ended both.
 const CHOICES: usize = 3;
 
-/// Ways shorter than this are not halved to find copper beside them, in nanometres.
+/// Ways shorter than this are not halved to find copper beside them, in nanometres. Chosen.
 const FINE: f64 = 500.0;
 
 /// A link that would part a segment so near to its end goes to the end, in nanometres. Chosen:

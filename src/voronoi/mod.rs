@@ -77,7 +77,7 @@ const NOBODY: u32 = u32::MAX;
 const BEYOND: Nm = Nm::from_um(100);
 /// Slits of one net that are narrower than twice this are not walked: no cutter fits. Chosen.
 const FLOOR: Nm = Nm::from_um(10);
-/// No region reaches farther.
+/// No region reaches farther. Chosen.
 const FARTHEST: Nm = Nm::from_mm(10_000);
 
 /// What lies on one side of a boundary.

@@ -44,7 +44,7 @@ pub(super) fn foot(path: &Path, p: Spot) -> (usize, Spot, f64) {
 }
 
 /// What lies so near to an end of a segment is that end, in nanometres: of the rest of an arc, a
-/// nanometre long, rounding would make all of a circle.
+/// nanometre long, rounding would make all of a circle. Chosen.
 const SAME: f64 = 1_000.0;
 
 /// The point nearest to `p` of the segment of `path` with this index.

@@ -30,7 +30,7 @@ use super::{Boundaries, Boundary, Owner};
 /// A residue begins so much deeper in what the next pass clears than the edge of that, in
 /// nanometres. Chosen: more than fitting moves either.
 const SURE: f64 = 3_000.0;
-/// It is looked at in such steps, in nanometres.
+/// It is looked at in such steps, in nanometres. Chosen.
 const STEP: f64 = 20_000.0;
 /// A strip beside the last pass that is thinner than this is cut off, in nanometres, and no less
 /// long than that: where it is shorter its ends hold it. Chosen: the first as for what `verify`

@@ -5,7 +5,7 @@ use super::plane::Spot;
 /// How far chords may leave a curve, in nanometres. Chosen: less than a tenth of the default
 /// fitting tolerance, so that fitting has the rest.
 pub(super) const CHORD: f64 = 150.0;
-/// How far the clearance may leave its chord between two samples, in nanometres.
+/// How far the clearance may leave its chord between two samples, in nanometres. Chosen.
 pub(super) const CLEARANCE_CHORD: f64 = 1_000.0;
 
 /// A place on a boundary, in nanometres, with its clearance.

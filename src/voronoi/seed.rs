@@ -34,13 +34,13 @@ const OUTSIDE_LABEL: Label = Label(1);
 const OUTSIDE_DEPTH: f32 = -1.0;
 
 /// How much the two radii of an arc may differ and still be one, in nanometres: what rounding three
-/// points leaves.
+/// points leaves. Chosen.
 const ROUNDING: f64 = 1_000.0;
 
 /// Edges within this of their chord, in nanometres, are as good as one. Chosen: half of it is what
 /// a boundary beside them may be off.
 const STRAIGHT: f64 = 500.0;
-/// The sine of the most by which an arc's edges turn: 5°.
+/// The sine of the most by which an arc's edges turn: 5°. Chosen.
 const SMOOTH: f64 = 0.087;
 
 /// The owner number of a net.

@@ -15,9 +15,9 @@ use crate::geometry::{Nm, Path, Point, Segment, Turn};
 use super::plane::Spot;
 use super::{Boundary, Owner};
 
-/// Ways that turn back on themselves have no tip: 2°.
+/// Ways that turn back on themselves have no tip: 2°. Chosen.
 const LEAST_SINE: f64 = 0.02;
-/// A speck that a shorter spike would clear is too small to see, in nanometres.
+/// A speck that a shorter spike would clear is too small to see, in nanometres. Chosen.
 const LEAST_LENGTH: f64 = 1_000.0;
 
 /// Leads the corners of passes out to their tips.

@@ -104,7 +104,7 @@ pub struct Overlap {
 /// Pixels along the side of a tile. Chosen: a tile's colours fit the second cache.
 const TILE: i64 = 256;
 
-/// Tiles that are drawn at a time, before they are scanned one by one.
+/// Tiles that are drawn at a time, before they are scanned one by one. Chosen.
 const BATCH: usize = 32;
 
 /// Merges those of `traces` that overlap, by Algorithm 2.

@@ -21,7 +21,7 @@ use crate::voronoi::plane::Spot;
 /// rounding, less than any real gap.
 const OFF: f64 = 20.0;
 
-/// The same where owners may be a nanometre apart.
+/// The same where owners may be a nanometre apart. Chosen.
 const OFF_CLOSE: f64 = 0.25;
 
 /// Shorter pieces of an edge are none, in nanometres. Chosen: no cutter fits what they enclose.

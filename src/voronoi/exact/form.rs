@@ -16,11 +16,11 @@
 use crate::voronoi::plane::Spot;
 
 /// A foot may lie so far beyond the end of a slab and count, in nanometres: far more than rounding
-/// and than what makes two places one vertex, far less than any real length.
+/// and than what makes two places one vertex, far less than any real length. Chosen.
 pub(super) const SLAB: f64 = 0.05;
 
 /// Nothing on a board is so far away, in nanometres: bisectors end here that rounding has turned
-/// from parallel ones.
+/// from parallel ones. Chosen.
 const FAR: f64 = 1e11;
 
 /// Lines that lie across more of a square of this side are known by pieces, and circles of a larger

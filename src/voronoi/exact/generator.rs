@@ -34,7 +34,7 @@ use super::slit::without_slits;
 const NONE: u32 = u32::MAX;
 
 /// Arcs of which the two radii differ by more, in nanometres, are cut into chords: rounding three
-/// points leaves less.
+/// points leaves less. Chosen.
 const DRIFT: f64 = 1_000.0;
 
 /// Two edges that turn by less, in radians, are one for all that is nearest to their corner.
@@ -42,16 +42,17 @@ const DRIFT: f64 = 1_000.0;
 const STRAIGHT: f64 = 3e-6;
 
 /// A corner that lies off the chord between its neighbours by no more, in nanometres, is none: what
-/// rounding to whole nanometres leaves of three points.
+/// rounding to whole nanometres leaves of three points. Chosen.
 const ROUNDING: f64 = 1.5;
 
-/// The share of a shake where a nanometre matters.
+/// The share of a shake where a nanometre matters. Chosen.
 const SHARE: f64 = 0.05;
 
-/// The rounding where a nanometre matters: what floats leave of a straight edge.
+/// The rounding where a nanometre matters: what floats leave of a straight edge. Chosen.
 const EXACT: f64 = 1e-3;
 
 /// So many corners in a row are none at most, so that looking does not take the square of them.
+/// Chosen.
 const LONGEST_RUN: usize = 64;
 
 /// So far from a foot its normal is looked at, in nanometres. Chosen.

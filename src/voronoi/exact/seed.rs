@@ -20,10 +20,10 @@ use super::walk::{Event, Pair};
 use super::{Diagram, Kind, NOBODY, Space};
 use crate::voronoi::plane::Spot;
 
-/// Where a search begins, in nanometres; it doubles.
+/// Where a search begins, in nanometres; it doubles. Chosen.
 pub(super) const FIRST_REACH: f64 = 100_000.0;
 
-/// Events along one side of the window at most.
+/// Events along one side of the window at most. Chosen.
 const EVENTS: usize = 1_000_000;
 
 impl Diagram {

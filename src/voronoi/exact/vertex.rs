@@ -23,17 +23,18 @@ pub(super) const TIES: [f64; 3] = [0.002, 0.02, 0.000_2];
 /// nanometres. Chosen.
 const SNAP: f64 = 1.0;
 
-/// The same where owners may be a nanometre apart: their corners are no longer.
+/// The same where owners may be a nanometre apart: their corners are no longer. Chosen.
 const SNAP_CLOSE: f64 = 0.05;
 
-/// As [`SLAB`], where owners may be a nanometre apart.
+/// As [`SLAB`], where owners may be a nanometre apart. Chosen.
 const SLAB_CLOSE: f64 = 1e-4;
 
 /// Feet nearer to each other than this have one direction, beside what a tie may turn them by.
+/// Chosen.
 const SAME: f64 = 1e-6;
 
 /// The same of two owners that may be close: between them a boundary runs however near they are.
-/// Rounding is less.
+/// Rounding is less. Chosen.
 const APART: f64 = 1e-9;
 
 /// A generator tied at a place.

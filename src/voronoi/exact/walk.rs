@@ -23,16 +23,16 @@ const STRIDE: f64 = 2.0;
 const LEAST: f64 = 20_000.0;
 
 /// What comes nearer by less than this a unit of way only touches; if it enters after all, the end
-/// of the step shows it. Rounding is less.
+/// of the step shows it. Rounding is less. Chosen.
 const FLAT: f64 = 1e-6;
-/// The same of what belongs to another owner than both, where owners may be close.
+/// The same of what belongs to another owner than both, where owners may be close. Chosen.
 const LEAST_FLAT: f64 = 1e-9;
 
-/// Who cannot step so far has come to where two generators touch, in nanometres.
+/// Who cannot step so far has come to where two generators touch, in nanometres. Chosen.
 const SHORTEST: f64 = 1e-4;
 
 /// What a flat touch may be seen off its place, in nanometres: the root of a tie times the largest
-/// radius.
+/// radius. Chosen.
 const NEAR: f64 = 2_000.0;
 
 /// Steps in an edge at most, chosen far above need: a fault rather than a hang.

@@ -74,6 +74,7 @@ pub struct MedialAxis {
 const CHORD: f64 = 100.0;
 
 /// How often the corners of an area are moved by a nanometre or two where its diagram has a flaw.
+/// Chosen.
 const ATTEMPTS: u32 = 4;
 
 impl MedialAxis {

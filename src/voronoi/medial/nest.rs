@@ -66,7 +66,7 @@ pub struct Nest {
 /// mill is milled from the level below. Chosen: a loop that small is one place for any machine.
 const SMALL: f64 = 4_000.0;
 
-/// Levels at most.
+/// Levels at most. Chosen.
 const MOST_LEVELS: usize = 100_000;
 
 impl Nest {

@@ -32,11 +32,11 @@ const FRAME_DEPTH: f32 = -2.0;
 const COPPER_DEPTH: f32 = -1.0;
 /// How far meshes reach: the default of the paper's program, an inch.
 const REACH: Nm = Nm::new(25_400_000);
-/// Corners of a circle, and sides of a cone.
+/// Corners of a circle, and sides of a cone, as in the paper's program.
 const CORNERS: u32 = 16;
 /// The widest triangle of a fan: a sixteenth of a turn.
 const STEP: f64 = PI / 8.0;
-/// Arcs become strokes of this angle.
+/// Arcs become strokes of this angle, as in the paper's program.
 const ARC_STEP: f64 = PI / 128.0;
 
 /// A layer as the paper draws it.
