@@ -2,7 +2,7 @@
 //! where equal distances, tangencies and coincident edges are the rule.
 
 use voromill::board::{Attributes, Axis, Copper, Feature, Shape, Side};
-use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn};
+use voromill::geometry::{Arc, Nm, Point, Polygon, Rect, Turn, Vector};
 use voromill::topology::{self, DisjointSets, Method, Nets};
 use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
 
@@ -287,7 +287,7 @@ fn a_level_that_all_but_touches_an_edge_goes_round_no_corner_again() {
 fn a_neck_about_as_wide_as_the_floor_is_followed_from_both_sides_or_from_none() {
     let um = |x: i64, y: i64| at(1_000, x, y);
     for gap in (19_000..21_000).step_by(97) {
-        let far = um(2_000, 0) + voromill::geometry::Vector::new(Nm::new(gap), Nm::ZERO);
+        let far = um(2_000, 0) + Vector::new(Nm::new(gap), Nm::ZERO);
         let stroke =
             |x: i64, y: i64, to: Point| Shape::Stroke { from: um(x, y), to, radius: Nm::from_um(100) };
         let shapes = [
@@ -311,23 +311,22 @@ fn a_neck_about_as_wide_as_the_floor_is_followed_from_both_sides_or_from_none() 
 fn half_a_turn_round_the_end_of_a_stroke_keeps_clear_of_it() {
     for step in 0..360_i64 {
         let angle = f64::from(i32::try_from(step).expect("a degree")).to_radians();
-        let spot = |reach: f64| Point::from_f64(reach * angle.cos(), reach * angle.sin());
+        let (x, y) = (libm::cos(angle), libm::sin(angle));
+        let spot = |reach: f64| Point::from_f64(reach * x, reach * y);
         let mut generators = Generators::new();
         let radius = Nm::from_um(100);
         generators.add(&Shape::Stroke { from: spot(1_000_000.0), to: spot(4_000_000.0), radius }, 0);
         generators.add(&Shape::Disc { center: Point::default(), radius: Nm::from_um(800) }, 1);
         let diagram = Diagram::new(generators, Kind::Owners, Space::Around(Nm::from_mm(1)));
         assert_eq!(diagram.faults(), [], "{step}°");
-        let along = |(x, y): (f64, f64)| x * angle.cos() + y * angle.sin();
         for edge in diagram.edges() {
             for pair in diagram.profile(edge, 1_000.0).windows(2) {
                 let [((ax, ay), _), ((bx, by), _)] = [pair[0], pair[1]];
-                let (x, y) = (f64::midpoint(ax, bx), f64::midpoint(ay, by));
-                let end = along((x, y)).clamp(1_000_000.0, 4_000_000.0);
-                let [disc, stroke] = [x.hypot(y) - 800_000.0, {
-                    (x - end * angle.cos()).hypot(y - end * angle.sin()) - 100_000.0
-                }];
-                assert!((disc - stroke).abs() < 3_000.0, "{step}°: {disc} and {stroke} nm off at {x}, {y}");
+                let (u, v) = (f64::midpoint(ax, bx), f64::midpoint(ay, by));
+                let along = (u * x + v * y).clamp(1_000_000.0, 4_000_000.0);
+                let disc = libm::hypot(u, v) - 800_000.0;
+                let stroke = libm::hypot(u - along * x, v - along * y) - 100_000.0;
+                assert!((disc - stroke).abs() < 3_000.0, "{step}°: {disc} and {stroke} nm off at {u}, {v}");
             }
         }
     }
