@@ -2,19 +2,25 @@
 //! paper's §III-D and III-D.2).
 //!
 //! ```text
-//!   ───── axis of A ─────           Midway between the axes ╌ a boundary may run through the copper of a wide trace. So every region
-//!                                   holds its net's copper and a band round it at least: there the boundary runs along the edge of the
-//!   ╌╌╌╌╌╌╌●      ●╌╌╌╌╌╌╌╌╌        band, from where the one crosses the other to where it crosses it again.
+//!   ───── axis of A ─────
+//!
+//!   ╌╌╌╌╌╌╌●      ●╌╌╌╌╌╌╌╌╌
 //!      ▓▓▓▓│▓▓▓▓▓▓│▓▓▓
-//!      ▓▓▓▓╰──────╯▓▓▓ axis of B    Where bands of two nets meet, it runs midway between their copper.
+//!      ▓▓▓▓╰──────╯▓▓▓ axis of B
 //! ```
+//!
+//! Midway between the axes ╌ a boundary may run through the copper of a wide trace. So every region
+//! holds its net's copper and a band round it at least: there the boundary runs along the edge of
+//! the band, from where the one crosses the other to where it crosses it again. Where bands of two
+//! nets meet, it runs midway between their copper.
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Nm;
+use crate::topology::boxes;
 
 use super::exact::{Chain, Diagram, WALL};
-use super::plane::Spot;
+use super::plane::{Spot, spanned};
 use super::sample::Sample;
 use super::{BEYOND, FLOOR, NOBODY};
 
@@ -141,18 +147,11 @@ impl<'a> Edges<'a> {
     fn new(chains: &'a [&'a Chain]) -> Self {
         let of = |(i, chain): (usize, &&'a Chain)| (1..chain.samples.len()).map(move |to| (i, to));
         let segments: Vec<(usize, usize)> = chains.iter().enumerate().flat_map(of).collect();
-        let mut edges = Self { chains, segments, index: None };
-        let mut builder = StaticAABB2DIndexBuilder::new(edges.segments.len());
-        for [a, b] in edges.segments.iter().map(|&place| edges.ends(place)) {
-            builder.add(a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y));
-        }
-        edges.index = builder.build().ok();
-        edges
-    }
-
-    fn ends(&self, (chain, to): (usize, usize)) -> [Spot; 2] {
-        let samples = &self.chains[chain].samples;
-        [samples[to - 1].at + OFF, samples[to].at + OFF]
+        let index = boxes(segments.iter().map(|&place| {
+            let [a, b] = ends(chains, place);
+            spanned(a, b)
+        }));
+        Self { chains, segments, index }
     }
 
     /// Shows where the way from `p` to `q` crosses: which segment, how far along the way and along
@@ -161,7 +160,7 @@ impl<'a> Edges<'a> {
         let Some(index) = &self.index else { return };
         let is_left = |from: Spot, to: Spot, at: Spot| (to - from).cross(at - from) > 0.0;
         for i in index.query(p.x.min(q.x), p.y.min(q.y), p.x.max(q.x), p.y.max(q.y)) {
-            let [a, b] = self.ends(self.segments[i]);
+            let [a, b] = ends(self.chains, self.segments[i]);
             if is_left(a, b, p) != is_left(a, b, q) && is_left(p, q, a) != is_left(p, q, b) {
                 let (way, side) = (q - p, b - a);
                 let part = (side.cross(a - p) / side.cross(way)).clamp(0.0, 1.0);
@@ -170,6 +169,12 @@ impl<'a> Edges<'a> {
             }
         }
     }
+}
+
+/// The ends of the segment of a chain that leads to a sample.
+fn ends(chains: &[&Chain], (chain, to): (usize, usize)) -> [Spot; 2] {
+    let samples = &chains[chain].samples;
+    [samples[to - 1].at + OFF, samples[to].at + OFF]
 }
 
 /// Where the edges of bands and what is between axes cross each other, by chain of the one and of

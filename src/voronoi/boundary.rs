@@ -13,12 +13,14 @@ use std::collections::BTreeMap;
 use rayon::prelude::*;
 
 use crate::geometry::{Nm, Point};
+use crate::topology::NetId;
 
 use super::clip::{Node, Piece};
 use super::exact;
 use super::fit;
 use super::plane::Spot;
-use super::{BACKGROUND, Boundaries, Diagram, NOBODY, Owner};
+use super::seed::owner_of;
+use super::{BACKGROUND, Boundaries, Diagram, NOBODY};
 
 impl Diagram {
     /// The boundaries of the certified diagram, and where it contradicts itself.
@@ -48,7 +50,7 @@ impl Diagram {
         let owner = |p: Spot| in_band(p).or_else(|| diagram.owner_near(p, level, NOBODY));
         super::clip::within(&self.border, chains, owner, |net| match net {
             NOBODY => BACKGROUND,
-            net => Owner::Net(crate::topology::NetId(net)).number(),
+            net => owner_of(NetId(net)),
         })
     }
 

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 
 use crate::board::{Axis, Copper, Feature, Shape};
 use crate::geometry::{Nm, Point, Rect};
-use crate::topology::{self, Method, Nets, smallest_gap};
+use crate::topology::{self, Method, NetId, Nets, smallest_gap};
 
 use super::exact::{Diagram, Generators, Kind, Space};
 
@@ -28,7 +28,7 @@ impl<'a> Owned<'a> {
     /// The copper of the features that `keep` accepts.
     pub(super) fn copper(copper: &'a Copper, nets: &Nets, keep: impl Fn(usize) -> bool) -> Self {
         let shape = |feature: &'a Feature| Cow::Borrowed(&feature.shape);
-        Self { shapes: owned(copper, nets, keep, shape), is_loose: false, is_close: is_close(copper, nets) }
+        Self::new(copper, nets, keep, shape, false)
     }
 
     /// Their core axes, or their copper where it does not hold its axis.
@@ -40,7 +40,25 @@ impl<'a> Owned<'a> {
             Some(Axis::Arc(arc)) => Cow::Owned(Shape::Arc { arc, radius }),
             Some(Axis::Region) | None => Cow::Borrowed(&feature.shape),
         };
-        Self { shapes: owned(copper, nets, keep, shape), is_loose: true, is_close: is_close(copper, nets) }
+        Self::new(copper, nets, keep, shape, true)
+    }
+
+    /// The shapes of the features that `keep` accepts, each with the first of the nets that its own
+    /// one touches.
+    fn new(
+        copper: &'a Copper,
+        nets: &Nets,
+        keep: impl Fn(usize) -> bool,
+        shape: impl Fn(&'a Feature) -> Cow<'a, Shape>,
+        is_loose: bool,
+    ) -> Self {
+        let gap = smallest_gap(copper, nets).map(|gap| gap.width);
+        let is_touching = gap.is_some_and(|gap| gap <= Nm::ZERO);
+        let pieces = is_touching.then(|| pieces(copper, nets));
+        let owner = |net: NetId| pieces.as_ref().map_or(net.0, |pieces| pieces[net.index()]);
+        let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
+        let shapes = kept.map(|(number, feature)| (shape(feature), owner(nets.of(number)))).collect();
+        Self { shapes, is_loose, is_close: gap.is_some_and(|gap| gap < CLOSE) }
     }
 
     /// Whether one owner has all.
@@ -86,23 +104,6 @@ impl<'a> Owned<'a> {
 /// slits that others lose.
 const CLOSE: Nm = Nm::new(100);
 
-fn is_close(copper: &Copper, nets: &Nets) -> bool {
-    smallest_gap(copper, nets).is_some_and(|gap| gap.width < CLOSE)
-}
-
-/// The shapes of the features that `keep` accepts, each with the first of the nets that its own one
-/// touches.
-fn owned<'a>(
-    copper: &'a Copper,
-    nets: &Nets,
-    keep: impl Fn(usize) -> bool,
-    shape: impl Fn(&'a Feature) -> Cow<'a, Shape>,
-) -> Vec<(Cow<'a, Shape>, u32)> {
-    let pieces = pieces(copper, nets);
-    let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
-    kept.map(|(number, feature)| (shape(feature), pieces[nets.of(number).index()])).collect()
-}
-
 /// The axis of a feature, if its copper still holds it: clear polarity may have cut it away.
 pub(super) fn axis(feature: &Feature) -> Option<Axis> {
     let probe = match feature.axis {
@@ -120,9 +121,6 @@ pub(super) fn axis(feature: &Feature) -> Option<Axis> {
 /// Of each net the first of those whose copper it touches.
 fn pieces(copper: &Copper, nets: &Nets) -> Vec<u32> {
     let mut first: Vec<u32> = (0_u32..).take(nets.nets().len()).collect();
-    if smallest_gap(copper, nets).is_none_or(|gap| gap.width > Nm::ZERO) {
-        return first;
-    }
     let touching = topology::recover(copper, Method::Contact);
     loop {
         let before = first.clone();

@@ -10,12 +10,14 @@
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
+
+use crate::topology::boxes;
 
 use super::OUTSIDE;
 use super::edge::Border;
 use super::exact::Chain;
-use super::plane::Spot;
+use super::plane::{Spot, spanned};
 use super::sample::Sample;
 
 /// Where a piece ends.
@@ -76,7 +78,7 @@ const OFF_GRID: Spot = Spot::new(0.013_7, 0.007_1);
 const SAME: f64 = 10.0;
 
 /// The border's edges by place.
-struct Fence {
+pub(super) struct Fence {
     /// From vertex to vertex, with the board on the left.
     edges: Vec<[Spot; 2]>,
     /// Of each ring its first edge; one more ends the last.
@@ -115,7 +117,7 @@ fn bounds(samples: &[Sample]) -> [f64; 4] {
 }
 
 impl Fence {
-    fn new(border: &Border) -> Self {
+    pub(super) fn new(border: &Border) -> Self {
         let (mut edges, mut starts) = (Vec::new(), vec![0]);
         for number in 0..border.ring_count {
             let ring = border.rings.ring(number);
@@ -123,11 +125,8 @@ impl Fence {
             edges.extend(ring.iter().zip(next).map(|(&a, &b)| [a + OFF_GRID, b + OFF_GRID]));
             starts.push(edges.len());
         }
-        let mut builder = StaticAABB2DIndexBuilder::new(edges.len());
-        for [a, b] in &edges {
-            builder.add(a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y));
-        }
-        Self { edges, starts, index: builder.build().ok() }
+        let index = boxes(edges.iter().map(|&[a, b]| spanned(a, b)));
+        Self { edges, starts, index }
     }
 
     fn query(&self, [left, bottom, right, top]: [f64; 4]) -> Vec<usize> {
@@ -135,7 +134,7 @@ impl Fence {
     }
 
     /// Whether `p` lies on the board.
-    fn holds(&self, p: Spot) -> bool {
+    pub(super) fn holds(&self, p: Spot) -> bool {
         let beyond = self.query([p.x, p.y, f64::MAX, p.y]).into_iter().filter(|&edge| {
             let [a, b] = self.edges[edge];
             (a.y > p.y) != (b.y > p.y) && (is_left(a, b, p) == (b.y > a.y))

@@ -9,7 +9,6 @@ use crate::board::{Copper, FLATTEN, Outline, Shape, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon, Rect};
 
 use super::Settings;
-use super::plane::Spot;
 use super::site::Rings;
 
 /// What is cut, and what is drawn, ends here.
@@ -72,11 +71,6 @@ impl Border {
         let mut contours = vec![beyond.corners().to_vec()];
         contours.extend(self.inside.iter().flat_map(Polygon::contours).cloned());
         contours
-    }
-
-    /// Whether `p` lies on the board.
-    pub(super) fn holds(&self, p: Spot) -> bool {
-        self.inside.iter().any(|inside| inside.contains(p.rounded()))
     }
 
     /// Whether any of a shape's area lies on the board: a pad round a drawn hole does, though its

@@ -1,18 +1,22 @@
 //! Passes end where a cut has cleared already.
 //!
 //! ```text
-//!    pass ───────────────╮            A pass runs on for as long as it clears anything that a cut does not: up to where
-//!    ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄│┄┄┄         it comes nearer to the cut than passes do to each other.
+//!    pass ───────────────╮
+//!    ┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄┄│┄┄┄
 //!    ━━━━━━━━━━━━━━━━━━━━━┿━━ cut
 //! ```
+//!
+//! A pass runs on for as long as it clears anything that a cut does not: up to where it comes
+//! nearer to the cut than passes do to each other.
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Nm;
+use crate::topology::boxes;
 
 use super::Boundary;
 use super::clip::{Node, Piece};
-use super::plane::Spot;
+use super::plane::{Spot, spanned};
 use super::sample::Sample;
 
 /// A pass goes on until it is so much nearer to a cut than it need be, in nanometres, so that one
@@ -46,11 +50,8 @@ impl Grooves {
             let points = edge.path.flatten(Nm::new(500));
             chords.extend(points.windows(2).map(|pair| (Spot::from(pair[0]), Spot::from(pair[1]))));
         }
-        let mut builder = StaticAABB2DIndexBuilder::new(chords.len());
-        for (a, b) in &chords {
-            builder.add(a.x.min(b.x), a.y.min(b.y), a.x.max(b.x), a.y.max(b.y));
-        }
-        Some(Self { chords, index: builder.build().ok()?, reach: reach.to_f64() })
+        let index = boxes(chords.iter().map(|&(a, b)| spanned(a, b)))?;
+        Some(Self { chords, index, reach: reach.to_f64() })
     }
 
     /// How far `p` is from the nearest cut, in nanometres; no more than `look`.

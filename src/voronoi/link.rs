@@ -14,13 +14,13 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::{Nm, Path, Point, Segment};
-use crate::topology::DisjointSets;
+use crate::topology::{DisjointSets, boxes};
 
 use super::part::{Cut, foot_on, part, vertex};
-use super::plane::Spot;
+use super::plane::{Spot, spanned};
 use super::{Boundaries, NodeId};
 
 /// A way between two nodes that may be cut, and need not be.
@@ -103,20 +103,16 @@ impl Segments {
     /// Those of the edges that are cut and that `keep` accepts; none where there are none.
     fn of(graph: &Boundaries, keep: impl Fn(usize) -> bool) -> Option<Self> {
         let mut places = Vec::new();
-        let mut boxes = Vec::new();
+        let mut bounds = Vec::new();
         let cut = graph.edges.iter().enumerate().filter(|(_, edge)| !edge.is_border());
         for (number, edge) in cut.filter(|(number, _)| keep(*number)) {
             for (i, (from, segment)) in edge.path.steps().enumerate() {
                 places.push((number, i));
-                boxes.push(Path { start: from, segments: vec![*segment] }.bounds());
+                let bound = Path { start: from, segments: vec![*segment] }.bounds();
+                bounds.push(spanned(bound.min().into(), bound.max().into()));
             }
         }
-        let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
-        for bounds in boxes {
-            let [low, high] = [bounds.min(), bounds.max()].map(Spot::from);
-            builder.add(low.x, low.y, high.x, high.y);
-        }
-        Some(Self { places, index: builder.build().ok()? })
+        Some(Self { places, index: boxes(bounds.into_iter())? })
     }
 }
 

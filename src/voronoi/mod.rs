@@ -2,11 +2,11 @@
 //! to III-D).
 //!
 //! ```text
-//!  Copper, Nets ── certified ──▶ Diagram ── chain, level ──▶ chains ── clip ──▶ pieces ── fit ──▶ Boundaries
-//!        │                          │                            │
-//!        │                          │                     edge: where the board ends
-//!        │                          ╰── passes, residual, link ──▶ wide isolation
-//!        ╰─ seed ──▶ sites ── raster ──▶ pictures of the regions
+//! Copper, Nets ─ certified ─▶ Diagram ─ chain, level ─▶ chains ─ clip ─▶ pieces ─ fit ─▶ Boundaries
+//!       │                        │                         │
+//!       │                        │                  edge: where the board ends
+//!       │                        ╰── passes, residual, link ──▶ wide isolation
+//!       ╰─ seed ──▶ sites ── raster ──▶ pictures of the regions
 //! ```
 //!
 //! Everything that is cut comes from the certified diagram of [`exact`], which no pixel has a part

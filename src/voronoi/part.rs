@@ -129,15 +129,12 @@ fn begin_at(edge: &mut Boundary, first: usize) {
 
 /// The point of `arc` nearest to `p`.
 fn foot_on_arc(p: Spot, arc: &Arc) -> Spot {
+    // Counter-clockwise.
     let (from, to) = match arc.turn {
-        Turn::CounterClockwise => (arc.start, arc.end),
-        Turn::Clockwise => (arc.end, arc.start),
+        Turn::CounterClockwise => (Spot::from(arc.start), Spot::from(arc.end)),
+        Turn::Clockwise => (Spot::from(arc.end), Spot::from(arc.start)),
     };
-    nearest_on_arc(p, arc.center.into(), arc.radius(), from.into(), to.into(), from == to)
-}
-
-/// The point of a counter-clockwise arc nearest to `p`.
-fn nearest_on_arc(p: Spot, center: Spot, radius: f64, from: Spot, to: Spot, whole: bool) -> Spot {
+    let center = Spot::from(arc.center);
     let (way, a, b) = (p - center, from - center, to - center);
     let wide = a.cross(b) < 0.0 || (a.cross(b) <= 0.0 && a.dot(b) < 0.0 && a.cross(way) < 0.0);
     let within = if wide {
@@ -145,8 +142,8 @@ fn nearest_on_arc(p: Spot, center: Spot, radius: f64, from: Spot, to: Spot, whol
     } else {
         a.cross(way) >= 0.0 && way.cross(b) >= 0.0
     };
-    if (whole || within) && way.length() > 0.0 {
-        return center + way * (radius / way.length());
+    if (from == to || within) && way.length() > 0.0 {
+        return center + way * (arc.radius() / way.length());
     }
     let (to_from, to_to) = (p - from, p - to);
     if to_from.dot(to_from) <= to_to.dot(to_to) { from } else { to }

@@ -19,7 +19,7 @@ use crate::geometry::Nm;
 use crate::topology::Nets;
 
 use super::certified::Owned;
-use super::clip::Piece;
+use super::clip::{Fence, Piece};
 use super::exact;
 use super::groove::Grooves;
 use super::link::Rules;
@@ -111,7 +111,7 @@ impl Diagram {
         let heights: Vec<f64> = levels.iter().map(|level| level.to_f64()).collect();
         let passes = Passes {
             diagram: &diagram,
-            border: &self.border,
+            fence: &Fence::new(&self.border),
             kerf: widening.kerf.to_f64(),
             step: step.to_f64(),
             levels: &heights,

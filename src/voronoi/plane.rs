@@ -4,6 +4,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use crate::geometry::Point;
+use crate::topology;
 
 /// A position or direction in the plane, in nanometres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,6 +42,11 @@ impl Spot {
     pub(super) fn distance_to_chord(self, a: Self, b: Self) -> f64 {
         (self - nearest_on_chord(self, a, b)).length()
     }
+}
+
+/// The box round two places: left, bottom, right, top.
+pub(super) fn spanned(a: Spot, b: Spot) -> [f64; 4] {
+    topology::spanned((a.x, a.y), (b.x, b.y))
 }
 
 /// The point of the chord from `a` to `b` nearest to `p`.

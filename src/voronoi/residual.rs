@@ -1,12 +1,17 @@
 //! What passes leave between them, cleared.
 //!
 //! ```text
-//!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓    From a foot on copper up to the medial axis, passes run as long as the next one still fits. What the
-//!   ━━━━━━━━━━━━━━━━━━━━━━    last of them does not reach lies about the axis ─, where its clearance is more than that pass clears
-//!   ░░░░░░░─────────░░│       and less than where the next would run. It is narrower than a kerf: one cut along the axis clears it,
-//!   ━━━━━━━━━━━━━━━━━━━━━━    but where another cut comes as near.
+//!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
+//!   ━━━━━━━━━━━━━━━━━━━━━━
+//!   ░░░░░░░─────────░░│
+//!   ━━━━━━━━━━━━━━━━━━━━━━
 //!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
 //! ```
+//!
+//! From a foot on copper up to the medial axis, passes run as long as the next one still fits. What
+//! the last of them does not reach lies about the axis ─, where its clearance is more than that
+//! pass clears and less than where the next would run. It is narrower than a kerf: one cut along
+//! the axis clears it, but where another cut comes as near.
 //!
 //! Beside the last pass copper may stay; but where only a thin strip does between that and another
 //! cut, it would come off sooner or later. So it is cut off, too: along the axis between two
@@ -18,14 +23,15 @@
 use rayon::prelude::*;
 
 use crate::geometry::Nm;
+use crate::topology::NetId;
 
-use super::clip::Piece;
-use super::edge::Border;
+use super::clip::{Fence, Piece};
 use super::exact::{self, OnAxis};
 use super::groove::{END, Grooves};
 use super::plane::Spot;
 use super::sample::Sample;
-use super::{Boundaries, Boundary, Owner};
+use super::seed::owner_of;
+use super::{Boundaries, Boundary};
 
 /// A residue begins so much deeper in what the next pass clears than the edge of that, in
 /// nanometres. Chosen: more than fitting moves either.
@@ -45,7 +51,8 @@ const CRUMB: f64 = 50_000.0;
 /// Passes, and what is known of the space they run in.
 pub(super) struct Passes<'a> {
     pub(super) diagram: &'a exact::Diagram,
-    pub(super) border: &'a Border,
+    /// Where the board ends.
+    pub(super) fence: &'a Fence,
     /// How wide the cutter clears, in nanometres.
     pub(super) kerf: f64,
     /// How far passes lie apart, at most.
@@ -112,7 +119,7 @@ impl Passes<'_> {
         let residues = axes.par_iter().flat_map_iter(|axis| {
             let places: Vec<Option<Residue>> =
                 steps(&axis.places).map(|place| self.residue(&place, &cleared)).collect();
-            let [left, right] = axis.owners.map(number);
+            let [left, right] = axis.owners.map(|owner| owner_of(NetId(owner)));
             let piece = |samples| Piece { left, right, samples, ends: Some([END; 2]) };
             runs(&places).filter_map(|run| self.along(&run).map(piece)).collect::<Vec<_>>()
         });
@@ -122,14 +129,13 @@ impl Passes<'_> {
     /// A place on the axis, where anything beside it is left: it, or what lies straight towards
     /// copper as far as a pass has not cleared.
     fn residue(&self, place: &OnAxis, cleared: &Cleared) -> Option<Residue> {
-        let &OnAxis { at, clearance, .. } = place;
+        let on_axis @ Sample { at, clearance } = place.sample;
         let inner = self.levels.iter().rev().find(|&&level| level < clearance)?;
         let rest = (clearance - inner - self.way()).max(0.0);
-        let is_left = |p: Spot| !cleared.holds(p) && self.border.holds(p);
+        let is_left = |p: Spot| !cleared.holds(p) && self.fence.holds(p);
         let shoulders = self.diagram.away_at(place).map(|away| at + away * -rest);
         let is_residue = is_left(at) || shoulders.into_iter().any(is_left);
-        let on_axis = Sample { at, clearance };
-        (is_residue && self.border.holds(at)).then_some(Residue { on_axis, rest, shoulder: shoulders[0] })
+        (is_residue && self.fence.holds(at)).then_some(Residue { on_axis, rest, shoulder: shoulders[0] })
     }
 
     /// The cut that clears residues in a row, if they are worth one. What is no longer than a step
@@ -187,15 +193,10 @@ impl Passes<'_> {
     }
 }
 
-/// The number of an owner of the diagram among the owners of lines.
-fn number(owner: u32) -> u32 {
-    Owner::Net(crate::topology::NetId(owner)).number()
-}
-
 /// Places along an axis, in steps of at most [`STEP`].
 fn steps(places: &[OnAxis]) -> impl Iterator<Item = OnAxis> {
     let along = places.windows(2).flat_map(|pair| {
-        let count = ((pair[1].at - pair[0].at).length() / STEP).ceil().max(1.0);
+        let count = ((pair[1].sample.at - pair[0].sample.at).length() / STEP).ceil().max(1.0);
         parts(count).map(move |part| pair[0].toward(&pair[1], part))
     });
     places.first().copied().into_iter().chain(along)

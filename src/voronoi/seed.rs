@@ -11,13 +11,13 @@ use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
 use crate::geometry::{Arc, Nm, Point, Polygon};
 use crate::grid::Grid;
 use crate::raster::{Caps, FillRule, Label, Scene, Sides, Spin, Surface};
-use crate::topology::Nets;
+use crate::topology::{NetId, Nets};
 
 use super::certified::axis;
 use super::edge::Border;
 use super::plane::Spot;
 use super::site::{Form, Rings, Site};
-use super::{BACKGROUND, OUTSIDE, Settings, SiteKind};
+use super::{BACKGROUND, OUTSIDE, Owner, Settings, SiteKind};
 
 /// All sites of a layer. Label 0 is the background and 1 the outside; owners count the same way,
 /// nets from 2.
@@ -44,8 +44,8 @@ const STRAIGHT: f64 = 500.0;
 const SMOOTH: f64 = 0.087;
 
 /// The owner number of a net.
-pub(super) fn owner_of(net: crate::topology::NetId) -> u32 {
-    net.0 + 2
+pub(super) const fn owner_of(net: NetId) -> u32 {
+    Owner::Net(net).number()
 }
 
 impl Sites {

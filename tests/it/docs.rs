@@ -135,35 +135,60 @@ const PROJECT: &str = "metric = true\nfront = board/board-F_Cu.gbr\noutline = bo
 const GRBL: &str = "$30=8000\n$32=0\n$110=800.000\n$111=800.000\n$112=300.000\n$120=20.000\n$121=20.000\n\
     $122=10.000\n$130=280.000\n$131=170.000\n$132=40.000\nok\n";
 
+/// Copies a file.
+fn copy(from: &Path, to: &Path) {
+    fs::copy(from, to).unwrap_or_else(|error| panic!("{}: {error}", from.display()));
+}
+
+/// Writes the layers of a board into a folder, into `board/` in it and as `board.zip`.
+fn write_layers(folder: &Path, layers: &[(String, Vec<u8>)]) {
+    fs::create_dir(folder.join("board")).expect("writable");
+    let mut archive = zip::ZipWriter::new(fs::File::create(folder.join("board.zip")).expect("writable"));
+    for (name, bytes) in layers {
+        fs::write(folder.join(name), bytes).expect("writable");
+        fs::write(folder.join("board").join(name), bytes).expect("writable");
+        archive.start_file(name, zip::write::SimpleFileOptions::default()).expect("an entry");
+        std::io::Write::write_all(&mut archive, bytes).expect("writable");
+    }
+    archive.finish().expect("an archive");
+}
+
+/// Runs commands that make what others take.
+fn prepare(folder: &Path, lines: &[&str]) {
+    for line in lines {
+        run(line, folder).unwrap_or_else(|error| panic!("{line}: {error}"));
+    }
+}
+
+/// Copies the programs in `out/` into folders, and under other names: each with its side.
+fn copy_programs(folder: &Path, folders: &[&str], names: &[(&str, &str)]) {
+    let front = folder.join("out/board-front.ngc");
+    for other in folders {
+        fs::create_dir(folder.join(other)).expect("writable");
+        copy(&front, &folder.join(other).join("board-front.ngc"));
+    }
+    for (name, side) in names {
+        copy(&folder.join(format!("out/board-{side}.ngc")), &folder.join(name));
+    }
+}
+
 /// What the pages take for a person's own files: a board as `board/` and in other forms, programs,
 /// pictures, drawings.
 fn own_files(folder: &Path) {
     let fixtures = root().join("fixtures");
-    let regulator = fixtures.join("boards/regulator");
-    let copy = |from: PathBuf, to: &str| {
-        fs::copy(&from, folder.join(to)).unwrap_or_else(|error| panic!("{}: {error}", from.display()));
+    let layer = |layer: &str| {
+        let from = fixtures.join(format!("boards/regulator/regulator-{layer}"));
+        (format!("board-{layer}"), fs::read(from).expect("a layer"))
     };
-    let mut archive = zip::ZipWriter::new(fs::File::create(folder.join("board.zip")).expect("writable"));
-    for board in ["board", "gerbers"] {
-        fs::create_dir(folder.join(board)).expect("writable");
-        for layer in ["F_Cu.gbr", "B_Cu.gbr", "Edge_Cuts.gbr", "PTH.drl", "F_Mask.gbr", "B_Mask.gbr"] {
-            let from = regulator.join(format!("regulator-{layer}"));
-            if board == "board" {
-                let options = zip::write::SimpleFileOptions::default();
-                archive.start_file(format!("board-{layer}"), options).expect("an entry");
-                std::io::Write::write_all(&mut archive, &fs::read(&from).expect("a layer"))
-                    .expect("writable");
-                copy(from.clone(), &format!("board-{layer}"));
-            }
-            copy(from, &format!("{board}/board-{layer}"));
-        }
-    }
-    archive.finish().expect("an archive");
-    copy(fixtures.join("kicad/shapes.kicad_pcb"), "board.kicad_pcb");
-    copy(fixtures.join("gerber/clear_polarity.gbr"), "board-F_Silkscreen.gbr");
-    copy(fixtures.join("drawings/layers.svg"), "board.svg");
+    let layers = ["F_Cu.gbr", "B_Cu.gbr", "Edge_Cuts.gbr", "PTH.drl", "F_Mask.gbr", "B_Mask.gbr"];
+    write_layers(folder, &layers.map(layer));
+    fs::create_dir(folder.join("gerbers")).expect("writable");
+    copied(&folder.join("board"), &folder.join("gerbers"));
+    copy(&fixtures.join("kicad/shapes.kicad_pcb"), &folder.join("board.kicad_pcb"));
+    copy(&fixtures.join("gerber/clear_polarity.gbr"), &folder.join("board-F_Silkscreen.gbr"));
+    copy(&fixtures.join("drawings/layers.svg"), &folder.join("board.svg"));
     for probe in ["probe.txt", "board-front-probe.txt"] {
-        copy(root().join("docs/walkthrough/regulator.probe"), probe);
+        copy(&root().join("docs/walkthrough/regulator.probe"), &folder.join(probe));
     }
     let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).expect("writable");
     write("DejaVuSans.ttf", dejavu::sans::regular());
@@ -174,24 +199,16 @@ fn own_files(folder: &Path) {
     write("edge.dxf", drawing([-5, -5, 35, 25], hole).as_bytes());
     write("millproject", PROJECT.as_bytes());
     write("settings.txt", GRBL.as_bytes());
-    for line in [
+    let lines = [
         "machine import settings.txt > mine.toml",
         "mill board/ -o out",
         "mask board/ -o front.png --dpi 600",
         "mask board/ -o back.png --dpi 600 --side back --mirror",
         "mask board/ -o scan.png --dpi 600",
-    ] {
-        run(line, folder).unwrap_or_else(|error| panic!("{line}: {error}"));
-    }
-    for copies in ["old", "new", "main-out", "branch-out"] {
-        fs::create_dir(folder.join(copies)).expect("writable");
-        copy(folder.join("out/board-front.ngc"), &format!("{copies}/board-front.ngc"));
-    }
-    for (program, side) in
-        [("flatcam.nc", "front"), ("front.nc", "front"), ("front.ngc", "front"), ("back.nc", "back")]
-    {
-        copy(folder.join(format!("out/board-{side}.ngc")), program);
-    }
+    ];
+    prepare(folder, &lines);
+    let names = [("flatcam.nc", "front"), ("front.nc", "front"), ("front.ngc", "front"), ("back.nc", "back")];
+    copy_programs(folder, &["old", "new", "main-out", "branch-out"], &names);
 }
 
 /// Copies a folder with the folders in it.
@@ -277,33 +294,22 @@ const LINUXCNC: &str = "[TRAJ]\nLINEAR_UNITS = mm\n\
 
 /// What examples take for a person's own files, of a board with two pads and a trace.
 fn small_files(folder: &Path) {
-    let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).expect("writable");
-    let copy = |from: &str, to: &str| {
-        fs::copy(root().join(from), folder.join(to)).unwrap_or_else(|error| panic!("{from}: {error}"));
-    };
-    let mask = COPPER.replace("C,2.0", "C,1.0");
+    let fixtures = root().join("fixtures");
     let layers = [
         ("board-F_Cu.gbr", COPPER),
         ("board-B_Cu.gbr", COPPER),
-        ("board-F_Mask.gbr", &mask),
+        ("board-F_Mask.gbr", &COPPER.replace("C,2.0", "C,1.0")),
         ("board-Edge_Cuts.gbr", OUTLINE),
         ("board.drl", DRILL),
     ];
-    fs::create_dir(folder.join("board")).expect("writable");
-    let mut archive = zip::ZipWriter::new(fs::File::create(folder.join("board.zip")).expect("writable"));
-    for (name, text) in layers {
-        write(name, text.as_bytes());
-        write(&format!("board/{name}"), text.as_bytes());
-        archive.start_file(name, zip::write::SimpleFileOptions::default()).expect("an entry");
-        std::io::Write::write_all(&mut archive, text.as_bytes()).expect("writable");
-    }
-    archive.finish().expect("an archive");
-    write("board-F_Silkscreen.gbr", COPPER.as_bytes());
-    copy("fixtures/kicad/shapes.kicad_pcb", "board.kicad_pcb");
-    copy("fixtures/level/board.hmap", "board.hmap");
+    write_layers(folder, &layers.map(|(name, text)| (name.to_owned(), text.as_bytes().to_vec())));
+    copy(&fixtures.join("kicad/shapes.kicad_pcb"), &folder.join("board.kicad_pcb"));
+    copy(&fixtures.join("level/board.hmap"), &folder.join("board.hmap"));
     for map in ["board.probe", "probe.txt", "board-front-probe.txt"] {
-        copy("fixtures/level/board.probe", map);
+        copy(&fixtures.join("level/board.probe"), &folder.join(map));
     }
+    let write = |name: &str, bytes: &[u8]| fs::write(folder.join(name), bytes).expect("writable");
+    write("board-F_Silkscreen.gbr", COPPER.as_bytes());
     let touch = |(x, y): (i32, i32)| format!("[PRB:{}.000,{}.000,-31.200:1]\n", x - 120, y - 80);
     let log: String = [(0, 0), (20, 0), (0, 10), (20, 10)].map(touch).concat();
     write("grbl.log", log.as_bytes());
@@ -316,29 +322,17 @@ fn small_files(folder: &Path) {
     write("settings.txt", GRBL.as_bytes());
     write("my-mill.ini", LINUXCNC.as_bytes());
     write("millproject", PROJECT.replace("output-dir", "drill = board/board.drl\noutput-dir").as_bytes());
-    for line in
-        ["machine import settings.txt > mine.toml", "mill board/ -o out", "mask board/ -o scan.png --dpi 600"]
-    {
-        run(line, folder).unwrap_or_else(|error| panic!("{line}: {error}"));
-    }
-    for copies in ["old", "new", "out-main", "out-branch"] {
-        fs::create_dir(folder.join(copies)).expect("writable");
-        copied_file(folder, "out/board-front.ngc", &format!("{copies}/board-front.ngc"));
-    }
-    for name in ["front.ngc", "front.gcode", "flatcam.nc", "a.nc", "b.nc"] {
-        copied_file(folder, "out/board-front.ngc", name);
-    }
-    copied_file(folder, "out/board-back.ngc", "back.nc");
-    for line in [
+    let lines = [
+        "machine import settings.txt > mine.toml",
+        "mill board/ -o out",
+        "mask board/ -o scan.png --dpi 600",
         "carve logo.png --picture-width 40mm -o logo.ngc --max-depth 2mm --depth-pass 0.5mm",
         "pocket plate.svg -o plate.ngc --tool endmill:3mm --depth 4mm --depth-pass 1mm",
-    ] {
-        run(line, folder).unwrap_or_else(|error| panic!("{line}: {error}"));
-    }
-}
-
-fn copied_file(folder: &Path, from: &str, to: &str) {
-    fs::copy(folder.join(from), folder.join(to)).unwrap_or_else(|error| panic!("{from}: {error}"));
+    ];
+    prepare(folder, &lines);
+    let fronts = ["front.ngc", "front.gcode", "flatcam.nc", "a.nc", "b.nc"].map(|name| (name, "front"));
+    let folders = ["old", "new", "out-main", "out-branch"];
+    copy_programs(folder, &folders, &[&fronts[..], &[("back.nc", "back")]].concat());
 }
 
 /// The commands of the examples in help texts, with where they stand: what follows two spaces is

@@ -9,8 +9,7 @@ use crate::voronoi::sample::{CHORD, CLEARANCE_CHORD, Sample};
 /// A place on the medial axis.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::voronoi) struct OnAxis {
-    pub(in crate::voronoi) at: Spot,
-    pub(in crate::voronoi) clearance: f64,
+    pub(in crate::voronoi) sample: Sample,
     /// The edge of the diagram that it lies on.
     edge: u32,
 }
@@ -32,9 +31,7 @@ struct Part {
 impl OnAxis {
     /// The place so far, from 0 to 1, on the way to another.
     pub(in crate::voronoi) fn toward(&self, other: &Self, part: f64) -> Self {
-        let between = |a: f64, b: f64| a + (b - a) * part;
-        let clearance = between(self.clearance, other.clearance);
-        Self { at: self.at + (other.at - self.at) * part, clearance, edge: other.edge }
+        Self { sample: self.sample.toward(&other.sample, part), edge: other.edge }
     }
 }
 
@@ -52,7 +49,7 @@ impl Diagram {
             let [left, right] = [edge.left, edge.right].map(|generator| self.owner(generator));
             if left != WALL && right != WALL && wanted(left, right) && self.may_reach(edge, ranges) {
                 let samples = self.samples_within(edge, [CHORD, CLEARANCE_CHORD]).into_iter();
-                let on_edge = |Sample { at, clearance }| OnAxis { at, clearance, edge: number };
+                let on_edge = |sample| OnAxis { sample, edge: number };
                 cut(&samples.map(on_edge).collect::<Vec<_>>(), ranges, [edge.from, edge.to], &mut parts);
             }
         }
@@ -62,7 +59,7 @@ impl Diagram {
     /// The unit vectors straight away from the copper on either side.
     pub(in crate::voronoi) fn away_at(&self, place: &OnAxis) -> [Spot; 2] {
         let edge = &self.edges[place.edge as usize];
-        [edge.left, edge.right].map(|generator| self.forms()[generator as usize].away(place.at))
+        [edge.left, edge.right].map(|generator| self.forms()[generator as usize].away(place.sample.at))
     }
 
     /// Whether the clearance along an edge may lie in any of some ranges: it changes no faster than
@@ -121,14 +118,15 @@ impl Diagram {
 /// Adds the parts of an edge within any range.
 fn cut(places: &[OnAxis], ranges: &[[f64; 2]], [from, to]: [u32; 2], parts: &mut Vec<Part>) {
     for &[low, high] in ranges {
-        let is_within = |place: &OnAxis| (low..high).contains(&place.clearance);
+        let is_within = |place: &OnAxis| (low..high).contains(&place.sample.clearance);
         let mut open =
             is_within(&places[0]).then(|| Part { places: vec![places[0]], ends: [Some(from), None] });
         for pair in places.windows(2) {
             let [a, b] = [&pair[0], &pair[1]];
-            let crossing = |level: f64| a.toward(b, (level - a.clearance) / (b.clearance - a.clearance));
-            let passes = |level: f64| (a.clearance < level) != (b.clearance < level);
-            let [entry, exit] = if a.clearance <= b.clearance { [low, high] } else { [high, low] };
+            let [before, after] = [a.sample.clearance, b.sample.clearance];
+            let crossing = |level: f64| a.toward(b, (level - before) / (after - before));
+            let passes = |level: f64| (before < level) != (after < level);
+            let [entry, exit] = if before <= after { [low, high] } else { [high, low] };
             if open.is_none() && passes(entry) {
                 open = Some(Part { places: vec![crossing(entry)], ends: [None; 2] });
             }

@@ -3,7 +3,6 @@
 
 use rayon::prelude::*;
 
-use super::form::{Place, halfway};
 use super::{Diagram, Edge, Vertex};
 use crate::geometry::Point;
 use crate::voronoi::plane::Spot;
@@ -35,28 +34,26 @@ impl Diagram {
 
     /// The same, with how far chords may leave the place and the distance.
     pub(super) fn samples_within(&self, edge: &Edge, tolerances: [f64; 2]) -> Vec<Sample> {
-        let sample = |vertex: u32| {
-            let Vertex { at: (x, y), clearance, .. } = self.vertices[vertex as usize];
-            Sample { at: Spot::new(x, y), clearance }
-        };
-        let (from, to) = (sample(edge.from), sample(edge.to));
+        let (from, to) = (self.sample_at(edge.from), self.sample_at(edge.to));
         let mut samples = vec![from];
         self.halve(edge, (from, to), tolerances, 16, &mut samples);
         samples.push(to);
         samples
     }
 
+    /// A vertex as a place on its edges.
+    pub(super) fn sample_at(&self, vertex: u32) -> Sample {
+        let Vertex { at: (x, y), clearance, .. } = self.vertices[vertex as usize];
+        Sample { at: Spot::new(x, y), clearance }
+    }
+
     /// The place midway between two of an edge, by the foot on one of its generators.
-    pub(super) fn midway(&self, edge: &Edge, a: Spot, b: Spot) -> Option<(Spot, f64)> {
+    pub(super) fn midway(&self, edge: &Edge, a: Spot, b: Spot) -> Option<Sample> {
         let pair = self.pair(edge.left, edge.right);
         let main = pair.main(a.midpoint(b));
         let form = &pair.forms[main];
-        let middle = match (form.place(a), form.place(b)) {
-            (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
-            (Place::Toward(u), Place::Toward(v)) => Place::Toward(halfway(u, v, pair.sense(main))),
-            (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => return None,
-        };
-        pair.at(main, middle)
+        let middle = form.place(a).halfway(form.place(b), pair.sense(main))?;
+        pair.at(main, middle).map(|(at, clearance)| Sample { at, clearance })
     }
 
     pub(super) fn halve(
@@ -70,10 +67,10 @@ impl Diagram {
         if left == 0 || (b.at - a.at).length() < 1.0 {
             return;
         }
-        let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { return };
-        let is_off = at.distance_to_chord(a.at, b.at) > tolerances[0];
-        if is_off || (clearance - f64::midpoint(a.clearance, b.clearance)).abs() > tolerances[1] {
-            let middle = Sample { at, clearance };
+        let Some(middle) = self.midway(edge, a.at, b.at) else { return };
+        let is_off = middle.at.distance_to_chord(a.at, b.at) > tolerances[0];
+        let straight = f64::midpoint(a.clearance, b.clearance);
+        if is_off || (middle.clearance - straight).abs() > tolerances[1] {
             self.halve(edge, (a, middle), tolerances, left - 1, samples);
             samples.push(middle);
             self.halve(edge, (middle, b), tolerances, left - 1, samples);
@@ -108,7 +105,7 @@ impl Diagram {
         left: u32,
         found: &mut Vec<Violation>,
     ) {
-        let Some((middle, clearance)) = self.midway(edge, a, b) else { return };
+        let Some(Sample { at: middle, clearance }) = self.midway(edge, a, b) else { return };
         self.check(middle, clearance, &[edge.left, edge.right], found);
         if left > 0 && (b - a).length() > spacing {
             self.check_between(edge, (a, middle), spacing, left - 1, found);

@@ -9,20 +9,15 @@
 //!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
 //! ```
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use super::Diagram;
 use super::form::{Form, Place, turn, unit};
 use super::generator::Body;
 use super::graph::Growth;
+use super::tolerances::OFF;
+use crate::topology::boxes;
 use crate::voronoi::plane::Spot;
-
-/// So far off an edge it is looked whether copper lies there, in nanometres. Chosen: more than
-/// rounding, less than any real gap.
-const OFF: f64 = 20.0;
-
-/// The same where owners may be a nanometre apart. Chosen.
-const OFF_CLOSE: f64 = 0.25;
 
 /// Shorter pieces of an edge are none, in nanometres. Chosen: no cutter fits what they enclose.
 const SHORT: f64 = 200.0;
@@ -67,18 +62,13 @@ fn at_position(form: &Form, position: f64) -> Place {
 
 impl<'a> Bodies<'a> {
     pub(super) fn new(diagram: &'a Diagram) -> Self {
-        let mut builder = StaticAABB2DIndexBuilder::new(diagram.generators.bodies.len());
-        for body in &diagram.generators.bodies {
-            let [left, bottom, right, top] = diagram.bounds_of(body);
-            builder.add(left, bottom, right, top);
-        }
-        Self { diagram, index: builder.build().ok() }
+        let bodies = diagram.generators.bodies.iter();
+        Self { diagram, index: boxes(bodies.map(|body| diagram.bounds_of(body))) }
     }
 
     /// Whether copper lies off an edge with this foot and normal.
     pub(super) fn cover(&self, foot: Spot, normal: Spot) -> bool {
-        let off = if self.diagram.generators.is_close { OFF_CLOSE } else { OFF };
-        self.hold(foot + normal * off, true)
+        self.hold(foot + normal * self.diagram.tolerances.off, true)
     }
 
     /// Whether copper lies at `p`; what rings keep free ends within them where `beyond` says so.

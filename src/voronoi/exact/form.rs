@@ -60,6 +60,17 @@ pub(super) enum Place {
     Toward(Spot),
 }
 
+impl Place {
+    /// The place midway to another of the same form, in the sense of travel.
+    pub(super) fn halfway(self, other: Self, sense: f64) -> Option<Self> {
+        match (self, other) {
+            (Self::Along(a), Self::Along(b)) => Some(Self::Along(f64::midpoint(a, b))),
+            (Self::Toward(a), Self::Toward(b)) => Some(Self::Toward(halfway(a, b, sense))),
+            (Self::Along(_), Self::Toward(_)) | (Self::Toward(_), Self::Along(_)) => None,
+        }
+    }
+}
+
 /// Turned a quarter clockwise.
 pub(super) fn clockwise(v: Spot) -> Spot {
     Spot::new(v.y, -v.x)

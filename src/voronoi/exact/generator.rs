@@ -20,10 +20,11 @@
 use std::ops::Range;
 
 use rustc_hash::{FxHashMap, FxHashSet};
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::board::{Copper, FLATTEN, Shape};
 use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Vector};
+use crate::topology;
 use crate::voronoi::plane::Spot;
 
 use super::WALL;
@@ -423,11 +424,8 @@ impl Index {
                 pieces.push((number, before));
             }
         }
-        let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
-        for [left, bottom, right, top] in &boxes {
-            builder.add(*left, *bottom, *right, *top);
-        }
-        Self { boxes, pieces, tree: builder.build().ok(), breaks: Vec::new(), starts: Vec::new() }
+        let tree = topology::boxes(boxes.iter().copied());
+        Self { boxes, pieces, tree, breaks: Vec::new(), starts: Vec::new() }
     }
 
     /// Finds all breaks where distances that differ by less than `tie` are equal.

@@ -8,7 +8,8 @@ use std::sync::OnceLock;
 use rustc_hash::FxHashMap;
 
 use super::form::turn;
-use super::vertex::{Junction, Slot, resolution};
+use super::tolerances::Tolerances;
+use super::vertex::{Junction, Slot};
 use super::walk::{Event, Pair};
 use super::{Diagram, Edge, Space, Vertex};
 use crate::voronoi::plane::Spot;
@@ -17,7 +18,7 @@ use crate::voronoi::plane::Spot;
 #[derive(Default)]
 pub(super) struct Growth {
     tie: f64,
-    snap: f64,
+    tolerances: Tolerances,
     pub(super) junctions: Vec<Junction>,
     edges: Vec<Edge>,
     /// The junctions of each cell of the plane.
@@ -48,7 +49,7 @@ impl Growth {
     /// there, or three owners where they are hardly apart.
     fn known(&self, junction: &Junction) -> Option<u32> {
         let Junction { at, clearance, .. } = *junction;
-        let reach = resolution([self.tie, self.snap], clearance);
+        let reach = self.tolerances.resolution(self.tie, clearance);
         let [low, high] = [cell(at - Spot::new(reach, reach)), cell(at + Spot::new(reach, reach))];
         let cells = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
         let known = cells.filter_map(|cell| self.by_place.get(&cell)).flatten().copied();
@@ -118,7 +119,7 @@ fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Junction {
 impl Diagram {
     /// Finds all vertices and edges.
     pub(super) fn walk_all(&mut self, space: Space) {
-        let mut growth = Growth { tie: self.tie, snap: self.snap(), ..Growth::default() };
+        let mut growth = Growth { tie: self.tie, tolerances: self.tolerances, ..Growth::default() };
         self.sow(&mut growth, space);
         self.finish(growth);
     }
@@ -158,7 +159,7 @@ impl Diagram {
     /// direction in which it arrives.
     fn next(&self, growth: &Growth, from: u32, mut pair: Pair) -> Option<(Pair, Junction, Spot)> {
         let home = &growth.junctions[from as usize];
-        let near = self.resolution(home.clearance) + self.snap();
+        let near = self.tolerances.resolution(self.tie, home.clearance) + self.tolerances.snap;
         let mut start = home.at;
         for _ in 0..RETRIES {
             let event = self.follow(&pair, start, &home.tied);

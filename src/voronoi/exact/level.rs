@@ -59,13 +59,6 @@ pub(super) struct Crossings {
     starts: Vec<usize>,
 }
 
-/// A place on an edge.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Knot {
-    at: Spot,
-    clearance: f64,
-}
-
 /// What a level set passes: the parallel of a generator up to where `at` has its foot, and what
 /// crossing ends it there, if one does.
 #[derive(Clone, Copy, Debug)]
@@ -140,11 +133,6 @@ impl Diagram {
         Some(chains.into_iter().map(curve).collect())
     }
 
-    fn knot(&self, vertex: u32) -> Knot {
-        let found = &self.vertices[vertex as usize];
-        Knot { at: Spot::new(found.at.0, found.at.1), clearance: found.clearance }
-    }
-
     /// The generator on the left of a link.
     fn left_of(&self, (edge, reversed): Link) -> u32 {
         let edge = &self.edges[edge as usize];
@@ -169,7 +157,7 @@ impl Diagram {
     }
 
     fn cross(&self, number: u32, edge: &Edge, found: &mut Crossings) {
-        let (from, to) = (self.knot(edge.from), self.knot(edge.to));
+        let (from, to) = (self.sample_at(edge.from), self.sample_at(edge.to));
         let reach = (to.at - from.at).length();
         let (low, high) = (from.clearance.min(to.clearance), from.clearance.max(to.clearance));
         // Clearance changes no faster than place, and edges turn by less than half a turn.
@@ -187,27 +175,26 @@ impl Diagram {
     }
 
     /// The places between which the clearance along an edge only rises or only falls.
-    fn stretches_of(&self, edge: &Edge) -> Vec<Knot> {
-        let (from, to) = (self.knot(edge.from), self.knot(edge.to));
-        let mut knots = vec![from];
-        self.halve_knots(edge, from, to, HALVINGS, &mut knots);
+    fn stretches_of(&self, edge: &Edge) -> Vec<Sample> {
+        let (from, to) = (self.sample_at(edge.from), self.sample_at(edge.to));
+        let mut places = vec![from];
+        self.halve_course(edge, from, to, HALVINGS, &mut places);
         let mut stretches = vec![from];
-        for pair in knots.windows(2) {
+        for pair in places.windows(2) {
             stretches.extend(self.turning(edge, pair[0], pair[1]));
             stretches.push(pair[1]);
         }
         stretches
     }
 
-    fn halve_knots(&self, edge: &Edge, a: Knot, b: Knot, left: u32, knots: &mut Vec<Knot>) {
+    fn halve_course(&self, edge: &Edge, a: Sample, b: Sample, left: u32, places: &mut Vec<Sample>) {
         if left > 0
-            && let Some((at, clearance)) = self.midway(edge, a.at, b.at)
+            && let Some(middle) = self.midway(edge, a.at, b.at)
         {
-            let middle = Knot { at, clearance };
-            self.halve_knots(edge, a, middle, left - 1, knots);
-            self.halve_knots(edge, middle, b, left - 1, knots);
+            self.halve_course(edge, a, middle, left - 1, places);
+            self.halve_course(edge, middle, b, left - 1, places);
         } else {
-            knots.push(b);
+            places.push(b);
         }
     }
 
@@ -218,7 +205,7 @@ impl Diagram {
     }
 
     /// Where between two places the clearance is least or greatest, if it is.
-    fn turning(&self, edge: &Edge, mut a: Knot, mut b: Knot) -> Option<Knot> {
+    fn turning(&self, edge: &Edge, mut a: Sample, mut b: Sample) -> Option<Sample> {
         let (first, last) = (self.slope(edge, a.at), self.slope(edge, b.at));
         if (first > 0.0) == (last > 0.0) {
             return None;
@@ -227,22 +214,20 @@ impl Diagram {
             if (b.at - a.at).length() < EXACT {
                 break;
             }
-            let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { break };
-            let middle = Knot { at, clearance };
-            if (self.slope(edge, at) > 0.0) == (first > 0.0) { a = middle } else { b = middle }
+            let Some(middle) = self.midway(edge, a.at, b.at) else { break };
+            if (self.slope(edge, middle.at) > 0.0) == (first > 0.0) { a = middle } else { b = middle }
         }
         Some(a)
     }
 
-    fn crossing_between(&self, edge: &Edge, mut a: Knot, mut b: Knot, level: f64) -> Spot {
+    fn crossing_between(&self, edge: &Edge, mut a: Sample, mut b: Sample, level: f64) -> Spot {
         let rises = b.clearance > level;
         for _ in 0..60 {
             if (b.at - a.at).length() < EXACT {
                 break;
             }
-            let Some((at, clearance)) = self.midway(edge, a.at, b.at) else { break };
-            let middle = Knot { at, clearance };
-            if (clearance > level) == rises { b = middle } else { a = middle }
+            let Some(middle) = self.midway(edge, a.at, b.at) else { break };
+            if (middle.clearance > level) == rises { b = middle } else { a = middle }
         }
         a.at
     }
@@ -258,7 +243,7 @@ impl Diagram {
                 legs.push(Leg { generator, from: at, to: crossings.all[end].at, crossing: Some(end) });
                 return Some(joined(legs, self.forms()));
             }
-            let to = self.knot(self.target(link)).at;
+            let to = self.sample_at(self.target(link)).at;
             legs.push(Leg { generator, from: at, to, crossing: None });
             let onward = self.onward(link)?;
             self.add_hollow(link, onward, &mut legs);
@@ -271,7 +256,7 @@ impl Diagram {
     /// where the first ends: hollow arcs round that place.
     fn add_hollow(&self, link: Link, onward: Link, legs: &mut Vec<Leg>) {
         let vertex = self.target(link);
-        let at = self.knot(vertex).at;
+        let at = self.sample_at(vertex).at;
         let [first, last] = [link, onward].map(|link| self.left_of(link));
         let hollow = |&i: &u32| i != first && i != last && self.forms()[i as usize].around(at).is_some();
         let mut arcs: Vec<u32> = self.vertices[vertex as usize].tied.iter().copied().filter(hollow).collect();
@@ -356,7 +341,7 @@ impl Diagram {
         for first in links {
             let (mut link, mut legs, mut is_whole) = (first, Vec::new(), true);
             while !std::mem::replace(&mut seen[link.0 as usize][usize::from(link.1)], true) {
-                let [from, to] = [(link.0, !link.1), link].map(|link| self.knot(self.target(link)));
+                let [from, to] = [(link.0, !link.1), link].map(|link| self.sample_at(self.target(link)));
                 is_whole &= from.clearance > crossings.level && crossings.of(link.0).is_empty();
                 legs.push(Leg { generator: self.left_of(link), from: from.at, to: to.at, crossing: None });
                 let onward = self.onward(link)?;
@@ -372,7 +357,7 @@ impl Diagram {
         }
         found.extend((0_u32..).zip(&self.leaving).filter(|(_, leaving)| leaving.is_empty()).filter_map(
             |(vertex, _)| {
-                let is_above = self.knot(vertex).clearance > crossings.level && wanted(vertex);
+                let is_above = self.sample_at(vertex).clearance > crossings.level && wanted(vertex);
                 is_above.then(|| self.rounds(vertex)).flatten()
             },
         ));
@@ -381,7 +366,7 @@ impl Diagram {
 
     /// The legs along the hollow arcs round a vertex that no edge leaves: all the way round.
     fn rounds(&self, vertex: u32) -> Option<Vec<Leg>> {
-        let at = self.knot(vertex).at;
+        let at = self.sample_at(vertex).at;
         let tied = self.vertices[vertex as usize].tied.iter().copied();
         let mut arcs: Vec<u32> = tied.filter(|&i| self.forms()[i as usize].around(at).is_some()).collect();
         let leg = |generator: u32| Leg { generator, from: at, to: at, crossing: None };
@@ -440,13 +425,12 @@ impl Diagram {
             let source = self.target((row[0].0, !row[0].1));
             let mut parts: Vec<(Vec<Sample>, [u32; 2])> = Vec::new();
             let mut open: Option<(Vec<Sample>, u32)> = None;
-            let sample = |knot: Knot| Sample { at: knot.at, clearance: knot.clearance };
-            let begins_below = self.knot(source).clearance <= crossings.level;
+            let begins_below = self.sample_at(source).clearance <= crossings.level;
             if begins_below {
-                open = Some((vec![sample(self.knot(source))], source));
+                open = Some((vec![self.sample_at(source)], source));
             }
             for &link in &row {
-                let mut at = sample(self.knot(self.target((link.0, !link.1))));
+                let mut at = self.sample_at(self.target((link.0, !link.1)));
                 let mut next = crossings.next(link, None);
                 while let Some(crossing) = next {
                     let to = Sample { at: crossings.all[crossing].at, clearance: crossings.level - ABOVE };
@@ -460,7 +444,7 @@ impl Diagram {
                     (at, next) = (to, crossings.next(link, Some(crossing)));
                 }
                 if let Some((samples, _)) = &mut open {
-                    self.extend(link, (at, sample(self.knot(self.target(link)))), samples);
+                    self.extend(link, (at, self.sample_at(self.target(link))), samples);
                 }
             }
             let end = self.target(row[row.len() - 1]);

@@ -74,6 +74,7 @@ mod level;
 mod query;
 mod seed;
 mod slit;
+mod tolerances;
 mod vertex;
 mod walk;
 
@@ -81,10 +82,11 @@ use std::sync::OnceLock;
 
 use crate::geometry::{Nm, Point, Rect};
 use crate::voronoi::plane::Spot;
+use crate::voronoi::sample::Sample;
 
 use form::Form;
 use generator::Index;
-use level::Knot;
+use tolerances::Tolerances;
 use vertex::TIES;
 
 pub use certify::Violation;
@@ -156,6 +158,7 @@ pub struct Diagram {
     kind: Kind,
     /// Distances that differ by less are equal, in nanometres.
     tie: f64,
+    tolerances: Tolerances,
     /// Left, bottom, right, top.
     window: [f64; 4],
     vertices: Vec<Vertex>,
@@ -163,7 +166,7 @@ pub struct Diagram {
     /// What leaves each vertex, counter-clockwise.
     leaving: Vec<Vec<Link>>,
     /// Of each edge that a level set was asked for, where its clearance turns.
-    stretches: Vec<OnceLock<Vec<Knot>>>,
+    stretches: Vec<OnceLock<Vec<Sample>>>,
     faults: Vec<Point>,
 }
 
@@ -196,6 +199,7 @@ impl Diagram {
     /// The diagram before any edge is known.
     fn unwalked(generators: Generators, kind: Kind, space: Space) -> Self {
         let index = Index::new(&generators);
+        let tolerances = if generators.is_close { Tolerances::CLOSE } else { Tolerances::default() };
         let margin = match space {
             Space::Around(margin) => margin.to_f64(),
             Space::Window(_) | Space::Within => BEYOND,
@@ -212,6 +216,7 @@ impl Diagram {
             index,
             kind,
             tie: TIES[0],
+            tolerances,
             window,
             vertices: Vec::new(),
             edges: Vec::new(),

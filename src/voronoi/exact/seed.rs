@@ -90,7 +90,7 @@ impl Diagram {
                 }
                 let Some(s) = form.meet(foot, normal).filter(|&s| s > self.tie) else { return };
                 let nearer = nearest.is_none_or(|known| (s, c) < known);
-                if nearer && form.counts(foot + normal * s, self.tie, self.slab()) {
+                if nearer && form.counts(foot + normal * s, self.tie, self.tolerances.slab) {
                     nearest = Some((s, c));
                 }
             });

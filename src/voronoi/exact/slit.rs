@@ -1,12 +1,16 @@
 //! Slits: where the edge of a polygon comes back along itself.
 //!
 //! ```text
-//!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓         Programs that draw holes as part of one ring lead it in and out again along a slit, which is as
-//!   ▓▓▓▓▓╭───╮▓▓▓▓▓▓▓▓▓         wide as their rounding: nothing, or a few nanometres. No cutter goes there, and to either side of
-//!   ▓▓▓▓▓│   ├──────────        its mouth distances differ by less than anybody can tell. So the two sides are one, and none.
+//!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
+//!   ▓▓▓▓▓╭───╮▓▓▓▓▓▓▓▓▓
+//!   ▓▓▓▓▓│   ├──────────
 //!   ▓▓▓▓▓╰───╯▓▓▓▓▓▓▓▓▓
 //!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
 //! ```
+//!
+//! Programs that draw holes as part of one ring lead it in and out again along a slit, which is as
+//! wide as their rounding: nothing, or a few nanometres. No cutter goes there, and to either side
+//! of its mouth distances differ by less than anybody can tell. So the two sides are one, and none.
 //!
 //! Vertices that all but meet become one, edges are parted where they all but run through one, and
 //! what then runs both ways is left out. A polygon without slits stays as it is.
@@ -14,10 +18,11 @@
 use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap;
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Point;
-use crate::voronoi::plane::Spot;
+use crate::topology::boxes;
+use crate::voronoi::plane::{Spot, spanned};
 
 /// Slits are no wider, in nanometres. Chosen: several times what six decimals of a millimetre
 /// leave, a fiftieth of a micrometre.
@@ -52,11 +57,11 @@ impl Edges {
             ring.iter().zip(next).map(|(&from, &to)| [from, to]).collect::<Vec<_>>()
         };
         let ends: Vec<[Point; 2]> = rings.iter().flat_map(ring).collect();
-        let mut builder = StaticAABB2DIndexBuilder::new(ends.len());
-        for [a, b] in ends.iter().map(|ends| ends.map(Spot::from)) {
-            builder.add(a.x.min(b.x) - WIDE, a.y.min(b.y) - WIDE, a.x.max(b.x) + WIDE, a.y.max(b.y) + WIDE);
-        }
-        Some(Self { ends, index: builder.build().ok()? })
+        let index = boxes(ends.iter().map(|&[a, b]| {
+            let [left, bottom, right, top] = spanned(a.into(), b.into());
+            [left - WIDE, bottom - WIDE, right + WIDE, top + WIDE]
+        }))?;
+        Some(Self { ends, index })
     }
 
     /// The edges that all but run through `p`.

@@ -10,7 +10,8 @@
 //!           ╱  │
 //! ```
 
-use super::form::{SLAB, clockwise, turn};
+use super::form::{clockwise, turn};
+use super::tolerances::SAME;
 use super::{Diagram, Kind, apollonius};
 use crate::voronoi::plane::Spot;
 
@@ -18,24 +19,6 @@ use crate::voronoi::plane::Spot;
 /// find their ends. Chosen: rounding is a thousandth of the least, whole nanometres rarely come as
 /// close as the largest.
 pub(super) const TIES: [f64; 3] = [0.002, 0.02, 0.000_2];
-
-/// A place so near to the end of a slab is taken for it where all that is tied stays so, in
-/// nanometres. Chosen.
-const SNAP: f64 = 1.0;
-
-/// The same where owners may be a nanometre apart: their corners are no longer. Chosen.
-const SNAP_CLOSE: f64 = 0.05;
-
-/// As [`SLAB`], where owners may be a nanometre apart. Chosen.
-const SLAB_CLOSE: f64 = 1e-4;
-
-/// Feet nearer to each other than this have one direction, beside what a tie may turn them by.
-/// Chosen.
-const SAME: f64 = 1e-6;
-
-/// The same of two owners that may be close: between them a boundary runs however near they are.
-/// Rounding is less. Chosen.
-const APART: f64 = 1e-9;
 
 /// A generator tied at a place.
 #[derive(Clone, Copy, Debug)]
@@ -70,36 +53,14 @@ pub(super) struct Junction {
     pub(super) is_end: bool,
 }
 
-/// How far from a place so far from copper two generators may be tied that part there, in
-/// nanometres, if no nearer than `snap`: what touches a circle from within leaves it by the square
-/// of the way.
-pub(super) fn resolution([tie, snap]: [f64; 2], clearance: f64) -> f64 {
-    (60.0 * tie * clearance).sqrt().max(snap)
-}
-
 impl Diagram {
-    /// So far beyond its end a foot may lie, in nanometres.
-    pub(super) const fn slab(&self) -> f64 {
-        if self.generators.is_close { SLAB_CLOSE } else { SLAB }
-    }
-
-    /// Places nearer to each other may be one, in nanometres.
-    pub(super) const fn snap(&self) -> f64 {
-        if self.generators.is_close { SNAP_CLOSE } else { SNAP }
-    }
-
-    /// The [`resolution`] of this diagram.
-    pub(super) fn resolution(&self, clearance: f64) -> f64 {
-        resolution([self.tie, self.snap()], clearance)
-    }
-
     /// The generators that count at `p` and are at most `reach` far, with their distances.
     pub(super) fn within(&self, p: Spot, reach: f64) -> Vec<(u32, f64)> {
         let mut found = Vec::new();
         self.index.visit_round(p, reach + self.tie, |i| {
             let form = &self.forms()[i as usize];
             let distance = form.distance(p);
-            if distance <= reach && form.counts(p, self.tie, self.slab()) {
+            if distance <= reach && form.counts(p, self.tie, self.tolerances.slab) {
                 found.push((i, distance));
             }
         });
@@ -116,12 +77,12 @@ impl Diagram {
             return None;
         }
         let numbers = || near.iter().map(|&(i, _)| i);
-        let at_first = self.tied(p, clearance, numbers(), self.slab());
-        let at = self.hand_over(p, &self.tied(p, clearance, numbers(), self.snap()));
+        let at_first = self.tied(p, clearance, numbers(), self.tolerances.slab);
+        let at = self.hand_over(p, &self.tied(p, clearance, numbers(), self.tolerances.snap));
         let at = at.unwrap_or_else(|| self.settled(p, &at_first, led));
         let clearance = at_first.iter().map(|tied| self.forms()[tied.generator as usize].distance(at));
         let clearance = clearance.fold(f64::INFINITY, f64::min).max(0.0);
-        let tied = self.tied(at, clearance, numbers(), self.slab());
+        let tied = self.tied(at, clearance, numbers(), self.tolerances.slab);
         let slots = self.slots(at, clearance, &tied);
         let mut generators: Vec<u32> = tied.iter().map(|tied| tied.generator).collect();
         generators.sort_unstable();
@@ -178,7 +139,7 @@ impl Diagram {
         let turned = 2.0 * self.tie / clearance.max(self.tie);
         let is_same = |a: &Tied, b: &Tied| {
             let is_one = self.owner(a.generator) == self.owner(b.generator);
-            let same = turned + if is_one || !self.generators.is_close { SAME } else { APART };
+            let same = turned + if is_one { SAME } else { self.tolerances.apart };
             a.toward.dot(b.toward) > 0.0 && a.toward.cross(b.toward).abs() < same
         };
         // Begin after a gap between two directions, so that no group is cut in two.
@@ -240,7 +201,7 @@ impl Diagram {
                 let is_tied = |disc: u32| {
                     tied.iter().any(|other| other.generator == disc && other.group == entry.group)
                 };
-                if slacks[end].abs() <= self.snap() && disc.is_some_and(is_tied) {
+                if slacks[end].abs() <= self.tolerances.snap && disc.is_some_and(is_tied) {
                     joined.push((entry.generator, end, entry.group));
                 }
             }
@@ -253,7 +214,7 @@ impl Diagram {
         let at = foot + normal * s;
         let stays =
             |other: &Tied| (self.forms()[other.generator as usize].distance(at) - s).abs() <= self.tie;
-        ((at - p).length() < 2.0 * self.snap() && tied.iter().all(stays)).then_some(at)
+        ((at - p).length() < 2.0 * self.tolerances.snap && tied.iter().all(stays)).then_some(at)
     }
 
     /// What leaves between neighbouring groups.
@@ -298,7 +259,7 @@ impl Diagram {
         way: Spot,
         group: impl Iterator<Item = &'a Tied> + Clone,
     ) -> u32 {
-        let probe = at + way * self.resolution(clearance);
+        let probe = at + way * self.tolerances.resolution(self.tie, clearance);
         let goes_on = |i: u32| {
             let form = &self.forms()[i as usize];
             let Some(ends) = form.ends() else { return true };
@@ -311,7 +272,7 @@ impl Diagram {
                 // The direction in which feet move inwards from this end.
                 let onward = clockwise(normal) * if form.is_hollow() { 1.0 } else { -1.0 };
                 let inward = if end == 0 { onward } else { onward * -1.0 };
-                slacks[end].abs() > self.slab() || way.dot(inward) >= -1e-9
+                slacks[end].abs() > self.tolerances.slab || way.dot(inward) >= -1e-9
             })
         };
         let rank = |i: u32| (self.forms()[i as usize].distance(probe), self.owner(i), i);

@@ -13,7 +13,8 @@
 //! events.
 
 use super::apollonius;
-use super::form::{Form, Place, clockwise, halfway, unit};
+use super::form::{Form, Place, clockwise, unit};
+use super::tolerances::FLAT;
 use super::{Diagram, Kind, NOBODY};
 use crate::voronoi::plane::Spot;
 
@@ -21,12 +22,6 @@ use crate::voronoi::plane::Spot;
 /// module's table.
 const STRIDE: f64 = 2.0;
 const LEAST: f64 = 20_000.0;
-
-/// What comes nearer by less than this a unit of way only touches; if it enters after all, the end
-/// of the step shows it. Rounding is less. Chosen.
-const FLAT: f64 = 1e-6;
-/// The same of what belongs to another owner than both, where owners may be close. Chosen.
-const LEAST_FLAT: f64 = 1e-9;
 
 /// Who cannot step so far has come to where two generators touch, in nanometres. Chosen.
 const SHORTEST: f64 = 1e-4;
@@ -188,8 +183,8 @@ impl Diagram {
                     Form::Circle { center, .. } => (here.at - center).length(),
                 };
                 let is_behind =
-                    matches!(form, Form::Circle { .. }) && (4.0 - ahead) * out <= 2.0 * self.slab();
-                if ahead * out <= self.slab() || is_behind {
+                    matches!(form, Form::Circle { .. }) && (4.0 - ahead) * out <= 2.0 * self.tolerances.slab;
+                if ahead * out <= self.tolerances.slab || is_behind {
                     continue;
                 }
                 let Some((at, clearance)) = pair.at(side, place) else { continue };
@@ -263,11 +258,7 @@ impl Diagram {
         let form = &pair.forms[main];
         let (mut inside, mut outside) = (*here, beyond);
         for _ in 0..60 {
-            let place = match (inside.place, outside.place) {
-                (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
-                (Place::Toward(a), Place::Toward(b)) => Place::Toward(halfway(a, b, pair.sense(main))),
-                (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => break,
-            };
+            let Some(place) = inside.place.halfway(outside.place, pair.sense(main)) else { break };
             let Some((at, clearance)) = pair.at(main, place) else { break };
             let middle = Here { at, clearance, place: form.place(at) };
             if self.holds(at) { inside = middle } else { outside = middle }
@@ -300,7 +291,7 @@ impl Diagram {
         ];
         let mut first: Option<Hit> = None;
         let mut missed: Option<u32> = None;
-        let near = self.resolution(here.clearance);
+        let near = self.tolerances.resolution(self.tie, here.clearance);
         self.index.visit(look, |c| {
             if c == pair.left || c == pair.right || self.joined_to(pair, c) {
                 return;
@@ -315,21 +306,24 @@ impl Diagram {
                 let place = form.place(at);
                 let along = form.progress(here.place, place, sense);
                 let limit = first.map_or(ahead, |hit| hit.0);
-                if !(along > 0.0 && along <= limit) || other.slack(at) < -self.slab() || s < -self.tie {
+                if !(along > 0.0 && along <= limit)
+                    || other.slack(at) < -self.tolerances.slab
+                    || s < -self.tie
+                {
                     continue;
                 }
                 let off = (at - start).length();
                 let is_near = off < 2.0 * self.tie || (was_tied && off < near);
                 let entering = (other.away(at) - form.away(at)).dot(pair.way(at));
                 // Between two owners nothing hands over: however flatly one comes, it enters.
-                let flat = if self.is_strange(pair, c) { LEAST_FLAT } else { FLAT };
+                let flat = if self.is_strange(pair, c) { self.tolerances.flat } else { FLAT };
                 if (is_near && entering > -0.1) || entering >= -flat {
                     continue;
                 }
                 first = Some((along, at, s, c));
             }
             let nearer = other.distance(next.at) < next.clearance - self.tie
-                && other.counts(next.at, self.tie, self.slab());
+                && other.counts(next.at, self.tie, self.tolerances.slab);
             if nearer && missed.is_none_or(|known| c < known) {
                 missed = Some(c);
             }
@@ -340,10 +334,9 @@ impl Diagram {
         self.entry(pair, main, here, next, missed?)
     }
 
-    /// Whether a generator belongs to neither owner of a pair, where owners may be close.
+    /// Whether a generator belongs to neither owner of a pair.
     fn is_strange(&self, pair: &Pair, c: u32) -> bool {
-        self.generators.is_close
-            && [pair.left, pair.right].into_iter().all(|i| i == NOBODY || self.owner(i) != self.owner(c))
+        [pair.left, pair.right].into_iter().all(|i| i == NOBODY || self.owner(i) != self.owner(c))
     }
 
     /// Where a generator comes nearer that touches too flatly for an equation: by halving.
@@ -351,15 +344,11 @@ impl Diagram {
         let (form, other) = (&pair.forms[main], &self.forms()[c as usize]);
         let (mut clear, mut hit) = (*here, *next);
         for _ in 0..80 {
-            let place = match (clear.place, hit.place) {
-                (Place::Along(a), Place::Along(b)) => Place::Along(f64::midpoint(a, b)),
-                (Place::Toward(a), Place::Toward(b)) => Place::Toward(halfway(a, b, pair.sense(main))),
-                (Place::Along(_), Place::Toward(_)) | (Place::Toward(_), Place::Along(_)) => break,
-            };
+            let Some(place) = clear.place.halfway(hit.place, pair.sense(main)) else { break };
             let Some((at, clearance)) = pair.at(main, place) else { break };
             let middle = Here { at, clearance, place };
-            let nearer =
-                other.distance(at) < clearance - self.tie / 4.0 && other.counts(at, self.tie, self.slab());
+            let nearer = other.distance(at) < clearance - self.tie / 4.0
+                && other.counts(at, self.tie, self.tolerances.slab);
             if nearer { hit = middle } else { clear = middle }
         }
         let along = form.progress(here.place, hit.place, pair.sense(main));
