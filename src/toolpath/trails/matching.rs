@@ -43,8 +43,7 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
         matching.near[a].push(Way { to: b, cost, candidate: index });
         matching.near[b].push(Way { to: a, cost, candidate: index });
         if cost < 2.0 * alone && matching.joined[a].is_none() && matching.joined[b].is_none() {
-            matching.joined[a] = Some(index);
-            matching.joined[b] = Some(index);
+            matching.join(index);
         }
     }
     let mut changed = Changed::all(nodes);
@@ -58,7 +57,7 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
             }
         }
     }
-    let mut chosen: Vec<usize> = matching.joined.into_iter().flatten().collect();
+    let mut chosen: Vec<usize> = matching.joined.into_iter().flatten().map(|way| way.candidate).collect();
     chosen.sort_unstable();
     chosen.dedup();
     (chosen, matching.looks)
@@ -76,17 +75,19 @@ struct Matching<'a> {
     candidates: &'a [Candidate],
     /// The candidates of each node, cheapest first.
     near: Vec<Vec<Way>>,
-    /// The candidate by which a node is joined.
-    joined: Vec<Option<usize>>,
+    /// The way by which a node is joined.
+    joined: Vec<Option<Way>>,
     alone: f64,
     /// How many ways were looked at.
     looks: usize,
 }
 
 impl Matching<'_> {
-    fn other(&self, candidate: usize, node: usize) -> usize {
-        let (a, b) = self.candidates[candidate].nodes;
-        if a == node { b } else { a }
+    /// Joins the two nodes of a candidate.
+    fn join(&mut self, candidate: usize) {
+        let Candidate { nodes: (a, b), cost } = self.candidates[candidate];
+        self.joined[a] = Some(Way { to: b, cost, candidate });
+        self.joined[b] = Some(Way { to: a, cost, candidate });
     }
 
     /// Frees `node` and its partner and looks for a chain that gains; the nodes that are joined
@@ -95,16 +96,20 @@ impl Matching<'_> {
         let (loose, first, gain) = match self.joined[node] {
             // Alone: it is the loose end itself, and nothing waits for the chain to come back.
             None => (node, None, self.alone),
-            Some(candidate) => (self.other(candidate, node), Some(node), self.candidates[candidate].cost),
+            Some(way) => (way.to, Some(node), way.cost),
         };
-        let mut search = Search { chain: Vec::new(), busy: vec![node, loose], budget: BUDGET, looks: 0 };
-        let found = self.extend(loose, first, gain, &mut search);
+        let mut search =
+            Search { chain: Few::default(), busy: Few::default(), first, budget: BUDGET, looks: 0 };
+        search.busy.push(node);
+        search.busy.push(loose);
+        let found = self.extend(loose, gain, &mut search);
         self.looks += search.looks;
-        if found { self.apply(first, &search.chain) } else { Vec::new() }
+        if found { self.apply(first, search.chain.all()) } else { Vec::new() }
     }
 
     /// Joins `loose` to a near node and either closes there or goes on from that node's partner.
-    fn extend(&self, loose: usize, first: Option<usize>, gain: f64, search: &mut Search) -> bool {
+    fn extend(&self, loose: usize, gain: f64, search: &mut Search) -> bool {
+        let rest = if search.first.is_some() { self.alone } else { 0.0 };
         for &Way { to: next, cost, candidate } in &self.near[loose] {
             let left = gain - cost;
             // A chain may yet end at a node that was alone.
@@ -113,41 +118,41 @@ impl Matching<'_> {
             }
             search.budget -= 1;
             search.looks += 1;
-            if search.busy.contains(&next) {
+            if search.busy.all().contains(&next) {
                 continue;
             }
             search.chain.push(candidate);
-            let rest = first.map_or(0.0, |_| self.alone);
-            if let Some(broken) = self.joined[next] {
-                let left = left + self.candidates[broken].cost;
-                let partner = self.other(broken, next);
-                search.busy.extend([next, partner]);
-                if let Some(close) =
-                    first.and_then(|first| self.between(partner, first, left - LEAST, search))
-                {
+            if let Some(Way { to: partner, cost: freed, .. }) = self.joined[next] {
+                let left = left + freed;
+                if let Some(close) = self.closing(partner, left - LEAST, search) {
                     search.chain.push(close);
                     return true;
                 }
                 if left - rest - self.alone > LEAST {
                     return true;
                 }
-                if search.chain.len() < LONGEST && self.extend(partner, first, left, search) {
-                    return true;
+                if search.chain.len < LONGEST {
+                    search.busy.push(next);
+                    search.busy.push(partner);
+                    if self.extend(partner, left, search) {
+                        return true;
+                    }
+                    search.busy.len -= 2;
                 }
-                search.busy.truncate(search.busy.len() - 2);
             } else if left + self.alone - rest > LEAST {
                 return true;
             }
-            search.chain.pop();
+            search.chain.len -= 1;
         }
         false
     }
 
-    /// The candidate that joins two nodes for less than `bound`.
-    fn between(&self, a: usize, b: usize, bound: f64, search: &mut Search) -> Option<usize> {
-        let cheap = self.near[a].iter().take_while(|way| way.cost < bound);
+    /// The candidate that joins a node to the one for which the chain waits, for less than `bound`.
+    fn closing(&self, node: usize, bound: f64, search: &mut Search) -> Option<usize> {
+        let first = search.first?;
+        let cheap = self.near[node].iter().take_while(|way| way.cost < bound);
         let mut cheap = cheap.inspect(|_| search.looks += 1);
-        cheap.find(|way| way.to == b).map(|way| way.candidate)
+        cheap.find(|way| way.to == first).map(|way| way.candidate)
     }
 
     /// Takes apart whatever the chain's nodes were in, and joins them along it; all that were
@@ -158,38 +163,52 @@ impl Matching<'_> {
             [a, b]
         });
         let mut freed: Vec<usize> = ends.chain(first).collect();
-        let partners: Vec<usize> = freed
-            .iter()
-            .filter_map(|&node| self.joined[node].map(|candidate| self.other(candidate, node)))
-            .collect();
+        let partners: Vec<usize> =
+            freed.iter().filter_map(|&node| self.joined[node].map(|way| way.to)).collect();
         freed.extend(partners);
         for &node in &freed {
             self.joined[node] = None;
         }
-        for &candidate in chain {
-            let (a, b) = self.candidates[candidate].nodes;
-            self.joined[a] = Some(candidate);
-            self.joined[b] = Some(candidate);
-        }
+        chain.iter().for_each(|&candidate| self.join(candidate));
         freed
     }
 }
 
 /// What one search for a chain has joined so far, and how many ways it may yet look at.
 struct Search {
-    chain: Vec<usize>,
+    chain: Few,
     /// The nodes that the chain uses.
-    busy: Vec<usize>,
+    busy: Few,
+    /// The node to which the chain may come back.
+    first: Option<usize>,
     budget: usize,
     /// How many ways it has looked at, those that would close the chain included.
     looks: usize,
+}
+
+/// A list no longer than what a chain needs.
+#[derive(Default)]
+struct Few {
+    items: [usize; 2 * (LONGEST + 1)],
+    len: usize,
+}
+
+impl Few {
+    fn push(&mut self, item: usize) {
+        self.items[self.len] = item;
+        self.len += 1;
+    }
+
+    fn all(&self) -> &[usize] {
+        &self.items[..self.len]
+    }
 }
 
 /// The nodes about which something has changed since a chain was last sought from them.
 struct Changed {
     about: Vec<bool>,
     any: bool,
-    /// When each node was last come by, as a number of the mark.
+    /// When each node was last loose, as a number of the mark.
     seen: Vec<usize>,
     marks: usize,
 }
@@ -201,16 +220,22 @@ impl Changed {
 
     /// Marks all nodes from which a chain can come by one of those `touched`; gives how many ways
     /// it looked at.
+    ///
+    /// A chain comes by a node from a loose one near it, and that is the partner of the node before
+    /// it, or of the one from which the chain is sought.
     fn mark(&mut self, touched: &[usize], matching: &Matching<'_>) -> usize {
         let mut looks = 0;
         self.marks += 1;
         self.any |= !touched.is_empty();
-        let mut ring = touched.to_vec();
-        for _ in 0..=2 * LONGEST {
-            ring.retain(|&node| std::mem::replace(&mut self.seen[node], self.marks) != self.marks);
-            ring.iter().for_each(|&node| self.about[node] = true);
-            ring = ring.iter().flat_map(|&node| matching.near[node].iter().map(|way| way.to)).collect();
-            looks += ring.len();
+        touched.iter().for_each(|&node| self.about[node] = true);
+        let mut by = touched.to_vec();
+        for _ in 0..LONGEST {
+            let mut loose: Vec<usize> =
+                by.iter().flat_map(|&node| matching.near[node].iter().map(|way| way.to)).collect();
+            looks += loose.len();
+            loose.retain(|&node| std::mem::replace(&mut self.seen[node], self.marks) != self.marks);
+            by = loose.iter().map(|&node| matching.joined[node].map_or(node, |way| way.to)).collect();
+            by.iter().for_each(|&node| self.about[node] = true);
         }
         looks
     }
