@@ -130,6 +130,30 @@ fn lines_drawn_twice_or_on_each_other_count_once() {
 }
 
 #[test]
+fn an_edge_drawn_twice_a_little_apart_is_one_edge() {
+    let square = |inset: i64| {
+        let (low, high) = (inset, 10_000 - inset);
+        lines(&[
+            [low, low, high, low],
+            [high, low, high, high],
+            [high, high, low, high],
+            [low, high, low, low],
+        ])
+    };
+    let hole =
+        |radius: i64| format!("X{0}Y5000D02*\nG03*\nX{0}Y5000I-{radius}J0D01*\nG01*\n", 5_000 + radius);
+    for (apart, contours) in [(2, 1), (20, 1), (99, 1), (101, 2)] {
+        let edge = joined(&(square(0) + &square(apart)));
+        assert_eq!(areas(&edge).len(), contours, "squares {apart} µm apart");
+        let cut_out = joined(&(square(0) + &hole(1_000) + &hole(1_000 - apart)));
+        assert_eq!(areas(&cut_out).len(), contours + 1, "holes {apart} µm apart");
+        assert_eq!(codes(&cut_out).len(), 2 - contours, "it is told: {:?}", cut_out.warnings);
+    }
+    let double = joined(&(square(0) + &square(10)));
+    assert_eq!((areas(&double), codes(&double)), (vec![10_000], vec!["outline-parted"]), "the outer one");
+}
+
+#[test]
 fn lines_that_cross_enclose_what_lies_between_them() {
     let hash = [
         [-1_000, 0, 11_000, 0],

@@ -9,8 +9,8 @@
 //! ```
 //!
 //! Of every connected drawing the outermost boundary is a contour. What lies inside it without
-//! touching it is a contour of its own, a cut-out; what lies inside and touches it is left out with
-//! a warning.
+//! touching it is a contour of its own, a cut-out; what lies inside and touches it, or comes nearer
+//! to it than lines are joined over, is left out with a warning.
 
 mod edge;
 mod faces;
@@ -64,6 +64,7 @@ pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
     contours.sort_by_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
     contours.dedup();
     let contours = nest::without_decoration(contours, &mut notes);
+    let contours = nest::without_doubles(contours, gap, &mut notes);
     let closes = |outline: &Outline| !loose.as_ref().is_some_and(|loose| reaches_around(loose, outline));
     let outline = Outline::new(contours).filter(closes);
     if outline.is_none() {

@@ -1,8 +1,8 @@
-//! Which contours are the board, and which are lettering beside it.
+//! Which contours are the board, and which are lettering beside it or lines drawn twice.
 
 use super::{Notes, area_mm2};
 use crate::board::FLATTEN;
-use crate::geometry::{Path, Polygon};
+use crate::geometry::{Nm, Path, Point, Polygon, Rect, Vector};
 use crate::import::diagnostic;
 
 /// The smallest area of a contour, in mm²: below lie letters' eyes and doubled lines, which nothing
@@ -49,6 +49,58 @@ pub(super) fn without_decoration(mut contours: Vec<Path>, notes: &mut Notes<'_>)
     let kept = |i: usize| !beside.contains(&i) && !nests[i].iter().any(|outer| beside.contains(outer));
     let kept: Vec<bool> = (0..rings.len()).map(kept).collect();
     contours.into_iter().zip(kept).filter_map(|(contour, keep)| keep.then_some(contour)).collect()
+}
+
+/// The contours without those that come nearer than `gap` to one around them: an edge drawn twice,
+/// each time rounded otherwise, or a line within the board that touches its edge.
+pub(super) fn without_doubles(contours: Vec<Path>, gap: Nm, notes: &mut Notes<'_>) -> Vec<Path> {
+    if contours.len() < 2 || contours.len() > MOST {
+        return contours;
+    }
+    let rings: Vec<Option<Polygon>> = contours.iter().map(ring).collect();
+    // Those around another one are larger.
+    let mut order: Vec<usize> = (0..contours.len()).collect();
+    let area = |i: usize| rings[i].as_ref().map_or(0.0, |ring| ring.area_mm2().abs());
+    order.sort_by(|&a, &b| area(b).total_cmp(&area(a)).then(a.cmp(&b)));
+    let (mut kept, mut dropped): (Vec<usize>, Vec<usize>) = (Vec::new(), Vec::new());
+    for i in order {
+        let is_double = |&outer: &usize| {
+            rings[outer].as_ref().zip(rings[i].as_ref()).is_some_and(|(outer, inner)| {
+                outer.contains(contours[i].start)
+                    && come_near(&outer.contours()[0], &inner.contours()[0], gap)
+            })
+        };
+        if kept.iter().any(is_double) { dropped.push(i) } else { kept.push(i) }
+    }
+    if let Some(&first) = dropped.first() {
+        let message =
+            format!("lines come nearer than {gap} to the outline around them; only the outer ones are used");
+        notes.add(&diagnostic::OUTLINE_PARTED, message, notes.place(contours[first].start));
+    }
+    kept.sort_unstable();
+    kept.into_iter().map(|i| contours[i].clone()).collect()
+}
+
+/// Whether two rings that do not cross come nearer to each other than `gap`: where they do, a
+/// corner of one of them does.
+fn come_near(a: &[Point], b: &[Point], gap: Nm) -> bool {
+    let corner_near = |corners: &[Point], ring: &[Point]| {
+        let around = Rect::around(corners.iter().copied()).map(|bounds| bounds.inflate(gap));
+        let ends = ring.iter().zip(ring.iter().cycle().skip(1));
+        let sides = ends.map(|(&from, &to)| (from, to));
+        let near =
+            sides.filter(|&(from, to)| around.is_some_and(|around| around.touches(Rect::new(from, to))));
+        near.into_iter().any(|(from, to)| corners.iter().any(|&p| distance(p, from, to) < gap.to_f64()))
+    };
+    corner_near(a, b) || corner_near(b, a)
+}
+
+/// How far a place is from a line, in nanometres.
+fn distance(p: Point, from: Point, to: Point) -> f64 {
+    let float = |v: Vector| (v.x.to_f64(), v.y.to_f64());
+    let ((x, y), (u, v)) = (float(to - from), float(p - from));
+    let part = if x == 0.0 && y == 0.0 { 0.0 } else { ((u * x + v * y) / (x * x + y * y)).clamp(0.0, 1.0) };
+    libm::hypot(u - x * part, v - y * part)
 }
 
 /// The area inside a closed path.
