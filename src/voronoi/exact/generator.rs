@@ -19,6 +19,7 @@
 
 use std::ops::Range;
 
+use bitvec::vec::BitVec;
 use rustc_hash::{FxHashMap, FxHashSet};
 use static_aabb2d_index::StaticAABB2DIndex;
 
@@ -58,6 +59,10 @@ const LONGEST_RUN: usize = 64;
 
 /// So far from a foot its normal is looked at, in nanometres. Chosen.
 const AHEAD: f64 = 1_000.0;
+
+/// A corner so near to an edge lies on it, in nanometres. Chosen: more than rounding, less than what
+/// shaking leaves.
+const ON: f64 = 1e-3;
 
 /// Copper, by the numbers of the generators that are its edges.
 #[derive(Clone, Debug)]
@@ -410,6 +415,8 @@ pub(super) struct Index {
     /// Of each box the generator, and how many boxes of it came before.
     pieces: Vec<(u32, u32)>,
     tree: Option<StaticAABB2DIndex<f64>>,
+    /// Whether nothing has its foot on generator `i` alone.
+    hidden: BitVec,
     /// The breaks of generator `i`: `breaks[starts[i]..starts[i + 1]]`.
     breaks: Vec<Place>,
     starts: Vec<u32>,
@@ -425,7 +432,32 @@ impl Index {
             }
         }
         let tree = topology::boxes(boxes.iter().copied());
-        Self { boxes, pieces, tree, breaks: Vec::new(), starts: Vec::new() }
+        let hidden = BitVec::repeat(false, generators.len());
+        let mut index = Self { boxes, pieces, tree, hidden, breaks: Vec::new(), starts: Vec::new() };
+        if generators.is_close {
+            index.hidden = index.hidden_corners(generators);
+        }
+        index
+    }
+
+    /// Which corners lie on the edge of other copper of their owner: that edge is no farther from
+    /// anywhere. Where owners are close, two corners a nanometre apart that overlapping pads leave
+    /// so would have an axis between them that leads into the copper.
+    fn hidden_corners(&self, generators: &Generators) -> BitVec {
+        let is_hidden = |(i, form): (usize, &Form)| {
+            let Form::Circle { center, radius: 0.0, .. } = *form else { return false };
+            let mut is_hidden = false;
+            self.visit_round(center, ON, |other| {
+                let (edge, owner) = (&generators.forms[other as usize], generators.owners[other as usize]);
+                let is_corner = matches!(edge, Form::Circle { radius: 0.0, .. });
+                is_hidden |= !is_corner
+                    && owner == generators.owners[i]
+                    && edge.distance(center).abs() <= ON
+                    && edge.slack(center) > ON;
+            });
+            is_hidden
+        };
+        generators.forms.iter().enumerate().map(is_hidden).collect()
     }
 
     /// Finds all breaks where distances that differ by less than `tie` are equal.
@@ -494,7 +526,10 @@ impl Index {
         tree.visit_query(left, bottom, right, top, &mut |i: usize| {
             let (generator, before) = self.pieces[i];
             let first = i - before as usize;
-            if meets(self.boxes[i]) && !self.boxes[first..i].iter().any(|&bounds| meets(bounds)) {
+            if !self.hidden[generator as usize]
+                && meets(self.boxes[i])
+                && !self.boxes[first..i].iter().any(|&bounds| meets(bounds))
+            {
                 show(generator);
             }
         });

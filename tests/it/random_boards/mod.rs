@@ -159,6 +159,7 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         ("half-turn-round-an-end", SETTINGS[0]),
         ("hole-a-nanometre-wider", SETTINGS[1]),
         ("nonagon-in-its-hole", SETTINGS[3]),
+        ("pads-that-overlap-by-a-nanometre", SETTINGS[8]),
     ] {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let copper = copper(&text, Side::Front).expect("readable").expect("copper");
