@@ -146,6 +146,27 @@ async function sides(page, shoot) {
   await shoot('both');
 }
 
+// The pictures of how cuts are found: drawn when they are unfolded, of this side's nets.
+async function explains(page, shoot) {
+  const how = page.locator('[id^=how-]').first();
+  assert.equal(await how.locator('canvas').count(), 0, 'nothing is drawn before');
+  const start = Date.now();
+  await how.locator('summary').click();
+  await how.locator('canvas').nth(1).waitFor();
+  console.log(`how it was found: drawn in ${Date.now() - start} ms`);
+  await how.locator('canvas').first().scrollIntoViewIfNeeded();
+  await shoot('how');
+  // Pixels on copper, from above, have the hue of their net's region, and others lie beside them.
+  const colours = await how.locator('canvas').nth(1).evaluate(canvas => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    const seen = new Set();
+    for (let i = 0; i < data.length; i += 4) seen.add(data[i] << 16 | data[i + 1] << 8 | data[i + 2]);
+    return seen.size;
+  });
+  assert(colours >= 5, `copper, regions and lines between them: ${colours} colours`);
+  await how.locator('summary').click();
+}
+
 async function reads(page) {
   const unnamed = await page.evaluate(() => [...document.querySelectorAll('button, input, select, [tabindex]')]
     .filter(element => !(element.textContent.trim() || element.ariaLabel || element.labels?.length)).map(element => element.outerHTML));
@@ -182,6 +203,7 @@ await plays(page, shoot);
 await shows(page, shoot);
 await keepsSight(page);
 await prints(page);
+await explains(page, shoot);
 await reads(page);
 assert.deepEqual(wrong, [], 'nothing went wrong meanwhile');
 for (const file of pages.slice(1)) {

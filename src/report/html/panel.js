@@ -59,12 +59,12 @@ class Panel {
     this.rows = new Map();
     this.boxes = new Map();
     element.append(
-      this.verdict(), this.findings(), this.layers(), this.programs(), this.drills(), this.nets(), this.about(),
+      this.verdict(), this.findings(), this.layers(), this.programs(), this.drills(), this.nets(), this.how(), this.about(),
     );
   }
 
   section(title, ...children) {
-    const id = `s-${title.toLowerCase()}`;
+    const id = `s-${title.toLowerCase().replaceAll(' ', '-')}`;
     return make('section', { 'aria-labelledby': id }, make('h2', { id }, title), ...children);
   }
 
@@ -170,6 +170,18 @@ class Panel {
         make('p', { class: 'how' }, `An estimate: coplanar strips ${mm(coupling.kerf_mm)} apart on ${coupling.thickness_mm} mm of permittivity ${coupling.permittivity}. In all ${voronoi.toFixed(1)} pF; as drawn, without the copper beside it, ${drawn.toFixed(1)} pF.`),
         this.table(['Nets', 'mm', 'Length/gap', 'pF', 'as drawn'], rows));
     });
+  }
+
+  // How the cuts are found, drawn when it is unfolded.
+  how() {
+    const sides = this.stage.sides.filter(side => side.nets.length > 1);
+    if (!sides.length) return null;
+    const unfold = (event, side) => {
+      const { target } = event;
+      if (target.open && !target.querySelector('canvas')) target.append(...howFound(side, this.stage.drawing.bounds));
+    };
+    const fold = side => make('details', { id: `how-${side.side}`, on: { toggle: event => unfold(event, side) } }, make('summary', {}, make('b', {}, side.side)));
+    return this.section('How it was found', ...sides.map(fold));
   }
 
   about() {

@@ -60,8 +60,8 @@ const LONGEST_RUN: usize = 64;
 /// So far from a foot its normal is looked at, in nanometres. Chosen.
 const AHEAD: f64 = 1_000.0;
 
-/// A corner so near to an edge lies on it, in nanometres. Chosen: more than rounding, less than what
-/// shaking leaves.
+/// A corner so near to an edge lies on it, in nanometres. Chosen: more than rounding, less than
+/// what shaking leaves.
 const ON: f64 = 1e-3;
 
 /// Copper, by the numbers of the generators that are its edges.
@@ -434,15 +434,13 @@ impl Index {
         let tree = topology::boxes(boxes.iter().copied());
         let hidden = BitVec::repeat(false, generators.len());
         let mut index = Self { boxes, pieces, tree, hidden, breaks: Vec::new(), starts: Vec::new() };
-        if generators.is_close {
-            index.hidden = index.hidden_corners(generators);
-        }
+        index.hidden = index.hidden_corners(generators);
         index
     }
 
     /// Which corners lie on the edge of other copper of their owner: that edge is no farther from
-    /// anywhere. Where owners are close, two corners a nanometre apart that overlapping pads leave
-    /// so would have an axis between them that leads into the copper.
+    /// anywhere. Two of them a nanometre apart, as pads leave that overlap by so little, would have
+    /// an axis between them that leads into the copper.
     fn hidden_corners(&self, generators: &Generators) -> BitVec {
         let is_hidden = |(i, form): (usize, &Form)| {
             let Form::Circle { center, radius: 0.0, .. } = *form else { return false };
