@@ -47,7 +47,7 @@ def seconds(retracts, travel, cut):
 def ours(path):
     with tempfile.TemporaryDirectory() as out:
         options = ["--tool", "endmill:0.2mm", "--no-html", "--no-verify", "--quiet", "-o", out]
-        subprocess.run([VOROMILL, "mill", path, *options], check=True, stderr=subprocess.DEVNULL)
+        subprocess.run([VOROMILL, "mill", "--front", path, *options], check=True, stderr=subprocess.DEVNULL)
         report = next(Path(out).glob("*.json"))
         program = json.loads(report.read_text())["programs"][0]
     return program["retracts"], program["rapid_mm"], program["cut_mm"]
@@ -57,7 +57,7 @@ def usage(path):
     """CPU seconds, the least of seven runs on one thread, and peak MiB."""
     runs = []
     with tempfile.TemporaryDirectory() as out:
-        command = [VOROMILL, "isolate", path, "--tool", "endmill:0.2mm", "-q", "-j", "1", "-o", Path(out) / "x.ngc"]
+        command = [VOROMILL, "isolate", "--front", path, "--tool", "endmill:0.2mm", "-q", "-j", "1", "-o", Path(out) / "x.ngc"]
         for _ in range(7):
             process = subprocess.Popen(command, stderr=subprocess.DEVNULL)
             _, status, used = os.wait4(process.pid, 0)
