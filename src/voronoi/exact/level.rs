@@ -496,7 +496,15 @@ impl Diagram {
                 let (foot, normal) = form.foot(place);
                 foot + normal * level
             };
-            match (*form, place_from(form, leg.from, true), place_from(form, leg.to, false)) {
+            let places = [place_from(form, leg.from, true), place_from(form, leg.to, false)];
+            // A vertex on the corner itself has no direction from it: the legs before and behind
+            // say where its parallel begins and ends.
+            let is_somewhere = |place: &Place| !matches!(place, Place::Toward(u) if u.length() == 0.0);
+            if !places.iter().all(is_somewhere) {
+                places.into_iter().filter(is_somewhere).for_each(|place| add(along(place)));
+                continue;
+            }
+            match (*form, places[0], places[1]) {
                 (Form::Circle { center, radius, hollow, .. }, Place::Toward(u), Place::Toward(v)) => {
                     let out = if hollow { radius - level } else { radius + level };
                     add(center + u * out);
