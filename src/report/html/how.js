@@ -1,14 +1,17 @@
-// How the cuts are found, drawn from this board when somebody asks: copper with slopes that fall away from it, at a slant and from above.
+// How the cuts are found, drawn from this board when somebody asks: copper with slopes that fall
+// away from it, at a slant and from above.
 
 // The nets of a side on a raster, turned by an angle: of each pixel the nearest net and how far it is, in pixels.
 function nearestNets(side, [left, bottom, right, top], columns, angle) {
-  const [wide, high] = [right - left, top - bottom], [c, s] = [Math.abs(Math.cos(angle)), Math.abs(Math.sin(angle))];
-  const scale = columns / (wide * c + high * s);
-  const rows = Math.max(1, Math.round((wide * s + high * c) * scale));
+  const [wide, high] = [right - left, top - bottom], [c, s] = [Math.cos(angle), Math.sin(angle)];
+  const scale = columns / (wide * Math.abs(c) + high * Math.abs(s));
+  const rows = Math.max(1, Math.round((wide * Math.abs(s) + high * Math.abs(c)) * scale));
   const canvas = make('canvas', { width: columns, height: rows });
   const pen = canvas.getContext('2d', { willReadFrequently: true });
-  const place = () => { pen.translate(columns / 2, rows / 2); pen.rotate(angle); pen.scale(scale, -scale); pen.translate(-(left + right) / 2, -(bottom + top) / 2); };
-  place();
+  pen.translate(columns / 2, rows / 2);
+  pen.rotate(angle);
+  pen.scale(scale, -scale);
+  pen.translate(-(left + right) / 2, -(bottom + top) / 2);
   pen.lineCap = pen.lineJoin = 'round';
   // Colours far from each other: what is mixed along an edge is none of them.
   const codes = new Map(side.nets.map(net => [((net.id + 1) * 0x9e3779b1 >>> 8) & 0xffffff, net.id]));
@@ -27,12 +30,13 @@ function nearestNets(side, [left, bottom, right, top], columns, angle) {
   spread(net, off, columns, rows);
   const inside = (x, y) => {
     const [u, v] = [x + 0.5 - columns / 2, y + 0.5 - rows / 2];
-    return Math.abs(u * Math.cos(angle) + v * Math.sin(angle)) <= wide * scale / 2 && Math.abs(v * Math.cos(angle) - u * Math.sin(angle)) <= high * scale / 2;
+    return Math.abs(u * c + v * s) <= wide * scale / 2 && Math.abs(v * c - u * s) <= high * scale / 2;
   };
   return { net, off, columns, rows, inside };
 }
 
-// Exact distances on a raster, first along columns, then along rows: the lower envelope of parabolas (Felzenszwalb and Huttenlocher, 2012).
+// Exact distances on a raster, first along columns, then along rows: the lower envelope of
+// parabolas (Felzenszwalb and Huttenlocher, 2012).
 function spread(net, off, columns, rows) {
   for (let x = 0; x < columns; x++) {
     for (const step of [columns, -columns]) {
@@ -72,7 +76,8 @@ function rgb(hue, saturation, lightness) {
   return [0, 8, 4].map(n => { const k = (n + hue / 30) % 12; return 255 * (lightness - a * Math.max(-1, Math.min(k - 3, 9 - k, 1))); });
 }
 
-// The colour of a pixel: copper bright, slopes by the light from the upper left, black where two nets are equally far.
+// The colour of a pixel: copper bright, slopes by the light from the upper left, black where two
+// nets are equally far.
 function shade({ net, off, columns, rows }, hues, x, y, flat) {
   const i = y * columns + x, [right, below] = [x + 1 < columns ? i + 1 : i, y + 1 < rows ? i + columns : i];
   if (net[i] !== net[right] || net[i] !== net[below]) return [14, 16, 20];
@@ -89,7 +94,8 @@ function picture(width, height, label, paint) {
   return canvas;
 }
 
-// Seen from so much above the board: columns from the front to the back, each pixel above what is drawn already.
+// Seen from so much above the board: columns from the front to the back, each pixel above what is
+// drawn already.
 function slanted(side, bounds) {
   const seen = nearestNets(side, bounds, 680, -0.42), { off, columns, rows, inside } = seen;
   const [lie, stand] = [Math.sin(1.0), Math.cos(1.0)], height = Math.ceil(rows * (lie + stand));
