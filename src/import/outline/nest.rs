@@ -85,12 +85,14 @@ pub(super) fn without_doubles(contours: Vec<Path>, gap: Nm, notes: &mut Notes<'_
 /// corner of one of them does.
 fn come_near(a: &[Point], b: &[Point], gap: Nm) -> bool {
     let corner_near = |corners: &[Point], ring: &[Point]| {
-        let around = Rect::around(corners.iter().copied()).map(|bounds| bounds.inflate(gap));
-        let ends = ring.iter().zip(ring.iter().cycle().skip(1));
-        let sides = ends.map(|(&from, &to)| (from, to));
-        let near =
-            sides.filter(|&(from, to)| around.is_some_and(|around| around.touches(Rect::new(from, to))));
-        near.into_iter().any(|(from, to)| corners.iter().any(|&p| distance(p, from, to) < gap.to_f64()))
+        let Some(around) = Rect::around(corners.iter().copied()).map(|bounds| bounds.inflate(gap)) else {
+            return false;
+        };
+        let mut sides = ring.iter().zip(ring.iter().cycle().skip(1));
+        sides.any(|(&from, &to)| {
+            around.touches(Rect::new(from, to))
+                && corners.iter().any(|&p| distance(p, from, to) < gap.to_f64())
+        })
     };
     corner_near(a, b) || corner_near(b, a)
 }
