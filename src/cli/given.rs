@@ -6,9 +6,9 @@ use serde::de::value::Error;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 use voromill::gcode::dialect::{Blend, ToolChange};
 use voromill::job::{
-    DialectChoice, DrillSide, Drills, Length, MachineChoice, Narrow, Options, Origin, OutputName, Overlap,
-    OwnLines, Pattern, Place, Sites, Strategy, StrategyFor, Tiles, ToolChangeAt, ToolChoice, Topology,
-    Triple, Wait, names, turns,
+    Area, DialectChoice, DistanceFor, DrillSide, Drills, Length, MachineChoice, Narrow, Options, Origin,
+    OutputName, Overlap, OwnLines, Pattern, Place, Sites, Strategy, StrategyFor, Tiles, ToolChangeAt,
+    ToolChoice, Topology, Triple, Wait, names, turns,
 };
 use voromill::toolpath::{Angle, Direction, Feed, Material};
 

@@ -7,6 +7,7 @@ use crate::voronoi::Widening;
 
 use super::checked::{self, given, positive};
 use super::choice::{Sites, Strategy};
+use super::clearing::Clearing;
 use super::quantity::Length;
 use super::tools::{self, Fetched, Workshop};
 use super::{Error, Options};
@@ -18,7 +19,8 @@ pub struct Cutting {
     pub tool: Tool,
     /// How high and deep it goes.
     pub heights: Heights,
-    /// How far it clears the gap beside every net; none for a single cut.
+    /// How far it clears the gap beside every net, and all where more is cleared; none for a single
+    /// cut.
     pub widening: Option<Widening>,
 }
 
@@ -26,7 +28,7 @@ impl Cutting {
     /// Whether all copper goes that is none of a net's.
     #[must_use]
     pub fn clears_everything(&self) -> bool {
-        self.widening.is_some_and(|widening| widening.width == EVERYTHING)
+        self.widening.is_some_and(|widening| widening.width == Some(EVERYTHING))
     }
 
     /// Its kerf at the surface.
@@ -47,7 +49,8 @@ pub(super) fn isolation(
         let Fetched { tool, depth } = workshop.fetch("tool", choice)?;
         let tool = not_a_drill("tool", tool)?;
         let heights = heights(depth_of(&tool, depth, options)?);
-        let widening = widening(options, tool.width_at(heights.cut))?;
+        let floor = tool.width_at((heights.cut - COPPER).max(Nm::ZERO)).max(tool.width_at(heights.cut) / 2);
+        let widening = widening(options, tool.width_at(heights.cut), floor)?;
         cuttings.push(Cutting { tool, heights, widening });
     }
     cuttings.sort_by_key(|cutting| std::cmp::Reverse(cutting.kerf()));
@@ -89,9 +92,11 @@ const ROOM: Nm = Nm::from_mm(1);
 pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm, Error> {
     let kerf = cuttings.iter().map(Cutting::kerf).max().unwrap_or(Nm::ZERO);
     let Some(margin) = given("frame-margin", options.frame_margin)? else {
-        let cleared = cuttings.iter().filter_map(|cutting| cutting.widening).map(|widening| widening.width);
-        let cleared = cleared.max().filter(|&width| width < EVERYTHING);
-        let least = if options.limit.is_some() || options.clear == Some(true) { ROOM } else { LEAST_MARGIN };
+        let cleared = cuttings.iter().filter_map(|cutting| cutting.widening?.width);
+        let cleared =
+            cleared.chain(Clearing::of(options).farthest()).filter(|&width| width < EVERYTHING).max();
+        let clears = options.clear == Some(true) || Clearing::of(options).is_wanted();
+        let least = if options.limit.is_some() || clears { ROOM } else { LEAST_MARGIN };
         return Ok(cleared.unwrap_or(kerf).max(kerf).max(least));
     };
     let least = kerf / 2 + options.tolerance.map_or(Nm::ZERO, Length::nm);
@@ -110,10 +115,17 @@ pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm
 /// Wider than any gap. Chosen.
 const EVERYTHING: Nm = Nm::from_mm(1000);
 
-/// How wide the gap is to be, from a width or a number of passes.
-fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
+/// How thick copper is that passes clear. Chosen: one ounce, as `verify` has it unasked.
+const COPPER: Nm = Nm::from_um(35);
+/// So much more passes share there. Chosen: less than any cut is off its place.
+const SURELY: Nm = Nm::from_um(6);
+
+/// How wide the gap is to be, where the cutter clears `kerf`, and `floor` at the copper's bottom,
+/// from a width or a number of passes.
+fn widening(options: &Options, kerf: Nm, floor: Nm) -> Result<Option<Widening>, Error> {
     let overlap = match options.overlap {
-        None => kerf / 10,
+        // What is left at the bottom of the copper between two passes would be a strip of it.
+        None => (kerf / 10).max(kerf - floor + SURELY).min(kerf / 2),
         Some(overlap) if overlap.of(kerf) < Nm::ZERO || overlap.of(kerf) >= kerf => {
             let problem =
                 format!("an overlap of `{overlap}` leaves no stepover with a kerf of {}", Length(kerf));
@@ -126,9 +138,12 @@ fn widening(options: &Options, kerf: Nm) -> Result<Option<Widening>, Error> {
         _ if options.clear == Some(true) => EVERYTHING,
         (Some(width), _) => positive("width", Some(width))?,
         (None, Some(passes)) => kerf + (kerf - overlap) * (i64::from(passes) - 1),
+        (None, None) if Clearing::of(options).is_wanted() => {
+            return Ok(Some(Widening { kerf, floor, width: None, overlap }));
+        }
         (None, None) => return Ok(None),
     };
-    Ok(Some(Widening { kerf, width, overlap }))
+    Ok(Some(Widening { kerf, floor, width: Some(width), overlap }))
 }
 
 /// What cuts are midway between.
@@ -139,6 +154,9 @@ pub(super) fn sites(options: &Options) -> Result<Sites, Error> {
         ("{width}", options.width.is_some()),
         ("{passes}", options.passes.is_some()),
         ("{clear}", options.clear == Some(true)),
+        ("{clear-nets}", !options.clear_nets.is_empty()),
+        ("{clear-area}", !options.clear_area.is_empty()),
+        ("{distance-for}", !options.distance_for.is_empty()),
         ("{strategy} outline", options.strategy == Some(Strategy::Outline)),
         ("{strategy} auto", options.strategy == Some(Strategy::Auto)),
         ("{strategy-for}", options.strategy_for.iter().any(|some| has_loops(some.strategy))),

@@ -1,10 +1,11 @@
 //! Options that were given and have no effect: told, so that nobody believes they had.
 
 use crate::board::diagnostic::planning;
-use crate::board::{Copper, Warning, Words};
+use crate::board::{Board, Copper, Warning, Words};
 
 use super::by_net::{names, without_net};
-use super::{Layer, Options, Pattern, Settings, Sites};
+use super::clearing::Clearing;
+use super::{Area, Layer, Options, Pattern, Settings, Sites};
 use crate::topology::NetId;
 
 impl Settings {
@@ -15,11 +16,16 @@ impl Settings {
     #[must_use]
     pub fn without_effect(&self, given: &Options) -> Option<(&'static str, Words)> {
         let all = self.options();
-        let is_wide = all.width.is_some() || all.passes.is_some() || all.clear == Some(true);
+        let is_cleared = all.clear == Some(true);
+        let is_wide = all.width.is_some() || all.passes.is_some() || is_cleared || self.clearing.is_wanted();
         let is_held = all.tabs != Some(0) || all.tab_spacing.is_some() || !all.tab_at.is_empty();
         let bores = self.drill_bore || self.alignment.is_some();
         let without = [
             ("overlap", given.overlap.is_some() && !is_wide, "set {width}, {passes} or {clear} too"),
+            ("clear-nets", !given.clear_nets.is_empty() && is_cleared, "leave {clear} out"),
+            ("clear-area", !given.clear_area.is_empty() && is_cleared, "leave {clear} out"),
+            ("distance-for", !given.distance_for.is_empty() && is_cleared, "leave {clear} out"),
+            ("keep-area", !given.keep_area.is_empty() && !is_wide, "set {width}, {passes} or {clear} too"),
             ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "leave {drill-bore}=false out"),
             ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "set {tile} too"),
             (
@@ -64,8 +70,22 @@ pub(super) fn patterns<'a>(
             ids.any(|id| pattern.matches_any(&names(copper, &layer.nets, id)))
         })
     };
-    let without = settings.strategy_for.iter().filter(|own| !means_one(&own.nets));
-    without.map(|own| without_net(&own.nets, "it sets no strategy")).collect()
+    let strategies = settings.strategy_for.iter().map(|own| (&own.nets, "it sets no strategy"));
+    let cleared = settings.clearing.patterns().map(|pattern| (pattern, "nothing is cleared for it"));
+    let without = strategies.chain(cleared).filter(|(pattern, _)| !means_one(pattern));
+    without.map(|(pattern, so)| without_net(pattern, so)).collect()
+}
+
+/// An `area-off-the-board` for each area to be cleared or kept that is on no copper.
+pub(super) fn areas(board: &Board, settings: &Settings) -> Vec<Warning> {
+    let Clearing { areas, kept, .. } = &settings.clearing;
+    let is_off = |area: &&Area| board.bounds().is_some_and(|bounds| !bounds.touches((**area).into()));
+    let off = areas.iter().chain(kept).filter(is_off);
+    off.map(|area| {
+        let message = format!("the area {area} is not on the board");
+        planning::AREA_OFF_THE_BOARD.warning(message).at(area.corner.into())
+    })
+    .collect()
 }
 
 /// Warns of each isolating tool that cuts nothing on any side: a wider or a finer one cuts all it

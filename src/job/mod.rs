@@ -11,11 +11,13 @@ mod cache_key;
 mod carving;
 mod checked;
 mod choice;
+mod clearing;
 mod controller;
 mod coupling;
 mod cutting;
 mod cutting_out;
 mod describe;
+mod distance_for;
 mod drilling;
 mod effect;
 mod error;
@@ -60,8 +62,10 @@ pub use art::{Art, OneTool};
 pub use cache_key::cache_key;
 pub use carving::{CARVING_OPTIONS, Carving, Engraving, carve};
 pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
+pub use clearing::Clearing;
 pub use coupling::coupling;
 pub use cutting::Cutting;
+pub use distance_for::{DistanceFor, ParseDistanceForError};
 pub use error::Error;
 pub use holding::Holding;
 pub use ignore::ignore;
@@ -84,7 +88,7 @@ pub use plan::{Chosen, Tried};
 pub use pocketing::{POCKETING_OPTIONS, Pocket, Pocketing, pocket};
 pub use probing::{ParseProbeGridError, ProbeGrid, Probing, probe};
 pub use quantity::{
-    DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, ParseWaitError, Place, Tiles,
+    Area, DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, ParseWaitError, Place, Tiles,
     ToolChangeAt, Triple, Wait,
 };
 pub use rivet::rivet;

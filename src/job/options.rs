@@ -7,12 +7,13 @@ use crate::gcode::dialect::ToolChange;
 use crate::toolpath::{Angle, Direction, Feed, Material};
 
 use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
+use super::distance_for::DistanceFor;
 use super::machine::{MachineChoice, in_settings};
 use super::output_name::OutputName;
 use super::overlap::Overlap;
 use super::own_lines::OwnLines;
 use super::pattern::Pattern;
-use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
+use super::quantity::{Area, Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::strategy_for::StrategyFor;
 use super::tools::{Library, ToolChoice};
 use super::turns;
@@ -97,6 +98,29 @@ macro_rules! job_options {
     )]
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clear: Option<bool>,
+
+    /// Clear all copper in the regions of some nets, by name as for --ignore
+    #[arg(long, value_name = "PATTERN", value_delimiter = ',', help_heading = "Isolation")]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub clear_nets: Vec<Pattern>,
+
+    /// Clear all copper in this area of the board, in the files' coordinates; may be given several
+    /// times
+    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true, help_heading = "Isolation")]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub clear_area: Vec<Area>,
+
+    /// Clear all other copper within a distance of some nets, for high voltages, such as HV*=6mm;
+    /// by name as for --ignore
+    #[arg(long, value_name = "PATTERN=LENGTH", value_delimiter = ',', help_heading = "Isolation")]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub distance_for: Vec<DistanceFor>,
+
+    /// Clear nothing in this area of the board but the cuts between nets, in the files'
+    /// coordinates; may be given several times
+    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true, help_heading = "Isolation")]
+    #[serde(with = "list", skip_serializing_if = "Vec::is_empty")]
+    pub keep_area: Vec<Area>,
 
     /// Overlap of neighbouring passes: a length, or a percentage of the kerf; more where slivers
     /// are left [default: 10%]

@@ -83,6 +83,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     }));
     let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
     warnings.extend(effect::patterns(sides, settings));
+    warnings.extend(effect::areas(&board, settings));
     warnings.extend(effect::tools(&layers, settings));
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::geometry::{Nm, ParseLengthError, Point};
+use crate::geometry::{Nm, ParseLengthError, Point, Rect, Vector};
 
 /// A length that prints as it is written: `0.1mm`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -85,6 +85,11 @@ pub enum ParsePlaceError {
     /// Not three parts.
     #[error("`{0}` is not x, y and z: expected three lengths, such as `280mm,170mm,40mm`")]
     Triple(String),
+    /// Not four parts, or no area.
+    #[error(
+        "`{0}` is not an area: expected its lower left corner, and a width and a height above zero, such as `10mm,5mm,20mm,15mm`"
+    )]
+    Area(String),
     /// A part that is no length.
     #[error(transparent)]
     Length(#[from] ParseLengthError),
@@ -108,6 +113,46 @@ impl fmt::Display for Place {
 impl From<Place> for Point {
     fn from(place: Place) -> Self {
         Self::new(place.x.nm(), place.y.nm())
+    }
+}
+
+/// A rectangle on the board, written as its lower left corner, its width and its height:
+/// `10mm,5mm,20mm,15mm`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Area {
+    /// Its lower left corner.
+    pub corner: Place,
+    /// Above zero.
+    pub width: Length,
+    /// Above zero.
+    pub height: Length,
+}
+
+impl FromStr for Area {
+    type Err = ParsePlaceError;
+
+    fn from_str(text: &str) -> Result<Self, Self::Err> {
+        let refused = || ParsePlaceError::Area(text.to_owned());
+        let lengths: Vec<&str> = text.split(',').map(str::trim).collect();
+        let [x, y, width, height] = lengths[..] else { return Err(refused()) };
+        let (width, height): (Length, Length) = (width.parse()?, height.parse()?);
+        if width.nm() <= Nm::ZERO || height.nm() <= Nm::ZERO {
+            return Err(refused());
+        }
+        Ok(Self { corner: Place { x: x.parse()?, y: y.parse()? }, width, height })
+    }
+}
+
+impl fmt::Display for Area {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{},{},{}", self.corner, self.width, self.height)
+    }
+}
+
+impl From<Area> for Rect {
+    fn from(area: Area) -> Self {
+        let corner = Point::from(area.corner);
+        Self::new(corner, corner + Vector::new(area.width.nm(), area.height.nm()))
     }
 }
 

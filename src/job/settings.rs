@@ -12,6 +12,7 @@ use super::Error;
 use super::Options;
 use super::checked::{self, given, positive};
 use super::choice::{DrillSide, Narrow, Origin, Sites, Strategy, Topology};
+use super::clearing::Clearing;
 use super::cutting::{Cutting, frame_margin, isolation, pixel, sites};
 use super::holding::{Holding, holding};
 use super::output_name;
@@ -49,6 +50,8 @@ pub struct Settings {
     pub strategy: Strategy,
     /// What some nets have instead.
     pub strategy_for: Vec<StrategyFor>,
+    /// What is cleared beside the gaps round nets.
+    pub clearing: Clearing,
     /// What cuts are midway between.
     pub sites: Sites,
     /// How far from copper a net's region may reach.
@@ -250,6 +253,7 @@ impl Settings {
             cutout_tool,
             strategy: options.strategy.expect(open),
             strategy_for: options.strategy_for.clone(),
+            clearing: Clearing::of(&options),
             sites: sites(&options)?,
             limit: given("limit", options.limit)?,
             pixel: pixel(&options)?,

@@ -12,6 +12,7 @@ use std::cmp::Ordering;
 use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndex;
 
+use crate::geometry::Polygon;
 use crate::topology::boxes;
 
 use super::OUTSIDE;
@@ -27,6 +28,11 @@ pub(super) enum Node {
     Vertex(u32),
     /// Where a chain crosses the border.
     Crossing(u32),
+}
+
+impl Node {
+    /// Where a part of a pass ends.
+    pub(super) const END: Self = Self::Vertex(0);
 }
 
 /// A part of the graph of boundaries before it is fitted.
@@ -77,7 +83,7 @@ const OFF_GRID: Spot = Spot::new(0.013_7, 0.007_1);
 /// than rounding.
 const SAME: f64 = 10.0;
 
-/// The border's edges by place.
+/// The edges of a border by place: that of the board, or of other areas.
 pub(super) struct Fence {
     /// From vertex to vertex, with the board on the left.
     edges: Vec<[Spot; 2]>,
@@ -118,9 +124,20 @@ fn bounds(samples: &[Sample]) -> [f64; 4] {
 
 impl Fence {
     pub(super) fn new(border: &Border) -> Self {
+        Self::of((0..border.ring_count).map(|number| border.rings.ring(number)))
+    }
+
+    /// The edges of areas, polygons as a boolean returns them.
+    pub(super) fn around(areas: &[Polygon]) -> Self {
+        let contours = areas.iter().flat_map(Polygon::contours);
+        let rings: Vec<Vec<Spot>> =
+            contours.map(|contour| contour.iter().copied().map(Spot::from).collect()).collect();
+        Self::of(rings.iter().map(Vec::as_slice))
+    }
+
+    fn of<'a>(rings: impl Iterator<Item = &'a [Spot]>) -> Self {
         let (mut edges, mut starts) = (Vec::new(), vec![0]);
-        for number in 0..border.ring_count {
-            let ring = border.rings.ring(number);
+        for ring in rings {
             let next = ring.iter().cycle().skip(1);
             edges.extend(ring.iter().zip(next).map(|(&a, &b)| [a + OFF_GRID, b + OFF_GRID]));
             starts.push(edges.len());
@@ -142,13 +159,30 @@ impl Fence {
         beyond.count() % 2 == 1
     }
 
-    /// Where a chain crosses the border, in its order.
-    fn crossings(&self, chain: &Chain) -> Vec<Crossing> {
+    /// The parts of a piece within the border, or those beyond it.
+    pub(super) fn parts(&self, piece: Piece, is_within: bool) -> impl Iterator<Item = Piece> + use<> {
+        let Piece { left, right, samples, ends } = piece;
+        let found = self.crossings(&samples, (left, right)).into_iter().map(|crossing| {
+            let leaves = crossing.leaves == is_within;
+            (Crossing { leaves, ..crossing }, Node::END)
+        });
+        let found: Vec<(Crossing, Node)> = found.collect();
+        let is_wanted = self.holds(samples[0].at) == is_within;
+        parts(samples, ends, is_wanted, &found).map(move |(samples, ends)| Piece {
+            left,
+            right,
+            samples,
+            ends,
+        })
+    }
+
+    /// Where a line crosses the border, in its order; the owners are those on its left and right.
+    fn crossings(&self, samples: &[Sample], (left, right): (u32, u32)) -> Vec<Crossing> {
         let mut crossings = Vec::new();
-        if self.query(bounds(&chain.samples)).is_empty() {
+        if self.query(bounds(samples)).is_empty() {
             return crossings;
         }
-        for (sample, pair) in chain.samples.windows(2).enumerate() {
+        for (sample, pair) in samples.windows(2).enumerate() {
             let (p, q) = (pair[0].at, pair[1].at);
             let from = crossings.len();
             for edge in self.query(bounds(pair)) {
@@ -161,8 +195,7 @@ impl Fence {
                 let part = (side.cross(a - p) / side.cross(way)).clamp(0.0, 1.0);
                 let at = p + way * part;
                 let clearance = pair[0].clearance + (pair[1].clearance - pair[0].clearance) * part;
-                let (ahead, behind) =
-                    if leaves { (chain.left, chain.right) } else { (chain.right, chain.left) };
+                let (ahead, behind) = if leaves { (left, right) } else { (right, left) };
                 let (along, at) = ((at - a).length(), Sample { at, clearance });
                 crossings.push(Crossing { sample, part, edge, along, leaves, at, ahead, behind });
             }
@@ -182,8 +215,9 @@ pub(super) fn within(
     number: impl Fn(u32) -> u32,
 ) -> (Vec<Piece>, Vec<Spot>) {
     let fence = Fence::new(border);
+    let crossed = |chain: &Chain| fence.crossings(&chain.samples, (chain.left, chain.right));
     let cut: Vec<(bool, Vec<Crossing>)> =
-        chains.par_iter().map(|chain| (fence.holds(chain.samples[0].at), fence.crossings(chain))).collect();
+        chains.par_iter().map(|chain| (fence.holds(chain.samples[0].at), crossed(chain))).collect();
     let mut pieces = Vec::new();
     let mut crossings: Vec<(Crossing, Node)> = Vec::new();
     for (chain, (starts_inside, found)) in chains.into_iter().zip(cut) {
@@ -192,7 +226,8 @@ pub(super) fn within(
         let found: Vec<(Crossing, Node)> = found.into_iter().zip(numbered).collect();
         crossings.extend(&found);
         let sides = (number(chain.left), number(chain.right));
-        pieces.extend(parts(chain, starts_inside, &found).map(|(samples, ends)| {
+        let whole = chain.ends.map(|ends| ends.map(Node::Vertex));
+        pieces.extend(parts(chain.samples, whole, starts_inside, &found).map(|(samples, ends)| {
             let (left, right) = sides;
             Piece { left, right, samples, ends }
         }));
@@ -232,15 +267,14 @@ pub(super) fn within(
 
 type Part = (Vec<Sample>, Option<[Node; 2]>);
 
-/// The parts of a chain on the board.
+/// The parts of a line on the board; `whole` are the nodes at its ends.
 fn parts(
-    chain: Chain,
+    samples: Vec<Sample>,
+    whole: Option<[Node; 2]>,
     starts_inside: bool,
     crossings: &[(Crossing, Node)],
 ) -> impl Iterator<Item = Part> + use<> {
-    let Chain { samples, ends, .. } = chain;
     let mut parts: Vec<Part> = Vec::new();
-    let whole = ends.map(|ends| ends.map(Node::Vertex));
     let (Some((first, _)), Some((last, last_node))) = (crossings.first(), crossings.last()) else {
         if starts_inside {
             parts.push((samples, whole));

@@ -31,9 +31,6 @@ const FARTHEST: f64 = 300_000.0;
 /// Where a pass ends is halved so often. Chosen.
 const HALVINGS: usize = 12;
 
-/// Where a part of a pass ends.
-pub(super) const END: Node = Node::Vertex(0);
-
 /// What cuts have cleared for passes.
 pub(super) struct Grooves {
     chords: Vec<(Spot, Spot)>,
@@ -91,7 +88,7 @@ impl Grooves {
             parts.push(last);
         }
         let Piece { left, right, ends, .. } = piece;
-        let ends = ends.or(Some([END; 2]));
+        let ends = ends.or(Some([Node::END; 2]));
         let part = |samples| Piece { left, right, samples, ends };
         parts.into_iter().filter(|part| part.len() > 1).map(part).collect()
     }

@@ -23,6 +23,7 @@
 mod band;
 mod boundary;
 mod certified;
+mod clearing;
 mod clip;
 mod edge;
 pub mod exact;
@@ -53,6 +54,7 @@ use crate::grid::{Grid, GridError};
 use crate::raster::{self, Scene, TileContent};
 use crate::topology::{NetId, Nets};
 
+pub use clearing::Clearing;
 pub use fit::fit_points;
 pub use frame::Frame;
 pub use link::Link;

@@ -43,8 +43,9 @@ pub(super) fn foot(path: &Path, p: Spot) -> (usize, Spot, f64) {
     best
 }
 
-/// What lies so near to an end of a segment is that end, in nanometres: of the rest of an arc, a
-/// nanometre long, rounding would make all of a circle. Chosen.
+/// What lies so near to an end of a segment is that end, and between two cuts so near to each other
+/// the way is straight, in nanometres: of a part of an arc, a nanometre long, rounding would make
+/// all of a circle. Chosen.
 const SAME: f64 = 1_000.0;
 
 /// The point nearest to `p` of the segment of `path` with this index.
@@ -96,15 +97,19 @@ pub(super) fn part(mut edge: Boundary, mut cuts: Vec<Cut>, nodes: &[Point], part
 fn mark(edge: &mut Boundary, cuts: &[Cut], nodes: &[Point]) -> Vec<(usize, NodeId)> {
     let mut marks = Vec::with_capacity(cuts.len());
     let mut added = 0;
+    let mut before: Option<Cut> = None;
     for cut in cuts {
         let (at, index) = (nodes[cut.node.0 as usize], cut.segment + added);
         let segment = edge.path.segments[index];
+        let is_after = |before: Cut| before.segment == cut.segment && cut.along - before.along < SAME;
+        let is_short = before.replace(*cut).is_some_and(is_after);
         if at == vertex(&edge.path, index) {
             marks.push((index, cut.node));
         } else if at == segment.to() {
             marks.push((index + 1, cut.node));
         } else {
-            edge.path.segments.insert(index, with_end(segment, at));
+            let first = if is_short { Segment::Line { to: at } } else { with_end(segment, at) };
+            edge.path.segments.insert(index, first);
             edge.clearance.insert(index + 1, edge.clearance[index].min(edge.clearance[index + 1]));
             marks.push((index + 1, cut.node));
             added += 1;
@@ -147,4 +152,38 @@ fn foot_on_arc(p: Spot, arc: &Arc) -> Spot {
     }
     let (to_from, to_to) = (p - from, p - to);
     if to_from.dot(to_from) <= to_to.dot(to_to) { from } else { to }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{Nm, Vector};
+    use crate::voronoi::Owner;
+
+    /// Two links met an arc a nanometre apart, and between them the cutter went all the way round.
+    #[test]
+    fn between_two_cuts_a_nanometre_apart_no_arc_is_a_circle() {
+        let center = Point::new(Nm::new(123_716_201), Nm::new(-132_999_535));
+        let start = Point::new(Nm::new(122_609_120), Nm::new(-132_999_535));
+        let to = Point::new(Nm::new(124_200_300), Nm::new(-133_995_200));
+        let arc = Segment::Arc { to, center, turn: Turn::CounterClockwise };
+        let path = Path { start, segments: vec![arc] };
+        let length = path.length();
+        let near = Point::new(Nm::new(124_114_074), Nm::new(-134_032_675));
+        let places = (-2..=2).flat_map(|x| (-2..=2).map(move |y| Vector::new(Nm::new(x), Nm::new(y))));
+        for nodes in places.map(|way| [near, near + way]) {
+            let cuts = [0, 1].map(|node| Cut::new(&path, 0, nodes[node as usize], NodeId(node)));
+            let edge = Boundary {
+                path: path.clone(),
+                clearance: vec![Nm::from_um(100); 2],
+                left: Owner::Background,
+                right: Owner::Background,
+                ends: Some((NodeId(2), NodeId(3))),
+            };
+            let mut parts = Vec::new();
+            part(edge, cuts.to_vec(), &nodes, &mut parts);
+            let whole: f64 = parts.iter().map(|part| part.path.length()).sum();
+            assert!((whole - length).abs() < 10.0, "{whole} of {length} nm in {} parts", parts.len());
+        }
+    }
 }

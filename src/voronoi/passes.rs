@@ -19,6 +19,7 @@ use crate::geometry::Nm;
 use crate::topology::Nets;
 
 use super::certified::Owned;
+use super::clearing::{Clearing, Zone};
 use super::clip::{Fence, Piece};
 use super::exact;
 use super::groove::Grooves;
@@ -33,10 +34,14 @@ const LONGEST: Nm = Nm::from_mm(3);
 /// How the gap beside copper is widened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Widening {
-    /// How wide the cutter clears.
+    /// How wide the cutter clears, at the surface.
     pub kerf: Nm,
-    /// How wide the gap beside every net is to be, where there is room.
-    pub width: Nm,
+    /// How wide at the bottom of the copper, where a V-bit is narrower: what is left there between
+    /// passes is a strip of copper.
+    pub floor: Nm,
+    /// How wide the gap beside every net is to be, where there is room; none for as wide as one
+    /// cut.
+    pub width: Option<Nm>,
     /// How much of the kerf neighbouring passes share, at least.
     pub overlap: Nm,
 }
@@ -45,20 +50,32 @@ impl Widening {
     /// The distances from copper at which passes run, from the nearest to the farthest, evenly
     /// spaced; none of more than `most`.
     fn levels(&self, first: Nm, most: Nm) -> Vec<Nm> {
-        let last = self.width - self.kerf / 2;
-        let advance = (self.kerf - self.overlap).max(Nm::new(1));
+        let Some(width) = self.width else { return Vec::new() };
+        let last = width - self.kerf / 2;
         if last <= first {
             return vec![first];
         }
-        let gaps = (last - first + advance - Nm::new(1)).get() / advance.get();
+        let gaps = (last - first + self.advance() - Nm::new(1)).get() / self.advance().get();
         (0..=gaps).map(|i| first + (last - first) * i / gaps).take_while(|&level| level <= most).collect()
+    }
+
+    /// Those farther out, from `next` on.
+    fn further(&self, next: Nm, most: Nm) -> Vec<Nm> {
+        std::iter::successors(Some(next), |&level| Some(level + self.advance()))
+            .take_while(|&level| level <= most)
+            .collect()
+    }
+
+    /// How far passes are apart at most.
+    fn advance(&self) -> Nm {
+        (self.kerf - self.overlap).max(Nm::new(1))
     }
 }
 
 impl Diagram {
     /// `base` with further passes beside its cuts, until the gap beside every net is as wide as
-    /// asked for. `before` is what wider tools have cut, each with its kerf: nothing of that is cut
-    /// again.
+    /// asked for, and all is cleared where `clearing` says so. `before` is what wider tools have
+    /// cut, each with its kerf: nothing of that is cut again.
     ///
     /// A pass never runs nearer to copper than half the kerf and the fitting tolerance. What `base`
     /// has at that distance already (the outline strategy's loops) is not cut again. With it comes
@@ -69,37 +86,64 @@ impl Diagram {
         (copper, nets): (&Copper, &Nets),
         base: Boundaries,
         widening: &Widening,
+        clearing: &Clearing,
         before: &[(Nm, Boundaries)],
     ) -> (Boundaries, Vec<Warning>) {
         let first = widening.kerf / 2 + self.settings.tolerance;
-        let levels = widening.levels(first, self.border.window.width() + self.border.window.height());
-        let step = levels.get(1).map_or(widening.kerf - widening.overlap, |&second| second - levels[0]);
+        let most = self.border.window.width() + self.border.window.height();
+        let levels = widening.levels(first, most);
+        let next = levels.last().map_or(first, |&last| last + widening.advance());
+        let further = if clearing.is_wanted() { widening.further(next, most) } else { Vec::new() };
+        // What is to be cleared may be space that one net encloses, where passes did not run.
+        let again: &[Nm] = if further.is_empty() || self.settings.enclosed { &[] } else { &levels };
+        let step = levels.get(1).map_or(widening.advance(), |&second| second - levels[0]);
         // Loops at the first level are passes themselves.
         let is_pass = |edge: &Boundary| self.settings.limit == Some(first) && edge.is_bare();
-        let wanted: Vec<Nm> =
-            levels.iter().copied().filter(|&level| !self.has_loops_of_all_at(level)).collect();
-        let (Some(&farthest), false) = (levels.last(), wanted.is_empty()) else { return (base, Vec::new()) };
+        let unlooped = |levels: &[Nm]| -> Vec<Nm> {
+            levels.iter().copied().filter(|&level| !self.has_loops_of_all_at(level)).collect()
+        };
+        let wanted = [unlooped(&levels), unlooped(again), unlooped(&further)];
+        if wanted.iter().all(Vec::is_empty) {
+            return (base, Vec::new());
+        }
+        let farthest = levels.iter().chain(&further).copied().max().unwrap_or(first);
         let owned = Owned::copper(copper, nets, |feature| self.kept[nets.of(feature).index()]);
         let wall = self.copper.inflate(farthest * 3 + BEYOND);
-        let kind = self.settings.kind(FLOOR.min(first / 2));
+        let floor = FLOOR.min(first / 2);
+        let kind = if further.is_empty() { self.settings.kind(floor) } else { exact::Kind::Above(floor) };
+        let zone = Zone::new(clearing, widening.kerf, widening.advance());
         let lines = |diagram: &exact::Diagram| {
-            wanted.par_iter().map(|&level| self.level_pieces(diagram, level)).collect::<Option<Vec<_>>>()
+            let pieces = |(stage, &level): (usize, &Nm)| {
+                let enclosed = stage > 0 || self.settings.enclosed;
+                let found = self.level_pieces(diagram, level, enclosed)?;
+                Some(if stage > 0 { zone.cleared(found) } else { zone.open(found) })
+            };
+            let levels = wanted.iter().enumerate();
+            let levels: Vec<_> =
+                levels.flat_map(|(stage, all)| all.iter().map(move |level| (stage, level))).collect();
+            levels.into_par_iter().map(pieces).collect::<Option<Vec<_>>>()
         };
         let (diagram, found) = owned.diagram(kind, exact::Space::Within, Some(wall), lines);
         let is_whole = found.is_some();
         let wider = wider(before, widening.kerf);
-        let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), widening.kerf - step);
+        let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), widening.floor - step);
         let spikes = Spikes {
-            kerf: widening.kerf.to_f64(),
+            kerf: widening.floor.to_f64(),
             step: step.to_f64(),
             clearance: &|at| diagram.distance(at.into()),
             nearest: first.to_f64(),
         };
         let first_pass = base.edges.len();
         let mut all = base;
-        for (&level, mut lines) in wanted.iter().zip(found.unwrap_or_default()) {
+        let mut passed: Option<Grooves> = None;
+        for (number, (&level, mut lines)) in
+            wanted.iter().flatten().zip(found.unwrap_or_default()).enumerate()
+        {
             lines.retain(|line| !self.has_loop_at(level, line));
-            for grooves in wider.iter().chain(&grooves) {
+            if number == wanted[0].len() && !wanted[1].is_empty() {
+                passed = Grooves::new(all.edges[first_pass..].iter(), step / 2);
+            }
+            for grooves in wider.iter().chain(&grooves).chain(&passed) {
                 lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
             }
             let mut passes = self.fitted(&lines);
@@ -108,30 +152,36 @@ impl Diagram {
             }
             all.append(passes);
         }
-        let heights: Vec<f64> = levels.iter().map(|level| level.to_f64()).collect();
-        let passes = Passes {
-            diagram: &diagram,
-            fence: &Fence::new(&self.border),
-            kerf: widening.kerf.to_f64(),
-            step: step.to_f64(),
-            levels: &heights,
-        };
+        let fence = Fence::new(&self.border);
+        let heights = |levels: &[Nm]| -> Vec<f64> { levels.iter().map(|level| level.to_f64()).collect() };
+        let levels = heights(&levels);
+        let kerf = widening.floor.to_f64();
+        let passes = Passes { diagram: &diagram, fence: &fence, kerf, step: step.to_f64(), levels: &levels };
         // Between all nets there is a cut along the axis.
         let is_open = |left: u32, right: u32| left == right || !self.is_plain();
-        let mut lines = passes.residues(all.edges.iter(), before, is_open);
-        if let Some(edges) =
-            passes.beyond().and_then(|beyond| self.level_pieces(&diagram, Nm::from_f64(beyond)))
-        {
+        let mut lines = zone.open(passes.residues(all.edges.iter(), before, is_open));
+        let edges = passes
+            .beyond()
+            .and_then(|beyond| self.level_pieces(&diagram, Nm::from_f64(beyond), self.settings.enclosed));
+        if let Some(edges) = edges {
             let cuts = all.edges[..first_pass].iter().filter(|edge| !is_pass(edge));
-            lines.extend(passes.strips(&edges, cuts, before));
+            lines.extend(zone.beside(passes.strips(&edges, cuts, before)));
         }
         all.append(self.fitted(&lines));
+        if !further.is_empty() {
+            let levels: Vec<f64> = levels.iter().copied().chain(heights(&further)).collect();
+            let passes = Passes { levels: &levels, ..passes };
+            let lines = zone.cleared(passes.residues(all.edges.iter(), before, is_open));
+            all.append(self.fitted(&lines));
+        }
+        let longest =
+            if further.is_empty() { widening.width.unwrap_or(LONGEST).min(LONGEST) } else { LONGEST };
         let rules = Rules {
             clearance: &|at| diagram.distance(at),
             nearest: (widening.kerf / 2).to_f64(),
             step: step.to_f64(),
             short: (widening.kerf * 3 / 2).to_f64(),
-            longest: widening.width.min(LONGEST).to_f64(),
+            longest: longest.to_f64(),
         };
         let faults = if is_whole {
             Vec::new()
@@ -147,8 +197,8 @@ impl Diagram {
     }
 
     /// Where copper is just so far away on the board.
-    fn level_pieces(&self, diagram: &exact::Diagram, level: Nm) -> Option<Vec<Piece>> {
-        let chains = diagram.curves_at(level.to_f64(), NOBODY, self.settings.enclosed)?;
+    fn level_pieces(&self, diagram: &exact::Diagram, level: Nm, enclosed: bool) -> Option<Vec<Piece>> {
+        let chains = diagram.curves_at(level.to_f64(), NOBODY, enclosed)?;
         // Who owns the border between two crossings nobody asks.
         let (mut pieces, _) = self.on_board(diagram, chains, level.to_f64());
         pieces.retain(|piece| !piece.is_border());

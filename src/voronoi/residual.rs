@@ -25,9 +25,9 @@ use rayon::prelude::*;
 use crate::geometry::Nm;
 use crate::topology::NetId;
 
-use super::clip::{Fence, Piece};
+use super::clip::{Fence, Node, Piece};
 use super::exact::{self, OnAxis};
-use super::groove::{END, Grooves};
+use super::groove::Grooves;
 use super::plane::Spot;
 use super::sample::Sample;
 use super::seed::owner_of;
@@ -53,7 +53,7 @@ pub(super) struct Passes<'a> {
     pub(super) diagram: &'a exact::Diagram,
     /// Where the board ends.
     pub(super) fence: &'a Fence,
-    /// How wide the cutter clears, in nanometres.
+    /// How wide the cutter clears at the bottom of the copper, in nanometres.
     pub(super) kerf: f64,
     /// How far passes lie apart, at most.
     pub(super) step: f64,
@@ -120,7 +120,7 @@ impl Passes<'_> {
             let places: Vec<Option<Residue>> =
                 steps(&axis.places).map(|place| self.residue(&place, &cleared)).collect();
             let [left, right] = axis.owners.map(|owner| owner_of(NetId(owner)));
-            let piece = |samples| Piece { left, right, samples, ends: Some([END; 2]) };
+            let piece = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
             runs(&places).filter_map(|run| self.along(&run).map(piece)).collect::<Vec<_>>()
         });
         residues.collect()
@@ -181,7 +181,7 @@ impl Passes<'_> {
             };
             let places: Vec<Option<Sample>> = ways(edge, THIN / 2.0).map(beside_strip).collect();
             let Piece { left, right, .. } = *edge;
-            let part = |samples| Piece { left, right, samples, ends: Some([END; 2]) };
+            let part = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
             runs(&places).filter(|run| length(run) >= LONG).map(part).collect::<Vec<_>>()
         });
         strips.collect()

@@ -57,7 +57,7 @@ fn every_option_with_a_counterpart_is_taken_over() {
     assert_eq!(fine.heights.cut, um(80), "zwork");
     assert_eq!(
         fine.widening.as_ref().map(|w| (w.width, w.overlap)),
-        Some((um(600), um(50))),
+        Some((Some(um(600)), um(50))),
         "0.6 wide, a quarter of 0.2 shared"
     );
     assert_eq!(
@@ -119,7 +119,7 @@ fn passes_and_bridges_mean_what_pcb2gcode_means() {
     let made = settings(project("metric=1\nmill-diameters=0.2\nextra-passes=2\nbridges=0"));
     assert_eq!(
         made.isolation[0].widening.as_ref().map(|w| (w.width, w.overlap)),
-        Some((um(400), um(100))),
+        Some((Some(um(400)), um(100))),
         "half a cutter each"
     );
     assert_eq!(made.tabs, Holding::Count(0), "no bridges");
@@ -227,7 +227,11 @@ fn every_unit_of_pcb2gcode_is_read() {
         (Feed::from_mm_per_min(254), Feed::from_mm_per_min(100), 12_000),
         "per minute and per second"
     );
-    assert_eq!(fine.widening.map(|w| (w.width, w.overlap)), Some((um(600), um(100))), "metres and percent");
+    assert_eq!(
+        fine.widening.map(|w| (w.width, w.overlap)),
+        Some((Some(um(600)), um(100))),
+        "metres and percent"
+    );
     assert_eq!((made.safe, made.dialect.spin_up), (Nm::new(2_540_000), 1500), "inches and seconds");
     assert_eq!(made.cutout_tool.kind, ToolKind::EndMill { diameter: Nm::new(1_016_000) }, "mils");
     assert_eq!(

@@ -5,7 +5,7 @@ use proptest::test_runner::{RngSeed, TestRunner};
 use voromill::board::{Axis, Copper, Feature, Outline, Shape, Side};
 use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn, Vector};
 use voromill::topology::{self, DisjointSets, Method, Nets};
-use voromill::voronoi::{Boundaries, Boundary, Diagram, Owner, Settings, SiteKind, Widening};
+use voromill::voronoi::{Boundaries, Boundary, Clearing, Diagram, Owner, Settings, SiteKind, Widening};
 
 use crate::cli::{stderr, stdout, voromill};
 use crate::oracle::distance as oracle;
@@ -414,11 +414,7 @@ fn the_middle_of_a_gap_too_narrow_for_the_next_pass_is_cleared_by_one_cut() {
     let round = (-9..10_i32).map(|i| (1e6 + 1e4 * f64::from(i), 3e6));
     assert_cleared(&copper, 700, 20, wedge.chain(round));
 
-    let nets = topology::recover(&copper, Method::Contact);
-    let diagram = Diagram::new(&copper, &nets, None, &Settings::default()).expect("a diagram");
-    let [kerf, width, overlap] = [200, 700, 20].map(Nm::from_um);
-    let (cuts, _) =
-        diagram.widened((&copper, &nets), diagram.boundaries().0, &Widening { kerf, width, overlap }, &[]);
+    let cuts = widened(&copper, Some(Nm::from_um(700)), 20, &Clearing::default());
     let in_slot = |p: &Point| (0..4_000_000).contains(&p.x.get()) && (230_000..250_000).contains(&p.y.get());
     let points = cuts.edges.iter().map(|edge| edge.path.flatten(Nm::from_um(1)));
     let along_middle: f64 = points
@@ -432,11 +428,7 @@ fn the_middle_of_a_gap_too_narrow_for_the_next_pass_is_cleared_by_one_cut() {
 #[test]
 fn passes_round_a_pad_are_cut_in_one_go() {
     let copper = layer([disc(0, 0, 500), disc(6000, 0, 500)]);
-    let nets = topology::recover(&copper, Method::Contact);
-    let diagram = Diagram::new(&copper, &nets, None, &Settings::default()).expect("a diagram");
-    let [kerf, width, overlap] = [200, 700, 20].map(Nm::from_um);
-    let (cuts, _) =
-        diagram.widened((&copper, &nets), diagram.boundaries().0, &Widening { kerf, width, overlap }, &[]);
+    let cuts = widened(&copper, Some(Nm::from_um(700)), 20, &Clearing::default());
     let rings = cuts.edges.iter().filter(|edge| edge.is_bare());
     assert_eq!(rings.count(), 12, "four round each, the middle ones in halves from link to link");
     let mut lengths: Vec<i64> =
@@ -514,44 +506,141 @@ fn loops_that_touch_in_pixels_alone_are_parted() {
 /// Passes of 200 µm that share so many micrometres keep off the copper and clear these places, as
 /// far as they lie within this width of it.
 fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterator<Item = (f64, f64)>) {
+    let wide = Nm::from_um(width);
+    let cuts = widened(copper, Some(wide), overlap, &Clearing::default());
+    assert!(!cuts.links.is_empty(), "passes are linked");
+    assert_all_cleared(
+        copper,
+        &cuts,
+        places.filter(|&(x, y)| to_copper(copper, x, y) < wide.to_f64() - 5_000.0),
+    );
+}
+
+/// The cuts of 200 µm between the nets of `copper`, and the passes beside them.
+fn widened(copper: &Copper, width: Option<Nm>, overlap: i64, clearing: &Clearing) -> Boundaries {
     let nets = topology::recover(copper, Method::Contact);
     let diagram = Diagram::new(copper, &nets, None, &Settings::default()).expect("a diagram");
-    let (kerf, wide, overlap) = (Nm::from_um(200), Nm::from_um(width), Nm::from_um(overlap));
-    let (cuts, warnings) = diagram.widened(
-        (copper, &nets),
-        diagram.boundaries().0,
-        &Widening { kerf, width: wide, overlap },
-        &[],
-    );
+    let (kerf, overlap) = (Nm::from_um(200), Nm::from_um(overlap));
+    let widening = Widening { kerf, floor: kerf, width, overlap };
+    let (cuts, warnings) = diagram.widened((copper, &nets), diagram.boundaries().0, &widening, clearing, &[]);
     assert_eq!(warnings, [], "all is placed");
+    cuts
+}
+
+/// How far the nearest copper is.
+fn to_copper(copper: &Copper, x: f64, y: f64) -> f64 {
+    let nets = topology::recover(copper, Method::Contact);
+    oracle::distances(copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min)
+}
+
+/// How far the nearest cut is.
+fn to_cut(cuts: &[Vec<Point>], x: f64, y: f64) -> f64 {
+    let stroke = |pair: &[Point]| Shape::Stroke { from: pair[0], to: pair[1], radius: Nm::ZERO };
+    let distances =
+        cuts.iter().flat_map(|path| path.windows(2)).map(|pair| oracle::distance(&stroke(pair), x, y));
+    distances.fold(f64::INFINITY, f64::min)
+}
+
+/// The ways of the cuts that are no border.
+fn flattened(cuts: &Boundaries) -> Vec<Vec<Point>> {
     let inner = cuts.edges.iter().filter(|edge| !edge.is_border());
-    let paths: Vec<Vec<Point>> = inner.map(|edge| edge.path.flatten(Nm::new(100))).collect();
-    let to_copper =
-        |x: f64, y: f64| oracle::distances(copper, &nets, x, y).into_iter().fold(f64::INFINITY, f64::min);
+    inner.map(|edge| edge.path.flatten(Nm::new(100))).collect()
+}
+
+/// Cuts of 200 µm keep off the copper, and clear these places as far as that allows.
+fn assert_all_cleared(copper: &Copper, cuts: &Boundaries, places: impl Iterator<Item = (f64, f64)>) {
+    let paths = flattened(cuts);
     let links: Vec<Vec<Point>> = cuts.links.iter().map(|link| link.path.flatten(Nm::new(100))).collect();
-    assert!(!links.is_empty(), "passes are linked");
     for pair in paths.iter().chain(&links).flat_map(|path| path.windows(2)) {
         let ((x0, y0), (x1, y1)) = (pair[0].to_f64(), pair[1].to_f64());
         // Places no more than a fifth of a kerf apart.
         let steps = ((x1 - x0).abs().max((y1 - y0).abs()) / 40_000.0).ceil().max(1.0);
         for i in (0_u32..).map(f64::from).take_while(|&i| i <= steps) {
             let (x, y) = (x0 + (x1 - x0) * i / steps, y0 + (y1 - y0) * i / steps);
-            assert!(to_copper(x, y) >= 100_000.0, "{} nm from copper at {x}, {y}", to_copper(x, y));
+            let nearest = to_copper(copper, x, y);
+            assert!(nearest >= 100_000.0, "{nearest} nm from copper at {x}, {y}");
         }
     }
-    for (x, y) in places {
-        let nearest = to_copper(x, y);
-        if nearest > 5_000.0 && nearest < wide.to_f64() - 5_000.0 {
-            let to_cut = |pair: &[Point]| {
-                oracle::distance(&Shape::Stroke { from: pair[0], to: pair[1], radius: Nm::ZERO }, x, y)
-            };
-            let cleared =
-                paths.iter().flat_map(|path| path.windows(2)).map(to_cut).fold(f64::INFINITY, f64::min);
-            assert!(
-                cleared <= 104_000.0,
-                "passes that share {overlap}: copper left {nearest} nm from a net at {x}, {y}: {cleared} nm from a cut"
-            );
+    for (x, y) in places.filter(|&(x, y)| to_copper(copper, x, y) > 5_000.0) {
+        let cleared = to_cut(&paths, x, y);
+        assert!(cleared <= 104_000.0, "copper left at {x}, {y}: {cleared} nm from a cut");
+    }
+}
+
+/// Three pads, each a net, and a plane with a hole in it, round a fourth.
+fn pads_and_a_plane() -> Copper {
+    let mut hole =
+        Polygon::disc(at(3000, 4000), Nm::from_um(1200), Nm::from_um(1)).expect("a disc").contours()[0]
+            .clone();
+    hole.reverse();
+    let ring = [(1000, 2000), (5000, 2000), (5000, 6000), (1000, 6000)].map(|(x, y)| at(x, y)).to_vec();
+    let plane = Polygon::new(vec![ring, hole]).expect("a plane");
+    let pads = [disc(0, 0, 500), disc(3500, 300, 300), disc(-2500, 3000, 400), disc(3000, 4000, 300)];
+    layer(pads.into_iter().chain([Shape::Polygon(plane)]))
+}
+
+/// Every tenth of a millimetre about the pads and the plane.
+fn about_all() -> impl Iterator<Item = (f64, f64)> {
+    (-28..54_i32)
+        .flat_map(|x| (-4..64_i32).map(move |y| (f64::from(x) * 1e5 + 3e3, f64::from(y) * 1e5 + 7e3)))
+}
+
+#[test]
+fn an_area_is_cleared_and_what_is_kept_is_not() {
+    let copper = pads_and_a_plane();
+    let rectangle = |[left, bottom, right, top]: [i64; 4]| {
+        Polygon::rectangle(Rect::new(at(left, bottom), at(right, top)))
+    };
+    let is_in = |[left, bottom, right, top]: [i64; 4], x: f64, y: f64| {
+        let within = |low: i64, high: i64, v: f64| (low as f64 * 1e3..high as f64 * 1e3).contains(&v);
+        within(left, right, x) && within(bottom, top, y)
+    };
+    let (area, kept) = ([-1800, 900, 3900, 4700], [-1000, 1200, 400, 3000]);
+    let clearing =
+        Clearing { areas: vec![rectangle(area)], kept: vec![rectangle(kept)], ..Clearing::default() };
+    let isolated = flattened(&widened(&copper, None, 20, &Clearing::default()));
+    for width in [None, Some(Nm::from_um(500))] {
+        let cuts = widened(&copper, width, 20, &clearing);
+        let beside = [kept[0] - 105, kept[1] - 105, kept[2] + 105, kept[3] + 105];
+        let wanted = |&(x, y): &(f64, f64)| is_in(area, x, y) && !is_in(beside, x, y);
+        assert_all_cleared(&copper, &cuts, about_all().filter(wanted));
+        let passes = flattened(&cuts);
+        for (x, y) in about_all().filter(|&(x, y)| is_in(kept, x, y)) {
+            let is_cleared = to_cut(&passes, x, y) < 99_000.0;
+            assert!(!is_cleared || to_cut(&isolated, x, y) < 104_000.0, "cleared at {x}, {y}");
         }
+        let wide = width.map_or(100_000.0, Nm::to_f64);
+        let around = [area[0] - 300, area[1] - 300, area[2] + 300, area[3] + 300];
+        for (x, y) in
+            about_all().filter(|&(x, y)| !is_in(around, x, y) && to_copper(&copper, x, y) > wide + 105_000.0)
+        {
+            let is_cleared = to_cut(&passes, x, y) < 99_000.0;
+            assert!(!is_cleared || to_cut(&isolated, x, y) < 104_000.0, "cleared at {x}, {y}");
+        }
+    }
+}
+
+#[test]
+fn the_regions_of_nets_are_cleared_and_no_others() {
+    let copper = pads_and_a_plane();
+    let nets = topology::recover(&copper, Method::Contact);
+    let own = nets.of(2);
+    let clearing = Clearing { nets: vec![own], ..Clearing::default() };
+    let cuts = widened(&copper, None, 20, &clearing);
+    let isolated = flattened(&widened(&copper, None, 20, &Clearing::default()));
+    let nearest = |x: f64, y: f64| {
+        let all = oracle::distances(&copper, &nets, x, y);
+        let own = all[own.index()];
+        let others = all.iter().enumerate().filter(|(net, _)| *net != nets.of(2).index());
+        (own, others.map(|(_, distance)| *distance).fold(f64::INFINITY, f64::min))
+    };
+    // The frame is a millimetre round all.
+    let is_own = |&(x, y): &(f64, f64)| nearest(x, y).0 < nearest(x, y).1 - 1e3;
+    assert_all_cleared(&copper, &cuts, about_all().filter(is_own));
+    let passes = flattened(&cuts);
+    for (x, y) in about_all().filter(|&(x, y)| nearest(x, y).0 > nearest(x, y).1 + 210_000.0) {
+        let is_cleared = to_cut(&passes, x, y) < 99_000.0;
+        assert!(!is_cleared || to_cut(&isolated, x, y) < 104_000.0, "cleared at {x}, {y}");
     }
 }
 

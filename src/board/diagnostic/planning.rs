@@ -9,6 +9,12 @@ use super::{Stage, diagnostics};
 diagnostics! {
     Stage::Planning;
 
+    AREA_OFF_THE_BOARD: Warning =
+        "area-off-the-board",
+        "an area to be cleared or kept does not touch the board",
+        "it has no effect",
+        "correct {clear-area} or {keep-area}: they take the coordinates of the files";
+
     AXIS_INCOMPLETE: Warning =
         "axis-incomplete",
         "the medial axis of a carved shape may lack a branch",

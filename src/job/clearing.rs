@@ -1,0 +1,85 @@
+//! What is cleared of a board beside the gaps round its nets, as it was asked for and on each side.
+
+use crate::board::polarity::{offset, union};
+use crate::board::{Copper, FLATTEN};
+use crate::geometry::{Nm, Polygon};
+use crate::topology::{NetId, Nets};
+use crate::voronoi;
+
+use super::Options;
+use super::by_net::names;
+use super::distance_for::DistanceFor;
+use super::pattern::Pattern;
+use super::quantity::Area;
+
+/// What is cleared beside the gaps round nets, in the files' coordinates.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Clearing {
+    /// Nets whose regions are cleared.
+    pub nets: Vec<Pattern>,
+    /// Where all is.
+    pub areas: Vec<Area>,
+    /// Nets round which all is, and how far.
+    pub distances: Vec<DistanceFor>,
+    /// Where no pass clears anything.
+    pub kept: Vec<Area>,
+}
+
+/// Polygons round curves keep within this of them. Chosen: as for the copper of a board.
+const CURVE: Nm = FLATTEN;
+
+impl Clearing {
+    /// As the options say.
+    pub(super) fn of(options: &Options) -> Self {
+        Self {
+            nets: options.clear_nets.clone(),
+            areas: options.clear_area.clone(),
+            distances: options.distance_for.clone(),
+            kept: options.keep_area.clone(),
+        }
+    }
+
+    /// Whether anything is cleared.
+    #[must_use]
+    pub const fn is_wanted(&self) -> bool {
+        !self.nets.is_empty() || !self.areas.is_empty() || !self.distances.is_empty()
+    }
+
+    /// The patterns that mean nets.
+    pub(super) fn patterns(&self) -> impl Iterator<Item = &Pattern> + Clone {
+        self.nets.iter().chain(self.distances.iter().map(|own| &own.nets))
+    }
+
+    /// The greatest distance to which anything is cleared round copper.
+    pub(super) fn farthest(&self) -> Option<Nm> {
+        self.distances.iter().map(|own| own.distance.nm()).max()
+    }
+
+    /// What that means on a side.
+    pub(super) fn on(&self, copper: &Copper, nets: &Nets) -> voronoi::Clearing {
+        let ids = || (0..).map(NetId).take(nets.nets().len());
+        let rectangles =
+            |areas: &[Area]| areas.iter().map(|&area| Polygon::rectangle(area.into())).collect::<Vec<_>>();
+        if !self.is_wanted() {
+            return voronoi::Clearing { kept: rectangles(&self.kept), ..voronoi::Clearing::default() };
+        }
+        let names: Vec<Vec<String>> = ids().map(|id| names(copper, nets, id)).collect();
+        let is_any = |patterns: &[Pattern], id: NetId| {
+            patterns.iter().any(|pattern| pattern.matches_any(&names[id.index()]))
+        };
+        let mut areas = rectangles(&self.areas);
+        for own in &self.distances {
+            let own_nets = nets.nets().iter().zip(&names).filter(|(_, names)| own.nets.matches_any(names));
+            let features = own_nets.flat_map(|(net, _)| &net.features);
+            let shapes = features.map(|&feature| &copper.features[feature as usize].shape);
+            let polygons: Vec<Polygon> = shapes.filter_map(|shape| shape.polygon(CURVE)).collect();
+            let whole = union(&polygons);
+            areas.extend(whole.iter().flat_map(|part| offset(part, own.distance.nm(), CURVE)));
+        }
+        voronoi::Clearing {
+            nets: ids().filter(|&id| is_any(&self.nets, id)).collect(),
+            areas,
+            kept: rectangles(&self.kept),
+        }
+    }
+}
