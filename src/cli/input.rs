@@ -4,12 +4,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use voromill::board::Side;
+use voromill::board::{Side, Warning};
 use voromill::geometry::{Nm, ParseLengthError, Point, Rect, Vector};
 use voromill::grid::Grid;
 use voromill::import::drawing::{self, Unit};
 use voromill::import::picture::Pixels;
-use voromill::import::{self, Loaded, Selection, picture};
+use voromill::import::{self, Loaded, Selection, diagnostic, picture};
 use voromill::job::{self, Length, MillProject, ProjectFiles, Settings};
 use voromill::report::document::WarningEntry;
 use voromill::report::thinning::Thinning;
@@ -261,6 +261,20 @@ impl Input {
         let area = Rect::new(Point::default(), Point::default() + Vector::new(width, height));
         let grid = Grid::covering(area, picture.pixel).map_err(job::Error::from)?;
         Ok(Some(Thinning::of_pixels(grid, |at| !picture.is_copper[at])))
+    }
+
+    /// The same, where the picture lies on the board as it is: none that was moved onto another.
+    pub(super) fn thinned_as_it_lies(
+        &self,
+        settings: &Settings,
+        side: Side,
+        loaded: &Loaded,
+    ) -> Result<Option<Thinning>, Failure> {
+        let moved = |warning: &Warning| warning.is(&diagnostic::PICTURES_REGISTERED);
+        if side == Side::Back && loaded.warnings.iter().any(moved) {
+            return Ok(None);
+        }
+        self.thinned(settings, side)
     }
 
     fn drawing(&self) -> Result<drawing::Options, Failure> {

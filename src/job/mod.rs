@@ -28,6 +28,7 @@ mod masking;
 mod merge;
 mod millproject;
 pub mod names;
+mod neighbours;
 mod numbering;
 mod options;
 mod output_name;
@@ -72,6 +73,7 @@ pub use machine::{
 };
 pub use masking::{Masking, mask};
 pub use millproject::{MillProject, ProjectFiles};
+pub use neighbours::neighbours;
 pub use options::Options;
 pub use output_name::{OutputName, ParseOutputNameError};
 pub use overlap::{Overlap, ParseOverlapError};
