@@ -81,7 +81,7 @@ impl NeighboursEntry {
                 .filter(|(pair, _)| !others.contains_key(*pair))
                 .map(|(_, entry)| entry.clone())
                 .collect();
-            alone.sort_by(|a, b| b.boundary_mm.0.cmp(&a.boundary_mm.0));
+            alone.sort_by_key(|entry| std::cmp::Reverse(entry.boundary_mm.0));
             alone
         };
         let mut merged: BTreeMap<u32, Vec<String>> = BTreeMap::new();
