@@ -383,9 +383,10 @@ fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure
         .filter(|source| !source.role.starts_with("ignored"))
         .map(|source| Origin { file: source.file.clone(), design: source.design.clone() });
     // What is said of boards and their outlines is of no use here; and what a solder mask calls
-    // negative, what it draws, are its openings.
+    // negative, what it draws, are its openings. Letters may be slanted.
     let is_of_use = |kind: &Diagnostic| {
-        !kind.is_of_the_outline() && ![diagnostic::NEGATIVE_FILE, diagnostic::COPPER_MISSING].contains(kind)
+        let of_boards = [diagnostic::NEGATIVE_FILE, diagnostic::COPPER_MISSING, diagnostic::PICTURE_SKEWED];
+        !kind.is_of_the_outline() && !of_boards.contains(kind)
     };
     let warnings = loaded.warnings.into_iter().filter(|warning| is_of_use(warning.kind));
     Ok(Art { name: loaded.board.name, areas, inputs: inputs.collect(), warnings: warnings.collect() })

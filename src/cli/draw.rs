@@ -203,16 +203,9 @@ impl Draw {
         (format, grid): (Format, Grid),
     ) -> Result<(), Failure> {
         let whole = format == Format::Png && self.window.is_none();
-        let pixels = if whole { self.input.pixels(settings, side)? } else { None };
-        let thinning = match pixels {
-            Some(picture) => {
-                let count = |pixels: usize| i64::try_from(pixels).unwrap_or(i64::MAX);
-                let size = [picture.width, picture.height].map(|pixels| picture.pixel * count(pixels));
-                let corner = Point::default() + Vector::new(size[0], size[1]);
-                let area = Rect::new(Point::default(), corner);
-                let grid = Grid::covering(area, picture.pixel).map_err(job::Error::from)?;
-                Thinning::of_pixels(grid, |at| !picture.is_copper[at])
-            }
+        let own = if whole { self.input.thinned(settings, side)? } else { None };
+        let thinning = match own {
+            Some(thinning) => thinning,
             None => {
                 let copper = board.copper(side).ok_or_else(|| no_copper(side))?;
                 Thinning::of_side(copper, &board.holes, grid)

@@ -4,12 +4,15 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use voromill::board::Side;
+use voromill::board::{Side, Warning};
+use voromill::geometry::{Nm, ParseLengthError, Point, Rect, Vector};
+use voromill::grid::Grid;
 use voromill::import::drawing::{self, Unit};
 use voromill::import::picture::Pixels;
-use voromill::import::{self, Loaded, Selection, picture};
-use voromill::job::{Length, MillProject, ProjectFiles, Settings};
+use voromill::import::{self, Loaded, Selection, diagnostic, picture};
+use voromill::job::{self, Length, MillProject, ProjectFiles, Settings};
 use voromill::report::document::WarningEntry;
+use voromill::report::thinning::Thinning;
 
 use super::Failure;
 
@@ -63,6 +66,21 @@ pub(super) struct Input {
     #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
     picture_width: Option<Length>,
 
+    /// Distance of neighbouring pins, such as 2.54mm, instead of --picture-dpi: the resolution is
+    /// found by the grid of the drill dots
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        value_parser = pitch,
+        conflicts_with_all = ["picture_dpi", "picture_width"],
+        help_heading = "Pictures"
+    )]
+    picture_pitch: Option<Length>,
+
+    /// Turn a scan back, by the directions of its edges; up to 15 degrees
+    #[arg(long, help_heading = "Pictures")]
+    straighten: bool,
+
     /// Which part of a picture is copper [default: the rarer]
     #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
     copper: Option<Colour>,
@@ -104,6 +122,13 @@ pub(super) enum Colour {
 pub(super) fn dpi(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| (10.0..=30_000.0).contains(number));
     number.ok_or_else(|| "expected from 10 to 30000 pixels per inch".to_owned())
+}
+
+fn pitch(text: &str) -> Result<Length, String> {
+    let length: Length = text.parse().map_err(|error: ParseLengthError| error.to_string())?;
+    let range = Nm::from_um(100)..=Nm::from_mm(100);
+    let is_meant = range.contains(&length.nm());
+    is_meant.then_some(length).ok_or_else(|| "expected from 0.1mm to 100mm, such as 2.54mm".to_owned())
 }
 
 fn area(text: &str) -> Result<f64, String> {
@@ -197,6 +222,8 @@ impl Input {
             dpi: self.picture_dpi,
             dpi_unless_said: settings.options().dpi.map(f64::from),
             width: self.picture_width.map(Length::nm),
+            pitch: self.picture_pitch.map(Length::nm),
+            straighten: self.straighten,
             colour: match self.copper {
                 None => picture::Colour::Rarer,
                 Some(Colour::Dark) => picture::Colour::Dark,
@@ -209,19 +236,45 @@ impl Input {
         }
     }
 
-    /// The pixels of the picture that shows `side`; none where it is no picture.
+    /// The pixels of the picture that shows `side`; none where it is no picture, or is to be
+    /// turned.
     pub(super) fn pixels(&self, settings: &Settings, side: Side) -> Result<Option<Pixels>, Failure> {
         let named = match side {
             Side::Front => self.front.as_ref().or(self.paths.first()),
             Side::Back => self.back.as_ref(),
         };
-        let Some(path) = named.filter(|path| path.is_file()) else { return Ok(None) };
+        let Some(path) = named.filter(|path| path.is_file() && !self.straighten) else { return Ok(None) };
         let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
         if !picture::is_picture(path, &bytes) {
             return Ok(None);
         }
         let shown = path.display().to_string();
         Ok(Some(picture::pixels(&shown, &bytes, &self.picture(settings))?))
+    }
+
+    /// The picture that shows `side`, thinned by its own pixels; none where it is no picture, or is
+    /// to be turned.
+    pub(super) fn thinned(&self, settings: &Settings, side: Side) -> Result<Option<Thinning>, Failure> {
+        let Some(picture) = self.pixels(settings, side)? else { return Ok(None) };
+        let count = |pixels: usize| i64::try_from(pixels).unwrap_or(i64::MAX);
+        let [width, height] = [picture.width, picture.height].map(|pixels| picture.pixel * count(pixels));
+        let area = Rect::new(Point::default(), Point::default() + Vector::new(width, height));
+        let grid = Grid::covering(area, picture.pixel).map_err(job::Error::from)?;
+        Ok(Some(Thinning::of_pixels(grid, |at| !picture.is_copper[at])))
+    }
+
+    /// The same, where the picture lies on the board as it is: none that was moved onto another.
+    pub(super) fn thinned_as_it_lies(
+        &self,
+        settings: &Settings,
+        side: Side,
+        loaded: &Loaded,
+    ) -> Result<Option<Thinning>, Failure> {
+        let moved = |warning: &Warning| warning.is(&diagnostic::PICTURES_REGISTERED);
+        if side == Side::Back && loaded.warnings.iter().any(moved) {
+            return Ok(None);
+        }
+        self.thinned(settings, side)
     }
 
     fn drawing(&self) -> Result<drawing::Options, Failure> {

@@ -1,7 +1,7 @@
 //! `voromill inspect`: what is in the files, before anything is made of them.
 
 use clap::Args;
-use voromill::job::{Pattern, coupling, inspect, paper};
+use voromill::job::{Pattern, coupling, inspect, neighbours, paper};
 
 use super::config::Config;
 use super::format::Format;
@@ -43,6 +43,11 @@ pub(super) struct Inspect {
     )]
     coupling: Option<Vec<Pattern>>,
 
+    /// Add which nets are neighbours by thinning (`draw --stage thinning`) and which by Voronoi
+    /// regions, with the places of those that only one of them has
+    #[arg(long)]
+    thinning: bool,
+
     #[command(flatten)]
     config: Config,
 }
@@ -56,6 +61,13 @@ impl Inspect {
         if self.paper {
             for layer in &mut inspection.layers {
                 layer.paper = paper(&loaded.board, layer.side)?;
+            }
+        }
+        if self.thinning {
+            for layer in &mut inspection.layers {
+                let Some(copper) = loaded.board.copper(layer.side) else { continue };
+                let own = self.input.thinned_as_it_lies(&settings, layer.side, &loaded)?;
+                layer.thinning = Some(neighbours(copper, &loaded.board, &settings, own)?);
             }
         }
         if let Some(asked) = &self.coupling {

@@ -22,6 +22,42 @@ diagnostics! {
         "copper and gaps of more than a few pixels",
         "remove specks with {despeckle} 0.05";
 
+    PICTURE_SKEWED: Warning =
+        "picture-skewed",
+        "A picture whose edges run aslant",
+        "edges along the sides of the picture",
+        "turn it back with {straighten}";
+
+    PICTURE_STRAIGHTENED: Info =
+        "picture-straightened",
+        "A picture was straightened",
+        "edges along the sides of the picture",
+        "nothing: this is what {straighten} is for";
+
+    PICTURE_PITCH: Info =
+        "picture-pitch",
+        "The resolution of a picture was found by its drill dots",
+        "drill dots on a grid",
+        "nothing: this is what {picture-pitch} is for";
+
+    PICTURE_PITCH_DISPUTED: Warning =
+        "picture-pitch-disputed",
+        "The drill dots and the file tell resolutions that differ as grids do",
+        "drill dots on the grid of {picture-pitch}",
+        "measure a part on the board, or its width; {picture-pitch} is the distance of neighbouring pins";
+
+    PICTURES_REGISTERED: Info =
+        "pictures-registered",
+        "The picture of the back was moved onto that of the front",
+        "drill dots of both sides at the same places",
+        "nothing, if what is left between the dots is less than a pixel or two";
+
+    PICTURES_NOT_REGISTERED: Warning =
+        "pictures-not-registered",
+        "It is not known how the pictures of the two sides lie on each other",
+        "drill dots that both pictures show: three at least, and most of them",
+        "check that both pictures have the same corner: they are laid corner on corner";
+
     // Of drawings.
 
     DRAWING_GUESSED: Warning =

@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use super::archive::{name_of, read_file};
 use super::build::Loaded;
+use super::diagnostic;
 use super::error::Error;
 use super::naming;
-use super::picture::{is_picture, read};
+use super::picture::{Picture, Registration, Traced, is_picture, register};
 use super::selection::Selection;
-use crate::board::{Attributes, Board, Copper, Side, Source, Words};
+use crate::board::{Attributes, Board, Copper, Side, Source, Warning, Words};
 
 /// The board of pictures among what was named; none where there is no picture.
 pub(super) fn load(paths: &[PathBuf], selection: &Selection) -> Result<Option<Loaded>, Error> {
@@ -42,19 +43,74 @@ pub(super) fn load(paths: &[PathBuf], selection: &Selection) -> Result<Option<Lo
         warnings: Vec::new(),
         ignored: Vec::new(),
     };
-    for (side, path) in [(Side::Front, front), (Side::Back, back)] {
-        if let Some(path) = path {
-            add(&mut loaded, side, path, selection)?;
+    let traced = |path: Option<&PathBuf>| -> Result<Option<Traced>, Error> {
+        let Some(path) = path else { return Ok(None) };
+        let shown = path.display().to_string();
+        Traced::read(&shown, &read_file(path, &shown)?, &selection.picture).map(Some)
+    };
+    let (front_picture, mut back_picture) = (traced(front)?, traced(back)?);
+    if let (Some(seen), Some(path)) = (&front_picture, back) {
+        let moved = |unmoved| registered(seen, unmoved, path, &mut loaded.warnings);
+        back_picture = back_picture.map(moved).transpose()?;
+    }
+    for (side, path, picture) in [(Side::Front, front, front_picture), (Side::Back, back, back_picture)] {
+        if let (Some(path), Some(picture)) = (path, picture) {
+            add(&mut loaded, side, path, picture.picture()?, selection);
         }
     }
     Ok(Some(loaded))
 }
 
-/// Reads the picture of a side. The holes are those of the first one read.
-fn add(loaded: &mut Loaded, side: Side, path: &Path, selection: &Selection) -> Result<(), Error> {
-    let shown = path.display().to_string();
-    let bytes = read_file(path, &shown)?;
-    let picture = read(&shown, &bytes, &selection.picture)?;
+/// The picture of the back, moved onto that of the front by the drill dots of both; as it is where
+/// they do not tell, with a warning.
+fn registered(
+    front: &Traced,
+    back: Traced,
+    path: &Path,
+    warnings: &mut Vec<Warning>,
+) -> Result<Traced, Error> {
+    let (front_dots, back_dots) = (front.dots(), back.dots());
+    let pixel = front.pixel().max(back.pixel());
+    let counts = format!("{} drill dots on the front and {} on the back", front_dots.len(), back_dots.len());
+    let unknown = |why: String| diagnostic::PICTURES_NOT_REGISTERED.warning(why);
+    let warning = match register(&front_dots, &back_dots, pixel) {
+        Registration::Aligned => return Ok(back),
+        Registration::Moved(fit) => {
+            let (x, y) = fit.motion.place((0.0, 0.0));
+            let message = format!(
+                "the picture of the back is turned by {:.3} degrees and its corner moved to {:.3}, {:.3} mm: of {counts}, \
+                 {} meet, {:.1} µm apart on average and {:.1} µm at most",
+                fit.motion.degrees(),
+                x / 1e6,
+                y / 1e6,
+                fit.count,
+                fit.mean / 1e3,
+                fit.worst / 1e3,
+            );
+            warnings.push(diagnostic::PICTURES_REGISTERED.warning(message).on(Side::Back));
+            return Ok(back.moved(&fit.motion));
+        }
+        Registration::Mirrored(count) => {
+            let what = format!(
+                "this picture of the back is mirrored: of {counts}, {count} meet once it is mirrored, and not without"
+            );
+            let hint = "the back is seen from the front: mirror the picture left to right";
+            return Err(Error::content(&path.display().to_string(), what, hint));
+        }
+        Registration::TooFew(_) => unknown(format!("{counts} are too few to lay the pictures on each other")),
+        Registration::Apart(count) => {
+            unknown(format!("of {counts}, {count} at most meet, however the back is turned and moved"))
+        }
+        Registration::Ambiguous(count) => {
+            unknown(format!("of {counts}, {count} meet in more than one way to lay the back on the front"))
+        }
+    };
+    warnings.push(warning.on(Side::Back));
+    Ok(back)
+}
+
+/// Adds the picture of a side. The holes are those of the first one added.
+fn add(loaded: &mut Loaded, side: Side, path: &Path, picture: Picture, selection: &Selection) {
     let copper = Copper { side, features: picture.features, attributes: vec![Attributes::default()] };
     match side {
         Side::Front => loaded.board.front = Some(copper),
@@ -66,5 +122,4 @@ fn add(loaded: &mut Loaded, side: Side, path: &Path, selection: &Selection) -> R
     let role = format!("{side}-copper");
     loaded.sources.push(Source { file: name_of(path), role, ..picture.source });
     loaded.warnings.extend(picture.warnings.into_iter().map(|warning| warning.on(side)));
-    Ok(())
 }

@@ -65,6 +65,7 @@ fn inspected(copper: &Copper, nets: &Nets, outline: Option<&Outline>, settings: 
         methods: differences.map(|differences| MethodsEntry::new(copper, &differences)),
         prediction: PredictionEntry::new(copper, nets, outline, settings.kerf() / 2),
         coupling: None,
+        thinning: None,
         paper: None,
     }
 }

@@ -30,6 +30,7 @@ mod masking;
 mod merge;
 mod millproject;
 pub mod names;
+mod neighbours;
 mod numbering;
 mod options;
 mod output_name;
@@ -76,6 +77,7 @@ pub use machine::{
 };
 pub use masking::{Masking, mask};
 pub use millproject::{MillProject, ProjectFiles};
+pub use neighbours::neighbours;
 pub use options::Options;
 pub use output_name::{OutputName, ParseOutputNameError};
 pub use overlap::{Overlap, ParseOverlapError};

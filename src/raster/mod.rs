@@ -165,6 +165,7 @@ mod bits;
 pub mod blend;
 mod canvas;
 mod cell;
+mod faces;
 mod fragment;
 mod half_plane;
 mod lanes;
@@ -189,6 +190,7 @@ pub mod view;
 use pulp as simd;
 
 pub use bits::{Bits, Node};
+pub use faces::{Faces, Meeting};
 pub use fragment::{Fragment, Label};
 pub use palette::Palette;
 pub use pick::{Picker, Picks};

@@ -9,6 +9,7 @@ use crate::board::{Side, Source};
 use super::coupling::CouplingEntry;
 use super::document::{DrillEntry, GapEntry, NetEntry, WarningEntry};
 use super::methods::MethodsEntry;
+use super::neighbours::NeighboursEntry;
 use super::paper::PaperEntry;
 use super::prediction::PredictionEntry;
 use super::quantity::Millimetres;
@@ -60,6 +61,9 @@ pub struct InspectedLayer {
     /// How strongly neighbouring nets are coupled, where that was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub coupling: Option<CouplingEntry>,
+    /// How its neighbours by thinning compare, where that was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thinning: Option<NeighboursEntry>,
     /// The paper's figures, where they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub paper: Option<PaperEntry>,
@@ -160,6 +164,7 @@ fn layer(layer: &InspectedLayer, verbose: bool) -> String {
     text.extend(layer.methods.as_ref().map(|methods| methods.to_text(verbose)));
     text.extend(layer.prediction.as_ref().map(PredictionEntry::to_text));
     text.extend(layer.coupling.as_ref().map(|coupling| coupling.to_text(verbose)));
+    text.extend(layer.thinning.as_ref().map(|thinning| thinning.to_text(verbose)));
     text.extend(layer.paper.as_ref().map(PaperEntry::to_text));
     text
 }

@@ -15,6 +15,7 @@ pub mod legend;
 mod lettering;
 pub mod mask;
 pub mod methods;
+pub mod neighbours;
 pub mod page;
 mod palette;
 pub mod paper;

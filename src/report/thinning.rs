@@ -6,7 +6,7 @@
 
 use crate::board::{Axis, Copper, Feature, Hole, Shape};
 use crate::grid::Grid;
-use crate::raster::{Bits, Node, Thinned, thin};
+use crate::raster::{Bits, Faces, Node, Thinned, thin};
 
 use super::palette::Rgb;
 use super::{Canvas, picture};
@@ -77,6 +77,24 @@ impl Thinning {
             four_way: count(Node::Four),
             routes: left.routes(),
         }
+    }
+
+    /// The faces between its lines, each with its copper.
+    #[must_use]
+    pub fn faces(&self) -> Faces {
+        Faces::new(&self.thinned.left)
+    }
+
+    /// The pixels that are thinned.
+    #[must_use]
+    pub const fn grid(&self) -> &Grid {
+        &self.grid
+    }
+
+    /// Whether a pixel, numbered row by row from the top, is copper and no hole in it.
+    #[must_use]
+    pub fn is_copper(&self, pixel: usize) -> bool {
+        self.thinned.ages[pixel] == 0
     }
 
     /// How long each pixel took to go, black to white; lines white, the places where they meet blue

@@ -32,6 +32,13 @@ impl Field {
         self.height
     }
 
+    /// Pixels across and down.
+    #[must_use]
+    #[expect(clippy::cast_precision_loss, reason = "a picture is less than 2¹⁶ pixels wide")]
+    pub const fn size(&self) -> (f64, f64) {
+        (self.width as f64, self.height as f64)
+    }
+
     /// All samples.
     #[must_use]
     pub fn samples(&self) -> &[u16] {

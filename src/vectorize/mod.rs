@@ -23,5 +23,5 @@ mod trace;
 
 pub use field::{Field, Inside};
 pub use level::{Level, level};
-pub use straighten::straighten;
+pub use straighten::{Edge, edges, straighten};
 pub use trace::{Contour, contours};

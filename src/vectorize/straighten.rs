@@ -25,7 +25,7 @@ pub fn straighten(points: &[Place], tolerance: f64) -> Vec<Place> {
     }
     let start = sharpest(points);
     let ring: Vec<Place> = points[start..].iter().chain(&points[..start]).copied().collect();
-    let corners = corners(&ring, tolerance);
+    let corners = corners(&ring, tolerance, BOW);
     if corners.len() < 3 {
         return points.to_vec();
     }
@@ -36,6 +36,41 @@ pub fn straighten(points: &[Place], tolerance: f64) -> Vec<Place> {
         meet(before, &lines[at], ring[corners[at]])
     };
     (0..corners.len()).map(moved).collect()
+}
+
+/// A straight piece of a contour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Edge {
+    /// The direction of the line that fits its points best, of length one; x to the right, y down.
+    pub way: Place,
+    /// How long it is, in pixels.
+    pub length: f64,
+}
+
+/// The straight pieces of a closed line through `points`, each within `tolerance` of them, whether
+/// they bow or not.
+///
+/// Where a staircase has few steps, each of which is a bow, nothing is to be cut at a step: what is
+/// left between steps runs along the pixels.
+#[must_use]
+pub fn edges(points: &[Place], tolerance: f64) -> Vec<Edge> {
+    /// Points at either end that may be of a bend. Chosen.
+    const BEND: usize = 4;
+    if points.len() < 8 {
+        return Vec::new();
+    }
+    let start = sharpest(points);
+    let ring: Vec<Place> = points[start..].iter().chain(&points[..start]).copied().collect();
+    let corners = corners(&ring, tolerance, tolerance);
+    let ends = corners.iter().copied().zip(corners.iter().copied().skip(1).chain([ring.len()]));
+    let edge = |(from, to): (usize, usize)| {
+        let (a, b) = (ring[from], ring[to % ring.len()]);
+        let length = libm::hypot(b.0 - a.0, b.1 - a.1);
+        // Where it bends at its ends is none of it.
+        let trimmed = if to - from > 4 * BEND { (from + BEND, to - BEND) } else { (from, to) };
+        Edge { way: Line::fit(&ring, trimmed.0, trimmed.1).way, length }
+    };
+    ends.map(edge).collect()
 }
 
 /// The point at which the contour turns most: a corner, where it has one.
@@ -52,12 +87,12 @@ fn sharpest(points: &[Place]) -> usize {
 }
 
 /// Where the ring turns, beginning with its first point: indices.
-fn corners(ring: &[Place], tolerance: f64) -> Vec<usize> {
+fn corners(ring: &[Place], tolerance: f64, bow: f64) -> Vec<usize> {
     let mut corners = vec![0];
     let mut from = 0;
     // The point that a line begins at may itself be off by the tolerance, to the other side.
     while let Some(to) = farthest(ring, from, tolerance * 2.0) {
-        let to = fitting(ring, from, to, tolerance);
+        let to = fitting(ring, from, to, (tolerance, bow));
         if to >= ring.len() {
             break;
         }
@@ -69,7 +104,7 @@ fn corners(ring: &[Place], tolerance: f64) -> Vec<usize> {
 
 /// The last point up to `to` that a fitted line from `from` reaches within the tolerance, found by
 /// halving.
-fn fitting(ring: &[Place], from: usize, to: usize, tolerance: f64) -> usize {
+fn fitting(ring: &[Place], from: usize, to: usize, (tolerance, bow): (f64, f64)) -> usize {
     let fits = |to: usize| {
         let line = Line::fit(ring, from, to);
         let off = |at: usize| line.off(ring[at % ring.len()]);
@@ -80,7 +115,7 @@ fn fitting(ring: &[Place], from: usize, to: usize, tolerance: f64) -> usize {
         let third = (to - from) / 3;
         let middle = mean(from + third..to - third);
         let outer = f64::midpoint(mean(from..from + third), mean(to - third..to));
-        (from + 1..to).all(|at| off(at).abs() <= tolerance) && (middle - outer).abs() <= BOW
+        (from + 1..to).all(|at| off(at).abs() <= tolerance) && (middle - outer).abs() <= bow
     };
     if fits(to) {
         return to;

@@ -13,12 +13,13 @@ use super::cli::{stderr, stdout, voromill};
 const OPEN: [&str; 2] = ["settings", "counts"];
 
 /// What writes reports, between them all keys; @ is the folder of the fixtures.
-const RUNS: [&str; 12] = [
+const RUNS: [&str; 13] = [
     "mill @boards/unsafe-gap -o a -vv --strategy auto",
     "mill @boards/unsafe-gap/unsafe-gap-F_Cu.gbr -o b --name unsafe-gap --topology translucency --tool endmill:0.0905mm",
     "mill @boards/blinker -o c --tool endmill:0.55mm --no-verify",
     "mill @sloppy -o d",
     "inspect @boards/unsafe-gap --topology all --coupling=*",
+    "inspect pads.png --picture-dpi 100 --thinning",
     "inspect @figures/overlaps.gbr --topology all --paper",
     "verify a --board @boards/unsafe-gap",
     "verify @verify/arcs.nc --board @verify/pads-F_Cu.gbr --tool endmill:0.2mm --side front",
@@ -74,6 +75,7 @@ fn every_key_is_documented_and_every_documented_key_is_written() {
     let documented = documented();
     let mut written: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     let mut unknown: Vec<String> = Vec::new();
+    super::thinning::pads(12).save(folder.path().join("pads.png")).expect("written");
     for run in RUNS {
         let words: Vec<String> = run.split(' ').map(|word| word.replace('@', fixtures)).collect();
         let run: Vec<&str> = words.iter().map(String::as_str).chain(["--format", "json"]).collect();

@@ -54,6 +54,7 @@ mod random_boards;
 mod raster;
 mod real_boards;
 mod rules;
+mod scans;
 mod sets;
 mod snapshot;
 mod strategies;

@@ -60,6 +60,8 @@ const OPTIONS: Options = Options {
     dpi: None,
     dpi_unless_said: Some(600.0),
     width: None,
+    pitch: None,
+    straighten: false,
     colour: Colour::Rarer,
     invert: false,
     despeckle: 0.0,
@@ -230,7 +232,7 @@ fn what_is_no_artwork_is_refused_with_its_reason() {
 }
 
 /// The sum of a chunk of a PNG (ISO 3309).
-fn crc(bytes: &[u8]) -> u32 {
+pub(crate) fn crc(bytes: &[u8]) -> u32 {
     let step = |sum: u32, _| if sum & 1 == 1 { 0xEDB8_8320 ^ (sum >> 1) } else { sum >> 1 };
     !bytes.iter().fold(u32::MAX, |sum, &byte| (0..8).fold(sum ^ u32::from(byte), step))
 }

@@ -66,6 +66,50 @@ fn words_of_pixels_and_pixels_are_thinned_alike() {
     }
 }
 
+/// So many columns and rows of square pads, 30 pixels apart, of different sizes and a little out of
+/// line: four regions meet nearly in a point between each four of them.
+pub(crate) fn pads(count: u32) -> image::GrayImage {
+    let hash = |column: u32, row: u32| (column * 7919 + row * 104_729 + 13).wrapping_mul(0x9e37_79b9) >> 20;
+    image::GrayImage::from_fn(count * 30, count * 30, |x, y| {
+        let hash = hash(x / 30, y / 30);
+        let (left, top, side) = (4 + hash % 4, 4 + hash / 4 % 4, 16 + hash / 16 % 4);
+        let is_pad = (left..left + side).contains(&(x % 30)) && (top..top + side).contains(&(y % 30));
+        image::Luma([if is_pad { 255 } else { 0 }])
+    })
+}
+
+/// What `inspect --thinning` says of a picture with pixels of a tenth of a millimetre.
+fn neighbours(picture: &image::GrayImage) -> serde_json::Value {
+    let folder = tempfile::tempdir().expect("a folder");
+    picture.save(folder.path().join("pads.png")).expect("written");
+    let line = "inspect pads.png --picture-dpi 254 --copper light --thinning --format json";
+    let done = super::cli::voromill(folder.path(), &line.split(' ').collect::<Vec<_>>());
+    let report: serde_json::Value = serde_json::from_slice(&done.stdout).expect("JSON");
+    report["layers"][0]["thinning"].clone()
+}
+
+#[test]
+fn neighbours_by_thinning_are_those_of_regions_but_for_short_boundaries() {
+    let row = image::GrayImage::from_fn(100, 30, |x, y| {
+        let is_pad = (5..25).contains(&y) && (x % 33 > 5) && x < 94;
+        image::Luma([if is_pad { 255 } else { 0 }])
+    });
+    let found = neighbours(&row);
+    assert_eq!(found["common"], 2, "three pads in a row: {found}");
+    let none = |key: &str| found[key].as_array().is_some_and(Vec::is_empty);
+    assert!(none("only_voronoi") && none("only_thinning") && none("merged"), "{found}");
+    let found = neighbours(&pads(12));
+    assert!(found["common"].as_u64() >= Some(2 * 12 * 11), "all that lie side by side: {found}");
+    for key in ["only_voronoi", "only_thinning"] {
+        let alone = found[key].as_array().expect("a list");
+        assert!(!alone.is_empty(), "four that meet nearly in a point: {found}");
+        for entry in alone {
+            let length = entry["boundary_mm"].as_f64().expect("a length");
+            assert!(length < 0.6, "six pixels at most: {entry}");
+        }
+    }
+}
+
 #[test]
 fn the_number_of_threads_does_not_matter() {
     let set = Bits::new(700, 300, |x, y| (x * x + y * 37) % 97 > 30 || (x / 20 + y / 20) % 2 == 0);

@@ -1,14 +1,21 @@
 //! Drill dots: round bare blobs in pads, which are holes, with the diameters that they have.
 
+use std::ops::RangeInclusive;
+
 use crate::board::{Hole, Plating};
 use crate::geometry::{Nm, Path};
 use crate::vectorize::{Contour, Field, Inside};
 
-use super::Scale;
+use super::motion::Place;
+use super::scale::Scale;
 
 /// The smallest and the widest dot, in nanometres. Chosen: from vias to terminals; a wider opening
 /// is more often a ring or a clearance than the mark for a drill.
-const DIAMETERS: std::ops::RangeInclusive<f64> = 0.25e6..=1.6e6;
+const DIAMETERS: RangeInclusive<f64> = 0.25e6..=1.6e6;
+
+/// The narrowest dot, in pixels, and the widest one, in parts of the lower side of the picture,
+/// where it is not known how large a pixel is. Chosen.
+const PIXELS: (f64, f64) = (4.0, 0.05);
 
 /// How far a dot's edge may leave a circle: a part of its radius, and a part of a pixel.
 const ROUNDNESS: (f64, f64) = (0.05, 0.55);
@@ -31,16 +38,11 @@ pub(super) fn part(
     inside: Inside,
     scale: &Scale,
 ) -> (Vec<Hole>, Vec<Contour>) {
-    // A place of every island: a blob that holds one is no dot.
-    let islands: Vec<(f64, f64)> = contours
-        .iter()
-        .filter(|contour| scale.area(contour) > 0.0)
-        .filter_map(|contour| contour.points.first().map(|&p| scale.nanometres(p)))
-        .collect();
+    let islands = islands(&contours, scale);
     let mut dots = Vec::new();
     let mut left = Vec::with_capacity(contours.len());
     for contour in contours {
-        let dot = Dot::of(&contour, scale);
+        let dot = Dot::of(&contour, scale, &DIAMETERS);
         match dot.filter(|dot| dot.is_empty(&islands) && dot.is_in_a_pad(field, inside, scale)) {
             Some(dot) => dots.push(dot),
             None => left.push(contour),
@@ -49,12 +51,30 @@ pub(super) fn part(
     (drilled(dots, scale), left)
 }
 
+/// The middles of dots where it is not known how large a pixel is: in the unit of the `scale`,
+/// which is about a pixel.
+pub(super) fn middles(contours: &[Contour], field: &Field, inside: Inside, scale: &Scale) -> Vec<Place> {
+    let islands = islands(contours, scale);
+    let (columns, rows) = field.size();
+    let diameters = PIXELS.0..=f64::max(columns.min(rows) * PIXELS.1, PIXELS.0);
+    let dots = contours.iter().filter_map(|contour| Dot::of(contour, scale, &diameters));
+    dots.filter(|dot| dot.is_empty(&islands) && dot.is_in_a_pad(field, inside, scale))
+        .map(|dot| dot.center)
+        .collect()
+}
+
+/// A place of every island: a blob that holds one is no dot.
+fn islands(contours: &[Contour], scale: &Scale) -> Vec<Place> {
+    let islands = contours.iter().filter(|contour| scale.area(contour) > 0.0);
+    islands.filter_map(|contour| contour.points.first().map(|&p| scale.nanometres(p))).collect()
+}
+
 /// Dots of which each differs from the next by less than a quarter of a pixel are of one drill:
 /// their mean, to a hundredth of a millimetre.
 fn drilled(dots: Vec<Dot>, scale: &Scale) -> Vec<Hole> {
     /// In nanometres. Chosen: drills are sold by tenths of a millimetre.
     const STEP: f64 = 1e4;
-    let pixel = scale.pixel.0.max(scale.pixel.1);
+    let pixel = scale.longer();
     let mut order: Vec<usize> = (0..dots.len()).collect();
     order.sort_by(|&a, &b| dots[a].radius.total_cmp(&dots[b].radius).then(a.cmp(&b)));
     let mut holes: Vec<Option<Hole>> = vec![None; dots.len()];
@@ -78,10 +98,10 @@ struct Dot {
 
 impl Dot {
     /// The circle that a hole's contour is; none where it is none.
-    fn of(contour: &Contour, scale: &Scale) -> Option<Self> {
+    fn of(contour: &Contour, scale: &Scale, diameters: &RangeInclusive<f64>) -> Option<Self> {
         let area = scale.area(contour) * -1e12;
         let radius = (area.max(0.0) / std::f64::consts::PI).sqrt();
-        if !DIAMETERS.contains(&(radius * 2.0)) {
+        if !diameters.contains(&(radius * 2.0)) {
             return None;
         }
         let points = || contour.points.iter().map(|&p| scale.nanometres(p));
@@ -95,12 +115,12 @@ impl Dot {
             (x, y, twice) = (x + (ax + bx) * cross, y + (ay + by) * cross, twice + cross);
         }
         let center = (x0 + x / (3.0 * twice), y0 + y / (3.0 * twice));
-        let most = radius * ROUNDNESS.0 + scale.pixel.0.max(scale.pixel.1) * ROUNDNESS.1;
+        let most = radius * ROUNDNESS.0 + scale.longer() * ROUNDNESS.1;
         let is_round = points().all(|p| (distance(p, center) - radius).abs() <= most);
         is_round.then_some(Self { center, radius })
     }
 
-    fn is_empty(&self, islands: &[(f64, f64)]) -> bool {
+    fn is_empty(&self, islands: &[Place]) -> bool {
         islands.iter().all(|&p| distance(p, self.center) > self.radius)
     }
 

@@ -2,17 +2,23 @@
 //!
 //! ```text
 //!  bytes ─ decode ─▶ one value a pixel ─ vectorize ─▶ contours ─ dots ─▶ holes, copper
-//!             └ resolution ──────────────────────────────┘ pixels to nanometres
+//!             └ resolution, or lattice of dots ─── skew ──┘ pixels to nanometres
 //! ```
 //!
-//! A picture is seen from the front. Its lower left corner is zero. The contours run where the
+//! A picture is seen from the front. Its lower left corner is zero. One that was turned is turned
+//! back about its middle: not its pixels, but the contours found in them. These run where the
 //! interpolated picture passes midway between the two classes that Otsu's method finds, so that
 //! greys at an edge place it within a pixel; they become as few straight lines as the pixels leave
 //! open.
 
 mod decode;
 mod dots;
+mod lattice;
+mod motion;
+mod register;
 mod resolution;
+mod scale;
+mod skew;
 
 use std::collections::BTreeMap;
 
@@ -24,8 +30,12 @@ use super::diagnostic;
 use super::error::Error;
 
 use decode::Decoded;
+use scale::Scale;
+use skew::Skew;
 
 pub use decode::{DECODER, is_picture};
+pub(super) use motion::Motion;
+pub(super) use register::{Registration, register};
 
 /// Which pixels of a picture are copper.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -48,6 +58,10 @@ pub struct Options {
     pub dpi_unless_said: Option<f64>,
     /// The width of the whole picture.
     pub width: Option<Nm>,
+    /// The grid of its drill dots, by which its resolution is found.
+    pub pitch: Option<Nm>,
+    /// Whether a picture whose edges run aslant is turned back.
+    pub straighten: bool,
     /// Which pixels are copper.
     pub colour: Colour,
     /// Whether it is the others after all.
@@ -85,40 +99,179 @@ const SEPARATION: f64 = 0.9;
 ///
 /// # Errors
 ///
-/// [`Error`] for what is no picture, is broken or too large, does not say how large a pixel is, or
-/// shows no two colours that tell copper from bare board.
+/// [`Error`] for what is no picture, is broken or too large, does not say how large a pixel is,
+/// shows no two colours that tell copper from bare board, or shall be straightened and has no edges
+/// that run alike.
 pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Picture, Error> {
-    let decoded = decode::decode(name, bytes, options)?;
-    let scale = Scale::of(name, &decoded, options)?;
-    let level = two_colours(name, &decoded.field)?;
-    let mut warnings = Vec::new();
-    let is_high = copper_is_high(&level, decoded.is_bright, options, &mut warnings);
-    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "means of samples")]
-    let bare = if is_high { level.low as u16 } else { level.high as u16 };
-    let inside = Inside::new(level.middle, is_high, bare);
-    let traced = vectorize::contours(&decoded.field, inside, MOST_POINTS);
-    let contours = traced.filter(|contours| contours.len() <= MOST_CONTOURS).ok_or_else(|| {
+    Traced::read(name, bytes, options)?.picture()
+}
+
+/// A picture as the contours of its copper: it may still be moved.
+pub(super) struct Traced {
+    name: String,
+    contours: Vec<Contour>,
+    /// Drill dots, as the picture lies.
+    dots: Vec<Hole>,
+    scale: Scale,
+    /// How far a straight line may leave the points of a contour, in pixels.
+    tolerance: f64,
+    source: Source,
+    warnings: Vec<Warning>,
+}
+
+impl Traced {
+    /// As [`read`], as far as contours go.
+    pub(super) fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Self, Error> {
+        let decoded = decode::decode(name, bytes, options)?;
+        let told = if options.pitch.is_none() { Some(Scale::of(name, &decoded, options)?) } else { None };
+        let level = two_colours(name, &decoded.field)?;
+        let mut warnings = Vec::new();
+        let inside = inside(&level, decoded.is_bright, options, &mut warnings);
+        let contours = contours(name, &decoded.field, inside)?;
+        let tolerance = tolerance(&decoded.field, &level);
+        let scale = match told {
+            Some(scale) => scale,
+            None => by_dots(name, &decoded, inside, &contours, tolerance, options, &mut warnings)?,
+        };
+        let scale = straight(name, scale, &decoded, &contours, tolerance, options, &mut warnings)?;
+        let contours = scale.without_specks(contours, options.despeckle, &mut warnings);
+        let (dots, contours) = dots::part(contours, &decoded.field, inside, &scale);
+        let source = source(name, bytes, &decoded, &scale);
+        Ok(Self { name: name.to_owned(), contours, dots, scale, tolerance, source, warnings })
+    }
+
+    /// Its drill dots, as the board lies.
+    pub(super) fn dots(&self) -> Vec<Hole> {
+        let Some(motion) = self.scale.motion else { return self.dots.clone() };
+        let moved = |dot: &Hole| {
+            let mut hole = dot.clone();
+            hole.path.start = motion.point(hole.path.start);
+            hole
+        };
+        self.dots.iter().map(moved).collect()
+    }
+
+    /// The longer side of a pixel, in nanometres.
+    pub(super) const fn pixel(&self) -> f64 {
+        self.scale.longer()
+    }
+
+    /// The same, moved on the board.
+    #[must_use]
+    pub(super) fn moved(self, motion: &Motion) -> Self {
+        let moved = |warning: Warning| Warning { at: warning.at.map(|at| motion.point(at)), ..warning };
+        let warnings = self.warnings.into_iter().map(moved).collect();
+        Self { scale: self.scale.moved(*motion), warnings, ..self }
+    }
+
+    /// The picture, read.
+    ///
+    /// # Errors
+    ///
+    /// [`Error`] where no copper is left of it.
+    pub(super) fn picture(self) -> Result<Picture, Error> {
+        let holes = self.dots();
+        let copper = straightened(&self.contours, &self.scale, self.tolerance);
+        if copper.is_empty() {
+            let hint = Words::of(
+                "set the colour of copper with {copper} dark or {copper} light, or leave {despeckle} out",
+            );
+            return Err(Error::content(&self.name, "no copper is left of the picture", hint));
+        }
+        let feature =
+            |polygon| Feature { shape: Shape::Polygon(polygon), axis: Axis::Region, attributes: 0, line: 1 };
+        let features: Vec<Feature> = copper.into_iter().map(feature).collect();
+        let counts = [("regions", features.len()), ("holes", holes.len())];
+        let counts = counts.into_iter().map(|(what, count)| (what.to_owned(), count as u64)).collect();
+        Ok(Picture { features, holes, source: Source { counts, ..self.source }, warnings: self.warnings })
+    }
+}
+
+/// The contours of what is inside.
+fn contours(name: &str, field: &Field, inside: Inside) -> Result<Vec<Contour>, Error> {
+    let traced = vectorize::contours(field, inside, MOST_POINTS);
+    traced.filter(|contours| contours.len() <= MOST_CONTOURS).ok_or_else(|| {
         let what = "it has too many specks for artwork: noise, or a photo";
         Error::content(
             name,
             what,
             Words::of("scan or draw the copper in two colours, or cut a part out with {crop}"),
         )
-    })?;
-    let contours = scale.without_specks(contours, options.despeckle, &mut warnings);
-    let (dots, contours) = dots::part(contours, &decoded.field, inside, &scale);
-    let copper = straightened(&contours, &scale, tolerance(&decoded.field, &level));
-    if copper.is_empty() {
-        let hint = Words::of(
-            "set the colour of copper with {copper} dark or {copper} light, or leave {despeckle} out",
-        );
-        return Err(Error::content(name, "no copper is left of the picture", hint));
+    })
+}
+
+/// The scale at which the drill dots lie on the grid that was told.
+fn by_dots(
+    name: &str,
+    decoded: &Decoded,
+    inside: Inside,
+    contours: &[Contour],
+    tolerance: f64,
+    options: &Options,
+    warnings: &mut Vec<Warning>,
+) -> Result<Scale, Error> {
+    let shape = lattice::shape(decoded);
+    let pixels = Scale::of_pixels(decoded, shape);
+    let turned = match skew::skew(contours, &pixels, tolerance > GREYS) {
+        Skew::Turned(angle, _) | Skew::TooFar(angle) => angle,
+        Skew::Unknown => 0.0,
+    };
+    let upright = Motion::new(-turned, (0.0, 0.0), (0.0, 0.0));
+    let dots: Vec<_> = dots::middles(contours, &decoded.field, inside, &pixels)
+        .into_iter()
+        .map(|p| upright.place(p))
+        .collect();
+    lattice::scale(name, decoded, shape, &dots, options.pitch.unwrap_or_default(), warnings)
+}
+
+/// The scale with the turn that makes edges run along the axes, where that is asked for; else what
+/// is to be said of their skew.
+fn straight(
+    name: &str,
+    scale: Scale,
+    decoded: &Decoded,
+    contours: &[Contour],
+    tolerance: f64,
+    options: &Options,
+    warnings: &mut Vec<Warning>,
+) -> Result<Scale, Error> {
+    let by_hand = Words::of("turn it in a picture program, and leave {straighten} out");
+    let turned = |angle: f64| {
+        let way = if angle > 0.0 { "counter-clockwise" } else { "clockwise" };
+        format!("{:.3} degrees {way}", angle.to_degrees().abs())
+    };
+    match skew::skew(contours, &scale, tolerance > GREYS) {
+        Skew::Turned(angle, doubt) if options.straighten && angle.abs() < doubt => {
+            let doubt = doubt.to_degrees();
+            let message = format!("the picture is straight to {doubt:.2} degrees, and stays as it is");
+            warnings.push(diagnostic::PICTURE_STRAIGHTENED.warning(message));
+            Ok(scale)
+        }
+        Skew::Turned(angle, _) if options.straighten => {
+            let message = format!("the picture was turned by {}, and is turned back", turned(angle));
+            warnings.push(diagnostic::PICTURE_STRAIGHTENED.warning(message));
+            let (columns, rows) = decoded.field.size();
+            let middle = scale.nanometres((columns / 2.0, rows / 2.0));
+            Ok(scale.moved(Motion::new(-angle, middle, middle)))
+        }
+        Skew::Turned(angle, _) if angle.abs() >= skew::SEEN => {
+            let message = format!("most edges of the picture are turned by {}", turned(angle));
+            warnings.push(diagnostic::PICTURE_SKEWED.warning(message));
+            Ok(scale)
+        }
+        Skew::TooFar(angle) if options.straighten => {
+            let what = format!(
+                "the picture cannot be straightened: most of its edges are turned by {}, at most 15 degrees can be told from a diagonal",
+                turned(angle)
+            );
+            Err(Error::content(name, what, by_hand))
+        }
+        Skew::Unknown if options.straighten => {
+            let what = "the picture cannot be straightened: too few of its edges run in the same directions, or midway between";
+            Err(Error::content(name, what, by_hand))
+        }
+        Skew::Turned(..) | Skew::TooFar(_) | Skew::Unknown => Ok(scale),
     }
-    let feature =
-        |polygon| Feature { shape: Shape::Polygon(polygon), axis: Axis::Region, attributes: 0, line: 1 };
-    let features: Vec<Feature> = copper.into_iter().map(feature).collect();
-    let source = source(name, bytes, &decoded, &scale, features.len(), dots.len());
-    Ok(Picture { features, holes: dots, source, warnings })
 }
 
 /// The pixels of a picture as they are: no contours, no drill dots taken out.
@@ -134,18 +287,24 @@ pub struct Pixels {
     pub is_copper: Vec<bool>,
 }
 
-/// Reads the pixels of the picture `name` with content `bytes`.
+/// Reads the pixels of the picture `name` with content `bytes`, as the picture lies.
 ///
 /// # Errors
 ///
 /// As [`read`] for the same picture.
 pub fn pixels(name: &str, bytes: &[u8], options: &Options) -> Result<Pixels, Error> {
     let decoded = decode::decode(name, bytes, options)?;
-    let scale = Scale::of(name, &decoded, options)?;
     let level = two_colours(name, &decoded.field)?;
-    let is_high = copper_is_high(&level, decoded.is_bright, options, &mut Vec::new());
+    let inside = inside(&level, decoded.is_bright, options, &mut Vec::new());
     let field = &decoded.field;
-    let is_copper = field.samples().iter().map(|&sample| (sample > level.middle) == is_high).collect();
+    let scale = if options.pitch.is_some() {
+        let (contours, tolerance) = (contours(name, field, inside)?, tolerance(field, &level));
+        by_dots(name, &decoded, inside, &contours, tolerance, options, &mut Vec::new())?
+    } else {
+        Scale::of(name, &decoded, options)?
+    };
+    let is_copper = (0..).take(field.height()).flat_map(|y| (0..).take(field.width()).map(move |x| (x, y)));
+    let is_copper = is_copper.map(|(x, y)| inside.depth(field, x, y) > 0).collect();
     let pixel = Nm::from_f64(f64::midpoint(scale.pixel.0, scale.pixel.1));
     Ok(Pixels { width: field.width(), height: field.height(), pixel, is_copper })
 }
@@ -172,8 +331,8 @@ fn two_colours(name: &str, field: &Field) -> Result<Level, Error> {
     Ok(level)
 }
 
-/// Whether copper has the higher samples; a guess is said.
-fn copper_is_high(level: &Level, is_bright: bool, options: &Options, warnings: &mut Vec<Warning>) -> bool {
+/// Which samples are copper: higher ones or lower ones; a guess is said.
+fn inside(level: &Level, is_bright: bool, options: &Options, warnings: &mut Vec<Warning>) -> Inside {
     let told = match options.colour {
         Colour::Rarer => None,
         Colour::Dark => Some(!is_bright),
@@ -188,8 +347,15 @@ fn copper_is_high(level: &Level, is_bright: bool, options: &Options, warnings: &
         warnings.push(diagnostic::PICTURE_COLOUR_GUESSED.warning(message));
         is_high
     });
-    is_high != options.invert
+    let is_high = is_high != options.invert;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "means of samples")]
+    let bare = if is_high { level.low as u16 } else { level.high as u16 };
+    Inside::new(level.middle, is_high, bare)
 }
+
+/// How far a straight line may leave the points of a contour where greys tell more, in pixels.
+/// Chosen.
+const GREYS: f64 = 0.25;
 
 /// How far a straight line may leave the points of a contour, in pixels: half of one where pixels
 /// are of two values, less where greys at the edges tell more.
@@ -205,7 +371,7 @@ fn tolerance(field: &Field, level: &Level) -> f64 {
         let middle = f64::from(level.middle);
         (f64::from(pair[0]) > middle) != (f64::from(pair[1]) > middle)
     });
-    if greys > twos.count() as f64 * 0.5 { 0.25 } else { 0.51 }
+    if greys > twos.count() as f64 * 0.5 { GREYS } else { 0.51 }
 }
 
 /// The areas of contours made of few straight lines: finer ones where those would join or part
@@ -228,92 +394,11 @@ fn straightened(contours: &[Contour], scale: &Scale, tolerance: f64) -> Vec<Poly
     fitting.unwrap_or_else(|| made(0.0))
 }
 
-/// Where pixels lie on the board.
-struct Scale {
-    /// Nanometres a pixel, across and down.
-    pixel: (f64, f64),
-    /// Rows of the picture: y points up on the board.
-    height: f64,
-}
-
-/// The widest picture, in millimetres. Chosen: beyond any board.
-const WIDEST: f64 = 1000.0;
-
-impl Scale {
-    #[expect(clippy::cast_precision_loss, reason = "a picture is less than 2¹⁶ pixels wide")]
-    fn of(name: &str, decoded: &Decoded, options: &Options) -> Result<Self, Error> {
-        const INCH: f64 = 25.4e6;
-        let (columns, rows) = (decoded.field.width() as f64, decoded.field.height() as f64);
-        let dpi = match (options.dpi, options.width) {
-            (Some(dpi), _) => Some((dpi, dpi)),
-            (None, Some(width)) => {
-                let dpi = columns / width.to_f64().max(1.0) * INCH;
-                Some((dpi, dpi))
-            }
-            (None, None) => decoded.dpi.or(options.dpi_unless_said.map(|dpi| (dpi, dpi))),
-        };
-        let Some((x, y)) = dpi.filter(|(x, y)| x.min(*y) > 0.0) else {
-            return Err(Error::content(
-                name,
-                "the picture has no resolution (DPI)",
-                Words::of(
-                    "set it: {picture-dpi} 600 (`mill` takes {dpi} 600 too), or {picture-width} 80mm for the whole picture",
-                ),
-            ));
-        };
-        let scale = Self { pixel: (INCH / x, INCH / y), height: rows };
-        let (width, height) = (columns * scale.pixel.0 / 1e6, rows * scale.pixel.1 / 1e6);
-        if width.max(height) > WIDEST {
-            let what =
-                format!("at {x:.0} DPI the picture is {width:.0} × {height:.0} mm: no board is that large");
-            return Err(Error::content(name, what, Words::of("set the resolution: {picture-dpi} 600")));
-        }
-        Ok(scale)
-    }
-
-    /// The place of a point of the picture.
-    fn nanometres(&self, (x, y): (f64, f64)) -> (f64, f64) {
-        (x * self.pixel.0, (self.height - y) * self.pixel.1)
-    }
-
-    fn point(&self, p: (f64, f64)) -> Point {
-        let (x, y) = self.nanometres(p);
-        Point::from_f64(x, y)
-    }
-
-    /// The area inside a contour in mm²; negative for a hole.
-    fn area(&self, contour: &Contour) -> f64 {
-        let ends = contour.points.iter().zip(contour.points.iter().cycle().skip(1));
-        let twice: f64 = ends.map(|(a, b)| b.0 * a.1 - a.0 * b.1).sum();
-        twice / 2.0 * self.pixel.0 * self.pixel.1 / 1e12
-    }
-
-    /// Contours without those of less than `least` mm²; a warning for specks that are left.
-    fn without_specks(
-        &self,
-        contours: Vec<Contour>,
-        least: f64,
-        warnings: &mut Vec<Warning>,
-    ) -> Vec<Contour> {
-        /// What is so small is no copper that was drawn. Chosen: four pixels.
-        const SPECK: f64 = 4.0;
-        let kept: Vec<Contour> =
-            contours.into_iter().filter(|contour| self.area(contour).abs() >= least).collect();
-        let pixel = self.pixel.0 * self.pixel.1 / 1e12;
-        let specks: Vec<&Contour> =
-            kept.iter().filter(|contour| self.area(contour).abs() < SPECK * pixel).collect();
-        if let Some(first) = specks.first() {
-            let message =
-                format!("{} specks of less than four pixels are read as copper or bare board", specks.len());
-            let at = first.points.first().map(|&p| self.point(p)).unwrap_or_default();
-            warnings.push(diagnostic::PICTURE_SPECKS.warning(message).at(at));
-        }
-        kept
-    }
-}
-
-fn source(name: &str, bytes: &[u8], decoded: &Decoded, scale: &Scale, islands: usize, dots: usize) -> Source {
-    let (x, y) = (25.4e6 / scale.pixel.0, 25.4e6 / scale.pixel.1);
+/// What is known of the file; what is counted in it is for later.
+fn source(name: &str, bytes: &[u8], decoded: &Decoded, scale: &Scale) -> Source {
+    let (x, y) = scale.dpi();
+    let degrees = scale.motion.map_or(0.0, |motion| -motion.degrees());
+    let turned = if degrees == 0.0 { String::new() } else { format!(", turned by {degrees:.3} degrees") };
     let sha256 = super::digest::sha256(bytes);
     Source {
         file: name.to_owned(),
@@ -321,14 +406,14 @@ fn source(name: &str, bytes: &[u8], decoded: &Decoded, scale: &Scale, islands: u
         role: String::new(),
         units: "pixel".to_owned(),
         number_format: format!(
-            "{} × {} pixels, {x:.2} × {y:.2} DPI",
+            "{} × {} pixels, {x:.2} × {y:.2} DPI{turned}",
             decoded.field.width(),
             decoded.field.height()
         ),
         design: sha256.clone(),
         sha256,
         bytes: bytes.len() as u64,
-        counts: BTreeMap::from([("regions".to_owned(), islands as u64), ("holes".to_owned(), dots as u64)]),
+        counts: BTreeMap::new(),
         generator: None,
         apertures: Vec::new(),
     }
