@@ -13,7 +13,7 @@ use super::cli::{stderr, stdout, voromill};
 const OPEN: [&str; 2] = ["settings", "counts"];
 
 /// What writes reports, between them all keys; @ is the folder of the fixtures.
-const RUNS: [&str; 12] = [
+const RUNS: [&str; 13] = [
     "mill @boards/unsafe-gap -o a -vv --strategy auto",
     "mill @boards/unsafe-gap/unsafe-gap-F_Cu.gbr -o b --name unsafe-gap --topology translucency --tool endmill:0.0905mm",
     "mill @boards/blinker -o c --tool endmill:0.55mm --no-verify",
@@ -26,6 +26,7 @@ const RUNS: [&str; 12] = [
     "carve @gerber/clear_polarity.gbr -o carved.ngc --tool vbit:0.1mm:90deg --max-depth 0.2mm",
     "carve @gerber/clear_polarity.gbr --check carved.ngc --tool vbit:0.1mm:60deg",
     "pocket @gerber/clear_polarity.gbr -o milled.ngc --tool endmill:0.3mm --depth 0.1mm",
+    "pocket @gerber/clear_polarity.gbr -o arcs.ngc --tool endmill:0.3mm --depth 0.1mm --strategy engagement",
 ];
 
 /// What docs/json.md says: for each path in its headings, the keys of the table below.
