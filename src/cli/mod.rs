@@ -124,7 +124,7 @@ pub(crate) fn run() -> ExitCode {
         }
     }));
     // What help says of defaults is worked out where it is shown: most runs show none.
-    let read = help::with_all(Cli::command()).try_get_matches().or_else(|_| command().try_get_matches());
+    let read = arguments().try_get_matches().or_else(|_| command().try_get_matches());
     let (cli, matches) = match read.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches))) {
         Ok(read) => read,
         Err(error) => error.format(&mut command()).exit(),
@@ -156,6 +156,11 @@ pub(crate) fn run() -> ExitCode {
     }
 }
 
+/// The command as it is read.
+fn arguments() -> clap::Command {
+    scope::renamed(help::with_all(Cli::command()))
+}
+
 /// The command as its help shows it.
 fn command() -> clap::Command {
     help::shortened(whole())
@@ -165,7 +170,7 @@ fn command() -> clap::Command {
 /// its help.
 fn whole() -> clap::Command {
     let defaults = Options::defaults().listed();
-    scope::hidden(help::with_all(Cli::command())).mut_subcommands(move |sub| {
+    scope::hidden(arguments()).mut_subcommands(move |sub| {
         let defaults = defaults.clone();
         sub.mut_args(move |argument| {
             let key = argument.get_id().as_str().replace('_', "-");

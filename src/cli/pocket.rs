@@ -8,7 +8,7 @@ use voromill::board::Warning;
 use voromill::geometry::Nm;
 use voromill::job::{self, Length, OneTool, Overlap, Pocketing};
 use voromill::toolpath::Angle;
-use voromill::toolpath::strategy::Sequence;
+use voromill::toolpath::strategy::{Engagement, Engaging, Sequence};
 use voromill::verify::Finding;
 use voromill::verify::pocketing::Pocketed;
 
@@ -50,9 +50,39 @@ pub(super) struct Pocket {
     )]
     order: Sequence,
 
+    /// Strategy: offset (nested loops, offset from the edges), or engagement (arcs along the medial
+    /// axis, so that the tool nowhere meets more material than --engagement says)
+    #[arg(
+        id = "pocketing-strategy",
+        long = "strategy",
+        value_enum,
+        hide_possible_values = true,
+        value_name = "STRATEGY",
+        default_value = "offset",
+        help_heading = "Pocketing"
+    )]
+    strategy: Strategy,
+
+    /// With --strategy engagement: the greatest radial engagement, 1% to 50% of the diameter of the
+    /// tool [default: 15%]
+    #[arg(long, value_name = "PERCENT", help_heading = "Pocketing")]
+    engagement: Option<Engagement>,
+
+    /// With --strategy engagement: mill every other arc the other way round instead of going back
+    /// without cutting, climb and conventional by turns
+    #[arg(long, help_heading = "Pocketing")]
+    both_ways: bool,
+
     /// Angle at which the tool goes down, in a helix or ramp
     #[arg(long, value_name = "ANGLE", default_value = "3deg", help_heading = "Pocketing")]
     ramp: Angle,
+}
+
+/// What the way in a pocket follows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Strategy {
+    Offset,
+    Engagement,
 }
 
 const EXAMPLES: &str = "\
@@ -67,7 +97,23 @@ const MARGIN: Nm = Nm::from_mm(5);
 
 impl Pocket {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
+        self.judge()?;
         self.work.run(shared, |art, settings, work| Ok(job::pocket(art, settings, &self.how(work))?))
+    }
+
+    /// Fails for options that the strategy does not know.
+    fn judge(&self) -> Result<(), Failure> {
+        let without = match self.strategy {
+            Strategy::Offset if self.engagement.is_some() => "--engagement has no effect",
+            Strategy::Offset if self.both_ways => "--both-ways has no effect",
+            Strategy::Engagement if self.order == Sequence::OutsideIn => "--order outside-in has no effect",
+            Strategy::Offset | Strategy::Engagement => return Ok(()),
+        };
+        let (what, hint) = match self.strategy {
+            Strategy::Offset => ("offset", "add --strategy engagement, or leave it out"),
+            Strategy::Engagement => ("engagement", "leave it out: arcs are milled from inside"),
+        };
+        Err(Failure::new(format!("{without} with --strategy {what}"), hint))
     }
 
     fn how(&self, work: &Work) -> Pocketing {
@@ -78,6 +124,10 @@ impl Pocket {
             sequence: self.order,
             ramp: self.ramp,
             raised: work.raised(MARGIN),
+            engaging: (self.strategy == Strategy::Engagement).then(|| Engaging {
+                target: self.engagement.unwrap_or(Engagement::USUAL),
+                both_ways: self.both_ways,
+            }),
         }
     }
 }
@@ -114,8 +164,17 @@ impl Milled for job::Pocket {
         let needed = judged.maxima.filter(|_| self.programs.len() == 1);
         let needed = needed.map_or(String::new(), |maxima| format!(" ({maxima} needed)"));
         let plunges = if judged.plunges == 1 { "plunge" } else { "plunges" };
+        let borne = judged.borne.map_or(String::new(), |borne| {
+            format!(
+                "engagement: {:.1} % of the diameter at most, no more than {:.1} % on 99 % of the way that cuts; {:.1} % of the way at depth cut nothing, and {:.1} % of all are links above the floor\n",
+                borne.most * 100.0,
+                borne.p99 * 100.0,
+                borne.air * 100.0,
+                borne.lifted * 100.0,
+            )
+        });
         format!(
-            "verified: of {:.2} mm² that the tool reaches {:.4} mm² are left, it cuts at most {:.1} µm beyond an edge, with {} {plunges}{needed}; {:.2} mm² in corners and narrow places are out of its reach\n",
+            "verified: of {:.2} mm² that the tool reaches {:.4} mm² are left, it cuts at most {:.1} µm beyond an edge, with {} {plunges}{needed}; {:.2} mm² in corners and narrow places are out of its reach\n{borne}",
             judged.reachable_mm2,
             judged.residue_mm2,
             judged.overcut / 1e3,
@@ -136,6 +195,10 @@ impl Milled for job::Pocket {
             overcut_um: rounded(judged.overcut / 1e3),
             plunges: judged.plunges,
             plunges_needed: judged.maxima,
+            engagement_percent: judged.borne.map(|borne| rounded(borne.most * 100.0)),
+            engagement_p99_percent: judged.borne.map(|borne| rounded(borne.p99 * 100.0)),
+            air_percent: judged.borne.map(|borne| rounded(borne.air * 100.0)),
+            lifted_percent: judged.borne.map(|borne| rounded(borne.lifted * 100.0)),
         }
     }
 }
@@ -158,4 +221,12 @@ struct Verification {
     plunges: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     plunges_needed: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    engagement_percent: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    engagement_p99_percent: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    air_percent: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    lifted_percent: Option<f64>,
 }

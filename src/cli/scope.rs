@@ -26,6 +26,14 @@ pub(super) fn hidden(command: Command) -> Command {
     })
 }
 
+/// The command in which the strategy of pockets has the name that of isolation has elsewhere: that
+/// one, which means nothing to pockets, is out of the way.
+pub(super) fn renamed(command: Command) -> Command {
+    command.mut_subcommand("pocket", |pocket| {
+        pocket.mut_arg("strategy", |strategy| strategy.long("isolation-strategy").hide(true))
+    })
+}
+
 /// Fails for the first option of a job that was given to a subcommand to which it means nothing.
 pub(super) fn check(matches: &ArgMatches) -> Result<(), Failure> {
     let Some((name, given)) = matches.subcommand() else { return Ok(()) };

@@ -7,7 +7,7 @@ use crate::board::Warning;
 use crate::board::diagnostic::planning;
 use crate::board::polarity::{difference, intersection, offset, union};
 use crate::geometry::{Nm, Point, Polygon, Rect};
-use crate::toolpath::strategy::{self, Entries, Levels, Sequence};
+use crate::toolpath::strategy::{self, Clearings, Engaging, Entries, Groove, Levels, Planned, Sequence};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Tool, ToolKind};
 use crate::verify::carving::Text;
 use crate::verify::pocketing::{self, Floor, Pocketed};
@@ -32,6 +32,9 @@ pub struct Pocketing {
     pub ramp: Angle,
     /// Mill what lies round the areas, up to so far from them, and leave them standing.
     pub raised: Option<Nm>,
+    /// Clear along the medial axis what the widest tool mills, so that it bears no more than this;
+    /// none for loops.
+    pub engaging: Option<Engaging>,
 }
 
 /// The programs and what they are to do.
@@ -51,6 +54,8 @@ pub struct Pocket {
     pub warnings: Vec<Warning>,
     how: Pocketing,
     levels: Vec<f64>,
+    /// In how many layers places that have no room for arcs are milled in each pass.
+    layers: i64,
 }
 
 /// How much nearer to the edge than the tool's radius its middle may be, so that a slot as wide as
@@ -94,6 +99,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
         warnings: art.warnings.clone(),
         how: how.clone(),
         levels: Vec::new(),
+        layers: 1,
     };
     let mut before: Option<Nm> = None;
     for &(tool, heights) in &mills {
@@ -147,6 +153,22 @@ impl Pocket {
             }
             return Ok(false);
         }
+        let clearings = self.how.engaging.filter(|_| left.is_none()).map(|engaging| {
+            Clearings::new(&Planned {
+                areas,
+                nest: &nest,
+                tool,
+                levels,
+                direction: settings.direction.unwrap_or(Direction::Climb),
+                tolerance: settings.tolerance,
+                engaging,
+            })
+        });
+        if let Some(clearings) = &clearings {
+            self.warnings.extend(clearings.grooves.iter().map(groove_warning));
+            self.layers =
+                if (0..nest.roots.len()).all(|root| clearings.has(root)) { 1 } else { clearings.layers() };
+        }
         // Its areas lie round what is left; what is farther off than the tool reaches is cleared.
         let done = left.map_or_else(Vec::new, |left| done(&nest, left, tool.width_at(Nm::ZERO) / 2));
         let plan = strategy::Pocketing {
@@ -158,6 +180,7 @@ impl Pocket {
             ramp: self.how.ramp,
             tolerance: settings.tolerance,
             done: &done,
+            clearings: clearings.as_ref(),
         };
         let number = self.programs.len() + 1;
         let what = if number == 1 { "pocket" } else { "rest" };
@@ -176,6 +199,20 @@ impl Pocket {
         self.entries.straight += entries.straight;
         self.entries.unlinked += entries.unlinked;
         Ok(true)
+    }
+}
+
+/// A place that the tool mills in its full width.
+fn groove_warning(groove: &Groove) -> Warning {
+    let message = format!(
+        "a place {:.3} mm wide and {:.3} mm long is milled in the full width of the tool, in shallow layers",
+        groove.width.to_mm(),
+        groove.length.to_mm()
+    );
+    Warning {
+        at: Some(groove.at),
+        size: Some(groove.width),
+        ..planning::MILLED_IN_FULL_WIDTH.warning(message)
     }
 }
 
@@ -251,6 +288,12 @@ fn judge(how: &Pocketing) -> Result<(), Error> {
     if how.step.is_some_and(|step| step <= Nm::ZERO) {
         return wrong("depth-pass", "a pass depth of zero is invalid: it must be above zero".to_owned());
     }
+    if let Some(engaging) = how.engaging
+        && how.sequence == Sequence::OutsideIn
+    {
+        let problem = format!("outside-in has no effect with an engagement of {}", engaging.target);
+        return wrong("order", problem);
+    }
     if how.ramp <= Angle::ZERO || how.ramp >= Angle::from_degrees(90) {
         return wrong("ramp", format!("{} is invalid: expected above 0deg and below 90deg", how.ramp));
     }
@@ -277,6 +320,18 @@ fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, E
     if how.stock < Nm::ZERO || how.stock > diameter / 2 {
         let problem = format!("{} is not between zero and half the tool diameter", Length(how.stock));
         return wrong("stock", problem);
+    }
+    if let Some(engaging) = how.engaging {
+        let most = engaging.target.part() * diameter.to_f64();
+        if how.stock.to_f64() > most {
+            let problem = format!(
+                "{} is more than the engagement of {}: {:.3} mm with this tool",
+                Length(how.stock),
+                engaging.target,
+                most / 1e6
+            );
+            return wrong("stock", problem);
+        }
     }
     // Each loop may be off its place by the tolerance.
     let most = diameter.to_f64() / 2.0 - 2.0 * settings.tolerance.to_f64();
@@ -326,6 +381,9 @@ fn declared(settings: &Settings, how: &Pocketing) -> Vec<(String, String)> {
     say("stock", (how.stock > Nm::ZERO).then(|| Length(how.stock).to_string()));
     say("ramp", Some(how.ramp.to_string()));
     say("order", (how.sequence == Sequence::OutsideIn).then(|| "outside-in".to_owned()));
+    say("strategy", how.engaging.map(|_| "engagement".to_owned()));
+    say("engagement", how.engaging.map(|engaging| engaging.target.to_string()));
+    say("both-ways", how.engaging.filter(|engaging| engaging.both_ways).map(|_| "yes".to_owned()));
     say("raised", how.raised.map(|margin| Length(margin).to_string()));
     listed
 }
@@ -358,14 +416,16 @@ impl Pocket {
         let passes = Heights { safe: Nm::ZERO, approach: Nm::ZERO, cut: self.depth, step: self.how.step }
             .passes()
             .count();
-        let is_inside_out = self.how.sequence == Sequence::InsideOut;
+        // In arcs the tool comes down once in each connected part.
+        let is_inside_out = self.how.sequence == Sequence::InsideOut && self.how.engaging.is_none();
         let levels = if is_inside_out { self.levels.as_slice() } else { &self.levels[..1] };
         let floor = Floor {
             areas: &self.areas,
             depth: self.depth,
             step: self.how.step,
             steepest: Some(libm::tan(self.how.ramp.radians())),
-            plunges: Some((levels, passes)),
+            plunges: Some((levels, passes * usize::try_from(self.layers).unwrap_or(1))),
+            engagement: self.how.engaging.map(|engaging| engaging.target.part()),
             tolerance: TOLERATED,
             pitch,
         };

@@ -27,6 +27,7 @@ const RUNS: [&str; 13] = [
     "carve @gerber/clear_polarity.gbr -o carved.ngc --tool vbit:0.1mm:90deg --max-depth 0.2mm",
     "carve @gerber/clear_polarity.gbr --check carved.ngc --tool vbit:0.1mm:60deg",
     "pocket @gerber/clear_polarity.gbr -o milled.ngc --tool endmill:0.3mm --depth 0.1mm",
+    "pocket @gerber/clear_polarity.gbr -o arcs.ngc --tool endmill:0.3mm --depth 0.1mm --strategy engagement",
 ];
 
 /// What docs/json.md says: for each path in its headings, the keys of the table below.

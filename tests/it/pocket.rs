@@ -6,7 +6,7 @@ use voromill::geometry::{Nm, Point, Polygon, Rect};
 use voromill::import::text::text;
 use voromill::job::{Art, Options, Pocket, Pocketing, Settings, pocket};
 use voromill::toolpath::Angle;
-use voromill::toolpath::strategy::Sequence;
+use voromill::toolpath::strategy::{Engaging, Sequence};
 
 use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, voromill, word};
 use crate::medial_axis::{capitals, random_areas};
@@ -22,6 +22,7 @@ fn how() -> Pocketing {
         sequence: Sequence::InsideOut,
         ramp: Angle::from_degrees(3),
         raised: None,
+        engaging: None,
     }
 }
 
@@ -197,6 +198,140 @@ fn what_stands_is_left() {
     let letter = text(dejavu::sans::bold(), "A", Nm::from_mm(6)).expect("a letter");
     let made = pocketed("A", letter, "endmill:0.5mm", &Pocketing { raised: Some(Nm::from_mm(2)), ..how() });
     check("round a letter", &made);
+}
+
+/// In arcs of an engagement, both ways or one.
+fn engaging(target: &str, both_ways: bool) -> Pocketing {
+    let target = target.parse().expect("an engagement");
+    Pocketing { engaging: Some(Engaging { target, both_ways }), ..how() }
+}
+
+/// Nothing is found; how much the tool bears and what part of the way at depth is air.
+fn check_engaged(name: &str, made: &Pocket, target: f64) {
+    let judged = made.verify(PITCH).expect("a program");
+    assert_eq!(judged.findings, [], "{name}");
+    assert_eq!(made.entries.unlinked, 0, "{name}: all is linked");
+    let borne = judged.borne.expect("what it bears");
+    assert!(borne.most <= target + 0.02, "{name}: {borne:?}");
+    assert!(borne.air <= 0.15, "{name}: {borne:?}");
+}
+
+fn star() -> Vec<Polygon> {
+    let corner = |i: u32| {
+        let (up, right) = libm::sincos(std::f64::consts::PI * f64::from(i) / 5.0);
+        let radius = if i.is_multiple_of(2) { 7e6 } else { 2.5e6 };
+        Point::from_f64(radius * right, radius * up)
+    };
+    vec![Polygon::new(vec![(0..10).map(corner).collect()]).expect("a star")]
+}
+
+#[test]
+fn arcs_along_the_axis_bear_no_more_than_they_may() {
+    let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
+    let taper = vec![at(0, 0), at(20_000, 2450), at(20_000, 2550), at(0, 5000)];
+    let islands = [disc(1500).translated(at(-2500, 0) - at(0, 0)), rectangle([2000, -1000, 4000, 1500])];
+    let shapes: [(&str, Vec<Polygon>); 8] = [
+        ("a square", vec![rectangle([0, 0, 9000, 9000])]),
+        ("an L", union(&[rectangle([0, 0, 12_000, 3000]), rectangle([0, 0, 3500, 8000])])),
+        ("a taper", vec![Polygon::new(vec![taper]).expect("a taper")]),
+        ("a star", star()),
+        ("a ring with two islands", difference(&disc(7000), &islands)),
+        ("a disc", vec![disc(4000)]),
+        ("a slot", vec![rectangle([0, 0, 9000, 1000])]),
+        ("a dumbbell with a passage as wide as the tool", {
+            let [left, right] = [rectangle([0, 0, 5000, 5000]), rectangle([8000, 0, 13_000, 5000])];
+            union(&[left, right, rectangle([4900, 2000, 8100, 3030])])
+        }),
+    ];
+    for (number, (name, areas)) in shapes.into_iter().enumerate() {
+        let (target, part) = [("15%", 0.15), ("8%", 0.08), ("30%", 0.3)][number % 3];
+        let stock = if number % 2 == 0 { Nm::ZERO } else { Nm::from_um(30) };
+        let how = Pocketing { stock, ..engaging(target, number % 4 == 3) };
+        let made = pocketed(name, areas, "endmill:1mm", &how);
+        check_engaged(name, &made, part);
+        let is_narrow = name.contains("slot") || name.contains("passage");
+        let is_told = made.warnings.iter().any(|found| found.code() == "milled-in-full-width");
+        assert_eq!(is_told, is_narrow, "{name}: what is milled in full width is told");
+        assert!(name.contains("slot") || made.entries.all == 1, "{name}: one plunge");
+    }
+}
+
+#[test]
+fn random_areas_are_cleared_in_arcs_without_residue() {
+    let seeds = if cfg!(debug_assertions) { 2 } else { 12 };
+    for seed in 0..seeds {
+        let areas = random_areas(seed, if seed % 2 == 0 { 1 } else { 250_000 });
+        let made = pocketed("random", areas, "endmill:0.5mm", &engaging("15%", seed % 2 == 1));
+        check_engaged(&format!("seed {seed}"), &made, 0.15);
+    }
+}
+
+#[test]
+fn letters_are_cleared_in_arcs() {
+    let every = if cfg!(debug_assertions) { 60 } else { 7 };
+    for (name, areas) in capitals().step_by(every) {
+        check_engaged(&name, &pocketed(&name, areas, "endmill:0.3mm", &engaging("15%", false)), 0.15);
+    }
+}
+
+#[test]
+fn arcs_are_milled_in_passes_and_finer_tools_follow_in_loops() {
+    let how = Pocketing { step: Some(Nm::from_um(400)), ..engaging("15%", false) };
+    let thrice = pocketed("dumbbell", dumbbell(), "endmill:1mm", &how);
+    check_engaged("three passes", &thrice, 0.15);
+    assert_eq!(thrice.entries.all, 3, "one plunge in each");
+    let both = pocketed("both", dumbbell(), "endmill:2.2mm,endmill:0.6mm", &how);
+    assert_eq!(both.verify(PITCH).expect("programs").findings, [], "with both");
+}
+
+#[test]
+fn more_load_than_asked_for_is_found() {
+    let made =
+        pocketed("square", vec![rectangle([0, 0, 9000, 9000])], "endmill:1mm", &engaging("15%", false));
+    let judge = |text: &str| {
+        let judged = made.judge(&[("it", text)], PITCH).expect("a program");
+        judged.findings.iter().map(|found| found.name).collect::<Vec<_>>()
+    };
+    let text = made.programs[0].text.as_str();
+    assert_eq!(judge(text), [""; 0], "nothing is wrong with it as it is");
+    let cuts = text.lines().filter(|line| is_cut(line)).count();
+    // Above the work some of the cuts are left out.
+    let without = |from: usize, to: usize| {
+        lines(text, |line, n| match (is_cut(line), n) {
+            (true, n) if n == from => Some(format!("G1 Z1\n{}", word(line, 'Z', |_| 1.0))),
+            (true, n) if n == to => Some(format!("G1 Z-1\n{line}")),
+            (is_cut, n) if (from..to).contains(&n) => is_cut.then(|| word(line, 'Z', |_| 1.0)),
+            _ => Some(line.to_owned()),
+        })
+    };
+    let spoilt = [
+        (
+            "arcs the other way round",
+            lines(text, |line, n| {
+                let is_it = (cuts / 2..cuts / 2 + 40).contains(&n) && is_cut(line);
+                Some(if is_it { line.replace("G3 ", "G2 ") } else { line.to_owned() })
+            }),
+        ),
+        ("a loop of the spiral left out", without(cuts / 8, cuts / 8 + 4)),
+        ("circles left out", without(cuts / 2, cuts / 2 + 24)),
+        ("a branch left out but for its end", without(cuts / 4, cuts / 2)),
+        (
+            "all farther apart",
+            lines(text, |line, _| {
+                Some(
+                    "XYIJ"
+                        .chars()
+                        .fold(line.to_owned(), |line, letter| word(&line, letter, |value| value * 1.6)),
+                )
+            }),
+        ),
+    ];
+    for (how, spoilt) in spoilt {
+        assert_ne!(spoilt, text, "{how}: it is changed");
+        assert!(judge(&spoilt).contains(&"pocket-engagement"), "{how}: {:?}", judge(&spoilt));
+    }
+    let loops = pocketed("square", vec![rectangle([0, 0, 9000, 9000])], "endmill:1mm", &how());
+    assert!(judge(&loops.programs[0].text).contains(&"pocket-engagement"), "loops bear more");
 }
 
 /// Which way a tool goes round: the area that its cuts at full depth enclose, counter-clockwise
@@ -375,6 +510,19 @@ fn what_makes_no_sense_is_refused() {
             (&["--tool", "endmill:1mm", "--ramp", "0deg"], "above 0deg"),
             (&["--tool", "endmill:1mm", "--depth-pass", "0mm"], "above zero"),
             (&["--tool", "endmill:9.8mm"], "narrower than"),
+            (&["--tool", "endmill:1mm", "--engagement", "15%"], "--engagement has no effect"),
+            (&["--tool", "endmill:1mm", "--both-ways"], "--both-ways has no effect"),
+            (&["--tool", "endmill:1mm", "--strategy", "engagement", "--engagement", "0%"], "1% to 50%"),
+            (&["--tool", "endmill:1mm", "--strategy", "engagement", "--engagement", "15"], "1% to 50%"),
+            (
+                &["--tool", "endmill:1mm", "--strategy", "engagement", "--order", "outside-in"],
+                "--order outside-in has no effect",
+            ),
+            (
+                &["--tool", "endmill:1mm", "--strategy", "engagement", "--stock", "0.2mm"],
+                "more than the engagement of 15%",
+            ),
+            (&["--tool", "endmill:1mm", "--strategy", "voronoi"], "offset, engagement"),
             (&["--tool", "endmill:1mm", "--width", "1mm"], "has no effect"),
         ],
     );

@@ -123,6 +123,12 @@ diagnostics! {
         "etching does not separate these nets",
         "choose a larger {gap}";
 
+    MILLED_IN_FULL_WIDTH: Warning =
+        "milled-in-full-width",
+        "a pocket has no room to either side of the tool for the engagement asked for",
+        "the tool mills a groove in its full width there, in layers so shallow that it bears no more than elsewhere",
+        "nothing, or use a thinner tool ({tool})";
+
     MILLPROJECT_OPTION: Warning =
         "millproject-option",
         "a pcb2gcode option has no effect here, or a different one",
@@ -188,6 +194,12 @@ diagnostics! {
         "a pocket is hardly wider than the tool",
         "the tool plunges straight down there, and one that is not centre-cutting breaks",
         "use a thinner tool, or a centre-cutting one";
+
+    POCKET_ENGAGEMENT: Error =
+        "pocket-engagement",
+        "a tool meets material along more of its circumference than the engagement allows",
+        "it bends, chatters or breaks",
+        "check tool, feed direction and step of the program, or allow more ({engagement})";
 
     POCKET_OVERCUT: Error =
         "pocket-overcut",

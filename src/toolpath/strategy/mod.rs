@@ -12,5 +12,8 @@ pub use carve::{Carving, Floor, carve};
 pub use cutout::{Cutout, TabPlaces, Tabs, cutout};
 pub use drill::{Drilling, drill};
 pub use isolate::{Isolation, Narrow, Role, isolate};
-pub use pocket::{Entries, Levels, Pocketing, Sequence, pocket};
+pub use pocket::{
+    Clearings, Engagement, Engaging, Entries, Groove, Levels, ParseEngagementError, Planned, Pocketing,
+    Sequence, pocket,
+};
 pub use share::share;

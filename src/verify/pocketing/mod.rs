@@ -13,6 +13,7 @@
 //! swept is asked of the motions that the text is read back as: no Voronoi diagram, nothing of the
 //! planner.
 
+mod engagement;
 mod runs;
 
 use crate::board::diagnostic::planning;
@@ -27,7 +28,10 @@ use super::cutter::Cutter;
 use super::edges::Edges;
 use super::report::Finding;
 
+use engagement::{Stretch, Work, borne};
 use runs::{Piece, Spot, Sweep, Sweeps, left};
+
+pub use engagement::Borne;
 
 /// What should be milled, on the machine.
 #[derive(Clone, Debug)]
@@ -44,6 +48,8 @@ pub struct Floor<'a> {
     /// How far from the edge loops of the first tool are, in nanometres and rising, and in how many
     /// passes they are milled: for how often the tool may come down. None for as often as it likes.
     pub plunges: Option<(&'a [f64], usize)>,
+    /// The greatest radial engagement of the first tool, as a part of its diameter; none for any.
+    pub engagement: Option<f64>,
     /// What is less off is right.
     pub tolerance: Nm,
     /// The distance of the rows that are looked at.
@@ -66,6 +72,8 @@ pub struct Pocketed {
     /// How many places there are from which all round it only comes nearer to the edge, times the
     /// passes; none where nobody asks.
     pub maxima: Option<usize>,
+    /// What the first tool bears; none where nobody asks.
+    pub borne: Option<Borne>,
     /// What is wrong.
     pub findings: Vec<Finding>,
 }
@@ -130,6 +138,7 @@ pub fn pocketing(programs: &[Text<'_>], floor: &Floor<'_>) -> Result<Pocketed, E
     judge.depths(&steps, &sweeps, &edges);
     judge.residue(&sweeps);
     judge.plunges(&listings);
+    judge.engagement(&steps, &sweeps);
     Ok(judge.pocketed)
 }
 
@@ -311,6 +320,46 @@ impl Judge<'_> {
                 Severity::Warning,
                 message,
             ));
+        }
+    }
+}
+
+/// How much more than asked for is too much, as a part of the diameter: what measuring may be off.
+const TOLERATED: f64 = 0.02;
+
+impl Judge<'_> {
+    /// What the first tool bears.
+    fn engagement(&mut self, steps: &[Step], sweeps: &Sweeps) {
+        let (Some(target), Some(first)) = (self.floor.engagement, self.programs.first()) else { return };
+        let passes = self.floor.step.map_or(1.0, |step| (self.floor.depth.to_f64() / step.to_f64()).ceil());
+        let stretch = |step: &Step| {
+            let Step { ends, depths, line, order, .. } = *step;
+            Stretch { ends, depths, line, order }
+        };
+        let stretches: Vec<Stretch> = steps.iter().filter(|step| step.program == 0).map(stretch).collect();
+        let work = Work {
+            areas: self.floor.areas,
+            radius: first.cutter.tip / 2,
+            depth: self.floor.depth,
+            pass: self.floor.depth.to_f64() / passes.max(1.0),
+            allowed: target + TOLERATED,
+            sweeps,
+        };
+        let found = borne(&stretches, &work);
+        self.pocketed.borne = Some(found);
+        if found.most > target + TOLERATED {
+            let message = format!(
+                "the radial engagement is {:.1} % of the diameter, where {:.1} % are allowed",
+                found.most * 100.0,
+                target * 100.0
+            );
+            let kind = &planning::POCKET_ENGAGEMENT;
+            self.pocketed.findings.push(Finding {
+                at: Some(Point::from_f64(found.at.0, found.at.1)),
+                program: Some(first.file.to_owned()),
+                line: Some(found.line),
+                ..Finding::new(kind.code, Severity::Error, message)
+            });
         }
     }
 }

@@ -99,6 +99,20 @@ impl Sweeps {
         found
     }
 
+    /// How deep a place was swept before a motion; zero where it was not.
+    pub(super) fn deepest(&self, p: Spot, before: usize) -> f64 {
+        let mut deepest = 0.0_f64;
+        if let Some(tree) = &self.tree {
+            tree.visit_query(p.0, p.1, p.0, p.1, &mut |i: usize| {
+                let sweep = &self.sweeps[i];
+                if sweep.order < before && sweep.depth > deepest && sweep.holds(p) {
+                    deepest = sweep.depth;
+                }
+            });
+        }
+        deepest
+    }
+
     /// The runs of a row that are swept no less deep than `least`, sorted.
     fn row(&self, y: f64, least: f64) -> Vec<(f64, f64)> {
         let mut runs = Vec::new();

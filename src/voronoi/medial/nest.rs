@@ -90,6 +90,13 @@ impl Nest {
         whole
     }
 
+    /// The place among the roots of the one that holds a place.
+    #[must_use]
+    pub fn root_at(&self, at: (f64, f64)) -> Option<usize> {
+        let region = self.region_at(&self.roots, at)?;
+        self.roots.iter().position(|&root| root == region)
+    }
+
     fn of_area(area: &Polygon, level: &impl Fn(usize) -> f64) -> Self {
         let least = Nm::from_f64(2.0 * level(0)) - Nm::from_um(1);
         if area.bounds().width().min(area.bounds().height()) < least {

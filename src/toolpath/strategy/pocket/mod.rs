@@ -19,6 +19,7 @@
 //! (contour-parallel milling in a tree of loops).
 
 mod course;
+mod engagement;
 mod links;
 
 use crate::geometry::{Nm, Point, Segment, Turn, Vector};
@@ -30,6 +31,8 @@ use crate::voronoi::medial::nest::{Nest, Region};
 
 use course::Spot;
 use links::Links;
+
+pub use engagement::{Clearings, Engagement, Engaging, Groove, ParseEngagementError, Planned};
 
 /// In which order the loops of a pocket are milled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Deserialize)]
@@ -86,6 +89,8 @@ pub struct Pocketing<'a> {
     /// Of each loop whether all along it is cleared already, so that it need not be milled; empty
     /// for none.
     pub done: &'a [bool],
+    /// How parts are cleared along the medial axis instead of in loops; none for loops alone.
+    pub clearings: Option<&'a Clearings>,
 }
 
 /// How the tool came down into the material.
@@ -136,13 +141,7 @@ pub fn pocket(label: impl Into<String>, nest: &Nest, settings: &Pocketing<'_>) -
     for root in ordered(nest) {
         let mut before = Nm::ZERO;
         for depth in settings.heights.passes() {
-            miller.pass += 1;
-            miller.at = None;
-            miller.depths = [before, depth];
-            match settings.sequence {
-                Sequence::InsideOut => miller.outwards(root),
-                Sequence::OutsideIn => miller.inwards(root),
-            }
+            miller.pass(root, [before, depth]);
             before = depth;
         }
     }
@@ -180,6 +179,28 @@ struct Miller<'a> {
 }
 
 impl Miller<'_> {
+    /// Mills a root of the nest from a depth to another.
+    fn pass(&mut self, root: usize, [before, depth]: [Nm; 2]) {
+        let Pocketing { tool, direction, ramp, clearings, .. } = *self.settings;
+        let place = self.nest.roots.iter().position(|&other| other == root);
+        if let (Some(clearings), Some(place)) = (clearings, place)
+            && clearings.mill(place, &mut self.head, [before, depth], tool, (ramp, direction))
+        {
+            self.entries.all += 1;
+            return;
+        }
+        let layers = clearings.map_or(1, Clearings::layers);
+        for layer in 1..=layers {
+            self.pass += 1;
+            self.at = None;
+            self.depths = [layer - 1, layer].map(|number| before + (depth - before) * number / layers);
+            match self.settings.sequence {
+                Sequence::InsideOut => self.outwards(root),
+                Sequence::OutsideIn => self.inwards(root),
+            }
+        }
+    }
+
     /// Mills a region from its summits outwards.
     fn outwards(&mut self, region: usize) {
         for &child in &self.nest.regions[region].children {

@@ -1,0 +1,441 @@
+//! How much of its circumference a mill meets material with, step by step.
+//!
+//! ```text
+//!      ▒▒▒▒▒▒▒▒▒▒▒    The mill goes along what the program says in small steps, over a field of heights that it lowers. After each
+//!   ──╮   ·▒▒▒▒▒▒▒    step the half of its circumference that leads is asked, point by point, whether material stands next to it and
+//!      ╲ ╭─·▒▒▒▒▒▒    how high. The angle, weighted with that height as a part of the pass, is what the mill bears; it is told as
+//!       ││ ●│→▒▒▒▒    the radial engagement that bears as much on a straight wall: (1 − cos angle) / 2.
+//! ```
+//!
+//! Weighted by height, a groove of the mill's full width in a layer that is so much thinner counts
+//! as what it is, and a helix, too: no place is left out for being narrow.
+//!
+//! What counts for nothing: burrs, such as arcs leave along the wall; a load that lasts for less
+//! way than a fortieth of the radius; and what no mill of this radius reaches, or only as a strip
+//! of that width, by offsets of exact booleans. The field knows nothing of discs, circles or the
+//! medial axis.
+
+use std::collections::VecDeque;
+
+use crate::board::FLATTEN;
+use crate::board::polarity::{offset, union};
+use crate::geometry::{Nm, Polygon, Rect};
+use crate::verify::edges::Edges;
+
+use super::runs::{Spot, Sweeps};
+
+/// What a mill bears in all.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Borne {
+    /// The greatest radial engagement, as a part of the diameter.
+    pub most: f64,
+    /// Where that is.
+    pub at: Spot,
+    /// In the program, the line of that.
+    pub line: u32,
+    /// What it is at most on 99 of 100 parts of the way on which the mill meets material.
+    pub p99: f64,
+    /// Which part of the way at the depth of a pass meets nothing, the loop along the wall left out
+    /// on both sides.
+    pub air: f64,
+    /// Which part of all of the way below the surface leads through cleared material above the
+    /// depth of its pass.
+    pub lifted: f64,
+}
+
+/// A straight part of the way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stretch {
+    pub(super) ends: [Spot; 2],
+    /// How deep the tip is at either end, downwards.
+    pub(super) depths: [f64; 2],
+    pub(super) line: u32,
+    /// How many motions came before.
+    pub(super) order: usize,
+}
+
+/// What is milled, and with what.
+#[derive(Clone, Copy)]
+pub(super) struct Work<'a> {
+    pub(super) areas: &'a [Polygon],
+    pub(super) radius: Nm,
+    pub(super) depth: Nm,
+    /// How thick a pass is.
+    pub(super) pass: f64,
+    /// The engagement above which something is found, as a part of the diameter.
+    pub(super) allowed: f64,
+    /// All level motions.
+    pub(super) sweeps: &'a Sweeps,
+}
+
+/// Cells across a radius, if memory allows. Chosen: half a cell is a part of the engagement that is
+/// well below what is tolerated.
+const ACROSS: f64 = 160.0;
+
+/// Cells at most. Chosen: 64 MiB.
+const MOST_CELLS: f64 = 33_554_432.0;
+
+/// Steps across a radius, and in all. Chosen.
+const STEPS: f64 = 40.0;
+const MOST_STEPS: f64 = 4_000_000.0;
+
+/// Points on the half of the circumference that leads.
+const POINTS: u32 = 180;
+
+/// What is thinner than this part of the radius is a burr, and so is what a mill takes on a way
+/// that is shorter. Chosen: two hundredths of an engagement are more than that.
+const BURR: f64 = 0.025;
+
+/// Material is looked for so far ahead of the circumference, as a part of the radius, and no less
+/// than a cell and a half. Chosen: above what cells round.
+const AHEAD: f64 = 0.015;
+
+/// Where that finds more than is allowed the motions themselves are asked, too, this part of the
+/// radius ahead and at least so many nanometres: a mill that goes round in a circle hardly wider
+/// than itself never comes to what lies farther ahead. Chosen: above what chords are off.
+const NEXT: f64 = 0.0005;
+const LEAST: f64 = 300.0;
+
+/// Heights are so many parts of the whole depth.
+const PARTS: f64 = 60_000.0;
+
+/// Parts of engagement that are told apart.
+const BINS: usize = 10_000;
+
+/// Follows a mill along its way.
+pub(super) fn borne(stretches: &[Stretch], work: &Work<'_>) -> Borne {
+    let Some(field) = Field::new(work) else { return Borne::default() };
+    let length = stretches.iter().map(Stretch::length).sum::<f64>();
+    let step = (work.radius.to_f64() / STEPS).max(length / MOST_STEPS);
+    let mut mill = Mill::new(field, work);
+    for stretch in stretches {
+        mill.follow(stretch, step);
+    }
+    mill.finish()
+}
+
+impl Stretch {
+    fn length(&self) -> f64 {
+        let [a, b] = self.ends;
+        let (x, y) = (b.0 - a.0, b.1 - a.1);
+        (x * x + y * y).sqrt()
+    }
+}
+
+/// How deep each place is milled: rows of cells.
+struct Field {
+    corner: Spot,
+    pitch: f64,
+    columns: usize,
+    rows: usize,
+    /// In parts of the whole depth; all of it where nothing counts.
+    depths: Vec<u16>,
+    part: f64,
+}
+
+impl Field {
+    fn new(work: &Work<'_>) -> Option<Self> {
+        let radius = work.radius;
+        let fits = work.areas.iter().flat_map(|area| offset(area, -radius + SLOT, FLATTEN));
+        let burr = Nm::from_f64(radius.to_f64() * BURR);
+        let reached = fits.flat_map(|fit| offset(&fit, radius - SLOT - burr, FLATTEN));
+        let reached = union(&reached.collect::<Vec<_>>());
+        let around = reached.iter().map(Polygon::bounds).reduce(Rect::union)?.inflate(radius / 4);
+        let (width, height) = (around.width().to_f64(), around.height().to_f64());
+        let pitch = (radius.to_f64() / ACROSS).max((width * height / MOST_CELLS).sqrt());
+        let (columns, rows) = (count(width / pitch) + 1, count(height / pitch) + 1);
+        let whole = quantum(PARTS);
+        let mut field = Self {
+            corner: around.min().to_f64(),
+            pitch,
+            columns,
+            rows,
+            depths: vec![whole; columns * rows],
+            part: work.depth.to_f64() / PARTS,
+        };
+        let edges = Edges::new(&reached);
+        for row in 0..rows {
+            let mut crossings = edges.crossings(field.height(row));
+            crossings.sort_by(f64::total_cmp);
+            let (inside, _) = crossings.as_chunks::<2>();
+            for &[from, to] in inside {
+                let columns = field.cells(from, to);
+                field.depths[row * field.columns..][columns].fill(0);
+            }
+        }
+        Some(field)
+    }
+
+    /// The height of the middles of a row of cells.
+    fn height(&self, row: usize) -> f64 {
+        self.corner.1 + (number(row) + 0.5) * self.pitch
+    }
+
+    /// The cells of a row with their middles between two places.
+    fn cells(&self, from: f64, to: f64) -> std::ops::Range<usize> {
+        let cell = |x: f64| count(((x - self.corner.0) / self.pitch - 0.5).ceil()).min(self.columns);
+        cell(from)..cell(to).max(cell(from))
+    }
+
+    /// How deep a place is milled; as deep as can be beside the field.
+    fn at(&self, (x, y): Spot) -> f64 {
+        let (x, y) = ((x - self.corner.0) / self.pitch, (y - self.corner.1) / self.pitch);
+        if x < 0.0 || y < 0.0 || count(x) >= self.columns || count(y) >= self.rows {
+            return f64::INFINITY;
+        }
+        f64::from(self.depths[count(y) * self.columns + count(x)]) * self.part
+    }
+
+    /// Lowers a disc to a depth, but for what a disc round `before` has lowered already.
+    fn lower(&mut self, center: Spot, radius: f64, depth: f64, before: Option<Spot>) {
+        let depth = quantum(depth / self.part);
+        let row = |y: f64| count(((y - self.corner.1) / self.pitch - 0.5).ceil()).min(self.rows);
+        for j in row(center.1 - radius)..row(center.1 + radius) {
+            let y = self.height(j);
+            let half = |at: Spot| (radius * radius - (y - at.1) * (y - at.1)).max(0.0).sqrt();
+            let (from, to) = (center.0 - half(center), center.0 + half(center));
+            let known = before.map_or((to, to), |at| (at.0 - half(at), at.0 + half(at)));
+            for (from, to) in [(from, to.min(known.0)), (from.max(known.1), to)] {
+                if from < to {
+                    let cells = self.cells(from, to);
+                    for cell in &mut self.depths[j * self.columns..][cells] {
+                        *cell = (*cell).max(depth);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// How much nearer to the wall than its radius a mill may be, in a slot as wide as it is. Chosen:
+/// rounding is less.
+const SLOT: Nm = Nm::from_um(1);
+
+/// A mill on its way.
+struct Mill<'a> {
+    field: Field,
+    work: &'a Work<'a>,
+    walls: Edges,
+    /// The directions of the points of the half that leads, from straight on.
+    points: Vec<Spot>,
+    last: Option<(Spot, f64)>,
+    /// What it bore on the last of its way, with how long each part was.
+    lately: VecDeque<(f64, f64)>,
+    borne: Borne,
+    /// How far it went with each engagement.
+    bins: Vec<f64>,
+    way: f64,
+    level: f64,
+    air: f64,
+    lifted: f64,
+}
+
+impl<'a> Mill<'a> {
+    fn new(field: Field, work: &'a Work<'a>) -> Self {
+        let point = |i: u32| {
+            let angle = ((f64::from(i) + 0.5) / f64::from(POINTS) - 0.5) * std::f64::consts::PI;
+            let (side, on) = libm::sincos(angle);
+            (on, side)
+        };
+        Self {
+            field,
+            work,
+            walls: Edges::new(work.areas),
+            points: (0..POINTS).map(point).collect(),
+            last: None,
+            lately: VecDeque::new(),
+            borne: Borne::default(),
+            bins: vec![0.0; BINS + 1],
+            way: 0.0,
+            level: 0.0,
+            air: 0.0,
+            lifted: 0.0,
+        }
+    }
+
+    fn follow(&mut self, stretch: &Stretch, step: f64) {
+        let [from, to] = stretch.ends;
+        let length = stretch.length();
+        let steps = (length / step).ceil().max(1.0);
+        let heading =
+            if length > 0.0 { ((to.0 - from.0) / length, (to.1 - from.1) / length) } else { (0.0, 0.0) };
+        let mut number = 1.0;
+        while number <= steps {
+            let part = number / steps;
+            let at = (from.0 + (to.0 - from.0) * part, from.1 + (to.1 - from.1) * part);
+            let depth = stretch.depths[0] + (stretch.depths[1] - stretch.depths[0]) * part;
+            if depth > 0.0 {
+                let known = self.last.filter(|&(_, before)| before >= depth).map(|(at, _)| at);
+                self.field.lower(at, self.work.radius.to_f64(), depth, known);
+                if length > 0.0 {
+                    self.feel(at, heading, depth, length / steps, stretch);
+                }
+            }
+            self.last = Some((at, depth));
+            number += 1.0;
+        }
+    }
+
+    /// What it meets ahead at a place.
+    fn feel(&mut self, at: Spot, heading: Spot, depth: f64, length: f64, stretch: &Stretch) {
+        let mut angle = self.angle(at, heading, depth, None);
+        if engaged(angle) > self.work.allowed {
+            angle = self.angle(at, heading, depth, Some(stretch.order));
+        }
+        let part = engaged(angle);
+        let part = self.lasting(part, length);
+        if part > self.borne.most {
+            self.borne = Borne { most: part, at, line: stretch.line, ..self.borne };
+        }
+        let met = angle > MEETS;
+        self.way += length;
+        let pass = self.work.pass;
+        let is_level = (stretch.depths[0] - stretch.depths[1]).abs() < LEVEL
+            && (depth / pass - (depth / pass).round()).abs() * pass < LEVEL;
+        if met {
+            self.bins[count(part * number(BINS)).min(BINS)] += length;
+        } else if !is_level {
+            self.lifted += length;
+        }
+        let radius = self.work.radius.to_f64();
+        if is_level && (met || self.walls.nearest(at).0 > radius * (1.0 + 2.0 * BURR)) {
+            self.level += length;
+            self.air += if met { 0.0 } else { length };
+        }
+    }
+
+    /// What it bore all along the last of its way, at both ends of it, too.
+    fn lasting(&mut self, part: f64, length: f64) -> f64 {
+        self.lately.push_back((part, length));
+        let burr = self.work.radius.to_f64() * BURR;
+        let mut way: f64 = self.lately.iter().skip(1).map(|lately| lately.1).sum();
+        while let Some(&(_, next)) = self.lately.get(1)
+            && way - next >= burr
+        {
+            way -= next;
+            self.lately.pop_front();
+        }
+        self.lately.iter().map(|lately| lately.0).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The angle along which it meets material, each part weighted by how much of a pass that is
+    /// high; with the number of the motion less what those before it have cleared.
+    fn angle(&self, at: Spot, heading: Spot, depth: f64, order: Option<usize>) -> f64 {
+        let radius = self.work.radius.to_f64();
+        let ahead = radius + (radius * AHEAD).max(1.5 * self.field.pitch);
+        let next = radius + (radius * NEXT).max(LEAST);
+        let mut sum = 0.0;
+        for &(on, side) in &self.points {
+            let way = (heading.0 * on - heading.1 * side, heading.1 * on + heading.0 * side);
+            let at = |off: f64| (at.0 + way.0 * off, at.1 + way.1 * off);
+            let mut known = self.field.at(at(ahead));
+            if let Some(order) = order
+                && depth - known > self.work.pass * THIN
+            {
+                known = known.max(self.work.sweeps.deepest(at(next), order));
+            }
+            let height = depth - known;
+            if height > self.work.pass * THIN {
+                sum += (height / self.work.pass).min(1.0);
+            }
+        }
+        sum * std::f64::consts::PI / f64::from(POINTS)
+    }
+
+    fn finish(self) -> Borne {
+        let whole: f64 = self.bins.iter().sum();
+        let mut sum = 0.0;
+        let above = self.bins.iter().rposition(|&length| {
+            sum += length;
+            sum > whole * 0.01
+        });
+        let part = |length: f64, of: f64| if of > 0.0 { length / of } else { 0.0 };
+        Borne {
+            p99: above.map_or(0.0, |bin| number(bin + 1) / number(BINS)).min(self.borne.most),
+            air: part(self.air, self.level),
+            lifted: part(self.lifted, self.way),
+            ..self.borne
+        }
+    }
+}
+
+/// The radial engagement that an angle of contact means.
+fn engaged(angle: f64) -> f64 {
+    (1.0 - libm::cos(angle)) / 2.0
+}
+
+/// A smaller angle is none, in radians. Chosen: two points.
+const MEETS: f64 = 0.03;
+
+/// Depths that differ by less are one, in nanometres: the last digit of a program.
+const LEVEL: f64 = 1_500.0;
+
+/// A layer of less than this part of a pass is none. Chosen: rounding of depths.
+const THIN: f64 = 0.004;
+
+/// A number of cells; zero for less than one.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+const fn count(number: f64) -> usize {
+    number as usize
+}
+
+/// Parts of the whole depth.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+const fn quantum(parts: f64) -> u16 {
+    parts.round() as u16
+}
+
+/// A number of cells as one that is not whole.
+fn number(count: usize) -> f64 {
+    f64::from(u32::try_from(count).unwrap_or(u32::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::verify::pocketing::runs::Sweep;
+
+    /// A square of 20 mm, a mill of 2 mm, and ways along y = 0 … so far beside each other.
+    fn borne_beside(ways: &[f64], depths: &[f64]) -> Borne {
+        let at = |x: i64, y: i64| Point::new(Nm::from_mm(x), Nm::from_mm(y));
+        let square = Polygon::rectangle(Rect::new(at(-10, -10), at(10, 10)));
+        // Each ends before the one beside it, clear of the rounded end of the groove.
+        let ends = |y: f64| [(-8e6 + 5.0 * y, y), (8e6 - 5.0 * y, y)];
+        let all = || ways.iter().zip(depths).zip(0..);
+        let sweeps = all().map(|((&y, &depth), order)| {
+            let [from, to] = ends(y);
+            Sweep { from, to, radius: 1e6, depth, order }
+        });
+        let sweeps = Sweeps::new(sweeps.collect());
+        let stretches =
+            all().map(|((&y, &depth), order)| Stretch { ends: ends(y), depths: [depth; 2], line: 1, order });
+        let work = Work {
+            areas: &[square],
+            radius: Nm::from_mm(1),
+            depth: Nm::from_mm(1),
+            pass: 1e6,
+            allowed: 0.17,
+            sweeps: &sweeps,
+        };
+        borne(&stretches.collect::<Vec<_>>(), &work)
+    }
+
+    #[test]
+    fn a_groove_is_all_and_a_step_beside_it_what_it_is() {
+        let groove = borne_beside(&[0.0], &[1e6]);
+        assert!(groove.most > 0.97, "half of the circumference: {groove:?}");
+        let thin = borne_beside(&[0.0], &[0.25e6]);
+        let quarter = (1.0 - libm::cos(std::f64::consts::PI / 4.0)) / 2.0;
+        assert!((thin.most - quarter).abs() < 0.01, "a quarter of the height: {thin:?}");
+        let ways = [0.0, 0.3e6, 0.6e6];
+        let beside = borne_beside(&ways, &[1e6; 3]);
+        assert!(beside.p99 > 0.9, "the groove is more than a hundredth: {beside:?}");
+        let layered: Vec<f64> = (1..=100).map(|i| f64::from(i) * 1e4).collect();
+        let [ys, depths] = [[vec![0.0; 100], ways[1..].to_vec()].concat(), [layered, vec![1e6; 2]].concat()];
+        let beside = borne_beside(&ys, &depths);
+        let is_near = (beside.p99 - 0.15).abs() < 0.012 && beside.most < 0.17;
+        assert!(is_near, "0.3 mm of 2 mm, some more at the end of the groove: {beside:?}");
+        assert!(borne_beside(&[0.0, 0.0], &[1e6; 2]).air > 0.45, "the second time there is air");
+    }
+}
