@@ -13,7 +13,7 @@ use super::cli::{stderr, stdout, voromill};
 const OPEN: [&str; 2] = ["settings", "counts"];
 
 /// What writes reports, between them all keys; @ is the folder of the fixtures.
-const RUNS: [&str; 13] = [
+const RUNS: [&str; 14] = [
     "mill @boards/unsafe-gap -o a -vv --strategy auto",
     "mill @boards/unsafe-gap/unsafe-gap-F_Cu.gbr -o b --name unsafe-gap --topology translucency --tool endmill:0.0905mm",
     "mill @boards/blinker -o c --tool endmill:0.55mm --no-verify",

@@ -90,11 +90,12 @@ const BURR: f64 = 0.025;
 /// than a cell and a half. Chosen: above what cells round.
 const AHEAD: f64 = 0.015;
 
-/// Where that finds more than is allowed the motions themselves are asked, too, this part of the
-/// radius ahead and at least so many nanometres: a mill that goes round in a circle hardly wider
-/// than itself never comes to what lies farther ahead. Chosen: above what chords are off.
-const NEXT: f64 = 0.0005;
-const LEAST: f64 = 300.0;
+/// Where that finds more than is allowed, or so little that it may be a wall beside the mill, in
+/// radians, the motions themselves are asked, too, so much within the circumference in nanometres:
+/// a mill that goes round in a circle hardly wider than itself never comes to what lies farther
+/// ahead. Chosen: twice what such a wall is seen as, and above what chords are off.
+const LITTLE: f64 = 0.7;
+const WITHIN: f64 = 500.0;
 
 /// Heights are so many parts of the whole depth.
 const PARTS: f64 = 60_000.0;
@@ -279,7 +280,7 @@ impl<'a> Mill<'a> {
     /// What it meets ahead at a place.
     fn feel(&mut self, at: Spot, heading: Spot, depth: f64, length: f64, stretch: &Stretch) {
         let mut angle = self.angle(at, heading, depth, None);
-        if engaged(angle) > self.work.allowed {
+        if engaged(angle) > self.work.allowed || (angle > 0.0 && angle < LITTLE) {
             angle = self.angle(at, heading, depth, Some(stretch.order));
         }
         let part = engaged(angle);
@@ -323,7 +324,7 @@ impl<'a> Mill<'a> {
     fn angle(&self, at: Spot, heading: Spot, depth: f64, order: Option<usize>) -> f64 {
         let radius = self.work.radius.to_f64();
         let ahead = radius + (radius * AHEAD).max(1.5 * self.field.pitch);
-        let next = radius + (radius * NEXT).max(LEAST);
+        let next = radius - WITHIN;
         let mut sum = 0.0;
         for &(on, side) in &self.points {
             let way = (heading.0 * on - heading.1 * side, heading.1 * on + heading.0 * side);
