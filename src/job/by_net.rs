@@ -5,7 +5,8 @@ use crate::board::{Copper, Warning};
 use crate::topology::{NetId, Nets};
 
 use super::choice::Strategy;
-use super::{Pattern, Settings};
+use super::pattern::Pattern;
+use super::strategy_for::StrategyFor;
 
 /// What a net is called: its names, its number, and what all its copper is for if that is one
 /// thing.
@@ -24,15 +25,19 @@ pub(super) fn names(copper: &Copper, nets: &Nets, id: NetId) -> Vec<String> {
 
 /// The strategy of each net, by number: the first pattern that matches a net decides, and else the
 /// strategy of all.
-pub(super) fn strategies(copper: &Copper, nets: &Nets, settings: &Settings) -> Vec<Strategy> {
+pub(super) fn strategies(
+    copper: &Copper,
+    nets: &Nets,
+    chosen: &[StrategyFor],
+    usual: Strategy,
+) -> Vec<Strategy> {
     let strategy = |id: NetId| {
-        let chosen = &settings.strategy_for;
         if chosen.is_empty() {
-            return settings.strategy;
+            return usual;
         }
         let names = names(copper, nets, id);
         let own = chosen.iter().find(|own| own.nets.matches_any(&names));
-        own.map_or(settings.strategy, |own| own.strategy)
+        own.map_or(usual, |own| own.strategy)
     };
     (0..).map(NetId).take(nets.nets().len()).map(strategy).collect()
 }

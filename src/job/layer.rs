@@ -63,7 +63,7 @@ impl Layer {
         );
         let gap =
             stages.run(format!("{side}: smallest gap"), || topology::smallest_gap(copper, &nets), |_| []);
-        let strategies = by_net::strategies(copper, &nets, settings);
+        let strategies = by_net::strategies(copper, &nets, &settings.strategy_for, settings.strategy);
         let plan = |looped: Vec<NetId>| {
             let planned = Planned { copper, nets: &nets, placement: &placement, settings };
             planned.plan(board, looped)

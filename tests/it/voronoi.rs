@@ -592,7 +592,8 @@ fn an_area_is_cleared_and_what_is_kept_is_not() {
         Polygon::rectangle(Rect::new(at(left, bottom), at(right, top)))
     };
     let is_in = |[left, bottom, right, top]: [i64; 4], x: f64, y: f64| {
-        let within = |low: i64, high: i64, v: f64| (low as f64 * 1e3..high as f64 * 1e3).contains(&v);
+        let within =
+            |low: i64, high: i64, v: f64| (Nm::from_um(low)..Nm::from_um(high)).contains(&Nm::from_f64(v));
         within(left, right, x) && within(bottom, top, y)
     };
     let (area, kept) = ([-1800, 900, 3900, 4700], [-1000, 1200, 400, 3000]);
