@@ -268,7 +268,7 @@ fn random_areas_are_cleared_in_arcs_without_residue() {
 
 #[test]
 fn letters_are_cleared_in_arcs() {
-    let every = if cfg!(debug_assertions) { 60 } else { 7 };
+    let every = if cfg!(debug_assertions) { 60 } else { 17 };
     for (name, areas) in capitals().step_by(every) {
         check_engaged(&name, &pocketed(&name, areas, "endmill:0.3mm", &engaging("15%", false)), 0.15);
     }

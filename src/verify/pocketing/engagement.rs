@@ -90,11 +90,9 @@ const BURR: f64 = 0.025;
 /// than a cell and a half. Chosen: above what cells round.
 const AHEAD: f64 = 0.015;
 
-/// Where that finds more than is allowed, or so little that it may be a wall beside the mill, in
-/// radians, the motions themselves are asked, too, so much within the circumference in nanometres:
-/// a mill that goes round in a circle hardly wider than itself never comes to what lies farther
-/// ahead. Chosen: twice what such a wall is seen as, and above what chords are off.
-const LITTLE: f64 = 0.7;
+/// Where that finds more than is allowed the motions themselves are asked, too, so much within the
+/// circumference in nanometres: a mill that goes round in a circle hardly wider than itself never
+/// comes to what lies farther ahead. Chosen: above what chords are off.
 const WITHIN: f64 = 500.0;
 
 /// Heights are so many parts of the whole depth.
@@ -169,7 +167,7 @@ impl Field {
 
     /// The height of the middles of a row of cells.
     fn height(&self, row: usize) -> f64 {
-        self.corner.1 + (number(row) + 0.5) * self.pitch
+        self.corner.1 + (number_of(row) + 0.5) * self.pitch
     }
 
     /// The cells of a row with their middles between two places.
@@ -187,8 +185,10 @@ impl Field {
         f64::from(self.depths[count(y) * self.columns + count(x)]) * self.part
     }
 
-    /// Lowers a disc to a depth, but for what a disc round `before` has lowered already.
-    fn lower(&mut self, center: Spot, radius: f64, depth: f64, before: Option<Spot>) {
+    /// Lowers a disc to a depth, but for what a disc round `before` has lowered already; how many
+    /// cells were higher.
+    fn lower(&mut self, center: Spot, radius: f64, depth: f64, before: Option<Spot>) -> usize {
+        let mut lowered = 0;
         let depth = quantum(depth / self.part);
         let row = |y: f64| count(((y - self.corner.1) / self.pitch - 0.5).ceil()).min(self.rows);
         for j in row(center.1 - radius)..row(center.1 + radius) {
@@ -200,11 +200,13 @@ impl Field {
                 if from < to {
                     let cells = self.cells(from, to);
                     for cell in &mut self.depths[j * self.columns..][cells] {
+                        lowered += usize::from(*cell < depth);
                         *cell = (*cell).max(depth);
                     }
                 }
             }
         }
+        lowered
     }
 }
 
@@ -267,9 +269,12 @@ impl<'a> Mill<'a> {
             let depth = stretch.depths[0] + (stretch.depths[1] - stretch.depths[0]) * part;
             if depth > 0.0 {
                 let known = self.last.filter(|&(_, before)| before >= depth).map(|(at, _)| at);
-                self.field.lower(at, self.work.radius.to_f64(), depth, known);
+                let radius = self.work.radius.to_f64();
+                let lowered = number_of(self.field.lower(at, radius, depth, known));
+                let area = lowered * self.field.pitch * self.field.pitch;
                 if length > 0.0 {
-                    self.feel(at, heading, depth, length / steps, stretch);
+                    let cuts = lowered > FEW && area > length / steps * radius * THINNEST;
+                    self.feel(at, heading, (depth, length / steps), cuts, stretch);
                 }
             }
             self.last = Some((at, depth));
@@ -277,10 +282,11 @@ impl<'a> Mill<'a> {
         }
     }
 
-    /// What it meets ahead at a place.
-    fn feel(&mut self, at: Spot, heading: Spot, depth: f64, length: f64, stretch: &Stretch) {
+    /// What it meets ahead at a place, so deep and on a part of its way so long, on which it `cuts`
+    /// or does not.
+    fn feel(&mut self, at: Spot, heading: Spot, (depth, length): (f64, f64), cuts: bool, stretch: &Stretch) {
         let mut angle = self.angle(at, heading, depth, None);
-        if engaged(angle) > self.work.allowed || (angle > 0.0 && angle < LITTLE) {
+        if engaged(angle) > self.work.allowed {
             angle = self.angle(at, heading, depth, Some(stretch.order));
         }
         let part = engaged(angle);
@@ -288,20 +294,19 @@ impl<'a> Mill<'a> {
         if part > self.borne.most {
             self.borne = Borne { most: part, at, line: stretch.line, ..self.borne };
         }
-        let met = angle > MEETS;
         self.way += length;
         let pass = self.work.pass;
         let is_level = (stretch.depths[0] - stretch.depths[1]).abs() < LEVEL
             && (depth / pass - (depth / pass).round()).abs() * pass < LEVEL;
-        if met {
-            self.bins[count(part * number(BINS)).min(BINS)] += length;
+        if cuts {
+            self.bins[count(part * number_of(BINS)).min(BINS)] += length;
         } else if !is_level {
             self.lifted += length;
         }
         let radius = self.work.radius.to_f64();
-        if is_level && (met || self.walls.nearest(at).0 > radius * (1.0 + 2.0 * BURR)) {
+        if is_level && (cuts || self.walls.nearest(at).0 > radius * (1.0 + 2.0 * BURR)) {
             self.level += length;
-            self.air += if met { 0.0 } else { length };
+            self.air += if cuts { 0.0 } else { length };
         }
     }
 
@@ -352,7 +357,7 @@ impl<'a> Mill<'a> {
         });
         let part = |length: f64, of: f64| if of > 0.0 { length / of } else { 0.0 };
         Borne {
-            p99: above.map_or(0.0, |bin| number(bin + 1) / number(BINS)).min(self.borne.most),
+            p99: above.map_or(0.0, |bin| number_of(bin + 1) / number_of(BINS)).min(self.borne.most),
             air: part(self.air, self.level),
             lifted: part(self.lifted, self.way),
             ..self.borne
@@ -365,8 +370,10 @@ fn engaged(angle: f64) -> f64 {
     (1.0 - libm::cos(angle)) / 2.0
 }
 
-/// A smaller angle is none, in radians. Chosen: two points.
-const MEETS: f64 = 0.03;
+/// A mill cuts where it takes a strip wider than this part of its radius, and more cells than
+/// these. Chosen: above what cells along the edge of what is cleared already are off.
+const THINNEST: f64 = 0.01;
+const FEW: f64 = 3.0;
 
 /// Depths that differ by less are one, in nanometres: the last digit of a program.
 const LEVEL: f64 = 1_500.0;
@@ -387,7 +394,7 @@ const fn quantum(parts: f64) -> u16 {
 }
 
 /// A number of cells as one that is not whole.
-fn number(count: usize) -> f64 {
+fn number_of(count: usize) -> f64 {
     f64::from(u32::try_from(count).unwrap_or(u32::MAX))
 }
 
