@@ -25,9 +25,6 @@ pub struct Clearing {
     pub kept: Vec<Area>,
 }
 
-/// Polygons round curves keep within this of them. Chosen: as for the copper of a board.
-const CURVE: Nm = FLATTEN;
-
 impl Clearing {
     /// As the options say.
     pub(super) fn of(options: &Options) -> Self {
@@ -72,9 +69,9 @@ impl Clearing {
             let own_nets = nets.nets().iter().zip(&names).filter(|(_, names)| own.nets.matches_any(names));
             let features = own_nets.flat_map(|(net, _)| &net.features);
             let shapes = features.map(|&feature| &copper.features[feature as usize].shape);
-            let polygons: Vec<Polygon> = shapes.filter_map(|shape| shape.polygon(CURVE)).collect();
+            let polygons: Vec<Polygon> = shapes.filter_map(|shape| shape.polygon(FLATTEN)).collect();
             let whole = union(&polygons);
-            areas.extend(whole.iter().flat_map(|part| offset(part, own.distance.nm(), CURVE)));
+            areas.extend(whole.iter().flat_map(|part| offset(part, own.distance.nm(), FLATTEN)));
         }
         voronoi::Clearing {
             nets: ids().filter(|&id| is_any(&self.nets, id)).collect(),

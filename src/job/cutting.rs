@@ -49,8 +49,9 @@ pub(super) fn isolation(
         let Fetched { tool, depth } = workshop.fetch("tool", choice)?;
         let tool = not_a_drill("tool", tool)?;
         let heights = heights(depth_of(&tool, depth, options)?);
-        let floor = tool.width_at((heights.cut - COPPER).max(Nm::ZERO)).max(tool.width_at(heights.cut) / 2);
-        let widening = widening(options, tool.width_at(heights.cut), floor)?;
+        let kerf = tool.width_at(heights.cut);
+        let floor = tool.width_at((heights.cut - COPPER).max(Nm::ZERO)).max(kerf / 2);
+        let widening = widening(options, kerf, floor)?;
         cuttings.push(Cutting { tool, heights, widening });
     }
     cuttings.sort_by_key(|cutting| std::cmp::Reverse(cutting.kerf()));
@@ -92,10 +93,10 @@ const ROOM: Nm = Nm::from_mm(1);
 pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm, Error> {
     let kerf = cuttings.iter().map(Cutting::kerf).max().unwrap_or(Nm::ZERO);
     let Some(margin) = given("frame-margin", options.frame_margin)? else {
+        let clearing = Clearing::of(options);
         let cleared = cuttings.iter().filter_map(|cutting| cutting.widening?.width);
-        let cleared =
-            cleared.chain(Clearing::of(options).farthest()).filter(|&width| width < EVERYTHING).max();
-        let clears = options.clear == Some(true) || Clearing::of(options).is_wanted();
+        let cleared = cleared.chain(clearing.farthest()).filter(|&width| width < EVERYTHING).max();
+        let clears = options.clear == Some(true) || clearing.is_wanted();
         let least = if options.limit.is_some() || clears { ROOM } else { LEAST_MARGIN };
         return Ok(cleared.unwrap_or(kerf).max(kerf).max(least));
     };

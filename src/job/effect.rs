@@ -76,7 +76,7 @@ pub(super) fn patterns<'a>(
     without.map(|(pattern, so)| without_net(pattern, so)).collect()
 }
 
-/// An `area-off-the-board` for each area to be cleared or kept that is on no copper.
+/// An `area-off-the-board` for each area to be cleared or kept that does not touch the board.
 pub(super) fn areas(board: &Board, settings: &Settings) -> Vec<Warning> {
     let Clearing { areas, kept, .. } = &settings.clearing;
     let is_off = |area: &&Area| board.bounds().is_some_and(|bounds| !bounds.touches((**area).into()));

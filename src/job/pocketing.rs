@@ -209,11 +209,7 @@ fn groove_warning(groove: &Groove) -> Warning {
         groove.width.to_mm(),
         groove.length.to_mm()
     );
-    Warning {
-        at: Some(groove.at),
-        size: Some(groove.width),
-        ..planning::MILLED_IN_FULL_WIDTH.warning(message)
-    }
+    Warning { size: Some(groove.width), ..planning::MILLED_IN_FULL_WIDTH.warning(message).at(groove.at) }
 }
 
 /// What a finer tool can clear of areas that a coarser one has cleared as far as it fits.
