@@ -11,7 +11,7 @@
 //! ```
 
 use super::form::{clockwise, turn};
-use super::tolerances::SAME;
+use super::tolerances::{SAME, Tolerances};
 use super::{Diagram, Kind, apollonius};
 use crate::voronoi::plane::Spot;
 
@@ -27,6 +27,8 @@ pub(super) struct Tied {
     /// The direction of its foot, a unit vector.
     pub(super) toward: Spot,
     group: usize,
+    /// It ends here if its end is so near, in nanometres: farther where it is joined to others.
+    slab: f64,
 }
 
 /// What leaves a vertex: an edge between two generators, in a direction.
@@ -56,11 +58,16 @@ pub(super) struct Junction {
 impl Diagram {
     /// The generators that count at `p` and are at most `reach` far, with their distances.
     pub(super) fn within(&self, p: Spot, reach: f64) -> Vec<(u32, f64)> {
+        self.about(p, reach, self.tolerances.slab)
+    }
+
+    /// Those, and others whose ends are at most `slab` behind.
+    fn about(&self, p: Spot, reach: f64, slab: f64) -> Vec<(u32, f64)> {
         let mut found = Vec::new();
         self.index.visit_round(p, reach + self.tie, |i| {
             let form = &self.forms()[i as usize];
             let distance = form.distance(p);
-            if distance <= reach && form.counts(p, self.tie, self.tolerances.slab) {
+            if distance <= reach && form.counts(p, self.tie, slab) {
                 found.push((i, distance));
             }
         });
@@ -71,18 +78,28 @@ impl Diagram {
     /// What is tied near `p`, which `third` generators at about `clearance` have led to; none where
     /// something is nearer.
     pub(super) fn junction(&self, p: Spot, clearance: f64, led: [u32; 3]) -> Option<Junction> {
-        let near = self.within(p, clearance + 8.0 * self.tie);
-        let least = near.iter().map(|&(_, d)| d).fold(f64::INFINITY, f64::min);
-        if near.is_empty() || least < clearance - 4.0 * self.tie {
+        let Tolerances { slab, snap, .. } = self.tolerances;
+        let near = self.about(p, clearance + 8.0 * self.tie, snap);
+        let counts = |&&(i, _): &&(u32, f64)| self.forms()[i as usize].counts(p, self.tie, slab);
+        let least = near.iter().filter(counts).map(|&(_, d)| d).fold(f64::INFINITY, f64::min);
+        if least.is_infinite() || least < clearance - 4.0 * self.tie {
             return None;
         }
         let numbers = || near.iter().map(|&(i, _)| i);
-        let at_first = self.tied(p, clearance, numbers(), self.tolerances.slab);
-        let at = self.hand_over(p, &self.tied(p, clearance, numbers(), self.tolerances.snap));
-        let at = at.unwrap_or_else(|| self.settled(p, &at_first, led));
-        let clearance = at_first.iter().map(|tied| self.forms()[tied.generator as usize].distance(at));
-        let clearance = clearance.fold(f64::INFINITY, f64::min).max(0.0);
-        let tied = self.tied(at, clearance, numbers(), self.tolerances.slab);
+        let at_first = self.tied(p, clearance, numbers(), slab, &[]);
+        let handed = self.hand_over(p, &self.tied(p, clearance, numbers(), snap, &[]));
+        let (mut at, mut joined) = handed.unwrap_or_else(|| (self.settled(p, &at_first, led), Vec::new()));
+        let away = |at: Spot| {
+            let all = at_first.iter().map(|tied| self.forms()[tied.generator as usize].distance(at));
+            all.fold(f64::INFINITY, f64::min).max(0.0)
+        };
+        // Where that lies beyond another vertex, within a nanometre, the place is the one found.
+        let is_moved = (at - p).length() > self.tie;
+        if is_moved && !self.within(at, away(at) - 4.0 * self.tie).is_empty() {
+            (at, joined) = (p, Vec::new());
+        }
+        let clearance = away(at);
+        let tied = self.tied(at, clearance, numbers(), slab, &joined);
         let slots = self.slots(at, clearance, &tied);
         let mut generators: Vec<u32> = tied.iter().map(|tied| tied.generator).collect();
         generators.sort_unstable();
@@ -102,24 +119,33 @@ impl Diagram {
     }
 
     /// The generators among some that are `clearance` far from `p`, by the direction of their feet,
-    /// in groups of one direction.
-    fn tied(&self, p: Spot, clearance: f64, among: impl Iterator<Item = u32>, slab: f64) -> Vec<Tied> {
+    /// in groups of one direction. Those that are `joined` end there, in the direction given.
+    fn tied(
+        &self,
+        p: Spot,
+        clearance: f64,
+        among: impl Iterator<Item = u32>,
+        slab: f64,
+        joined: &[(u32, Spot)],
+    ) -> Vec<Tied> {
         let mut tied: Vec<Tied> = Vec::new();
         let mut around: Vec<(u32, Option<[Spot; 2]>)> = Vec::new();
         for generator in among {
             let form = &self.forms()[generator as usize];
+            let end = joined.iter().find(|(other, _)| *other == generator).map(|&(_, toward)| toward);
+            let slab = if end.is_some() { self.tolerances.snap } else { slab };
             if (form.distance(p) - clearance).abs() > self.tie
                 || form.slack(p) < -slab
                 || form.distance(p) < -self.tie
             {
                 continue;
             }
-            let mut add = |toward| tied.push(Tied { generator, toward, group: 0 });
+            let mut add = |toward| tied.push(Tied { generator, toward, group: 0, slab });
             match form.around(p) {
                 // From its centre an arc is everywhere: its two ends stand for it.
                 Some(Some(ends)) => ends.into_iter().for_each(add),
                 Some(None) => add(Spot::new(1.0, 0.0)),
-                None => add(form.away(p) * -1.0),
+                None => add(end.unwrap_or_else(|| form.away(p) * -1.0)),
             }
             around.extend(form.around(p).map(|sector| (generator, sector)));
         }
@@ -192,8 +218,10 @@ impl Diagram {
         best.and_then(|(_, three)| solve(three)).or_else(|| solve(led)).unwrap_or(p)
     }
 
-    /// The place where a line or an arc hands over to the disc at its end, if two tied ones do.
-    fn hand_over(&self, p: Spot, tied: &[Tied]) -> Option<Spot> {
+    /// The place where a line or an arc hands over to the disc at its end, if two tied ones do, and
+    /// all lines and arcs that end there, or less than rounding beside, with the direction of
+    /// their feet.
+    fn hand_over(&self, p: Spot, tied: &[Tied]) -> Option<(Spot, Vec<(u32, Spot)>)> {
         let mut joined: Vec<(u32, usize, usize)> = Vec::new();
         for entry in tied {
             let slacks = self.forms()[entry.generator as usize].slacks(p);
@@ -214,7 +242,9 @@ impl Diagram {
         let at = foot + normal * s;
         let stays =
             |other: &Tied| (self.forms()[other.generator as usize].distance(at) - s).abs() <= self.tie;
-        ((at - p).length() < 2.0 * self.tolerances.snap && tied.iter().all(stays)).then_some(at)
+        let is_near = (at - p).length() < 2.0 * self.tolerances.snap;
+        let ends = joined.iter().filter(|joined| joined.2 == group).map(|joined| (joined.0, normal * -1.0));
+        (is_near && tied.iter().all(stays)).then(|| (at, ends.collect()))
     }
 
     /// What leaves between neighbouring groups.
@@ -246,8 +276,8 @@ impl Diagram {
 
     /// The one of some tied generators that is nearest a little ahead.
     pub(super) fn ahead_of(&self, at: Spot, clearance: f64, way: Spot, tied: &[u32]) -> Option<u32> {
-        let tied: Vec<Tied> =
-            tied.iter().map(|&generator| Tied { generator, toward: Spot::default(), group: 0 }).collect();
+        let (toward, group, slab) = (Spot::default(), 0, self.tolerances.slab);
+        let tied: Vec<Tied> = tied.iter().map(|&generator| Tied { generator, toward, group, slab }).collect();
         (!tied.is_empty()).then(|| self.ahead(at, clearance, way, tied.iter()))
     }
 
@@ -260,8 +290,8 @@ impl Diagram {
         group: impl Iterator<Item = &'a Tied> + Clone,
     ) -> u32 {
         let probe = at + way * self.tolerances.resolution(self.tie, clearance);
-        let goes_on = |i: u32| {
-            let form = &self.forms()[i as usize];
+        let goes_on = |tied: &&Tied| {
+            let form = &self.forms()[tied.generator as usize];
             let Some(ends) = form.ends() else { return true };
             if form.around(at).is_some() {
                 return form.slack(probe) >= 0.0;
@@ -272,7 +302,7 @@ impl Diagram {
                 // The direction in which feet move inwards from this end.
                 let onward = clockwise(normal) * if form.is_hollow() { 1.0 } else { -1.0 };
                 let inward = if end == 0 { onward } else { onward * -1.0 };
-                slacks[end].abs() > self.tolerances.slab || way.dot(inward) >= -1e-9
+                slacks[end].abs() > tied.slab || way.dot(inward) >= -1e-9
             })
         };
         let rank = |i: u32| (self.forms()[i as usize].distance(probe), self.owner(i), i);
@@ -281,8 +311,11 @@ impl Diagram {
             let a_first = if is_tie { (a.1, a.2) < (b.1, b.2) } else { a.0 < b.0 };
             if a_first { a } else { b }
         };
-        let all = || group.clone().map(|tied| tied.generator);
-        let going = all().filter(|&i| goes_on(i)).map(rank).reduce(nearer);
-        going.or_else(|| all().map(rank).reduce(nearer)).map_or(u32::MAX, |found| found.2)
+        let ranked = |tied: &Tied| rank(tied.generator);
+        let is_there = |tied: &&Tied| self.forms()[tied.generator as usize].slack(probe) >= -tied.slab;
+        let going = group.clone().filter(goes_on);
+        let there = going.clone().filter(is_there).map(ranked).reduce(nearer);
+        let going = there.or_else(|| going.map(ranked).reduce(nearer));
+        going.or_else(|| group.map(ranked).reduce(nearer)).map_or(u32::MAX, |found| found.2)
     }
 }
