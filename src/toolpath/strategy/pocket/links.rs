@@ -12,10 +12,11 @@ use std::collections::BinaryHeap;
 
 use static_aabb2d_index::StaticAABB2DIndex;
 
+use crate::geometry::{between, part_nearest};
 use crate::topology::{boxes, spanned};
 use crate::voronoi::medial::nest::Nest;
 
-use super::course::{Course, Spot, between, distance, part_nearest};
+use super::course::{Course, Spot, distance};
 
 /// A way from a place of a loop to a place of another, straight.
 #[derive(Clone, Copy, Debug)]

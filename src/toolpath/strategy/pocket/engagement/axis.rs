@@ -3,7 +3,8 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use crate::toolpath::strategy::pocket::course::{Spot, between, distance};
+use crate::geometry::between;
+use crate::toolpath::strategy::pocket::course::{Spot, distance};
 use crate::voronoi::medial::{MedialAxis, Place};
 
 /// A part of the axis between two nodes, along which the tool's middle fits.
