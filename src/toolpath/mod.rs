@@ -15,6 +15,7 @@ mod heights;
 mod machine;
 mod measure;
 mod order;
+mod ordered;
 mod percent;
 mod placement;
 mod planner;
