@@ -20,7 +20,7 @@ macro_rules! arguments {
         $(#[instead_of($($other:ident),+)])?
         $(#[needs($need:ident)])?
         #[changes($($output:ident),+)]
-        pub $name:ident: $kind:ty,
+        pub $name:ident: $kind:ty $(= $usual:ident)?,
     )+})+) => {
         #[derive(Args)]
         struct Arguments {

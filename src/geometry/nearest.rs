@@ -38,6 +38,6 @@ mod tests {
             assert_eq!(between(a, b, part_nearest(p, a, b)), nearest, "{p:?}");
             assert_eq!(off_segment(p, a, b), (p.0 - nearest.0, p.1 - nearest.1), "from there to {p:?}");
         }
-        assert_eq!(part_nearest((5.0, 5.0), a, a), 0.0, "of no length");
+        assert_eq!(between(a, b, part_nearest((5.0, 5.0), a, a)), a, "of no length");
     }
 }

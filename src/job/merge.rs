@@ -3,6 +3,9 @@
 
 /// What an option holds, which may be left open.
 pub(super) trait Open: Default {
+    /// What it holds where it is not open.
+    type Held;
+
     /// Whether nothing was said.
     fn is_open(&self) -> bool;
 
@@ -14,12 +17,16 @@ pub(super) trait Open: Default {
 }
 
 impl<T> Open for Option<T> {
+    type Held = T;
+
     fn is_open(&self) -> bool {
         self.is_none()
     }
 }
 
 impl<T> Open for Vec<T> {
+    type Held = Self;
+
     fn is_open(&self) -> bool {
         self.is_empty()
     }

@@ -12,7 +12,7 @@
 /// - `instead_of`: the options that say the same in another way, so that one replaces the other,
 /// - `needs`: without which [`Need`] it has no effect,
 /// - `changes`: its [`Reach`], which the headers of programs and the subcommands go by,
-/// - its name and its type.
+/// - its name and its type, and whether the defaults have a value for it, so that it is never open.
 ///
 /// The names of parsers are those where that macro is called.
 #[doc(hidden)]
@@ -39,7 +39,7 @@ macro_rules! job_options {
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     #[serde(with = "text")]
     #[changes(ISOLATION, POCKETS, PICTURES, INSPECTION)]
-    pub depth: Option<Length>,
+    pub depth: Option<Length> = usual,
 
     /// How wide the cutter isolates, instead of --depth: the depth that a V-bit needs for this kerf
     #[arg(long, value_name = "LENGTH")]
@@ -52,7 +52,7 @@ macro_rules! job_options {
     /// (outline: keeps the shape of the traces), or for each net whichever takes less time (auto)
     #[arg(long, value_parser = choice::<Strategy>(), hide_possible_values = true, value_name = "STRATEGY")]
     #[changes(ISOLATION, PICTURES)]
-    pub strategy: Option<Strategy>,
+    pub strategy: Option<Strategy> = usual,
 
     /// The strategy of some nets, by name as for --ignore, such as GND*=outline; the first pattern
     /// that matches a net decides
@@ -65,7 +65,7 @@ macro_rules! job_options {
     /// (core), as the paper has it
     #[arg(long, value_parser = choice::<Sites>(), hide_possible_values = true, value_name = "SITES")]
     #[changes(ISOLATION, PICTURES)]
-    pub sites: Option<Sites>,
+    pub sites: Option<Sites> = usual,
 
     /// Greatest distance from its copper at which the region of a net ends, and is cut round; for
     /// less capacitance between nets
@@ -147,7 +147,7 @@ macro_rules! job_options {
     /// Make no frame cut: without an outline the copper is otherwise cut out once all round
     #[arg(long = "no-frame", num_args = 0, default_missing_value = "false")]
     #[changes(ISOLATION, PICTURES)]
-    pub frame: Option<bool>,
+    pub frame: Option<bool> = usual,
 
     /// Distance between the frame cut and the copper [default: the kerf or the width to be cleared,
     /// at least 0.2mm]
@@ -161,25 +161,25 @@ macro_rules! job_options {
     #[arg(long = "no-min-width", num_args = 0, default_missing_value = "false")]
     #[needs(Axes)]
     #[changes(ISOLATION, PICTURES)]
-    pub min_width: Option<bool>,
+    pub min_width: Option<bool> = usual,
 
     /// How it is found which copper touches: contact (exact), or as in the paper translucency or
     /// coincidence; all compares them in inspect
     #[arg(long, value_parser = choice::<Topology>(), hide_possible_values = true, value_name = "METHOD")]
     #[changes(ISOLATION, PICTURES, INSPECTION)]
-    pub topology: Option<Topology>,
+    pub topology: Option<Topology> = usual,
 
     /// How far a cut may be from its exact place, so that it has few lines and arcs
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[changes(ISOLATION, ART, PICTURES)]
-    pub tolerance: Option<Length>,
+    pub tolerance: Option<Length> = usual,
 
     /// What to do where a gap is narrower than the kerf: cut midway, into the copper of both nets
     /// (centre), leave the gap uncut (skip), or fail (error)
     #[arg(long, value_parser = choice::<Narrow>(), hide_possible_values = true, value_name = "WHAT")]
     #[changes(ISOLATION, PICTURES)]
-    pub narrow: Option<Narrow>,
+    pub narrow: Option<Narrow> = usual,
 
     /// Raise a V-bit where a gap is narrow, so that it cuts narrower there, to no less than this
     /// depth; keep it deeper than the copper is thick
@@ -200,19 +200,19 @@ macro_rules! job_options {
     #[arg(long, value_name = "SPEED")]
     #[serde(with = "text")]
     #[changes(PROGRAMS, ART, PICTURES)]
-    pub feed: Option<Feed>,
+    pub feed: Option<Feed> = usual,
 
     /// Feed rate of the cutter down into the material
     #[arg(long, value_name = "SPEED")]
     #[serde(with = "text")]
     #[changes(PROGRAMS, ART, PICTURES)]
-    pub plunge: Option<Feed>,
+    pub plunge: Option<Feed> = usual,
 
     /// Spindle speed of the cutter, in revolutions per minute
     #[arg(long, value_name = "RPM", value_parser = turns)]
     #[serde(deserialize_with = "turns::deserialize")]
     #[changes(PROGRAMS, ART)]
-    pub spindle: Option<u32>,
+    pub spindle: Option<u32> = usual,
 
     /// Direction of loops round nets and contours: climb (what is kept on the right) or
     /// conventional [default: either]
@@ -230,7 +230,7 @@ macro_rules! job_options {
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[changes(PROGRAMS, ART, PICTURES, PROBING)]
-    pub safe_z: Option<Length>,
+    pub safe_z: Option<Length> = usual,
 
     /// G-code of the controller: grbl, grblhal, fluidnc, linuxcnc, mach3, mach4, marlin,
     /// reprapfirmware, klipper, smoothieware, tinyg, g2core, or a file such as mine.toml that
@@ -238,7 +238,7 @@ macro_rules! job_options {
     #[arg(long, value_name = "DIALECT")]
     #[serde(with = "text")]
     #[changes(PROGRAMS, ART, PROBING)]
-    pub dialect: Option<DialectChoice>,
+    pub dialect: Option<DialectChoice> = usual,
 
     /// How far the machine may round off corners to keep its speed (G64 P), such as 0.01mm; machine
     /// leaves it as the machine is set [default: 0.005mm for linuxcnc]
@@ -257,14 +257,14 @@ macro_rules! job_options {
     /// coordinates
     #[arg(long, value_parser = choice::<Origin>(), hide_possible_values = true, value_name = "PLACE")]
     #[changes(PROGRAMS, ART, PICTURES, PROBING)]
-    pub origin: Option<Origin>,
+    pub origin: Option<Origin> = usual,
 
     /// Rotate the board counter-clockwise on the machine, such as 90deg where it is longer than the
     /// travel
     #[arg(long, value_name = "ANGLE", allow_hyphen_values = true)]
     #[serde(with = "text")]
     #[changes(ISOLATION, ART, PICTURES, PROBING)]
-    pub rotate: Option<Angle>,
+    pub rotate: Option<Angle> = usual,
 
     /// Move the board on the machine, after --origin; for a clamp or a corner of the stock
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
@@ -304,7 +304,7 @@ macro_rules! job_options {
     #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true)]
     #[serde(with = "text")]
     #[changes(PROGRAMS, ART)]
-    pub park: Option<ToolChangeAt>,
+    pub park: Option<ToolChangeAt> = usual,
 
     /// File with G-code of your own for the start of each program, written as it is, after the
     /// header
@@ -346,7 +346,7 @@ macro_rules! job_options {
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[changes(PROGRAMS, INSPECTION)]
-    pub thickness: Option<Length>,
+    pub thickness: Option<Length> = usual,
 
     /// The drills that you have, such as 0.8mm,1mm,3.2mm [default: one for each diameter in the
     /// files]
@@ -371,7 +371,7 @@ macro_rules! job_options {
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[changes(DRILLING)]
-    pub drill_tolerance: Option<Length>,
+    pub drill_tolerance: Option<Length> = usual,
 
     /// Peck depth: how deep a drill goes before it retracts to clear chips [default: no pecks]
     #[arg(long, value_name = "LENGTH")]
@@ -407,7 +407,7 @@ macro_rules! job_options {
         default_missing_value = "true"
     )]
     #[changes(DRILLING)]
-    pub drill_bore: Option<bool>,
+    pub drill_bore: Option<bool> = usual,
 
     /// Bore holes of this diameter and wider, and slots, even if there is a drill; for drills that
     /// wander
@@ -440,7 +440,7 @@ macro_rules! job_options {
     #[serde(with = "text")]
     #[needs(Alignment)]
     #[changes(ALIGNMENT)]
-    pub alignment_margin: Option<Length>,
+    pub alignment_margin: Option<Length> = usual,
 
     /// Depth of alignment holes at their full diameter, into the bed so that pins stand [default:
     /// the thickness of the board and 3mm]
@@ -462,18 +462,18 @@ macro_rules! job_options {
     #[serde(with = "text")]
     #[needs(ThroughHoles)]
     #[changes(DRILLING)]
-    pub break_through: Option<Length>,
+    pub break_through: Option<Length> = usual,
 
     /// Point angle of drills, for how deep they go; carbide drills have 130deg
     #[arg(long, value_name = "ANGLE")]
     #[serde(with = "text")]
     #[changes(ALIGNMENT, DRILLING)]
-    pub drill_tip_angle: Option<Angle>,
+    pub drill_tip_angle: Option<Angle> = usual,
 
     /// Material of the board, for the speeds of drills: fr4 (glass epoxy) or fr1 (paper phenolic)
     #[arg(long, value_parser = choice::<Material>(), hide_possible_values = true, value_name = "MATERIAL")]
     #[changes(ALIGNMENT, DRILLING)]
-    pub material: Option<Material>,
+    pub material: Option<Material> = usual,
 
     /// Height above the copper at which drills travel [default: --safe-z]
     #[arg(long, value_name = "LENGTH")]
@@ -492,13 +492,13 @@ macro_rules! job_options {
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[changes(ISOLATION, CUTOUT, PICTURES, PROBING, INSPECTION)]
-    pub outline_gap: Option<Length>,
+    pub outline_gap: Option<Length> = usual,
 
     /// End mill that cuts the board out of the stock
     #[arg(long, value_name = "TOOL")]
     #[serde(with = "text")]
     #[changes(CUTOUT, TILING, PICTURES)]
-    pub cutout_tool: Option<ToolChoice>,
+    pub cutout_tool: Option<ToolChoice> = usual,
 
     /// The side that is up while the board is cut out: front or back [default: front]
     #[arg(long, value_parser = choice::<DrillSide>(), hide_possible_values = true, value_name = "SIDE")]
@@ -549,14 +549,14 @@ macro_rules! job_options {
     #[serde(with = "text")]
     #[needs(Tabs)]
     #[changes(CUTOUT, PICTURES)]
-    pub tab_width: Option<Length>,
+    pub tab_width: Option<Length> = usual,
 
     /// Height of a tab above the back of the board: less is easier to break
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[needs(Tabs)]
     #[changes(CUTOUT, PICTURES)]
-    pub tab_height: Option<Length>,
+    pub tab_height: Option<Length> = usual,
     }
     "Output" {
     /// File name of a program: front, back, drill, cutout or alignment, and a name, such as

@@ -22,6 +22,22 @@ use super::strategy_for::StrategyFor;
 use super::tools::{Library, ToolChoice};
 use super::turns;
 
+/// The type, and the value, of an option that may be open, and of one that has a usual value.
+macro_rules! complete {
+    ($kind:ty) => {
+        $kind
+    };
+    ($kind:ty, usual) => {
+        <$kind as Open>::Held
+    };
+    ($given:expr, $other:expr) => {
+        $given
+    };
+    ($given:expr, $other:expr, usual) => {
+        $given.or($other).expect("the defaults say it")
+    };
+}
+
 /// The structure of the options, for serde, and what the list says of each.
 macro_rules! structure {
     ($($heading:literal {$(
@@ -31,7 +47,7 @@ macro_rules! structure {
         $(#[instead_of($($other:ident),+)])?
         $(#[needs($need:ident)])?
         #[changes($($output:ident),+)]
-        pub $name:ident: $kind:ty,
+        pub $name:ident: $kind:ty $(= $usual:ident)?,
     )+})+) => {
         /// What a person asked for; what they left open is none.
         #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -48,6 +64,14 @@ macro_rules! structure {
             pub tools: Library,
         }
 
+        /// The options where the defaults fill what is open: those of which they say something have
+        /// a value.
+        #[derive(Clone, Debug)]
+        pub(super) struct Complete {
+            $($(pub(super) $name: complete!($kind $(, $usual)?),)+)+
+            pub(super) tools: Library,
+        }
+
         /// What each option changes, in the order of the keys.
         const REACHES: &[Reach] = &[$($(Reach::NONE$(.and(Reach::$output))+,)+)+];
 
@@ -61,6 +85,12 @@ macro_rules! structure {
                 );)+)?)+)+
                 let tools = self.tools.clone().with(self.yielding(others.tools));
                 Self { $($($name: self.$name.otherwise(others.$name),)+)+ tools }
+            }
+
+            /// These, and the defaults where they leave something open.
+            pub(super) fn complete(self) -> Complete {
+                let usual = Self::defaults();
+                Complete { $($($name: complete!(self.$name, usual.$name $(, $usual)?),)+)+ tools: self.tools }
             }
 
             /// What each option that is set needs, by its key.
