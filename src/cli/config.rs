@@ -7,7 +7,7 @@ use voromill::board::Board;
 use voromill::job::{Error, FILE_NAME, Length, MillProject, Options, Settings, Workbench};
 
 use super::Failure;
-use super::given::Given;
+use super::given::{Given, flag};
 use super::input::Input;
 
 /// The options of a job, and where to find the rest.
@@ -37,7 +37,7 @@ impl Config {
     pub(super) fn judge_paper(&self) -> Result<(), Failure> {
         let given = self.given.0.listed();
         let Some((option, _)) = given.iter().find(|(option, _)| *option != "strategy") else { return Ok(()) };
-        let cause = format!("--{option} has no effect with --paper");
+        let cause = format!("{} has no effect with --paper", flag(option));
         Err(Failure::new(cause, "leave out one of them; of these options --paper takes only --strategy"))
     }
 
@@ -70,7 +70,7 @@ impl Config {
     /// Fails for an option that was given here and changes nothing beside the others.
     fn judge(&self, settings: &Settings) -> Result<(), Failure> {
         settings.without_effect(&self.given.0).map_or(Ok(()), |(option, hint)| {
-            Err(Failure::new(format!("--{option} has no effect with these options"), hint))
+            Err(Failure::new(format!("{} has no effect with these options", flag(option)), hint))
         })
     }
 

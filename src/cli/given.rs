@@ -1,7 +1,7 @@
 //! The options of a job as arguments: what the library lists, read by clap.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{ArgMatches, Args, Command, FromArgMatches};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
 use serde::de::value::Error;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 use voromill::gcode::dialect::{Blend, ToolChange};
@@ -13,24 +13,29 @@ use voromill::job::{
 use voromill::toolpath::{Angle, Direction, Feed, Material};
 
 macro_rules! arguments {
-    ($(
+    ($($heading:literal {$(
         $(#[doc = $about:tt])+
         #[arg($($argument:tt)*)]
         $(#[serde($($key:tt)*)])?
-        pub $name:ident: $kind:ty,
-    )+) => {
+        $(#[instead_of($($other:ident),+)])?
+        $(#[needs($need:ident)])?
+        #[changes($($output:ident),+)]
+        pub $name:ident: $kind:ty $(= $usual:ident)?,
+    )+})+) => {
         #[derive(Args)]
         struct Arguments {
-            $(
+            $($(
                 $(#[doc = $about])+
+                #[arg(help_heading = $heading)]
+                $(#[arg(conflicts_with_all = [$(stringify!($other)),+])])?
                 #[arg($($argument)*)]
                 $name: $kind,
-            )+
+            )+)+
         }
 
         impl From<Arguments> for Options {
             fn from(given: Arguments) -> Self {
-                Self { $($name: given.$name,)+ ..Self::default() }
+                Self { $($($name: given.$name,)+)+ ..Self::default() }
             }
         }
     };
@@ -60,6 +65,18 @@ impl Args for Given {
     fn augment_args_for_update(command: Command) -> Command {
         Arguments::augment_args_for_update(command)
     }
+}
+
+/// An option of a job, by its key in a settings file, as it is written on the command line.
+pub(super) fn flag(key: &str) -> String {
+    let given = Given::augment_args(Command::new("options"));
+    let long = given.get_arguments().find(|argument| key_of(argument) == key).and_then(Arg::get_long);
+    format!("--{}", long.unwrap_or(key))
+}
+
+/// The key of an option in a settings file.
+pub(super) fn key_of(argument: &Arg) -> String {
+    argument.get_id().as_str().replace('_', "-")
 }
 
 /// Reads one of the words that an enumeration of the library has.

@@ -6,22 +6,20 @@
 //! something.
 
 use clap::parser::ValueSource;
-use clap::{ArgMatches, Args, Command};
-use voromill::job::{CARVING_OPTIONS, POCKETING_OPTIONS, Part};
+use clap::{Arg, ArgMatches, Args, Command};
+use voromill::job::{Options, Reach};
 
 use super::Failure;
-use super::given::Given;
+use super::given::{Given, flag, key_of};
 
 /// The command, with the options of a job left out of the help of the subcommands to which they
 /// mean nothing.
 pub(super) fn hidden(command: Command) -> Command {
-    let options = options();
     command.mut_subcommands(move |sub| {
-        let (name, options) = (sub.get_name().to_owned(), options.clone());
+        let without_effect = without_effect(sub.get_name());
         sub.mut_args(move |argument| {
-            let has_no_effect =
-                options.contains(&argument.get_id().to_string()) && !takes(&name, argument.get_id().as_str());
-            if has_no_effect { argument.hide(true) } else { argument }
+            let has_none = without_effect.iter().any(|option| option.get_id() == argument.get_id());
+            if has_none { argument.hide(true) } else { argument }
         })
     })
 }
@@ -37,81 +35,30 @@ pub(super) fn renamed(command: Command) -> Command {
 /// Fails for the first option of a job that was given to a subcommand to which it means nothing.
 pub(super) fn check(matches: &ArgMatches) -> Result<(), Failure> {
     let Some((name, given)) = matches.subcommand() else { return Ok(()) };
-    let without_effect = options().into_iter().filter(|option| !takes(name, option));
-    match without_effect
-        .into_iter()
-        .find(|option| given.value_source(option) == Some(ValueSource::CommandLine))
-    {
+    let is_given =
+        |option: &Arg| given.value_source(option.get_id().as_str()) == Some(ValueSource::CommandLine);
+    match without_effect(name).iter().find(|option| is_given(option)) {
         None => Ok(()),
         Some(option) => {
-            let no = if matches!(option.as_str(), "frame" | "min_width") { "no-" } else { "" };
-            let cause =
-                format!("--{no}{} has no effect on what `voromill {name}` makes", option.replace('_', "-"));
+            let flag = flag(&key_of(option));
+            let cause = format!("{flag} has no effect on what `voromill {name}` makes");
             Err(Failure::new(cause, "leave it out; a settings file may have it"))
         }
     }
 }
 
-/// The names of a job's options.
-fn options() -> Vec<String> {
+/// The options of a job that change nothing of what a subcommand makes.
+fn without_effect(subcommand: &str) -> Vec<Arg> {
+    let reach = match subcommand {
+        "isolate" => Reach::ISOLATION.and(Reach::TILING),
+        "draw" => Reach::PICTURES,
+        "probe" => Reach::PROBING.and(Reach::TILING),
+        "carve" => Reach::CARVING,
+        "pocket" => Reach::POCKETS,
+        "inspect" => Reach::INSPECTION,
+        _ => return Vec::new(),
+    };
     let options = Given::augment_args(Command::new("options"));
-    options.get_arguments().map(|argument| argument.get_id().to_string()).collect()
-}
-
-/// Whether an option of a job changes what a subcommand makes.
-fn takes(subcommand: &str, option: &str) -> bool {
-    let option = option.replace('_', "-");
-    let option = option.as_str();
-    match subcommand {
-        // How far tiles are apart unless that is said goes by the cutter between them.
-        "isolate" => Part::Front.is_changed_by(option) || option == "cutout-tool",
-        "draw" => {
-            let drills = ["drill", "alignment", "break-through", "material", "thickness", "cutout-side"];
-            !is_of_the_machine(option) && !drills.iter().any(|start| option.starts_with(start))
-        }
-        "probe" => {
-            places(option)
-                || matches!(
-                    option,
-                    "safe-z" | "machine" | "dialect" | "blend" | "cutout-tool" | "outline-gap"
-                )
-        }
-        "carve" => CARVING_OPTIONS.contains(&option),
-        "pocket" => CARVING_OPTIONS.contains(&option) || POCKETING_OPTIONS.contains(&option),
-        // The kerf and the board's thickness decide how strongly nets are coupled.
-        "inspect" => {
-            matches!(option, "topology" | "outline-gap" | "tool" | "depth" | "kerf" | "thickness")
-        }
-        _ => true,
-    }
-}
-
-/// What says how boards lie on the machine.
-fn places(option: &str) -> bool {
-    matches!(option, "origin" | "rotate" | "offset" | "mirror-axis" | "tile" | "tile-spacing")
-}
-
-/// What is of the text of programs, or of the machine that reads it, and not of what is cut on a
-/// board.
-fn is_of_the_machine(option: &str) -> bool {
-    matches!(
-        option,
-        "spindle"
-            | "spin-up"
-            | "machine"
-            | "dialect"
-            | "blend"
-            | "tool-change"
-            | "tool-change-at"
-            | "tool-probe"
-            | "park"
-            | "direction"
-            | "before"
-            | "after"
-            | "at-tool-change"
-            | "tile"
-            | "tile-spacing"
-            | "machine-travel"
-            | "output-name"
-    )
+    let idle = options.get_arguments().filter(|option| !Options::reach(&key_of(option)).meets(reach));
+    idle.cloned().collect()
 }

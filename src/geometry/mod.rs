@@ -16,6 +16,7 @@
 
 mod arc;
 mod length;
+mod nearest;
 mod nm;
 mod path;
 mod point;
@@ -24,6 +25,7 @@ mod polygon;
 pub use arc::{Arc, Turn};
 pub use length::ParseLengthError;
 pub(crate) use length::nanometres;
+pub(crate) use nearest::{between, off_segment, part_nearest};
 pub use nm::{Nm, RangeError};
 pub use path::{Path, Segment};
 pub use point::{Orientation, Point, Rect, Vector, orientation};

@@ -10,7 +10,7 @@ use crate::verify::carving::{self, Carved, Ideal, Text};
 use crate::voronoi::medial::{MedialAxis, Pruning};
 
 use super::art::{self, Art, OneTool, placed, round, written};
-use super::{Error, Settings};
+use super::{Error, Reach, Settings};
 
 /// How it is carved.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,29 +62,6 @@ const TOLERATED: Nm = Nm::from_um(10);
 /// Places are looked at so far apart at least, and so many of them at most. Chosen.
 const FINEST: Nm = Nm::from_um(10);
 const MOST_PLACES: f64 = 4e5;
-
-/// The options of a job that change what is carved, by name.
-pub const CARVING_OPTIONS: &[&str] = &[
-    "tool",
-    "feed",
-    "plunge",
-    "spindle",
-    "spin-up",
-    "safe-z",
-    "dialect",
-    "machine",
-    "machine-travel",
-    "blend",
-    "origin",
-    "rotate",
-    "offset",
-    "tolerance",
-    "park",
-    "tool-probe",
-    "tool-change",
-    "before",
-    "after",
-];
 
 /// Plans the program that carves `art`.
 ///
@@ -243,8 +220,7 @@ const LEAST_WIDE: f64 = 1e-3;
 
 /// The settings that matter, for the header.
 fn declared(settings: &Settings, how: &Carving) -> Vec<(String, String)> {
-    let mut listed = settings.options().listed();
-    listed.retain(|(option, _)| CARVING_OPTIONS.contains(&option.as_str()));
+    let mut listed = settings.options().listed_for(Reach::CARVING);
     let mut say = |name: &str, length: Option<Nm>| {
         listed.extend(length.map(|length| (name.to_owned(), super::Length(length).to_string())));
     };

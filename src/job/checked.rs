@@ -9,12 +9,11 @@ use crate::verify;
 
 /// A length that may be left open.
 pub(super) fn given(key: &'static str, length: Option<Length>) -> Result<Option<Nm>, Error> {
-    length.map(|length| positive(key, Some(length))).transpose()
+    length.map(|length| positive(key, length)).transpose()
 }
 
 /// A length that must be more than zero.
-pub(super) fn positive(key: &'static str, length: Option<Length>) -> Result<Nm, Error> {
-    let length = length.expect("the defaults leave no length open");
+pub(super) fn positive(key: &'static str, length: Length) -> Result<Nm, Error> {
     if length.nm() > Nm::ZERO {
         return Ok(length.nm());
     }
@@ -38,7 +37,7 @@ pub(super) fn count(key: &'static str, count: Option<u32>, range: RangeInclusive
 }
 
 /// The height for travel: one that clears the surface as a rapid must.
-pub(super) fn travel_height(key: &'static str, height: Option<Length>) -> Result<Nm, Error> {
+pub(super) fn travel_height(key: &'static str, height: Length) -> Result<Nm, Error> {
     let safe = positive(key, height)?;
     let least = verify::Settings::default().clearance;
     if safe < least {

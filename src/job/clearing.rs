@@ -6,9 +6,9 @@ use crate::geometry::{Nm, Polygon};
 use crate::topology::{NetId, Nets};
 use crate::voronoi;
 
-use super::Options;
 use super::by_net::names;
 use super::distance_for::DistanceFor;
+use super::options::Complete;
 use super::pattern::Pattern;
 use super::quantity::Area;
 
@@ -27,7 +27,7 @@ pub struct Clearing {
 
 impl Clearing {
     /// As the options say.
-    pub(super) fn of(options: &Options) -> Self {
+    pub(super) fn of(options: &Complete) -> Self {
         Self {
             nets: options.clear_nets.clone(),
             areas: options.clear_area.clone(),

@@ -6,13 +6,14 @@ use crate::gcode::dialect::{self, OwnCode, ToolChange, TouchOff};
 use crate::geometry::{Nm, Point};
 use crate::toolpath::Feed;
 
+use super::Error;
 use super::checked::travel_height;
+use super::options::Complete;
 use super::own_lines::OwnLines;
 use super::quantity::{Length, Triple, Wait};
-use super::{Error, Options};
 
 /// `base`, with what the options say differs.
-pub(super) fn dialect(options: &Options, base: Dialect) -> Result<Dialect, Error> {
+pub(super) fn dialect(options: &Complete, base: Dialect) -> Result<Dialect, Error> {
     let tool_change = options.tool_change.unwrap_or(base.tool_change);
     if !base.changes.contains(&tool_change) {
         return Err(Error::Value { key: "tool-change", problem: unheld(tool_change, &base) });
@@ -43,14 +44,14 @@ pub(super) fn dialect(options: &Options, base: Dialect) -> Result<Dialect, Error
 
 /// How fast a person's machine goes level and straight up or down, for programs that must say it;
 /// none where its profile does not.
-fn rapids(options: &Options) -> Option<[Feed; 2]> {
+fn rapids(options: &Complete) -> Option<[Feed; 2]> {
     let profile = options.machine.as_ref().filter(|machine| machine.0.rapid.is_some())?;
     let machine = profile.0.machine();
     Some([machine.level_rapid(), machine.rapid[2]])
 }
 
 /// The plate that tools touch, for a controller whose programs can.
-fn touch_off(Triple([x, y, z]): Triple, options: &Options, base: &Dialect) -> Result<TouchOff, Error> {
+fn touch_off(Triple([x, y, z]): Triple, options: &Complete, base: &Dialect) -> Result<TouchOff, Error> {
     let wrong = |problem| Err(Error::Value { key: "tool-probe", problem });
     if base.sets_height.is_none() {
         let reason =

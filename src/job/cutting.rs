@@ -5,12 +5,13 @@ use crate::geometry::Nm;
 use crate::toolpath::{Heights, Tool, ToolKind};
 use crate::voronoi::Widening;
 
+use super::Error;
 use super::checked::{self, given, positive};
 use super::choice::{Sites, Strategy};
 use super::clearing::Clearing;
+use super::options::Complete;
 use super::quantity::Length;
 use super::tools::{self, Fetched, Workshop};
-use super::{Error, Options};
 
 /// A tool that isolates.
 #[derive(Clone, Debug)]
@@ -40,7 +41,7 @@ impl Cutting {
 
 /// The tools that isolate, the widest first.
 pub(super) fn isolation(
-    options: &Options,
+    options: &Complete,
     workshop: &Workshop<'_>,
     heights: impl Fn(Nm) -> Heights,
 ) -> Result<Vec<Cutting>, Error> {
@@ -64,7 +65,7 @@ pub(super) fn isolation(
 }
 
 /// How deep a tool isolates: as its table says, or the kerf or depth of the settings.
-fn depth_of(tool: &Tool, own: Option<Nm>, options: &Options) -> Result<Nm, Error> {
+fn depth_of(tool: &Tool, own: Option<Nm>, options: &Complete) -> Result<Nm, Error> {
     match (own, options.kerf, tool.kind) {
         (Some(depth), ..) => Ok(depth),
         (None, Some(kerf), ToolKind::VBit { .. }) => {
@@ -77,7 +78,7 @@ fn depth_of(tool: &Tool, own: Option<Nm>, options: &Options) -> Result<Nm, Error
             Err(Error::Value { key: "kerf", problem })
         }
         // With several tools the kerf is what the V-bits cut.
-        (None, ..) => positive("depth", options.depth.or(Options::defaults().depth)),
+        (None, ..) => positive("depth", options.depth),
     }
 }
 
@@ -90,7 +91,7 @@ const ROOM: Nm = Nm::from_mm(1);
 
 /// How far the frame cut round copper without an outline keeps from it: so that the cut itself is
 /// clear, and as far as the gap is to be cleared.
-pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm, Error> {
+pub(super) fn frame_margin(options: &Complete, cuttings: &[Cutting]) -> Result<Nm, Error> {
     let kerf = cuttings.iter().map(Cutting::kerf).max().unwrap_or(Nm::ZERO);
     let Some(margin) = given("frame-margin", options.frame_margin)? else {
         let clearing = Clearing::of(options);
@@ -100,7 +101,7 @@ pub(super) fn frame_margin(options: &Options, cuttings: &[Cutting]) -> Result<Nm
         let least = if options.limit.is_some() || clears { ROOM } else { LEAST_MARGIN };
         return Ok(cleared.unwrap_or(kerf).max(kerf).max(least));
     };
-    let least = kerf / 2 + options.tolerance.map_or(Nm::ZERO, Length::nm);
+    let least = kerf / 2 + options.tolerance.nm();
     if margin < least {
         let problem = format!(
             "a frame cut {} from copper would cut it: with a kerf of {} it needs {}",
@@ -123,7 +124,7 @@ const SURELY: Nm = Nm::from_um(6);
 
 /// How wide the gap is to be, where the cutter clears `kerf`, and `floor` at the copper's bottom,
 /// from a width or a number of passes.
-fn widening(options: &Options, kerf: Nm, floor: Nm) -> Result<Option<Widening>, Error> {
+fn widening(options: &Complete, kerf: Nm, floor: Nm) -> Result<Option<Widening>, Error> {
     let overlap = match options.overlap {
         // What is left at the bottom of the copper between two passes would be a strip of it.
         None => (kerf / 10).max(kerf - floor + SURELY).min(kerf / 2),
@@ -137,7 +138,7 @@ fn widening(options: &Options, kerf: Nm, floor: Nm) -> Result<Option<Widening>, 
     checked::count("passes", options.passes, 1..=1000)?;
     let width = match (options.width, options.passes) {
         _ if options.clear == Some(true) => EVERYTHING,
-        (Some(width), _) => positive("width", Some(width))?,
+        (Some(width), _) => positive("width", width)?,
         (None, Some(passes)) => kerf + (kerf - overlap) * (i64::from(passes) - 1),
         (None, None) if Clearing::of(options).is_wanted() => {
             return Ok(Some(Widening { kerf, floor, width: None, overlap }));
@@ -148,8 +149,8 @@ fn widening(options: &Options, kerf: Nm, floor: Nm) -> Result<Option<Widening>, 
 }
 
 /// What cuts are midway between.
-pub(super) fn sites(options: &Options) -> Result<Sites, Error> {
-    let sites = options.sites.expect("the defaults leave nothing open");
+pub(super) fn sites(options: &Complete) -> Result<Sites, Error> {
+    let sites = options.sites;
     let has_loops = |strategy: Strategy| strategy != Strategy::Voronoi;
     let beside_copper = [
         ("{width}", options.width.is_some()),
@@ -158,8 +159,8 @@ pub(super) fn sites(options: &Options) -> Result<Sites, Error> {
         ("{clear-nets}", !options.clear_nets.is_empty()),
         ("{clear-area}", !options.clear_area.is_empty()),
         ("{distance-for}", !options.distance_for.is_empty()),
-        ("{strategy} outline", options.strategy == Some(Strategy::Outline)),
-        ("{strategy} auto", options.strategy == Some(Strategy::Auto)),
+        ("{strategy} outline", options.strategy == Strategy::Outline),
+        ("{strategy} auto", options.strategy == Strategy::Auto),
         ("{strategy-for}", options.strategy_for.iter().any(|some| has_loops(some.strategy))),
     ];
     match (sites, beside_copper.into_iter().find(|(_, is_asked)| *is_asked)) {
@@ -188,7 +189,7 @@ fn not_a_drill(key: &'static str, tool: Tool) -> Result<Tool, Error> {
 const FINEST: Nm = Nm::from_um(1);
 
 /// The pixel that finds boundaries, as it is told.
-pub(super) fn pixel(options: &Options) -> Result<Option<Nm>, Error> {
+pub(super) fn pixel(options: &Complete) -> Result<Option<Nm>, Error> {
     let inch = Nm::from_um(25_400);
     checked::count("dpi", options.dpi, 1..=25_400)?;
     let (key, pixel) = match options.dpi {

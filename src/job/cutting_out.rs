@@ -3,15 +3,16 @@
 use crate::geometry::Nm;
 use crate::toolpath::{Angle, Tool, ToolKind};
 
+use super::Error;
 use super::checked::given;
+use super::options::Complete;
 use super::quantity::{Length, Tiles};
-use super::{Error, Options};
 
 /// Room between tiles, beside the cutter. Chosen: the stock between two boards stays in one piece.
 const BETWEEN_TILES: Nm = Nm::from_mm(2);
 
 /// How often a board is made, and how far its copies are apart.
-pub(super) fn tiles(options: &Options, cutout_tool: &Tool) -> Result<Option<(Tiles, Nm)>, Error> {
+pub(super) fn tiles(options: &Complete, cutout_tool: &Tool) -> Result<Option<(Tiles, Nm)>, Error> {
     let spacing = given("tile-spacing", options.tile_spacing)?;
     let spacing = spacing.unwrap_or(cutout_tool.width_at(Nm::ZERO) + BETWEEN_TILES);
     Ok(options.tile.filter(|tiles| tiles.columns * tiles.rows > 1).map(|tiles| (tiles, spacing)))
@@ -27,10 +28,10 @@ pub(super) fn ramp(angle: Option<Angle>) -> Result<Option<Angle>, Error> {
 }
 
 /// A gap of nothing leaves the outline as it is drawn.
-pub(super) fn outline_gap(options: &Options) -> Result<Nm, Error> {
+pub(super) fn outline_gap(options: &Complete) -> Result<Nm, Error> {
     /// Chosen: wider gaps are sides that are missing, not corners.
     const WIDEST: Nm = Nm::from_mm(5);
-    let gap = options.outline_gap.expect("the defaults leave no length open");
+    let gap = options.outline_gap;
     if gap.nm() < Nm::ZERO || gap.nm() > WIDEST {
         let problem = format!("`{gap}` is invalid: it must be from 0mm to {}", Length(WIDEST));
         return Err(Error::Value { key: "outline-gap", problem });

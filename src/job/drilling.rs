@@ -3,16 +3,29 @@
 use crate::geometry::Nm;
 use crate::toolpath::{Angle, DrillSpeeds, Tool, ToolKind};
 
+use super::Error;
 use super::checked::{given, positive, wrong};
+use super::options::Complete;
 use super::quantity::{DrillChoice, Drills, Length};
 use super::tools::{ToolChoice, Workshop, point_angle};
-use super::{Error, Options};
+
+/// The tools at hand, with the speeds of those that do not say theirs.
+pub(super) fn workshop(options: &Complete) -> Result<Workshop<'_>, Error> {
+    Ok(Workshop {
+        library: &options.tools,
+        feed: options.feed,
+        plunge: options.plunge,
+        spindle: options.spindle,
+        drilling: drill_speeds(options),
+        point: tip_angle(options)?,
+    })
+}
 
 /// How drills are run: as fast as the machine turns, or, where nothing is known of it, as fast as
 /// its cutters are to turn.
-pub(super) fn drill_speeds(options: &Options) -> DrillSpeeds {
+fn drill_speeds(options: &Complete) -> DrillSpeeds {
     let machine = options.machine.as_ref().map(|machine| machine.0.machine());
-    let usual = options.spindle.expect("the defaults leave nothing open");
+    let usual = options.spindle;
     let turns = match machine.and_then(|machine| machine.spindle) {
         Some((least, most)) if most < u32::MAX => (least, most),
         Some((least, _)) => (least, usual.max(least)),
@@ -21,23 +34,22 @@ pub(super) fn drill_speeds(options: &Options) -> DrillSpeeds {
     DrillSpeeds {
         plunge: options.drill_plunge,
         spindle: options.drill_spindle,
-        material: options.material.unwrap_or_default(),
+        material: options.material,
         turns,
         most: machine.and_then(|machine| machine.feed).map(|[.., z]| z),
     }
 }
 
 /// The tip of drills that do not say theirs.
-pub(super) fn tip_angle(options: &Options) -> Result<Angle, Error> {
-    let angle = options.drill_tip_angle.expect("the defaults leave nothing open");
-    point_angle(angle).map_err(|problem| Error::Value { key: "drill-tip-angle", problem })
+fn tip_angle(options: &Complete) -> Result<Angle, Error> {
+    point_angle(options.drill_tip_angle).map_err(|problem| Error::Value { key: "drill-tip-angle", problem })
 }
 
 /// The drills at hand.
 pub(super) fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Result<Vec<Tool>, Error> {
     let drill = |choice: &DrillChoice| match choice {
         DrillChoice::Diameter(length) => {
-            let diameter = positive("drills", Some(*length))?;
+            let diameter = positive("drills", *length)?;
             Ok(workshop.fetch("drills", &ToolChoice::Kind(ToolKind::Drill { diameter }))?.tool)
         }
         DrillChoice::Named(name) => {
@@ -52,8 +64,8 @@ pub(super) fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Resul
 }
 
 /// How far a drill may differ from its hole.
-pub(super) fn drill_tolerance(options: &Options) -> Result<Nm, Error> {
-    let tolerance = options.drill_tolerance.expect("the defaults leave no length open").nm();
+pub(super) fn drill_tolerance(options: &Complete) -> Result<Nm, Error> {
+    let tolerance = options.drill_tolerance.nm();
     if tolerance < Nm::ZERO {
         wrong("drill-tolerance", tolerance, "it must be zero or more")
     } else {
@@ -62,7 +74,7 @@ pub(super) fn drill_tolerance(options: &Options) -> Result<Nm, Error> {
 }
 
 /// Diameter and distance of the holes on whose pins the board is flipped, which lie beside it.
-pub(super) fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
+pub(super) fn alignment(options: &Complete) -> Result<Option<(Nm, Nm)>, Error> {
     let margin = positive("alignment-margin", options.alignment_margin)?;
     let Some(diameter) = given("alignment-holes", options.alignment_holes)? else { return Ok(None) };
     if margin < diameter / 2 {
@@ -73,7 +85,7 @@ pub(super) fn alignment(options: &Options) -> Result<Option<(Nm, Nm)>, Error> {
 }
 
 /// How deep the holes for pins go, which must be through the board.
-pub(super) fn alignment_depth(options: &Options, thickness: Nm) -> Result<Option<Nm>, Error> {
+pub(super) fn alignment_depth(options: &Complete, thickness: Nm) -> Result<Option<Nm>, Error> {
     let depth = given("alignment-depth", options.alignment_depth)?;
     match depth.filter(|&depth| depth <= thickness) {
         Some(depth) => {

@@ -5,6 +5,7 @@ use crate::board::{Board, Copper, Warning, Words};
 
 use super::by_net::{names, without_net};
 use super::clearing::Clearing;
+use super::need::Need;
 use super::{Area, Layer, Options, Pattern, Settings, Sites};
 use crate::topology::NetId;
 
@@ -15,47 +16,26 @@ impl Settings {
     /// A settings file may have it: it is for many boards.
     #[must_use]
     pub fn without_effect(&self, given: &Options) -> Option<(&'static str, Words)> {
+        let unmet = given.needs().into_iter().find(|&(_, need)| !self.meets(need));
+        unmet.map(|(option, need)| (option, Words::of(need.hint())))
+    }
+
+    fn meets(&self, need: Need) -> bool {
         let all = self.options();
         let is_cleared = all.clear == Some(true);
-        let is_wide = all.width.is_some() || all.passes.is_some() || is_cleared || self.clearing.is_wanted();
-        let is_held = all.tabs != Some(0) || all.tab_spacing.is_some() || !all.tab_at.is_empty();
-        let bores = self.drill_bore || self.alignment.is_some();
-        let without = [
-            ("overlap", given.overlap.is_some() && !is_wide, "set {width}, {passes} or {clear} too"),
-            ("clear-nets", !given.clear_nets.is_empty() && is_cleared, "leave {clear} out"),
-            ("clear-area", !given.clear_area.is_empty() && is_cleared, "leave {clear} out"),
-            ("distance-for", !given.distance_for.is_empty() && is_cleared, "leave {clear} out"),
-            ("keep-area", !given.keep_area.is_empty() && !is_wide, "set {width}, {passes} or {clear} too"),
-            ("drill-bore-tool", given.drill_bore_tool.is_some() && !bores, "leave {drill-bore}=false out"),
-            ("tile-spacing", given.tile_spacing.is_some() && self.tiles.is_none(), "set {tile} too"),
-            (
-                "alignment-margin",
-                given.alignment_margin.is_some() && self.alignment.is_none(),
-                "set {alignment-holes} too",
-            ),
-            (
-                "alignment-depth",
-                given.alignment_depth.is_some() && self.alignment.is_none(),
-                "set {alignment-holes} too",
-            ),
-            (
-                "break-through",
-                given.break_through.is_some() && all.drill_depth.is_some(),
-                "leave {drill-depth} out",
-            ),
-            ("tab-width", given.tab_width.is_some() && !is_held, "set {tabs} too, which is 0 here"),
-            ("tab-height", given.tab_height.is_some() && !is_held, "set {tabs} too, which is 0 here"),
-            ("frame-margin", given.frame_margin.is_some() && !self.frame, "leave {no-frame} out"),
-            (
-                "no-min-width",
-                given.min_width.is_some() && self.sites == Sites::Copper,
-                "set {sites} core too",
-            ),
-        ];
-        without
-            .into_iter()
-            .find(|(_, has_none, _)| *has_none)
-            .map(|(option, _, hint)| (option, Words::of(hint)))
+        match need {
+            Need::Passes => {
+                all.width.is_some() || all.passes.is_some() || is_cleared || self.clearing.is_wanted()
+            }
+            Need::Kept => !is_cleared,
+            Need::Boring => self.drill_bore || self.alignment.is_some(),
+            Need::Tiles => self.tiles.is_some(),
+            Need::Alignment => self.alignment.is_some(),
+            Need::ThroughHoles => self.drill_tips,
+            Need::Tabs => self.tabs.count() != Some(0),
+            Need::Frame => self.frame,
+            Need::Axes => self.sites != Sites::Copper,
+        }
     }
 }
 

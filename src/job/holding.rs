@@ -3,8 +3,9 @@
 use crate::geometry::{Nm, Point};
 use crate::toolpath::strategy::TabPlaces;
 
+use super::Error;
 use super::checked::{self, given};
-use super::{Error, Options};
+use super::options::Complete;
 
 /// Where tabs hold the board.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -39,7 +40,7 @@ impl Holding {
 }
 
 /// What the options say of tabs.
-pub(super) fn holding(options: &Options) -> Result<Holding, Error> {
+pub(super) fn holding(options: &Complete) -> Result<Holding, Error> {
     if !options.tab_at.is_empty() {
         return Ok(Holding::At(options.tab_at.iter().map(|&place| place.into()).collect()));
     }

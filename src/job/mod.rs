@@ -30,8 +30,10 @@ mod masking;
 mod merge;
 mod millproject;
 pub mod names;
+mod need;
 mod neighbours;
 mod numbering;
+mod option_list;
 mod options;
 mod output_name;
 mod overlap;
@@ -45,6 +47,7 @@ mod plan;
 mod pocketing;
 mod probing;
 mod quantity;
+mod reach;
 mod rivet;
 mod settings;
 mod settings_file;
@@ -61,7 +64,7 @@ mod written;
 
 pub use art::{Art, OneTool};
 pub use cache_key::cache_key;
-pub use carving::{CARVING_OPTIONS, Carving, Engraving, carve};
+pub use carving::{Carving, Engraving, carve};
 pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
 pub use clearing::Clearing;
 pub use coupling::coupling;
@@ -87,12 +90,13 @@ pub use part::Part;
 pub use pattern::Pattern;
 pub use pipeline::{Job, mill};
 pub use plan::{Chosen, Tried};
-pub use pocketing::{POCKETING_OPTIONS, Pocket, Pocketing, pocket};
+pub use pocketing::{Pocket, Pocketing, pocket};
 pub use probing::{ParseProbeGridError, ProbeGrid, Probing, probe};
 pub use quantity::{
     Area, DrillChoice, Drills, Length, ParsePlaceError, ParseTilesError, ParseWaitError, Place, Tiles,
     ToolChangeAt, Triple, Wait,
 };
+pub use reach::Reach;
 pub use rivet::rivet;
 pub use settings::Settings;
 pub use settings_file::{DEFAULTS, FILE_NAME};

@@ -4,6 +4,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::geometry::{Nm, ParseLengthError};
+use crate::toolpath::Percent;
 
 use super::Length;
 
@@ -12,11 +13,8 @@ use super::Length;
 pub enum Overlap {
     /// Such as `20um`, whatever the tool.
     Length(Length),
-    /// Such as `50%`: a part of each tool's own kerf.
-    OfKerf {
-        /// In hundredths of a percent, less than all of it.
-        hundredths: u32,
-    },
+    /// Such as `50%`: a part of each tool's own kerf, less than all of it.
+    OfKerf(Percent),
 }
 
 /// A text that does not say how much passes share.
@@ -30,16 +28,13 @@ pub enum ParseOverlapError {
     Length(#[from] ParseLengthError),
 }
 
-/// All of it, in hundredths of a percent.
-const ALL: u32 = 10_000;
-
 impl Overlap {
     /// What it comes to with a tool that cuts so wide.
     #[must_use]
     pub fn of(self, kerf: Nm) -> Nm {
         match self {
             Self::Length(length) => length.nm(),
-            Self::OfKerf { hundredths } => kerf * i64::from(hundredths) / i64::from(ALL),
+            Self::OfKerf(part) => part.of(kerf),
         }
     }
 }
@@ -48,29 +43,19 @@ impl FromStr for Overlap {
     type Err = ParseOverlapError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let Some(part) = text.trim().strip_suffix('%') else { return Ok(Self::Length(text.parse()?)) };
-        let (whole, rest) = part.trim().split_once('.').unwrap_or((part.trim(), ""));
-        let digits = |text: &str| text.bytes().all(|digit| digit.is_ascii_digit());
-        let hundredths = (digits(whole) && digits(rest) && rest.len() <= 2)
-            .then(|| format!("{whole}{rest:0<2}").parse().ok())
-            .flatten();
-        hundredths
-            .filter(|&hundredths: &u32| hundredths < ALL && !part.trim().is_empty())
-            .map(|hundredths| Self::OfKerf { hundredths })
-            .ok_or_else(|| ParseOverlapError::Part(text.to_owned()))
+        if !text.trim().ends_with('%') {
+            return Ok(Self::Length(text.parse()?));
+        }
+        let part = text.parse().ok().filter(|&part| part < Percent::ALL);
+        part.map(Self::OfKerf).ok_or_else(|| ParseOverlapError::Part(text.to_owned()))
     }
 }
 
-/// As it is written, without needless zeros.
 impl fmt::Display for Overlap {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
             Self::Length(length) => length.fmt(f),
-            Self::OfKerf { hundredths } => match (hundredths / 100, hundredths % 100) {
-                (whole, 0) => write!(f, "{whole}%"),
-                (whole, tenths) if tenths % 10 == 0 => write!(f, "{whole}.{}%", tenths / 10),
-                (whole, hundredths) => write!(f, "{whole}.{hundredths:02}%"),
-            },
+            Self::OfKerf(part) => part.fmt(f),
         }
     }
 }

@@ -1,4 +1,6 @@
-//! What a program is for, and which options change it.
+//! What a program is for.
+
+use super::Reach;
 
 /// What a program is for; its file is named after it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -16,25 +18,14 @@ pub enum Part {
 }
 
 impl Part {
-    /// Whether an option, by its key in the settings file, changes this program.
+    /// What an option must change so that it changes this program.
     #[must_use]
-    pub fn is_changed_by(self, option: &str) -> bool {
-        match option {
-            "outline-gap" => !matches!(self, Self::Drill | Self::Alignment),
-            "feed" | "plunge" | "spindle" | "spin-up" | "safe-z" | "dialect" | "origin" | "tile"
-            | "tile-spacing" | "thickness" | "machine" | "machine-travel" | "tool-change"
-            | "tool-change-at" | "tool-probe" | "park" | "before" | "after" | "at-tool-change" | "blend"
-            | "offset" => true,
-            "output-name" => false,
-            "direction" => matches!(self, Self::Front | Self::Back | Self::Cutout),
-            _ if option.starts_with("alignment") => self == Self::Alignment,
-            "drill-tip-angle" | "drill-safe-z" | "drill-plunge" | "drill-spindle" | "material" => {
-                matches!(self, Self::Alignment | Self::Drill)
-            }
-            "break-through" | "rivet" | "one-drill" => self == Self::Drill,
-            _ if option.starts_with("drill") => self == Self::Drill,
-            _ if option.starts_with("cutout") || option.starts_with("tab") => self == Self::Cutout,
-            _ => matches!(self, Self::Front | Self::Back),
+    pub const fn reach(self) -> Reach {
+        match self {
+            Self::Alignment => Reach::ALIGNMENT,
+            Self::Front | Self::Back => Reach::ISOLATION,
+            Self::Drill => Reach::DRILLING,
+            Self::Cutout => Reach::CUTOUT,
         }
     }
 

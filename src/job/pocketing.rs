@@ -14,7 +14,7 @@ use crate::verify::pocketing::{self, Floor, Pocketed};
 use crate::voronoi::medial::nest::Nest;
 
 use super::art::{self, Art, OneTool, placed, round, written};
-use super::{CARVING_OPTIONS, Cutting, Error, Length, Overlap, Settings};
+use super::{Cutting, Error, Length, Overlap, Reach, Settings};
 
 /// How pockets are milled.
 #[derive(Clone, Debug, PartialEq)]
@@ -69,9 +69,6 @@ const TOLERATED: Nm = Nm::from_um(5);
 /// Rows are looked at so far apart at least, and so many of them at most. Chosen.
 const FINEST: Nm = Nm::from_um(5);
 const MOST_ROWS: i64 = 10_000;
-
-/// The options of a job that change pockets, by name: those of carving, and two more.
-pub const POCKETING_OPTIONS: &[&str] = &["depth", "direction"];
 
 /// Plans the programs that mill `art`.
 ///
@@ -365,10 +362,7 @@ fn shape_warnings(areas: &[Polygon], tool: &Tool, entries: Entries) -> Vec<Warni
 
 /// The settings that matter, for the header.
 fn declared(settings: &Settings, how: &Pocketing) -> Vec<(String, String)> {
-    let mut listed = settings.options().listed();
-    listed.retain(|(option, _)| {
-        CARVING_OPTIONS.contains(&option.as_str()) || POCKETING_OPTIONS.contains(&option.as_str())
-    });
+    let mut listed = settings.options().listed_for(Reach::POCKETS);
     let mut say = |name: &str, text: Option<String>| {
         listed.extend(text.map(|text| (name.to_owned(), text)));
     };

@@ -19,7 +19,6 @@ use super::output_name;
 use super::pattern::Pattern;
 use super::quantity::{Length, Tiles, ToolChangeAt};
 use super::strategy_for::StrategyFor;
-use super::tools::Workshop;
 use super::{controller, cutting_out, drilling, validate};
 
 /// Everything a job needs to know, complete and checked.
@@ -165,30 +164,21 @@ impl Settings {
     /// [`Error::Value`] for the first setting whose value is invalid.
     pub fn resolve(options: Options) -> Result<Self, Error> {
         let profile = options.machine.as_ref().map(|machine| machine.0.clone());
-        let mut options = validate::defaults_for(profile.as_ref(), options).or(Options::defaults());
+        let written = validate::defaults_for(profile.as_ref(), options).or(Options::defaults());
+        let options = written.clone().complete();
         let thickness = positive("thickness", options.thickness)?;
-        options.cutout_depth.get_or_insert(Length(thickness + BELOW));
-        let open = "the defaults leave nothing open";
-        let workshop = Workshop {
-            library: &options.tools,
-            feed: options.feed.expect(open),
-            plunge: options.plunge.expect(open),
-            spindle: options.spindle.expect(open),
-            drilling: drilling::drill_speeds(&options),
-            point: drilling::tip_angle(&options)?,
-        };
-        let cutout_tool = cutting_out::end_mill(
-            "cutout-tool",
-            workshop.fetch("cutout-tool", options.cutout_tool.as_ref().expect(open))?.tool,
-        )?;
+        let workshop = drilling::workshop(&options)?;
+        let cutout_tool =
+            cutting_out::end_mill("cutout-tool", workshop.fetch("cutout-tool", &options.cutout_tool)?.tool)?;
         let drills = drilling::drills(options.drills.as_ref(), &workshop)?;
         let safe = checked::travel_height("safe-z", options.safe_z)?;
         let heights = |cut: Nm, step: Option<Nm>| Heights { safe, approach: APPROACH.min(safe), cut, step };
-        let cutout_depth = positive("cutout-depth", options.cutout_depth)?;
+        let below = Length(thickness + BELOW);
+        let cutout_depth = positive("cutout-depth", options.cutout_depth.unwrap_or(below))?;
         let tab_height = positive("tab-height", options.tab_height)?;
         let tabs = holding(&options)?;
         let tiles = cutting_out::tiles(&options, &cutout_tool)?;
-        let dialect = controller::dialect(&options, options.dialect.clone().expect(open).0)?;
+        let dialect = controller::dialect(&options, options.dialect.0.clone())?;
         output_name::check(&options.output_name)?;
         if tabs != Holding::Count(0) && tab_height >= cutout_depth {
             let problem = format!(
@@ -204,7 +194,7 @@ impl Settings {
         let through = thickness + positive("break-through", options.break_through)?;
         let drill_depth = given("drill-depth", options.drill_depth)?;
         let drill_safe = match options.drill_safe_z {
-            Some(_) => checked::travel_height("drill-safe-z", options.drill_safe_z)?,
+            Some(height) => checked::travel_height("drill-safe-z", height)?,
             None => safe,
         };
         let deep = drill_depth.unwrap_or(through);
@@ -221,15 +211,15 @@ impl Settings {
             ignore: options.ignore.clone(),
             tiles,
             tool_change: options.tool_change_at,
-            park: options.park.expect(open),
+            park: options.park,
             alignment: drilling::alignment(&options)?,
             drilling,
             drill_tips: drill_depth.is_none(),
             one_drill: options.one_drill == Some(true),
             alignment_depth: drilling::alignment_depth(&options, thickness)?.unwrap_or(thickness + PINS),
             rivet: given("rivet", options.rivet)?,
-            narrow: options.narrow.expect(open),
-            rotate: options.rotate.expect(open),
+            narrow: options.narrow,
+            rotate: options.rotate,
             offset: options.offset.map_or_else(Vector::default, |to| Vector::new(to.x.nm(), to.y.nm())),
             mirror_axis: options.mirror_axis.map(Length::nm),
             thickness,
@@ -238,7 +228,7 @@ impl Settings {
             drill_tip_angle: workshop.point,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
             drill_tolerance: drilling::drill_tolerance(&options)?,
-            drill_bore: options.drill_bore.expect(open) || options.drill_bore_from.is_some(),
+            drill_bore: options.drill_bore || options.drill_bore_from.is_some(),
             drill_bore_from: given("drill-bore-from", options.drill_bore_from)?,
             drill_bore_tool: match &options.drill_bore_tool {
                 Some(choice) => {
@@ -251,15 +241,15 @@ impl Settings {
             outline_gap: cutting_out::outline_gap(&options)?,
             cutout: heights(cutout_depth, checked::step("cutout-pass", options.cutout_pass, cutout_depth)?),
             cutout_tool,
-            strategy: options.strategy.expect(open),
+            strategy: options.strategy,
             strategy_for: options.strategy_for.clone(),
             clearing: Clearing::of(&options),
             sites: sites(&options)?,
             limit: given("limit", options.limit)?,
             pixel: pixel(&options)?,
-            frame: options.frame.expect(open),
-            min_width: options.min_width.expect(open),
-            topology: options.topology.expect(open),
+            frame: options.frame,
+            min_width: options.min_width,
+            topology: options.topology,
             tolerance: positive("tolerance", options.tolerance)?,
             machine: Machine {
                 travel: validate::machine_travel(&options)?.or(machine.travel),
@@ -267,7 +257,7 @@ impl Settings {
                 ..machine
             },
             dialect,
-            origin: match options.origin.expect(open) {
+            origin: match options.origin {
                 Origin::LowerLeft => toolpath::Origin::LowerLeft,
                 Origin::Keep => toolpath::Origin::Keep,
                 Origin::Center => toolpath::Origin::Center,
@@ -277,10 +267,12 @@ impl Settings {
             tabs,
             tab_width: positive("tab-width", options.tab_width)?,
             tab_height,
-            // Said though nobody gave it, so that the program tells where all tiles lie.
+            // Said though nobody gave them, so that programs tell how deep the cutout is and
+            // where all tiles lie.
             options: Options {
+                cutout_depth: Some(Length(cutout_depth)),
                 tile_spacing: tiles.map(|(_, spacing)| Length(spacing)).or(options.tile_spacing),
-                ..options
+                ..written
             },
         })
     }

@@ -3,7 +3,6 @@
 use std::sync::LazyLock;
 
 use super::machine;
-use super::names;
 use super::tools::TABLE_KEYS;
 use super::{Error, Options};
 
@@ -36,11 +35,6 @@ impl Options {
         static READ: LazyLock<Options> =
             LazyLock::new(|| toml::from_str(DEFAULTS).expect("the built-in settings are right"));
         READ.clone()
-    }
-
-    /// Every key of a settings file that is an option on the command line, too.
-    fn keys() -> impl Iterator<Item = &'static str> {
-        names::of::<Self>().iter().copied().filter(|key| *key != "tools")
     }
 }
 

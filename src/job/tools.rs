@@ -70,6 +70,13 @@ pub struct OwnTool {
     pub point: Option<Angle>,
 }
 
+impl OwnTool {
+    /// A tool of which nothing is known but its shape.
+    const fn of(kind: ToolKind) -> Self {
+        Self { kind, number: None, feed: None, plunge: None, spindle: None, depth: None, point: None }
+    }
+}
+
 /// The keys of a table, as they are written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
@@ -239,15 +246,7 @@ impl Library {
         self.0.get(name).copied().or_else(|| {
             let (_, text) = BUILT_IN.iter().find(|(built_in, _)| *built_in == name)?;
             let kind = text.parse().expect("the built-in tools are right");
-            Some(OwnTool {
-                kind,
-                number: None,
-                feed: None,
-                plunge: None,
-                spindle: None,
-                depth: None,
-                point: None,
-            })
+            Some(OwnTool::of(kind))
         })
     }
 }
@@ -276,15 +275,7 @@ impl Workshop<'_> {
     /// The tool that `choice` means. `key` is the option that names it.
     pub(super) fn fetch(&self, key: &'static str, choice: &ToolChoice) -> Result<Fetched, Error> {
         let own = match choice {
-            ToolChoice::Kind(kind) => OwnTool {
-                kind: *kind,
-                number: None,
-                feed: None,
-                plunge: None,
-                spindle: None,
-                depth: None,
-                point: None,
-            },
+            ToolChoice::Kind(kind) => OwnTool::of(*kind),
             ToolChoice::Named(name) => self.library.find(name).ok_or_else(|| self.unknown(key, name))?,
         };
         // The settings' speeds are a cutter's; drills have usual ones of their own.

@@ -4,6 +4,7 @@ use crate::geometry::Nm;
 use crate::toolpath::{Feed, ToolKind};
 
 use super::checked::{given, wrong};
+use super::options::Complete;
 use super::quantity::{Length, Triple};
 use super::{Cutting, Error, Options, Profile};
 
@@ -27,7 +28,7 @@ pub(super) fn defaults_for(profile: Option<&Profile>, mut options: Options) -> O
 }
 
 /// How far the machine goes.
-pub(super) fn machine_travel(options: &Options) -> Result<Option<[Nm; 3]>, Error> {
+pub(super) fn machine_travel(options: &Complete) -> Result<Option<[Nm; 3]>, Error> {
     let Some(Triple(travel)) = options.machine_travel else { return Ok(None) };
     let travel = travel.map(Length::nm);
     match travel.iter().find(|&&length| length <= Nm::ZERO) {
@@ -37,7 +38,7 @@ pub(super) fn machine_travel(options: &Options) -> Result<Option<[Nm; 3]>, Error
 }
 
 /// The least depth to which a V-bit may rise, where there is one that goes deeper.
-pub(super) fn adaptive_depth(options: &Options, cuttings: &[Cutting]) -> Result<Option<Nm>, Error> {
+pub(super) fn adaptive_depth(options: &Complete, cuttings: &[Cutting]) -> Result<Option<Nm>, Error> {
     let Some(least) = given("adaptive-depth", options.adaptive_depth)? else { return Ok(None) };
     let is_v_bit = |cutting: &&Cutting| matches!(cutting.tool.kind, ToolKind::VBit { .. });
     let deepest = cuttings.iter().filter(is_v_bit).map(|cutting| cutting.heights.cut).max();

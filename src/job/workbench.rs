@@ -1,14 +1,15 @@
 //! Every tool a person can name, for looking at.
 
-use super::drilling::drill_speeds;
-use super::tools::{ToolChoice, Workshop};
+use super::drilling::workshop;
+use super::options::Complete;
+use super::tools::ToolChoice;
 use super::{Error, Options, Settings};
 use crate::toolpath::Tool;
 
 /// Every tool a person can name, for looking at.
 #[derive(Debug)]
 pub struct Workbench {
-    options: Options,
+    options: Complete,
 }
 
 impl Workbench {
@@ -19,7 +20,7 @@ impl Workbench {
     /// [`Error::Value`] as for any job with these settings.
     pub fn new(options: Options) -> Result<Self, Error> {
         let settings = Settings::resolve(options)?;
-        Ok(Self { options: settings.options().clone() })
+        Ok(Self { options: settings.options().clone().complete() })
     }
 
     /// All tools that have names, those that are built in first.
@@ -43,15 +44,6 @@ impl Workbench {
     ///
     /// [`Error::Value`] for a name that nobody knows.
     pub fn fetch(&self, choice: &ToolChoice) -> Result<Tool, Error> {
-        let open = "resolved options leave nothing open";
-        let workshop = Workshop {
-            library: &self.options.tools,
-            feed: self.options.feed.expect(open),
-            plunge: self.options.plunge.expect(open),
-            spindle: self.options.spindle.expect(open),
-            drilling: drill_speeds(&self.options),
-            point: self.options.drill_tip_angle.expect(open),
-        };
-        workshop.fetch("tools", choice).map(|fetched| fetched.tool)
+        workshop(&self.options)?.fetch("tools", choice).map(|fetched| fetched.tool)
     }
 }

@@ -35,6 +35,7 @@ mod names;
 mod nets;
 mod proximity;
 mod sets;
+mod splitmix;
 mod stretches;
 mod surface;
 mod translucency;
@@ -48,6 +49,7 @@ pub use names::{islands_of_names, names_check};
 pub use nets::{Net, NetId, Nets};
 pub use proximity::{Near, Proximity};
 pub use sets::DisjointSets;
+pub(crate) use splitmix::splitmix;
 pub(crate) use surface::surface;
 pub use translucency::{Colour, Odds, Overlap, Sampling, Translucency, translucency};
 

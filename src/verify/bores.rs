@@ -15,7 +15,7 @@
 use rayon::prelude::*;
 
 use crate::board::{Board, Hole, Shape};
-use crate::geometry::{Nm, Point};
+use crate::geometry::{Nm, Point, off_segment};
 use crate::topology::RectIndex;
 
 use super::machining::Machining;
@@ -273,11 +273,6 @@ pub(super) fn from_axis(shape: &Shape, p: Point) -> f64 {
 
 /// The distance from a point to a segment, in nanometres.
 fn from_segment(p: Point, a: Point, b: Point) -> f64 {
-    let ((px, py), (ax, ay), (bx, by)) = (p.to_f64(), a.to_f64(), b.to_f64());
-    let (ux, uy) = (bx - ax, by - ay);
-    let squared = ux * ux + uy * uy;
-    let along =
-        if squared > 0.0 { (((px - ax) * ux + (py - ay) * uy) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    let (dx, dy) = (px - ax - ux * along, py - ay - uy * along);
-    (dx * dx + dy * dy).sqrt()
+    let (x, y) = off_segment(p.to_f64(), a.to_f64(), b.to_f64());
+    (x * x + y * y).sqrt()
 }

@@ -2,7 +2,7 @@
 
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::Polygon;
+use crate::geometry::{Polygon, between, part_nearest};
 use crate::topology::{boxes, spanned};
 
 /// A point in nanometres.
@@ -123,11 +123,7 @@ impl Edges {
 
 /// The point of a line from `a` to `b` nearest to `p`.
 fn foot(p: Spot, a: Spot, b: Spot) -> Spot {
-    let way = (b.0 - a.0, b.1 - a.1);
-    let squared = way.0 * way.0 + way.1 * way.1;
-    let along = (p.0 - a.0) * way.0 + (p.1 - a.1) * way.1;
-    let part = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
-    (a.0 + way.0 * part, a.1 + way.1 * part)
+    between(a, b, part_nearest(p, a, b))
 }
 
 /// Whether two lines cross between their ends.

@@ -4,7 +4,7 @@
 //! the usual approximation leaves becomes that arc; any other becomes chords.
 
 use crate::board::FLATTEN;
-use crate::geometry::{Nm, Path, Point, Segment, Turn};
+use crate::geometry::{Nm, Path, Point, Segment, Turn, between};
 
 /// A place in nanometres.
 pub(in crate::import) type Place = (f64, f64);
@@ -58,7 +58,7 @@ impl Contour {
 
     /// A Bézier curve of the second degree.
     pub(in crate::import) fn quadratic(&mut self, control: Place, to: Place) {
-        let third = |end: Place| mix(end, control, 2.0 / 3.0);
+        let third = |end: Place| between(end, control, 2.0 / 3.0);
         self.cubic(third(self.at), third(to), to);
     }
 
@@ -103,14 +103,10 @@ impl Contour {
     }
 }
 
-fn mix(p: Place, q: Place, part: f64) -> Place {
-    (p.0 + (q.0 - p.0) * part, p.1 + (q.1 - p.1) * part)
-}
-
 /// A point of a cubic, by de Casteljau.
 fn on_curve([p, q, r, s]: [Place; 4], part: f64) -> Place {
-    let (a, b, c) = (mix(p, q, part), mix(q, r, part), mix(r, s, part));
-    mix(mix(a, b, part), mix(b, c, part), part)
+    let (a, b, c) = (between(p, q, part), between(q, r, part), between(r, s, part));
+    between(between(a, b, part), between(b, c, part), part)
 }
 
 /// The middle of the circle that a cubic runs along, and the way round; none where it does not.
@@ -148,6 +144,7 @@ pub(in crate::import) fn through(a: Place, b: Place, c: Place) -> Option<(Place,
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::off_segment;
 
     #[test]
     fn four_cubics_of_a_circle_are_its_arcs() {
@@ -175,10 +172,8 @@ mod tests {
             let p = on_curve(ends, f64::from(step) / 1000.0);
             let off = |pair: &[Point]| {
                 let (a, b) = (pair[0].to_f64(), pair[1].to_f64());
-                let (dx, dy) = (b.0 - a.0, b.1 - a.1);
-                let along = ((p.0 - a.0) * dx + (p.1 - a.1) * dy) / (dx * dx + dy * dy);
-                let q = mix(a, b, along.clamp(0.0, 1.0));
-                libm::hypot(p.0 - q.0, p.1 - q.1)
+                let (x, y) = off_segment(p, a, b);
+                libm::hypot(x, y)
             };
             let nearest = points.windows(2).map(off).fold(f64::INFINITY, f64::min);
             assert!(nearest < 252.0, "{p:?} is {nearest} nm off");

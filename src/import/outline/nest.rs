@@ -2,7 +2,7 @@
 
 use super::{Notes, area_mm2};
 use crate::board::FLATTEN;
-use crate::geometry::{Nm, Path, Point, Polygon, Rect, Vector};
+use crate::geometry::{Nm, Path, Point, Polygon, Rect, off_segment};
 use crate::import::diagnostic;
 
 /// The smallest area of a contour, in mm²: below lie letters' eyes and doubled lines, which nothing
@@ -99,10 +99,8 @@ fn come_near(a: &[Point], b: &[Point], gap: Nm) -> bool {
 
 /// How far a place is from a line, in nanometres.
 fn distance(p: Point, from: Point, to: Point) -> f64 {
-    let float = |v: Vector| (v.x.to_f64(), v.y.to_f64());
-    let ((x, y), (u, v)) = (float(to - from), float(p - from));
-    let part = if x == 0.0 && y == 0.0 { 0.0 } else { ((u * x + v * y) / (x * x + y * y)).clamp(0.0, 1.0) };
-    libm::hypot(u - x * part, v - y * part)
+    let (x, y) = off_segment(p.to_f64(), from.to_f64(), to.to_f64());
+    libm::hypot(x, y)
 }
 
 /// The area inside a closed path.

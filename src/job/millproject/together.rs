@@ -9,7 +9,7 @@ use crate::job::choice::Strategy;
 use crate::job::overlap::Overlap;
 use crate::job::quantity::{Length, ToolChangeAt};
 use crate::job::tools::{OwnTool, ToolChoice};
-use crate::toolpath::{Feed, ToolKind};
+use crate::toolpath::{Feed, Percent, ToolKind};
 
 use super::MillProject;
 use super::draft::{Draft, Needs};
@@ -106,7 +106,7 @@ impl Draft<'_> {
                 // More than ever fit are as many as fit.
                 options.passes = Some(extra.saturating_add(1).min(MOST_PASSES));
                 // Each of its extra passes is half a cutter further out.
-                overlap = Some(Overlap::OfKerf { hundredths: 5_000 });
+                overlap = Some(Overlap::OfKerf(Percent::new(50)));
             }
             Some((_, entry)) => self.leave(
                 &entry,
@@ -116,7 +116,7 @@ impl Draft<'_> {
         }
         let options = &mut self.made.options;
         if options.width.is_some() || options.passes.is_some() || options.clear.is_some() {
-            options.overlap = overlap.or(Some(Overlap::OfKerf { hundredths: 5_000 }));
+            options.overlap = overlap.or(Some(Overlap::OfKerf(Percent::new(50))));
         }
     }
 

@@ -21,6 +21,8 @@ use rustc_hash::FxHashMap;
 
 use crate::topology::DisjointSets;
 
+use super::ordered::Ordered;
+
 use matching::Candidate;
 
 /// An edge of the graph.
@@ -198,10 +200,6 @@ struct Pair {
 /// node.
 type Reached = FxHashMap<usize, (f64, Option<(usize, usize)>)>;
 
-/// Seconds as a key that sorts: the bits of a non-negative float sort as the float does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Seconds(u64);
-
 /// How many near odd nodes a search lists. Chosen, not measured against other numbers: in a ring of
 /// pads, or where traces point at a centre, hundreds lie within the time of a retract.
 const NEAREST: usize = 12;
@@ -209,11 +207,10 @@ const NEAREST: usize = 12;
 /// The nearest odd nodes within `retract` seconds of `from`, by Dijkstra's algorithm.
 fn near(from: usize, odd: &[bool], graph: &Adjacency, links: &[Link], retract: f64) -> Vec<Pair> {
     let mut best = Reached::default();
-    let mut queue = BinaryHeap::from([Reverse((Seconds(0), from))]);
+    let mut queue = BinaryHeap::from([Reverse((Ordered(0.0), from))]);
     best.insert(from, (0.0, None));
     let mut pairs = Vec::new();
-    while let Some(Reverse((Seconds(bits), node))) = queue.pop() {
-        let seconds = f64::from_bits(bits);
+    while let Some(Reverse((Ordered(seconds), node))) = queue.pop() {
         if best[&node].0 < seconds {
             continue;
         }
@@ -227,7 +224,7 @@ fn near(from: usize, odd: &[bool], graph: &Adjacency, links: &[Link], retract: f
             let longer = seconds + links[link].seconds.max(0.0);
             if longer < retract && best.get(&next).is_none_or(|known| longer < known.0) {
                 best.insert(next, (longer, Some((link, node))));
-                queue.push(Reverse((Seconds(longer.to_bits()), next)));
+                queue.push(Reverse((Ordered(longer), next)));
             }
         }
     }

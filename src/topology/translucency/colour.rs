@@ -3,6 +3,7 @@
 use bitvec::prelude::{BitVec, Lsb0};
 
 use crate::raster::blend::mix;
+use crate::topology::splitmix::{STEP, splitmix};
 
 /// A colour of 8 bits a component: red, green, blue.
 pub type Colour = [u8; 3];
@@ -18,11 +19,9 @@ impl Random {
     }
 
     fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
+        let number = splitmix(self.0);
+        self.0 = self.0.wrapping_add(STEP);
+        number
     }
 
     /// Any colour other than black whose half is not among those `seen`, and enters its half there.

@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Point, Polygon, off_segment};
 use crate::topology::{DisjointSets, boxes, spanned};
 use crate::verify::edges::{Edges, length};
 
@@ -60,11 +60,7 @@ impl Sweep {
     }
 
     fn holds(&self, p: Spot) -> bool {
-        let way = (self.to.0 - self.from.0, self.to.1 - self.from.1);
-        let squared = way.0 * way.0 + way.1 * way.1;
-        let along = (p.0 - self.from.0) * way.0 + (p.1 - self.from.1) * way.1;
-        let part = if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 };
-        length((p.0 - self.from.0 - way.0 * part, p.1 - self.from.1 - way.1 * part)) <= self.radius
+        length(off_segment(p, self.from, self.to)) <= self.radius
     }
 }
 

@@ -142,7 +142,8 @@ impl Generators {
             return [0; 2];
         }
         let [x, y] = [p.x, p.y].map(|nm| nm.get().cast_unsigned());
-        let hash = mixed(mixed(mixed(u64::from(self.attempt)) ^ x) ^ y);
+        let parts = [u64::from(self.attempt), x, y];
+        let hash = parts.into_iter().fold(0, |hash, part| topology::splitmix(hash ^ part));
         [hash >> 32, hash & u64::from(u32::MAX)].map(|bits| i64::try_from(bits % 5).expect("below five") - 2)
     }
 
@@ -344,14 +345,6 @@ impl Generators {
     pub(super) fn ends_of(&self, a: u32) -> [Option<u32>; 2] {
         self.ends[a as usize].map(|end| (end != NONE).then_some(end))
     }
-}
-
-/// A hash of a number: the step of splitmix64 (S. Vigna, after G. Steele et al., 2014).
-const fn mixed(number: u64) -> u64 {
-    let mut z = number.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^ (z >> 31)
 }
 
 /// Twice the signed area of the triangle.

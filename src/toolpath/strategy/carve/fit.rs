@@ -8,7 +8,7 @@
 //! Greedy as [`fit_points`](crate::voronoi::fit_points) is: the longest line or arc, found by
 //! doubling and halving, and an arc only where it reaches half as far again as a line.
 
-use crate::geometry::{Nm, Path, Point, Segment, Turn};
+use crate::geometry::{Nm, Path, Point, Segment, Turn, part_nearest};
 
 use super::clip::{Tip, between};
 
@@ -67,13 +67,7 @@ impl Fit {
     /// Whether all places lie on the line from the first to the last.
     fn is_line(&self, tips: &[Tip]) -> bool {
         let (a, b) = (tips[0], tips[tips.len() - 1]);
-        let way = (b.at.0 - a.at.0, b.at.1 - a.at.1);
-        let squared = way.0 * way.0 + way.1 * way.1;
-        let part = |p: Tip| {
-            let along = (p.at.0 - a.at.0) * way.0 + (p.at.1 - a.at.1) * way.1;
-            if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 }
-        };
-        tips.iter().all(|&p| self.is_near(p, between(a, b, part(p))))
+        tips.iter().all(|&p| self.is_near(p, between(a, b, part_nearest(p.at, a.at, b.at))))
     }
 
     /// The arc from the first place to the last, if all lie on it.

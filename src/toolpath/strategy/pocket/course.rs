@@ -1,5 +1,7 @@
 //! A loop by the distance along it.
 
+use crate::geometry::{between, part_nearest};
+
 /// A place in nanometres.
 pub(super) type Spot = (f64, f64);
 
@@ -114,21 +116,9 @@ impl Course {
     }
 }
 
-pub(super) fn between(a: Spot, b: Spot, part: f64) -> Spot {
-    (a.0 + (b.0 - a.0) * part, a.1 + (b.1 - a.1) * part)
-}
-
 pub(super) fn distance(a: Spot, b: Spot) -> f64 {
     let (x, y) = (a.0 - b.0, a.1 - b.1);
     (x * x + y * y).sqrt()
-}
-
-/// What part of the way from `a` to `b` the place nearest to `p` is.
-pub(super) fn part_nearest(p: Spot, a: Spot, b: Spot) -> f64 {
-    let way = (b.0 - a.0, b.1 - a.1);
-    let squared = way.0 * way.0 + way.1 * way.1;
-    let along = (p.0 - a.0) * way.0 + (p.1 - a.1) * way.1;
-    if squared > 0.0 { (along / squared).clamp(0.0, 1.0) } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -7,15 +7,17 @@
 //!     milled already
 //! ```
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use static_aabb2d_index::StaticAABB2DIndex;
 
+use crate::geometry::{between, part_nearest};
+use crate::toolpath::ordered::Ordered;
 use crate::topology::{boxes, spanned};
 use crate::voronoi::medial::nest::Nest;
 
-use super::course::{Course, Spot, between, distance, part_nearest};
+use super::course::{Course, Spot, distance};
 
 /// A way from a place of a loop to a place of another, straight.
 #[derive(Clone, Copy, Debug)]
@@ -74,22 +76,18 @@ impl Level {
 
     /// The loop that passes `p`, and how far along it that is.
     fn at(&self, p: Spot, courses: &[Course]) -> Option<(usize, f64)> {
-        let mut best: Option<(f64, usize, f64)> = None;
+        let mut best: Option<(Ordered, usize, Ordered)> = None;
         self.visit([p, p], MISS, |number, i| {
             let [a, b] = courses[number].segment(i);
             let part = part_nearest(p, a, b);
             let off = distance(p, between(a, b, part));
-            let key = (off, number, courses[number].along(i, part));
-            if off <= MISS && best.is_none_or(|best| less(key, best)) {
+            let key = (Ordered(off), number, Ordered(courses[number].along(i, part)));
+            if off <= MISS && best.is_none_or(|best| key < best) {
                 best = Some(key);
             }
         });
-        best.map(|(_, number, along)| (number, along))
+        best.map(|(_, number, Ordered(along))| (number, along))
     }
-}
-
-fn less(a: (f64, usize, f64), b: (f64, usize, f64)) -> bool {
-    a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.total_cmp(&b.2)) == Ordering::Less
 }
 
 impl Links {
@@ -203,20 +201,21 @@ impl Links {
         wanted: impl Fn(usize) -> bool,
     ) -> Option<(Vec<Leg>, (usize, f64))> {
         let mut best: Vec<Option<Reached>> = vec![None; self.courses.len()];
-        let mut open = BinaryHeap::new();
-        open.push(Ahead { cost: 0.0, number, along, from: None });
-        while let Some(Ahead { cost, number: here, along, from }) = open.pop() {
+        // By cost, then by loop and place: where each is left from, on which other, comes last.
+        let mut open = BinaryHeap::from([Reverse((Ordered(0.0), number, Ordered(along), None))]);
+        while let Some(Reverse((Ordered(cost), here, Ordered(along), from))) = open.pop() {
             if best[here].is_some() {
                 continue;
             }
-            best[here] = Some(Reached { along, from });
+            best[here] = Some(Reached { along, from: from.map(|(before, Ordered(left))| (before, left)) });
             if wanted(here) {
                 return Some((legs(&best, here), (here, along)));
             }
             for hop in &self.hops[here] {
                 if best[hop.to].is_none() && (is_cut(hop.to) || wanted(hop.to)) {
                     let cost = cost + self.courses[here].shorter(along, hop.from).0 + hop.length;
-                    open.push(Ahead { cost, number: hop.to, along: hop.at, from: Some((here, hop.from)) });
+                    let from = Some((here, Ordered(hop.from)));
+                    open.push(Reverse((Ordered(cost), hop.to, Ordered(hop.at), from)));
                 }
             }
         }
@@ -242,32 +241,3 @@ fn legs(best: &[Option<Reached>], mut here: usize) -> Vec<Leg> {
     legs.reverse();
     legs
 }
-
-/// A loop to be looked at, the cheapest first.
-struct Ahead {
-    cost: f64,
-    number: usize,
-    along: f64,
-    from: Option<(usize, f64)>,
-}
-
-impl Ord for Ahead {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let cost = other.cost.total_cmp(&self.cost);
-        cost.then(other.number.cmp(&self.number)).then(other.along.total_cmp(&self.along))
-    }
-}
-
-impl PartialOrd for Ahead {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Ahead {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Ahead {}

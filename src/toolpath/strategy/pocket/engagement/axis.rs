@@ -1,9 +1,11 @@
 //! The medial axis as far as the tool's middle fits, as a graph.
 
-use std::cmp::Ordering;
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use crate::toolpath::strategy::pocket::course::{Spot, between, distance};
+use crate::geometry::between;
+use crate::toolpath::ordered::Ordered;
+use crate::toolpath::strategy::pocket::course::{Spot, distance};
 use crate::voronoi::medial::{MedialAxis, Place};
 
 /// A part of the axis between two nodes, along which the tool's middle fits.
@@ -192,10 +194,9 @@ impl Graph {
     /// How far each node is from `from` along edges that `is_open`, and the edge that leads there.
     pub(super) fn ways(&self, from: usize, is_open: impl Fn(usize) -> bool) -> Vec<Reached> {
         let mut reached = vec![Reached { far: f64::INFINITY, by: None }; self.nodes.len()];
-        let mut open = BinaryHeap::new();
+        let mut open = BinaryHeap::from([Reverse((Ordered(0.0), from))]);
         reached[from].far = 0.0;
-        open.push(Ahead { far: 0.0, node: from });
-        while let Some(Ahead { far, node }) = open.pop() {
+        while let Some(Reverse((Ordered(far), node))) = open.pop() {
             if far > reached[node].far {
                 continue;
             }
@@ -205,7 +206,7 @@ impl Graph {
                 let far = far + edge.length();
                 if far < reached[next].far {
                     reached[next] = Reached { far, by: Some(number) };
-                    open.push(Ahead { far, node: next });
+                    open.push(Reverse((Ordered(far), next)));
                 }
             }
         }
@@ -237,33 +238,6 @@ pub(super) struct Reached {
     pub(super) far: f64,
     by: Option<usize>,
 }
-
-/// A node to be looked at, the nearest first.
-#[derive(Clone, Copy, Debug)]
-struct Ahead {
-    far: f64,
-    node: usize,
-}
-
-impl Ord for Ahead {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.far.total_cmp(&self.far).then(other.node.cmp(&self.node))
-    }
-}
-
-impl PartialOrd for Ahead {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Ahead {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-
-impl Eq for Ahead {}
 
 /// The first of the widest places.
 fn widest(course: &[Place]) -> Option<usize> {

@@ -10,8 +10,8 @@
 
 use std::f64::consts::PI;
 
-use crate::geometry::{Point, Segment, Turn};
-use crate::toolpath::strategy::pocket::course::{Spot, between, distance};
+use crate::geometry::{Point, Segment, Turn, between};
+use crate::toolpath::strategy::pocket::course::{Spot, distance};
 use crate::voronoi::medial::Place;
 
 use super::axis::{Edge, Graph};

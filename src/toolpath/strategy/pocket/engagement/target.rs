@@ -3,6 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crate::toolpath::Percent;
+
 /// How much of its diameter a tool that goes straight on along a wall of material takes off it.
 ///
 /// ```text
@@ -17,27 +19,21 @@ use std::str::FromStr;
 /// 1 % to 50 %: with more the tool would meet more than a quarter of its circumference, and loops
 /// would be less load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Engagement {
-    /// In hundredths of a percent.
-    hundredths: u32,
-}
+pub struct Engagement(Percent);
 
 /// Why a text is not an engagement.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("`{0}` is not a radial engagement: expected 1% to 50% of the tool diameter, such as `15%`")]
 pub struct ParseEngagementError(String);
 
-/// One percent, in hundredths.
-const PERCENT: u32 = 100;
-
 impl Engagement {
     /// What is usual for trochoidal milling. Chosen.
-    pub const USUAL: Self = Self { hundredths: 15 * PERCENT };
+    pub const USUAL: Self = Self(Percent::new(15));
 
     /// As a part of the diameter.
     #[must_use]
     pub fn part(self) -> f64 {
-        f64::from(self.hundredths) / f64::from(100 * PERCENT)
+        self.0.part()
     }
 
     /// Along how much of the circumference the tool meets material, in radians.
@@ -51,28 +47,14 @@ impl FromStr for Engagement {
     type Err = ParseEngagementError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
-        let wrong = || ParseEngagementError(text.to_owned());
-        let part = text.trim().strip_suffix('%').ok_or_else(wrong)?.trim();
-        let (whole, rest) = part.split_once('.').unwrap_or((part, ""));
-        let is_number = |text: &str| text.bytes().all(|digit| digit.is_ascii_digit());
-        let hundredths = (is_number(whole) && is_number(rest) && rest.len() <= 2 && !whole.is_empty())
-            .then(|| format!("{whole}{rest:0<2}").parse().ok())
-            .flatten();
-        hundredths
-            .filter(|hundredths| (PERCENT..=50 * PERCENT).contains(hundredths))
-            .map(|hundredths| Self { hundredths })
-            .ok_or_else(wrong)
+        let part = text.parse().ok().filter(|part| (Percent::new(1)..=Percent::new(50)).contains(part));
+        part.map(Self).ok_or_else(|| ParseEngagementError(text.to_owned()))
     }
 }
 
-/// As it is written, without needless zeros.
 impl fmt::Display for Engagement {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match (self.hundredths / 100, self.hundredths % 100) {
-            (whole, 0) => write!(f, "{whole}%"),
-            (whole, tenths) if tenths % 10 == 0 => write!(f, "{whole}.{}%", tenths / 10),
-            (whole, hundredths) => write!(f, "{whole}.{hundredths:02}%"),
-        }
+        self.0.fmt(f)
     }
 }
 
