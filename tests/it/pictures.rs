@@ -502,7 +502,6 @@ fn most(values: &mut [f64]) -> f64 {
 /// The pictures show no holes, as copper layers do not: the test draws those of the drill files.
 /// Unoptimised, into the small ones.
 #[test]
-#[expect(clippy::print_stderr, reason = "what was measured")]
 fn drill_dots_of_layers_are_their_holes() {
     let Some(folder) = shared("VOROMILL_BOARDS", "../shared/boards") else { return };
     let json = |path: &Path| -> Option<serde_json::Value> {
