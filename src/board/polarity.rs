@@ -125,7 +125,8 @@ fn erase<'a>(feature: Feature, clear: impl ExactSizeIterator<Item = &'a Polygon>
 }
 
 /// Twice the area, in nm²: exact, so it tells whether anything was erased.
-fn twice_area(polygon: &Polygon) -> i128 {
+#[must_use]
+pub fn twice_area(polygon: &Polygon) -> i128 {
     let origin = polygon.contours()[0][0];
     polygon.edges().map(|(a, b)| i128::from((a - origin).cross(b - origin))).sum()
 }

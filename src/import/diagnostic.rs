@@ -92,9 +92,9 @@ diagnostics! {
 
     SVG_EFFECTS: Warning =
         "svg-effects",
-        "Effects of an SVG were ignored",
-        "plain fills and strokes",
-        "apply clipping, masks and filters in the drawing program, so that only paths are left";
+        "Effects of an SVG were not followed",
+        "plain fills and strokes, clipping paths, masks in black and white",
+        "apply filters and other masks in the drawing program, so that only paths are left";
 
     SVG_UNIT_ASSUMED: Warning =
         "svg-unit-assumed",

@@ -91,6 +91,139 @@ fn a_drawing_without_a_unit_asks_and_white_erases() {
     assert_eq!(bounds.min().y, Nm::from_mm(5), "the page's lower edge is zero: {bounds:?}");
 }
 
+/// A drawing of 40 by 40 mm.
+fn drawn(inner: &str) -> Drawing {
+    let text = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>{inner}</svg>"
+    );
+    drawing::read("x.svg", text.as_bytes(), &Options::default()).unwrap_or_else(|e| panic!("{inner}: {e}"))
+}
+
+#[test]
+fn clipping_paths_show_what_lies_in_them() {
+    let plain = "<clipPath id='c'><rect x='2' y='2' width='10' height='10'/></clipPath>";
+    let ring = "<clipPath id='c'><path clip-rule='evenodd' d='M0 0H10V10H0Z M2 2H8V8H2Z'/></clipPath>";
+    let linked = "<clipPath id='b'><rect width='6' height='40'/></clipPath>\
+        <clipPath id='c' clip-path='url(#b)'><rect x='2' y='2' width='10' height='10'/></clipPath>";
+    let moved = "<clipPath id='c' transform='translate(10 0)'><rect width='5' height='5'/></clipPath>";
+    let boxed =
+        "<clipPath id='c' clipPathUnits='objectBoundingBox'><rect width='.5' height='.25'/></clipPath>";
+    let square = "<rect width='20' height='20' clip-path='url(#c)'/>";
+    let group =
+        "<g transform='translate(10 10) scale(2)' clip-path='url(#c)'><rect width='20' height='20'/></g>";
+    for (clip, shape, expected) in [
+        (plain, square, 100.0),
+        (ring, square, 64.0),
+        (linked, square, 40.0),
+        (moved, square, 25.0),
+        (boxed, square, 50.0),
+        (plain, group, 400.0),
+        (plain, "<path d='M0 4H20' stroke='#000' stroke-width='2' clip-path='url(#c)'/>", 20.0),
+        (
+            plain,
+            "<g clip-path='url(#c)'><rect width='20' height='20'/><rect width='7' height='7' fill='#fff'/></g>",
+            75.0,
+        ),
+    ] {
+        let drawing = drawn(&format!("<defs>{clip}</defs>{shape}"));
+        let area = area(&drawing, None);
+        assert!((area - expected).abs() < 0.001, "{clip} {shape}: {area} mm², expected {expected}");
+        let told: Vec<&str> = drawing.warnings.iter().map(|warning| warning.code()).collect();
+        assert!(!told.contains(&"svg-effects"), "{clip}: {told:?}");
+    }
+}
+
+#[test]
+fn what_lies_inside_a_clipping_path_stays_as_it_is() {
+    let clip = "<clipPath id='c'><rect width='40' height='40'/></clipPath>";
+    let whole =
+        drawn(&format!("{clip}<g id='Drill' clip-path='url(#c)'><circle cx='20' cy='20' r='1'/></g>"));
+    let bare = drawn("<g id='Drill'><circle cx='20' cy='20' r='1'/></g>");
+    assert_eq!(whole.artwork, bare.artwork, "a circle of arcs, on its layer");
+    let away = drawn(
+        "<clipPath id='c'><rect width='4' height='4'/></clipPath><rect width='9' height='9'/>\
+         <circle cx='20' cy='20' r='1' clip-path='url(#c)'/>",
+    );
+    let told = format!("{:?}", away.warnings);
+    assert!(told.contains("1 shape that is clipped or masked away"), "nothing disappears: {told}");
+}
+
+#[test]
+fn masks_show_what_lies_under_white_and_hide_what_lies_under_black() {
+    let mask = |inner: &str| {
+        format!("<mask id='m' maskUnits='userSpaceOnUse' x='0' y='0' width='30' height='10'>{inner}</mask>")
+    };
+    let white = "<rect width='40' height='40' fill='#fff'/>";
+    let alpha = "<mask id='m' style='mask-type:alpha' maskUnits='userSpaceOnUse' width='40' height='40'>\
+        <rect width='5' height='5'/></mask>";
+    for (mask, expected) in [
+        (mask(white), 200.0),
+        (
+            mask(&format!("{white}<circle cx='5' cy='5' r='2' fill='#000'/>")),
+            200.0 - 4.0 * std::f64::consts::PI,
+        ),
+        (mask("<rect width='4' height='5' fill='white'/><rect width='40' height='1'/>"), 16.0),
+        (alpha.to_owned(), 25.0),
+    ] {
+        let drawing = drawn(&format!("{mask}<rect width='20' height='20' mask='url(#m)'/>"));
+        let area = area(&drawing, None);
+        assert!((area / expected - 1.0).abs() < 1e-4, "{mask}: {area} mm², expected {expected}");
+    }
+    let grey = mask("<rect width='4' height='5' fill='#888'/>");
+    let drawing = drawn(&format!("{grey}<rect width='20' height='20' mask='url(#m)'/>"));
+    assert!((area(&drawing, None) - 400.0).abs() < 0.001, "a mask with greys is no area");
+    let told = format!("{:?}", drawing.warnings);
+    assert!(told.contains("1 masks that are not black and white"), "and that is said: {told}");
+}
+
+#[test]
+fn references_that_multiply_or_go_deep_are_refused() {
+    let chain = |kind: &str, attribute: &str, count: u32, times: usize| {
+        let inner = if kind == "mask" {
+            "<rect width='9' height='9' fill='#fff'"
+        } else {
+            "<rect width='9' height='9'"
+        };
+        let one = |number: u32| match number {
+            0 => format!("<{kind} id='r0'>{inner}/></{kind}>"),
+            _ => {
+                let used = format!("{inner} {attribute}='url(#r{})'/>", number - 1).repeat(times);
+                format!("<{kind} id='r{number}'>{used}</{kind}>")
+            }
+        };
+        let all: String = (0..=count).map(one).collect();
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm'>{all}\
+             <rect width='20' height='20' {attribute}='url(#r{count})'/></svg>"
+        );
+        drawing::read("x.svg", text.as_bytes(), &Options::default()).map_err(|error| error.to_string())
+    };
+    for (kind, attribute) in [("clipPath", "clip-path"), ("mask", "mask"), ("pattern", "fill")] {
+        // A pattern without a size fills nothing.
+        if kind != "pattern" {
+            chain(kind, attribute, 8, 1).unwrap_or_else(|error| panic!("{kind}: {error}"));
+        }
+        for (count, times) in [(20_000, 1), (40, 2)] {
+            let error = chain(kind, attribute, count, times).expect_err(kind);
+            assert!(error.contains("refer to each other too often"), "{kind}: {error}");
+        }
+    }
+}
+
+#[test]
+fn markers_are_drawn_and_gradients_are_filled() {
+    let marker = "<marker id='k' markerWidth='2' markerHeight='2' markerUnits='userSpaceOnUse' refX='1' refY='1'>\
+        <rect width='2' height='3'/></marker><path d='M10 10H20' fill='none' stroke='#000' \
+        stroke-width='.5' marker-start='url(#k)' marker-end='url(#k)'/>";
+    let found = area(&drawn(marker), None);
+    assert!((found - 12.0).abs() < 0.001, "two squares, cut at the marker's edge, and a line: {found} mm²");
+    let gradient = "<linearGradient id='g'><stop stop-color='#fff'/><stop offset='1'/></linearGradient>\
+        <rect width='10' height='10' fill='url(#g)'/>";
+    let drawing = drawn(gradient);
+    assert!((area(&drawing, None) - 100.0).abs() < 0.001, "copper throughout");
+    assert!(format!("{:?}", drawing.warnings).contains("1 gradients"), "{:?}", drawing.warnings);
+}
+
 #[test]
 fn layers_are_what_their_names_say() {
     for name in ["layers.svg", "layers.dxf"] {

@@ -216,12 +216,15 @@ fn what_is_no_artwork_is_refused_with_its_reason() {
     let whole = encoded(&grey(), ImageFormat::Png);
     let mut huge = whole.clone();
     huge[16..24].copy_from_slice(&[0, 0, 0xEA, 0x60, 0, 0, 0xEA, 0x60]);
+    let mut cut = encoded(&grey(), ImageFormat::Jpeg);
+    cut.truncate(cut.len() * 9 / 10);
     let sum = crc(&huge[12..29]);
     huge[29..33].copy_from_slice(&sum.to_be_bytes());
     for (bytes, word) in [
         (encoded(&photo.into(), ImageFormat::Png), "does not have two clear colours"),
         (encoded(&blank.into(), ImageFormat::Png), "one colour"),
         (whole[..whole.len() / 2].to_vec(), "cannot be read"),
+        (cut, "the JPEG is truncated"),
         (huge, "60000 × 60000 pixels are too many"),
         (b"no picture".to_vec(), "not a picture"),
         (Vec::new(), "an empty file"),
@@ -375,6 +378,186 @@ fn pictures_of_layers_have_the_islands_of_their_boards() {
         }
     }
     assert!(seen >= 5 && right + seen / 46 >= seen, "{right} of {seen}");
+}
+
+/// The window of a reference picture: its lower left corner in millimetres.
+fn corner(window: &serde_json::Value) -> (f64, f64) {
+    let at = |number: usize| window["origin_mm"][number].as_f64().expect("a number");
+    (at(0), at(1))
+}
+
+/// Pixels of a test board's picture are 500 to the inch.
+const REFERENCE: f64 = 25.4 / 500.0;
+
+/// A round hole of a board's drill files: x and y in millimetres from the lower left corner of the
+/// picture, diameter.
+type Drilled = (f64, f64, f64);
+
+/// All round holes of a board's drill files, each once.
+fn drilled(truth: &serde_json::Value, corner: (f64, f64)) -> Vec<Drilled> {
+    let list = |value: &serde_json::Value| value.as_array().cloned().unwrap_or_default();
+    let mut holes: Vec<Drilled> = Vec::new();
+    for tool in list(truth).iter().flat_map(|file| list(&file["tools"])) {
+        let Some(diameter) = tool["diameter_mm"].as_f64() else { continue };
+        for at in list(&tool["xy_mm"]) {
+            let (Some(x), Some(y)) = (at[0].as_f64(), at[1].as_f64()) else { continue };
+            holes.push((x - corner.0, y - corner.1, diameter));
+        }
+    }
+    holes.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+    holes.dedup_by(|a, b| libm::hypot(a.0 - b.0, a.1 - b.1) < 0.001);
+    holes
+}
+
+/// The pixels of a picture with their distance from `(x, y)` in millimetres, up to `reach`.
+fn round((width, height): (u32, u32), (x, y): (f64, f64), reach: f64) -> Vec<(u32, u32, f64)> {
+    let mut found = Vec::new();
+    for row in 0..height {
+        let dy = (f64::from(height - 1 - row) + 0.5) * REFERENCE - y;
+        if dy.abs() > reach {
+            continue;
+        }
+        for column in 0..width {
+            let dx = (f64::from(column) + 0.5) * REFERENCE - x;
+            let away = libm::hypot(dx, dy);
+            if away <= reach {
+                found.push((column, row, away));
+            }
+        }
+    }
+    found
+}
+
+/// The holes of which a picture shows a dot once they are bare: of 0.25 to 1.6 mm, with two pixels
+/// of copper all round, and no other hole in these.
+fn visible(layer: &GrayImage, holes: &[Drilled]) -> Vec<Drilled> {
+    let is_free = |&(x, y, diameter): &Drilled| {
+        let reach = diameter / 2.0 + 2.0 * REFERENCE;
+        let alone = holes.iter().all(|&(u, v, other)| {
+            let away = libm::hypot(x - u, y - v);
+            away == 0.0 || away > reach + other / 2.0
+        });
+        let pixels = round(layer.dimensions(), (x, y), reach);
+        let all =
+            |pixels: &[(u32, u32, f64)]| pixels.iter().all(|&(c, r, _)| layer.get_pixel(c, r).0[0] > 127);
+        alone && (0.25..=1.6).contains(&diameter) && !pixels.is_empty() && all(&pixels)
+    };
+    holes.iter().copied().filter(is_free).collect()
+}
+
+/// What drill dots were found of those that a picture shows.
+#[derive(Debug, Default)]
+struct Found {
+    pictures: usize,
+    /// Dots that are to be seen, and how many of them were found.
+    shown: usize,
+    right: usize,
+    /// Dots found where no hole is; and where none was drawn yet.
+    wrong: usize,
+    before: usize,
+    /// How far found ones are off: their middles in pixels, their diameters in millimetres.
+    places: Vec<f64>,
+    sizes: Vec<f64>,
+}
+
+impl Found {
+    /// Counts the dots of a layer before its holes are drawn into it, and after.
+    fn add(&mut self, mut layer: GrayImage, holes: &[Drilled]) {
+        let options = Options { dpi: Some(500.0), colour: Colour::Light, ..OPTIONS };
+        let dots = |layer: &GrayImage| {
+            let bytes = encoded(&layer.clone().into(), ImageFormat::Png);
+            read("layer", &bytes, &options).expect("a picture of copper").holes
+        };
+        let shown = visible(&layer, holes);
+        self.before += dots(&layer).len();
+        for &(x, y, diameter) in holes {
+            for (column, row, _) in round(layer.dimensions(), (x, y), diameter / 2.0) {
+                layer.put_pixel(column, row, Luma([0]));
+            }
+        }
+        let found = dots(&layer);
+        let away = |&(x, y, _): &Drilled, dot: &voromill::board::Hole| {
+            libm::hypot(dot.path.start.x.to_mm() - x, dot.path.start.y.to_mm() - y)
+        };
+        let is_hole = |dot| holes.iter().any(|hole| away(hole, dot) < REFERENCE);
+        self.wrong += found.iter().filter(|dot| !is_hole(dot)).count();
+        self.pictures += 1;
+        self.shown += shown.len();
+        for hole in &shown {
+            if let Some(dot) = found.iter().find(|dot| away(hole, dot) < REFERENCE) {
+                self.right += 1;
+                self.places.push(away(hole, dot) / REFERENCE);
+                self.sizes.push((dot.diameter.to_mm() - hole.2).abs());
+            }
+        }
+    }
+}
+
+/// The value that 95 of a hundred do not exceed.
+fn most(values: &mut [f64]) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() * 95 / 100).copied().unwrap_or_default()
+}
+
+/// The pictures show no holes, as copper layers do not: the test draws those of the drill files.
+/// Unoptimised, into the small ones.
+#[test]
+fn drill_dots_of_layers_are_their_holes() {
+    let Some(folder) = shared("VOROMILL_BOARDS", "../shared/boards") else { return };
+    let json = |path: &Path| -> Option<serde_json::Value> {
+        serde_json::from_slice(&std::fs::read(path).ok()?).ok()
+    };
+    let mut found = Found::default();
+    for board in std::fs::read_dir(folder).expect("boards").map(|entry| entry.expect("an entry").path()) {
+        let Some(truth) = json(&board.join("truth_drill.json")) else { continue };
+        for side in ["front", "back"] {
+            let Some(window) = json(&board.join(format!("ref/{side}_500.json"))) else { continue };
+            let bytes = std::fs::read(board.join(format!("ref/{side}_500.png"))).expect("a picture");
+            if !cfg!(debug_assertions) || bytes.len() < 12_000 {
+                let layer = image::load_from_memory(&bytes).expect("a picture").to_luma8();
+                found.add(layer, &drilled(&truth, corner(&window)));
+            }
+        }
+    }
+    let Found { pictures, shown, right, wrong, before, .. } = found;
+    let (place, size) = (most(&mut found.places), most(&mut found.sizes));
+    eprintln!(
+        "{pictures} pictures: of {shown} dots {right} found, {wrong} wrong ones, {before} before any was drawn; \
+         95 % within {place:.3} pixel and {size:.3} mm"
+    );
+    assert!(pictures >= 5 && shown > 0, "{pictures} pictures with {shown} dots");
+    assert!(right * 100 >= shown * 98, "{right} of {shown} are found");
+    assert!(wrong * 100 <= right * 2, "{wrong} wrong ones beside {right}");
+    assert!(before <= 20, "{before} dots where no hole is drawn");
+    assert!(place < 0.25 && size < REFERENCE / 2.0, "95 % within {place} pixel and {size} mm");
+}
+
+#[test]
+fn edges_in_greys_are_known_to_a_quarter_of_a_pixel() {
+    let bytes = encoded(&grey(), ImageFormat::Png);
+    let picture = read("board", &bytes, &OPTIONS).expect("a board");
+    let circles = PADS.iter().map(|&(x, y, pad, _)| (x, y, pad / 2.0));
+    let circles: Vec<(f64, f64, f64)> = circles.chain([(6.0, 6.0, 1.0), (6.0, 6.0, 1.5)]).collect();
+    let off = |x: f64, y: f64| {
+        let trace = ((y - 3.0 - (x - 3.0) * 0.02).abs() - 0.2).abs();
+        circles
+            .iter()
+            .fold(trace, |least, &(u, v, radius)| least.min((libm::hypot(x - u, y - v) - radius).abs()))
+    };
+    let mut offs = Vec::new();
+    for polygon in picture.features.iter().filter_map(|feature| feature.shape.polygon(FLATTEN)) {
+        for (a, b) in polygon.edges() {
+            let steps = (a.distance(b) / 1e4).ceil();
+            let mut step = 0.0;
+            while step < steps {
+                let mix = |p: Nm, q: Nm| p.to_mm() + (q.to_mm() - p.to_mm()) * step / steps;
+                offs.push(off(mix(a.x, b.x), mix(a.y, b.y)) / PIXEL);
+                step += 1.0;
+            }
+        }
+    }
+    let most = most(&mut offs);
+    assert!(offs.len() > 1000 && most < 0.25, "95 % of {} places are within {most} pixel", offs.len());
 }
 
 #[test]

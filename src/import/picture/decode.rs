@@ -61,6 +61,10 @@ pub(super) fn decode(name: &str, bytes: &[u8], options: &Options) -> Result<Deco
         let what = if bytes.is_empty() { "an empty file, not a picture" } else { "this is not a picture" };
         return Err(Error::content(name, what, "expected a PNG, BMP, JPEG, TIFF, GIF, WebP or PNM file"));
     };
+    if format == ImageFormat::Jpeg && !has_end(bytes) {
+        let what = "the JPEG is truncated: it has no end";
+        return Err(Error::content(name, what, "copy or save the picture again"));
+    }
     let decoded = contained(|| upright(name, bytes, format, options.most_pixels.unwrap_or(MOST_PIXELS)));
     let (mut picture, (width, height)) = decoded.unwrap_or_else(|words| Err(broken(name, words)))?;
     let mut dpi = resolution(bytes, format);
@@ -75,6 +79,13 @@ pub(super) fn decode(name: &str, bytes: &[u8], options: &Options) -> Result<Deco
     let empty = || Error::content(name, "the picture has no pixels", "check that it is whole");
     let field = Field::new(width, samples).ok_or_else(empty)?;
     Ok(Decoded { field, is_bright, dpi, format: name_of(format).unwrap_or_default() })
+}
+
+/// Whether a JPEG has a marker for its end (EOI) after the last one for a scan (SOS; ITU-T T.81,
+/// B.1.1.3): its decoder fills with grey what is missing. No other bytes of a scan look like one.
+fn has_end(bytes: &[u8]) -> bool {
+    let last = |marker| bytes.windows(2).rposition(|pair| pair == [0xFF, marker]);
+    last(0xD9) > last(0xDA)
 }
 
 /// The picture as it is to be looked at, and how wide and high it lies in the file.

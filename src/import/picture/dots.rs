@@ -1,4 +1,10 @@
-//! Drill dots: round bare blobs in pads, which are holes, with the diameters that they have.
+//! Drill dots: round bare blobs with copper all round, which are holes, with the diameters that
+//! they have.
+//!
+//! In a pad or in a plane: where a plane has a clearance, a pad or a hole lies in it. Measured with
+//! the holes of the boards' drill files drawn into 41 pictures of layers: of 4933 dots up to the
+//! widest, 4403 are found if a pad must end near them and 4906 if it need not; of the blobs in the
+//! pictures without holes, 7 and 10 are taken for one.
 
 use std::ops::RangeInclusive;
 
@@ -24,10 +30,6 @@ const ROUNDNESS: (f64, f64) = (0.05, 0.55);
 /// of a letter is thinner.
 const ANNULUS: f64 = 0.18;
 
-/// Up to how many diameters from the middle a pad ends, in most directions. Chosen: a clearance in
-/// a plane has copper farther than that all round.
-const PAD: f64 = 2.2;
-
 /// Directions in which the copper round a dot is measured.
 const WAYS: u32 = 32;
 
@@ -43,7 +45,7 @@ pub(super) fn part(
     let mut left = Vec::with_capacity(contours.len());
     for contour in contours {
         let dot = Dot::of(&contour, scale, &DIAMETERS);
-        match dot.filter(|dot| dot.is_empty(&islands) && dot.is_in_a_pad(field, inside, scale)) {
+        match dot.filter(|dot| dot.is_empty(&islands) && dot.has_copper_round(field, inside, scale)) {
             Some(dot) => dots.push(dot),
             None => left.push(contour),
         }
@@ -58,7 +60,7 @@ pub(super) fn middles(contours: &[Contour], field: &Field, inside: Inside, scale
     let (columns, rows) = field.size();
     let diameters = PIXELS.0..=f64::max(columns.min(rows) * PIXELS.1, PIXELS.0);
     let dots = contours.iter().filter_map(|contour| Dot::of(contour, scale, &diameters));
-    dots.filter(|dot| dot.is_empty(&islands) && dot.is_in_a_pad(field, inside, scale))
+    dots.filter(|dot| dot.is_empty(&islands) && dot.has_copper_round(field, inside, scale))
         .map(|dot| dot.center)
         .collect()
 }
@@ -124,27 +126,22 @@ impl Dot {
         islands.iter().all(|&p| distance(p, self.center) > self.radius)
     }
 
-    /// Whether there is copper all round, and in most directions not for long.
-    fn is_in_a_pad(&self, field: &Field, inside: Inside, scale: &Scale) -> bool {
+    /// Whether there is copper all round, as wide as a pad has it.
+    fn has_copper_round(&self, field: &Field, inside: Inside, scale: &Scale) -> bool {
         let pixel = scale.pixel.0.min(scale.pixel.1);
-        let far = self.radius * 2.0 * PAD;
-        let mut ending = 0;
-        for way in 0..WAYS {
+        let width = self.radius * 2.0 * ANNULUS;
+        (0..WAYS).all(|way| {
             let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(way) / f64::from(WAYS));
             let is_copper = |reach: f64| {
                 let (x, y) = (self.center.0 + cos * reach, self.center.1 + sin * reach);
                 inside.holds(field, (x / scale.pixel.0, scale.height - y / scale.pixel.1))
             };
             let mut reach = self.radius + pixel;
-            while reach < far && is_copper(reach) {
+            while reach - self.radius < width && is_copper(reach) {
                 reach += pixel / 2.0;
             }
-            if reach - self.radius < self.radius * 2.0 * ANNULUS {
-                return false;
-            }
-            ending += u32::from(reach < far);
-        }
-        ending * 2 >= WAYS
+            reach - self.radius >= width
+        })
     }
 
     fn hole(&self, diameter: Nm, tool: u32) -> Hole {

@@ -5,8 +5,9 @@
 //!  bytes ─ document ─▶ groups with names, size, counts ─ usvg ─▶ paths ─ paint ─▶ Artwork
 //! ```
 //!
-//! What is painted counts: fills by their rule, strokes with caps, joins and dashes. White erases
-//! what was painted before it, where anything else is painted at all. y points up; the lower left
+//! What is painted counts: fills by their rule, strokes with caps, joins and dashes, cut where a
+//! clipping path or a mask ends. White erases what was painted before it, where anything else is
+//! painted at all. y points up; the lower left
 //! corner of the page is zero.
 //!
 //! # Sources
@@ -16,7 +17,9 @@
 
 mod document;
 mod paint;
+mod references;
 mod size;
+mod window;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -62,6 +65,7 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Error> {
     let document = Document::read(name, bytes)?;
     let xml = document.parse(name)?;
+    references::check(name, &xml)?;
     let usvg = settings(name, options)?;
     let tree = usvg::Tree::from_xmltree(&xml, &usvg).map_err(|error| {
         let what = format!("the SVG cannot be read: {error}");
@@ -87,7 +91,7 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
     if !painted.effects.is_empty() {
         let kinds: Vec<String> =
             painted.effects.iter().map(|(what, count)| format!("{count} {what}")).collect();
-        let message = format!("ignored in {name}: {}", kinds.join(", "));
+        let message = format!("not followed in {name}: {}", kinds.join(", "));
         warnings.push(diagnostic::SVG_EFFECTS.warning(message));
     }
     if painted.erased > 0 {

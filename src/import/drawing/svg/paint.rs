@@ -1,15 +1,19 @@
 //! Resolved paths → figures: fills and strokes, in the order in which they are painted.
 
-use crate::board::Words;
 use std::collections::BTreeMap;
+use std::rc::Rc;
 
 use usvg::tiny_skia_path::{self, PathSegment};
-use usvg::{Group, LineCap, LineJoin, Node, Paint, Path, Transform, Tree};
+use usvg::{
+    BlendMode, ClipPath, Group, LineCap, LineJoin, Mask, MaskType, Node, Paint, Path, Transform, Tree,
+};
 
 use super::document::{Document, Rank};
 use super::size::Size;
+use super::window::{Effort, Window};
 use crate::artwork::{Area, Drawn, Figure, Layer, Line};
-use crate::board::polarity::{FillRule, Polarity};
+use crate::board::polarity::{FillRule, Polarity, TooMuch};
+use crate::board::{FLATTEN, Words};
 use crate::geometry::{self, Nm, Segment};
 use crate::import::drawing::{Contour, Options, Place};
 use crate::import::error::Error;
@@ -19,6 +23,12 @@ const FAINTEST: f32 = 0.05;
 
 /// The least of each colour that is white. Chosen: what programs paint a page with.
 const WHITE: u8 = 250;
+
+/// The most of each colour that is black, in a mask. Chosen, as far from it.
+const BLACK: u8 = 5;
+
+/// What is less opaque lets the white below it through, in a mask. Chosen.
+const OPAQUE: f32 = 0.95;
 
 /// The most lines and arcs of a drawing. Chosen: a gigabyte of them.
 const MOST_SEGMENTS: usize = 20_000_000;
@@ -33,13 +43,26 @@ pub(super) struct Painted {
     pub(super) erased: u64,
     /// Paths that nothing is painted of.
     unpainted: u64,
+    /// Figures of which a clipping path or a mask shows nothing.
+    clipped: u64,
     segments: usize,
+    effort: Effort,
 }
 
 /// Paints all of `tree`.
 pub(super) fn painted(name: &str, tree: &Tree, document: &Document, size: &Size) -> Result<Painted, Error> {
     let mut painted = Painted::default();
-    let scope = Scope { name, document, size, layer: String::new(), rank: Rank::None, opacity: 1.0 };
+    let scope = Scope {
+        name,
+        document,
+        size,
+        layer: String::new(),
+        rank: Rank::None,
+        opacity: 1.0,
+        ink: Ink::Copper,
+        turn: Transform::default(),
+        window: None,
+    };
     painted.group(tree.root(), &scope)?;
     painted.layers.retain(|layer| !layer.figures.is_empty());
     let figures = || painted.layers.iter().flat_map(|layer| &layer.figures);
@@ -63,6 +86,29 @@ struct Scope<'a> {
     layer: String,
     rank: Rank,
     opacity: f32,
+    ink: Ink,
+    /// From the page of a clipping path or a mask to that of the drawing.
+    turn: Transform,
+    /// Where it is seen; everywhere, if there is none.
+    window: Option<Rc<Window>>,
+}
+
+/// What paint does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ink {
+    /// White erases, all else is copper.
+    Copper,
+    /// All paint covers: in a clipping path, and in a mask of alpha.
+    Shape,
+    /// White shows and black hides: in a mask of luminance.
+    Light,
+}
+
+impl Scope<'_> {
+    fn too_much(&self, _: TooMuch) -> Error {
+        let what = "clipping paths and masks of the drawing take too long to apply";
+        Error::content(self.name, what, "apply them in the drawing program, so that only paths are left")
+    }
 }
 
 impl Painted {
@@ -77,6 +123,11 @@ impl Painted {
         let all = [
             (document.hidden, "hidden elements", "1 hidden element"),
             (self.unpainted, "paths without fill and stroke", "1 path without fill and stroke"),
+            (
+                self.clipped,
+                "shapes that are clipped or masked away",
+                "1 shape that is clipped or masked away",
+            ),
             (texts, "texts without a font ({font})", "1 text without a font ({font})"),
             (document.images, "images", "1 image"),
         ];
@@ -91,29 +142,111 @@ impl Painted {
 
     fn group(&mut self, group: &Group, above: &Scope<'_>) -> Result<(), Error> {
         let mut scope = above.clone();
-        if let Some((name, rank)) = above.document.group(group.id())
+        if above.ink == Ink::Copper
+            && let Some((name, rank)) = above.document.group(group.id())
             && (rank > above.rank || (rank == above.rank && rank > Rank::Id))
         {
             (scope.layer, scope.rank) = (name.to_owned(), rank);
         }
         scope.opacity *= group.opacity().get();
-        let mut effect = |is_there: bool, what| {
-            if is_there {
-                *self.effects.entry(what).or_insert(0) += 1;
-            }
-        };
-        effect(group.clip_path().is_some(), "clipping paths");
-        effect(group.mask().is_some(), "masks");
-        effect(!group.filters().is_empty(), "filters");
+        if !group.filters().is_empty() {
+            self.effect("filters");
+        }
+        if group.blend_mode() != BlendMode::Normal {
+            self.effect("blend modes");
+        }
+        self.narrow(group, &mut scope)?;
         for node in group.children() {
             match node {
                 Node::Group(group) => self.group(group, &scope)?,
                 Node::Path(path) => self.path(path, &scope)?,
                 Node::Text(text) => self.group(text.flattened(), &scope)?,
-                Node::Image(_) => {}
+                // Images of the drawing are counted as its elements are.
+                Node::Image(_) if scope.ink == Ink::Copper => {}
+                Node::Image(_) => self.effect("images in masks"),
             }
         }
         Ok(())
+    }
+
+    fn effect(&mut self, what: &'static str) {
+        *self.effects.entry(what).or_insert(0) += 1;
+    }
+
+    /// Narrows the window of `scope` to what the clipping path and the mask of `group` show.
+    fn narrow(&mut self, group: &Group, scope: &mut Scope<'_>) -> Result<(), Error> {
+        let inner = Scope {
+            ink: Ink::Shape,
+            turn: scope.turn.pre_concat(group.abs_transform()),
+            window: None,
+            opacity: 1.0,
+            ..scope.clone()
+        };
+        let mut windows = Vec::new();
+        if let Some(clip) = group.clip_path() {
+            self.clip(clip, &inner, &mut windows)?;
+        }
+        if let Some(mask) = group.mask()
+            && !self.mask(mask, &inner, &mut windows)?
+        {
+            self.effect("masks that are not black and white");
+        }
+        for window in windows {
+            let both = match &scope.window {
+                None => window,
+                Some(outer) => outer.and(&window, &mut self.effort).map_err(|error| scope.too_much(error))?,
+            };
+            scope.window = Some(Rc::new(both));
+        }
+        Ok(())
+    }
+
+    /// The windows of a clipping path and of those set on it.
+    fn clip(&mut self, clip: &ClipPath, scope: &Scope<'_>, windows: &mut Vec<Window>) -> Result<(), Error> {
+        let inner = Scope { turn: scope.turn.pre_concat(clip.transform()), ..scope.clone() };
+        windows.extend(self.covered(clip.root(), &inner)?);
+        match clip.clip_path() {
+            Some(above) => self.clip(above, scope, windows),
+            None => Ok(()),
+        }
+    }
+
+    /// The windows of a mask and of those set on it; false, and none, where one is no area.
+    fn mask(&mut self, mask: &Mask, scope: &Scope<'_>, windows: &mut Vec<Window>) -> Result<bool, Error> {
+        let before = windows.len();
+        let mut next = Some(mask);
+        while let Some(mask) = next {
+            let ink = if mask.kind() == MaskType::Alpha { Ink::Shape } else { Ink::Light };
+            let Some(window) = self.covered(mask.root(), &Scope { ink, ..scope.clone() })? else {
+                windows.truncate(before);
+                return Ok(false);
+            };
+            windows.push(window);
+            let rect = tiny_skia_path::PathBuilder::from_rect(mask.rect().to_rect());
+            let contours = contours(&rect, true, scope.turn, scope)?;
+            let area = Area { contours, rule: FillRule::NonZero }.polygons(FLATTEN);
+            let window = area.and_then(|pieces| Window::new(pieces, &mut self.effort));
+            windows.push(window.map_err(|error| scope.too_much(error))?);
+            next = mask.mask();
+        }
+        Ok(true)
+    }
+
+    /// What the group of a clipping path or a mask covers; none where that is no area.
+    fn covered(&mut self, root: &Group, scope: &Scope<'_>) -> Result<Option<Window>, Error> {
+        let mut inner = Self { segments: self.segments, effort: self.effort, ..Self::default() };
+        inner.group(root, scope)?;
+        (self.segments, self.effort) = (inner.segments, inner.effort);
+        if !inner.effects.is_empty() {
+            return Ok(None);
+        }
+        let figures: Vec<Figure> = inner.layers.into_iter().flat_map(|layer| layer.figures).collect();
+        let window = || {
+            figures.iter().try_for_each(|figure| self.effort.spend_on(figure))?;
+            let pieces = Layer { name: String::new(), figures }.polygons(FLATTEN)?;
+            Window::new(pieces, &mut self.effort)
+        };
+        window().map(Some).map_err(|error| scope.too_much(error))
     }
 
     fn path(&mut self, path: &Path, scope: &Scope<'_>) -> Result<(), Error> {
@@ -134,12 +267,13 @@ impl Painted {
             let contours = shape.contours(path.data(), true)?;
             let contours: Vec<_> = contours.into_iter().filter(|path| path.segments.len() > 1).collect();
             if !contours.is_empty() {
-                figures.push(self.figure(Drawn::Area(Area { contours, rule }), fill.paint()));
+                let drawn = Drawn::Area(Area { contours, rule });
+                figures.push(self.figure(drawn, fill.paint(), fill.opacity().get(), scope));
             }
         }
         if let Some(stroke) = stroke {
             for drawn in shape.stroked(stroke)? {
-                figures.push(self.figure(drawn, stroke.paint()));
+                figures.push(self.figure(drawn, stroke.paint(), stroke.opacity().get(), scope));
             }
         }
         if path.paint_order() == usvg::PaintOrder::StrokeAndFill {
@@ -155,21 +289,43 @@ impl Painted {
             let what = format!("the drawing has more than {MOST_SEGMENTS} lines and arcs");
             return Err(Error::content(scope.name, what, "simplify it, or draw it without dashes"));
         }
-        self.layer(&scope.layer).extend(figures);
+        for figure in figures {
+            let seen = match &scope.window {
+                None => Some(figure),
+                Some(window) => {
+                    window.cut(figure, &mut self.effort).map_err(|error| scope.too_much(error))?
+                }
+            };
+            self.clipped += u64::from(seen.is_none());
+            self.layer(&scope.layer).extend(seen);
+        }
         Ok(())
     }
 
-    fn figure(&mut self, drawn: Drawn, paint: &Paint) -> Figure {
-        let polarity = match paint {
-            Paint::Color(colour) if colour.red.min(colour.green).min(colour.blue) >= WHITE => Polarity::Clear,
-            Paint::Color(_) => Polarity::Dark,
+    fn figure(&mut self, drawn: Drawn, paint: &Paint, opacity: f32, scope: &Scope<'_>) -> Figure {
+        let colour = match paint {
+            Paint::Color(colour) => Some(colour),
             Paint::LinearGradient(_) | Paint::RadialGradient(_) => {
-                *self.effects.entry("gradients").or_insert(0) += 1;
-                Polarity::Dark
+                self.effect("gradients");
+                None
             }
             Paint::Pattern(_) => {
-                *self.effects.entry("patterns").or_insert(0) += 1;
-                Polarity::Dark
+                self.effect("patterns");
+                None
+            }
+        };
+        let is_white = colour.is_some_and(|c| c.red.min(c.green).min(c.blue) >= WHITE);
+        let is_black = colour.is_some_and(|c| c.red.max(c.green).max(c.blue) <= BLACK);
+        let polarity = match scope.ink {
+            Ink::Shape => Polarity::Dark,
+            Ink::Copper if is_white => Polarity::Clear,
+            Ink::Copper => Polarity::Dark,
+            Ink::Light if is_white => Polarity::Dark,
+            Ink::Light => {
+                if !is_black || opacity * scope.opacity < OPAQUE {
+                    self.effect("greys");
+                }
+                Polarity::Clear
             }
         };
         Figure { drawn, polarity, line: 1 }
@@ -191,10 +347,15 @@ struct Shape<'a> {
 }
 
 impl Shape<'_> {
+    /// From the path to the page of the drawing.
+    fn turn(&self) -> Transform {
+        self.scope.turn.pre_concat(self.path.abs_transform())
+    }
+
     /// A stroke as the lines of a round pen, or where it is none as what it covers.
     fn stroked(&self, stroke: &usvg::Stroke) -> Result<Vec<Drawn>, Error> {
         let pixel = self.scope.size.pixel.nanometres();
-        let (x, y, is_similar) = scales(self.path.abs_transform());
+        let (x, y, is_similar) = scales(self.turn());
         let width = Nm::from_f64(f64::from(stroke.width().get()) * (x * y).sqrt() * pixel);
         let dashed = stroke.dasharray().map(|_| stroke.to_tiny_skia());
         // A pixel to the stroker is 250 nm.
@@ -231,43 +392,48 @@ impl Shape<'_> {
 
     /// The parts of `data` on the board; closed ones only, where an area is meant.
     fn contours(&self, data: &tiny_skia_path::Path, closes: bool) -> Result<Vec<geometry::Path>, Error> {
-        let turn = self.path.abs_transform();
-        let place = |p: tiny_skia_path::Point| -> Place {
-            let (x, y) = (f64::from(p.x), f64::from(p.y));
-            let across = f64::from(turn.sx) * x + f64::from(turn.kx) * y + f64::from(turn.tx);
-            let down = f64::from(turn.ky) * x + f64::from(turn.sy) * y + f64::from(turn.ty);
-            self.scope.size.place((across, down))
-        };
-        let mut done: Vec<Contour> = Vec::new();
-        for segment in data.segments() {
-            if let PathSegment::MoveTo(p) = segment {
-                done.push(Contour::new(place(p)));
-                continue;
-            }
-            let Some(contour) = done.last_mut() else { continue };
-            match segment {
-                PathSegment::MoveTo(_) => {}
-                PathSegment::LineTo(p) => contour.line(place(p)),
-                PathSegment::QuadTo(a, p) => contour.quadratic(place(a), place(p)),
-                PathSegment::CubicTo(a, b, p) => contour.cubic(place(a), place(b), place(p)),
-                PathSegment::Close => contour.close(),
-            }
-        }
-        let finished = done.into_iter().map(|mut contour| {
-            if closes {
-                contour.close();
-            }
-            contour.finish()
-        });
-        finished.collect::<Option<Vec<_>>>().ok_or_else(|| {
-            let what = "a path lies more than 1073 mm from the corner of the page";
-            Error::content(
-                self.scope.name,
-                what,
-                Words::of("set its unit with {unit}, or move it to the page"),
-            )
-        })
+        contours(data, closes, self.turn(), self.scope)
     }
+}
+
+/// The parts of `data` on the board, turned by `turn`; closed ones only, where an area is meant.
+fn contours(
+    data: &tiny_skia_path::Path,
+    closes: bool,
+    turn: Transform,
+    scope: &Scope<'_>,
+) -> Result<Vec<geometry::Path>, Error> {
+    let place = |p: tiny_skia_path::Point| -> Place {
+        let (x, y) = (f64::from(p.x), f64::from(p.y));
+        let across = f64::from(turn.sx) * x + f64::from(turn.kx) * y + f64::from(turn.tx);
+        let down = f64::from(turn.ky) * x + f64::from(turn.sy) * y + f64::from(turn.ty);
+        scope.size.place((across, down))
+    };
+    let mut done: Vec<Contour> = Vec::new();
+    for segment in data.segments() {
+        if let PathSegment::MoveTo(p) = segment {
+            done.push(Contour::new(place(p)));
+            continue;
+        }
+        let Some(contour) = done.last_mut() else { continue };
+        match segment {
+            PathSegment::MoveTo(_) => {}
+            PathSegment::LineTo(p) => contour.line(place(p)),
+            PathSegment::QuadTo(a, p) => contour.quadratic(place(a), place(p)),
+            PathSegment::CubicTo(a, b, p) => contour.cubic(place(a), place(b), place(p)),
+            PathSegment::Close => contour.close(),
+        }
+    }
+    let finished = done.into_iter().map(|mut contour| {
+        if closes {
+            contour.close();
+        }
+        contour.finish()
+    });
+    finished.collect::<Option<Vec<_>>>().ok_or_else(|| {
+        let what = "a path lies more than 1073 mm from the corner of the page";
+        Error::content(scope.name, what, Words::of("set its unit with {unit}, or move it to the page"))
+    })
 }
 
 /// Each part of a path by itself, as many as it has moves.
