@@ -42,7 +42,8 @@ pub(super) struct Work {
     #[arg(long, help_heading = "Shapes")]
     invert: bool,
 
-    /// With --invert: how far beyond the shapes is milled [default: 2mm for carve, 5mm for pocket]
+    /// With --invert or --inlay male: how far beyond the shapes is milled [default: 2mm for carve,
+    /// or twice the end mill round a plug; 5mm for pocket]
     #[arg(long, value_name = "LENGTH", help_heading = "Shapes")]
     margin: Option<Length>,
 
@@ -180,6 +181,11 @@ impl Work {
     /// How far round the shapes is milled where they are to stand, `usual` unless that is said.
     pub(super) fn raised(&self, usual: Nm) -> Option<Nm> {
         self.invert.then(|| self.margin.map_or(usual, Length::nm))
+    }
+
+    /// How far beyond the shapes is milled, where that was said.
+    pub(super) fn margin(&self) -> Option<Nm> {
+        self.margin.map(Length::nm)
     }
 
     fn to_json<M: Milled>(

@@ -6,8 +6,8 @@ use clap::Args;
 use serde::Serialize;
 use voromill::board::Warning;
 use voromill::geometry::Nm;
-use voromill::job::{self, Carving, Engraving, Length, OneTool, ToolChoice, carve};
-use voromill::toolpath::Angle;
+use voromill::job::{self, Carving, Engraving, Inlay, Length, OneTool, ToolChoice, carve};
+use voromill::toolpath::{Angle, Tool};
 use voromill::verify::Finding;
 use voromill::verify::carving::Carved;
 
@@ -41,6 +41,30 @@ pub(super) struct Carve {
     /// time; 37deg is the filter of OpenVoronoi
     #[arg(long, value_name = "ANGLE", default_value = "0deg", help_heading = "Carving")]
     corner: Angle,
+
+    /// Carve one half of an inlay: the pocket (female), or the plug that is glued into it (male),
+    /// mirrored, with the ground round it. Both take the same V-bit and --max-depth
+    #[arg(
+        long,
+        value_name = "HALF",
+        value_enum,
+        requires = "max_depth",
+        conflicts_with = "invert",
+        help_heading = "Carving"
+    )]
+    inlay: Option<Half>,
+
+    /// With --inlay male: how far the plug ends above the floor of the pocket, for glue
+    /// [default: 0.1mm]
+    #[arg(long, value_name = "LENGTH", requires = "inlay", help_heading = "Carving")]
+    gap: Option<Length>,
+}
+
+/// The halves of an inlay.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
+enum Half {
+    Female,
+    Male,
 }
 
 const EXAMPLES: &str = "\
@@ -48,25 +72,49 @@ Examples:
   voromill carve --text 'R1' --font DejaVuSans.ttf --height 6mm -o r1.ngc --tool vbit:0.1mm:60deg
   voromill carve board-F_Silkscreen.gbr -o silk.ngc --tool vbit:0.1mm:30deg --max-depth 0.2mm
   voromill carve logo.png --picture-width 40mm -o logo.ngc --max-depth 2mm --depth-pass 0.5mm
+  voromill carve sign.svg -o plug.ngc --tool vbit:0.1mm:60deg --max-depth 2mm --flat endmill:2mm --inlay male
   voromill carve logo.png --picture-width 40mm --check logo.ngc   what this program would carve";
 
 /// How far round shapes that stand is carved unless that is said. Chosen.
 const MARGIN: Nm = Nm::from_mm(2);
 
+/// How far a plug ends above the floor unless that is said. Chosen: room for glue.
+const GAP: Nm = Nm::from_um(100);
+
 impl Carve {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
+        if self.gap.is_some() && self.inlay == Some(Half::Female) {
+            let cause = "--gap has no effect with --inlay female";
+            return Err(Failure::new(
+                cause,
+                "give it for the plug: --inlay male; the pocket is as deep as --max-depth",
+            ));
+        }
         self.work.run(shared, |art, settings, work| Ok(carve(art, settings, &self.how(work)?)?))
     }
 
     fn how(&self, work: &Work) -> Result<Carving, Failure> {
         let flat = self.flat.as_ref();
         let fetch = |choice| Ok::<_, Failure>(work.config().workbench(&work.input())?.fetch(choice)?);
+        let flat: Option<Tool> = flat.map(fetch).transpose()?;
+        let gap = self.gap.map_or(GAP, Length::nm);
+        let inlay = self.inlay.map(|half| match half {
+            Half::Female => Inlay::Female,
+            Half::Male => Inlay::Male { gap },
+        });
+        // The end mill must fit between a plug and the wall that stays round it.
+        let room = flat.as_ref().map_or(MARGIN, |mill| MARGIN.max(mill.width_at(Nm::ZERO) * 2));
+        let raised = match self.inlay {
+            Some(Half::Male) => Some(work.margin().unwrap_or(room)),
+            Some(Half::Female) | None => work.raised(MARGIN),
+        };
         Ok(Carving {
             max_depth: self.max_depth.map(Length::nm),
             step: work.depth_pass(),
             corner: self.corner,
-            raised: work.raised(MARGIN),
-            flat: flat.map(fetch).transpose()?,
+            raised,
+            flat,
+            inlay,
         })
     }
 }

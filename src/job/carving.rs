@@ -3,7 +3,7 @@
 use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
 use crate::board::{Warning, Words};
-use crate::geometry::{Nm, Polygon, Rect};
+use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::toolpath::strategy;
 use crate::toolpath::{Angle, Heights, Order, Placement, Section, Tool, ToolKind};
 use crate::verify::carving::{self, Carved, Ideal, Text};
@@ -25,6 +25,39 @@ pub struct Carving {
     pub raised: Option<Nm>,
     /// The end mill that clears what is too wide at the most depth.
     pub flat: Option<Tool>,
+    /// Which half of an inlay it is; none for what is no inlay.
+    pub inlay: Option<Inlay>,
+}
+
+/// A half of an inlay. Both are carved with the same V-bit to the same most depth, D.
+///
+/// ```text
+///   ▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒    the ground round the plug, g above the surface
+///   ═══════╲▒▒▒▒▒▒▒▒▒▒▒▒╱═══════    surface of the pocket: here the plug has the edges of the areas
+///           ╲▒▒▒▒▒▒▒▒▒▒╱
+///            ╲▔▔▔▔▔▔▔▔╱             top of the plug, D − g deep
+///             ╲▁▁▁▁▁▁╱              floor of the pocket, D deep
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Inlay {
+    /// The pocket.
+    Female,
+    /// The plug, mirrored: glued in, it ends so far above the floor of the pocket, and what is
+    /// round it as far above the surface.
+    Male {
+        /// How far.
+        gap: Nm,
+    },
+}
+
+impl Carving {
+    /// How deep the edges of the areas lie: where a plug ends that is glued in.
+    fn start(&self) -> Nm {
+        match (self.inlay, self.max_depth) {
+            (Some(Inlay::Male { gap }), Some(depth)) => depth - gap,
+            _ => Nm::ZERO,
+        }
+    }
 }
 
 /// The program and what it is to do.
@@ -36,6 +69,8 @@ pub struct Engraving {
     pub areas: Vec<Polygon>,
     /// No deeper than this, where that was asked for.
     pub max_depth: Option<Nm>,
+    /// How deep the edges of the areas lie: zero but for the plug of an inlay.
+    pub start: Nm,
     /// Whether an end mill was to clear what is too wide.
     pub clears: bool,
     /// A program for each tool, in the order in which they are run; the last has the V-bit.
@@ -72,9 +107,13 @@ const MOST_PLACES: f64 = 4e5;
 pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, Error> {
     let tool = v_bit(settings)?;
     judge(how, tool)?;
+    let shapes = match how.inlay {
+        Some(Inlay::Male { .. }) => mirrored(&art.areas),
+        Some(Inlay::Female) | None => art.areas.clone(),
+    };
     let areas = match how.raised {
-        None => art.areas.clone(),
-        Some(margin) => round(&art.areas, margin),
+        None => shapes,
+        Some(margin) => round(&shapes, margin),
     };
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
     let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to carve".to_owned()))?;
@@ -92,10 +131,12 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         step: how.step,
     };
     let mut warnings = art.warnings.clone();
-    warnings.extend(shape_warnings(&axis, &areas, tool, how));
+    warnings.extend(shape_warnings(&axis, &areas, tool, how)?);
+    let start = how.start();
     let flat = how.flat.as_ref().zip(how.max_depth);
-    let floor =
-        flat.map(|(mill, depth)| strategy::Floor::new(&areas, &axis, tool, depth, mill, settings.tolerance));
+    let floor = flat.map(|(mill, depth)| {
+        strategy::Floor::new(&areas, &axis, tool, depth - start, mill, settings.tolerance)
+    });
     let carving = strategy::Carving {
         tool,
         heights,
@@ -103,6 +144,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         order: Order::default(),
         machine: &settings.machine,
         tolerance: settings.tolerance,
+        start,
         floor: floor.as_ref(),
     };
     let mut sections: Vec<(&'static str, Section)> = Vec::new();
@@ -134,7 +176,8 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         name: art.name,
         areas,
         max_depth: how.max_depth,
-        clears: how.flat.is_some(),
+        start,
+        clears: how.flat.is_some() || how.inlay.is_some(),
         programs,
         deepest,
         warnings,
@@ -163,6 +206,7 @@ fn judge(how: &Carving, tool: &Tool) -> Result<(), Error> {
     positive("max-depth", how.max_depth)?;
     positive("depth-pass", how.step)?;
     positive("margin", how.raised)?;
+    inlay(how)?;
     if how.corner < Angle::ZERO || how.corner >= Angle::from_degrees(180) {
         let problem = format!("{} is invalid: expected from 0deg to below 180deg", how.corner);
         return Err(Error::Value { key: "corner", problem });
@@ -184,10 +228,47 @@ fn judge(how: &Carving, tool: &Tool) -> Result<(), Error> {
     Ok(())
 }
 
+/// What both halves of an inlay must be.
+fn inlay(how: &Carving) -> Result<(), Error> {
+    let Some(inlay) = how.inlay else { return Ok(()) };
+    let Some(depth) = how.max_depth else {
+        let problem = Words::of("an inlay needs {max-depth}: how deep its pocket is").to_string();
+        return Err(Error::Value { key: "inlay", problem });
+    };
+    match inlay {
+        Inlay::Male { gap } if gap <= Nm::ZERO || gap >= depth => {
+            let problem = format!(
+                "{gap:.3} mm is invalid: it must be above zero and less than the depth of the pocket, {depth:.3} mm"
+            );
+            Err(Error::Value { key: "gap", problem })
+        }
+        Inlay::Male { .. } if how.raised.is_none() => {
+            let problem = "what is round a plug must be carved, so far as the margin says".to_owned();
+            Err(Error::Value { key: "margin", problem })
+        }
+        Inlay::Male { .. } | Inlay::Female => Ok(()),
+    }
+}
+
+/// Areas as they are seen from behind.
+fn mirrored(areas: &[Polygon]) -> Vec<Polygon> {
+    let ring = |ring: &Vec<Point>| ring.iter().rev().map(|p| Point::new(-p.x, p.y)).collect();
+    areas.iter().filter_map(|area| Polygon::new(area.contours().iter().map(ring).collect())).collect()
+}
+
 /// What the tool cannot do of the areas.
-fn shape_warnings(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carving) -> Vec<Warning> {
+///
+/// # Errors
+///
+/// [`Error::Value`] where that is half of an inlay which would not go into the other.
+fn shape_warnings(
+    axis: &MedialAxis,
+    areas: &[Polygon],
+    tool: &Tool,
+    how: &Carving,
+) -> Result<Vec<Warning>, Error> {
     let mut warnings = Vec::new();
-    let ToolKind::VBit { tip, .. } = tool.kind else { return warnings };
+    let ToolKind::VBit { tip, .. } = tool.kind else { return Ok(warnings) };
     if let Some(&fault) = axis.faults.first() {
         let message =
             format!("the medial axis may lack a branch, here and at {} places in all", axis.faults.len());
@@ -202,9 +283,14 @@ fn shape_warnings(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carvi
         warnings.push(planning::NARROWER_THAN_TIP.warning(message));
     }
     if let Some(most) = how.max_depth.filter(|_| how.flat.is_none()) {
-        let reach = tool.kind.width_at(most) / 2;
+        let reach = tool.kind.width_at(most - how.start()) / 2;
         let wide = areas.iter().flat_map(|area| offset(area, -reach, Nm::from_um(1)));
         let area: f64 = wide.map(|polygon| polygon.area_mm2()).sum();
+        if area > LEAST_WIDE && how.inlay.is_some() {
+            let left = format!("{area:.2} mm² are farther from the edge than {reach:.3} mm");
+            let problem = Words::of("{0}, and would stand in the way of the other half: {flat} clears them");
+            return Err(Error::Value { key: "inlay", problem: problem.with([&left]).to_string() });
+        }
         if area > LEAST_WIDE {
             let message = format!(
                 "{area:.2} mm² are farther from the edge than the {reach:.3} mm that the tool cuts to either side at {most:.3} mm: there it follows the medial axis alone"
@@ -212,7 +298,7 @@ fn shape_warnings(axis: &MedialAxis, areas: &[Polygon], tool: &Tool, how: &Carvi
             warnings.push(planning::WIDE_PLACE_LEFT.warning(message));
         }
     }
-    warnings
+    Ok(warnings)
 }
 
 /// What is wider by less is no flat place, in mm². Chosen.
@@ -227,6 +313,11 @@ fn declared(settings: &Settings, how: &Carving) -> Vec<(String, String)> {
     say("max-depth", how.max_depth);
     say("depth-pass", how.step);
     say("raised", how.raised);
+    if let Some(Inlay::Male { gap }) = how.inlay {
+        say("gap", Some(gap));
+    }
+    let half = how.inlay.map(|half| if half == Inlay::Female { "female" } else { "male" });
+    listed.extend(half.map(|half| ("inlay".to_owned(), half.to_owned())));
     if let Some(flat) = &how.flat {
         listed.push(("flat".to_owned(), flat.kind.to_string()));
     }
@@ -263,8 +354,15 @@ impl Engraving {
         let pitch = pitch.unwrap_or_else(|| Nm::from_f64((area / MOST_PLACES).sqrt()).max(FINEST));
         let v_bit = programs[programs.len() - 1].cutter;
         let clears = self.clears;
-        let ideal =
-            Ideal { areas: &self.areas, v_bit, clears, most: self.max_depth, tolerance: TOLERATED, pitch };
+        let ideal = Ideal {
+            areas: &self.areas,
+            v_bit,
+            clears,
+            most: self.max_depth,
+            start: self.start,
+            tolerance: TOLERATED,
+            pitch,
+        };
         Ok(carving::carving(programs, &ideal)?)
     }
 

@@ -64,7 +64,7 @@ mod written;
 
 pub use art::{Art, OneTool};
 pub use cache_key::cache_key;
-pub use carving::{Carving, Engraving, carve};
+pub use carving::{Carving, Engraving, Inlay, carve};
 pub use choice::{DialectChoice, DrillSide, Narrow, Origin, ParseDialectError, Sites, Strategy, Topology};
 pub use clearing::Clearing;
 pub use coupling::coupling;

@@ -163,6 +163,11 @@ impl Pocket {
         });
         if let Some(clearings) = &clearings {
             self.warnings.extend(clearings.grooves.iter().map(groove_warning));
+            self.warnings.extend(clearings.looped.iter().map(|&at| {
+                let message =
+                    format!("an area is milled in loops, in {} layers, and not in arcs", clearings.layers());
+                planning::MILLED_IN_LOOPS.warning(message).at(at)
+            }));
             self.layers =
                 if (0..nest.roots.len()).all(|root| clearings.has(root)) { 1 } else { clearings.layers() };
         }

@@ -1,9 +1,11 @@
 //! Carving: what programs mill beside the ideal surface, and spoilt programs that are found out.
 
-use voromill::geometry::{Nm, Point, Polygon};
+use voromill::geometry::{Nm, Point, Polygon, Rect};
 use voromill::import::text::text;
-use voromill::job::{Art, Carving, Engraving, Options, Settings, carve};
-use voromill::toolpath::Angle;
+use voromill::job::{Art, Carving, Engraving, Inlay, Options, Settings, carve};
+use voromill::toolpath::{Angle, ToolKind};
+use voromill::verify::carving::{Milled, Text, milled};
+use voromill::verify::{Cutter, CutterKind};
 
 use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, voromill, word};
 use crate::medial_axis::{capitals, random_areas};
@@ -11,7 +13,8 @@ use crate::medial_axis::{capitals, random_areas};
 /// How far apart places are looked at: a debug build looks at few.
 const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 80 } else { 15 }));
 
-const HOW: Carving = Carving { max_depth: None, step: None, corner: Angle::ZERO, raised: None, flat: None };
+const HOW: Carving =
+    Carving { max_depth: None, step: None, corner: Angle::ZERO, raised: None, flat: None, inlay: None };
 
 fn settings(tool: &str) -> Settings {
     let tool = vec![tool.parse().expect("a tool")];
@@ -129,6 +132,104 @@ fn what_stands_is_as_sharp_as_what_is_sunk() {
     assert_eq!(judged.findings, [], "round the letter");
 }
 
+/// How deep the programs of one half mill at a place of the machine.
+fn surface(made: &Engraving) -> Milled {
+    let texts = made.programs.iter().map(|one| {
+        let cutter = match one.program.sections[0].tool.kind {
+            ToolKind::VBit { tip, angle } => Cutter { kind: CutterKind::VBit, tip, degrees: angle.degrees() },
+            ToolKind::EndMill { diameter } | ToolKind::Drill { diameter } => {
+                Cutter { kind: CutterKind::EndMill, tip: diameter, degrees: 0.0 }
+            }
+        };
+        Text { file: "it", text: &one.text, cutter }
+    });
+    milled(&texts.collect::<Vec<_>>()).expect("programs")
+}
+
+/// The plug of an inlay, put in face down as deep as it is meant to go, touches the pocket on
+/// its flanks and nowhere enters it but by what a blunt tip leaves of the pocket's grooves; its end
+/// is a gap above the floor, and the ground round it a gap above the surface.
+#[test]
+fn a_plug_fits_its_pocket() {
+    let flat = "endmill:1mm".parse().expect("a tool");
+    let (depth, gap, margin) = (Nm::from_um(800), Nm::from_um(150), Nm::from_mm(3));
+    let female = Carving { max_depth: Some(depth), flat: Some(flat), inlay: Some(Inlay::Female), ..HOW };
+    let male = Carving { inlay: Some(Inlay::Male { gap }), raised: Some(margin), ..female.clone() };
+    let font = dejavu::serif::bold();
+    for (areas, tool, blunt_um) in [
+        (text(font, "R", Nm::from_mm(12)).expect("a letter"), "vbit:0.05mm:60deg", 25.0),
+        (text(font, "g\u{e9}", Nm::from_mm(9)).expect("letters"), "vbit:0.1mm:90deg", 50.0),
+        (random_areas(7, 1), "vbit:0.1mm:90deg", 50.0),
+    ] {
+        let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union).expect("areas");
+        let [pocket, plug] = [&female, &male].map(|how| {
+            let made = engraving("inlay", areas.clone(), tool, how);
+            let judged = made.verify(None).expect("programs");
+            // Corners of a floor that the tip alone clears may keep a burr.
+            assert!(judged.over <= 2_000.0, "{:?} with {tool}: {:?}", how.inlay, judged.findings);
+            assert!(judged.under <= 20_000.0, "{:?} with {tool}: {:?}", how.inlay, judged.findings);
+            assert!(judged.p99 <= 2_000.0, "{:?} with {tool}: {:.0} nm", how.inlay, judged.p99);
+            surface(&made)
+        });
+        let flank = if tool.ends_with("90deg") { 1.0 } else { 0.577 };
+        let tight = blunt_um * 1e3 / flank;
+        let pitch = if cfg!(debug_assertions) { 100_000.0 } else { 20_000.0 };
+        let (width, height, beside) = (bounds.width().to_f64(), bounds.height().to_f64(), 1e6);
+        let (mut least, mut most, mut touching, mut places) = (f64::INFINITY, 0.0_f64, 0, 0);
+        let mut y = -beside;
+        while y < height + beside {
+            let mut x = -beside;
+            while x < width + beside {
+                let other = (width - x + margin.to_f64(), y + margin.to_f64());
+                // How far below the pocket's surface its floor and the plug are.
+                let (floor, end) = (pocket.depth((x, y)), (depth - gap).to_f64() - plug.depth(other));
+                let between = floor - end;
+                (least, most) = (least.min(between), most.max(between));
+                touching += i32::from(floor > 1e4 && between.abs() < 4_000.0);
+                places += i32::from(floor > 1e4);
+                x += pitch;
+            }
+            y += pitch;
+        }
+        println!("{tool}: {least:.0} to {most:.0} nm apart, {touching} of {places} places touch");
+        assert!(least > -tight - 20_000.0, "{tool}: the plug goes {least:.0} nm into the pocket");
+        assert!(most < gap.to_f64() + tight + 4_000.0, "{tool}: {most:.0} nm apart");
+        assert!(20 * touching > places, "{tool}: {touching} of {places} places touch");
+    }
+}
+
+/// What is done to a program.
+type Change = fn(&str) -> String;
+
+/// A plug that is too high, too low, beside its place or not mirrored would not go in.
+#[test]
+fn a_spoilt_plug_is_found() {
+    let flat = Some("endmill:1mm".parse().expect("a tool"));
+    let male = Some(Inlay::Male { gap: Nm::from_um(100) });
+    let how =
+        Carving { max_depth: Some(Nm::from_um(500)), flat, inlay: male, raised: Some(Nm::from_mm(2)), ..HOW };
+    let made = engraving("L", letters("L"), "vbit:0.1mm:60deg", &how);
+    let found = |change: Change| {
+        let texts: Vec<String> = made.programs.iter().map(|one| change(&one.text)).collect();
+        let texts: Vec<(&str, &str)> = texts.iter().map(|text| ("it", text.as_str())).collect();
+        made.judge(&texts, PITCH).map_or(1, |judged| judged.findings.len())
+    };
+    assert_eq!(found(str::to_owned), 0, "as it is");
+    let spoilt: [(&str, Change); 4] = [
+        ("too high", |text| {
+            lines(text, |line, _| Some(word(line, 'Z', |z| if z < 0.0 { z + 0.03 } else { z })))
+        }),
+        ("too low", |text| {
+            lines(text, |line, _| Some(word(line, 'Z', |z| if z < 0.0 { z - 0.03 } else { z })))
+        }),
+        ("moved", |text| lines(text, |line, _| Some(word(line, 'X', |x| x + 0.02)))),
+        ("not mirrored", |text| lines(text, |line, _| Some(word(line, 'X', |x| 6.0 - x)))),
+    ];
+    for (how, change) in spoilt {
+        assert!(found(change) > 0, "{how}: nothing is found");
+    }
+}
+
 #[test]
 fn twenty_kinds_of_spoiling_are_found() {
     let made = engraving("Ri", letters("Ri"), "vbit:0.1mm:60deg", &HOW);
@@ -240,6 +341,9 @@ fn a_layer_is_carved_and_what_makes_no_sense_is_refused() {
         &[
             (&["--tool", "endmill:1mm"], "is not a V-bit"),
             (&["--max-depth", "0mm"], "above zero"),
+            (&["--max-depth", "1mm", "--inlay", "female", "--gap", "0.1mm"], "has no effect"),
+            (&["--max-depth", "0.1mm", "--inlay", "male", "--flat", "endmill:1mm"], "less than the depth"),
+            (&["--max-depth", "0.1mm", "--inlay", "female"], "in the way of the other half: --flat"),
             (&["--depth", "1mm"], "has no effect"),
             (&["--tool", "vbit:9.8mm:60deg"], "narrower than the tip"),
         ],

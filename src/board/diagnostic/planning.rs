@@ -129,6 +129,12 @@ diagnostics! {
         "the tool mills a groove in its full width there, in layers so shallow that it bears no more than elsewhere",
         "nothing, or use a thinner tool ({tool})";
 
+    MILLED_IN_LOOPS: Warning =
+        "milled-in-loops",
+        "the medial axis of a pocket is faulty, so that it cannot be cleared in arcs",
+        "it is milled in loops, in layers so shallow that the tool bears no more than elsewhere, which takes longer: this is a bug in voromill",
+        "report it with the file";
+
     MILLPROJECT_OPTION: Warning =
         "millproject-option",
         "a pcb2gcode option has no effect here, or a different one",

@@ -38,6 +38,8 @@ pub struct Ideal<'a> {
     pub clears: bool,
     /// No deeper than this; none for as deep as it comes.
     pub most: Option<Nm>,
+    /// How deep the edges of the areas lie: above them the walls go on outwards, to the surface.
+    pub start: Nm,
     /// What is less off is right.
     pub tolerance: Nm,
     /// The distance of the places that are looked at.
@@ -165,9 +167,9 @@ fn compare(milled: &Milled, ideal: &Ideal<'_>) -> Carved {
     let Some(bounds) = ideal.areas.iter().map(Polygon::bounds).reduce(Rect::union) else {
         return Carved::default();
     };
-    let around = bounds.inflate(BESIDE);
     let edges = Edges::new(ideal.areas);
     let limits = Limits::new(ideal);
+    let around = bounds.inflate(BESIDE + Nm::from_f64(limits.start * limits.flank));
     let pitch = ideal.pitch.to_f64();
     let (rows, columns) = (count(around.height(), pitch), count(around.width(), pitch));
     let (x0, y0) = around.min().to_f64();
@@ -201,6 +203,8 @@ struct Limits {
     /// How much wider it cuts on either side for each unit of depth.
     flank: f64,
     most: f64,
+    /// How deep the edges lie.
+    start: f64,
     /// Whether a second tool clears what is wide.
     clears: bool,
     tolerance: f64,
@@ -213,6 +217,7 @@ impl Limits {
             blunt,
             flank,
             most: ideal.most.map_or(f64::INFINITY, Nm::to_f64),
+            start: ideal.start.to_f64(),
             clears: ideal.clears,
             tolerance: ideal.tolerance.to_f64(),
         }
@@ -221,14 +226,30 @@ impl Limits {
     /// How deep the tool mills at a distance from its axis, where the nearest edge is `radius` from
     /// that.
     fn at(&self, radius: f64, off: f64) -> f64 {
-        ((radius - self.blunt) / self.flank).min(self.most) - (off - self.blunt).max(0.0) / self.flank
+        let depth = (self.start + (radius - self.blunt) / self.flank).min(self.most);
+        depth - (off - self.blunt).max(0.0) / self.flank
+    }
+
+    /// How far from the edges the tool is where it is as deep as it may.
+    fn full(&self) -> f64 {
+        self.blunt + (self.most - self.start) * self.flank
+    }
+
+    /// How deep a tool can mill beside the areas, at least: one that moves straight away from the
+    /// nearest place of an edge, on its other side.
+    fn reachable_beside(&self, at: (f64, f64), distance: f64, foot: (f64, f64), edges: &Edges) -> f64 {
+        let way = ((foot.0 - at.0) / distance, (foot.1 - at.1) / distance);
+        let beyond = (foot.0 + way.0, foot.1 + way.1);
+        let farthest = edges.farthest(beyond, 1.0, foot, SAME);
+        let centers = [0.0, self.blunt.min(farthest), self.full().min(farthest), farthest];
+        centers.map(|radius| self.at(radius, radius + distance)).into_iter().fold(0.0, f64::max)
     }
 
     /// How deep a tool can mill at a place, at least, and whether that is where it does not reach
     /// from wall to wall.
     fn reachable(&self, at: (f64, f64), distance: f64, foot: (f64, f64), edges: &Edges) -> (f64, bool) {
         let farthest = edges.farthest(at, distance, foot, SAME);
-        let full = self.blunt + self.most * self.flank;
+        let full = self.full();
         let centers = [farthest, full.clamp(distance, farthest), (distance + self.blunt).min(farthest)];
         let best = centers.map(|radius| self.at(radius, radius - distance));
         // Between the chords of a curve the way ends early; what is wide is so over all of them.
@@ -252,13 +273,11 @@ impl Row {
         self.places += 1;
         let depth = milled.depth(at);
         if !inside {
-            if depth > limits.tolerance {
-                self.off.push(Off { at, by: depth, inside });
-            }
+            self.look_beside(at, depth, edges, limits);
             return;
         }
         let (distance, foot) = edges.nearest(at);
-        let most = (distance / limits.flank).min(limits.most);
+        let most = (limits.start + distance / limits.flank).min(limits.most);
         let mut error = depth - most;
         if error < 0.0 {
             let (least, is_wide) = limits.reachable(at, distance, foot, edges);
@@ -271,6 +290,24 @@ impl Row {
         self.errors.push(error);
         if error.abs() > limits.tolerance {
             self.off.push(Off { at, by: error, inside });
+        }
+    }
+
+    /// The same beside the areas, where it is milled so deep.
+    fn look_beside(&mut self, at: (f64, f64), depth: f64, edges: &Edges, limits: &Limits) {
+        let mut error = depth;
+        if limits.start > 0.0 {
+            let (distance, foot) = edges.nearest(at);
+            let most = (limits.start - distance / limits.flank).max(0.0);
+            error = depth - most;
+            if error < 0.0 {
+                let least = limits.reachable_beside(at, distance, foot, edges);
+                error = (depth - least).min(0.0);
+            }
+            self.errors.push(error);
+        }
+        if error.abs() > limits.tolerance {
+            self.off.push(Off { at, by: error, inside: false });
         }
     }
 }

@@ -109,7 +109,7 @@ impl Sweeps {
         deepest
     }
 
-    /// The runs of a row that are swept no less deep than `least`, sorted.
+    /// The runs of a row that are swept no less deep than `least`, sorted; none meets another.
     fn row(&self, y: f64, least: f64) -> Vec<(f64, f64)> {
         let mut runs = Vec::new();
         if let Some(tree) = &self.tree {
@@ -120,7 +120,14 @@ impl Sweeps {
                 }
             });
         }
-        runs.sort_by(|a, b| a.0.total_cmp(&b.0));
+        runs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        runs.dedup_by(|next, before| {
+            let meets = next.0 <= before.1;
+            if meets {
+                before.1 = before.1.max(next.1);
+            }
+            meets
+        });
         runs
     }
 }
@@ -165,12 +172,13 @@ const fn rows(number: f64) -> u32 {
     number.ceil() as u32
 }
 
-/// What of some runs others leave.
+/// What of some runs others leave, which are sorted and do not meet.
 fn remaining(inside: &[[f64; 2]], swept: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let mut found = Vec::new();
     for &[from, to] in inside {
         let mut at = from;
-        for &(low, high) in swept {
+        let first = swept.partition_point(|run| run.1 < from);
+        for &(low, high) in &swept[first..] {
             if low >= to {
                 break;
             }

@@ -36,6 +36,8 @@ pub(super) struct Pass {
     pub(super) blunt: f64,
     /// How much wider it cuts on either side for each unit of depth.
     pub(super) flank: f64,
+    /// How deep the edges of the areas lie.
+    pub(super) start: f64,
     /// What would be deeper than this is left to others; none for nothing.
     pub(super) beyond: Option<f64>,
 }
@@ -43,7 +45,7 @@ pub(super) struct Pass {
 impl Pass {
     /// How deep the tip goes where a disc has this radius, were there no end.
     pub(super) fn depth(&self, radius: f64) -> f64 {
-        (radius - self.blunt) / self.flank
+        self.start + (radius - self.blunt) / self.flank
     }
 
     /// What it mills of a way; of a loop, whose last place is the first again, no piece leads over
@@ -128,7 +130,7 @@ mod tests {
             .collect()
     }
 
-    const PASS: Pass = Pass { low: 10.0, high: 20.0, blunt: 5.0, flank: 0.5, beyond: None };
+    const PASS: Pass = Pass { low: 10.0, high: 20.0, blunt: 5.0, flank: 0.5, start: 0.0, beyond: None };
 
     #[test]
     fn a_pass_takes_what_is_deeper_than_the_one_before_and_goes_no_deeper_than_it_may() {

@@ -44,6 +44,8 @@ pub struct Carving<'a> {
     pub machine: &'a Machine,
     /// How far what is milled may be off its place.
     pub tolerance: Nm,
+    /// How deep the edges of the areas lie: zero, or how far the plug of an inlay goes in.
+    pub start: Nm,
     /// What another tool clears, of which the V-bit cuts the rims; none to follow wide places along
     /// their middle.
     pub floor: Option<&'a Floor>,
@@ -73,7 +75,8 @@ fn passes(axis: &MedialAxis, settings: &Carving<'_>) -> Vec<Pass> {
     let ToolKind::VBit { tip, .. } = settings.tool.kind else { return Vec::new() };
     let (blunt, flank) = (tip.to_f64() / 2.0, settings.tool.kind.flank());
     let beyond = settings.floor.map(|_| settings.heights.cut.to_f64());
-    let whole = Pass { low: 0.0, high: 0.0, blunt, flank, beyond };
+    let start = settings.start.to_f64();
+    let whole = Pass { low: 0.0, high: 0.0, blunt, flank, start, beyond };
     let deepest = Nm::from_f64(whole.depth(axis.widest())).min(settings.heights.cut);
     if deepest <= Nm::ZERO {
         return Vec::new();
@@ -222,6 +225,7 @@ mod tests {
             order: Order::default(),
             machine: &Machine::default(),
             tolerance: Nm::from_um(2),
+            start: Nm::ZERO,
             floor: None,
         };
         carve("carve", &axis, &settings).moves

@@ -69,6 +69,8 @@ pub struct Clearings {
     layers: i64,
     /// Where the tool mills in its full width.
     pub grooves: Vec<Groove>,
+    /// Where a part is wide enough for arcs and is milled in loops, since its axis is faulty.
+    pub looped: Vec<Point>,
 }
 
 /// A helix needs this part of the tool's radius as room for its middle. Chosen.
@@ -120,6 +122,7 @@ impl Clearings {
             parts: vec![None; planned.nest.roots.len()],
             layers: Nm::from_f64((std::f64::consts::PI / (contact * LESS)).ceil()).get(),
             grooves: Vec::new(),
+            looped: Vec::new(),
         };
         for (root, clearing) in found {
             made.parts[root] = Some(clearing);
@@ -127,9 +130,14 @@ impl Clearings {
         let width = |room: f64| Nm::from_f64(2.0 * (room + planned.levels.wall));
         for (part, &root) in made.parts.iter().zip(&planned.nest.roots) {
             let Some(clearing) = part else {
-                let ring = &planned.nest.loops[planned.nest.regions[root].loops[0]].ring;
-                let length = Nm::from_f64(Course::new(ring.clone()).length() / 2.0);
+                let region = &planned.nest.regions[root];
+                let ring = &planned.nest.loops[region.loops[0]].ring;
                 let at = Point::from_f64(ring[0].0, ring[0].1);
+                if !region.children.is_empty() {
+                    made.looped.push(at);
+                    continue;
+                }
+                let length = Nm::from_f64(Course::new(ring.clone()).length() / 2.0);
                 made.grooves.push(Groove { at, width: width(0.0), length });
                 continue;
             };
