@@ -180,7 +180,8 @@ impl Diagram {
 
     /// What is nearest on either side of an edge a little ahead of a place on it.
     fn ahead_of_pair(&self, pair: &Pair, at: Spot, clearance: f64) -> Pair {
-        let (way, tied) = (pair.way(at), self.within(at, clearance + self.tie));
+        let (way, snap) = (pair.way(at), self.tolerances.snap);
+        let tied = self.about(at, clearance + self.tie, snap);
         let [left, right] = [0, 1].map(|side| {
             let toward = pair.forms[side].away(at);
             let is_beside = |&i: &u32| self.forms()[i as usize].away(at).dot(toward) > 1.0 - BESIDE;

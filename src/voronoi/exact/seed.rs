@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 use super::exposed::Bodies;
 use super::form::{Form, Place};
 use super::graph::Growth;
+use super::vertex::Junction;
 use super::walk::{Event, Pair};
 use super::{Diagram, Kind, NOBODY, Space};
 use crate::voronoi::plane::Spot;
@@ -129,29 +130,33 @@ impl Diagram {
     /// the next one.
     fn plant(&self, growth: &mut Growth, at: Spot, clearance: f64, [a, b]: [u32; 2]) {
         let Some(junction) = self.junction(at, clearance, [a, b, b]) else { return };
-        match junction.slots[..] {
+        let passing = match junction.slots[..] {
             // A boundary passes here, also where others touch the circle and do not enter: whether
             // it is a vertex shows who comes along it.
             [one, other]
                 if self.owner(one.left) == self.owner(other.right)
                     && self.owner(one.right) == self.owner(other.left) =>
             {
-                self.plant_pair(growth, &self.pair(one.left, one.right), at);
+                self.end_of(&self.pair(one.left, one.right), at)
             }
-            _ => {
-                growth.place(junction);
-            }
-        }
+            _ => None,
+        };
+        growth.place(passing.unwrap_or(junction));
     }
 
     fn plant_pair(&self, growth: &mut Growth, pair: &Pair, at: Spot) {
-        let tied = [pair.left, pair.right];
-        match self.ending(pair, at, self.follow(pair, at, &tied)) {
-            Some((junction, _)) => {
+        match self.end_of(pair, at) {
+            Some(junction) => {
                 growth.place(junction);
             }
             None => growth.fault(at),
         }
+    }
+
+    /// Where an edge ends that passes a place.
+    fn end_of(&self, pair: &Pair, at: Spot) -> Option<Junction> {
+        let tied = [pair.left, pair.right];
+        self.ending(pair, at, self.follow(pair, at, &tied)).map(|(junction, _)| junction)
     }
 
     /// The generator nearest to a place outside all copper.

@@ -27,8 +27,16 @@ pub(super) struct Tied {
     /// The direction of its foot, a unit vector.
     pub(super) toward: Spot,
     group: usize,
-    /// It ends here if its end is so near, in nanometres: farther where it is joined to others.
+    /// It ends here if its end is so near, in nanometres: more at a joint.
     slab: f64,
+}
+
+/// A line or an arc that ends at a place, but for rounding, and the disc round its end, at which
+/// another begins.
+#[derive(Clone, Copy, Debug)]
+struct Joint {
+    generator: u32,
+    disc: u32,
 }
 
 /// What leaves a vertex: an edge between two generators, in a direction.
@@ -62,7 +70,7 @@ impl Diagram {
     }
 
     /// Those, and others whose ends are at most `slab` behind.
-    fn about(&self, p: Spot, reach: f64, slab: f64) -> Vec<(u32, f64)> {
+    pub(super) fn about(&self, p: Spot, reach: f64, slab: f64) -> Vec<(u32, f64)> {
         let mut found = Vec::new();
         self.index.visit_round(p, reach + self.tie, |i| {
             let form = &self.forms()[i as usize];
@@ -88,7 +96,7 @@ impl Diagram {
         let numbers = || near.iter().map(|&(i, _)| i);
         let at_first = self.tied(p, clearance, numbers(), slab, &[]);
         let handed = self.hand_over(p, &self.tied(p, clearance, numbers(), snap, &[]));
-        let (mut at, mut joined) = handed.unwrap_or_else(|| (self.settled(p, &at_first, led), Vec::new()));
+        let (mut at, mut joints) = handed.unwrap_or_else(|| (self.settled(p, &at_first, led), Vec::new()));
         let away = |at: Spot| {
             let all = at_first.iter().map(|tied| self.forms()[tied.generator as usize].distance(at));
             all.fold(f64::INFINITY, f64::min).max(0.0)
@@ -96,10 +104,10 @@ impl Diagram {
         // Where that lies beyond another vertex, within a nanometre, the place is the one found.
         let is_moved = (at - p).length() > self.tie;
         if is_moved && !self.within(at, away(at) - 4.0 * self.tie).is_empty() {
-            (at, joined) = (p, Vec::new());
+            (at, joints) = (p, Vec::new());
         }
         let clearance = away(at);
-        let tied = self.tied(at, clearance, numbers(), slab, &joined);
+        let tied = self.tied(at, clearance, numbers(), slab, &joints);
         let slots = self.slots(at, clearance, &tied);
         let mut generators: Vec<u32> = tied.iter().map(|tied| tied.generator).collect();
         generators.sort_unstable();
@@ -119,21 +127,21 @@ impl Diagram {
     }
 
     /// The generators among some that are `clearance` far from `p`, by the direction of their feet,
-    /// in groups of one direction. Those that are `joined` end there, in the direction given.
+    /// in groups of one direction. Those with a joint there have the direction of its disc.
     fn tied(
         &self,
         p: Spot,
         clearance: f64,
         among: impl Iterator<Item = u32>,
         slab: f64,
-        joined: &[(u32, Spot)],
+        joints: &[Joint],
     ) -> Vec<Tied> {
         let mut tied: Vec<Tied> = Vec::new();
         let mut around: Vec<(u32, Option<[Spot; 2]>)> = Vec::new();
         for generator in among {
             let form = &self.forms()[generator as usize];
-            let end = joined.iter().find(|(other, _)| *other == generator).map(|&(_, toward)| toward);
-            let slab = if end.is_some() { self.tolerances.snap } else { slab };
+            let joint = joints.iter().find(|joint| joint.generator == generator);
+            let slab = if joint.is_some() { self.tolerances.snap } else { slab };
             if (form.distance(p) - clearance).abs() > self.tie
                 || form.slack(p) < -slab
                 || form.distance(p) < -self.tie
@@ -145,7 +153,10 @@ impl Diagram {
                 // From its centre an arc is everywhere: its two ends stand for it.
                 Some(Some(ends)) => ends.into_iter().for_each(add),
                 Some(None) => add(Spot::new(1.0, 0.0)),
-                None => add(end.unwrap_or_else(|| form.away(p) * -1.0)),
+                None => {
+                    let of = joint.map_or(generator, |joint| joint.disc);
+                    add(self.forms()[of as usize].away(p) * -1.0);
+                }
             }
             around.extend(form.around(p).map(|sector| (generator, sector)));
         }
@@ -219,18 +230,21 @@ impl Diagram {
     }
 
     /// The place where a line or an arc hands over to the disc at its end, if two tied ones do, and
-    /// all lines and arcs that end there, or less than rounding beside, with the direction of
-    /// their feet.
-    fn hand_over(&self, p: Spot, tied: &[Tied]) -> Option<(Spot, Vec<(u32, Spot)>)> {
+    /// all lines and arcs that end at a tied disc there, or less than a nanometre beside.
+    fn hand_over(&self, p: Spot, tied: &[Tied]) -> Option<(Spot, Vec<Joint>)> {
         let mut joined: Vec<(u32, usize, usize)> = Vec::new();
+        let mut joints: Vec<Joint> = Vec::new();
         for entry in tied {
             let slacks = self.forms()[entry.generator as usize].slacks(p);
             for (end, disc) in self.generators.ends_of(entry.generator).into_iter().enumerate() {
                 let is_tied = |disc: u32| {
                     tied.iter().any(|other| other.generator == disc && other.group == entry.group)
                 };
-                if slacks[end].abs() <= self.tolerances.snap && disc.is_some_and(is_tied) {
+                if slacks[end].abs() <= self.tolerances.snap
+                    && let Some(disc) = disc.filter(|&disc| is_tied(disc))
+                {
                     joined.push((entry.generator, end, entry.group));
+                    joints.push(Joint { generator: entry.generator, disc });
                 }
             }
         }
@@ -243,8 +257,7 @@ impl Diagram {
         let stays =
             |other: &Tied| (self.forms()[other.generator as usize].distance(at) - s).abs() <= self.tie;
         let is_near = (at - p).length() < 2.0 * self.tolerances.snap;
-        let ends = joined.iter().filter(|joined| joined.2 == group).map(|joined| (joined.0, normal * -1.0));
-        (is_near && tied.iter().all(stays)).then(|| (at, ends.collect()))
+        (is_near && tied.iter().all(stays)).then_some((at, joints))
     }
 
     /// What leaves between neighbouring groups.
