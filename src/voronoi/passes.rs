@@ -96,7 +96,9 @@ impl Diagram {
         let further = if clearing.is_wanted() { widening.further(next, most) } else { Vec::new() };
         // What is to be cleared may be space that one net encloses, where passes did not run.
         let again: &[Nm] = if further.is_empty() || self.settings.enclosed { &[] } else { &levels };
-        let step = levels.get(1).map_or(widening.advance(), |&second| second - levels[0]);
+        // Where all is cleared passes are as far apart as may be, and so do the others count.
+        let near = levels.get(1).filter(|_| further.is_empty());
+        let step = near.map_or(widening.advance(), |&second| second - levels[0]);
         // Loops at the first level are passes themselves.
         let is_pass = |edge: &Boundary| self.settings.limit == Some(first) && edge.is_bare();
         let unlooped = |levels: &[Nm]| -> Vec<Nm> {
