@@ -72,13 +72,14 @@ impl Density {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::topology::splitmix;
 
     #[test]
     fn no_more_are_counted_than_touch_a_window() {
-        let mut seed = 3_u64;
+        let mut number = 0;
         let mut chance = |most: i64| {
-            seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            i64::try_from(seed >> 33).expect("31 bits") % most
+            number += 1;
+            i64::try_from(splitmix(number) >> 33).expect("31 bits") % most
         };
         let mut rect = |room: i64, size: i64| {
             let (x, y) = (Nm::from_um(chance(room) - 3_000), Nm::from_um(chance(room) + 1_000));

@@ -16,17 +16,18 @@
 mod engagement;
 mod runs;
 
+use rayon::prelude::*;
+
 use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
 use crate::board::{Diagnostic, FLATTEN, Severity};
 use crate::gcode::read::{Listing, Motion, Way};
-use crate::geometry::{Arc, Nm, Point, Polygon};
-use rayon::prelude::*;
+use crate::geometry::{Arc, Nm, Point, Polygon, off_segment};
 
 use super::Error;
 use super::carving::{Text, followed, harm};
 use super::cutter::Cutter;
-use super::edges::Edges;
+use super::edges::{Edges, length};
 use super::report::Finding;
 
 use engagement::{Stretch, Work, borne};
@@ -428,7 +429,7 @@ fn thinned(polygon: &Polygon) -> Option<Polygon> {
             let (corner, next) = (pair[0], pair[1]);
             gone.push(corner);
             let from = kept[kept.len() - 1].to_f64();
-            let near = |p: &Point| distance_to_line(p.to_f64(), from, next.to_f64()) < THIN;
+            let near = |p: &Point| length(off_segment(p.to_f64(), from, next.to_f64())) < THIN;
             if gone.len() > MOST_GONE || !gone.iter().all(near) {
                 kept.push(corner);
                 gone.clear();
@@ -442,16 +443,6 @@ fn thinned(polygon: &Polygon) -> Option<Polygon> {
 
 /// So many corners one after the other may go. Chosen: each is looked at again with the next.
 const MOST_GONE: usize = 16;
-
-/// How far a place is from the line from `a` to `b`.
-fn distance_to_line(p: Spot, a: Spot, b: Spot) -> f64 {
-    let way = (b.0 - a.0, b.1 - a.1);
-    let off = (p.0 - a.0, p.1 - a.1);
-    let squared = way.0 * way.0 + way.1 * way.1;
-    let part = if squared > 0.0 { ((off.0 * way.0 + off.1 * way.1) / squared).clamp(0.0, 1.0) } else { 0.0 };
-    let (x, y) = (off.0 - way.0 * part, off.1 - way.1 * part);
-    (x * x + y * y).sqrt()
-}
 
 /// How many pieces of areas, offset inwards to rising levels, have none of the next level in them.
 fn maxima(areas: &[Polygon], levels: &[f64]) -> usize {
@@ -480,14 +471,15 @@ fn maxima(areas: &[Polygon], levels: &[f64]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::topology::splitmix;
 
     /// Discs of random sizes, some of which meet: pieces that fall apart at many levels.
     #[test]
     fn both_ways_of_counting_agree() {
-        let mut state = 1_u64;
+        let mut state = 0;
         let mut random = |below: i64| {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-            i64::try_from(state >> 33).expect("31 bits") % below
+            state += 1;
+            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
         };
         for _ in 0..20 {
             let discs: Vec<Polygon> = (0..12)

@@ -33,9 +33,12 @@ pub(super) struct Tied {
 
 /// A line or an arc that ends at a place, but for rounding, and the disc round its end, at which
 /// another begins.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Joint {
     generator: u32,
+    /// Which of its ends: 0 for the first.
+    end: usize,
+    group: usize,
     disc: u32,
 }
 
@@ -232,7 +235,6 @@ impl Diagram {
     /// The place where a line or an arc hands over to the disc at its end, if two tied ones do, and
     /// all lines and arcs that end at a tied disc there, or less than a nanometre beside.
     fn hand_over(&self, p: Spot, tied: &[Tied]) -> Option<(Spot, Vec<Joint>)> {
-        let mut joined: Vec<(u32, usize, usize)> = Vec::new();
         let mut joints: Vec<Joint> = Vec::new();
         for entry in tied {
             let slacks = self.forms()[entry.generator as usize].slacks(p);
@@ -243,12 +245,11 @@ impl Diagram {
                 if slacks[end].abs() <= self.tolerances.snap
                     && let Some(disc) = disc.filter(|&disc| is_tied(disc))
                 {
-                    joined.push((entry.generator, end, entry.group));
-                    joints.push(Joint { generator: entry.generator, disc });
+                    joints.push(Joint { generator: entry.generator, end, group: entry.group, disc });
                 }
             }
         }
-        let &(generator, end, group) = joined.iter().min()?;
+        let &Joint { generator, end, group, .. } = joints.iter().min()?;
         let form = &self.forms()[generator as usize];
         let (foot, normal) = form.foot(form.ends()?[end]);
         let other = tied.iter().filter(|other| other.group != group).map(|other| other.generator).min()?;
