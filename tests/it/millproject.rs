@@ -65,7 +65,8 @@ fn every_option_with_a_counterpart_is_taken_over() {
         (Feed::from_mm_per_min(240), Feed::from_mm_per_min(60), 14_000),
         "speeds"
     );
-    assert_eq!((settings.safe, settings.strategy), (um(1500), Strategy::Voronoi), "zsafe and voronoi");
+    let strategy = settings.options().strategy;
+    assert_eq!((settings.safe, strategy), (um(1500), Some(Strategy::Voronoi)), "zsafe and voronoi");
     assert_eq!((settings.dialect.spin_up, settings.machine.spin_up), (2000, 2000), "spinup-time");
     assert_eq!(
         (settings.drilling.cut, settings.drill_tolerance, settings.drill_bore),
