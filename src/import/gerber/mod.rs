@@ -8,10 +8,10 @@
 //! ```
 //!
 //! What a block says is told without what came before it (`command`). What is in force then
-//! (`state`) is made of parts that each know one thing: what numbers mean (`numbers`), the apertures
-//! (`apertures`, with `definition`, `aperture` and `aperture_macro`), the transformation, how arcs
-//! are given (`arcs`, with `radii`) and the contour of a region. The state draws into the `sink`.
-//! `reader` leads a file from one end to the other.
+//! (`state`) is made of parts that each know one thing: what numbers mean (`numbers`), the
+//! apertures (`apertures`, with `definition`, `aperture` and `aperture_macro`), the transformation,
+//! how arcs are given (`arcs`, with `radii`) and the contour of a region. The state draws into the
+//! `sink`. `reader` leads a file from one end to the other.
 //!
 //! Written for files in the wild, with the specification (Ucamco, revision 2023.08) deciding where
 //! they disagree. Three choices make it both quick and forgiving. Blocks are cut at `*`, never at

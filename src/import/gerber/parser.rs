@@ -97,8 +97,8 @@ mod tests {
 
     #[test]
     fn words_say_what_they_change_and_the_block_what_it_draws() {
-        let (commands, fine) = said("G02G75X1I2D01D11*");
-        let expected = ["Interpolate G02", "Quadrants G75", "Select D11", "Operate G02G75X1I2D01D11"];
+        let (commands, fine) = said("D11G02G75X1I2D01*");
+        let expected = ["Select D11", "Interpolate G02", "Quadrants G75", "Operate D11G02G75X1I2D01"];
         assert_eq!((commands, fine), (expected.map(str::to_owned).to_vec(), true), "in this order");
         let (commands, _) = said("X1D01X2D01*");
         assert_eq!(commands, ["Remark X2", "Operate X1D01X2D01", "Operate X1D01X2D01"], "two without a star");
