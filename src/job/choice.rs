@@ -5,8 +5,10 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use crate::gcode::dialect::{Dialect, DialectError};
+use crate::gcode::dialect::Dialect;
 use crate::voronoi::paper::Way;
+
+use super::described::{self, ParseDescribedError};
 
 /// How copper is isolated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,48 +83,16 @@ pub enum Topology {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DialectChoice(pub Dialect);
 
-/// A dialect that nobody knows, or whose description cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ParseDialectError {
-    /// Neither a name nor a file.
-    #[error("`{0}` is not a dialect: expected {known} or a file such as mine.toml", known = Dialect::names())]
-    Unknown(String),
-    /// A file that cannot be read.
-    #[error("cannot read the dialect {file}: {reason}")]
-    File {
-        /// Its name.
-        file: String,
-        /// Why.
-        reason: String,
-    },
-    /// A file that describes none.
-    #[error("{file}: {reason}")]
-    Content {
-        /// Its name.
-        file: String,
-        /// Why.
-        reason: DialectError,
-    },
-}
-
 /// A name, or the path of a file that ends in `.toml`, as seen from the working directory.
 impl FromStr for DialectChoice {
-    type Err = ParseDialectError;
+    type Err = ParseDescribedError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         if let Some(dialect) = Dialect::by_name(text) {
             return Ok(Self(dialect.clone()));
         }
-        if !text.ends_with(".toml") {
-            return Err(ParseDialectError::Unknown(text.to_owned()));
-        }
-        let file = || text.to_owned();
-        let described = std::fs::read_to_string(text).map_err(|error| ParseDialectError::File {
-            file: file(),
-            reason: error.to_string().to_lowercase(),
-        })?;
-        let dialect = Dialect::from_toml(&described);
-        dialect.map(Self).map_err(|reason| ParseDialectError::Content { file: file(), reason })
+        let expected = || format!("{} or a file such as mine.toml", Dialect::names());
+        described::from_file("dialect", text, expected, Dialect::from_toml).map(Self)
     }
 }
 

@@ -9,5 +9,5 @@ mod ready;
 pub use dump::{ImportError, import_machine};
 pub use per_axis::{ParsePerAxisError, PerAxis};
 pub(super) use profile::{KEYS, in_settings};
-pub use profile::{MachineChoice, ParseMachineError, Profile};
+pub use profile::{MachineChoice, Profile};
 pub use ready::READY;

@@ -11,6 +11,7 @@ use crate::toolpath::{Acceleration, Feed, Machine};
 use super::per_axis::PerAxis;
 use super::ready::READY;
 use crate::job::choice::DialectChoice;
+use crate::job::described::{self, ParseDescribedError};
 use crate::job::quantity::{Length, Wait, text};
 
 /// What is known of a machine; what nobody said is as of a small engraver, or has no limit.
@@ -174,52 +175,20 @@ impl Profile {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MachineChoice(pub Profile);
 
-/// A machine that nobody knows, or whose profile cannot be used.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ParseMachineError {
-    /// Neither a name nor a file.
-    #[error("`{0}` is not a machine: expected {known} or a file such as mine.toml with a [machine] table", known = known())]
-    Unknown(String),
-    /// A file that cannot be read.
-    #[error("cannot read the machine {file}: {reason}")]
-    File {
-        /// Its name.
-        file: String,
-        /// Why.
-        reason: String,
-    },
-    /// A file that describes none.
-    #[error("{file}: {reason}")]
-    Content {
-        /// Its name.
-        file: String,
-        /// Why.
-        reason: String,
-    },
-}
-
 fn known() -> String {
     READY.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
 }
 
 /// A name, or the path of a file that ends in `.toml`, as seen from the working directory.
 impl FromStr for MachineChoice {
-    type Err = ParseMachineError;
+    type Err = ParseDescribedError;
 
     fn from_str(text: &str) -> Result<Self, Self::Err> {
         if let Some(profile) = Profile::ready(text.trim()) {
             return Ok(Self(profile));
         }
-        if !text.ends_with(".toml") {
-            return Err(ParseMachineError::Unknown(text.to_owned()));
-        }
-        let file = || text.to_owned();
-        let described = std::fs::read_to_string(text).map_err(|error| ParseMachineError::File {
-            file: file(),
-            reason: error.to_string().to_lowercase(),
-        })?;
-        let profile = Profile::from_toml(&described);
-        profile.map(Self).map_err(|reason| ParseMachineError::Content { file: file(), reason })
+        let expected = || format!("{} or a file such as mine.toml with a [machine] table", known());
+        described::from_file("machine", text, expected, Profile::from_toml).map(Self)
     }
 }
 
