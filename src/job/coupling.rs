@@ -25,7 +25,7 @@ pub fn coupling(
     asked: &[Pattern],
 ) -> Result<CouplingEntry, Error> {
     let nets = topology::recover(copper, layer::method(settings.topology));
-    let (diagram, boundaries, _) = layer::plain(copper, &nets, outline, settings)?;
+    let (diagram, boundaries) = layer::plain(copper, &nets, outline, settings)?;
     let kerf = settings.finest_kerf();
     let substrate = Substrate::fr4(settings.thickness.to_mm());
     let found = Coupling::new(&diagram, &boundaries, &topology::extents(copper, &nets), kerf, substrate);

@@ -206,6 +206,7 @@ impl Settings {
         Ok(Self {
             frame_margin: frame_margin(&options, &isolation)?,
             adaptive_depth: validate::adaptive_depth(&options, &isolation)?,
+            limit: validate::limit(&options, &isolation)?,
             isolation,
             safe,
             ignore: options.ignore.clone(),
@@ -245,7 +246,6 @@ impl Settings {
             strategy_for: options.strategy_for.clone(),
             clearing: Clearing::of(&options),
             sites: sites(&options)?,
-            limit: given("limit", options.limit)?,
             pixel: pixel(&options)?,
             frame: options.frame,
             min_width: options.min_width,
@@ -390,6 +390,7 @@ mod tests {
             ("tab-height = \"2mm\"", "tab-height"),
             ("pixel = \"10nm\"", "pixel"),
             ("limit = \"-1mm\"", "limit"),
+            ("limit = \"0.07mm\"", "limit"),
             ("outline-gap = \"10mm\"", "outline-gap"),
             ("kerf = \"0.05mm\"", "kerf"),
             ("cutout-ramp = \"90deg\"", "cutout-ramp"),

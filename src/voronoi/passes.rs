@@ -14,8 +14,9 @@
 
 use rayon::prelude::*;
 
+use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
-use crate::geometry::Nm;
+use crate::geometry::{Nm, Point};
 use crate::topology::Nets;
 
 use super::certified::Owned;
@@ -186,12 +187,13 @@ impl Diagram {
             short: (widening.kerf * 3 / 2).to_f64(),
             longest: longest.to_f64(),
         };
-        let faults = if is_whole {
-            Vec::new()
-        } else {
-            vec![diagram.faults().first().copied().unwrap_or(self.copper.min())]
+        let missing = |at: Point| {
+            let message = "further passes are missing: a bug in voromill".to_owned();
+            planning::PASSES_MISSING.warning(message).at(at).on(self.side)
         };
-        (all.linked(&rules), self.torn(&faults, "further passes").into_iter().collect())
+        let warning =
+            (!is_whole).then(|| missing(diagram.faults().first().copied().unwrap_or(self.copper.min())));
+        (all.linked(&rules), warning.into_iter().collect())
     }
 
     /// Whether boundaries run midway between all nets.
