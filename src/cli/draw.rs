@@ -145,12 +145,15 @@ impl Draw {
         let side = chosen_side(self.side, loaded.board.front.is_some(), loaded.board.back.is_some())?;
         if self.paper {
             self.config.judge_paper()?;
-            let canvas = job::paper_picture(&loaded.board, side, settings.strategy.paper())?;
+            let canvas = job::paper_picture(&loaded.board, side, &settings)?;
             return self.write(&png::rgb(canvas.ok_or_else(|| no_copper(side))?));
         }
         let area = self.window.map(|Window(rect)| rect);
         let format = self.format.unwrap_or_else(|| Format::of(&self.output));
-        let rim = if self.stage.shows_frame() && settings.frame && loaded.board.outline.is_none() {
+        let rim = if self.stage.shows_frame()
+            && settings.options().frame == Some(true)
+            && loaded.board.outline.is_none()
+        {
             settings.frame_margin
         } else {
             Nm::ZERO

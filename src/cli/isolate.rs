@@ -60,8 +60,7 @@ impl Isolate {
         if self.paper {
             self.config.judge_paper()?;
             let side = if loaded.board.front.is_some() { Side::Front } else { Side::Back };
-            let text =
-                job::paper_program(&loaded.board, side, settings.strategy.paper())?.unwrap_or_default();
+            let text = job::paper_program(&loaded.board, side, &settings)?.unwrap_or_default();
             drop(progress);
             return self.write(&text);
         }

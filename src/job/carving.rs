@@ -117,7 +117,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     };
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
     let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to carve".to_owned()))?;
-    let placement = Placement::front(settings.origin, bounds, settings.rotate, settings.offset);
+    let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);
     let flank = tool.kind.flank().min(1.0);
     let pruning = Pruning {
         loss: settings.tolerance.to_f64() * SHARE * flank,

@@ -22,8 +22,7 @@ pub enum Strategy {
 
 impl Strategy {
     /// Which of the paper's toolpaths that is.
-    #[must_use]
-    pub const fn paper(self) -> Way {
+    pub(super) const fn paper(self) -> Way {
         match self {
             Self::Outline => Way::Outline,
             Self::Voronoi | Self::Auto => Way::Voronoi,

@@ -24,7 +24,7 @@ pub fn coupling(
     settings: &Settings,
     asked: &[Pattern],
 ) -> Result<CouplingEntry, Error> {
-    let nets = topology::recover(copper, layer::method(settings.topology));
+    let nets = topology::recover(copper, layer::method(settings.asked.topology));
     let (diagram, boundaries) = layer::plain(copper, &nets, outline, settings)?;
     let kerf = settings.finest_kerf();
     let substrate = Substrate::fr4(settings.thickness.to_mm());
@@ -42,8 +42,8 @@ impl Job {
     /// parted by regions alone.
     #[must_use]
     pub fn couplings(&self, settings: &Settings) -> Vec<Option<CouplingEntry>> {
-        let is_plain = settings.strategy == Strategy::Voronoi
-            && settings.strategy_for.is_empty()
+        let is_plain = settings.asked.strategy == Strategy::Voronoi
+            && settings.asked.strategy_for.is_empty()
             && settings.sites == Sites::Copper
             && settings.limit.is_none()
             && settings.isolation.iter().all(|cutting| cutting.widening.is_none());

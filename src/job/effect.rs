@@ -33,7 +33,7 @@ impl Settings {
             Need::Alignment => self.alignment.is_some(),
             Need::ThroughHoles => self.drill_tips,
             Need::Tabs => self.tabs.count() != Some(0),
-            Need::Frame => self.frame,
+            Need::Frame => self.asked.frame,
             Need::Axes => self.sites != Sites::Copper,
         }
     }
@@ -50,7 +50,7 @@ pub(super) fn patterns<'a>(
             ids.any(|id| pattern.matches_any(&names(copper, &layer.nets, id)))
         })
     };
-    let strategies = settings.strategy_for.iter().map(|own| (&own.nets, "it sets no strategy"));
+    let strategies = settings.asked.strategy_for.iter().map(|own| (&own.nets, "it sets no strategy"));
     let cleared = settings.clearing.patterns().map(|pattern| (pattern, "nothing is cleared for it"));
     let without = strategies.chain(cleared).filter(|(pattern, _)| !means_one(pattern));
     without.map(|(pattern, so)| without_net(pattern, so)).collect()

@@ -20,7 +20,7 @@ pub fn inspect(loaded: &Loaded, settings: &Settings) -> Inspection {
     let board = &loaded.board;
     let layer = |side| {
         let copper = board.copper(side)?;
-        Some((copper, topology::recover(copper, method(settings.topology))))
+        Some((copper, topology::recover(copper, method(settings.asked.topology))))
     };
     let (front, back) = rayon::join(|| layer(Side::Front), || layer(Side::Back));
     let layers: Vec<&(&Copper, Nets)> = [&front, &back].into_iter().flatten().collect();
@@ -54,7 +54,7 @@ pub fn inspect(loaded: &Loaded, settings: &Settings) -> Inspection {
 }
 
 fn inspected(copper: &Copper, nets: &Nets, outline: Option<&Outline>, settings: &Settings) -> InspectedLayer {
-    let differences = (settings.topology == Topology::All).then(|| {
+    let differences = (settings.asked.topology == Topology::All).then(|| {
         topology::differences(copper, Sampling::default()).expect("500 DPI is within the raster's limits")
     });
     InspectedLayer {

@@ -58,12 +58,13 @@ impl Layer {
         let mut stages = Stages::default();
         let (nets, translucency) = stages.run(
             format!("{side}: nets"),
-            || recover(copper, method(settings.topology)),
+            || recover(copper, method(settings.asked.topology)),
             |(nets, _)| [("features", copper.features.len()), ("nets", nets.nets().len())],
         );
         let gap =
             stages.run(format!("{side}: smallest gap"), || topology::smallest_gap(copper, &nets), |_| []);
-        let strategies = by_net::strategies(copper, &nets, &settings.strategy_for, settings.strategy);
+        let strategies =
+            by_net::strategies(copper, &nets, &settings.asked.strategy_for, settings.asked.strategy);
         let plan = |looped: Vec<NetId>| {
             let planned = Planned { copper, nets: &nets, placement: &placement, settings };
             planned.plan(board, looped)
@@ -135,7 +136,7 @@ impl Planned<'_> {
             )
             .map_err(error)?;
         let frame = needed_frame(&diagram, &boundaries);
-        let frame_cut = frame.as_ref().filter(|_| settings.frame);
+        let frame_cut = frame.as_ref().filter(|_| settings.asked.frame);
         let (shares, passes) = stages.run(
             format!("{side}: passes"),
             || shares((copper, nets), &diagram, &boundaries, settings),
@@ -234,7 +235,7 @@ fn diagram_settings(settings: &Settings) -> voronoi::Settings {
         // Nothing is to be isolated there: it is cleared with everything alone.
         enclosed: settings.isolation.iter().any(Cutting::clears_everything),
         // A cut along the edge of a region then leaves the copper alone, where there is room.
-        min_width: settings.min_width.then(|| settings.finest_kerf() / 2 + settings.tolerance),
+        min_width: settings.asked.min_width.then(|| settings.finest_kerf() / 2 + settings.tolerance),
         tolerance: settings.tolerance,
         // The end of a cut is round: with half a kerf beyond the outline its whole width reaches
         // the edge, and a fine cutter leaves no scratches outside.
@@ -298,13 +299,13 @@ fn cut(
             placement,
             order: Order::default(),
             machine: &settings.machine,
-            narrow: match settings.narrow {
+            narrow: match settings.asked.narrow {
                 // What fails for it fails where all sides are known.
                 choice::Narrow::Centre | choice::Narrow::Error => Narrow::Centre,
                 choice::Narrow::Skip => Narrow::Skip,
             },
             adaptive: settings.adaptive_depth,
-            direction: settings.direction,
+            direction: settings.asked.direction,
         };
         let (section, found) = isolate(format!("isolate {side}"), boundaries, &[], role, name, &isolation);
         // Of several tools one may find nothing to do; a side where nothing is to be cut still has

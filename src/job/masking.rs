@@ -47,7 +47,7 @@ pub fn mask(loaded: &Loaded, settings: &Settings, masking: &Masking) -> Result<(
     let (board, side) = (&loaded.board, masking.side);
     let copper = board.copper(side).filter(|copper| !copper.features.is_empty());
     let copper = copper.ok_or_else(|| Error::NoCopper(format!("on the {side}")))?;
-    let nets = topology::recover(copper, method(settings.topology));
+    let nets = topology::recover(copper, method(settings.asked.topology));
     let mut warnings = topology::names_check(copper, &nets);
     // Both sides have the same page, so that they register.
     let all = [&board.front, &board.back].into_iter().flatten().filter_map(Copper::bounds);

@@ -22,7 +22,7 @@ pub fn neighbours(
     settings: &Settings,
     thinning: Option<Thinning>,
 ) -> Result<NeighboursEntry, Error> {
-    let nets = topology::recover(copper, layer::method(settings.topology));
+    let nets = topology::recover(copper, layer::method(settings.asked.topology));
     let (_, boundaries) = layer::plain(copper, &nets, None, settings)?;
     let thinning = match thinning {
         Some(thinning) => thinning,

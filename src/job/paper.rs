@@ -9,10 +9,10 @@ use crate::report::figures::flat;
 use crate::report::paper::{Columns, PaperEntry, Paths};
 use crate::report::{Canvas, Rgb};
 use crate::topology::{self, Method, Nets, Sampling};
-use crate::voronoi::paper::{Paper, Toolpaths, Way, mean_width};
+use crate::voronoi::paper::{Paper, Toolpaths, mean_width};
 use crate::voronoi::{self, Diagram, Frame};
 
-use super::Error;
+use super::{Error, Settings};
 
 /// The figures of the paper's Table V for a side, its own way and by exact boundaries; none where
 /// there is no copper.
@@ -59,10 +59,11 @@ fn traces(copper: &Copper) -> Result<Nets, Error> {
 /// # Errors
 ///
 /// [`Error`] for a board too large to be drawn.
-pub fn paper_program(board: &Board, side: Side, way: Way) -> Result<Option<String>, Error> {
+pub fn paper_program(board: &Board, side: Side, settings: &Settings) -> Result<Option<String>, Error> {
     let Some(copper) = board.copper(side) else { return Ok(None) };
     let nets = traces(copper)?;
-    Ok(Paper::new(copper, &nets)?.map(|paper| gcode::paper::program(paper.paths(way))))
+    Ok(Paper::new(copper, &nets)?
+        .map(|paper| gcode::paper::program(paper.paths(settings.asked.strategy.paper()))))
 }
 
 /// The picture from which the paper's program takes its paths, a colour for each net and the paths
@@ -71,10 +72,11 @@ pub fn paper_program(board: &Board, side: Side, way: Way) -> Result<Option<Strin
 /// # Errors
 ///
 /// [`Error`] for a board too large to be drawn.
-pub fn paper_picture(board: &Board, side: Side, way: Way) -> Result<Option<Canvas>, Error> {
+pub fn paper_picture(board: &Board, side: Side, settings: &Settings) -> Result<Option<Canvas>, Error> {
     let Some(copper) = board.copper(side) else { return Ok(None) };
     let nets = traces(copper)?;
     let Some(paper) = Paper::new(copper, &nets)? else { return Ok(None) };
+    let way = settings.asked.strategy.paper();
     let (grid, labels) = paper.labels(way);
     let owners: Vec<u32> = labels.into_iter().map(|label| label.saturating_sub(1)).collect();
     let mut canvas = flat(&owners, grid);

@@ -54,8 +54,8 @@ pub struct Job {
 pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let Loaded { mut board, sources, mut warnings, ignored } = loaded;
     refuse_cut_off(&warnings)?;
-    if !settings.ignore.is_empty() {
-        warnings.extend(ignore(&mut board, &settings.ignore, settings.topology));
+    if !settings.asked.ignore.is_empty() {
+        warnings.extend(ignore(&mut board, &settings.asked.ignore, settings.asked.topology));
     }
     if let Some(wider) = settings.rivet
         && rivet(&mut board, wider) == 0
@@ -68,7 +68,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let mut stages = Stages::default();
     let layers = isolate(&board, &stock, settings)?;
     layers.iter().for_each(|layer| stages.extend(&layer.stages));
-    if settings.narrow == Narrow::Error {
+    if settings.asked.narrow == Narrow::Error {
         refuse_narrow(&layers)?;
     }
     let header = header(&sources);
@@ -180,7 +180,7 @@ fn isolate(board: &Board, stock: &Stock, settings: &Settings) -> Result<Vec<Laye
 }
 
 fn no_copper(settings: &Settings) -> Error {
-    let place = if settings.ignore.is_empty() { "in these files" } else { "beside what is ignored" };
+    let place = if settings.asked.ignore.is_empty() { "in these files" } else { "beside what is ignored" };
     Error::NoCopper(place.to_owned())
 }
 
@@ -263,7 +263,7 @@ fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cuto
         placement,
         tabs: Tabs { places: settings.tabs.places(), width: settings.tab_width, height: settings.tab_height },
         ramp: settings.cutout_ramp,
-        direction: settings.direction,
+        direction: settings.asked.direction,
     }
 }
 

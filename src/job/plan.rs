@@ -46,7 +46,7 @@ impl Plan {
         let program = Program { title: String::new(), notes: Vec::new(), safe: settings.safe, sections };
         let measured = measure(&program, &settings.machine);
         let changes = f64::from(measured.tool_changes) * f64::from(settings.machine.tool_change) / 1000.0;
-        let skips = settings.narrow == choice::Narrow::Skip;
+        let skips = settings.asked.narrow == choice::Narrow::Skip;
         let joins = |warning: &&Warning| {
             warning.is(&planning::FRAME_NOT_CUT) || (skips && warning.is(&planning::GAP_NARROWER_THAN_TOOL))
         };

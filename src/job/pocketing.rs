@@ -85,7 +85,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
     };
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
     let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to mill".to_owned()))?;
-    let placement = Placement::front(settings.origin, bounds, settings.rotate, settings.offset);
+    let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);
     let areas: Vec<Polygon> = areas.iter().map(|area| placed(area, &placement)).collect();
     let mut made = Pocket {
         name: art.name.clone(),
@@ -156,7 +156,7 @@ impl Pocket {
                 nest: &nest,
                 tool,
                 levels,
-                direction: settings.direction.unwrap_or(Direction::Climb),
+                direction: settings.asked.direction.unwrap_or(Direction::Climb),
                 tolerance: settings.tolerance,
                 engaging,
             })
@@ -178,7 +178,7 @@ impl Pocket {
             heights: Heights { step: self.how.step, ..heights },
             levels,
             sequence: self.how.sequence,
-            direction: settings.direction.unwrap_or(Direction::Climb),
+            direction: settings.asked.direction.unwrap_or(Direction::Climb),
             ramp: self.how.ramp,
             tolerance: settings.tolerance,
             done: &done,

@@ -6,19 +6,18 @@
 use crate::board::Side;
 use crate::gcode::Dialect;
 use crate::geometry::{Nm, Vector};
-use crate::toolpath::{self, Angle, Direction, DrillSpeeds, Heights, Machine, Tool};
+use crate::toolpath::{self, Angle, DrillSpeeds, Heights, Machine, Tool};
 
 use super::Error;
 use super::Options;
 use super::checked::{self, given, positive};
-use super::choice::{DrillSide, Narrow, Origin, Sites, Strategy, Topology};
+use super::choice::{DrillSide, Origin, Sites};
 use super::clearing::Clearing;
 use super::cutting::{Cutting, frame_margin, isolation, pixel, sites};
 use super::holding::{Holding, holding};
+use super::options::Complete;
 use super::output_name;
-use super::pattern::Pattern;
-use super::quantity::{Length, Tiles, ToolChangeAt};
-use super::strategy_for::StrategyFor;
+use super::quantity::{Length, Tiles};
 use super::{controller, cutting_out, drilling, validate};
 
 /// Everything a job needs to know, complete and checked.
@@ -30,25 +29,18 @@ use super::{controller, cutting_out, drilling, validate};
 #[derive(Clone, Debug)]
 pub struct Settings {
     options: Options,
+    /// The same with a value wherever the defaults have one: what needs neither check nor
+    /// resolution is taken from here.
+    pub(super) asked: Complete,
     /// The tools that isolate, the widest first; each cuts where it is the first that fits.
     pub isolation: Vec<Cutting>,
     /// The height for travel.
     pub safe: Nm,
-    /// The nets that are not isolated.
-    pub ignore: Vec<Pattern>,
     /// How often the board is made from one piece of stock, and how far its copies are apart.
     pub tiles: Option<(Tiles, Nm)>,
-    /// Where the machine waits for a tool to be changed; none for where it parks.
-    pub tool_change: Option<ToolChangeAt>,
-    /// Where the tool goes at the end of a program.
-    pub park: ToolChangeAt,
     /// The diameter of the holes for the pins on which the board is flipped, and their distance
     /// from it.
     pub alignment: Option<(Nm, Nm)>,
-    /// Voronoi or outline.
-    pub strategy: Strategy,
-    /// What some nets have instead.
-    pub strategy_for: Vec<StrategyFor>,
     /// What is cleared beside the gaps round nets.
     pub clearing: Clearing,
     /// What cuts are midway between.
@@ -58,26 +50,16 @@ pub struct Settings {
     /// The pixel of the picture that finds the boundaries, at most; none for as coarse as the
     /// smallest gap allows.
     pub pixel: Option<Nm>,
-    /// Whether a frame cut is made round copper without an outline.
-    pub frame: bool,
     /// How far the frame cut keeps from copper.
     pub frame_margin: Nm,
-    /// Whether with core axes every region holds at least its net's copper.
-    pub min_width: bool,
-    /// How touching copper is found.
-    pub topology: Topology,
     /// How far a fitted cut may leave its place.
     pub tolerance: Nm,
     /// What the machine speaks.
     pub dialect: Dialect,
     /// Where x and y are zero.
     pub origin: toolpath::Origin,
-    /// Where the cut does not fit.
-    pub narrow: Narrow,
     /// The least depth to which a V-bit may rise.
     pub adaptive_depth: Option<Nm>,
-    /// How the board is turned on the machine.
-    pub rotate: Angle,
     /// How far it is moved on the machine from its origin.
     pub offset: Vector,
     /// The line about which it is flipped; none for its middle.
@@ -122,8 +104,6 @@ pub struct Settings {
     pub cutout_side: Side,
     /// How high and deep it goes.
     pub cutout: Heights,
-    /// Which way round loops go that have on one side what is kept; none for either.
-    pub direction: Option<Direction>,
     /// How steeply it goes down along the contour; none for straight down.
     pub cutout_ramp: Option<Angle>,
     /// Where tabs hold the board.
@@ -209,18 +189,13 @@ impl Settings {
             limit: validate::limit(&options, &isolation)?,
             isolation,
             safe,
-            ignore: options.ignore.clone(),
             tiles,
-            tool_change: options.tool_change_at,
-            park: options.park,
             alignment: drilling::alignment(&options)?,
             drilling,
             drill_tips: drill_depth.is_none(),
             one_drill: options.one_drill == Some(true),
             alignment_depth: drilling::alignment_depth(&options, thickness)?.unwrap_or(thickness + PINS),
             rivet: given("rivet", options.rivet)?,
-            narrow: options.narrow,
-            rotate: options.rotate,
             offset: options.offset.map_or_else(Vector::default, |to| Vector::new(to.x.nm(), to.y.nm())),
             mirror_axis: options.mirror_axis.map(Length::nm),
             thickness,
@@ -242,14 +217,9 @@ impl Settings {
             outline_gap: cutting_out::outline_gap(&options)?,
             cutout: heights(cutout_depth, checked::step("cutout-pass", options.cutout_pass, cutout_depth)?),
             cutout_tool,
-            strategy: options.strategy,
-            strategy_for: options.strategy_for.clone(),
             clearing: Clearing::of(&options),
             sites: sites(&options)?,
             pixel: pixel(&options)?,
-            frame: options.frame,
-            min_width: options.min_width,
-            topology: options.topology,
             tolerance: positive("tolerance", options.tolerance)?,
             machine: Machine {
                 travel: validate::machine_travel(&options)?.or(machine.travel),
@@ -262,7 +232,6 @@ impl Settings {
                 Origin::Keep => toolpath::Origin::Keep,
                 Origin::Center => toolpath::Origin::Center,
             },
-            direction: options.direction,
             cutout_ramp: cutting_out::ramp(options.cutout_ramp)?,
             tabs,
             tab_width: positive("tab-width", options.tab_width)?,
@@ -274,6 +243,7 @@ impl Settings {
                 tile_spacing: tiles.map(|(_, spacing)| Length(spacing)).or(options.tile_spacing),
                 ..written
             },
+            asked: options,
         })
     }
 

@@ -28,7 +28,7 @@ pub(super) struct Stock {
 impl Stock {
     /// A board within `bounds`.
     pub(super) fn new(bounds: Rect, settings: &Settings) -> Self {
-        let front = Placement::front(settings.origin, bounds, settings.rotate, settings.offset);
+        let front = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);
         let tile = Rect::around(bounds.corners().map(|corner| front.point(corner))).unwrap_or(bounds);
         let tiling = settings.tiles.map(|(Tiles { columns, rows }, spacing)| Tiling {
             columns,

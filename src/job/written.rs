@@ -45,8 +45,8 @@ impl Written {
             ToolChangeAt::Place(Triple([x, y, z])) => (Some(Point::new(x.nm(), y.nm())), z.nm()),
             ToolChangeAt::Height(z) => (None, z.nm()),
         };
-        let end = place(settings.park);
-        let change = settings.tool_change.map_or(end, place);
+        let end = place(settings.asked.park);
+        let change = settings.asked.tool_change_at.map_or(end, place);
         let wait = |program: Program| program.parking(change, end);
         let whole = wait(tiling.map_or_else(|| program.clone(), |tiling| program.clone().tiled(tiling)));
         let statistics = measure(&whole, &settings.machine);

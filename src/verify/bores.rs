@@ -18,8 +18,8 @@ use crate::board::{Board, Hole, Shape};
 use crate::geometry::{Nm, Point, off_segment};
 use crate::topology::RectIndex;
 
+use super::cut::Cut;
 use super::machining::Machining;
-use super::sheet::Cut;
 
 /// All holes of a board, and what is cut elsewhere.
 pub(super) struct Bores<'a> {

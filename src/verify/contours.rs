@@ -19,8 +19,8 @@ use crate::geometry::{Nm, Point, Polygon};
 use crate::topology::{Near, Proximity};
 
 use super::Settings;
+use super::cut::Cut;
 use super::machining::{Machining, Swept};
-use super::sheet::Cut;
 
 /// All contours of a board, cut by programs.
 pub(super) struct Contours<'a> {

@@ -7,15 +7,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::geometry::{Nm, Polygon, Rect};
 use crate::grid::Grid;
 use crate::topology::NetId;
 
 use super::Settings;
-use super::milled;
+use super::exact::designed;
+use super::milled::{self, narrower};
 use super::pieces::{Extent, Part};
-use super::remains::{Doubt, Joined, Remains, Remnant, Rest, designed};
-use super::sheet::{Sheet, narrower};
+use super::rest::{Doubt, Joined, Remains, Remnant, Rest};
+use super::sheet::Sheet;
 
 /// The finest pixel. Chosen: a hundredth of a usual kerf; a crumb has a thousand of them.
 const FINEST: Nm = Nm::from_um(3);
@@ -120,7 +121,7 @@ fn seen(sheet: &Sheet<'_>, rect: Rect, pitch: Nm, narrower: Nm, least: &BTreeMap
             let net = Sheet::net(part.label)?;
             #[expect(clippy::cast_precision_loss, reason = "an area")]
             let area = part.pixels as f64 * mm2;
-            let polygon = Polygon::rectangle(place(&grid, part.extent));
+            let polygon = Polygon::rectangle(part.extent.rect(&grid));
             let piece = usize::try_from(part.piece).ok()?;
             (area >= *least.get(&net)?).then_some((net, Remnant { polygon, area, piece }))
         };
@@ -130,7 +131,7 @@ fn seen(sheet: &Sheet<'_>, rect: Rect, pitch: Nm, narrower: Nm, least: &BTreeMap
             nets.sort_unstable();
             let extent = parts.iter().map(|part| part.extent).reduce(Extent::union);
             let extent = extent.expect("a piece has parts");
-            seen.joined.insert(found[0].1.piece, (nets, place(&grid, extent)));
+            seen.joined.insert(found[0].1.piece, (nets, extent.rect(&grid)));
         }
         for (net, remnant) in found {
             seen.nets.entry(net).or_default().push(remnant);
@@ -139,16 +140,12 @@ fn seen(sheet: &Sheet<'_>, rect: Rect, pitch: Nm, narrower: Nm, least: &BTreeMap
     seen
 }
 
-/// The place of so many columns and rows.
-fn place(grid: &Grid, extent: Extent) -> Rect {
-    let corner = |column: u32, row: u32| -> Point { grid.corner(i64::from(column), i64::from(row)) };
-    Rect::new(corner(extent.left, extent.top), corner(extent.right + 1, extent.bottom + 1))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::board::{Axis, Board, Copper, Feature, Shape, Side};
+    use crate::geometry::Point;
+    use crate::verify::exact;
     use crate::verify::machining::Machining;
     use crate::verify::{Program, Role};
 
@@ -198,8 +195,7 @@ mod tests {
             let sheet = Sheet::new(copper, None, &board, &[&read], &settings).expect("it can be judged");
             let nets: BTreeSet<NetId> = (0..8).map(NetId).collect();
             let doubt = Doubt { rect: sheet.rect(), nets: nets.clone(), parted: nets.clone() };
-            let (exact, seen) =
-                (Remains::within(&sheet, &doubt, &settings), within(&sheet, &doubt, &settings));
+            let (exact, seen) = (exact::within(&sheet, &doubt, &settings), within(&sheet, &doubt, &settings));
             let pieces = |remains: &Remains, net: &NetId| remains.nets[net].apart().len();
             for net in nets.iter().filter(|net| !seen.unsure.contains(net)) {
                 let [a, b] = [&exact, &seen].map(|remains| pieces(remains, net).min(2));

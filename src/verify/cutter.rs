@@ -8,7 +8,9 @@ use crate::geometry::Nm;
 /// What a tool cuts: how wide at which depth.
 ///
 /// Written as everywhere on the command line: `vbit:0.1mm:30deg`, `endmill:0.2mm`, `drill:0.8mm`.
-/// Judging is kept apart from planning, so this is not the planner's tool.
+/// Judging is kept apart from planning, so this is not the planner's tool, nor is it read by the
+/// planner's parser: whether an angle is the full one or half of it is just what a judge must not
+/// take over. It may have an angle at the point, too, which the planner's drills have elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cutter {
     /// What it is called.

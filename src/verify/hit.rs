@@ -8,7 +8,8 @@ use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::topology::{Near, NetId};
 
-use super::sheet::{Cut, Sheet};
+use super::cut::Cut;
+use super::sheet::Sheet;
 
 /// A piece of a cut that takes copper of a net.
 #[derive(Clone, Copy, Debug)]

@@ -13,6 +13,20 @@
 //!   ▒▒··▒▒▒▒▒▒▒▒··▒    One net in two pieces: an open.  Net under the cut: a gouge.
 //! ```
 //!
+//! What is left is asked in four ways, since none of them alone is both certain and quick:
+//!
+//! | how | says | because |
+//! |---|---|---|
+//! | runs of pixels (`milled`, of `spans` joined by `pieces`), kerfs narrower than they are | what holds one net alone | a strip left between kerfs shows, however thin; memory follows regions |
+//! | runs with kerfs wider (`parting`, of one net and what it was before; `crowd`, of all) | what hangs together | what shows is left, however coarse the pixel |
+//! | polygons (`exact`) | the rest, where not too many cuts cross | both pictures leave a doubt at any pixel |
+//! | distances from the engine (`flood`) | where the narrowest place of what is joined lies | a run knows no distance; no verdict depends on it |
+//!
+//! How wide something is there is measured along a line through the exact shapes (`ruling`, for
+//! `width` and `loss`), of which the runs are the crossings with rows of pixels. `remains` puts the
+//! question to one after the other. The edge of the board (`contours`) is another matter: it is cut
+//! at depths, and looked at in spots along it.
+//!
 //! Checks are listed in [`check::ALL`], a file each.
 
 mod bores;
@@ -20,16 +34,19 @@ pub mod carving;
 pub mod check;
 mod contours;
 mod crowd;
+mod cut;
 mod cutter;
 mod declared;
 mod diff;
 mod edges;
+mod exact;
 mod flood;
 mod hit;
 mod interior;
 mod loss;
 mod machining;
 mod milled;
+mod outcome;
 mod parting;
 mod pieces;
 mod placement;
@@ -37,6 +54,7 @@ pub mod pocketing;
 mod register;
 mod remains;
 mod report;
+mod rest;
 mod ruling;
 mod sheet;
 mod spans;
@@ -66,6 +84,7 @@ pub use tiles::Tiles;
 use bores::Bores;
 use contours::Contours;
 use machining::Machining;
+use outcome::Outcome;
 use sheet::Sheet;
 
 /// What a program is for.
@@ -346,9 +365,9 @@ fn judge(
             let copper =
                 board.copper(side).filter(|copper| !copper.features.is_empty()).ok_or_else(missing)?;
             let nets = known.iter().find(|known| known.side == side).map(|known| known.nets);
-            let sheet = Sheet::new(copper, nets, board, programs, settings)?;
-            resolution = Some(sheet.pitch());
-            findings.extend(check::isolation(&sheet, settings));
+            let milled = Outcome::new(Sheet::new(copper, nets, board, programs, settings)?, settings);
+            resolution = Some(milled.pitch());
+            findings.extend(check::isolation(&milled, settings));
         }
         Role::Drilling => findings.extend(check::drilling(&Bores::new(programs, board), board, settings)),
         Role::Cutout => {

@@ -16,7 +16,7 @@ use super::Settings;
 use super::hit::Hit;
 use super::machining::with_radius;
 use super::pieces::{Extent, Joiner, Part, Run};
-use super::remains::HINT;
+use super::rest::HINT;
 use super::sheet::{CUT, Sheet};
 use super::spans::{Spans, less};
 

@@ -3,6 +3,8 @@
 //! A row of pixels is kept as runs of one label; only the row above is remembered. Runs that share
 //! an edge are joined (union-find), so memory follows the number of regions, not of pixels.
 
+use crate::geometry::Rect;
+use crate::grid::Grid;
 use crate::topology::DisjointSets;
 
 /// A label's share of a connected piece.
@@ -25,6 +27,12 @@ pub(super) struct Extent {
 }
 
 impl Extent {
+    /// The place on the board, of pixels of `grid`.
+    pub(super) fn rect(self, grid: &Grid) -> Rect {
+        let corner = |column: u32, row: u32| grid.corner(i64::from(column), i64::from(row));
+        Rect::new(corner(self.left, self.top), corner(self.right + 1, self.bottom + 1))
+    }
+
     pub(super) fn union(self, other: Self) -> Self {
         Self {
             left: self.left.min(other.left),

@@ -1,9 +1,6 @@
-//! The copper-clad sheet, milled: its picture, what is left of it, and the exact shapes behind it.
+//! The copper-clad sheet and what is cut out of it: exact shapes, and pictures of parts of it.
 
 use std::borrow::Cow;
-use std::collections::BTreeSet;
-
-use rayon::prelude::*;
 
 use crate::board::{Board, Copper, FLATTEN, Shape, Side, polarity};
 use crate::geometry::{Nm, Point, Polygon, Rect};
@@ -11,11 +8,8 @@ use crate::grid::Grid;
 use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
 use crate::topology::{Method, NetId, Nets, Proximity, RectIndex, recover, surface};
 
-use super::hit::Hits;
-use super::machining::{Machining, Swept, with_radius};
-use super::milled;
-use super::pieces::{Extent, Part};
-use super::remains::{HINT, Remains, SMALL};
+use super::cut::Cut;
+use super::machining::{Machining, with_radius};
 use super::walls::Walls;
 use super::{Error, Settings};
 
@@ -35,15 +29,6 @@ pub(super) struct Sheet<'a> {
     pub(super) proximity: Proximity,
     /// All that is cut, program by program in order.
     pub(super) cuts: Vec<Cut<'a>>,
-    /// What is left, in connected pieces, of a picture with kerfs narrower by [`DOUBT`]: whatever
-    /// may hang together does.
-    pub(super) parts: Vec<Part>,
-    /// The same exactly, where the picture leaves a doubt.
-    pub(super) remains: Remains,
-    /// Where the cuts take copper of nets.
-    pub(super) hits: Hits,
-    /// Whether so many others run near a cut that not all is asked that would be.
-    pub(super) crowded: Vec<bool>,
     /// What bounds the copper that is left.
     pub(super) walls: Walls,
     /// Half the narrowest kerf.
@@ -63,13 +48,6 @@ pub(super) struct Places {
     pub(super) features: RectIndex,
 }
 
-/// A piece of what is cut, and whose it is.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Cut<'a> {
-    pub(super) program: &'a Machining,
-    pub(super) swept: &'a Swept,
-}
-
 /// What a picture shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Show {
@@ -82,24 +60,8 @@ pub(super) enum Show {
     Edge,
 }
 
-/// In pixels, how much narrower the cuts are drawn so that nothing that hangs together is missed.
-///
-/// A strip of a width of √2 pixels holds a row of pixel centres that share edges, whichever way it
-/// lies. A gap of any width between two cuts that are narrower by three quarters of a pixel each is
-/// wider than that.
-const DOUBT: f64 = 0.75;
-
-/// Ways, stretches of long ones each, of which no more may come near one for all to be asked.
-/// Chosen, and not compared with other numbers.
-const CROWD: usize = 300;
-
-/// How much narrower kerfs are drawn with pixels of `pitch`.
-pub(super) fn narrower(pitch: Nm) -> Nm {
-    Nm::from_f64(pitch.to_f64() * DOUBT)
-}
-
 impl<'a> Sheet<'a> {
-    /// Mills `copper` with `programs`.
+    /// `copper`, and what `programs` cut.
     pub(super) fn new(
         copper: &'a Copper,
         nets: Option<&'a Nets>,
@@ -121,50 +83,19 @@ impl<'a> Sheet<'a> {
             cuts: RectIndex::new(cuts.iter().map(|cut| cut.swept.shape.bounds())),
             features: RectIndex::new(copper.features.iter().map(|feature| feature.shape.bounds())),
         };
-        let mut sheet = Self {
+        Ok(Self {
             side: copper.side,
             copper,
             nets,
             proximity: Proximity::new(copper),
             cuts,
-            parts: Vec::new(),
-            remains: Remains::default(),
-            hits: Hits::default(),
-            crowded: Vec::new(),
             walls,
             half,
             floor,
             places,
             outline,
             grid,
-        };
-        sheet.parts = milled::pieces(&sheet, &sheet.grid, narrower(sheet.pitch()));
-        let lost = sheet.lost(settings);
-        sheet.hits = Hits::new(&sheet, &lost, settings.gouge);
-        sheet.crowded = sheet.crowded(settings);
-        sheet.remains = Remains::new(&sheet, &lost, settings);
-        Ok(sheet)
-    }
-
-    /// Beside which cuts more than a [`CROWD`] of others run.
-    fn crowded(&self, settings: &Settings) -> Vec<bool> {
-        let mut order = self.walls.order();
-        order.retain(|&wall| wall < self.cuts.len());
-        let is_crowded = |&cut: &usize| self.walls.count(cut, settings.sliver, CROWD) >= CROWD;
-        let found: Vec<bool> = order.par_iter().map(is_crowded).collect();
-        let mut crowded = vec![false; self.cuts.len()];
-        order.into_iter().zip(found).for_each(|(cut, is_crowded)| crowded[cut] = is_crowded);
-        crowded
-    }
-
-    /// The nets of which nothing is left beyond doubt: no piece that the picture shows, which shows
-    /// too much rather than too little, holds as much of it as could count.
-    fn lost(&self, settings: &Settings) -> BTreeSet<NetId> {
-        let is_something = |part: &&Part| self.mm2(part.pixels) >= settings.crumb * HINT * SMALL;
-        let left: BTreeSet<NetId> =
-            self.parts.iter().filter(is_something).filter_map(|part| Self::net(part.label)).collect();
-        let all = (0..).map(NetId).take(self.nets.nets().len());
-        all.filter(|net| !left.contains(net)).collect()
+        })
     }
 
     /// The pixel of its picture.
@@ -216,12 +147,6 @@ impl<'a> Sheet<'a> {
     /// The net that a label stands for.
     pub(super) fn net(label: u32) -> Option<NetId> {
         label.checked_sub(NETS).map(NetId)
-    }
-
-    /// The place of so many columns and rows.
-    pub(super) fn place(&self, extent: Extent) -> Rect {
-        let corner = |column: u32, row: u32| self.grid.corner(i64::from(column), i64::from(row));
-        Rect::new(corner(extent.left, extent.top), corner(extent.right + 1, extent.bottom + 1))
     }
 
     /// A picture of a part of it, of pixels of at least `pitch` and no more than `most` each way.

@@ -8,7 +8,7 @@ use crate::board::Shape;
 use crate::geometry::{Nm, Point, Polygon, Vector};
 use crate::topology::{Near, Proximity};
 
-use super::sheet::Cut;
+use super::cut::Cut;
 
 /// Cuts and the board's edge, to be asked what is near.
 pub(super) struct Walls {

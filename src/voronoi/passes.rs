@@ -97,8 +97,8 @@ impl Diagram {
         let further = if clearing.is_wanted() { widening.further(next, most) } else { Vec::new() };
         // What is to be cleared may be space that one net encloses, where passes did not run.
         let again: &[Nm] = if further.is_empty() || self.settings.enclosed { &[] } else { &levels };
-        // Where all is cleared, passes farther out lie a whole advance apart: what any leave is judged
-        // by that.
+        // Where all is cleared, passes farther out lie a whole advance apart: what any leave is
+        // judged by that.
         let near = levels.get(1).filter(|_| further.is_empty());
         let step = near.map_or(widening.advance(), |&second| second - levels[0]);
         // Loops at the first level are passes themselves.

@@ -329,7 +329,7 @@ fn spindle_and_drills_are_given_the_time_that_is_asked_for() {
 fn nets_may_have_a_strategy_of_their_own() {
     let cut = |settings: &str| {
         let (job, settings) = job("regulator", settings);
-        assert!(is_sound(&job, &settings), "{:?} isolate every net", settings.strategy_for);
+        assert!(is_sound(&job, &settings), "{:?} isolate every net", settings.options().strategy_for);
         cut_mm(&job, Part::Front)
     };
     let (voronoi, outline) = (cut(""), cut("strategy = \"outline\""));

@@ -65,7 +65,8 @@ fn every_option_with_a_counterpart_is_taken_over() {
         (Feed::from_mm_per_min(240), Feed::from_mm_per_min(60), 14_000),
         "speeds"
     );
-    assert_eq!((settings.safe, settings.strategy), (um(1500), Strategy::Voronoi), "zsafe and voronoi");
+    let strategy = settings.options().strategy;
+    assert_eq!((settings.safe, strategy), (um(1500), Some(Strategy::Voronoi)), "zsafe and voronoi");
     assert_eq!((settings.dialect.spin_up, settings.machine.spin_up), (2000, 2000), "spinup-time");
     assert_eq!(
         (settings.drilling.cut, settings.drill_tolerance, settings.drill_bore),
@@ -110,7 +111,11 @@ fn without_metric_bare_numbers_are_inches() {
     ));
     assert_eq!(made.isolation[0].heights.cut, Nm::new(76_200), "three thousandths");
     assert_eq!(made.isolation[0].tool.feed, Feed::from_mm_per_min(254), "ten inches a minute");
-    assert_eq!((made.strategy, made.dialect.name.as_ref()), (Strategy::Outline, "linuxcnc"), "outlines");
+    assert_eq!(
+        (made.options().strategy, made.dialect.name.as_ref()),
+        (Some(Strategy::Outline), "linuxcnc"),
+        "outlines"
+    );
     assert_eq!(made.cutout_tool.kind, ToolKind::EndMill { diameter: um(1000) }, "its own unit");
 }
 
@@ -251,13 +256,17 @@ fn a_width_of_metres_clears_everything_and_zero_is_no_mill() {
 #[test]
 fn without_voronoi_nets_are_outlined_as_far_off_as_the_offset_says() {
     let plain = settings(project("metric=1\nzwork=-0.1"));
-    assert_eq!((plain.strategy, plain.limit), (Strategy::Outline, None), "pcb2gcode's own default");
+    assert_eq!(
+        (plain.options().strategy, plain.limit),
+        (Some(Strategy::Outline), None),
+        "pcb2gcode's own default"
+    );
     let old = construct("offset").expect("a project");
     assert!(told(&old).contains("the mill is assumed to be twice as wide"), "{}", told(&old));
     let old = settings(old);
     assert_eq!(
-        (old.strategy, old.limit, old.kerf()),
-        (Strategy::Voronoi, Some(um(60)), um(120)),
+        (old.options().strategy, old.limit, old.kerf()),
+        (Some(Strategy::Voronoi), Some(um(60)), um(120)),
         "or midway"
     );
     let mill = settings(construct("offset-of-a-mill").expect("a project"));
@@ -267,11 +276,15 @@ fn without_voronoi_nets_are_outlined_as_far_off_as_the_offset_says() {
     let wide = settings(wide);
     assert_eq!((wide.limit, wide.kerf()), (Some(um(5000)), Nm::new(153_590)), "the usual tool fits");
     let voronoi = settings(project("voronoi=1\noffset=0.01"));
-    assert_eq!((voronoi.strategy, voronoi.limit), (Strategy::Voronoi, None), "midway, however far");
+    assert_eq!(
+        (voronoi.options().strategy, voronoi.limit),
+        (Some(Strategy::Voronoi), None),
+        "midway, however far"
+    );
     // What is said on the command line wins.
     let given = Options { strategy: Some(Strategy::Voronoi), ..Options::default() };
     let won = Settings::resolve(given.or(project("zwork=-0.1mm").options)).expect("settings");
-    assert_eq!(won.strategy, Strategy::Voronoi, "as asked");
+    assert_eq!(won.options().strategy, Some(Strategy::Voronoi), "as asked");
 }
 
 #[test]
@@ -317,10 +330,14 @@ fn own_code_the_way_round_and_one_drill_are_taken_over() {
         (&["M64 P0".to_owned()][..], &["M65 P0".to_owned()][..]),
         "line by line"
     );
-    assert_eq!(made.direction, Some(Direction::Conventional), "against the clock round what is kept");
     assert_eq!(
-        (made.park, made.tool_change),
-        (ToolChangeAt::Height(Length(Nm::from_mm(35))), None),
+        made.options().direction,
+        Some(Direction::Conventional),
+        "against the clock round what is kept"
+    );
+    assert_eq!(
+        (made.options().park, made.options().tool_change_at),
+        (Some(ToolChangeAt::Height(Length(Nm::from_mm(35)))), None),
         "zchange"
     );
     // The board's holes of three diameters, with one drill, which the judge expects.

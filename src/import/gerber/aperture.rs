@@ -9,7 +9,7 @@ use crate::board::polarity::{self, Polarity};
 use crate::geometry::{Nm, Point, Polygon, Vector};
 
 use super::figure::{Figure, Primitive, arc, area};
-use super::state::Linear;
+use super::linear::Linear;
 
 /// The hole of a standard aperture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

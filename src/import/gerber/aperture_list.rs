@@ -27,7 +27,7 @@ use crate::import::digest::sha256;
 use crate::import::error::printable;
 
 use super::aperture::Template;
-use super::state::{Format, Unit};
+use super::format::{Format, Unit};
 use prose::Prose;
 use row::{likely_unit, rows};
 
@@ -148,7 +148,7 @@ fn merge(before: &mut Entry, again: &Entry, line: u32) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::import::gerber::state::Zeros;
+    use crate::import::gerber::format::Zeros;
 
     fn described(text: &str) -> Vec<String> {
         let list = ApertureList::read("f.apt", text.as_bytes()).expect("a list");

@@ -5,11 +5,14 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use crate::geometry::Nm;
+use crate::import::error::printable;
 
-use super::expression::{Fault, Variables, evaluate};
+use super::expression::{self, Variables, evaluate};
+use super::fault::Fault;
 use super::figure::{Figure, Primitive, arc};
-use super::lex::{Block, Number, is_blank};
-use super::state::{Linear, Unit};
+use super::format::Unit;
+use super::lex::{Block, End, Lexer, Number, is_blank};
+use super::linear::Linear;
 
 /// The most vertices of a regular polygon, and the most rings of a moiré. The specification allows
 /// 12 vertices; tools have been seen to draw circles with a hundred.
@@ -18,22 +21,40 @@ pub(super) const VERTICES: u32 = 1000;
 /// A macro as the file defines it.
 #[derive(Clone, Debug)]
 pub(super) struct Macro<'a> {
+    pub(super) name: &'a [u8],
     /// The statements after the name.
-    pub(super) body: Vec<Block<'a>>,
+    body: Vec<Block<'a>>,
 }
 
-/// Why a macro could not be evaluated.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct MacroFault {
-    /// The bytes of the file.
-    pub(super) place: Range<usize>,
-    pub(super) what: String,
-    pub(super) expected: String,
-}
+impl<'a> Macro<'a> {
+    /// `AMDONUT*1,1,$1,0,0*1,0,$2,0,0*%`: the name is `block`, the statements are those up to the
+    /// `%`, which `lexer` has before it.
+    pub(super) fn read(block: &Block<'a>, lexer: &mut Lexer<'a>) -> Result<Self, Fault> {
+        let name = block.text[2..].trim_ascii();
+        let mut body = Vec::new();
+        while !lexer.percent_follows() {
+            let mut ahead = lexer.clone();
+            let Some(statement) = ahead.next().filter(|statement| statement.end != End::File) else {
+                let what = format!("the file ends within the aperture macro `{}`", printable(name));
+                return Err(Fault::new(what, "statements that end with `*`, and a `%` after the last"));
+            };
+            let starts = statement.text.first();
+            if !starts.is_some_and(|b| b.is_ascii_digit() || *b == b'$') {
+                break; // the `%` is missing, and the next command begins
+            }
+            *lexer = ahead;
+            body.push(statement);
+        }
+        Ok(Self { name, body })
+    }
 
-impl Macro<'_> {
     /// What the macro draws for these parameters.
-    pub(super) fn evaluate(&self, parameters: Vec<f64>, unit: Unit) -> Result<Vec<Primitive>, MacroFault> {
+    pub(super) fn evaluate(&self, parameters: Vec<f64>, unit: Unit) -> Result<Vec<Primitive>, Fault> {
+        let drawn = self.draw(parameters, unit);
+        drawn.map_err(|fault| fault.within(&format!("the aperture macro `{}`", printable(self.name))))
+    }
+
+    fn draw(&self, parameters: Vec<f64>, unit: Unit) -> Result<Vec<Primitive>, Fault> {
         let mut variables = Variables::new(parameters);
         let mut primitives = Vec::new();
         for block in &self.body {
@@ -54,21 +75,23 @@ struct Statement<'a> {
 }
 
 impl Statement<'_> {
-    fn fault(&self, what: impl Into<String>, expected: impl Into<String>) -> MacroFault {
-        MacroFault { place: self.block.place(), what: what.into(), expected: expected.into() }
+    fn fault(&self, what: impl Into<String>, expected: impl Into<String>) -> Fault {
+        Fault::new(what, expected).at(&self.block.place())
     }
 
     /// The value of the bytes `range` of the statement.
-    fn value(&self, range: Range<usize>, variables: &Variables) -> Result<f64, MacroFault> {
-        evaluate(&self.block.text[range.clone()], variables).map_err(|Fault { at, what, expected }| {
-            let start = self.block.start + range.start + at;
-            let place = start..(self.block.start + range.end).max(start + 1);
-            MacroFault { place, what: what.to_owned(), expected: expected.to_owned() }
-        })
+    fn value(&self, range: Range<usize>, variables: &Variables) -> Result<f64, Fault> {
+        evaluate(&self.block.text[range.clone()], variables).map_err(
+            |expression::Fault { at, what, expected }| {
+                let start = self.block.start + range.start + at;
+                let place = start..(self.block.start + range.end).max(start + 1);
+                Fault::new(what, expected).at(&place)
+            },
+        )
     }
 
     /// `$4=$1x0.5`.
-    fn assign(&self, variables: &mut Variables) -> Result<(), MacroFault> {
+    fn assign(&self, variables: &mut Variables) -> Result<(), Fault> {
         let text = self.block.text;
         let expected = "an assignment, such as `$4=$1x0.5`";
         let equals = text.iter().position(|&b| b == b'=');
@@ -84,7 +107,7 @@ impl Statement<'_> {
     }
 
     /// `code,value,value,…`
-    fn draw(&self, variables: &Variables, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn draw(&self, variables: &Variables, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         let text = self.block.text;
         let code_end = text.iter().position(|&b| b == b',').unwrap_or(text.len());
         if text.first() == Some(&b'0') && text.get(1).is_none_or(|b| !b.is_ascii_digit()) {
@@ -127,7 +150,7 @@ struct Modifiers<'a> {
 
 impl Modifiers<'_> {
     /// Checks that there are at least `count`; one more, the rotation, may be left out.
-    fn need(&self, count: usize, names: &str) -> Result<(), MacroFault> {
+    fn need(&self, count: usize, names: &str) -> Result<(), Fault> {
         let found = self.values.len();
         if found >= count {
             return Ok(());
@@ -156,7 +179,7 @@ impl Modifiers<'_> {
 
     /// The modifier at `index` as a count within `least`..=[`VERTICES`].
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked against the range")]
-    fn count(&self, index: usize, least: u32, what: &str) -> Result<u32, MacroFault> {
+    fn count(&self, index: usize, least: u32, what: &str) -> Result<u32, Fault> {
         let value = self.values[index].round();
         if value >= f64::from(least) && value <= f64::from(VERTICES) {
             return Ok(value as u32);
@@ -171,14 +194,14 @@ impl Modifiers<'_> {
         primitives.push(Primitive { exposed, figure: figure.rotated(rotation) });
     }
 
-    fn circle(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn circle(&self, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         self.need(4, "exposure, diameter, centre x, centre y, rotation")?;
         let disc = Figure::disc(self.place(2), self.length(1).abs() / 2.0);
         self.push(primitives, self.exposed(), disc, self.rotation(4));
         Ok(())
     }
 
-    fn vector_line(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn vector_line(&self, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         self.need(6, "exposure, width, start x, start y, end x, end y, rotation")?;
         let ((x0, y0), (x1, y1)) = (self.place(2), self.place(4));
         let (dx, dy) = (x1 - x0, y1 - y0);
@@ -192,14 +215,14 @@ impl Modifiers<'_> {
         Ok(())
     }
 
-    fn center_line(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn center_line(&self, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         self.need(5, "exposure, width, height, centre x, centre y, rotation")?;
         let rectangle = Figure::rectangle(self.place(3), self.length(1), self.length(2));
         self.push(primitives, self.exposed(), rectangle, self.rotation(5));
         Ok(())
     }
 
-    fn lower_left_line(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn lower_left_line(&self, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         self.need(5, "exposure, width, height, lower left x, lower left y, rotation")?;
         let ((x, y), width, height) = (self.place(3), self.length(1), self.length(2));
         let rectangle = Figure::rectangle((x + width / 2.0, y + height / 2.0), width, height);
@@ -212,7 +235,7 @@ impl Modifiers<'_> {
         clippy::cast_sign_loss,
         reason = "`as` saturates, then it is checked"
     )]
-    fn outline(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn outline(&self, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         let names = "exposure, number of vertices n, then n + 1 points and a rotation";
         self.need(4, names)?;
         let vertices = self.values[1].round();
@@ -227,7 +250,7 @@ impl Modifiers<'_> {
         Ok(())
     }
 
-    fn polygon(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn polygon(&self, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         self.need(5, "exposure, number of vertices, centre x, centre y, diameter, rotation")?;
         let vertices = self.count(1, 3, "vertices")?;
         let polygon = Figure::regular(self.place(2), self.length(4).abs() / 2.0, vertices, 0.0);
@@ -235,7 +258,7 @@ impl Modifiers<'_> {
         Ok(())
     }
 
-    fn moire(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn moire(&self, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         self.need(
             8,
             "centre x, centre y, outer diameter, ring thickness, gap, number of rings, cross-hair thickness and length, \
@@ -261,7 +284,7 @@ impl Modifiers<'_> {
     }
 
     /// A ring with a cross cut out: a quarter in each corner that the cross leaves.
-    fn thermal(&self, primitives: &mut Vec<Primitive>) -> Result<(), MacroFault> {
+    fn thermal(&self, primitives: &mut Vec<Primitive>) -> Result<(), Fault> {
         self.need(5, "centre x, centre y, outer diameter, inner diameter, gap, rotation")?;
         let (x, y) = self.place(0);
         let (outer, inner, half) = (self.length(2) / 2.0, self.length(3) / 2.0, self.length(4) / 2.0);

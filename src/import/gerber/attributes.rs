@@ -6,19 +6,24 @@ use std::borrow::Cow;
 use rustc_hash::FxHashMap;
 
 use crate::board;
+use crate::import::error::printable;
 
 /// The attributes in force, and the sets that objects refer to.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(super) struct Attributes {
     /// `.FileFunction`, its fields joined by commas.
-    pub(super) function: Option<String>,
+    function: Option<String>,
     /// Whether `.FilePolarity` is negative.
-    pub(super) negative: bool,
+    is_negative: bool,
     /// `.GenerationSoftware`, its fields joined by blanks.
-    pub(super) generator: Option<String>,
+    generator: Option<String>,
+    /// A comment that names a program.
+    signature: Option<String>,
     /// `.AperFunction` as apertures and regions defined now get it.
-    pub(super) aperture: Option<String>,
+    aperture: Option<String>,
     object: board::Attributes,
+    /// The number of the set of what is drawn now; none after something changed.
+    current: Option<u32>,
     sets: Vec<board::Attributes>,
     numbers: FxHashMap<board::Attributes, u32>,
 }
@@ -26,21 +31,41 @@ pub(super) struct Attributes {
 impl Attributes {
     pub(super) fn new() -> Self {
         let empty = board::Attributes::default();
-        Self {
-            function: None,
-            negative: false,
-            generator: None,
-            aperture: None,
-            object: empty.clone(),
-            sets: vec![empty.clone()],
-            numbers: FxHashMap::from_iter([(empty, 0)]),
+        let numbers = FxHashMap::from_iter([(empty.clone(), 0)]);
+        Self { sets: vec![empty], numbers, ..Self::default() }
+    }
+
+    /// Reads a comment: an attribute for readers of old, or a program that names itself.
+    pub(super) fn comment(&mut self, text: &[u8]) {
+        const PROGRAMS: [&str; 13] = [
+            "kicad",
+            "pcbnew",
+            "eagle",
+            "easyeda",
+            "altium",
+            "protel",
+            "geda",
+            "pcb,",
+            "orcad",
+            "diptrace",
+            "fritzing",
+            "upverter",
+            "created by",
+        ];
+        let text = text.trim_ascii();
+        if let Some(attribute) = text.strip_prefix(b"#@!") {
+            self.command(attribute.trim_ascii());
+        } else if self.signature.is_none() && text.len() < 200 {
+            let shown = printable(text);
+            let lower = shown.to_lowercase();
+            self.signature = PROGRAMS.iter().any(|program| lower.contains(program)).then_some(shown);
         }
     }
 
-    /// Reads `TO.N,GND` and the like; false where it is no attribute command.
-    pub(super) fn command(&mut self, text: &[u8]) -> bool {
+    /// Reads `TO.N,GND` and the like.
+    pub(super) fn command(&mut self, text: &[u8]) {
         let text = String::from_utf8_lossy(text);
-        let Some((kind, rest)) = text.split_at_checked(2) else { return false };
+        let Some((kind, rest)) = text.split_at_checked(2) else { return };
         let mut fields = rest.split(',').map(|field| decoded(field.trim()));
         let name = fields.next().unwrap_or_default();
         let values: Vec<String> = fields.map(Cow::into_owned).collect();
@@ -49,16 +74,15 @@ impl Attributes {
             "TA" if name == ".AperFunction" => self.aperture = Some(values.join(",")),
             "TO" => self.object(&name, &values),
             "TD" => self.delete(&name),
-            "TA" => {}
-            _ => return false,
+            _ => {}
         }
-        true
+        self.forget();
     }
 
     fn file(&mut self, name: &str, values: &[String]) {
         match name {
             ".FileFunction" => self.function = Some(values.join(",")),
-            ".FilePolarity" => self.negative = values.first().is_some_and(|value| value == "Negative"),
+            ".FilePolarity" => self.is_negative = values.first().is_some_and(|value| value == "Negative"),
             ".GenerationSoftware" => self.generator = Some(values.join(" ").trim().to_owned()),
             _ => {}
         }
@@ -86,16 +110,51 @@ impl Attributes {
         }
     }
 
-    /// The number of the set of an object drawn now, with an aperture of this function.
-    pub(super) fn set(&mut self, function: Option<&str>) -> u32 {
-        let set = board::Attributes { function: function.map(str::to_owned), ..self.object.clone() };
-        if let Some(&number) = self.numbers.get(&set) {
-            return number;
+    /// To be called when the aperture in use changed, or a region begins or ends.
+    pub(super) const fn forget(&mut self) {
+        self.current = None;
+    }
+
+    /// The number of the set of an object drawn now, with an aperture of this function; of a
+    /// contour, where there is no aperture.
+    pub(super) fn set<'a>(&mut self, function: impl FnOnce() -> Option<Option<&'a str>>) -> u32 {
+        if let Some(current) = self.current {
+            return current;
         }
-        let number = u32::try_from(self.sets.len()).unwrap_or(0);
-        self.sets.push(set.clone());
-        self.numbers.insert(set, number);
+        let function = function().map_or_else(|| self.aperture.clone(), |own| own.map(str::to_owned));
+        let set = board::Attributes { function, ..self.object.clone() };
+        let number = self.numbers.get(&set).copied().unwrap_or_else(|| {
+            let number = u32::try_from(self.sets.len()).unwrap_or(0);
+            self.sets.push(set.clone());
+            self.numbers.insert(set, number);
+            number
+        });
+        self.current = Some(number);
         number
+    }
+
+    /// The `.AperFunction` of an aperture that is defined now.
+    pub(super) fn aperture(&self) -> Option<String> {
+        self.aperture.clone()
+    }
+
+    pub(super) const fn function(&self) -> Option<&String> {
+        self.function.as_ref()
+    }
+
+    /// Whether the file declares that it shows what is no copper.
+    pub(super) const fn is_negative(&self) -> bool {
+        self.is_negative
+    }
+
+    /// Whether attributes tell of the file, which those of X2 do.
+    pub(super) const fn are_of_file(&self) -> bool {
+        self.function.is_some() || self.generator.is_some()
+    }
+
+    /// The program that wrote the file.
+    pub(super) fn generator(&self) -> Option<String> {
+        self.generator.clone().or_else(|| self.signature.clone())
     }
 
     /// All sets, by number; the first is empty.
@@ -136,12 +195,11 @@ mod tests {
     fn an_object_keeps_the_attributes_in_force() {
         let mut attributes = Attributes::new();
         for command in ["TO.N,/Data\\u002C0", "TO.P,U1,3,IN", "TA.AperFunction,SMDPad,CuDef"] {
-            assert!(attributes.command(command.as_bytes()), "{command}");
+            attributes.command(command.as_bytes());
         }
-        let function = attributes.aperture.clone();
-        let set = attributes.set(function.as_deref());
-        assert!(attributes.command(b"TD"), "delete all");
-        assert_eq!(attributes.set(None), 0, "nothing in force");
+        let set = attributes.set(|| None);
+        attributes.command(b"TD");
+        assert_eq!(attributes.set(|| Some(None)), 0, "nothing in force");
         let sets = attributes.into_sets();
         let found = &sets[set as usize];
         assert_eq!(found.net.as_deref(), Some("/Data,0"), "the escape is a comma of the name");

@@ -6,7 +6,8 @@ use crate::board::polarity::Polarity;
 use crate::board::{Axis, Feature, Shape};
 use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Vector};
 
-use super::state::Linear;
+use super::fault::Fault;
+use super::linear::Linear;
 
 /// An object of the image: a feature, and whether it adds or erases.
 pub(super) type Object = (Feature, Polarity);
@@ -29,27 +30,23 @@ pub(super) enum Refusal {
     Tangled,
 }
 
-impl Refusal {
-    /// What is wrong, and what was expected.
-    pub(super) fn describe(&self) -> (String, String) {
-        match self {
-            Self::Features(limit) => (
-                "this file expands to too many features".to_owned(),
+impl From<Refusal> for Fault {
+    fn from(refusal: Refusal) -> Self {
+        match refusal {
+            Refusal::Features(limit) => Self::new(
+                "this file expands to too many features",
                 format!("at most {limit} features, repeats and blocks expanded"),
             ),
-            Self::Vertices(limit) => (
-                "this file expands to too many polygon vertices".to_owned(),
+            Refusal::Vertices(limit) => Self::new(
+                "this file expands to too many polygon vertices",
                 format!("at most {limit} vertices, repeats and blocks expanded"),
             ),
-            Self::Range => {
-                ("this object is out of range".to_owned(), "copper within ±1073.741823 mm".to_owned())
+            Refusal::Range => Self::new("this object is out of range", "copper within ±1073.741823 mm"),
+            Refusal::Tangled => {
+                Self::new("this outline crosses itself too often", "an outline that does not cross itself")
             }
-            Self::Tangled => (
-                "this outline crosses itself too often".to_owned(),
-                "an outline that does not cross itself".to_owned(),
-            ),
-            Self::Depth(limit) => {
-                ("blocks are nested too deep".to_owned(), format!("at most {limit} open %AB and %SR"))
+            Refusal::Depth(limit) => {
+                Self::new("blocks are nested too deep", format!("at most {limit} open %AB and %SR"))
             }
         }
     }
@@ -193,6 +190,12 @@ impl Canvas {
 fn in_range(bounds: Rect) -> bool {
     let (low, high) = (bounds.min(), bounds.max());
     low.x.min(low.y) >= Nm::MIN && high.x.max(high.y) <= Nm::MAX
+}
+
+/// `p`, unless it lies beyond the range of coordinates.
+pub(super) fn in_reach(p: Point) -> Result<Point, Refusal> {
+    let reaches = Nm::try_new(p.x.get()).is_ok() && Nm::try_new(p.y.get()).is_ok();
+    if reaches { Ok(p) } else { Err(Refusal::Range) }
 }
 
 /// The image of `feature` under `linear`, then moved by `way`.

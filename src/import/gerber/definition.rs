@@ -1,138 +1,78 @@
-//! Aperture and macro definitions (AD, AM; specification §4.3 to §4.5).
-
-use std::ops::Range;
+//! Aperture definitions (AD; specification §4.3 and §4.4).
 
 use crate::geometry::Nm;
 use crate::import::diagnostic;
+use crate::import::error::printable;
 
-use super::super::error::{Error, printable};
 use super::aperture::{Hole, Template};
-use super::aperture_macro::{Macro, MacroFault, VERTICES};
-use super::lex::{Block, End, Number, is_blank};
-use super::reader::{Aperture, Malformed, Reader};
-use super::state::Unit;
+use super::aperture_macro::VERTICES;
+use super::fault::{Fault, Here};
+use super::format::Unit;
+use super::lex::{Number, is_blank};
 
-impl<'a> Reader<'a> {
-    /// Defines an aperture, or keeps what is wrong with it until it is selected.
-    pub(super) fn define(&mut self, text: &[u8], place: Range<usize>) {
-        if let Err(error) = self.define_aperture(text, place.clone()) {
-            let number =
-                text.strip_prefix(b"D").and_then(Number::read).and_then(|(number, _)| number.to_integer());
-            let number = number.and_then(|number| u32::try_from(number).ok());
-            if let Some(number) = number {
-                self.apertures.remove(&number);
-                self.forget_aperture(number);
-            }
-            self.malformed.push(Malformed { number, place, error });
-        }
+/// `ADD10C,0.25` as it is written.
+#[derive(Debug)]
+pub(super) struct Definition {
+    pub(super) number: u32,
+    /// C, R, O, P or a macro.
+    pub(super) name: Vec<u8>,
+    pub(super) parameters: Vec<Number>,
+}
+
+/// The number of an aperture, `D10`, which `text` begins with, and how many bytes it takes.
+fn numbered(text: &[u8]) -> Option<(Number, usize)> {
+    let (number, length) = Number::read(text.strip_prefix(b"D")?)?;
+    Some((number, 1 + length))
+}
+
+impl Definition {
+    /// Reads `D10C,0.25`; of one that cannot be read, its number where that can.
+    pub(super) fn read(text: &[u8]) -> Result<Self, (Option<u32>, Fault)> {
+        let number = numbered(text).and_then(|(number, _)| u32::try_from(number.to_integer()?).ok());
+        Self::read_all(text).map_err(|fault| (number, fault))
     }
 
-    /// Why aperture `number` cannot be selected, where its last definition cannot be read.
-    pub(super) fn malformed(&self, number: u32) -> Option<Error> {
-        let of = |malformed: &&Malformed| malformed.number == Some(number);
-        self.malformed.iter().rfind(of).map(|malformed| malformed.error.clone())
-    }
-
-    /// Says what is wrong with apertures that nothing selects.
-    pub(super) fn explain_malformed(&mut self) {
-        for Malformed { place, error, .. } in std::mem::take(&mut self.malformed) {
-            let what = match &error {
-                Error::Syntax(diagnosis) => diagnosis.what.clone(),
-                Error::Content { what, .. } => what.to_string(),
-            };
-            let message = format!("{what}; this aperture is never selected and is ignored");
-            self.warnings.add(&diagnostic::MALFORMED_APERTURE, place, message);
-        }
-    }
-
-    /// `ADD10C,0.25`
-    fn define_aperture(&mut self, text: &[u8], place: Range<usize>) -> Result<(), Error> {
+    fn read_all(text: &[u8]) -> Result<Self, Fault> {
         let expected = "an aperture definition, such as `%ADD10C,0.25*%`";
-        let read = text.strip_prefix(b"D").and_then(Number::read);
         let (number, length) =
-            read.ok_or_else(|| self.error(place.clone(), "this aperture has no number", expected, ""))?;
-        let number = number.to_integer().and_then(|n| u32::try_from(n).ok()).filter(|n| *n >= 10);
+            numbered(text).ok_or_else(|| Fault::new("this aperture has no number", expected))?;
         let number =
-            number.ok_or_else(|| self.error(place.clone(), "aperture numbers begin at D10", expected, ""))?;
-        let text = &text[1 + length..];
-        let (name, parameters) = match text.iter().position(|&b| b == b',') {
+            aperture_number(number).ok_or_else(|| Fault::new("aperture numbers begin at D10", expected))?;
+        let text = &text[length..];
+        let (name, fields) = match text.iter().position(|&b| b == b',') {
             Some(comma) => (&text[..comma], &text[comma + 1..]),
             None => (text, &text[text.len()..]),
         };
-        let template = self.template(name.trim_ascii(), parameters, &place)?;
-        let function = self.attributes.aperture.clone();
-        if self.apertures.insert(number, Aperture::new(template, function)).is_some() {
-            let message = format!("aperture D{number} is defined twice; what follows uses the later one");
-            self.warnings.add(&diagnostic::APERTURE_DEFINED_TWICE, place, message);
-        }
-        self.forget_aperture(number);
-        Ok(())
-    }
-
-    pub(super) fn template(
-        &mut self,
-        name: &[u8],
-        parameters: &[u8],
-        place: &Range<usize>,
-    ) -> Result<Template, Error> {
-        let mut numbers = Vec::new();
-        for field in parameters.split(|b| matches!(b, b'X' | b'x')) {
-            if field.iter().all(|&b| is_blank(b)) {
-                continue;
-            }
-            let number = Number::whole(field).ok_or_else(|| {
+        let fields = fields.split(|b| matches!(b, b'X' | b'x'));
+        let parameters = fields.filter(|field| !field.iter().all(|&b| is_blank(b))).map(|field| {
+            Number::whole(field).ok_or_else(|| {
                 let what = format!("`{}` is not a number", printable(field));
-                self.error(
-                    place.clone(),
-                    what,
-                    "decimal numbers with `X` between them, as in `R,1.5X0.6`",
-                    "",
-                )
-            })?;
-            numbers.push(number);
-        }
-        let unit = self.unit(place)?;
-        match name {
-            b"C" | b"R" | b"O"
-                if numbers.iter().skip(usize::from(name != b"C") + 1).any(|n| n.mantissa < 0) =>
-            {
-                let message = "the hole of an aperture has a negative size; the hole is ignored";
-                self.warnings.add(&diagnostic::NEGATIVE_HOLE, place.clone(), message);
-                self.standard(name[0], &numbers, unit, place)
-            }
-            b"C" | b"R" | b"O" | b"P" => self.standard(name[0], &numbers, unit, place),
-            _ => {
-                let definition = self.macros.get(name).ok_or_else(|| {
-                    let what = format!("the aperture macro `{}` is not defined", printable(name));
-                    let expected = "C, R, O, P or a macro that %AM defines before it";
-                    self.error(place.clone(), what, expected, "")
-                })?;
-                let parameters = numbers.iter().map(|number| number.to_f64()).collect();
-                let primitives = definition.evaluate(parameters, unit);
-                let primitives = primitives.map_err(|MacroFault { place, what, expected }| {
-                    let name = printable(name);
-                    self.error(place, format!("in the aperture macro `{name}`: {what}"), expected, "")
-                })?;
-                Ok(Template::Macro { name: printable(name), primitives })
-            }
-        }
+                Fault::new(what, "decimal numbers with `X` between them, as in `R,1.5X0.6`")
+            })
+        });
+        Ok(Self {
+            number,
+            name: name.trim_ascii().to_vec(),
+            parameters: parameters.collect::<Result<_, _>>()?,
+        })
     }
 
-    pub(super) fn standard(
-        &self,
-        name: u8,
-        numbers: &[Number],
-        unit: Unit,
-        place: &Range<usize>,
-    ) -> Result<Template, Error> {
+    /// The standard aperture C, R, O or P that it defines; none where it uses a macro.
+    pub(super) fn standard(&self, unit: Unit, here: &mut Here<'_, '_>) -> Result<Option<Template>, Fault> {
+        let (name, numbers) = (self.name.as_slice(), self.parameters.as_slice());
         let (least, expected) = match name {
-            b'C' => (1, "a diameter, and optionally that of a hole: `C,1.5X0.8`"),
-            b'P' => {
+            b"C" => (1, "a diameter, and optionally that of a hole: `C,1.5X0.8`"),
+            b"P" => {
                 (2, "a diameter, a number of vertices, and optionally a rotation and a hole: `P,1.5X6X30`")
             }
-            _ => (2, "a width and a height, and optionally the diameter of a hole: `R,1.5X0.6`"),
+            b"R" | b"O" => (2, "a width and a height, and optionally the diameter of a hole: `R,1.5X0.6`"),
+            _ => return Ok(None),
         };
-        let fault = |what: &str| self.error(place.clone(), what, expected, "");
+        if name != b"P" && numbers.iter().skip(least).any(|n| n.mantissa < 0) {
+            let message = "the hole of an aperture has a negative size; the hole is ignored";
+            here.warn(&diagnostic::NEGATIVE_HOLE, message);
+        }
+        let fault = |what: &str| Fault::new(what, expected);
         if numbers.len() < least {
             return Err(fault("this aperture has too few parameters"));
         }
@@ -140,7 +80,7 @@ impl<'a> Reader<'a> {
             let length = unit.length(*number).filter(|length| *length >= Nm::ZERO);
             length.ok_or_else(|| fault("this is not an aperture size: negative, or above one metre"))
         };
-        let hole = |rest: &[Number]| {
+        let hole = |rest: &[Number]| -> Result<Hole, Fault> {
             Ok(match rest {
                 [] => Hole::None,
                 [width, ..] if width.mantissa <= 0 => Hole::None,
@@ -148,9 +88,9 @@ impl<'a> Reader<'a> {
                 [width, height, ..] => Hole::Rectangular(length(width)?, length(height)?),
             })
         };
-        Ok(match name {
-            b'C' => Template::Circle { diameter: length(&numbers[0])?, hole: hole(&numbers[1..])? },
-            b'P' => {
+        Ok(Some(match name {
+            b"C" => Template::Circle { diameter: length(&numbers[0])?, hole: hole(&numbers[1..])? },
+            b"P" => {
                 let vertices = numbers[1].to_integer().and_then(|n| u32::try_from(n).ok());
                 let vertices = vertices
                     .filter(|n| (3..=VERTICES).contains(n))
@@ -162,43 +102,17 @@ impl<'a> Reader<'a> {
             _ => {
                 let (width, height) = (length(&numbers[0])?, length(&numbers[1])?);
                 let hole = hole(&numbers[2..])?;
-                if name == b'R' {
+                if name == b"R" {
                     Template::Rectangle { width, height, hole }
                 } else {
                     Template::Obround { width, height, hole }
                 }
             }
-        })
+        }))
     }
+}
 
-    /// `AMDONUT*1,1,$1,0,0*1,0,$2,0,0*%`: the name is this block, the statements are those up to
-    /// the `%`.
-    pub(super) fn define_macro(&mut self, block: Block<'a>) -> Result<(), Error> {
-        let name = block.text[2..].trim_ascii();
-        let mut body = Vec::new();
-        while !self.lexer.percent_follows() {
-            let mut ahead = self.lexer.clone();
-            let Some(statement) = ahead.next().filter(|statement| statement.end != End::File) else {
-                let place = block.place();
-                let what = format!("the file ends within the aperture macro `{}`", printable(name));
-                return Err(self.error(
-                    place,
-                    what,
-                    "statements that end with `*`, and a `%` after the last",
-                    "",
-                ));
-            };
-            let starts = statement.text.first();
-            if !starts.is_some_and(|b| b.is_ascii_digit() || *b == b'$') {
-                break; // the `%` is missing, and the next command begins
-            }
-            self.lexer = ahead;
-            body.push(statement);
-        }
-        if self.macros.insert(name, Macro { body }).is_some() {
-            let message = format!("the aperture macro `{}` is defined twice", printable(name));
-            self.warnings.add(&diagnostic::MACRO_DEFINED_TWICE, block.place(), message);
-        }
-        Ok(())
-    }
+/// The number of an aperture: those below 10 are operations.
+pub(super) fn aperture_number(number: Number) -> Option<u32> {
+    u32::try_from(number.to_integer()?).ok().filter(|n| *n >= 10)
 }

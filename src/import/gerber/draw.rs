@@ -1,10 +1,10 @@
 //! What an aperture leaves behind when flashed, drawn along a line or drawn along an arc.
 
-use crate::board::{FLATTEN, Shape, polarity};
-use crate::geometry::{Arc, Point, Polygon};
+use crate::board::{Axis, FLATTEN, Shape, polarity};
+use crate::geometry::{Arc, Nm, Point, Polygon, Rect};
 
 use super::aperture::Form;
-use super::canvas::stroke;
+use super::canvas::{Refusal, stroke};
 
 /// The copper of `form` flashed at `at`.
 pub(super) fn flash(form: &Form, at: Point) -> Vec<Shape> {
@@ -16,6 +16,28 @@ pub(super) fn flash(form: &Form, at: Point) -> Vec<Shape> {
             pieces.iter().map(|piece| Shape::Polygon(piece.translated(way))).collect()
         }
     }
+}
+
+/// Checks that `form`, drawn along `axis`, stays in the range of coordinates.
+pub(super) fn check_reach(form: &Form, axis: Axis) -> Result<(), Refusal> {
+    let own = match form {
+        Form::Disc(_) => return Ok(()),
+        Form::Obround { half, radius } => {
+            Rect::new(Point::default() - *half, Point::default() + *half).inflate(*radius)
+        }
+        Form::Area { hull, .. } => match Rect::around(hull.iter().copied()) {
+            Some(own) => own,
+            None => return Ok(()),
+        },
+    };
+    let bounds = match axis {
+        Axis::Line(from, to) => Rect::new(from, to),
+        Axis::Arc(arc) => arc.bounds(),
+        Axis::Flash(_) | Axis::Region => return Ok(()),
+    };
+    let low = (bounds.min().x + own.min().x).min(bounds.min().y + own.min().y);
+    let high = (bounds.max().x + own.max().x).max(bounds.max().y + own.max().y);
+    if low >= Nm::MIN && high <= Nm::MAX { Ok(()) } else { Err(Refusal::Range) }
 }
 
 /// The copper of `form` drawn along a line: exact for circles and convex apertures such as

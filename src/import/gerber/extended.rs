@@ -1,112 +1,99 @@
-//! The commands between `%` (specification §4; the deprecated ones §8).
+//! The commands between `%`, which begin with two letters (specification §4; those of old §8).
 
-use std::borrow::Cow;
-use std::ops::Range;
-
-use crate::geometry::Nm;
+use crate::board::polarity::Polarity;
 use crate::import::diagnostic;
+use crate::import::error::printable;
 
-use super::super::error::{Error, printable};
-use super::lex::{Block, Number, is_blank};
-use super::reader::Reader;
+use super::aperture_macro::Macro;
+use super::command::{Command, Said};
+use super::definition::{Definition, aperture_number};
+use super::fault::Fault;
+use super::fields::Fields;
+use super::format::{Format, Unit};
+use super::lex::{Block, Lexer, Number, is_blank, one_line};
+use super::transformation::Change;
+use super::words::unknown;
 
-/// A field of a command that has such letters: `A1.5B2`.
-pub(super) type Field = (u8, Number);
-
-impl<'a> Reader<'a> {
-    /// A command that begins with two letters.
-    pub(super) fn extended(&mut self, block: Block<'a>) -> Result<(), Error> {
-        let (code, rest) = block.text.split_at(2);
-        let rest = one_line(rest);
-        let rest = rest.as_ref();
-        let place = block.place();
-        match code {
-            b"FS" => self.format_statement(rest, place),
-            b"MO" => self.unit_statement(rest, place),
-            b"AD" => {
-                self.define(rest, place);
-                Ok(())
-            }
-            b"AM" => self.define_macro(block),
-            b"AB" => self.block_aperture(rest, place),
-            b"SR" => self.repeat(rest, place),
-            b"LP" => self.load_polarity(rest, place),
-            b"LM" | b"LR" | b"LS" => self.load_transformation(code, rest, place),
-            b"TF" | b"TA" | b"TO" | b"TD" => {
-                let text = one_line(block.text);
-                self.attributes.command(text.as_ref());
-                self.forget_set();
-                Ok(())
-            }
-            b"IP" => self.image_polarity(rest, place),
-            b"AS" | b"MI" | b"OF" | b"SF" | b"IR" => self.place_statement(code, rest, place),
-            // Names, of the image and of what follows; the plotter's film.
-            b"IN" | b"LN" | b"PF" => Ok(()),
-            // The code of the file's characters, which is ASCII if it can be read at all; and what
-            // says nothing but the default.
-            b"IC" if rest.eq_ignore_ascii_case(b"AS") => Ok(()),
-            b"IO" | b"RO" if rest.iter().all(|b| b"AB0.+-".contains(b) || is_blank(*b)) => Ok(()),
-            b"IJ" if rest.iter().all(|b| b"ABL".contains(b) || is_blank(*b)) => Ok(()),
-            b"IC" | b"IJ" | b"IO" | b"RO" => {
-                let code = printable(code);
-                let message = format!("%{code} is not supported and is ignored");
-                self.warnings.add(&diagnostic::UNKNOWN_COMMAND, place, message);
-                Ok(())
-            }
-            b"KO" => Err(self.error(place, "%KO, knockout, is not supported", "%LPC and %LPD", "")),
-            b"IF" => {
-                let hint = "put the content of the other file in its place";
-                Err(self.error(
-                    place,
-                    "%IF includes another file, which is not supported",
-                    "a file without includes",
-                    hint,
-                ))
-            }
-            _ => {
-                let shown = printable(&block.text[..block.text.len().min(20)]);
-                let message = format!("`{shown}` is not a known command; it is ignored");
-                self.warnings.add(&diagnostic::UNKNOWN_COMMAND, place, message);
-                Ok(())
+/// Adds to `said` what `block` says; a macro takes its statements from `lexer`.
+pub(super) fn read<'a>(
+    block: &Block<'a>,
+    lexer: &mut Lexer<'a>,
+    said: &mut Vec<Said<'a>>,
+) -> Result<(), Fault> {
+    let (code, rest) = block.text.split_at(2);
+    let rest = one_line(rest);
+    let rest = rest.as_ref();
+    let word = rest.trim_ascii();
+    let fault = |what: &str, expected: &str| Err(Fault::new(what, expected));
+    let command = match (code, word) {
+        (b"FS", _) => Command::Format(Format::read(rest)?),
+        (b"MO", b"MM") => Command::Unit(Unit::Millimetre),
+        (b"MO", b"IN") => Command::Unit(Unit::Inch),
+        (b"MO", _) => return fault("this unit is unknown", "`%MOMM*%` or `%MOIN*%`"),
+        (b"AD", _) => Definition::read(rest)
+            .map_or_else(|(number, fault)| Command::Malformed(number, fault), Command::Define),
+        (b"AM", _) => Command::Macro(Macro::read(block, lexer)?),
+        (b"AB", _) if rest.iter().all(|&b| is_blank(b)) => Command::CloseBlock,
+        (b"AB", _) => {
+            let number = rest.strip_prefix(b"D").and_then(Number::whole).and_then(aperture_number);
+            Command::OpenBlock(number.ok_or_else(|| {
+                Fault::new("this block has no number", "an aperture number, as in `%ABD12*%`")
+            })?)
+        }
+        (b"SR", _) => {
+            said.push(Said::of(block, Command::CloseRepeat));
+            match repeat(rest)? {
+                Command::OpenRepeat((1, 1), _) => return Ok(()),
+                repeat => repeat,
             }
         }
-    }
-
-    /// A length, zero where it is left out.
-    pub(super) fn optional(&mut self, number: Option<Number>, place: &Range<usize>) -> Result<Nm, Error> {
-        let Some(number) = number else { return Ok(Nm::ZERO) };
-        let unit = self.unit(place)?;
-        unit.length(number).ok_or_else(|| {
-            self.error(place.clone(), "this length is out of range", "at most 1073.741823 mm", "")
-        })
-    }
-
-    /// Letters, each with a number.
-    pub(super) fn fields(&self, text: &[u8], place: &Range<usize>) -> Result<Vec<Field>, Error> {
-        let mut fields = Vec::new();
-        let mut at = 0;
-        while let Some(&letter) = text.get(at) {
-            at += 1;
-            if is_blank(letter) {
-                continue;
-            }
-            let read = if letter.is_ascii_alphabetic() { Number::read(&text[at..]) } else { None };
-            let (number, length) = read.ok_or_else(|| {
-                self.error(place.clone(), "this command cannot be read", "letters, each with a number", "")
-            })?;
-            fields.push((letter.to_ascii_uppercase(), number));
-            at += length;
+        (b"LP", b"D") => Command::Polarity(Polarity::Dark),
+        (b"LP", b"C") => Command::Polarity(Polarity::Clear),
+        (b"LP", _) => return fault("this polarity is unknown", "`%LPD*%` or `%LPC*%`"),
+        (b"LM" | b"LR" | b"LS" | b"AS" | b"MI" | b"SF" | b"IR", _) => {
+            Command::Transform(Change::read(code, rest)?)
         }
-        Ok(fields)
-    }
+        (b"OF", _) => {
+            let fields = Fields::read(word)?;
+            Command::Offset((fields.get(b'A'), fields.get(b'B')))
+        }
+        (b"TF" | b"TA" | b"TO" | b"TD", _) => Command::Attribute(one_line(block.text)),
+        (b"IP", b"POS") => Command::Negative(false),
+        (b"IP", b"NEG") => Command::Negative(true),
+        (b"IP", _) => return fault("this image polarity is unknown", "`%IPPOS*%` or `%IPNEG*%`"),
+        // Names, of the image and of what follows; the plotter's film.
+        (b"IN" | b"LN" | b"PF", _) => return Ok(()),
+        // The code of the file's characters, which is ASCII if it can be read at all; and what
+        // says nothing but the default.
+        (b"IC", _) if rest.eq_ignore_ascii_case(b"AS") => return Ok(()),
+        (b"IO" | b"RO", _) if rest.iter().all(|b| b"AB0.+-".contains(b) || is_blank(*b)) => return Ok(()),
+        (b"IJ", _) if rest.iter().all(|b| b"ABL".contains(b) || is_blank(*b)) => return Ok(()),
+        (b"IC" | b"IJ" | b"IO" | b"RO", _) => {
+            let message = format!("%{} is not supported and is ignored", printable(code));
+            Command::Remark(&diagnostic::UNKNOWN_COMMAND, message.into())
+        }
+        (b"KO", _) => return fault("%KO, knockout, is not supported", "%LPC and %LPD"),
+        (b"IF", _) => {
+            let what = "%IF includes another file, which is not supported";
+            let hint = "put the content of the other file in its place";
+            return Err(Fault::new(what, "a file without includes").hint(hint));
+        }
+        _ => Command::Remark(&diagnostic::UNKNOWN_COMMAND, unknown(block.text).into()),
+    };
+    said.push(Said::of(block, command));
+    Ok(())
 }
 
-/// The text without line ends, which may stand anywhere in a command.
-pub(super) fn one_line(text: &[u8]) -> Cow<'_, [u8]> {
-    let is_end = |b: &u8| matches!(b, b'\r' | b'\n' | 0);
-    if text.iter().any(is_end) {
-        Cow::Owned(text.iter().copied().filter(|b| !is_end(b)).collect())
-    } else {
-        Cow::Borrowed(text)
-    }
+/// `SRX2Y3I4.0J3.0`
+fn repeat(text: &[u8]) -> Result<Command<'static>, Fault> {
+    let fields = Fields::read(text)?;
+    let copies = |letter: u8| match fields.get(letter) {
+        None => Some(1),
+        Some(number) => number.to_integer().and_then(|n| u32::try_from(n).ok()).filter(|n| *n >= 1),
+    };
+    let (Some(x), Some(y)) = (copies(b'X'), copies(b'Y')) else {
+        let expected = "numbers of copies in x and y, as in `%SRX2Y3I4.0J3.0*%`";
+        return Err(Fault::new("this is not a number of copies", expected));
+    };
+    Ok(Command::OpenRepeat((x, y), (fields.get(b'I'), fields.get(b'J'))))
 }

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use crate::board::{FLATTEN, polarity};
 use crate::geometry::{Point, Polygon};
 
-use super::state::Linear;
+use super::linear::Linear;
 
 /// A place relative to an aperture's origin, in nanometres.
 pub(super) type Place = (f64, f64);

@@ -5,6 +5,7 @@
 //! begin with two letters, all other blocks with a letter and a number. So a `%` too many or too
 //! few cannot turn the meaning of what follows, and is only looked at where an aperture macro ends.
 
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// A piece of the file up to a `*`.
@@ -54,8 +55,32 @@ impl<'a> Lexer<'a> {
         Self { bytes, at, line: 1 }
     }
 
-    /// The next block; none at the end of the file.
-    pub(super) fn next(&mut self) -> Option<Block<'a>> {
+    /// Whether the next thing that is not white space is a `%`: the end of an extended command.
+    pub(super) fn percent_follows(&mut self) -> bool {
+        while self.at < self.bytes.len() && is_blank(self.bytes[self.at]) {
+            self.step();
+        }
+        self.bytes.get(self.at) == Some(&b'%')
+    }
+
+    /// How many bytes have been read.
+    pub(super) const fn position(&self) -> usize {
+        self.at
+    }
+
+    fn step(&mut self) {
+        let byte = self.bytes[self.at];
+        self.at += 1;
+        if byte == b'\n' || (byte == b'\r' && self.bytes.get(self.at) != Some(&b'\n')) {
+            self.line = self.line.saturating_add(1);
+        }
+    }
+}
+
+impl<'a> Iterator for Lexer<'a> {
+    type Item = Block<'a>;
+
+    fn next(&mut self) -> Option<Self::Item> {
         let mut percents = 0;
         while let Some(&byte) = self.bytes.get(self.at).filter(|&&b| is_blank(b) || b == b'%') {
             percents += u32::from(byte == b'%');
@@ -81,26 +106,15 @@ impl<'a> Lexer<'a> {
         }
         Some(Block { text, start, line, percents, end })
     }
+}
 
-    /// Whether the next thing that is not white space is a `%`: the end of an extended command.
-    pub(super) fn percent_follows(&mut self) -> bool {
-        while self.at < self.bytes.len() && is_blank(self.bytes[self.at]) {
-            self.step();
-        }
-        self.bytes.get(self.at) == Some(&b'%')
-    }
-
-    /// How many bytes have been read.
-    pub(super) const fn position(&self) -> usize {
-        self.at
-    }
-
-    fn step(&mut self) {
-        let byte = self.bytes[self.at];
-        self.at += 1;
-        if byte == b'\n' || (byte == b'\r' && self.bytes.get(self.at) != Some(&b'\n')) {
-            self.line = self.line.saturating_add(1);
-        }
+/// The text without line ends, which may stand anywhere in a command.
+pub(super) fn one_line(text: &[u8]) -> Cow<'_, [u8]> {
+    let is_end = |b: &u8| matches!(b, b'\r' | b'\n' | 0);
+    if text.iter().any(is_end) {
+        Cow::Owned(text.iter().copied().filter(|b| !is_end(b)).collect())
+    } else {
+        Cow::Borrowed(text)
     }
 }
 
@@ -189,8 +203,7 @@ mod tests {
     use super::*;
 
     fn blocks(text: &str) -> Vec<(String, u32, End)> {
-        let mut lexer = Lexer::new(text.as_bytes());
-        std::iter::from_fn(|| lexer.next())
+        Lexer::new(text.as_bytes())
             .map(|block| (String::from_utf8_lossy(block.text).into_owned(), block.line, block.end))
             .collect()
     }

@@ -1,15 +1,17 @@
 //! Gerber files → features: RS-274X with what thirty years of tools made of it, X2 and X3.
 //!
 //! ```text
-//! bytes ─ lex ─▶ blocks ─ reader ─▶ graphics state ─▶ canvas ─ polarity ─▶ features
-//!                            │                          ▲
-//!                            └─ aperture, aperture_macro ┘ draw, region
+//! bytes ─ lex ─▶ blocks ─ parser ─▶ commands ─▶ state ─▶ sink ─ polarity ─▶ features
+//!                  words, extended               │         │
+//!                       numbers, apertures, transformation, arcs, region
+//!                                                          canvas, attributes
 //! ```
 //!
-//! The reader is one state machine over several files: `codes`, `operation`, `circular` (with
-//! `radii`), `contour` and `selected` carry out the blocks of words, `extended` tells the commands
-//! between `%` apart, which `numbers`, `definition`, `copies` and `transformation` carry out, and
-//! `finish` ends it, with `distinct`.
+//! What a block says is told without what came before it (`command`). What is in force then
+//! (`state`) is made of parts that each know one thing: what numbers mean (`numbers`), the
+//! apertures (`apertures`, with `definition`, `aperture` and `aperture_macro`), the transformation,
+//! how arcs are given (`arcs`, with `radii`) and the contour of a region. The state draws into the
+//! `sink`. `reader` leads a file from one end to the other.
 //!
 //! Written for files in the wild, with the specification (Ucamco, revision 2023.08) deciding where
 //! they disagree. Three choices make it both quick and forgiving. Blocks are cut at `*`, never at
@@ -24,29 +26,32 @@
 mod aperture;
 mod aperture_list;
 mod aperture_macro;
+mod apertures;
+mod arcs;
 mod attributes;
 mod canvas;
-mod circular;
-mod codes;
-mod contour;
-mod copies;
+mod command;
 mod definition;
 mod distinct;
 mod draw;
 mod expression;
 mod extended;
+mod fault;
+mod fields;
 mod figure;
-mod finish;
+mod format;
 mod lex;
+mod linear;
 mod numbers;
-mod operation;
+mod parser;
 mod quadrants;
 mod radii;
 mod reader;
 mod region;
-mod selected;
+mod sink;
 mod state;
 mod transformation;
+mod words;
 
 use crate::board::{Attributes, Feature, Source, Warning};
 
@@ -124,9 +129,8 @@ pub fn looks_like(bytes: &[u8]) -> bool {
     if head.starts_with(b"\x89PNG") || head.starts_with(b"PK") || head.starts_with(b"%PDF") {
         return false;
     }
-    let mut lexer = lex::Lexer::new(head);
-    let mut blocks = std::iter::from_fn(|| lexer.next()).filter(|block| block.end != lex::End::File);
-    blocks.by_ref().take(1000).any(|block| {
+    let blocks = lex::Lexer::new(head).filter(|block| block.end != lex::End::File);
+    blocks.take(1000).any(|block| {
         let text = block.text;
         let command = [&b"FS"[..], b"MO", b"AD", b"AM", b"TF.", b"G04 #@!"];
         command.iter().any(|start| text.starts_with(start)) || is_operation(text)

@@ -1,6 +1,6 @@
 //! How the centre of an arc is given, and how that is taken.
 
-use super::state::Unit;
+use super::format::Unit;
 
 /// How an arc's centre is given (G74, G75).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,290 +1,357 @@
-//! Units, number format and the transformations of apertures and coordinates.
+//! The graphics state (specification §4), which commands change and draw with.
 
-use crate::geometry::{Nm, Point, Vector};
+use std::ops::Range;
+use std::sync::Arc as Shared;
 
-use super::lex::Number;
+use crate::board::polarity::Polarity;
+use crate::board::{ApertureUse, Axis, FLATTEN, Shape};
+use crate::geometry::{Arc, Nm, Point, Turn};
+use crate::import::diagnostic;
 
-/// The unit of lengths (MO; G70 and G71 of old).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unit {
-    Millimetre,
-    Inch,
+use super::aperture::Template;
+use super::aperture_list::ApertureList;
+use super::apertures::Apertures;
+use super::arcs::Arcs;
+use super::canvas::{Frame, Refusal};
+use super::command::{Command, Interpolation, Operation, Words};
+use super::draw;
+use super::fault::{Fault, Here};
+use super::format::Unit;
+use super::numbers::Numbers;
+use super::quadrants::Reading;
+use super::region::Region;
+use super::sink::{Ink, Sink};
+use super::transformation::Transformation;
+
+/// What is in force at one place of a file.
+#[derive(Debug)]
+pub(super) struct State<'a> {
+    numbers: Numbers<'a>,
+    apertures: Apertures<'a>,
+    transformation: Transformation,
+    arcs: Arcs,
+    polarity: Polarity,
+    interpolation: Interpolation,
+    operation: Option<Operation>,
+    /// Where the last operation led, in the file's coordinates.
+    position: Point,
+    region: Option<Region>,
+    /// Where IPNEG stands.
+    negative: Option<Range<usize>>,
 }
 
-impl Unit {
-    /// Nanometres in one.
-    const fn nm(self) -> i64 {
-        match self {
-            Self::Millimetre => 1_000_000,
-            Self::Inch => 25_400_000,
+impl<'a> State<'a> {
+    /// At the beginning of a file, beside which `list` may lie.
+    pub(super) fn new(list: Option<&'a ApertureList>, reading: Reading) -> Self {
+        Self {
+            numbers: Numbers::new(list, reading.unit),
+            apertures: Apertures::new(list),
+            transformation: Transformation::new(),
+            arcs: Arcs::new(reading),
+            polarity: Polarity::Dark,
+            interpolation: Interpolation::Linear,
+            operation: None,
+            position: Point::default(),
+            region: None,
+            negative: None,
         }
     }
 
-    /// A length written with its point, rounded to the nanometre; none beyond what is handled.
-    pub(super) fn length(self, number: Number) -> Option<Nm> {
-        within(number)?;
-        scaled(number.mantissa, self.nm(), number.decimals.unwrap_or(0))
-    }
-
-    /// A length from an expression, in nanometres.
-    #[expect(clippy::cast_precision_loss, reason = "exact: far below 2⁵³")]
-    pub(super) fn to_nm(self, value: f64) -> f64 {
-        value * self.nm() as f64
-    }
-
-    /// As people write it.
-    pub(super) const fn name(self) -> &'static str {
-        match self {
-            Self::Millimetre => "mm",
-            Self::Inch => "inch",
-        }
-    }
-}
-
-/// Which zeros of a coordinate are left out (FS).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Zeros {
-    /// Leading ones: the digits are aligned at the last decimal.
-    Leading,
-    /// Trailing ones: they are aligned at the first digit.
-    Trailing,
-}
-
-/// How coordinates are written (FS).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Format {
-    pub(super) zeros: Zeros,
-    /// Whether each coordinate counts from the one before.
-    pub(super) incremental: bool,
-    /// Digits before and after the point, in x.
-    pub(super) x: (u32, u32),
-    /// The same in y.
-    pub(super) y: (u32, u32),
-}
-
-impl Format {
-    /// A coordinate with `places` digits before and after the point; none beyond what is handled.
-    pub(super) fn coordinate(self, number: Number, places: (u32, u32), unit: Unit) -> Option<Nm> {
-        if number.decimals.is_some() {
-            return unit.length(number);
-        }
-        match self.zeros {
-            Zeros::Leading => {
-                within(number)?;
-                scaled(number.mantissa, unit.nm(), places.1)
+    /// Carries out one command.
+    pub(super) fn carry_out(
+        &mut self,
+        command: Command<'a>,
+        here: &mut Here<'_, '_>,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        match command {
+            Command::Remark(diagnostic, message) => here.warn(diagnostic, message),
+            Command::Comment(text) => sink.attributes.comment(text),
+            Command::Operate(words) => return self.operate(words, here, sink),
+            Command::Select(number) => {
+                sink.attributes.forget();
+                self.apertures.select(number, here)?;
             }
-            Zeros::Trailing => match (places.0 + places.1).checked_sub(number.digits) {
-                Some(missing) => {
-                    scaled(number.mantissa.checked_mul(10_i64.pow(missing))?, unit.nm(), places.1)
-                }
-                None => scaled(number.mantissa, unit.nm(), number.digits - places.0 - number.beyond),
-            },
+            Command::Interpolate(interpolation) => self.interpolation = interpolation,
+            Command::Region(begins) => {
+                self.end_contour(here, sink)?;
+                self.region = begins.then(Region::default);
+                sink.attributes.forget();
+            }
+            Command::OldUnit(unit) => self.numbers.set_old_unit(unit, here),
+            Command::Quadrants(quadrants) => self.arcs.declare(quadrants),
+            Command::Incremental(incremental) => self.numbers.set_incremental(incremental, here)?,
+            Command::Format(format) => self.numbers.set_format(format, here),
+            Command::Unit(unit) => self.numbers.set_unit(unit, here)?,
+            Command::Define(definition) => {
+                sink.attributes.forget();
+                let unit = self.numbers.unit(here);
+                self.apertures.define(&definition, unit, sink.attributes.aperture(), here);
+            }
+            Command::Malformed(number, fault) => {
+                sink.attributes.forget();
+                self.apertures.keep_malformed(number, fault, here);
+            }
+            Command::Macro(definition) => self.apertures.define_macro(definition, here),
+            Command::OpenBlock(number) => sink.canvas.open(Frame::Block(number))?,
+            Command::CloseBlock => {
+                let (number, objects) = sink.canvas.close_block().ok_or_else(|| {
+                    Fault::new("this closes a block that is not open", "`%ABD12*%` before it")
+                })?;
+                self.apertures.define_block(number, objects);
+                sink.attributes.forget();
+            }
+            Command::CloseRepeat => {
+                sink.canvas.close_repeat()?;
+            }
+            Command::OpenRepeat(copies, step) => {
+                let step = self.numbers.vector(step, here)?;
+                sink.canvas.open(Frame::Repeat { copies, step })?;
+            }
+            Command::Polarity(polarity) => self.polarity = polarity,
+            Command::Transform(change) => {
+                self.transformation.change(change);
+                self.apertures.forget_form();
+            }
+            Command::Offset(offset) => self.transformation.set_offset(self.numbers.vector(offset, here)?),
+            Command::Negative(negative) => self.negative = negative.then(|| here.place.clone()),
+            Command::Attribute(text) => sink.attributes.command(&text),
+        }
+        Ok(())
+    }
+
+    /// D01, D02 and D03 (specification §4.8).
+    fn operate(&mut self, words: Words, here: &mut Here<'_, '_>, sink: &mut Sink) -> Result<(), Fault> {
+        let operation = words.operation.unwrap_or_else(|| {
+            let message = match self.operation {
+                Some(_) => "a coordinate without D01, D02 or D03 repeats the previous operation",
+                None => "a coordinate without D01, D02 or D03, and none before it, is read as a move (D02)",
+            };
+            here.warn(&diagnostic::OPERATION_CODE_MISSING, message);
+            self.operation.unwrap_or(Operation::Move)
+        });
+        self.operation = Some(operation);
+        let from = self.position;
+        let to = self.numbers.point(from, (words.x, words.y), here)?;
+        self.position = to;
+        match operation {
+            Operation::Move => self.end_contour(here, sink),
+            Operation::Flash => self.flash(to, here, sink),
+            Operation::Draw => self.draw(from, to, words, here, sink),
         }
     }
 
-    /// As people write it.
-    pub(super) fn name(self) -> String {
-        let (whole, decimals) = self.x;
-        let zeros = match self.zeros {
-            Zeros::Leading => "leading",
-            Zeros::Trailing => "trailing",
+    fn flash(&mut self, at: Point, here: &mut Here<'_, '_>, sink: &mut Sink) -> Result<(), Fault> {
+        if self.region.is_some() {
+            here.warn(&diagnostic::FLASH_IN_REGION, "a flash between G36 and G37 is ignored");
+            return Ok(());
+        }
+        let at = self.transformation.point(at)?;
+        let number = self.apertures.selected()?;
+        let ink = self.ink(here.line, sink);
+        if let Template::Block(objects) = &**self.apertures.flash(number) {
+            let (objects, linear) = (Shared::clone(objects), self.transformation.of_apertures());
+            return Ok(sink.flash_block(&objects, linear, at, ink)?);
+        }
+        let linear = || self.transformation.of_apertures();
+        let form = self.apertures.form(number, linear, &mut sink.canvas)?;
+        let shapes = draw::flash(&form, at);
+        if shapes.is_empty() {
+            here.warn(&diagnostic::NOTHING_DRAWN, format!("D{number} has no area; its flashes are ignored"));
+        }
+        Ok(sink.draw(shapes, Axis::Flash(at), ink)?)
+    }
+
+    fn draw(
+        &mut self,
+        from: Point,
+        to: Point,
+        words: Words,
+        here: &mut Here<'_, '_>,
+        sink: &mut Sink,
+    ) -> Result<(), Fault> {
+        let arc = match self.interpolation {
+            Interpolation::Linear => None,
+            Interpolation::Circular(turn) => self.arc((from, to), turn, words, here)?,
         };
-        let mode = if self.incremental { "incremental" } else { "absolute" };
-        format!("{whole}.{decimals} {zeros} zeros omitted, {mode}")
-    }
-}
-
-/// Nothing for a number that is beyond any length by its count of digits.
-fn within(number: Number) -> Option<()> {
-    (number.beyond == 0).then_some(())
-}
-
-/// `mantissa` × `unit` ÷ 10^`decimals`, halves away from zero; none beyond the range of [`Nm`].
-fn scaled(mantissa: i64, unit: i64, decimals: u32) -> Option<Nm> {
-    if let Some(power) = 10_i64.checked_pow(decimals).filter(|power| unit % power == 0) {
-        return Nm::try_new(mantissa.checked_mul(unit / power)?).ok();
-    }
-    // 18 digits in inches are below 10²⁶ nanometres: of what has more decimals than that nothing is
-    // left.
-    let (product, power) = (i128::from(mantissa) * i128::from(unit), 10_i128.pow(decimals.min(37)));
-    let half = if product < 0 { -power / 2 } else { power / 2 };
-    i64::try_from((product + half) / power).ok().and_then(|nm| Nm::try_new(nm).ok())
-}
-
-/// A linear map of the plane: rows (`xx` `xy`), (`yx` `yy`).
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Linear {
-    xx: f64,
-    xy: f64,
-    yx: f64,
-    yy: f64,
-}
-
-impl Linear {
-    pub(super) const IDENTITY: Self = Self { xx: 1.0, xy: 0.0, yx: 0.0, yy: 1.0 };
-
-    /// Stretches x and y.
-    pub(super) const fn stretch(x: f64, y: f64) -> Self {
-        Self { xx: x, xy: 0.0, yx: 0.0, yy: y }
-    }
-
-    /// Exchanges x and y.
-    pub(super) const SWAP: Self = Self { xx: 0.0, xy: 1.0, yx: 1.0, yy: 0.0 };
-
-    /// Turns counter-clockwise by `degrees`; exact for whole quarters.
-    pub(super) fn rotation(degrees: f64) -> Self {
-        let turn = degrees - (degrees / 360.0).floor() * 360.0;
-        let quarters = [(0.0, (0.0, 1.0)), (90.0, (1.0, 0.0)), (180.0, (0.0, -1.0)), (270.0, (-1.0, 0.0))];
-        let (sin, cos) = quarters
-            .into_iter()
-            .find(|(angle, _)| (turn - angle).abs() < 1e-9)
-            .map_or_else(|| libm::sincos(turn.to_radians()), |(_, exact)| exact);
-        Self { xx: cos, xy: -sin, yx: sin, yy: cos }
-    }
-
-    /// This map after `first`.
-    pub(super) fn after(self, first: Self) -> Self {
-        Self {
-            xx: self.xx * first.xx + self.xy * first.yx,
-            xy: self.xx * first.xy + self.xy * first.yy,
-            yx: self.yx * first.xx + self.yy * first.yx,
-            yy: self.yx * first.xy + self.yy * first.yy,
+        let (from, to) = (self.transformation.point(from)?, self.transformation.point(to)?);
+        if let Some(region) = &mut self.region {
+            region.begin(from, here.line, &here.place);
+            match arc {
+                None => region.line(to),
+                Some(arc) => {
+                    region.arc(arc);
+                    sink.canvas.charge(arc.chords(FLATTEN) as u64)?;
+                }
+            }
+            return Ok(());
         }
+        let number = self.apertures.selected()?;
+        let ink = self.ink(here.line, sink);
+        let linear = || self.transformation.of_apertures();
+        let form = self.apertures.form(number, linear, &mut sink.canvas)?;
+        self.apertures.draw(number);
+        let axis = arc.map_or(Axis::Line(from, to), Axis::Arc);
+        draw::check_reach(&form, axis)?;
+        let shapes = match arc {
+            None => draw::line(&form, from, to),
+            Some(arc) => {
+                sink.canvas.charge(draw::effort(&form, &arc))?;
+                draw::along(&form, arc)
+            }
+        };
+        Ok(sink.draw(shapes, axis, ink)?)
     }
 
-    pub(super) fn apply(self, (x, y): (f64, f64)) -> (f64, f64) {
-        (self.xx * x + self.xy * y, self.yx * x + self.yy * y)
+    /// The arc between two places of the file; none where it is a line.
+    fn arc(
+        &mut self,
+        (from, to): (Point, Point),
+        turn: Turn,
+        words: Words,
+        here: &mut Here<'_, '_>,
+    ) -> Result<Option<Arc>, Fault> {
+        let offset = self.numbers.offset((words.i, words.j), here)?;
+        let Some(center) = self.arcs.center((from, to), offset, turn, here) else { return Ok(None) };
+        let turn = if self.transformation.mirrors() { turn.reversed() } else { turn };
+        let (start, end) = (self.transformation.point(from)?, self.transformation.point(to)?);
+        let center = start + self.transformation.vector(center - from);
+        Ok(Some(Arc { start, end, center, turn }))
     }
 
-    /// The image of `way`, rounded to whole nanometres.
-    pub(super) fn vector(self, way: Vector) -> Vector {
-        let (x, y) = self.apply((way.x.to_f64(), way.y.to_f64()));
-        Vector::new(Nm::from_f64(x), Nm::from_f64(y))
-    }
-
-    /// Whether it turns left into right.
-    pub(super) fn mirrors(self) -> bool {
-        self.xx * self.yy - self.xy * self.yx < 0.0
-    }
-
-    /// By how much it scales a length; exact where it scales all alike along an axis.
-    pub(super) fn scale(self) -> f64 {
-        (self.xx * self.xx + self.yx * self.yx).sqrt()
-    }
-
-    /// Its entries as bits: what a cache compares.
-    pub(super) fn bits(self) -> [u64; 4] {
-        [self.xx, self.xy, self.yx, self.yy].map(f64::to_bits)
-    }
-}
-
-/// What the deprecated commands AS, MI, SF, OF and IR do to coordinates (specification §8).
-///
-/// Axis select, mirror and scale act on coordinates and not on apertures; image rotation turns
-/// both.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Placement {
-    /// IR.
-    pub(super) rotation: Linear,
-    /// AS.
-    pub(super) swap: bool,
-    /// MI, per axis.
-    pub(super) mirror: (bool, bool),
-    /// SF, per axis.
-    pub(super) scale: (f64, f64),
-    /// OF.
-    pub(super) offset: Vector,
-    linear: Linear,
-    identity: bool,
-}
-
-impl Placement {
-    pub(super) fn new() -> Self {
-        Self {
-            rotation: Linear::IDENTITY,
-            swap: false,
-            mirror: (false, false),
-            scale: (1.0, 1.0),
-            offset: Vector::default(),
-            linear: Linear::IDENTITY,
-            identity: true,
+    /// Ends the contour of a region, where one is open (specification §4.10).
+    fn end_contour(&mut self, here: &mut Here<'_, '_>, sink: &mut Sink) -> Result<(), Fault> {
+        let Some(region) = &mut self.region else { return Ok(()) };
+        let reaches = region.all(|p| p.x.abs() <= Nm::MAX && p.y.abs() <= Nm::MAX);
+        let Some(contour) = region.finish() else { return Ok(()) };
+        let refused = |refusal: Refusal| Fault::from(refusal).at(&contour.place);
+        if !reaches {
+            return Err(refused(Refusal::Range));
         }
-    }
-
-    /// To be called after a change.
-    pub(super) fn update(&mut self) {
-        let sign = |mirror: bool| if mirror { -1.0 } else { 1.0 };
-        let stretch = Linear::stretch(sign(self.mirror.0) * self.scale.0, sign(self.mirror.1) * self.scale.1);
-        let swap = if self.swap { Linear::SWAP } else { Linear::IDENTITY };
-        self.linear = self.rotation.after(stretch).after(swap);
-        self.identity = self.linear == Linear::IDENTITY && self.offset == Vector::default();
-    }
-
-    /// Where a coordinate of the file lies.
-    pub(super) fn point(&self, p: Point) -> Point {
-        if self.identity {
-            return p;
+        if contour.tangled {
+            return Err(refused(Refusal::Tangled));
         }
-        let way = self.linear.vector(p - Point::default());
-        Point::default() + way + self.rotation.vector(self.offset)
+        if !contour.closed {
+            let message = "the contour of a region is not closed; a straight line closes it";
+            here.warnings.add(&diagnostic::REGION_NOT_CLOSED, contour.place.clone(), message);
+        }
+        if contour.pieces.is_empty() {
+            let message = "the contour of a region has no area; it is ignored";
+            here.warnings.add(&diagnostic::NOTHING_DRAWN, contour.place, message);
+            return Ok(());
+        }
+        let ink = self.ink(contour.line, sink);
+        let shapes = contour.pieces.into_iter().map(Shape::Polygon).collect();
+        sink.draw(shapes, Axis::Region, ink).map_err(|refusal| Fault::from(refusal).at(&contour.place))
     }
 
-    /// Which way an offset of the file goes.
-    pub(super) fn vector(&self, way: Vector) -> Vector {
-        if self.identity { way } else { self.linear.vector(way) }
+    /// What is drawn with now, by a command on `line`.
+    fn ink(&self, line: u32, sink: &mut Sink) -> Ink {
+        let function = || self.region.is_none().then(|| self.apertures.function());
+        Ink { polarity: self.polarity, set: sink.attributes.set(function), line }
     }
 
-    /// Whether arcs run the other way round.
-    pub(super) fn mirrors(&self) -> bool {
-        self.linear.mirrors()
+    /// Whether no aperture is defined so far.
+    pub(super) fn is_bare(&self) -> bool {
+        self.apertures.are_none()
+    }
+
+    /// How what has been read so far asks for the file to be read: the radii of its arcs, and how
+    /// large the board is that it draws.
+    pub(super) fn reading_by_evidence(&self, sink: &Sink) -> Reading {
+        let extent = sink.canvas.bounds().map_or(Nm::ZERO, |bounds| bounds.width().max(bounds.height()));
+        let unit = self.numbers.is_too_wide(extent).then_some(Unit::Millimetre);
+        Reading { unit, ..self.arcs.reading_by_evidence() }
+    }
+
+    /// Ends the file: says what it left open, and closes its region and its repeats.
+    pub(super) fn finish(&mut self, here: &mut Here<'_, '_>, sink: &mut Sink) -> Result<(), Fault> {
+        self.arcs.explain(here.warnings)?;
+        for (place, message) in self.apertures.explain_malformed() {
+            here.warnings.add(&diagnostic::MALFORMED_APERTURE, place, message);
+        }
+        if self.region.is_some() {
+            here.warn(&diagnostic::TRUNCATED_FILE, "the file ends within a region, which is closed there");
+            self.end_contour(here, sink)?;
+        }
+        while sink.canvas.innermost().is_some() {
+            if !sink.canvas.close_repeat()? {
+                sink.canvas.close_block();
+                let message = "the file ends within a block (%AB), which is ignored";
+                here.warn(&diagnostic::TRUNCATED_FILE, message);
+            }
+        }
+        Ok(())
+    }
+
+    /// Where the file says that its image is negative.
+    pub(super) const fn negative(&self) -> Option<&Range<usize>> {
+        self.negative.as_ref()
+    }
+
+    /// The unit and the number format, as people write them.
+    pub(super) fn number_names(&self) -> (String, String) {
+        self.numbers.names()
+    }
+
+    /// How often each aperture was used, by number.
+    pub(super) fn aperture_uses(&self) -> Vec<ApertureUse> {
+        self.apertures.uses()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::import::error::Warnings;
+    use crate::import::gerber::canvas::{Canvas, Object};
+    use crate::import::gerber::definition::Definition;
+    use crate::import::gerber::format::Format;
+    use crate::import::gerber::lex::{Lexer, Number};
+    use crate::import::gerber::transformation::Change;
 
-    fn number(text: &str) -> Number {
-        Number::read(text.as_bytes()).expect("a number").0
+    /// What these commands draw.
+    fn drawn(commands: Vec<Command<'_>>) -> Result<Vec<Object>, Fault> {
+        let mut state = State::new(None, Reading::USUAL);
+        let mut sink = Sink::new(Canvas::new(100, 1000));
+        let (mut warnings, ahead) = (Warnings::new("f", b""), &Lexer::new(b""));
+        let mut here = Here { place: 0..0, line: 1, is_bare: false, ahead, warnings: &mut warnings };
+        for command in commands {
+            state.carry_out(command, &mut here, &mut sink)?;
+        }
+        Ok(sink.canvas.finish())
+    }
+
+    fn flash(x: &str) -> Command<'static> {
+        let x = Number::whole(x.as_bytes());
+        Command::Operate(Words { x, operation: Some(Operation::Flash), ..Words::default() })
     }
 
     #[test]
-    fn omitted_zeros_are_put_back_on_the_right_side() {
-        let leading = Format { zeros: Zeros::Leading, incremental: false, x: (2, 4), y: (2, 4) };
-        let trailing = Format { zeros: Zeros::Trailing, ..leading };
-        let inch = |format: Format, text| format.coordinate(number(text), format.x, Unit::Inch);
-        assert_eq!(inch(leading, "15000"), Some(Nm::new(38_100_000)), "1.5 inch");
-        assert_eq!(inch(trailing, "015"), Some(Nm::new(38_100_000)), "1.5 inch from the left");
-        assert_eq!(inch(trailing, "0150000"), Some(Nm::new(38_100_000)), "a digit more than the format has");
-        assert_eq!(inch(leading, "1.5"), Some(Nm::new(38_100_000)), "a point overrides the format");
-        assert_eq!(inch(leading, "999999999"), None, "beyond a metre");
+    fn what_is_drawn_depends_on_what_is_in_force_then() {
+        let definition = Definition::read(b"D10C,1").map_err(|(_, fault)| fault).expect("an aperture");
+        let objects = drawn(vec![
+            Command::Format(Format::read(b"LAX33Y33").expect("a format")),
+            Command::Unit(Unit::Millimetre),
+            Command::Define(definition),
+            Command::Select(10),
+            flash("2000"),
+            Command::Transform(Change::Scale(3.0)),
+            Command::Polarity(Polarity::Clear),
+            flash("4000"),
+        ]);
+        let disc = |x: i64, um: i64| Shape::Disc {
+            center: Point::new(Nm::from_mm(x), Nm::ZERO),
+            radius: Nm::from_um(um),
+        };
+        let objects: Vec<_> = objects.expect("drawn").into_iter().map(|(f, p)| (f.shape, p)).collect();
+        assert_eq!(objects, [(disc(2, 500), Polarity::Dark), (disc(4, 1500), Polarity::Clear)], "two discs");
     }
 
     #[test]
-    fn seven_decimals_round_to_the_nanometre() {
-        let format = Format { zeros: Zeros::Leading, incremental: false, x: (3, 7), y: (3, 7) };
-        let mm = |text| format.coordinate(number(text), format.x, Unit::Millimetre);
-        assert_eq!(mm("10000005"), Some(Nm::new(1_000_001)), "half goes away from zero");
-        assert_eq!(mm("-10000004"), Some(Nm::new(-1_000_000)), "less does not");
-        let written = |text| Unit::Inch.length(number(text));
-        assert_eq!(written("0.024000000000000004"), Some(Nm::new(609_600)), "any number of decimals");
-        assert_eq!(
-            written("0.0000000000000000000000000000000000000000000001"),
-            Some(Nm::ZERO),
-            "even so many"
-        );
-        assert_eq!(written("00000000000000000000000000000.5"), Some(Nm::new(12_700_000)), "and of zeros");
-        assert_eq!(written("12345678901234567890"), None, "but no more than a metre");
-    }
-
-    #[test]
-    fn quarter_turns_are_exact() {
-        let quarter = Linear::rotation(-270.0);
-        assert_eq!(
-            quarter.vector(Vector::new(Nm::new(3), Nm::new(0))),
-            Vector::new(Nm::new(0), Nm::new(3)),
-            "left"
-        );
-        assert!(!quarter.mirrors(), "a turn keeps the hand");
+    fn nothing_is_drawn_without_an_aperture() {
+        let format = || Command::Format(Format::read(b"LAX33Y33").expect("a format"));
+        assert!(drawn(vec![format(), flash("2000")]).is_err(), "none is selected");
+        assert!(drawn(vec![format(), Command::Select(11), flash("2000")]).is_err(), "none is defined");
     }
 }

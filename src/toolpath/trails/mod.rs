@@ -17,6 +17,7 @@ mod matching;
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
+use bitvec::prelude::{BitSlice, BitVec, bitvec};
 use rustc_hash::FxHashMap;
 
 use crate::topology::DisjointSets;
@@ -76,11 +77,11 @@ struct Pass {
 }
 
 /// Which nodes have an odd number of passes.
-fn odd(nodes: usize, passes: &[Pass]) -> Vec<bool> {
-    let mut odd = vec![false; nodes];
-    for pass in passes {
-        odd[pass.ends.0 as usize] ^= true;
-        odd[pass.ends.1 as usize] ^= true;
+fn odd(nodes: usize, passes: &[Pass]) -> BitVec {
+    let mut odd = bitvec![0; nodes];
+    for end in passes.iter().flat_map(|pass| [pass.ends.0 as usize, pass.ends.1 as usize]) {
+        let was_odd = odd[end];
+        odd.set(end, !was_odd);
     }
     odd
 }
@@ -93,10 +94,8 @@ fn odd(nodes: usize, passes: &[Pass]) -> Vec<bool> {
 fn joins(nodes: usize, links: &[Link], passes: &[Pass], retract: f64) -> (Vec<usize>, Vec<usize>) {
     let odd = odd(nodes, passes);
     let graph = Adjacency::new(nodes, links.iter().map(|link| link.ends));
-    let mut pairs: Vec<Pair> = (0..nodes)
-        .filter(|&node| odd[node])
-        .flat_map(|from| near(from, &odd, &graph, links, retract))
-        .collect();
+    let mut pairs: Vec<Pair> =
+        odd.iter_ones().flat_map(|from| near(from, &odd, &graph, links, retract)).collect();
     // Both of two near nodes may have found the other; the way from the smaller is kept.
     pairs.sort_by_key(|pair| (pair.from.min(pair.to), pair.from.max(pair.to), pair.from));
     pairs.dedup_by_key(|pair| (pair.from.min(pair.to), pair.from.max(pair.to)));
@@ -111,9 +110,8 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], retract: f64) -> (Vec<us
     for pair in &chosen {
         pair.way.iter().for_each(|&link| again[link] ^= true);
     }
-    let mut joined = vec![false; nodes];
-    chosen.iter().for_each(|pair| (joined[pair.from], joined[pair.to]) = (true, true));
-    let alone: Vec<bool> = odd.iter().zip(&joined).map(|(odd, joined)| *odd && !joined).collect();
+    let mut alone = odd;
+    chosen.iter().flat_map(|pair| [pair.from, pair.to]).for_each(|node| alone.set(node, false));
     let mut part = DisjointSets::new(nodes);
     for (link, _) in links.iter().zip(&again).filter(|(link, again)| link.must || **again) {
         if let Some((a, b)) = link.ends {
@@ -130,7 +128,7 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], retract: f64) -> (Vec<us
 fn bridges(
     links: &[Link],
     again: &[bool],
-    alone: &[bool],
+    alone: &BitSlice,
     part: &mut DisjointSets,
     retract: f64,
 ) -> Vec<usize> {
@@ -141,7 +139,7 @@ fn bridges(
         }
     }
     let mut is_open = vec![false; alone.len()];
-    for (node, _) in (0..).zip(alone).filter(|(_, alone)| **alone) {
+    for node in alone.iter_ones().map(number) {
         is_open[part.find(node) as usize] = true;
     }
     let free = |&link: &usize| !links[link].must && !again[link] && 2.0 * links[link].seconds < retract;
@@ -165,9 +163,9 @@ fn bridges(
 /// it is still one trail.
 ///
 /// A way over links that must be cut anyway can be taken back without the part falling apart.
-fn spare(links: &[Link], alone: &[bool], chosen: &[&Pair], part: &mut DisjointSets, again: &mut [bool]) {
+fn spare(links: &[Link], alone: &BitSlice, chosen: &[&Pair], part: &mut DisjointSets, again: &mut [bool]) {
     let mut is_open = vec![false; alone.len()];
-    for (node, _) in (0..).zip(alone).filter(|(_, alone)| **alone) {
+    for node in alone.iter_ones().map(number) {
         is_open[part.find(node) as usize] = true;
     }
     let mut dearest: BTreeMap<u32, (f64, &Pair)> = BTreeMap::new();
@@ -205,7 +203,7 @@ type Reached = FxHashMap<usize, (f64, Option<(usize, usize)>)>;
 const NEAREST: usize = 12;
 
 /// The nearest odd nodes within `retract` seconds of `from`, by Dijkstra's algorithm.
-fn near(from: usize, odd: &[bool], graph: &Adjacency, links: &[Link], retract: f64) -> Vec<Pair> {
+fn near(from: usize, odd: &BitSlice, graph: &Adjacency, links: &[Link], retract: f64) -> Vec<Pair> {
     let mut best = Reached::default();
     let mut queue = BinaryHeap::from([Reverse((Ordered(0.0), from))]);
     best.insert(from, (0.0, None));
@@ -273,7 +271,7 @@ fn close(nodes: usize, passes: &mut Vec<Pass>) {
     }
     let odd = odd(nodes, passes);
     let mut waiting: FxHashMap<u32, u32> = FxHashMap::default();
-    for (node, _) in (0..).zip(&odd).filter(|(_, odd)| **odd) {
+    for node in odd.iter_ones().map(number) {
         let part = part.find(node);
         match waiting.remove(&part) {
             None => _ = waiting.insert(part, node),

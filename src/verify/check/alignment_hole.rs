@@ -17,9 +17,9 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, FLATTEN};
 use crate::geometry::{Nm, Point};
 use crate::verify::Settings;
+use crate::verify::cut::Cut;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
-use crate::verify::sheet::Cut;
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,

@@ -12,9 +12,9 @@
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::topology::NetId;
-use crate::verify::remains::Rest;
+use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
-use crate::verify::sheet::Sheet;
+use crate::verify::rest::Rest;
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -31,11 +31,11 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet,
 
 const NAME: &str = "destroyed";
 
-fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+fn check(sheet: &Outcome<'_>) -> Vec<Finding> {
     sheet.remains.nets.iter().filter_map(|(&net, rest)| destroyed(sheet, net, rest)).collect()
 }
 
-fn destroyed(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
+fn destroyed(sheet: &Outcome<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
     let area = rest.area();
     let first = sheet.nets.nets()[net.index()].features[0] as usize;
     let name = sheet.nets.label(net);

@@ -26,10 +26,11 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::geometry::{Nm, Point, Rect};
 use crate::topology::NetId;
 use crate::verify::Settings;
+use crate::verify::exact::designed;
 use crate::verify::hit::{Hit, TOGETHER, clusters};
 use crate::verify::interior::{Deepest, Interior};
 use crate::verify::loss::lost;
-use crate::verify::remains::designed;
+use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::width::{Width, narrowest};
@@ -76,7 +77,7 @@ impl Gouge {
     }
 }
 
-fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
+fn check(sheet: &Outcome<'_>, settings: &Settings) -> Vec<Finding> {
     // Of a net that is lost to many cuts `destroyed` tells.
     let is_left = |hits: &&[Hit]| {
         let rest = sheet.remains.nets.get(&hits[0].net);
@@ -93,7 +94,7 @@ fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
 }
 
 /// What is cut away of a net.
-fn of_net(sheet: &Sheet<'_>, hits: &[Hit], settings: &Settings) -> Vec<Gouge> {
+fn of_net(sheet: &Outcome<'_>, hits: &[Hit], settings: &Settings) -> Vec<Gouge> {
     let net = hits[0].net;
     let through = hits.iter().any(|hit| hit.through);
     let rest = sheet.remains.nets.get(&net).filter(|_| through);
@@ -212,7 +213,7 @@ fn together(sheet: &Sheet<'_>, gouges: &[Gouge]) -> Option<Finding> {
 }
 
 /// How often so little is taken that it is nothing.
-fn faint(sheet: &Sheet<'_>) -> Option<Finding> {
+fn faint(sheet: &Outcome<'_>) -> Option<Finding> {
     let message = format!(
         "{} times a cut removes less than a micrometre, or a hundredth of the kerf, of copper: these are not listed",
         sheet.hits.faint

@@ -14,8 +14,8 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, Shape};
 use crate::verify::Settings;
 use crate::verify::bores::Bores;
+use crate::verify::cut::Cut;
 use crate::verify::report::Finding;
-use crate::verify::sheet::Cut;
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,

@@ -23,6 +23,7 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::topology::NetId;
 use crate::verify::Settings;
 use crate::verify::hit::Hit;
+use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::width::{Width, narrowest};
@@ -40,7 +41,7 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(check) 
 
 const NAME: &str = "minimum-width";
 
-fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
+fn check(sheet: &Outcome<'_>, settings: &Settings) -> Vec<Finding> {
     let mut nets: BTreeMap<NetId, Vec<Hit>> = BTreeMap::new();
     for hit in &sheet.hits.all {
         nets.entry(hit.net).or_default().push(*hit);

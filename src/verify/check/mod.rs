@@ -44,8 +44,8 @@ use crate::geometry::{Nm, Point};
 use super::bores::{Bore, Bores, Made};
 use super::contours::Contours;
 use super::machining::Machining;
+use super::outcome::Outcome;
 use super::report::Finding;
-use super::sheet::Sheet;
 use super::{Input, Program, Role, Settings, Severity};
 
 /// A thing that is looked for.
@@ -60,7 +60,7 @@ enum Run {
     /// The motions of any program.
     Motion(fn(&Machining, &Board, &Settings) -> Vec<Finding>),
     /// A side, milled.
-    Isolation(fn(&Sheet<'_>, &Settings) -> Vec<Finding>),
+    Isolation(fn(&Outcome<'_>, &Settings) -> Vec<Finding>),
     /// The board's holes, drilled.
     Drilling(fn(&Bores<'_>, &Board, &Settings) -> Vec<Finding>),
     /// The board's outline, cut out.
@@ -122,7 +122,7 @@ pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) ->
 }
 
 /// The checks of a milled side.
-pub(super) fn isolation(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
+pub(super) fn isolation(sheet: &Outcome<'_>, settings: &Settings) -> Vec<Finding> {
     let mut findings = each(|check| {
         let Run::Isolation(run) = check else { return None };
         Some(run(sheet, settings))

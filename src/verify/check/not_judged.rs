@@ -12,8 +12,8 @@
 //! Nothing: it only tells of budgets that ended.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
+use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
-use crate::verify::sheet::Sheet;
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -28,12 +28,12 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet,
 
 const NAME: &str = "not-judged";
 
-fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+fn check(sheet: &Outcome<'_>) -> Vec<Finding> {
     unsure(sheet).into_iter().chain(many(sheet)).chain(crowded(sheet)).collect()
 }
 
 /// Nets of which pictures did not tell what became of them.
-fn unsure(sheet: &Sheet<'_>) -> Option<Finding> {
+fn unsure(sheet: &Outcome<'_>) -> Option<Finding> {
     let nets: Vec<String> = sheet.remains.unsure.iter().map(|&net| sheet.nets.label(net)).collect();
     let (first, more) = (nets.first()?, nets.len() - 1);
     let others = if more > 0 { format!(" and {more} more nets") } else { String::new() };
@@ -43,7 +43,7 @@ fn unsure(sheet: &Sheet<'_>) -> Option<Finding> {
 }
 
 /// Nets of which the deepest cuts alone were looked at.
-fn many(sheet: &Sheet<'_>) -> Option<Finding> {
+fn many(sheet: &Outcome<'_>) -> Option<Finding> {
     let looked_at = |net| sheet.hits.all.iter().filter(|hit| hit.net == net).count();
     let left_out =
         sheet.hits.many.iter().map(|(&net, many)| (net, many.count.saturating_sub(looked_at(net))));
@@ -57,7 +57,7 @@ fn many(sheet: &Sheet<'_>) -> Option<Finding> {
 }
 
 /// Cuts beside which no slivers were looked for.
-fn crowded(sheet: &Sheet<'_>) -> Option<Finding> {
+fn crowded(sheet: &Outcome<'_>) -> Option<Finding> {
     let count = sheet.crowded.iter().filter(|crowded| **crowded).count();
     let first = sheet.crowded.iter().position(|crowded| *crowded)?;
     let cut = sheet.cuts[first];

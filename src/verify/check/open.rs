@@ -16,8 +16,9 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::topology::{NetId, Proximity};
-use crate::verify::remains::{Remnant, Rest};
+use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
+use crate::verify::rest::{Remnant, Rest};
 use crate::verify::sheet::Sheet;
 
 const KIND: Diagnostic = Diagnostic {
@@ -35,7 +36,7 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet,
 
 const NAME: &str = "open";
 
-fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+fn check(sheet: &Outcome<'_>) -> Vec<Finding> {
     sheet.remains.nets.iter().filter_map(|(&net, rest)| open(sheet, net, rest)).collect()
 }
 

@@ -18,8 +18,10 @@ use rayon::prelude::*;
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, along};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point};
+use crate::verify::cut::Cut;
+use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
-use crate::verify::sheet::{Cut, Sheet};
+use crate::verify::sheet::Sheet;
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -43,7 +45,7 @@ const PASS: Nm = Nm::from_um(5);
 /// follow one another share an end.
 const END: f64 = 1_000.0;
 
-fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+fn check(sheet: &Outcome<'_>) -> Vec<Finding> {
     let every = every(sheet);
     let cuts: Vec<usize> = (0..sheet.cuts.len()).step_by(every).collect();
     let looked_at: Vec<Vec<(Point, f64, bool)>> = cuts.par_iter().map(|&index| look(sheet, index)).collect();

@@ -20,10 +20,12 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::topology::NetId;
+use crate::verify::cut::Cut;
 use crate::verify::flood::{Basin, Join, Water};
-use crate::verify::remains::Joined;
+use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
-use crate::verify::sheet::{Cut, NETS, Sheet};
+use crate::verify::rest::Joined;
+use crate::verify::sheet::{NETS, Sheet};
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -40,7 +42,7 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(|sheet,
 
 const NAME: &str = "short";
 
-fn check(sheet: &Sheet<'_>) -> Vec<Finding> {
+fn check(sheet: &Outcome<'_>) -> Vec<Finding> {
     sheet.remains.joined.iter().flat_map(|joined| shorts(sheet, joined)).collect()
 }
 

@@ -20,6 +20,7 @@ use crate::board::Shape;
 use crate::geometry::{Nm, Point};
 use crate::verify::Settings;
 use crate::verify::hit::FAINT;
+use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
 use crate::verify::walls::Neck;
@@ -52,7 +53,7 @@ const LONG: f64 = 500_000.0;
 /// Places along a cut at which it is measured. Chosen.
 const PLACES: u32 = 16;
 
-fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
+fn check(sheet: &Outcome<'_>, settings: &Settings) -> Vec<Finding> {
     let cuts = (0..sheet.cuts.len()).into_par_iter().filter(|cut| !sheet.crowded[*cut]);
     let thin: Vec<Thin> = cuts.flat_map_iter(|cut| beside(sheet, cut, settings.sliver)).collect();
     let together = |a: &Thin, b: &Thin| {

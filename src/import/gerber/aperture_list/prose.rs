@@ -1,6 +1,6 @@
 //! The lines of a list that are no apertures: they may say the unit and the number format.
 
-use crate::import::gerber::state::{Format, Zeros};
+use crate::import::gerber::format::{Format, Zeros};
 
 use super::row::{row, unit_of};
 

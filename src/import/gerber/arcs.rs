@@ -1,91 +1,89 @@
 //! Circular interpolation (G02, G03 with G74 or G75; specification §4.7 and §8.1.10).
 
-use std::ops::Range;
-
-use crate::geometry::{Arc, Nm, Point, Turn, Vector};
+use crate::geometry::{Nm, Point, Turn, Vector};
 use crate::import::diagnostic;
+use crate::import::error::Warnings;
 
-use super::super::error::Error;
+use super::fault::{Fault, Here};
 use super::quadrants::{Quadrants, Reading};
-use super::radii::{COARSE, Verdict, single_quadrant};
-use super::reader::{Reader, Words};
-use super::state::Unit;
+use super::radii::{COARSE, Radii, Verdict, single_quadrant};
 
-impl<'a> Reader<'a> {
-    /// The arc from `from` to `to`; none where it is no longer than a point or has no radius, and
-    /// so is a line.
-    pub(super) fn arc(
+/// How the arcs of a file give their centres, and what their radii tell of it.
+#[derive(Debug)]
+pub(super) struct Arcs {
+    reading: Reading,
+    declared: Option<Quadrants>,
+    /// Of the arcs after G74, after G75, and before either.
+    radii: [Radii; 3],
+}
+
+impl Arcs {
+    pub(super) fn new(reading: Reading) -> Self {
+        Self { reading, declared: None, radii: Default::default() }
+    }
+
+    /// G74 and G75.
+    pub(super) const fn declare(&mut self, quadrants: Quadrants) {
+        self.declared = Some(quadrants);
+    }
+
+    /// Where the centre of the arc lies; none where it is no longer than a point or has no radius,
+    /// and so is a line.
+    pub(super) fn center(
         &mut self,
-        from: Point,
-        to: Point,
+        (from, to): (Point, Point),
+        offset: Vector,
         turn: Turn,
-        words: Words,
-        place: &Range<usize>,
-    ) -> Result<Option<Arc>, Error> {
-        let format = self.format(place)?;
-        let mut offset = Vector::default();
-        if let Some(i) = words.i {
-            offset.x = self.coordinate(i, format.x, place)?;
-        }
-        if let Some(j) = words.j {
-            offset.y = self.coordinate(j, format.y, place)?;
-        }
+        here: &mut Here<'_, '_>,
+    ) -> Option<Point> {
         if offset == Vector::default() {
             if from != to {
                 let message = "an arc without a centre (I and J) is read as a line";
-                self.warnings.add(&diagnostic::ARC_WITHOUT_CENTRE, place.clone(), message);
+                here.warn(&diagnostic::ARC_WITHOUT_CENTRE, message);
             }
-            return Ok(None);
+            return None;
         }
-        self.radii[Self::index(self.quadrants)].add((from, to), offset, turn, place);
+        let index = match self.declared {
+            Some(Quadrants::Single) => 0,
+            Some(Quadrants::Multi) => 1,
+            None => 2,
+        };
+        self.radii[index].add((from, to), offset, turn, &here.place);
         let signed = offset.x < Nm::ZERO || offset.y < Nm::ZERO;
-        let quadrants = match self.reading.of(self.quadrants) {
+        let quadrants = match self.reading.of(self.declared) {
             Quadrants::Single if signed => {
                 let message = "this arc has a negative offset, so it is read as G75, multi quadrant";
-                self.warnings.add(&diagnostic::QUADRANT_MODE, place.clone(), message);
+                here.warn(&diagnostic::QUADRANT_MODE, message);
                 Quadrants::Multi
             }
             quadrants => quadrants,
         };
         let center = match quadrants {
             Quadrants::Multi => from + offset,
-            Quadrants::Single if from == to => return Ok(None),
+            Quadrants::Single if from == to => return None,
             Quadrants::Single => single_quadrant(from, to, offset, turn).unwrap_or(from + offset),
         };
         let mismatch = center.distance(from) - center.distance(to);
         if mismatch.abs() > COARSE {
             let message = "the start and the end of an arc lie at different distances from its centre; the radius is interpolated";
-            self.warnings.add(&diagnostic::ARC_RADIUS_MISMATCH, place.clone(), message);
+            here.warn(&diagnostic::ARC_RADIUS_MISMATCH, message);
         }
-        let turn = if self.placement.mirrors() { turn.reversed() } else { turn };
-        let (start, end) = (self.place(from, place)?, self.place(to, place)?);
-        let center = start + self.placement.vector(center - from);
-        Ok(Some(Arc { start, end, center, turn }))
+        Some(center)
     }
 
-    /// Where the radii of arcs so declared are kept.
-    const fn index(declared: Option<Quadrants>) -> usize {
-        match declared {
-            Some(Quadrants::Single) => 0,
-            Some(Quadrants::Multi) => 1,
-            None => 2,
-        }
-    }
-
-    /// How what has been read so far asks for the file to be read: the radii of its arcs, and how
-    /// large the board is that it draws.
+    /// How the radii seen so far ask for the file to be read, its lengths as they were.
     pub(super) fn reading_by_evidence(&self) -> Reading {
         let [single, multi, undeclared] = &self.radii;
-        let declared = |mode| match mode {
-            Quadrants::Single => single.refutes(mode).map_or(mode, |(other, _)| other),
-            Quadrants::Multi => multi.refutes(mode).map_or(mode, |(other, _)| other),
-        };
         let undeclared = match undeclared.verdict() {
             Verdict::Single(_) => Quadrants::Single,
             Verdict::Multi(_) | Verdict::Either | Verdict::Contradiction { .. } => Quadrants::Multi,
         };
-        let unit = self.is_too_wide().then_some(Unit::Millimetre);
-        Reading { unit, single: declared(Quadrants::Single), multi: declared(Quadrants::Multi), undeclared }
+        Reading {
+            unit: None,
+            single: single.refutes(Quadrants::Single).map_or(Quadrants::Single, |(other, _)| other),
+            multi: multi.refutes(Quadrants::Multi).map_or(Quadrants::Multi, |(other, _)| other),
+            undeclared,
+        }
     }
 
     /// Says how arcs are read that the file leaves open or declares against their radii.
@@ -93,8 +91,8 @@ impl<'a> Reader<'a> {
     /// # Errors
     ///
     /// Arcs that the file leaves open, and that contradict each other or fit neither way.
-    pub(super) fn explain_arcs(&mut self) -> Result<(), Error> {
-        let [single, multi, undeclared] = self.radii.clone();
+    pub(super) fn explain(&self, warnings: &mut Warnings<'_>) -> Result<(), Fault> {
+        let [single, multi, undeclared] = &self.radii;
         for (radii, declared, name) in [(single, Quadrants::Single, "G74"), (multi, Quadrants::Multi, "G75")]
         {
             if let Some((other, misfits)) = radii.refutes(declared) {
@@ -103,7 +101,7 @@ impl<'a> Reader<'a> {
                     other.describe(),
                     radii.count
                 );
-                self.warnings.add(&diagnostic::QUADRANT_MODE, radii.first, message);
+                warnings.add(&diagnostic::QUADRANT_MODE, radii.first.clone(), message);
             }
         }
         if undeclared.count == 0 {
@@ -116,8 +114,7 @@ impl<'a> Reader<'a> {
                     "neither G74 nor G75 is set, and the arcs contradict each other: of {count} arcs {} fit only G74, and {} fit only G75, as this one",
                     single.count, multi.count
                 );
-                let place = multi.first.clone();
-                return Err(self.error(place, what, "G74 or G75 before the first arc", WRITE_AGAIN));
+                return Err(undecided(what).at(&multi.first));
             }
             Verdict::Single(misfits) => {
                 format!("as G75, {misfits} of {count} would begin and end at different radii")
@@ -127,17 +124,19 @@ impl<'a> Reader<'a> {
             ),
             Verdict::Either => "their radii fit both".to_owned(),
         };
-        if let Some(place) = undeclared.unfit {
+        if let Some(place) = &undeclared.unfit {
             let what = "neither G74 nor G75 is set, and this arc fits neither: its ends lie at different distances from its centre";
-            return Err(self.error(place, what, "G74 or G75 before the first arc", WRITE_AGAIN));
+            return Err(undecided(what).at(place));
         }
         let message = format!(
             "neither G74 nor G75 is set; arcs are read as {}: {reason}",
             self.reading.undeclared.describe()
         );
-        self.warnings.add(&diagnostic::QUADRANT_MODE, undeclared.first, message);
+        warnings.add(&diagnostic::QUADRANT_MODE, undeclared.first.clone(), message);
         Ok(())
     }
 }
 
-const WRITE_AGAIN: &str = "export the layer with G75";
+fn undecided(what: impl Into<String>) -> Fault {
+    Fault::new(what, "G74 or G75 before the first arc").hint("export the layer with G75")
+}
