@@ -3,13 +3,11 @@
 use crate::board::polarity::{offset, union};
 use crate::board::{Copper, FLATTEN};
 use crate::geometry::{Nm, Polygon};
-use crate::topology::{NetId, Nets};
+use crate::topology::{NetId, Nets, Pattern, called};
 use crate::voronoi;
 
-use super::by_net::names;
 use super::distance_for::DistanceFor;
 use super::options::Complete;
-use super::pattern::Pattern;
 use super::quantity::Area;
 
 /// What is cleared beside the gaps round nets, in the files' coordinates.
@@ -52,15 +50,16 @@ impl Clearing {
         self.distances.iter().map(|own| own.distance.nm()).max()
     }
 
-    /// What that means on a side.
-    pub(super) fn on(&self, copper: &Copper, nets: &Nets) -> voronoi::Clearing {
+    /// What that means on a side, of which the finest tool cuts this kerf: as far as the middle of a
+    /// cutter goes.
+    pub(super) fn on(&self, copper: &Copper, nets: &Nets, kerf: Nm) -> voronoi::Clearing {
         let ids = || (0..).map(NetId).take(nets.nets().len());
         let rectangles =
             |areas: &[Area]| areas.iter().map(|&area| Polygon::rectangle(area.into())).collect::<Vec<_>>();
         if !self.is_wanted() {
             return voronoi::Clearing { kept: rectangles(&self.kept), ..voronoi::Clearing::default() };
         }
-        let names: Vec<Vec<String>> = ids().map(|id| names(copper, nets, id)).collect();
+        let names: Vec<Vec<String>> = ids().map(|id| called(copper, nets, id)).collect();
         let is_any = |patterns: &[Pattern], id: NetId| {
             patterns.iter().any(|pattern| pattern.matches_any(&names[id.index()]))
         };
@@ -71,7 +70,7 @@ impl Clearing {
             let shapes = features.map(|&feature| &copper.features[feature as usize].shape);
             let polygons: Vec<Polygon> = shapes.filter_map(|shape| shape.polygon(FLATTEN)).collect();
             let whole = union(&polygons);
-            areas.extend(whole.iter().flat_map(|part| offset(part, own.distance.nm(), FLATTEN)));
+            areas.extend(whole.iter().flat_map(|part| offset(part, own.distance.nm() + kerf / 2, FLATTEN)));
         }
         voronoi::Clearing {
             nets: ids().filter(|&id| is_any(&self.nets, id)).collect(),

@@ -2,12 +2,12 @@
 
 use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Warning, Words};
+use crate::topology::{NetId, Pattern, called};
 
-use super::by_net::{names, without_net};
+use super::by_net::without_net;
 use super::clearing::Clearing;
 use super::need::Need;
-use super::{Area, Layer, Options, Pattern, Settings, Sites};
-use crate::topology::NetId;
+use super::{Area, Layer, Options, Settings, Sites};
 
 impl Settings {
     /// The first of the `given` options that changes nothing beside the other settings, and what to
@@ -47,7 +47,7 @@ pub(super) fn patterns<'a>(
     let means_one = |pattern: &Pattern| {
         layers.clone().any(|(copper, layer)| {
             let mut ids = (0..).map(NetId).take(layer.nets.nets().len());
-            ids.any(|id| pattern.matches_any(&names(copper, &layer.nets, id)))
+            ids.any(|id| pattern.matches_any(&called(copper, &layer.nets, id)))
         })
     };
     let strategies = settings.strategy_for.iter().map(|own| (&own.nets, "it sets no strategy"));

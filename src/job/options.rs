@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::gcode::dialect::{Blend, ToolChange};
 use crate::toolpath::{Angle, Direction, Feed, Material};
+use crate::topology::Pattern;
 
 use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::distance_for::DistanceFor;
@@ -15,7 +16,6 @@ use super::need::Need;
 use super::output_name::OutputName;
 use super::overlap::Overlap;
 use super::own_lines::OwnLines;
-use super::pattern::Pattern;
 use super::quantity::{Area, Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::reach::Reach;
 use super::strategy_for::StrategyFor;

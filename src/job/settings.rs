@@ -7,6 +7,7 @@ use crate::board::Side;
 use crate::gcode::Dialect;
 use crate::geometry::{Nm, Vector};
 use crate::toolpath::{self, Angle, Direction, DrillSpeeds, Heights, Machine, Tool};
+use crate::topology::Pattern;
 
 use super::Error;
 use super::Options;
@@ -16,7 +17,6 @@ use super::clearing::Clearing;
 use super::cutting::{Cutting, frame_margin, isolation, pixel, sites};
 use super::holding::{Holding, holding};
 use super::output_name;
-use super::pattern::Pattern;
 use super::quantity::{Length, Tiles, ToolChangeAt};
 use super::strategy_for::StrategyFor;
 use super::{controller, cutting_out, drilling, validate};

@@ -29,6 +29,7 @@ impl Job {
                 role: Some(role(written.part)),
                 cutter: None,
                 placement: Some(self.laid(written)),
+                asked: None,
             })
             .collect();
         let known: Vec<Known<'_>> =

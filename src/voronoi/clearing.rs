@@ -2,9 +2,9 @@
 //!
 //! ```text
 //!    ╭───────────────╮      Passes go on from those beside every net, as far as there is room, where the axis of the cutter is in
-//!    │   ▓▓▓   ┌─────┼──    what is to be cleared: areas, each a little larger, so that the nearest pass to every place of it is,
-//!    │   ▓▓▓   │ kept│      and the regions of nets. In areas that are kept no pass runs, nor any that would reach into one.
-//!    ╰─────────┴─────╯
+//!    │   ▓▓▓   ┌─────┼──    what is to be cleared: areas, and the regions of nets. One pass runs along the edge of the areas, at
+//!    │   ▓▓▓   │ kept│      which the others end: so it is as straight as what was asked for, half a kerf farther out. In areas
+//!    ╰─────────┴─────╯      that are kept no pass runs, nor any that would reach into one.
 //! ```
 
 use rayon::prelude::*;
@@ -14,8 +14,10 @@ use crate::board::polarity::{offset, union};
 use crate::geometry::{Nm, Polygon};
 use crate::topology::NetId;
 
-use super::Owner;
-use super::clip::{Fence, Piece};
+use super::clip::{Fence, Node, Piece};
+use super::plane::Spot;
+use super::sample::Sample;
+use super::{BACKGROUND, Owner};
 
 /// What is cleared beside the gaps round nets, and what is not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -36,6 +38,11 @@ impl Clearing {
     }
 }
 
+/// Along an edge places no farther apart are looked at, in nanometres, and no nearer. Both chosen:
+/// far below a kerf, and what no program can tell.
+const STEP: f64 = 20_000.0;
+const LEAST: f64 = 100.0;
+
 /// Where the axis of a cutter may run while it clears.
 pub(super) struct Zone<'a> {
     nets: &'a [NetId],
@@ -44,18 +51,27 @@ pub(super) struct Zone<'a> {
 }
 
 impl<'a> Zone<'a> {
-    /// For a cutter of this kerf, the passes of which are no farther apart than `step`.
-    pub(super) fn new(clearing: &'a Clearing, kerf: Nm, step: Nm) -> Self {
-        let fence = |areas: &[Polygon], by: Nm| {
-            let whole = union(areas);
-            let grown: Vec<Polygon> = whole.par_iter().flat_map(|area| offset(area, by, FLATTEN)).collect();
-            (!grown.is_empty()).then(|| Fence::around(&union(&grown)))
-        };
-        Self {
-            nets: &clearing.nets,
-            areas: fence(&clearing.areas, step / 2),
-            kept: fence(&clearing.kept, kerf / 2),
-        }
+    /// For a cutter of this kerf.
+    pub(super) fn new(clearing: &'a Clearing, kerf: Nm) -> Self {
+        let fence = |areas: &[Polygon]| (!areas.is_empty()).then(|| Fence::around(areas));
+        let kept = union(&clearing.kept);
+        let kept: Vec<Polygon> = kept.par_iter().flat_map(|area| offset(area, kerf / 2, FLATTEN)).collect();
+        Self { nets: &clearing.nets, areas: fence(&union(&clearing.areas)), kept: fence(&union(&kept)) }
+    }
+
+    /// Passes along the edges of what is cleared, where they are on `board` and copper, so far away
+    /// as `clearance` says (within it nothing), is no nearer than `nearest`.
+    pub(super) fn edges(
+        &self,
+        board: &Fence,
+        clearance: &(dyn Fn(Spot) -> f64 + Sync),
+        nearest: f64,
+    ) -> Vec<Piece> {
+        let rings: Vec<Vec<Spot>> = self.areas.iter().flat_map(Fence::rings).collect();
+        let along = |ring: &Vec<Spot>| along(ring, clearance, nearest);
+        let pieces: Vec<Piece> = rings.par_iter().flat_map_iter(along).collect();
+        let on_board = pieces.into_par_iter().flat_map_iter(|piece| board.parts(piece, true));
+        self.open(on_board.collect())
     }
 
     /// What of passes lies where anything may be cleared.
@@ -91,4 +107,70 @@ impl<'a> Zone<'a> {
         let owners = [piece.left, piece.right].map(Owner::from_number);
         owners.iter().any(|owner| matches!(owner, Owner::Net(net) if self.nets.binary_search(net).is_ok()))
     }
+}
+
+/// The parts of a closed line from which copper is no nearer than `nearest`.
+fn along(ring: &[Spot], clearance: impl Fn(Spot) -> f64, nearest: f64) -> Vec<Piece> {
+    let sample = |at: Spot| Sample { at, clearance: clearance(at) };
+    let is_open = |sample: &Sample| sample.clearance >= nearest;
+    let mut runs: Vec<Vec<Sample>> = Vec::new();
+    let mut last: Option<Sample> = None;
+    let mut go = |next: Sample| {
+        let before = last.replace(next).filter(|before| is_open(before) != is_open(&next));
+        if let Some(before) = before {
+            let (inner, outer) = if is_open(&next) { (next, before) } else { (before, next) };
+            let edge = edge_of(inner, outer, &sample, nearest);
+            if is_open(&next) {
+                runs.push(vec![edge]);
+            } else if let Some(run) = runs.last_mut() {
+                run.push(edge);
+            }
+        }
+        if is_open(&next) {
+            match runs.last_mut() {
+                Some(run) => run.push(next),
+                None => runs.push(vec![next]),
+            }
+        }
+    };
+    for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+        let length = (b - a).length();
+        let mut part = 0.0;
+        while part < length {
+            let at = sample(a + (b - a) * (part / length));
+            go(at);
+            // Distances change no faster than the way goes.
+            part += STEP.max((at.clearance - nearest).abs() / 2.0);
+        }
+    }
+    let Some(first) = ring.first().map(|&at| sample(at)) else { return Vec::new() };
+    go(first);
+    let is_whole = runs.len() == 1 && runs[0][0] == first && runs[0].last() == Some(&first);
+    // What begins where the ring ends goes on there.
+    if !is_whole && runs.len() > 1 && is_open(&first) {
+        let mut end = runs.pop().unwrap_or_default();
+        end.extend(runs[0].drain(1..));
+        runs[0] = end;
+    }
+    let piece = |samples| Piece {
+        left: BACKGROUND,
+        right: BACKGROUND,
+        samples,
+        ends: (!is_whole).then_some([Node::END; 2]),
+    };
+    runs.into_iter().filter(|run| run.len() > 1).map(piece).collect()
+}
+
+/// Where between an open place and one that is not copper is as near as it may be.
+fn edge_of(mut inner: Sample, outer: Sample, sample: impl Fn(Spot) -> Sample, nearest: f64) -> Sample {
+    let mut outer = outer.at;
+    while (outer - inner.at).length() > LEAST {
+        let middle = sample(inner.at.midpoint(outer));
+        if middle.clearance >= nearest {
+            inner = middle;
+        } else {
+            outer = middle.at;
+        }
+    }
+    inner
 }
