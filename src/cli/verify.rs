@@ -7,9 +7,9 @@ use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 use voromill::board::{Board, Side, Source};
-use voromill::geometry::{Nm, Polygon, Vector};
+use voromill::geometry::{Nm, Vector};
 use voromill::import::{self, Loaded, Selection};
-use voromill::job::{self, Area, DistanceFor, Tiles, Topology};
+use voromill::job::{self, AreaChoice, DistanceFor, Tiles, Topology};
 use voromill::report::Verdict;
 use voromill::report::stages::Stages;
 use voromill::toolpath::Angle;
@@ -112,8 +112,8 @@ pub(super) struct Verify {
     clear: bool,
 
     /// What was to be cleared: an area, as for mill; may be given several times
-    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true)]
-    clear_area: Vec<Area>,
+    #[arg(long, value_name = "X,Y,W,H|FILE", allow_hyphen_values = true)]
+    clear_area: Vec<AreaChoice>,
 
     /// The regions of nets that were to be cleared, as for mill
     #[arg(long, value_name = "PATTERN", value_delimiter = ',')]
@@ -124,8 +124,8 @@ pub(super) struct Verify {
     distance_for: Vec<DistanceFor>,
 
     /// Where nothing was to be cleared, as for mill; may be given several times
-    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true)]
-    keep_area: Vec<Area>,
+    #[arg(long, value_name = "X,Y,W,H|FILE", allow_hyphen_values = true)]
+    keep_area: Vec<AreaChoice>,
 
     /// How many boards are in the stock, such as 3x2 [default: from the programs' comments]
     #[arg(long, value_name = "NxM")]
@@ -414,16 +414,13 @@ impl Verify {
 
     /// What was to be cleared, if anybody says.
     fn asked(&self) -> Option<Asked> {
-        let areas = |areas: &[Area]| areas.iter().map(|&area| Polygon::rectangle(area.into())).collect();
-        let distances = self.distance_for.iter().map(|own| (own.nets.clone(), own.distance.nm()));
-        let asked = Asked {
-            everything: self.clear,
-            areas: areas(&self.clear_area),
+        let clearing = job::Clearing {
             nets: self.clear_nets.clone(),
-            distances: distances.collect(),
-            kept: areas(&self.keep_area),
-            tolerance: Nm::ZERO,
+            areas: self.clear_area.clone(),
+            distances: self.distance_for.clone(),
+            kept: self.keep_area.clone(),
         };
+        let asked = clearing.asked(self.clear, Nm::ZERO);
         asked.is_something().then_some(asked)
     }
 

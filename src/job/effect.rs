@@ -7,7 +7,7 @@ use crate::topology::{NetId, Pattern, called};
 use super::by_net::without_net;
 use super::clearing::Clearing;
 use super::need::Need;
-use super::{Area, Layer, Options, Settings, Sites};
+use super::{AreaChoice, Layer, Options, Settings, Sites};
 
 impl Settings {
     /// The first of the `given` options that changes nothing beside the other settings, and what to
@@ -59,11 +59,11 @@ pub(super) fn patterns<'a>(
 /// An `area-off-the-board` for each area to be cleared or kept that does not touch the board.
 pub(super) fn areas(board: &Board, settings: &Settings) -> Vec<Warning> {
     let Clearing { areas, kept, .. } = &settings.clearing;
-    let is_off = |area: &&Area| board.bounds().is_some_and(|bounds| !bounds.touches((**area).into()));
+    let is_off = |area: &&AreaChoice| board.bounds().is_some_and(|bounds| !bounds.touches(area.bounds()));
     let off = areas.iter().chain(kept).filter(is_off);
     off.map(|area| {
         let message = format!("the area {area} is not on the board");
-        planning::AREA_OFF_THE_BOARD.warning(message).at(area.corner.into())
+        planning::AREA_OFF_THE_BOARD.warning(message).at(area.bounds().min())
     })
     .collect()
 }

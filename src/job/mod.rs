@@ -4,6 +4,7 @@
 //! those and the defaults, complete and checked; [`mill`] does the work, in memory. Who calls it
 //! decides what becomes a file.
 
+mod area_choice;
 mod art;
 mod auto;
 mod by_net;
@@ -61,6 +62,7 @@ mod verification;
 mod workbench;
 mod written;
 
+pub use area_choice::{AreaChoice, ParseAreaChoiceError};
 pub use art::{Art, OneTool};
 pub use cache_key::cache_key;
 pub use carving::{Carving, Engraving, Inlay, carve};

@@ -22,6 +22,8 @@ pub struct Asked {
     pub kept: Vec<Polygon>,
     /// How far cuts may be from where they should be.
     pub tolerance: Nm,
+    /// Files of areas that the header names and nobody has given: what they cover is unknown.
+    pub unread: Vec<String>,
 }
 
 impl Asked {
@@ -38,6 +40,10 @@ impl Asked {
             let found: Vec<Polygon> = all(setting).split_whitespace().filter_map(rectangle).collect();
             found
         };
+        let unread = ["clear-area", "keep-area"].map(|setting| {
+            let is_file = |text: &&str| rectangle(text).is_none();
+            all(setting).split_whitespace().filter(is_file).map(str::to_owned).collect::<Vec<_>>()
+        });
         let distance = |text: &str| {
             let (nets, distance) = text.rsplit_once('=')?;
             Some((pattern(nets), distance.parse().ok()?))
@@ -49,6 +55,7 @@ impl Asked {
             distances: all("distance-for").split_whitespace().filter_map(distance).collect(),
             kept: rectangles("keep-area"),
             tolerance: all("tolerance").parse().unwrap_or_default(),
+            unread: unread.concat(),
         }
     }
 
@@ -62,6 +69,7 @@ impl Asked {
             self.distances.extend_from_slice(&other.distances);
             self.kept.extend_from_slice(&other.kept);
             self.tolerance = self.tolerance.max(other.tolerance);
+            self.unread.extend_from_slice(&other.unread);
         }
         self
     }

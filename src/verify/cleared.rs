@@ -30,8 +30,12 @@ const SLACK: Nm = Nm::from_um(5);
 const PITCH: f64 = 10_000.0;
 
 /// Where the middle of a tool has less room, in mm², it is not asked to go: 10 µm each way. Chosen:
-/// what it clears there is a crumb, and offsets leave specks of some nanometres.
+/// what it clears there is a crumb.
 const SPECK: f64 = 1e-4;
+
+/// What is no wider than twice this has no room for a middle. Chosen: growing a polygon leaves
+/// spikes of some nanometres at corners with edges as short.
+const SPIKE: Nm = Nm::from_um(1);
 
 /// Arcs become chords within this of them. Chosen: far below what is tolerated.
 const CHORD: Nm = Nm::new(100);
@@ -87,8 +91,9 @@ impl<'a> Cleared<'a> {
             .par_iter()
             .flat_map_iter(|(kerf, middle)| {
                 let middle = within.map_or_else(|| middle.clone(), |within| common(middle, within));
-                let roomy = middle.into_iter().filter(|part| part.area_mm2() > SPECK);
-                roomy.flat_map(|part| offset(&part, kerf.floor - slack, FLATTEN)).collect::<Vec<_>>()
+                let roomy = middle.iter().flat_map(|part| offset(part, -SPIKE, FLATTEN));
+                let roomy = roomy.filter(|part| part.area_mm2() > SPECK);
+                roomy.flat_map(|part| offset(&part, kerf.floor - slack + SPIKE, FLATTEN)).collect::<Vec<_>>()
             })
             .collect();
         let wanted = common(&common(&union(&wide), areas), &self.board);

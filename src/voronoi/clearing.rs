@@ -4,7 +4,7 @@
 //!    ╭───────────────╮      Passes go on from those beside every net, as far as there is room, where the axis of the cutter is in
 //!    │   ▓▓▓   ┌─────┼──    what is to be cleared: areas, and the regions of nets. One pass runs along the edge of the areas, at
 //!    │   ▓▓▓   │ kept│      which the others end: so it is as straight as what was asked for, half a kerf farther out. In areas
-//!    ╰─────────┴─────╯      that are kept no pass runs, nor any that would reach into one.
+//!    ╰─────────┴─────╯      that are kept no pass runs, nor any that would reach into one; one runs round them.
 //! ```
 
 use rayon::prelude::*;
@@ -59,19 +59,30 @@ impl<'a> Zone<'a> {
         Self { nets: &clearing.nets, areas: fence(&union(&clearing.areas)), kept: fence(&union(&kept)) }
     }
 
-    /// Passes along the edges of what is cleared, where they are on `board` and copper, so far away
-    /// as `clearance` says (within it nothing), is no nearer than `nearest`.
+    /// Passes along the edges of areas that are cleared, and round those that are kept where it is
+    /// cleared beside them, on `board`. How far copper is `clearance` says (within it nothing): no
+    /// nearer than `nearest`; and beyond `farthest` nothing is cleared but areas and regions of the
+    /// nets that `owner` names.
     pub(super) fn edges(
         &self,
         board: &Fence,
-        clearance: &(dyn Fn(Spot) -> f64 + Sync),
-        nearest: f64,
+        (clearance, owner): (&(dyn Fn(Spot) -> f64 + Sync), &(dyn Fn(Spot) -> Option<NetId> + Sync)),
+        [nearest, farthest]: [f64; 2],
     ) -> Vec<Piece> {
-        let rings: Vec<Vec<Spot>> = self.areas.iter().flat_map(Fence::rings).collect();
-        let along = |ring: &Vec<Spot>| along(ring, clearance, nearest);
-        let pieces: Vec<Piece> = rings.par_iter().flat_map_iter(along).collect();
-        let on_board = pieces.into_par_iter().flat_map_iter(|piece| board.parts(piece, true));
-        self.open(on_board.collect())
+        let rings = |fence: &Option<Fence>| fence.iter().flat_map(Fence::rings).collect::<Vec<_>>();
+        let round = |ring: &Vec<Spot>| along(ring, clearance, nearest);
+        let edges: Vec<Piece> = rings(&self.areas).par_iter().flat_map_iter(round).collect();
+        let beside = |at: Spot| {
+            let room = clearance(at);
+            let is_cleared = room <= farthest
+                || self.areas.as_ref().is_some_and(|areas| areas.holds(at))
+                || owner(at).is_some_and(|net| self.nets.binary_search(&net).is_ok());
+            if is_cleared { room } else { 0.0 }
+        };
+        let round = |ring: &Vec<Spot>| along(ring, beside, nearest);
+        let kept: Vec<Piece> = rings(&self.kept).par_iter().flat_map_iter(round).collect();
+        let all = self.open(edges).into_par_iter().chain(kept);
+        all.flat_map_iter(|piece| board.parts(piece, true)).collect()
     }
 
     /// What of passes lies where anything may be cleared.

@@ -16,7 +16,7 @@ use rayon::prelude::*;
 
 use crate::board::{Copper, Warning};
 use crate::geometry::Nm;
-use crate::topology::Nets;
+use crate::topology::{NetId, Nets};
 
 use super::certified::Owned;
 use super::clearing::{Clearing, Zone};
@@ -156,17 +156,17 @@ impl Diagram {
             all.append(passes);
         }
         let fence = Fence::new(&self.border);
-        if !further.is_empty() {
-            let room = |at| match diagram.owner_near(at, 0.0, NOBODY) {
-                Some(owner) if owner != NOBODY => 0.0,
-                _ => diagram.distance(at),
-            };
-            let mut lines = zone.edges(&fence, &room, first.to_f64());
-            for grooves in wider.iter().chain(&grooves) {
-                lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
-            }
-            all.append(self.fitted(&lines));
+        let room = |at| match diagram.owner_near(at, 0.0, NOBODY) {
+            Some(owner) if owner != NOBODY => 0.0,
+            _ => diagram.distance(at),
+        };
+        let owner = |at| diagram.owner_near(at, f64::INFINITY, NOBODY).map(NetId);
+        let reach = [first, levels.last().copied().unwrap_or(Nm::ZERO)].map(Nm::to_f64);
+        let mut lines = zone.edges(&fence, (&room, &owner), reach);
+        for grooves in wider.iter().chain(&grooves) {
+            lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
         }
+        all.append(self.fitted(&lines));
         let heights = |levels: &[Nm]| -> Vec<f64> { levels.iter().map(|level| level.to_f64()).collect() };
         let levels = heights(&levels);
         let kerf = widening.floor.to_f64();

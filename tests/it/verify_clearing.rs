@@ -229,9 +229,11 @@ fn smaller(line: &str) -> String {
 #[test]
 fn what_is_cleared_is_clear() {
     for tool in ["\"endmill:0.2mm\"", "\"vbit:0.1mm:60deg\"", "[\"endmill:0.8mm\", \"vbit:0.1mm:30deg\"]"] {
+        let kept = "\nkeep-area = \"18mm,12mm,3mm,3mm\"";
         for options in ["clear = true", "clear-nets = \"VCC\"", "distance-for = \"VCC=2mm\"", &in_area()] {
             let options = options.split("\ntool").next().expect("some");
             made(&format!("tool = {tool}\n{options}"));
+            made(&format!("tool = {tool}\n{options}{kept}"));
         }
     }
 }
@@ -287,4 +289,58 @@ fn a_program_that_does_not_say_what_was_asked_for_is_told_by_options() {
     assert!(!verify(&kept).contains("copper-left"), "all of it is kept");
     let far = verify(&["--distance-for", "VCC=2mm", "--deny", "error"]);
     assert!(far.contains("error") && far.contains("net-too-near"), "{far}");
+}
+
+/// A layer of two rectangles, one of them with a hole.
+const LAYER: &str = "%FSLAX46Y46*%\n%MOMM*%\nG01*\n%LPD*%\nG36*\nX14000000Y8000000D02*\nX20000000D01*\n\
+    Y14000000D01*\nX14000000D01*\nY8000000D01*\nG37*\n%LPC*%\nG36*\nX16000000Y10000000D02*\nX18000000D01*\n\
+    Y12000000D01*\nX16000000D01*\nY10000000D01*\nG37*\n%LPD*%\nG36*\nX25000000Y8000000D02*\nX28000000D01*\n\
+    Y14000000D01*\nX25000000D01*\nY8000000D01*\nG37*\nM02*\n";
+
+#[test]
+fn a_layer_or_a_drawing_says_what_is_cleared_and_kept() {
+    let folder = tempfile::TempDir::new().expect("a folder");
+    let board = concat!(env!("CARGO_MANIFEST_DIR"), "/fixtures/boards/blinker");
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"40mm\" height=\"30mm\" viewBox=\"0 0 40 30\">\
+               <rect x=\"14\" y=\"10\" width=\"8\" height=\"8\"/></svg>";
+    let empty = "%FSLAX46Y46*%\n%MOMM*%\nG01*\nM02*\n";
+    for (file, text) in [("mask.gbr", LAYER), ("mask.svg", svg), ("empty.gbr", empty)] {
+        std::fs::write(folder.path().join(file), text).expect("written");
+    }
+    let mill = |out: &str, more: &[&str]| {
+        let all = [&["mill", board, "-o", out, "--tool", "endmill:0.4mm", "--no-html"], more].concat();
+        voromill(folder.path(), &all)
+    };
+    let cut = |out: &str| {
+        let text = std::fs::read_to_string(folder.path().join(out).join("blinker-back.ngc"));
+        let text = text.expect("a program");
+        let cuts: Vec<&str> = text.lines().filter(|line| !line.starts_with('(')).collect();
+        cuts.join("\n")
+    };
+    // What the layer covers, as rectangles: the same cuts.
+    let rectangles = ["--clear-area", "14mm,8mm,6mm,6mm", "--clear-area", "25mm,8mm,3mm,6mm"];
+    let hole = ["--keep-area", "16mm,10mm,2mm,2mm"];
+    assert!(mill("plain", &[&rectangles[..], &hole].concat()).status.success(), "rectangles");
+    let kept = mill("kept", &["--clear-area", "mask.gbr", "--keep-area", "16mm,10mm,2mm,2mm"]);
+    assert!(kept.status.success() && !stdout(&kept).contains("copper-left"), "{}", stdout(&kept));
+    let layer = mill("layer", &["--clear-area", "mask.gbr"]);
+    assert!(layer.status.success() && !stdout(&layer).contains("copper-left"), "{}", stdout(&layer));
+    let whole = [&rectangles[..], &[]].concat();
+    assert!(mill("whole", &whole).status.success(), "without a hole");
+    assert_ne!(cut("layer"), cut("whole"), "its hole is not cleared");
+    let drawn = mill("drawn", &["--clear-area", "mask.svg", "--keep-area", "mask.gbr"]);
+    assert!(drawn.status.success() && !stdout(&drawn).contains("copper-left"), "{}", stdout(&drawn));
+    // Whoever verifies the program must give the layer.
+    let verify = |more: &[&str]| {
+        let all = [&["verify", "layer/blinker-back.ngc", "--board", board, "-v"], more].concat();
+        stdout(&voromill(folder.path(), &all))
+    };
+    assert!(verify(&[]).contains("`mask.gbr` says where"), "{}", verify(&[]));
+    assert!(!verify(&["--clear-area", "mask.gbr"]).contains("copper-left"), "it is clear");
+    assert!(verify(&["--clear-area", "14mm,8mm,6mm,6mm"]).contains("copper-left"), "not in its hole");
+    for (file, said) in [("empty.gbr", "empty.gbr"), ("none.gbr", "none.gbr"), ("1mm,2mm", "1mm,2mm")] {
+        let done = mill("no", &["--clear-area", file]);
+        let told = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert!(!done.status.success() && told.contains(said), "{file}: {told}");
+    }
 }

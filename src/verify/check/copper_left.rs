@@ -13,7 +13,7 @@
 //! # What it can miss
 //!
 //! Strips less than 10 µm wide, and pieces that together are more than a crumb but none of them
-//! is. Along the edge of a net's region it looks no nearer than half a kerf.
+//! is. Where a file says what was to be cleared it must be given. Along the edge of a net's region it looks no nearer than half a kerf.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::verify::Settings;
@@ -31,7 +31,9 @@ const KIND: Diagnostic = Diagnostic {
     effect: Words::of(
         "copper stays where none was wanted; within the distance asked for by {distance-for}, which is then an error, it bridges part of it",
     ),
-    advice: Words::of("check that the programs of all tools are given, and that none was changed"),
+    advice: Words::of(
+        "check that the programs of all tools are given, that none was changed, and that files of {clear-area} and {keep-area} are given",
+    ),
 };
 
 pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(check) };
@@ -43,6 +45,12 @@ const MOST_LISTED: usize = 50;
 
 fn check(sheet: &Sheet<'_>, settings: &Settings) -> Vec<Finding> {
     let asked = &sheet.asked;
+    if let Some(file) = asked.unread.first() {
+        let message = format!(
+            "whether what was to be cleared is clear is not checked: `{file}` says where, and is not given"
+        );
+        return vec![Finding::new(NAME, Severity::Info, message)];
+    }
     if !asked.is_something() || sheet.cuts.is_empty() {
         return Vec::new();
     }
