@@ -255,7 +255,7 @@ fn shares(
 ) -> (Vec<(Nm, Boundaries)>, Vec<Warning>) {
     let kerfs: Vec<Nm> = settings.isolation.iter().map(Cutting::kerf).collect();
     let mut cut: Vec<(Nm, Boundaries)> = Vec::with_capacity(kerfs.len());
-    let clearing = settings.clearing.on(copper.0, copper.1);
+    let clearing = settings.clearing.on(copper.0, copper.1, settings.finest_kerf());
     let mut warnings = Vec::new();
     for (cutting, base) in settings.isolation.iter().zip(share(boundaries, &kerfs)) {
         let all = match &cutting.widening {

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
 use crate::geometry::{Nm, Point};
-use crate::topology::Nets;
+use crate::topology::{NetId, Nets};
 
 use super::certified::Owned;
 use super::clearing::{Clearing, Zone};
@@ -115,7 +115,7 @@ impl Diagram {
         let wall = self.copper.inflate(farthest * 3 + BEYOND);
         let floor = FLOOR.min(first / 2);
         let kind = if further.is_empty() { self.settings.kind(floor) } else { exact::Kind::Above(floor) };
-        let zone = Zone::new(clearing, widening.kerf, widening.advance());
+        let zone = Zone::new(clearing, widening.kerf);
         let lines = |diagram: &exact::Diagram| {
             let pieces = |(stage, &level): (usize, &Nm)| {
                 let enclosed = stage > 0 || self.settings.enclosed;
@@ -157,6 +157,17 @@ impl Diagram {
             all.append(passes);
         }
         let fence = Fence::new(&self.border);
+        let room = |at| match diagram.owner_near(at, 0.0, NOBODY) {
+            Some(owner) if owner != NOBODY => 0.0,
+            _ => diagram.distance(at),
+        };
+        let owner = |at| diagram.owner_near(at, f64::INFINITY, NOBODY).map(NetId);
+        let reach = [first, levels.last().copied().unwrap_or(Nm::ZERO)].map(Nm::to_f64);
+        let mut lines = zone.edges(&fence, (&room, &owner), reach);
+        for grooves in wider.iter().chain(&grooves) {
+            lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
+        }
+        all.append(self.fitted(&lines));
         let heights = |levels: &[Nm]| -> Vec<f64> { levels.iter().map(|level| level.to_f64()).collect() };
         let levels = heights(&levels);
         let kerf = widening.floor.to_f64();
