@@ -83,8 +83,10 @@ fn one(board: &str) {
     let found = mean(|| _ = black_box(diagram()));
     // With a tolerance of a nanometre every place is a vertex.
     let bare = Settings { tolerance: Nm::new(1), arcs: false, ..settings.clone() };
-    let placed =
-        Diagram::new(copper, &nets, board.outline.as_ref(), &bare).expect("a diagram").boundaries().0;
+    let placed = Diagram::new(copper, &nets, board.outline.as_ref(), &bare)
+        .expect("a diagram")
+        .boundaries()
+        .expect("whole boundaries");
     let lines: Vec<Vec<Point>> = placed.edges.iter().map(|edge| edge.path.flatten(Nm::new(1))).collect();
     let fit = |line: &Vec<Point>| _ = black_box(fit_points(line.iter().copied(), settings.tolerance));
     let fitted = mean(|| lines.iter().for_each(fit));

@@ -6,11 +6,12 @@ use serde::de::value::Error;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 use voromill::gcode::dialect::{Blend, ToolChange};
 use voromill::job::{
-    Area, DialectChoice, DistanceFor, DrillSide, Drills, Length, MachineChoice, Narrow, Options, Origin,
-    OutputName, Overlap, OwnLines, Pattern, Place, Sites, Strategy, StrategyFor, Tiles, ToolChangeAt,
+    AreaChoice, DialectChoice, DistanceFor, DrillSide, Drills, Length, MachineChoice, Narrow, Options,
+    Origin, OutputName, Overlap, OwnLines, Place, Sites, Strategy, StrategyFor, Tiles, ToolChangeAt,
     ToolChoice, Topology, Triple, Wait, names, turns,
 };
 use voromill::toolpath::{Angle, Direction, Feed, Material};
+use voromill::topology::Pattern;
 
 macro_rules! arguments {
     ($($heading:literal {$(

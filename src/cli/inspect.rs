@@ -1,7 +1,8 @@
 //! `voromill inspect`: what is in the files, before anything is made of them.
 
 use clap::Args;
-use voromill::job::{Pattern, coupling, inspect, neighbours, paper};
+use voromill::job::{coupling, inspect, neighbours, paper};
+use voromill::topology::Pattern;
 
 use super::config::Config;
 use super::format::Format;

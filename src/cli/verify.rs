@@ -9,11 +9,12 @@ use clap::{Args, ValueEnum};
 use voromill::board::{Board, Side, Source};
 use voromill::geometry::{Nm, Vector};
 use voromill::import::{self, Loaded, Selection};
-use voromill::job::{self, Pattern, Tiles, Topology};
+use voromill::job::{self, AreaChoice, DistanceFor, Tiles, Topology};
 use voromill::report::Verdict;
 use voromill::report::stages::Stages;
 use voromill::toolpath::Angle;
-use voromill::verify::{self, Cutter, Orientation, Placement, Program, Role, Severity};
+use voromill::topology::Pattern;
+use voromill::verify::{self, Asked, Cutter, Orientation, Placement, Program, Role, Severity};
 
 use super::given::of_word;
 use super::{Failure, Shared};
@@ -104,6 +105,27 @@ pub(super) struct Verify {
     /// Nets that are not to be isolated, as for mill [default: from the programs' comments]
     #[arg(long, value_name = "PATTERN", value_delimiter = ',')]
     ignore: Vec<Pattern>,
+
+    /// All copper between nets was to be cleared, as for mill; this and the next four [default: from
+    /// the programs' comments]
+    #[arg(long)]
+    clear: bool,
+
+    /// What was to be cleared: an area, as for mill; may be given several times
+    #[arg(long, value_name = "X,Y,W,H|FILE", allow_hyphen_values = true)]
+    clear_area: Vec<AreaChoice>,
+
+    /// The regions of nets that were to be cleared, as for mill
+    #[arg(long, value_name = "PATTERN", value_delimiter = ',')]
+    clear_nets: Vec<Pattern>,
+
+    /// How far all other copper was to be from some nets, as for mill
+    #[arg(long, value_name = "PATTERN=LENGTH", value_delimiter = ',')]
+    distance_for: Vec<DistanceFor>,
+
+    /// Where nothing was to be cleared, as for mill; may be given several times
+    #[arg(long, value_name = "X,Y,W,H|FILE", allow_hyphen_values = true)]
+    keep_area: Vec<AreaChoice>,
 
     /// How many boards are in the stock, such as 3x2 [default: from the programs' comments]
     #[arg(long, value_name = "NxM")]
@@ -390,6 +412,18 @@ impl Verify {
         Ok(())
     }
 
+    /// What was to be cleared, if anybody says.
+    fn asked(&self) -> Option<Asked> {
+        let clearing = job::Clearing {
+            nets: self.clear_nets.clone(),
+            areas: self.clear_area.clone(),
+            distances: self.distance_for.clone(),
+            kept: self.keep_area.clone(),
+        };
+        let asked = clearing.asked(self.clear, Nm::ZERO);
+        asked.is_something().then_some(asked)
+    }
+
     fn program(&self, path: &Path) -> Result<Program, Failure> {
         let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
         let role = self.side.map(|purpose| match purpose {
@@ -409,6 +443,7 @@ impl Verify {
             role,
             cutter: self.tool,
             placement: placed.then_some(Placement { degrees, shift, mirror: self.mirror }),
+            asked: self.asked(),
         })
     }
 }

@@ -2,26 +2,10 @@
 
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
-use crate::topology::{NetId, Nets};
+use crate::topology::{NetId, Nets, Pattern, called};
 
 use super::choice::Strategy;
-use super::pattern::Pattern;
 use super::strategy_for::StrategyFor;
-
-/// What a net is called: its names, its number, and what all its copper is for if that is one
-/// thing.
-pub(super) fn names(copper: &Copper, nets: &Nets, id: NetId) -> Vec<String> {
-    let net = &nets.nets()[id.index()];
-    let function = |&feature: &u32| copper.attributes_of(&copper.features[feature as usize]).function.clone();
-    let mut functions: Vec<Option<String>> = net.features.iter().map(function).collect();
-    functions.dedup();
-    let mut names = net.names.clone();
-    names.push(nets.label(id));
-    if let [Some(function)] = functions.as_slice() {
-        names.push(function.clone());
-    }
-    names
-}
 
 /// The strategy of each net, by number: the first pattern that matches a net decides, and else the
 /// strategy of all.
@@ -35,7 +19,7 @@ pub(super) fn strategies(
         if chosen.is_empty() {
             return usual;
         }
-        let names = names(copper, nets, id);
+        let names = called(copper, nets, id);
         let own = chosen.iter().find(|own| own.nets.matches_any(&names));
         own.map_or(usual, |own| own.strategy)
     };

@@ -4,10 +4,10 @@ use crate::board::{Copper, Outline};
 use crate::coupling::Coupling;
 use crate::coupling::strips::Substrate;
 use crate::report::coupling::CouplingEntry;
-use crate::topology::{self, NetId};
+use crate::topology::{self, NetId, Pattern};
 
 use super::choice::{Sites, Strategy};
-use super::{Error, Job, Layer, Pattern, Settings, by_net, layer};
+use super::{Error, Job, Layer, Settings, layer};
 
 /// Pairs that the report of a job has. Chosen: who wants all asks `inspect`.
 const STRONGEST: usize = 20;
@@ -25,12 +25,12 @@ pub fn coupling(
     asked: &[Pattern],
 ) -> Result<CouplingEntry, Error> {
     let nets = topology::recover(copper, layer::method(settings.asked.topology));
-    let (diagram, boundaries, _) = layer::plain(copper, &nets, outline, settings)?;
+    let (diagram, boundaries) = layer::plain(copper, &nets, outline, settings)?;
     let kerf = settings.finest_kerf();
     let substrate = Substrate::fr4(settings.thickness.to_mm());
     let found = Coupling::new(&diagram, &boundaries, &topology::extents(copper, &nets), kerf, substrate);
     let is_asked = |id: &NetId| {
-        let names = by_net::names(copper, &nets, *id);
+        let names = topology::called(copper, &nets, *id);
         asked.iter().any(|pattern| pattern.matches_any(&names))
     };
     let asked: Vec<NetId> = (0..).map(NetId).take(nets.nets().len()).filter(is_asked).collect();

@@ -4,8 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use crate::geometry::{Nm, ParseLengthError};
+use crate::topology::Pattern;
 
-use super::pattern::Pattern;
 use super::quantity::Length;
 
 /// How far round the nets that a pattern means all other copper is cleared.

@@ -2,12 +2,12 @@
 
 use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Warning, Words};
+use crate::topology::{NetId, Pattern, called};
 
-use super::by_net::{names, without_net};
+use super::by_net::without_net;
 use super::clearing::Clearing;
 use super::need::Need;
-use super::{Area, Layer, Options, Pattern, Settings, Sites};
-use crate::topology::NetId;
+use super::{AreaChoice, Layer, Options, Settings, Sites};
 
 impl Settings {
     /// The first of the `given` options that changes nothing beside the other settings, and what to
@@ -47,7 +47,7 @@ pub(super) fn patterns<'a>(
     let means_one = |pattern: &Pattern| {
         layers.clone().any(|(copper, layer)| {
             let mut ids = (0..).map(NetId).take(layer.nets.nets().len());
-            ids.any(|id| pattern.matches_any(&names(copper, &layer.nets, id)))
+            ids.any(|id| pattern.matches_any(&called(copper, &layer.nets, id)))
         })
     };
     let strategies = settings.asked.strategy_for.iter().map(|own| (&own.nets, "it sets no strategy"));
@@ -59,11 +59,11 @@ pub(super) fn patterns<'a>(
 /// An `area-off-the-board` for each area to be cleared or kept that does not touch the board.
 pub(super) fn areas(board: &Board, settings: &Settings) -> Vec<Warning> {
     let Clearing { areas, kept, .. } = &settings.clearing;
-    let is_off = |area: &&Area| board.bounds().is_some_and(|bounds| !bounds.touches((**area).into()));
+    let is_off = |area: &&AreaChoice| board.bounds().is_some_and(|bounds| !bounds.touches(area.bounds()));
     let off = areas.iter().chain(kept).filter(is_off);
     off.map(|area| {
         let message = format!("the area {area} is not on the board");
-        planning::AREA_OFF_THE_BOARD.warning(message).at(area.corner.into())
+        planning::AREA_OFF_THE_BOARD.warning(message).at(area.bounds().min())
     })
     .collect()
 }

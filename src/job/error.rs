@@ -85,6 +85,9 @@ impl Error {
             Self::Voronoi { reason: voronoi::Error::NoCopper, .. } => {
                 "`voromill inspect` shows what was read; {outline} chooses another outline"
             }
+            Self::Voronoi { reason: voronoi::Error::Torn { .. }, .. } => {
+                "report it with the board; until it is mended another {strategy} may do"
+            }
             Self::Voronoi { .. } | Self::Grid(_) => "choose a larger {pixel}, or a smaller {window}",
         })
     }

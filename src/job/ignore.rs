@@ -2,11 +2,11 @@
 
 use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Side, Warning};
-use crate::topology::{self, Nets};
+use crate::topology::{self, Nets, Pattern, called};
 
-use super::by_net::{names, without_net};
+use super::Topology;
+use super::by_net::without_net;
 use super::layer::method;
-use super::{Pattern, Topology};
 
 /// Takes the nets that a pattern means out of the copper of `board`: cuts go through them as if
 /// they were not there.
@@ -35,7 +35,7 @@ fn thin(
     let nets = topology::recover(copper, method(topology));
     let mut left_out = Vec::new();
     for id in (0..).map(topology::NetId).take(nets.nets().len()) {
-        let names = names(copper, &nets, id);
+        let names = called(copper, &nets, id);
         for (pattern, meant) in patterns.iter().zip(meant.iter_mut()) {
             if pattern.matches_any(&names) {
                 *meant = true;

@@ -116,6 +116,7 @@ impl Planned<'_> {
     fn plan(&self, board: &Board, looped: Vec<NetId>) -> Result<Plan, Error> {
         let Self { copper, nets, placement, settings } = *self;
         let side = copper.side;
+        let error = |reason| Error::Voronoi { side, reason };
         let mut stages = Stages::default();
         let diagram = stages
             .run(
@@ -123,12 +124,17 @@ impl Planned<'_> {
                 || diagram(copper, nets, board.outline.as_ref(), looped, settings),
                 |_| [],
             )
-            .map_err(|reason| Error::Voronoi { side, reason })?;
-        let (boundaries, unplaced) = stages.run(
-            format!("{side}: boundaries"),
-            || diagram.boundaries(),
-            |(boundaries, _)| [("edges", boundaries.edges.len()), ("nodes", boundaries.nodes.len())],
-        );
+            .map_err(error)?;
+        let boundaries = stages
+            .run(
+                format!("{side}: boundaries"),
+                || diagram.boundaries(),
+                |found| {
+                    let count = |of: fn(&Boundaries) -> usize| found.as_ref().map_or(0, of);
+                    [("edges", count(|all| all.edges.len())), ("nodes", count(|all| all.nodes.len()))]
+                },
+            )
+            .map_err(error)?;
         let frame = needed_frame(&diagram, &boundaries);
         let frame_cut = frame.as_ref().filter(|_| settings.asked.frame);
         let (shares, passes) = stages.run(
@@ -142,7 +148,7 @@ impl Planned<'_> {
             |(sections, _)| [("moves", sections.iter().map(|section| section.moves.len()).sum())],
         );
         let mut warnings = diagram.warnings().to_vec();
-        warnings.extend(unplaced.into_iter().chain(passes).chain(narrow).map(|warning| warning.on(side)));
+        warnings.extend(passes.into_iter().chain(narrow).map(|warning| warning.on(side)));
         if frame.is_some() && frame_cut.is_none() {
             warnings.push(planning::FRAME_NOT_CUT.warning(FRAME_NOT_CUT).on(side));
         }
@@ -165,7 +171,7 @@ pub(super) fn plain(
     nets: &Nets,
     outline: Option<&Outline>,
     settings: &Settings,
-) -> Result<(Diagram, Boundaries, Vec<Warning>), Error> {
+) -> Result<(Diagram, Boundaries), Error> {
     let settings = voronoi::Settings {
         tolerance: settings.tolerance,
         frame: Frame::Hull(settings.frame_margin),
@@ -173,9 +179,8 @@ pub(super) fn plain(
     };
     let error = |reason| Error::Voronoi { side: copper.side, reason };
     let diagram = Diagram::new(copper, nets, outline, &settings).map_err(error)?;
-    let (boundaries, mut warnings) = diagram.boundaries();
-    warnings.extend_from_slice(diagram.warnings());
-    Ok((diagram, boundaries, warnings))
+    let boundaries = diagram.boundaries().map_err(error)?;
+    Ok((diagram, boundaries))
 }
 
 const FRAME_NOT_CUT: &str = "without an outline and without the frame cut, nets that reach the edge stay joined through the copper outside";
@@ -250,7 +255,7 @@ fn shares(
 ) -> (Vec<(Nm, Boundaries)>, Vec<Warning>) {
     let kerfs: Vec<Nm> = settings.isolation.iter().map(Cutting::kerf).collect();
     let mut cut: Vec<(Nm, Boundaries)> = Vec::with_capacity(kerfs.len());
-    let clearing = settings.clearing.on(copper.0, copper.1);
+    let clearing = settings.clearing.on(copper.0, copper.1, settings.finest_kerf());
     let mut warnings = Vec::new();
     for (cutting, base) in settings.isolation.iter().zip(share(boundaries, &kerfs)) {
         let all = match &cutting.widening {

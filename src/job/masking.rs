@@ -57,8 +57,8 @@ pub fn mask(loaded: &Loaded, settings: &Settings, masking: &Masking) -> Result<(
         What::Copper => Sheet::copper(board, copper, &nets, area),
         What::Openings => openings(board, copper, &nets, area, masking.clearance, &mut warnings)?,
         What::Regions => {
-            let (diagram, boundaries, found) = plain(copper, &nets, board.outline.as_ref(), settings)?;
-            warnings.extend(found);
+            let (diagram, boundaries) = plain(copper, &nets, board.outline.as_ref(), settings)?;
+            warnings.extend_from_slice(diagram.warnings());
             let ground = ground(board.outline.as_ref(), diagram.frame());
             let ground = ground.ok_or_else(|| Error::NoCopper(format!("on the {side}")))?;
             let side = Parted { board, copper, nets: &nets, boundaries: &boundaries };

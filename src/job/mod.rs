@@ -4,6 +4,7 @@
 //! those and the defaults, complete and checked; [`mill`] does the work, in memory. Who calls it
 //! decides what becomes a file.
 
+mod area_choice;
 mod art;
 mod auto;
 mod by_net;
@@ -42,7 +43,6 @@ mod own_lines;
 mod page;
 mod paper;
 mod part;
-mod pattern;
 mod pipeline;
 mod plan;
 mod pocketing;
@@ -63,6 +63,7 @@ mod verification;
 mod workbench;
 mod written;
 
+pub use area_choice::{AreaChoice, ParseAreaChoiceError};
 pub use art::{Art, OneTool};
 pub use cache_key::cache_key;
 pub use carving::{Carving, Engraving, Inlay, carve};
@@ -87,7 +88,6 @@ pub use overlap::{Overlap, ParseOverlapError};
 pub use own_lines::{OwnLines, ParseOwnLinesError};
 pub use paper::{paper, paper_picture, paper_program};
 pub use part::Part;
-pub use pattern::Pattern;
 pub use pipeline::{Job, mill};
 pub use plan::{Chosen, Tried};
 pub use pocketing::{Pocket, Pocketing, pocket};

@@ -23,7 +23,7 @@ pub fn neighbours(
     thinning: Option<Thinning>,
 ) -> Result<NeighboursEntry, Error> {
     let nets = topology::recover(copper, layer::method(settings.asked.topology));
-    let (_, boundaries, _) = layer::plain(copper, &nets, None, settings)?;
+    let (_, boundaries) = layer::plain(copper, &nets, None, settings)?;
     let thinning = match thinning {
         Some(thinning) => thinning,
         None => {

@@ -100,13 +100,13 @@ macro_rules! job_options {
     #[changes(ISOLATION, PICTURES)]
     pub clear_nets: Vec<Pattern>,
 
-    /// Clear all copper in this area of the board, in the files' coordinates; may be given several
-    /// times
-    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true)]
+    /// Clear all copper in this area of the board, in the files' coordinates: a rectangle, or what a
+    /// Gerber layer, SVG or DXF covers; may be given several times
+    #[arg(long, value_name = "X,Y,W,H|FILE", allow_hyphen_values = true)]
     #[serde(with = "list")]
     #[needs(Kept)]
     #[changes(ISOLATION, PICTURES)]
-    pub clear_area: Vec<Area>,
+    pub clear_area: Vec<AreaChoice>,
 
     /// Clear all other copper within a distance of some nets, for high voltages, such as HV*=6mm;
     /// by name as for --ignore
@@ -117,12 +117,12 @@ macro_rules! job_options {
     pub distance_for: Vec<DistanceFor>,
 
     /// Clear nothing in this area of the board but the cuts between nets, in the files'
-    /// coordinates; may be given several times
-    #[arg(long, value_name = "X,Y,W,H", allow_hyphen_values = true)]
+    /// coordinates: a rectangle, or what a file covers; may be given several times
+    #[arg(long, value_name = "X,Y,W,H|FILE", allow_hyphen_values = true)]
     #[serde(with = "list")]
     #[needs(Passes)]
     #[changes(ISOLATION, PICTURES)]
-    pub keep_area: Vec<Area>,
+    pub keep_area: Vec<AreaChoice>,
 
     /// Overlap of neighbouring passes: a length, or a percentage of the kerf; more where slivers
     /// are left [default: 10%]

@@ -5,7 +5,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::gcode::dialect::{Blend, ToolChange};
 use crate::toolpath::{Angle, Direction, Feed, Material};
+use crate::topology::Pattern;
 
+use super::area_choice::AreaChoice;
 use super::choice::{DialectChoice, DrillSide, Narrow, Origin, Sites, Strategy, Topology};
 use super::distance_for::DistanceFor;
 use super::machine::{MachineChoice, in_settings};
@@ -15,8 +17,7 @@ use super::need::Need;
 use super::output_name::OutputName;
 use super::overlap::Overlap;
 use super::own_lines::OwnLines;
-use super::pattern::Pattern;
-use super::quantity::{Area, Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
+use super::quantity::{Drills, Length, Place, Tiles, ToolChangeAt, Triple, Wait, list, text};
 use super::reach::Reach;
 use super::strategy_for::StrategyFor;
 use super::tools::{Library, ToolChoice};

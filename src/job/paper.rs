@@ -98,9 +98,8 @@ fn exact(copper: &Copper, nets: &Nets, drawn: &Paper<'_>, strokes: &[f64]) -> Re
     let trace = |limit: Option<Nm>, margin: Nm| -> Result<_, Error> {
         let settings =
             voronoi::Settings { limit, frame: Frame::Rectangle(margin), ..voronoi::Settings::default() };
-        let diagram = Diagram::new(copper, nets, None, &settings);
-        let diagram = diagram.map_err(|reason| Error::Voronoi { side: copper.side, reason })?;
-        Ok(diagram.boundaries().0)
+        let found = Diagram::new(copper, nets, None, &settings).and_then(|diagram| diagram.boundaries());
+        found.map_err(|reason| Error::Voronoi { side: copper.side, reason })
     };
     let (outline, regions) = (trace(Some(Nm::ZERO), Nm::from_mm(1))?, trace(None, Nm::ZERO)?);
     let width = |found: &voronoi::Boundaries| mean_width(&found.areas(strokes.len()), strokes) / INCH;

@@ -186,6 +186,7 @@ impl Settings {
         Ok(Self {
             frame_margin: frame_margin(&options, &isolation)?,
             adaptive_depth: validate::adaptive_depth(&options, &isolation)?,
+            limit: validate::limit(&options, &isolation)?,
             isolation,
             safe,
             tiles,
@@ -218,7 +219,6 @@ impl Settings {
             cutout_tool,
             clearing: Clearing::of(&options),
             sites: sites(&options)?,
-            limit: given("limit", options.limit)?,
             pixel: pixel(&options)?,
             tolerance: positive("tolerance", options.tolerance)?,
             machine: Machine {
@@ -360,6 +360,7 @@ mod tests {
             ("tab-height = \"2mm\"", "tab-height"),
             ("pixel = \"10nm\"", "pixel"),
             ("limit = \"-1mm\"", "limit"),
+            ("limit = \"0.07mm\"", "limit"),
             ("outline-gap = \"10mm\"", "outline-gap"),
             ("kerf = \"0.05mm\"", "kerf"),
             ("cutout-ramp = \"90deg\"", "cutout-ramp"),

@@ -8,7 +8,7 @@ use serde::de::IntoDeserializer;
 use serde::de::value::Error;
 
 use super::choice::Strategy;
-use super::pattern::Pattern;
+use crate::topology::Pattern;
 
 /// A strategy for the nets that a pattern means.
 #[derive(Clone, Debug, PartialEq, Eq)]

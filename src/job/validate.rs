@@ -53,6 +53,24 @@ pub(super) fn adaptive_depth(options: &Complete, cuttings: &[Cutting]) -> Result
     }
 }
 
+/// How far regions reach, if they end before their neighbours': no nearer to copper than half of the
+/// narrowest cut, which runs there.
+pub(super) fn limit(options: &Complete, cuttings: &[Cutting]) -> Result<Option<Nm>, Error> {
+    let Some(limit) = given("limit", options.limit)? else { return Ok(None) };
+    let narrowest = cuttings.iter().map(Cutting::kerf).min().unwrap_or(Nm::ZERO);
+    // Rounded up, so that what is said is accepted.
+    let least = Nm::from_um((narrowest.get() + 1_999) / 2_000);
+    if limit * 2 >= narrowest {
+        return Ok(Some(limit));
+    }
+    let problem = format!(
+        "a cut {} wide would run into the copper that it goes round: expected at least {}",
+        Length(narrowest),
+        Length(least)
+    );
+    wrong("limit", limit, &problem)
+}
+
 /// The widest isolating cut. Chosen: wider ones leave nothing of a board, and take minutes to say
 /// so.
 const WIDEST: Nm = Nm::from_mm(10);

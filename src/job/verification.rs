@@ -18,6 +18,9 @@ impl Job {
     ///
     /// [`Error::Verify`] where a program cannot be followed.
     pub fn verify(&self, settings: &Settings) -> Result<Report, Error> {
+        let everything = settings.options().clear == Some(true);
+        let tolerance = settings.tolerance;
+        let asked = settings.clearing.drawn(everything, tolerance);
         let programs: Vec<Program> = self
             .programs
             .iter()
@@ -29,6 +32,7 @@ impl Job {
                 role: Some(role(written.part)),
                 cutter: None,
                 placement: Some(self.laid(written)),
+                asked: asked.clone(),
             })
             .collect();
         let known: Vec<Known<'_>> =

@@ -10,6 +10,22 @@ use crate::geometry::{Nm, Point};
 
 use super::{Net, NetId, Nets, Proximity};
 
+/// What a net is called: its names, its number, and what all its copper is for if that is one
+/// thing.
+#[must_use]
+pub fn called(copper: &Copper, nets: &Nets, id: NetId) -> Vec<String> {
+    let net = &nets.nets()[id.index()];
+    let function = |&feature: &u32| copper.attributes_of(&copper.features[feature as usize]).function.clone();
+    let mut functions: Vec<Option<String>> = net.features.iter().map(function).collect();
+    functions.dedup();
+    let mut names = net.names.clone();
+    names.push(nets.label(id));
+    if let [Some(function)] = functions.as_slice() {
+        names.push(function.clone());
+    }
+    names
+}
+
 /// A warning for every island that carries several names, a short in the design or a net tie, with
 /// the places where they meet.
 ///

@@ -2,8 +2,9 @@
 
 use crate::board::{Board, Shape, Side};
 use crate::gcode::read::{self, Motion, Note, Way};
-use crate::geometry::{Arc, Nm, Point};
+use crate::geometry::{Arc, Nm, Point, Vector};
 
+use super::asked::Asked;
 use super::declared::{Declared, declared_setting};
 use super::{Cutter, CutterKind, Error, Placement, Program, Role, Settings, origin};
 
@@ -21,6 +22,19 @@ pub(super) struct Machining {
     pub(super) swept: Vec<Swept>,
     /// Where the tool goes straight down into the board and nothing sideways follows, on the board.
     pub(super) plunges: Vec<Point>,
+    /// What each of its tools that part copper cuts where it is deepest.
+    pub(super) kerfs: Vec<Kerf>,
+    /// What it was asked to clear.
+    pub(super) asked: Asked,
+}
+
+/// How wide a tool cuts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct Kerf {
+    /// Half its kerf at the surface.
+    pub(super) half: Nm,
+    /// The same at the copper's bottom.
+    pub(super) floor: Nm,
 }
 
 /// A piece of what the cutter sweeps, on the board.
@@ -110,6 +124,8 @@ impl Machining {
             notes: listing.notes,
             swept: Vec::new(),
             plunges: Vec::new(),
+            kerfs: Vec::new(),
+            asked: program.asked.clone().unwrap_or_else(|| Asked::declared(&program.text)),
         };
         machining.sweep(&tools, settings)?;
         machining.plunge();
@@ -119,6 +135,7 @@ impl Machining {
     /// Collects what is cut.
     fn sweep(&mut self, tools: &Tools<'_>, settings: &Settings) -> Result<(), Error> {
         let copper = settings.copper;
+        let mut deepest: Vec<(Cutter, Nm)> = Vec::new();
         for motion in &self.motions {
             let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { continue };
             let Some((above, below)) = heights(motion) else { continue };
@@ -131,6 +148,10 @@ impl Machining {
             let Some(cutter) = tools.at(motion.line) else {
                 return Err(Error::NoTool { file: self.file.clone(), line: motion.line });
             };
+            match deepest.iter_mut().find(|(known, _)| *known == cutter) {
+                Some((_, depth)) => *depth = (*depth).max(-above.min(below)),
+                None => deepest.push((cutter, -above.min(below))),
+            }
             let levels = [copper, settings.board + cutter.point()];
             for (shape, depth) in pieces(motion, from, to, cutter, levels) {
                 if depth >= copper {
@@ -143,7 +164,16 @@ impl Machining {
             }
         }
         self.swept.dedup_by(|a, b| (&a.shape, a.depth) == (&b.shape, b.depth));
+        let half = |(cutter, depth): (Cutter, Nm)| cutter.width_at(depth) / 2;
+        let kerf =
+            |(cutter, depth)| Kerf { half: half((cutter, depth)), floor: half((cutter, depth - copper)) };
+        self.kerfs = deepest.into_iter().map(kerf).collect();
         Ok(())
+    }
+
+    /// Asks the same of boards that lie so far from the first.
+    pub(super) fn repeat(&mut self, ways: &[Vector]) {
+        self.asked = std::mem::take(&mut self.asked).repeated(ways);
     }
 
     /// Collects where the tool only goes down and up.

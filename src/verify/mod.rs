@@ -29,9 +29,11 @@
 //!
 //! Checks are listed in [`check::ALL`], a file each.
 
+mod asked;
 mod bores;
 pub mod carving;
 pub mod check;
+mod cleared;
 mod contours;
 mod crowd;
 mod cut;
@@ -51,11 +53,13 @@ mod parting;
 mod pieces;
 mod placement;
 pub mod pocketing;
+mod region;
 mod register;
 mod remains;
 mod report;
 mod rest;
 mod ruling;
+mod runs;
 mod sheet;
 mod spans;
 mod tiles;
@@ -73,6 +77,7 @@ use crate::grid::GridError;
 use crate::topology::Nets;
 
 pub use crate::board::Severity;
+pub use asked::Asked;
 pub use cutter::{Cutter, CutterKind, ParseCutterError};
 pub use declared::declared_setting;
 pub use diff::{Change, Comparison, Region, Spot, diff};
@@ -124,6 +129,8 @@ pub struct Program {
     pub cutter: Option<Cutter>,
     /// How the board lies; else as its comments say.
     pub placement: Option<Placement>,
+    /// What it was asked to clear; else what its comments say.
+    pub asked: Option<Asked>,
 }
 
 /// A file of the board that programs are judged by.
@@ -312,6 +319,10 @@ pub fn verify(
     // All lie alike: what one program says of how the board is turned goes for all tiles.
     let degrees = read.first().map_or(0.0, |machining| machining.placement.degrees);
     let tiled = settings.tiles.map(|tiles| tiles.lay(board, degrees));
+    if let Some(tiles) = settings.tiles {
+        let ways = tiles.ways(board, degrees);
+        read.iter_mut().for_each(|machining| machining.repeat(&ways));
+    }
     let (board, known) = tiled.as_ref().map_or((board, known), |tiled| (tiled, &[]));
     let mut findings: Vec<Finding> =
         read.par_iter().flat_map_iter(|program| check::motion(program, board, settings)).collect();

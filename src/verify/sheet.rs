@@ -8,8 +8,9 @@ use crate::grid::Grid;
 use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
 use crate::topology::{Method, NetId, Nets, Proximity, RectIndex, recover, surface};
 
+use super::asked::Asked;
 use super::cut::Cut;
-use super::machining::{Machining, with_radius};
+use super::machining::{Kerf, Machining, with_radius};
 use super::walls::Walls;
 use super::{Error, Settings};
 
@@ -35,6 +36,10 @@ pub(super) struct Sheet<'a> {
     pub(super) half: Nm,
     /// The same at the copper's bottom.
     pub(super) floor: Nm,
+    /// What each tool cuts where it is deepest.
+    pub(super) kerfs: Vec<Kerf>,
+    /// What was to be cleared.
+    pub(super) asked: Asked,
     pub(super) places: Places,
     /// The board's edge, where it is known.
     pub(super) outline: Option<Polygon>,
@@ -75,6 +80,10 @@ impl<'a> Sheet<'a> {
         let outline = board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
         let half = cuts.iter().map(|cut| cut.swept.half()).min().unwrap_or(Nm::from_um(100));
         let floor = cuts.iter().map(|cut| cut.swept.floor).min().unwrap_or(half);
+        let mut kerfs: Vec<Kerf> =
+            programs.iter().flat_map(|program| program.kerfs.iter().copied()).collect();
+        kerfs.sort_unstable();
+        kerfs.dedup();
         let pitch = settings.pixel.unwrap_or_else(|| pixel(half));
         let walls = Walls::new(&cuts, outline.as_ref());
         let area = area(copper, outline.as_ref(), &cuts, pitch);
@@ -92,6 +101,8 @@ impl<'a> Sheet<'a> {
             walls,
             half,
             floor,
+            kerfs,
+            asked: programs.iter().fold(Asked::default(), |asked, program| asked.and(&program.asked)),
             places,
             outline,
             grid,

@@ -17,17 +17,22 @@ pub struct Tiles {
 }
 
 impl Tiles {
-    /// All tiles of `board`, which lies on the machine turned by so many degrees, as one board: the
-    /// first where it was.
-    pub(super) fn lay(self, board: &Board, degrees: f64) -> Board {
-        let Some(bounds) = board.bounds() else { return board.clone() };
+    /// How far each tile is from the first, which is the first of them.
+    pub(super) fn ways(self, board: &Board, degrees: f64) -> Vec<Vector> {
+        let Some(bounds) = board.bounds() else { return vec![Vector::default()] };
         let corners = bounds.corners().map(|corner| turned(corner, degrees));
         let tile = Rect::around(corners).unwrap_or(bounds);
         let (width, height) = (tile.width() + self.spacing, tile.height() + self.spacing);
-        let ways: Vec<Vector> = (0..i64::from(self.columns))
+        (0..i64::from(self.columns))
             .flat_map(|column| (0..i64::from(self.rows)).map(move |row| (column, row)))
             .map(|(column, row)| turned_way(Vector::new(width * column, height * row), -degrees))
-            .collect();
+            .collect()
+    }
+
+    /// All tiles of `board`, which lies on the machine turned by so many degrees, as one board: the
+    /// first where it was.
+    pub(super) fn lay(self, board: &Board, degrees: f64) -> Board {
+        let ways = self.ways(board, degrees);
         let copper = |copper: &Copper| Copper {
             features: ways
                 .iter()

@@ -1,16 +1,18 @@
 //! The certified diagram of a layer's copper, or of its core axes.
 //!
 //! Where a diagram contradicts itself, which equal distances may make it do, the copper is shaken:
-//! every point is moved by up to two nanometres, the same point alike. Nets whose copper touches,
+//! every point is moved by up to 25 nanometres, the same point alike. Nets whose copper touches,
 //! as Algorithm 1 alone may leave them, have one owner here, since nothing can part them.
 
 use std::borrow::Cow;
+
+use rustc_hash::FxHashMap;
 
 use crate::board::{Axis, Copper, Feature, Shape};
 use crate::geometry::{Nm, Point, Rect};
 use crate::topology::{self, Method, NetId, Nets, smallest_gap};
 
-use super::exact::{Diagram, Generators, Kind, Space};
+use super::exact::{Diagram, Generators, Kind, Space, welded};
 
 /// Copper is shaken so often at most. Chosen: once is rare.
 const ATTEMPTS: u32 = 4;
@@ -22,6 +24,8 @@ pub(super) struct Owned<'a> {
     is_loose: bool,
     /// Whether owners are nearer to each other than [`CLOSE`].
     is_close: bool,
+    /// Points that are others, unless owners are close.
+    welded: FxHashMap<Point, Point>,
 }
 
 impl<'a> Owned<'a> {
@@ -57,8 +61,12 @@ impl<'a> Owned<'a> {
         let pieces = is_touching.then(|| pieces(copper, nets));
         let owner = |net: NetId| pieces.as_ref().map_or(net.0, |pieces| pieces[net.index()]);
         let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
-        let shapes = kept.map(|(number, feature)| (shape(feature), owner(nets.of(number)))).collect();
-        Self { shapes, is_loose, is_close: gap.is_some_and(|gap| gap < CLOSE) }
+        let shapes: Vec<(Cow<'a, Shape>, u32)> =
+            kept.map(|(number, feature)| (shape(feature), owner(nets.of(number)))).collect();
+        let is_close = gap.is_some_and(|gap| gap < CLOSE);
+        let points = || shapes.iter().flat_map(|(shape, _)| points(shape)).collect();
+        let welded = if is_close { FxHashMap::default() } else { welded(points()) };
+        Self { shapes, is_loose, is_close, welded }
     }
 
     /// Whether one owner has all.
@@ -78,6 +86,7 @@ impl<'a> Owned<'a> {
     ) -> (Diagram, Option<T>) {
         let attempt = |attempt: u32| {
             let mut generators = Generators::shaken(attempt);
+            generators.weld(self.welded.clone());
             if self.is_loose {
                 generators.loosen();
             }
@@ -100,9 +109,19 @@ impl<'a> Owned<'a> {
     }
 }
 
+/// The points that a shape is drawn by.
+fn points(shape: &Shape) -> Vec<Point> {
+    match shape {
+        Shape::Disc { center, .. } => vec![*center],
+        Shape::Stroke { from, to, .. } => vec![*from, *to],
+        Shape::Arc { arc, .. } => vec![arc.start, arc.end],
+        Shape::Polygon(polygon) => polygon.contours().iter().flatten().copied().collect(),
+    }
+}
+
 /// Nets nearer to each other than this have all their corners. Chosen: more than the corners and
 /// slits that others lose.
-const CLOSE: Nm = Nm::new(100);
+const CLOSE: Nm = Nm::new(130);
 
 /// The axis of a feature, if its copper still holds it: clear polarity may have cut it away.
 pub(super) fn axis(feature: &Feature) -> Option<Axis> {

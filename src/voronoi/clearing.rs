@@ -2,9 +2,9 @@
 //!
 //! ```text
 //!    ╭───────────────╮      Passes go on from those beside every net, as far as there is room, where the axis of the cutter is in
-//!    │   ▓▓▓   ┌─────┼──    what is to be cleared: areas, each a little larger, so that the nearest pass to every place of it is,
-//!    │   ▓▓▓   │ kept│      and the regions of nets. In areas that are kept no pass runs, nor any that would reach into one.
-//!    ╰─────────┴─────╯
+//!    │   ▓▓▓   ┌─────┼──    what is to be cleared: areas, and the regions of nets. One pass runs along the edge of the areas, at
+//!    │   ▓▓▓   │ kept│      which the others end: so it is as straight as what was asked for, half a kerf farther out. In areas
+//!    ╰─────────┴─────╯      that are kept no pass runs, nor any that would reach into one; one runs round them.
 //! ```
 
 use rayon::prelude::*;
@@ -14,8 +14,10 @@ use crate::board::polarity::{offset, union};
 use crate::geometry::{Nm, Polygon};
 use crate::topology::NetId;
 
-use super::Owner;
-use super::clip::{Fence, Piece};
+use super::clip::{Fence, Node, Piece};
+use super::plane::Spot;
+use super::sample::Sample;
+use super::{BACKGROUND, Owner};
 
 /// What is cleared beside the gaps round nets, and what is not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -36,6 +38,11 @@ impl Clearing {
     }
 }
 
+/// Along an edge places no farther apart are looked at, in nanometres, and no nearer. Both chosen:
+/// far below a kerf, and what no program can tell.
+const STEP: f64 = 20_000.0;
+const LEAST: f64 = 100.0;
+
 /// Where the axis of a cutter may run while it clears.
 pub(super) struct Zone<'a> {
     nets: &'a [NetId],
@@ -44,18 +51,38 @@ pub(super) struct Zone<'a> {
 }
 
 impl<'a> Zone<'a> {
-    /// For a cutter of this kerf, the passes of which are no farther apart than `step`.
-    pub(super) fn new(clearing: &'a Clearing, kerf: Nm, step: Nm) -> Self {
-        let fence = |areas: &[Polygon], by: Nm| {
-            let whole = union(areas);
-            let grown: Vec<Polygon> = whole.par_iter().flat_map(|area| offset(area, by, FLATTEN)).collect();
-            (!grown.is_empty()).then(|| Fence::around(&union(&grown)))
+    /// For a cutter of this kerf.
+    pub(super) fn new(clearing: &'a Clearing, kerf: Nm) -> Self {
+        let fence = |areas: &[Polygon]| (!areas.is_empty()).then(|| Fence::around(areas));
+        let kept = union(&clearing.kept);
+        let kept: Vec<Polygon> = kept.par_iter().flat_map(|area| offset(area, kerf / 2, FLATTEN)).collect();
+        Self { nets: &clearing.nets, areas: fence(&union(&clearing.areas)), kept: fence(&union(&kept)) }
+    }
+
+    /// Passes along the edges of areas that are cleared, and round those that are kept where it is
+    /// cleared beside them, on `board`. How far copper is `clearance` says (within it nothing): no
+    /// nearer than `nearest`; and beyond `farthest` nothing is cleared but areas and regions of the
+    /// nets that `owner` names.
+    pub(super) fn edges(
+        &self,
+        board: &Fence,
+        (clearance, owner): (&(dyn Fn(Spot) -> f64 + Sync), &(dyn Fn(Spot) -> Option<NetId> + Sync)),
+        [nearest, farthest]: [f64; 2],
+    ) -> Vec<Piece> {
+        let rings = |fence: &Option<Fence>| fence.iter().flat_map(Fence::rings).collect::<Vec<_>>();
+        let round = |ring: &Vec<Spot>| along(ring, clearance, nearest);
+        let edges: Vec<Piece> = rings(&self.areas).par_iter().flat_map_iter(round).collect();
+        let beside = |at: Spot| {
+            let room = clearance(at);
+            let is_cleared = room <= farthest
+                || self.areas.as_ref().is_some_and(|areas| areas.holds(at))
+                || owner(at).is_some_and(|net| self.nets.binary_search(&net).is_ok());
+            if is_cleared { room } else { 0.0 }
         };
-        Self {
-            nets: &clearing.nets,
-            areas: fence(&clearing.areas, step / 2),
-            kept: fence(&clearing.kept, kerf / 2),
-        }
+        let round = |ring: &Vec<Spot>| along(ring, beside, nearest);
+        let kept: Vec<Piece> = rings(&self.kept).par_iter().flat_map_iter(round).collect();
+        let all = self.open(edges).into_par_iter().chain(kept);
+        all.flat_map_iter(|piece| board.parts(piece, true)).collect()
     }
 
     /// What of passes lies where anything may be cleared.
@@ -91,4 +118,70 @@ impl<'a> Zone<'a> {
         let owners = [piece.left, piece.right].map(Owner::from_number);
         owners.iter().any(|owner| matches!(owner, Owner::Net(net) if self.nets.binary_search(net).is_ok()))
     }
+}
+
+/// The parts of a closed line from which copper is no nearer than `nearest`.
+fn along(ring: &[Spot], clearance: impl Fn(Spot) -> f64, nearest: f64) -> Vec<Piece> {
+    let sample = |at: Spot| Sample { at, clearance: clearance(at) };
+    let is_open = |sample: &Sample| sample.clearance >= nearest;
+    let mut runs: Vec<Vec<Sample>> = Vec::new();
+    let mut last: Option<Sample> = None;
+    let mut go = |next: Sample| {
+        let before = last.replace(next).filter(|before| is_open(before) != is_open(&next));
+        if let Some(before) = before {
+            let (inner, outer) = if is_open(&next) { (next, before) } else { (before, next) };
+            let edge = edge_of(inner, outer, &sample, nearest);
+            if is_open(&next) {
+                runs.push(vec![edge]);
+            } else if let Some(run) = runs.last_mut() {
+                run.push(edge);
+            }
+        }
+        if is_open(&next) {
+            match runs.last_mut() {
+                Some(run) => run.push(next),
+                None => runs.push(vec![next]),
+            }
+        }
+    };
+    for (&a, &b) in ring.iter().zip(ring.iter().cycle().skip(1)) {
+        let length = (b - a).length();
+        let mut part = 0.0;
+        while part < length {
+            let at = sample(a + (b - a) * (part / length));
+            go(at);
+            // Distances change no faster than the way goes.
+            part += STEP.max((at.clearance - nearest).abs() / 2.0);
+        }
+    }
+    let Some(first) = ring.first().map(|&at| sample(at)) else { return Vec::new() };
+    go(first);
+    let is_whole = runs.len() == 1 && runs[0][0] == first && runs[0].last() == Some(&first);
+    // What begins where the ring ends goes on there.
+    if !is_whole && runs.len() > 1 && is_open(&first) {
+        let mut end = runs.pop().unwrap_or_default();
+        end.extend(runs[0].drain(1..));
+        runs[0] = end;
+    }
+    let piece = |samples| Piece {
+        left: BACKGROUND,
+        right: BACKGROUND,
+        samples,
+        ends: (!is_whole).then_some([Node::END; 2]),
+    };
+    runs.into_iter().filter(|run| run.len() > 1).map(piece).collect()
+}
+
+/// Where between an open place and one that is not copper is as near as it may be.
+fn edge_of(mut inner: Sample, outer: Sample, sample: impl Fn(Spot) -> Sample, nearest: f64) -> Sample {
+    let mut outer = outer.at;
+    while (outer - inner.at).length() > LEAST {
+        let middle = sample(inner.at.midpoint(outer));
+        if middle.clearance >= nearest {
+            inner = middle;
+        } else {
+            outer = middle.at;
+        }
+    }
+    inner
 }

@@ -146,6 +146,12 @@ impl Fence {
         Self { edges, starts, index }
     }
 
+    /// Its rings, corner by corner.
+    pub(super) fn rings(&self) -> Vec<Vec<Spot>> {
+        let ring = |ends: &[usize]| self.edges[ends[0]..ends[1]].iter().map(|&[a, _]| a).collect();
+        self.starts.windows(2).map(ring).collect()
+    }
+
     fn query(&self, [left, bottom, right, top]: [f64; 4]) -> Vec<usize> {
         self.index.as_ref().map_or(Vec::new(), |index| index.query(left, bottom, right, top))
     }

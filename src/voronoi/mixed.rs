@@ -20,7 +20,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::board::{Copper, Outline, Warning, polarity};
+use crate::board::{Copper, Outline, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon, Rect};
 use crate::grid::Grid;
 use crate::topology::{NetId, Nets};
@@ -44,7 +44,6 @@ pub struct Loops {
 pub(super) struct Mixed {
     looped: Vec<bool>,
     loops: Boundaries,
-    warnings: Vec<Warning>,
     /// What is left of the board, piece by piece.
     fields: Vec<Diagram>,
 }
@@ -72,12 +71,12 @@ impl Diagram {
     ) -> Result<Self, Error> {
         let round = Settings { sites: SiteKind::Copper, limit: Some(loops.radius), ..settings.clone() };
         let mut all = Self::new(copper, nets, outline, &round)?;
-        let (mut cut, warnings) = all.boundaries();
+        let mut cut = all.boundaries()?;
         let mut looped = vec![false; nets.nets().len()];
         loops.nets.iter().for_each(|net| looped[net.index()] = true);
         cut.edges.retain(|edge| has_loop(&looped, edge.left) || has_loop(&looped, edge.right));
         let fields = fields(&all, &cut, &looped, copper, nets, settings)?;
-        all.mixed = Some(Box::new(Mixed { looped, loops: cut, warnings, fields }));
+        all.mixed = Some(Box::new(Mixed { looped, loops: cut, fields }));
         Ok(all)
     }
 }
@@ -89,19 +88,16 @@ impl Mixed {
     }
 
     /// The loops with the boundaries of all fields.
-    pub(super) fn boundaries(&self, all: &Diagram) -> (Boundaries, Vec<Warning>) {
+    pub(super) fn boundaries(&self, all: &Diagram) -> Result<Boundaries, Error> {
         let clearance = |p: Point| Nm::from_f64(all.certified.distance(p.into()));
         let leash = LEASH.to_f64();
         let in_frame =
             |edge: &Boundary| all.frame().is_some_and(|frame| foot(frame, middle(edge)).2 <= leash);
         let mut junctions = Junctions::new(self.loops.clone(), leash);
-        let mut warnings = self.warnings.clone();
         for field in &self.fields {
-            let (found, unplaced) = field.boundaries();
-            junctions.add(found, |edge| !edge.is_border() || in_frame(edge), clearance);
-            warnings.extend(unplaced);
+            junctions.add(field.boundaries()?, |edge| !edge.is_border() || in_frame(edge), clearance);
         }
-        (junctions.finish(), warnings)
+        Ok(junctions.finish())
     }
 
     /// As [`Diagram::regions`].

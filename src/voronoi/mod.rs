@@ -234,6 +234,17 @@ pub enum Error {
         "no copper lies within the board's outline: is the outline from another board, or in other units?"
     )]
     NoCopper,
+    /// Boundaries do not go on as they should.
+    #[error(
+        "{count} ends of the boundaries between nets are dangling, the first at ({:.3}, {:.3}): a bug in voromill",
+        at.x, at.y
+    )]
+    Torn {
+        /// How many ends.
+        count: usize,
+        /// The first of them.
+        at: Point,
+    },
 }
 
 /// The Voronoi diagram of a layer, ready to be traced or drawn.
@@ -434,26 +445,20 @@ impl Diagram {
         self.sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
     }
 
-    /// The boundaries between all regions, with a warning where they contradict each other.
-    #[must_use]
-    pub fn boundaries(&self) -> (Boundaries, Vec<Warning>) {
+    /// The boundaries between all regions.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Torn`] where they contradict each other: nets might stay joined there.
+    pub fn boundaries(&self) -> Result<Boundaries, Error> {
         if let Some(mixed) = &self.mixed {
             return mixed.boundaries(self);
         }
         let (boundaries, faults) = self.certified_boundaries();
-        (boundaries, self.torn(&faults, "boundaries").into_iter().collect())
-    }
-
-    /// Where the certified diagram contradicts itself: nowhere, unless the program is at fault.
-    #[must_use]
-    pub fn faults(&self) -> Vec<Point> {
-        self.certified_boundaries().1
-    }
-
-    /// What is to be said of places where lines, of what they are, do not go on as they should.
-    fn torn(&self, faults: &[Point], what: &str) -> Option<Warning> {
-        let message = format!("{} ends of {what} are dangling: a bug in voromill", faults.len());
-        Some(planning::BOUNDARY_TORN.warning(message).at(*faults.first()?).on(self.side))
+        match faults.first() {
+            None => Ok(boundaries),
+            Some(&at) => Err(Error::Torn { count: faults.len(), at }),
+        }
     }
 }
 

@@ -14,9 +14,10 @@
 
 use rayon::prelude::*;
 
+use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
-use crate::geometry::Nm;
-use crate::topology::Nets;
+use crate::geometry::{Nm, Point};
+use crate::topology::{NetId, Nets};
 
 use super::certified::Owned;
 use super::clearing::{Clearing, Zone};
@@ -114,7 +115,7 @@ impl Diagram {
         let wall = self.copper.inflate(farthest * 3 + BEYOND);
         let floor = FLOOR.min(first / 2);
         let kind = if further.is_empty() { self.settings.kind(floor) } else { exact::Kind::Above(floor) };
-        let zone = Zone::new(clearing, widening.kerf, widening.advance());
+        let zone = Zone::new(clearing, widening.kerf);
         let lines = |diagram: &exact::Diagram| {
             let pieces = |(stage, &level): (usize, &Nm)| {
                 let enclosed = stage > 0 || self.settings.enclosed;
@@ -156,6 +157,17 @@ impl Diagram {
             all.append(passes);
         }
         let fence = Fence::new(&self.border);
+        let room = |at| match diagram.owner_near(at, 0.0, NOBODY) {
+            Some(owner) if owner != NOBODY => 0.0,
+            _ => diagram.distance(at),
+        };
+        let owner = |at| diagram.owner_near(at, f64::INFINITY, NOBODY).map(NetId);
+        let reach = [first, levels.last().copied().unwrap_or(Nm::ZERO)].map(Nm::to_f64);
+        let mut lines = zone.edges(&fence, (&room, &owner), reach);
+        for grooves in wider.iter().chain(&grooves) {
+            lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
+        }
+        all.append(self.fitted(&lines));
         let heights = |levels: &[Nm]| -> Vec<f64> { levels.iter().map(|level| level.to_f64()).collect() };
         let levels = heights(&levels);
         let kerf = widening.floor.to_f64();
@@ -186,12 +198,13 @@ impl Diagram {
             short: (widening.kerf * 3 / 2).to_f64(),
             longest: longest.to_f64(),
         };
-        let faults = if is_whole {
-            Vec::new()
-        } else {
-            vec![diagram.faults().first().copied().unwrap_or(self.copper.min())]
+        let missing = |at: Point| {
+            let message = "further passes are missing: a bug in voromill".to_owned();
+            planning::PASSES_MISSING.warning(message).at(at).on(self.side)
         };
-        (all.linked(&rules), self.torn(&faults, "further passes").into_iter().collect())
+        let warning =
+            (!is_whole).then(|| missing(diagram.faults().first().copied().unwrap_or(self.copper.min())));
+        (all.linked(&rules), warning.into_iter().collect())
     }
 
     /// Whether boundaries run midway between all nets.

@@ -181,7 +181,7 @@ fn measure(layer: &Layer) -> Measured {
     let field = Field::new(copper, &nets);
     let figures = |settings: Settings| {
         let diagram = Diagram::new(copper, &nets, outline.as_ref(), &settings).expect("a diagram");
-        Figures::of(offs(&field, &diagram.boundaries().0))
+        Figures::of(offs(&field, &diagram.boundaries().expect("whole boundaries")))
     };
     let fitted = Settings { pitch, ..Settings::default() };
     // With a tolerance of a nanometre every placed point is a vertex.
@@ -252,7 +252,10 @@ fn boundaries_are_as_long_as_in_an_exact_diagram() {
         let Some((_, exact)) = EXACT.iter().find(|(layer, _)| *layer == name) else { continue };
         let nets = topology::recover(&copper, Method::Contact);
         let settings = Settings { frame: Frame::Rectangle(Nm::from_mm(2)), ..Settings::default() };
-        let found = Diagram::new(&copper, &nets, None, &settings).expect("a diagram").boundaries().0;
+        let found = Diagram::new(&copper, &nets, None, &settings)
+            .expect("a diagram")
+            .boundaries()
+            .expect("whole boundaries");
         let ours = found.length() / 1e6;
         let row = format!("| {name} | {} | {exact:.1} | {ours:.1} |", nets.nets().len());
         println!("{row} {:+.4} %", (ours / exact - 1.0) * 100.0);

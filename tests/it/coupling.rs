@@ -26,7 +26,13 @@ fn coupling(copper: &Copper) -> Coupling {
     let settings = Settings { frame: Frame::Rectangle(Nm::from_um(300)), ..Settings::default() };
     let diagram = Diagram::new(copper, &nets, None, &settings).expect("a diagram");
     let extents = topology::extents(copper, &nets);
-    Coupling::new(&diagram, &diagram.boundaries().0, &extents, KERF, Substrate::fr4(1.6))
+    Coupling::new(
+        &diagram,
+        &diagram.boundaries().expect("whole boundaries"),
+        &extents,
+        KERF,
+        Substrate::fr4(1.6),
+    )
 }
 
 #[test]

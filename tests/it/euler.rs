@@ -126,7 +126,7 @@ fn eulers_formula_holds_on_every_board() {
         let pitch = gap.map_or(PITCH, |gap| (gap.width / 3).max(Nm::from_um(5)).min(PITCH));
         let settings = Settings { pitch, ..Settings::default() };
         let diagram = Diagram::new(&copper, &nets, outline.as_ref(), &settings).expect("a diagram");
-        let found = diagram.boundaries().0;
+        let found = diagram.boundaries().expect("whole boundaries");
         println!("{name}: {} nodes, {} boundaries", found.nodes.len(), found.edges.len());
         faults.extend(wrong(&found).map(|wrong| format!("{name}: {wrong}")));
         let seen: BTreeSet<Owner> = found.edges.iter().flat_map(|edge| [edge.left, edge.right]).collect();

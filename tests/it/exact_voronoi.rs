@@ -151,8 +151,7 @@ fn curve(
 /// What voromill has between different nets.
 fn ours(copper: &Copper, nets: &Nets, settings: &Settings) -> Curves {
     let diagram = Diagram::new(copper, nets, None, settings).expect("a diagram");
-    let (found, warnings) = diagram.boundaries();
-    assert!(warnings.is_empty(), "{warnings:?}");
+    let found = diagram.boundaries().expect("whole boundaries");
     let mut curves = Curves::new();
     for edge in &found.edges {
         if let (Owner::Net(a), Owner::Net(b)) = (edge.left, edge.right) {

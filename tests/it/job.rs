@@ -275,6 +275,8 @@ fn alignment_holes_are_a_program_of_their_own() {
     let moves = first.program.sections[0].moves.iter().filter_map(voromill::toolpath::Move::to);
     let deep: Vec<_> = moves.filter(|to| to.z < Nm::ZERO).collect();
     assert!(deep.len() == 2 && deep.iter().all(|to| to.x == axis), "two, on the axis: {deep:?}");
+    let (aslant, settings) = self::job("regulator", "alignment-holes = \"3mm\"\nrotate = \"30deg\"");
+    assert!(is_clean(&aslant, &settings), "the stock reaches round the board as it lies");
 }
 
 #[test]

@@ -64,6 +64,7 @@ mod topology;
 mod unusable;
 mod verdict;
 mod verify;
+mod verify_clearing;
 mod verify_cli;
 mod verify_crowds;
 mod verify_foreign;

@@ -1,9 +1,12 @@
 //! The medial axis of areas beside an exact Voronoi diagram of segments (Boost's algorithm) and
 //! brute force: random areas with holes, and capitals of four fonts.
 
+use std::path::{Path, PathBuf};
+
 use boostvoronoi::prelude::{Builder, Diagram as Exact, EdgeIndex};
 use voromill::board::polarity::{clean, difference};
 use voromill::geometry::{Nm, Point, Polygon};
+use voromill::import::drawing::{Options, Unit, read};
 use voromill::import::text::text;
 use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
 use voromill::voronoi::medial::{MedialAxis, Pruning};
@@ -238,6 +241,67 @@ fn the_medial_axis_of_capitals_is_that_of_another_algorithm() {
         areas.iter().for_each(|area| compared.add(area));
     }
     println!("{}", compared.judge("capitals"));
+}
+
+/// The drawings that were gathered, SVG and DXF, each area by itself: what is as fine as a photograph
+/// is left out, for brute force takes the square of its corners. All of them where
+/// `VOROMILL_ARTWORK` is set, else every fourth, and none where they are not at hand.
+#[test]
+#[cfg_attr(debug_assertions, ignore = "slow without optimisation")]
+fn the_medial_axis_of_drawings_is_that_of_another_algorithm() {
+    let is_all = std::env::var_os("VOROMILL_ARTWORK").is_some();
+    let (every, most) = if is_all { (1, 4_000) } else { (4, 1_000) };
+    let mut compared = Compared::default();
+    let (mut drawings, mut finer) = (0, 0);
+    for path in gathered_drawings().into_iter().step_by(every) {
+        let areas = areas_of(&path);
+        drawings += usize::from(!areas.is_empty());
+        for area in areas {
+            if area.edges().count() <= most {
+                compared.add(&area);
+            } else {
+                finer += 1;
+            }
+        }
+    }
+    if compared.areas == 0 {
+        println!("no drawing at VOROMILL_ARTWORK: nothing is compared");
+        return;
+    }
+    println!("{drawings} drawings with areas, {finer} areas of more than {most} corners left out");
+    println!("{}", compared.judge("drawings"));
+}
+
+/// The files in the folders for SVG and DXF, in order.
+fn gathered_drawings() -> Vec<PathBuf> {
+    fn files(folder: &Path, all: &mut Vec<PathBuf>) {
+        for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+            let path = entry.path();
+            if path.is_dir() {
+                files(&path, all);
+            } else if path.extension().is_some_and(|e| e == "svg" || e == "dxf") {
+                all.push(path);
+            }
+        }
+    }
+    let usual = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/artwork");
+    let root = std::env::var_os("VOROMILL_ARTWORK").map_or_else(usual, PathBuf::from);
+    let mut all = Vec::new();
+    ["svg", "dxf"].iter().for_each(|kind| files(&root.join(kind), &mut all));
+    all.sort();
+    all
+}
+
+/// What a drawing fills; nothing of one that cannot be read.
+fn areas_of(path: &Path) -> Vec<Polygon> {
+    let bytes = std::fs::read(path).expect("readable");
+    let name = path.file_name().expect("a name").to_string_lossy();
+    let options = Options { unit: Some(Unit::MILLIMETRE), ..Options::default() };
+    let Ok(drawing) = read(&name, &bytes, &options) else { return Vec::new() };
+    let filled = drawing.artwork.polygons(Nm::from_um(10));
+    let whole =
+        clean(&filled.iter().flatten().flat_map(|polygon| polygon.contours().to_vec()).collect::<Vec<_>>());
+    whole.into_iter().filter(|area| area.area_mm2() > 1e-3).collect()
 }
 
 /// A rectangle has four ways into its corners and one between them; a circle is a dot.

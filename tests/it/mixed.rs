@@ -50,7 +50,7 @@ fn mixed(copper: &Copper, nets: &Nets, looped: impl Fn(usize) -> bool) -> (Bound
     let chosen = (0..).map(NetId).zip(&looped).filter(|(_, looped)| **looped).map(|(net, _)| net).collect();
     let loops = Loops { nets: chosen, radius: RADIUS };
     let diagram = Diagram::mixed(copper, nets, None, &Settings::default(), &loops).expect("a diagram");
-    (diagram.boundaries().0, looped)
+    (diagram.boundaries().expect("whole boundaries"), looped)
 }
 
 /// What is cut: all but the frame where it borders on nothing.
@@ -187,7 +187,7 @@ proptest! {
         let nets = topology::recover(&copper, Method::Contact);
         let plain = |limit: Option<Nm>| {
             let settings = Settings { limit, ..Settings::default() };
-            Diagram::new(&copper, &nets, None, &settings).expect("a diagram").boundaries().0.length()
+            Diagram::new(&copper, &nets, None, &settings).expect("a diagram").boundaries().expect("whole boundaries").length()
         };
         let close = |a: f64, b: f64| (a - b).abs() <= 1e-3 * a.max(b) + 1.0;
         let all = mixed(&copper, &nets, |_| true).0.length();

@@ -368,7 +368,7 @@ fn kinds_of_spoiling_are_found() {
     let each = |letter: char, change: fn(f64) -> f64| lines(text, |line, _| Some(word(line, letter, change)));
     let all = text.lines().filter(|line| is_cut(line)).count();
     let half = all / 2;
-    let spoilt: [(&str, String, &str); 19] = [
+    let spoilt: [(&str, String, &str); 22] = [
         ("moved to the right", each('X', |x| x + 0.02), "pocket-overcut"),
         ("moved down", each('Y', |y| y - 0.02), "pocket-overcut"),
         ("a hundredth larger", each('X', |x| x * 1.01), ""),
@@ -437,6 +437,20 @@ fn kinds_of_spoiling_are_found() {
             "plunge-spindle-off",
         ),
         ("inches", text.replace("G21", "G20"), "pocket-overcut"),
+        (
+            "no feed",
+            lines(text, |line, _| {
+                let without: Vec<&str> = line.split(' ').filter(|word| !word.starts_with('F')).collect();
+                Some(without.join(" "))
+            }),
+            "feed-missing",
+        ),
+        (
+            "the last loop left out",
+            lines(text, |line, n| (n <= all - 30 || !is_cut(line)).then(|| line.to_owned())),
+            "pocket-residue",
+        ),
+        ("a strip moved up", each('Y', |y| if (2.0..2.3).contains(&y) { y + 0.3 } else { y }), ""),
     ];
     for (how, spoilt, expected) in spoilt {
         assert_ne!(spoilt, text, "{how}: it is changed");

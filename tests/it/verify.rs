@@ -38,7 +38,7 @@ fn names(report: &Report, least: Severity) -> Vec<&'static str> {
 
 fn foreign(file: &str, text: String, tool: &str, role: Option<Role>) -> Program {
     let cutter = Some(tool.parse().expect("a tool"));
-    Program { file: file.to_owned(), text, role, cutter, placement: None }
+    Program { file: file.to_owned(), text, role, cutter, placement: None, asked: None }
 }
 
 const FRONT: Option<Role> = Some(Role::Isolation(Side::Front));

@@ -26,6 +26,7 @@ fn program(name: &str, tool: &str, side: Side) -> Program {
         role: Some(Role::Isolation(side)),
         cutter: Some(tool.parse().expect("a tool")),
         placement: None,
+        asked: None,
     }
 }
 
@@ -229,7 +230,7 @@ fn a_cutout_of_another_board_does_not_fit_wherever_it_is_laid() {
         let board = import::load(&[root.join(board)], &Selection::default()).expect("a board").board;
         let cutter = Some(format!("endmill:{tool}").parse().expect("a tool"));
         let role = Some(Role::Cutout);
-        let mut read = Program { file: program.to_owned(), text, role, cutter, placement: None };
+        let mut read = Program { file: program.to_owned(), text, role, cutter, placement: None, asked: None };
         let settings = Settings { board: Nm::from_um(thickness), ..Settings::default() };
         let fitted =
             register(&read, &board, &Orientation::default(), &settings).expect("it is laid somewhere");

@@ -39,12 +39,6 @@ diagnostics! {
         "{blend} has no effect",
         "leave {blend} out, or set path blending on the machine";
 
-    BOUNDARY_TORN: Warning =
-        "boundary-torn",
-        "a boundary between nets has a dangling end",
-        "two nets may stay joined there: this is a bug in voromill",
-        "report it with the board";
-
     CARVED_OUTSIDE: Error =
         "carved-outside",
         "a program mills outside the shapes to be carved",
@@ -188,6 +182,12 @@ diagnostics! {
         "no outline was found or given",
         "the board is not cut out",
         "export the outline too, or choose it with {outline} FILE";
+
+    PASSES_MISSING: Warning =
+        "passes-missing",
+        "further passes could not be placed",
+        "copper stays where it should be cleared, but nets are isolated: this is a bug in voromill",
+        "report it with the board";
 
     PATTERN_WITHOUT_NET: Warning =
         "pattern-without-net",

@@ -136,7 +136,7 @@ fn three_ways(board: &Board, copper: &Copper, nets: &Nets) -> Result<Painting, F
     let lines = |limit: Option<Nm>| -> Result<Vec<Path>, FigureError> {
         let settings = Settings { limit, frame: Frame::Hull(Nm::from_um(400)), ..Settings::default() };
         let diagram = Diagram::new(copper, nets, board.outline.as_ref(), &settings)?;
-        let edges = diagram.boundaries().0.edges;
+        let edges = diagram.boundaries()?.edges;
         Ok(edges.into_iter().filter(|edge| !edge.is_border()).map(|edge| edge.path).collect())
     };
     let (loops, boundaries) = (lines(Some(RADIUS))?, lines(None)?);
@@ -182,7 +182,7 @@ fn one_trace(copper: &Copper, nets: &Nets) -> Result<Painting, FigureError> {
 fn all_traces(copper: &Copper, nets: &Nets) -> Result<Painting, FigureError> {
     let frame = Frame::Rectangle(MARGIN);
     let settings = Settings { sites: voronoi::SiteKind::Core, frame, ..Settings::default() };
-    let boundaries = Diagram::new(copper, nets, None, &settings)?.boundaries().0;
+    let boundaries = Diagram::new(copper, nets, None, &settings)?.boundaries()?;
     let mut neighbours = vec![Vec::new(); nets.nets().len()];
     for edge in &boundaries.edges {
         if let (voronoi::Owner::Net(a), voronoi::Owner::Net(b)) = (edge.left, edge.right) {

@@ -63,7 +63,7 @@ pub(super) fn regions(
         owners[from + columns.start as usize..from + columns.end as usize].fill(number);
     });
     let mut canvas = flat(&owners, grid);
-    let (boundaries, _) = diagram.boundaries();
+    let boundaries = diagram.boundaries()?;
     let lines = boundaries.edges.iter().filter(|edge| !edge.is_border()).map(|edge| &edge.path);
     let (colour, width) = if limit.is_some() { (BLACK, 3) } else { (WHITE, 5) };
     canvas.strokes(lines, grid.pitch() * width, colour, 1.0);

@@ -3,6 +3,7 @@
 mod alignment_hole;
 mod board_gouged;
 mod board_left;
+mod copper_left;
 mod destroyed;
 mod feed_missing;
 mod gouge;
@@ -12,6 +13,7 @@ mod hole_missing;
 mod hole_place;
 mod hole_size;
 mod minimum_width;
+mod net_too_near;
 mod not_judged;
 mod not_through;
 mod open;
@@ -81,6 +83,8 @@ pub const ALL: &[Check] = &[
     gouge::CHECK,
     minimum_width::CHECK,
     sliver::CHECK,
+    copper_left::CHECK,
+    net_too_near::CHECK,
     recut::CHECK,
     not_judged::CHECK,
     too_deep::CHECK,

@@ -1,6 +1,7 @@
 //! # What it checks
 //!
-//! No cut goes further beyond the board's bounding rectangle than the stock's margin.
+//! No cut goes further beyond the rectangle round the board, as it lies on the machine, than the
+//! stock's margin.
 //!
 //! # Why
 //!
@@ -13,7 +14,7 @@
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::board::Board;
-use crate::geometry::Nm;
+use crate::geometry::{Nm, Rect};
 use crate::verify::Settings;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -32,10 +33,13 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(check) };
 const NAME: &str = "outside-stock";
 
 fn check(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
-    let Some(stock) = board.bounds().map(|bounds| bounds.inflate(settings.margin)) else { return Vec::new() };
+    let laid = |bounds: Rect| Rect::around(bounds.corners().map(|corner| program.placement.apply(corner)));
+    let Some(stock) = board.bounds().and_then(laid).map(|laid| laid.inflate(settings.margin)) else {
+        return Vec::new();
+    };
     each_stretch(program, NAME, |motion| {
         let below = [motion.from.z, motion.to.z].into_iter().flatten().any(|z| z < Nm::ZERO);
-        let to = program.placement.undo(motion.to.point()?);
+        let to = motion.to.point()?;
         let (min, max) = (stock.min(), stock.max());
         let beyond = [min.x - to.x, to.x - max.x, min.y - to.y, to.y - max.y].into_iter().max()?;
         let message = || format!("a cut {beyond:.3} mm beyond the stock");

@@ -22,7 +22,7 @@ use crate::board::polarity::{offset, union};
 use crate::geometry::{Nm, Polygon, Rect};
 use crate::verify::edges::Edges;
 
-use super::runs::{Spot, Sweeps};
+use crate::verify::runs::{Spot, Sweeps};
 
 /// What a mill bears in all.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -402,7 +402,7 @@ fn number_of(count: usize) -> f64 {
 mod tests {
     use super::*;
     use crate::geometry::Point;
-    use crate::verify::pocketing::runs::Sweep;
+    use crate::verify::runs::Sweep;
 
     /// A square of 20 mm, a mill of 2 mm, and ways along y = 0 … so far beside each other.
     fn borne_beside(ways: &[f64], depths: &[f64]) -> Borne {

@@ -14,7 +14,6 @@
 //! planner.
 
 mod engagement;
-mod runs;
 
 use rayon::prelude::*;
 
@@ -30,8 +29,8 @@ use super::cutter::Cutter;
 use super::edges::{Edges, length};
 use super::report::Finding;
 
+use super::runs::{Piece, Spot, Sweep, Sweeps, left};
 use engagement::{Stretch, Work, borne};
-use runs::{Piece, Spot, Sweep, Sweeps, left};
 
 pub use engagement::Borne;
 

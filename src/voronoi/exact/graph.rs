@@ -32,9 +32,9 @@ pub(super) struct Growth {
 /// seen.
 const RETRIES: usize = 8;
 
-/// The cosine of the angle of feet on one side of an edge is less off 1 than this. Chosen: a
-/// hundredth of a degree.
-const BESIDE: f64 = 1e-8;
+/// The cosine of the angle of feet on one side of an edge is less off 1 than this. Derived: what
+/// bulges by a tie has feet that differ by √(2 · tie / radius), a hundredth for a radius of 400 nm.
+const BESIDE: f64 = 1e-4;
 
 /// The side of a cell, in nanometres. Chosen: what one vertex may be off, mostly.
 const CELL: f64 = 1_000.0;
@@ -109,11 +109,22 @@ impl Growth {
     }
 }
 
+/// How an edge ends.
+pub(super) struct Arrival {
+    pub(super) junction: Junction,
+    /// The place on the edge that was taken for the junction, and its distance from copper.
+    at: Spot,
+    clearance: f64,
+    /// The direction there.
+    pub(super) way: Spot,
+}
+
 /// Where one edge ends alone.
-fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Junction {
+fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Arrival {
     let slot = Slot { left: pair.right, right: pair.left, way: way * -1.0, edge: None };
     let tied = vec![pair.left.min(pair.right), pair.left.max(pair.right)];
-    Junction { at, clearance, tied, owners: Vec::new(), slots: vec![slot], is_end: true }
+    let junction = Junction { at, clearance, tied, owners: Vec::new(), slots: vec![slot], is_end: true };
+    Arrival { junction, at, clearance, way }
 }
 
 impl Diagram {
@@ -163,17 +174,16 @@ impl Diagram {
         let mut start = home.at;
         for _ in 0..RETRIES {
             let event = self.follow(&pair, start, &home.tied);
-            let (ending, way) = self.ending(&pair, start, event)?;
+            let Arrival { junction, at, clearance, way } = self.ending(&pair, start, event)?;
             // Ends of generators within a nanometre of each other are one vertex: beyond them.
-            match event {
-                Event::Junction { at, clearance, .. }
-                    if (at - home.at).length() < near && growth.known(&ending) == Some(from) =>
-                {
-                    start = at;
-                    pair = self.ahead_of_pair(&pair, at, clearance);
-                }
-                _ => return Some((pair, ending, way)),
+            let is_home = matches!(event, Event::Junction { .. })
+                && (at - home.at).length() < near
+                && growth.known(&junction) == Some(from);
+            if !is_home {
+                return Some((pair, junction, way));
             }
+            start = at;
+            pair = self.ahead_of_pair(&pair, at, clearance);
         }
         None
     }
@@ -183,8 +193,11 @@ impl Diagram {
         let (way, snap) = (pair.way(at), self.tolerances.snap);
         let tied = self.about(at, clearance + self.tie, snap);
         let [left, right] = [0, 1].map(|side| {
-            let toward = pair.forms[side].away(at);
-            let is_beside = |&i: &u32| self.forms()[i as usize].away(at).dot(toward) > 1.0 - BESIDE;
+            let [here, there] = [side, 1 - side].map(|side| pair.forms[side].away(at));
+            let is_beside = |&i: &u32| {
+                let away = self.forms()[i as usize].away(at);
+                away.dot(here) > (1.0 - BESIDE).max(away.dot(there))
+            };
             let beside: Vec<u32> = tied.iter().map(|&(i, _)| i).filter(is_beside).collect();
             self.ahead_of(at, clearance, way, &beside).unwrap_or([pair.left, pair.right][side])
         });
@@ -195,20 +208,20 @@ impl Diagram {
         Pair { left, right, forms: [left, right].map(|i| self.forms()[i as usize]) }
     }
 
-    /// The junction at which an edge from `start` ends, and the direction in which it arrives.
-    pub(super) fn ending(&self, pair: &Pair, start: Spot, event: Event) -> Option<(Junction, Spot)> {
+    /// How an edge from `start` ends.
+    pub(super) fn ending(&self, pair: &Pair, start: Spot, event: Event) -> Option<Arrival> {
         match event {
             Event::Junction { at, clearance, way, .. } if clearance < self.tie => {
-                Some((dead_end(pair, at, 0.0, way), way))
+                Some(dead_end(pair, at, 0.0, way))
             }
             Event::Junction { mut at, mut clearance, mut third, .. } => {
                 for _ in 0..RETRIES {
                     if clearance < self.floor(pair) {
                         let way = pair.way(at);
-                        return Some((dead_end(pair, at, clearance, way), way));
+                        return Some(dead_end(pair, at, clearance, way));
                     }
                     if let Some(junction) = self.junction(at, clearance, [pair.left, pair.right, third]) {
-                        return Some((junction, pair.way(at)));
+                        return Some(Arrival { junction, at, clearance, way: pair.way(at) });
                     }
                     // The certificate names what was overlooked.
                     let nearer = self.within(at, clearance - self.tie);
@@ -217,8 +230,8 @@ impl Diagram {
                 }
                 None
             }
-            Event::Window { at, clearance, way } => Some((dead_end(pair, at, clearance, way), way)),
-            Event::Contact { at, way } => Some((dead_end(pair, at, 0.0, way), way)),
+            Event::Window { at, clearance, way } => Some(dead_end(pair, at, clearance, way)),
+            Event::Contact { at, way } => Some(dead_end(pair, at, 0.0, way)),
             Event::Fault => None,
         }
     }

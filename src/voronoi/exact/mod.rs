@@ -33,7 +33,7 @@
 //! used. With [`Kind::Owners`] the graph is complete if every owner's copper is connected.
 //! Distances that differ by less than a *tie* are equal; where one tie leaves an end loose, all is
 //! walked anew with another, and what no tie resolves is a fault, for which
-//! [`Diagram`](super::Diagram) shakes the copper by two nanometres and walks again. None of the 47
+//! [`Diagram`](super::Diagram) shakes the copper by some nanometres and walks again. None of the 47
 //! layers of real boards needs that, at six levels each and in both kinds of level sets.
 //!
 //! Polygons come with slits and with corners that are only rounding: rings that lead in to a hole
@@ -77,6 +77,7 @@ mod slit;
 mod tolerances;
 mod vertex;
 mod walk;
+mod weld;
 
 use std::sync::OnceLock;
 
@@ -95,6 +96,7 @@ pub use level::LevelCurve;
 
 pub(super) use axis::OnAxis;
 pub(super) use chain::Chain;
+pub(super) use weld::welded;
 
 /// The number of no generator.
 const NOBODY: u32 = u32::MAX;
@@ -186,7 +188,8 @@ impl Diagram {
             diagram.tie = tie;
             diagram.walk_all(space);
             if diagram.faults.is_empty() {
-                let wrong = diagram.certify(CLOSE).into_iter().filter(|found| found.by > WRONG);
+                let wrong =
+                    diagram.certify(CLOSE).into_iter().filter(|found| found.by > diagram.tolerances.wrong);
                 diagram.faults = wrong.map(|found| found.at).collect();
             }
             if diagram.faults.is_empty() {
@@ -261,9 +264,6 @@ impl Diagram {
         (left - BEYOND..=right + BEYOND).contains(&p.x) && (bottom - BEYOND..=top + BEYOND).contains(&p.y)
     }
 }
-
-/// A circle that holds copper by more is no rounding, in nanometres. Chosen: no cut is as true.
-const WRONG: f64 = 1.0;
 
 /// At places so close together edges are asked, in nanometres. Chosen: narrower pads are rare.
 const CLOSE: f64 = 250_000.0;

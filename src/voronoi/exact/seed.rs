@@ -156,7 +156,7 @@ impl Diagram {
     /// Where an edge ends that passes a place.
     fn end_of(&self, pair: &Pair, at: Spot) -> Option<Junction> {
         let tied = [pair.left, pair.right];
-        self.ending(pair, at, self.follow(pair, at, &tied)).map(|(junction, _)| junction)
+        self.ending(pair, at, self.follow(pair, at, &tied)).map(|arrival| arrival.junction)
     }
 
     /// The generator nearest to a place outside all copper.

@@ -17,6 +17,8 @@ pub(super) struct Tolerances {
     /// Feet of two owners nearer to each other than this have one direction, beside what a tie may
     /// turn them by.
     pub(super) apart: f64,
+    /// A circle that holds copper by more is no rounding, in nanometres.
+    pub(super) wrong: f64,
     /// What belongs to another owner than both, and comes nearer by less than this a unit of way,
     /// only touches.
     pub(super) flat: f64,
@@ -24,11 +26,12 @@ pub(super) struct Tolerances {
 
 impl Tolerances {
     /// Those of ordinary copper. Chosen.
-    const USUAL: Self = Self { off: OFF, snap: 1.0, slab: SLAB, apart: SAME, flat: FLAT };
+    const USUAL: Self = Self { off: OFF, snap: 1.0, slab: SLAB, apart: SAME, wrong: WRONG, flat: FLAT };
 
     /// Those where owners may be close: between them a boundary runs however near they are. Chosen;
     /// rounding is less.
-    pub(super) const CLOSE: Self = Self { off: 0.25, snap: 0.05, slab: 1e-4, apart: 1e-9, flat: 1e-9 };
+    pub(super) const CLOSE: Self =
+        Self { off: 0.25, snap: 0.05, slab: 1e-4, apart: 1e-9, wrong: 1.0, flat: 1e-9 };
 
     /// How far from a place so far from copper two generators may be tied that part there, in
     /// nanometres: what touches a circle from within leaves it by the square of the way.
@@ -40,6 +43,11 @@ impl Tolerances {
 /// So far off an edge it is looked whether copper lies there, in nanometres. Chosen: more than
 /// rounding, less than any real gap.
 pub(super) const OFF: f64 = 20.0;
+
+/// A circle that holds copper by more is no rounding, in nanometres. Chosen: a hundredth of what
+/// fitting may leave; at the centre of an arc that copper lies round, ends that are rounded to
+/// nanometres leave one.
+const WRONG: f64 = 20.0;
 
 impl Default for Tolerances {
     fn default() -> Self {

@@ -100,7 +100,7 @@ fn judge(board: &Board, settings: &str) -> Result<(), String> {
         }
         read(&program.text).map_err(|error| format!("it does not read back: {error}"))?;
     }
-    if let Some(fault) = job.warnings.iter().find(|warning| warning.code() == "boundary-torn") {
+    if let Some(fault) = job.warnings.iter().find(|warning| warning.code() == "passes-missing") {
         return Err(format!("{} at {:?}: {}", fault.code(), fault.at, fault.message));
     }
     for layer in &job.layers {

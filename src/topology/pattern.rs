@@ -33,8 +33,9 @@ impl Pattern {
         pattern[p..].iter().all(|&c| c == '*')
     }
 
-    /// Whether one of `names` is.
-    pub(super) fn matches_any(&self, names: &[String]) -> bool {
+    /// Whether one of `names` is one that it means.
+    #[must_use]
+    pub fn matches_any(&self, names: &[String]) -> bool {
         names.iter().any(|name| self.matches(name))
     }
 }
