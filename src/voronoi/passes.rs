@@ -19,7 +19,7 @@ use crate::geometry::Nm;
 use crate::topology::{NetId, Nets};
 
 use super::certified::Owned;
-use super::clearing::{Clearing, Zone};
+use super::clearing::{Clearing, Room, Zone};
 use super::clip::{Fence, Piece};
 use super::exact;
 use super::groove::Grooves;
@@ -96,8 +96,8 @@ impl Diagram {
         let further = if clearing.is_wanted() { widening.further(next, most) } else { Vec::new() };
         // What is to be cleared may be space that one net encloses, where passes did not run.
         let again: &[Nm] = if further.is_empty() || self.settings.enclosed { &[] } else { &levels };
-        // Where all is cleared, passes farther out lie a whole advance apart: what any leave is judged
-        // by that.
+        // Where all is cleared, passes farther out lie a whole advance apart: what any leave is
+        // judged by that.
         let near = levels.get(1).filter(|_| further.is_empty());
         let step = near.map_or(widening.advance(), |&second| second - levels[0]);
         // Loops at the first level are passes themselves.
@@ -156,13 +156,14 @@ impl Diagram {
             all.append(passes);
         }
         let fence = Fence::new(&self.border);
-        let room = |at| match diagram.owner_near(at, 0.0, NOBODY) {
+        let clearance = |at| match diagram.owner_near(at, 0.0, NOBODY) {
             Some(owner) if owner != NOBODY => 0.0,
             _ => diagram.distance(at),
         };
         let owner = |at| diagram.owner_near(at, f64::INFINITY, NOBODY).map(NetId);
-        let reach = [first, levels.last().copied().unwrap_or(Nm::ZERO)].map(Nm::to_f64);
-        let mut lines = zone.edges(&fence, (&room, &owner), reach);
+        let farthest = levels.last().map_or(0.0, |last| last.to_f64());
+        let room = Room { clearance: &clearance, owner: &owner, nearest: first.to_f64(), farthest };
+        let mut lines = zone.edges(&fence, &room);
         for grooves in wider.iter().chain(&grooves) {
             lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
         }
