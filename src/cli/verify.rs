@@ -106,8 +106,8 @@ pub(super) struct Verify {
     #[arg(long, value_name = "PATTERN", value_delimiter = ',')]
     ignore: Vec<Pattern>,
 
-    /// All copper between nets was to be cleared, as for mill; this and the next four [default: from
-    /// the programs' comments]
+    /// All copper between nets was to be cleared, as for mill; this and the next four [default:
+    /// from the programs' comments]
     #[arg(long)]
     clear: bool,
 

@@ -51,8 +51,8 @@ impl Clearing {
         self.distances.iter().map(|own| own.distance.nm()).max()
     }
 
-    /// What that means on a side, of which the finest tool cuts this kerf: as far as the middle of a
-    /// cutter goes.
+    /// What that means on a side, of which the finest tool cuts this kerf: as far as the middle of
+    /// a cutter goes.
     pub(super) fn on(&self, copper: &Copper, nets: &Nets, kerf: Nm) -> voronoi::Clearing {
         let ids = || (0..).map(NetId).take(nets.nets().len());
         if !self.is_wanted() {

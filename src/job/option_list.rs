@@ -100,8 +100,8 @@ macro_rules! job_options {
     #[changes(ISOLATION, PICTURES)]
     pub clear_nets: Vec<Pattern>,
 
-    /// Clear all copper in this area of the board, in the files' coordinates: a rectangle, or what a
-    /// Gerber layer, SVG or DXF covers; may be given several times
+    /// Clear all copper in this area of the board, in the files' coordinates: a rectangle, or what
+    /// a Gerber layer, SVG or DXF covers; may be given several times
     #[arg(long, value_name = "X,Y,W,H|FILE", allow_hyphen_values = true)]
     #[serde(with = "list")]
     #[needs(Kept)]

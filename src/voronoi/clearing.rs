@@ -43,6 +43,19 @@ impl Clearing {
 const STEP: f64 = 20_000.0;
 const LEAST: f64 = 100.0;
 
+/// What is known of the space that passes run in.
+#[derive(Clone, Copy)]
+pub(super) struct Room<'a> {
+    /// How far copper is, in nanometres; within it zero.
+    pub(super) clearance: &'a (dyn Fn(Spot) -> f64 + Sync),
+    /// Whose region a place is in.
+    pub(super) owner: &'a (dyn Fn(Spot) -> Option<NetId> + Sync),
+    /// No pass comes nearer to copper.
+    pub(super) nearest: f64,
+    /// What is no farther from copper is cleared everywhere.
+    pub(super) farthest: f64,
+}
+
 /// Where the axis of a cutter may run while it clears.
 pub(super) struct Zone<'a> {
     nets: &'a [NetId],
@@ -60,15 +73,9 @@ impl<'a> Zone<'a> {
     }
 
     /// Passes along the edges of areas that are cleared, and round those that are kept where it is
-    /// cleared beside them, on `board`. How far copper is `clearance` says (within it nothing): no
-    /// nearer than `nearest`; and beyond `farthest` nothing is cleared but areas and regions of the
-    /// nets that `owner` names.
-    pub(super) fn edges(
-        &self,
-        board: &Fence,
-        (clearance, owner): (&(dyn Fn(Spot) -> f64 + Sync), &(dyn Fn(Spot) -> Option<NetId> + Sync)),
-        [nearest, farthest]: [f64; 2],
-    ) -> Vec<Piece> {
+    /// cleared beside them, on `board`.
+    pub(super) fn edges(&self, board: &Fence, room: &Room<'_>) -> Vec<Piece> {
+        let Room { clearance, owner, nearest, farthest } = *room;
         let rings = |fence: &Option<Fence>| fence.iter().flat_map(Fence::rings).collect::<Vec<_>>();
         let round = |ring: &Vec<Spot>| along(ring, clearance, nearest);
         let edges: Vec<Piece> = rings(&self.areas).par_iter().flat_map_iter(round).collect();
@@ -130,7 +137,7 @@ fn along(ring: &[Spot], clearance: impl Fn(Spot) -> f64, nearest: f64) -> Vec<Pi
         let before = last.replace(next).filter(|before| is_open(before) != is_open(&next));
         if let Some(before) = before {
             let (inner, outer) = if is_open(&next) { (next, before) } else { (before, next) };
-            let edge = edge_of(inner, outer, &sample, nearest);
+            let edge = edge_of(inner, outer, sample, nearest);
             if is_open(&next) {
                 runs.push(vec![edge]);
             } else if let Some(run) = runs.last_mut() {

@@ -20,7 +20,7 @@ use crate::geometry::{Nm, Point};
 use crate::topology::{NetId, Nets};
 
 use super::certified::Owned;
-use super::clearing::{Clearing, Zone};
+use super::clearing::{Clearing, Room, Zone};
 use super::clip::{Fence, Piece};
 use super::exact;
 use super::groove::Grooves;
@@ -157,13 +157,14 @@ impl Diagram {
             all.append(passes);
         }
         let fence = Fence::new(&self.border);
-        let room = |at| match diagram.owner_near(at, 0.0, NOBODY) {
+        let clearance = |at| match diagram.owner_near(at, 0.0, NOBODY) {
             Some(owner) if owner != NOBODY => 0.0,
             _ => diagram.distance(at),
         };
         let owner = |at| diagram.owner_near(at, f64::INFINITY, NOBODY).map(NetId);
-        let reach = [first, levels.last().copied().unwrap_or(Nm::ZERO)].map(Nm::to_f64);
-        let mut lines = zone.edges(&fence, (&room, &owner), reach);
+        let farthest = levels.last().map_or(0.0, |last| last.to_f64());
+        let room = Room { clearance: &clearance, owner: &owner, nearest: first.to_f64(), farthest };
+        let mut lines = zone.edges(&fence, &room);
         for grooves in wider.iter().chain(&grooves) {
             lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
         }

@@ -1,5 +1,12 @@
 //! Programs that clear copper, whole and spoilt: what is left is told where, and how much.
 
+#![expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    clippy::cast_precision_loss,
+    reason = "places counted in a small area"
+)]
+
 use std::path::{Path, PathBuf};
 
 use voromill::board::{Board, Side};
@@ -87,7 +94,7 @@ fn chords(line: &str, from: (f64, f64), to: (f64, f64)) -> Vec<[(f64, f64); 2]> 
         let next = (p.x.to_f64() / 1e6, p.y.to_f64() / 1e6);
         [std::mem::replace(&mut at, next), next]
     };
-    arc.flatten(Nm::from_um(1)).into_iter().map(next).collect()
+    arc.flatten(Nm::from_um(1)).map(next).collect()
 }
 
 /// Places in the area 40 µm apart, each with the stretches that clear it: half a kerf of 0.1 mm.

@@ -13,7 +13,8 @@
 //! # What it can miss
 //!
 //! Strips less than 10 µm wide, and pieces that together are more than a crumb but none of them
-//! is. Where a file says what was to be cleared it must be given. Along the edge of a net's region it looks no nearer than half a kerf.
+//! is. Where a file says what was to be cleared it must be given. Along the edge of a net's region
+//! it looks no nearer than half a kerf.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::verify::Settings;
