@@ -53,8 +53,8 @@ pub(super) fn adaptive_depth(options: &Complete, cuttings: &[Cutting]) -> Result
     }
 }
 
-/// How far regions reach, if they end before their neighbours': no nearer to copper than half of the
-/// narrowest cut, which runs there.
+/// How far regions reach, if they end before their neighbours': no nearer to copper than half of
+/// the narrowest cut, which runs there.
 pub(super) fn limit(options: &Complete, cuttings: &[Cutting]) -> Result<Option<Nm>, Error> {
     let Some(limit) = given("limit", options.limit)? else { return Ok(None) };
     let narrowest = cuttings.iter().map(Cutting::kerf).min().unwrap_or(Nm::ZERO);

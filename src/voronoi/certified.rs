@@ -6,13 +6,11 @@
 
 use std::borrow::Cow;
 
-use rustc_hash::FxHashMap;
-
 use crate::board::{Axis, Copper, Feature, Shape};
 use crate::geometry::{Nm, Point, Rect};
 use crate::topology::{self, Method, NetId, Nets, smallest_gap};
 
-use super::exact::{Diagram, Generators, Kind, Space, welded};
+use super::exact::{Diagram, Generators, Kind, Space};
 
 /// Copper is shaken so often at most. Chosen: once is rare.
 const ATTEMPTS: u32 = 4;
@@ -24,8 +22,6 @@ pub(super) struct Owned<'a> {
     is_loose: bool,
     /// Whether owners are nearer to each other than [`CLOSE`].
     is_close: bool,
-    /// Points that are others, unless owners are close.
-    welded: FxHashMap<Point, Point>,
 }
 
 impl<'a> Owned<'a> {
@@ -61,12 +57,8 @@ impl<'a> Owned<'a> {
         let pieces = is_touching.then(|| pieces(copper, nets));
         let owner = |net: NetId| pieces.as_ref().map_or(net.0, |pieces| pieces[net.index()]);
         let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
-        let shapes: Vec<(Cow<'a, Shape>, u32)> =
-            kept.map(|(number, feature)| (shape(feature), owner(nets.of(number)))).collect();
-        let is_close = gap.is_some_and(|gap| gap < CLOSE);
-        let points = || shapes.iter().flat_map(|(shape, _)| points(shape)).collect();
-        let welded = if is_close { FxHashMap::default() } else { welded(points()) };
-        Self { shapes, is_loose, is_close, welded }
+        let shapes = kept.map(|(number, feature)| (shape(feature), owner(nets.of(number)))).collect();
+        Self { shapes, is_loose, is_close: gap.is_some_and(|gap| gap < CLOSE) }
     }
 
     /// Whether one owner has all.
@@ -86,7 +78,9 @@ impl<'a> Owned<'a> {
     ) -> (Diagram, Option<T>) {
         let attempt = |attempt: u32| {
             let mut generators = Generators::shaken(attempt);
-            generators.weld(self.welded.clone());
+            if !self.is_close {
+                generators.weld(self.shapes.iter().flat_map(|(shape, _)| points(shape)).collect());
+            }
             if self.is_loose {
                 generators.loosen();
             }

@@ -24,8 +24,8 @@ const RADII: std::ops::Range<f64> = 5_000.0..2e8;
 const SHORTEST: f64 = 5_000.0;
 /// The part of the tolerance that fitting uses. Chosen: with a quarter and what rounding takes,
 /// distances to either side differ by no more than half of the tolerance, for a point off the
-/// middle by t is nearer to one side than to the other by 2 t. Measured: at 0.45 they differ by 2 µm
-/// at one place in a hundred, at 0.27 by 1 µm, for a fifth more segments.
+/// middle by t is nearer to one side than to the other by 2 t. Measured: at 0.45 they differ by 2
+/// µm at one place in a hundred, at 0.27 by 1 µm.
 const SHARE: f64 = 0.27;
 /// A minimum is looked for at most so many vertices apart; beyond, the search would become
 /// quadratic. Chosen.

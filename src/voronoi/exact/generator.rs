@@ -31,6 +31,7 @@ use crate::voronoi::plane::Spot;
 use super::WALL;
 use super::form::{Form, Place, SLAB, clockwise, unit};
 use super::slit::without_slits;
+use super::weld::welded;
 
 /// No generator.
 const NONE: u32 = u32::MAX;
@@ -132,9 +133,10 @@ impl Generators {
         self.is_close = true;
     }
 
-    /// Says which points of shapes to come are others, which they all but meet.
-    pub(in crate::voronoi) fn weld(&mut self, welded: FxHashMap<Point, Point>) {
-        self.welded = welded;
+    /// Says that those of `points`, of shapes to come, that all but meet are one: the first of them
+    /// in the order of x and y.
+    pub fn weld(&mut self, points: Vec<Point>) {
+        self.welded = welded(points);
     }
 
     /// The point that a point of a shape is.
@@ -246,8 +248,8 @@ impl Generators {
         self.bodies.push(Body::Rings { edges: first..self.number(), open: inwards });
     }
 
-    /// A ring with each point where it is moved to. Slits and what rounding leaves are gone by then:
-    /// they are found by points that all but meet.
+    /// A ring with each point where it is moved to. Slits and what rounding leaves are gone by
+    /// then: they are found by points that all but meet.
     fn shake(&self, ring: Vec<Point>) -> Vec<Point> {
         match self.attempt {
             0 => ring,

@@ -14,7 +14,7 @@ use crate::geometry::Point;
 const NEAR: i64 = 20;
 
 /// Where points that lie near another are moved to: the first of these, in the order of x and y.
-pub(in crate::voronoi) fn welded(mut points: Vec<Point>) -> FxHashMap<Point, Point> {
+pub(super) fn welded(mut points: Vec<Point>) -> FxHashMap<Point, Point> {
     points.sort_unstable();
     points.dedup();
     let cell = |p: Point| [p.x, p.y].map(|nm| nm.get().div_euclid(NEAR));

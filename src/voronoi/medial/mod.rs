@@ -109,7 +109,7 @@ impl MedialAxis {
 }
 
 /// The diagram of an area with the fewest faults: of the area as it is, unless that has any, else
-/// of one shaken a little.
+/// of one whose points that all but meet are one, shaken a little.
 fn flawless(area: &Polygon) -> Diagram {
     let mut best = inside(area, 0);
     for attempt in 1..=ATTEMPTS {
@@ -126,6 +126,9 @@ fn flawless(area: &Polygon) -> Diagram {
 
 fn inside(area: &Polygon, attempt: u32) -> Diagram {
     let mut generators = Generators::shaken(attempt);
+    if attempt > 0 {
+        generators.weld(area.contours().iter().flatten().copied().collect());
+    }
     generators.inside(area, |ring| u32::try_from(ring).expect("below 2³² rings"));
     Diagram::new(generators, Kind::MedialAxis, Space::Within)
 }
