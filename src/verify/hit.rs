@@ -9,6 +9,7 @@ use crate::geometry::{Nm, Point};
 use crate::topology::{Near, NetId};
 
 use super::cut::Cut;
+use super::machining::part;
 use super::sheet::Sheet;
 
 /// A piece of a cut that takes copper of a net.
@@ -125,17 +126,15 @@ pub(super) fn clusters(hits: &[Hit]) -> impl Iterator<Item = &[Hit]> {
 /// `closed` are not looked at.
 fn taken(sheet: &Sheet<'_>, index: usize, closed: &BTreeSet<NetId>, tolerance: Nm) -> Vec<Hit> {
     let cut = sheet.cuts[index];
-    let half = cut.swept.half();
+    let (half, axis) = (cut.swept.half(), cut.swept.axis());
     let mut hits: Vec<Hit> = Vec::new();
     let is_open = |feature: usize| closed.is_empty() || !closed.contains(&sheet.nets.of(feature));
-    for near in sheet.proximity.near_of(&cut.swept.axis(), half - tolerance, is_open) {
+    for near in sheet.proximity.near_of(&axis, half - tolerance, is_open) {
         let net = sheet.nets.of(near.feature);
-        let depth = half.to_f64() - near.width;
         let known = hits.iter().position(|other| other.net == net);
-        let is_deeper = known.is_none_or(|known| hits[known].depth < depth);
-        if near.width >= (half - tolerance).to_f64() || !is_deeper || !sheet.holds(near.at) {
-            continue;
-        }
+        let least = known.map_or((half - tolerance).to_f64(), |known| half.to_f64() - hits[known].depth);
+        let Some(near) = on_the_board(sheet, &axis, near, least) else { continue };
+        let depth = half.to_f64() - near.width;
         let hit = Hit { cut: index, net, depth, at: near.at, through: near.width <= 0.0, forced: false };
         match known {
             Some(known) => hits[known] = hit,
@@ -143,6 +142,38 @@ fn taken(sheet: &Sheet<'_>, index: usize, closed: &BTreeSet<NetId>, tolerance: N
         }
     }
     hits
+}
+
+/// Parts of a way shorter than this are not divided: where the narrowest place of one lies beyond
+/// the board's edge, no more than half of it may lie within. Chosen: what a cut takes on so short a
+/// way is nothing to the eye.
+const SHORTEST: f64 = 10_000.0;
+
+/// Where a way comes nearest to a feature, nearer than `least`, on the board. `near` is where it
+/// does so anywhere: if that lies beyond the board's edge, both halves of the way are asked.
+fn on_the_board(sheet: &Sheet<'_>, way: &Shape, near: Near, least: f64) -> Option<Near> {
+    if near.width >= least {
+        return None;
+    }
+    if sheet.holds(near.at) {
+        return Some(near);
+    }
+    let length = match way {
+        Shape::Stroke { from, to, .. } => from.distance(*to),
+        Shape::Arc { arc, .. } => arc.length(),
+        Shape::Disc { .. } | Shape::Polygon(_) => 0.0,
+    };
+    if length <= SHORTEST {
+        return None;
+    }
+    let mut best: Option<Near> = None;
+    for (from, to) in [(0.0, 0.5), (0.5, 1.0)] {
+        let half = part(way, from, to);
+        let least = best.map_or(least, |best| best.width);
+        let near = sheet.proximity.near_one(&half, Nm::from_f64(least.ceil()), near.feature);
+        best = near.and_then(|near| on_the_board(sheet, &half, near, least)).or(best);
+    }
+    best
 }
 
 /// Whether the gap between the net and the next one is narrower than the kerf, and the cut goes

@@ -292,7 +292,7 @@ fn axis(way: Way, from: Point, to: Point) -> Shape {
 }
 
 /// The part of an axis between two fractions of it.
-fn part(axis: &Shape, from: f64, to: f64) -> Shape {
+pub(super) fn part(axis: &Shape, from: f64, to: f64) -> Shape {
     let radius = Nm::ZERO;
     match axis {
         Shape::Stroke { from: a, to: b, .. } => {

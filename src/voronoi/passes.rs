@@ -32,6 +32,10 @@ use super::{BEYOND, Boundaries, Boundary, Diagram, FLOOR, NOBODY, Owner, SiteKin
 /// Links are no longer. Chosen: there and back they cost as much as a retract.
 const LONGEST: Nm = Nm::from_mm(3);
 
+/// Between the innermost pass and copper no other clears: it is left out only where it would run so
+/// near to the first cut. Chosen: what stays beside copper is thinner than a mill is true.
+const BESIDE: Nm = Nm::from_um(10);
+
 /// How the gap beside copper is widened.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Widening {
@@ -130,7 +134,9 @@ impl Diagram {
         let (diagram, found) = owned.diagram(kind, exact::Space::Within, Some(wall), lines);
         let is_whole = found.is_some();
         let wider = wider(before, widening.kerf);
-        let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), widening.floor - step);
+        let overlap = widening.floor - step;
+        let grooves_of = |reach| Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), reach);
+        let (grooves, innermost) = (grooves_of(overlap), grooves_of(overlap.min(BESIDE)));
         let spikes = Spikes {
             kerf: widening.floor.to_f64(),
             step: step.to_f64(),
@@ -147,7 +153,8 @@ impl Diagram {
             if number == wanted[0].len() && !wanted[1].is_empty() {
                 passed = Grooves::new(all.edges[first_pass..].iter(), step / 2);
             }
-            for grooves in wider.iter().chain(&grooves).chain(&passed) {
+            let grooves = if level > first { &grooves } else { &innermost };
+            for grooves in wider.iter().chain(grooves).chain(&passed) {
                 lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
             }
             let mut passes = self.fitted(&lines);

@@ -299,6 +299,23 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(512))]
+
+    #[test]
+    fn where_shapes_touch_is_a_place_in_both(a in any_arc(), b in any_arc(), other in any_shape(60)) {
+        let scaled = |shape: &Shape| scale_up(shape, 10_000);
+        let a = scaled(&a);
+        for other in [scaled(&b), scaled(&other)] {
+            let copper = copper(vec![other.clone()]);
+            for near in topology::Proximity::new(&copper).near(&a, Nm::ZERO) {
+                let far = [&a, &other].map(|shape| distance_to(shape, near.at.to_f64()));
+                prop_assert!(far.iter().all(|far| *far <= 2.0), "{:?}: {far:?} from {a:?} and {other:?}", near.at);
+            }
+        }
+    }
+}
+
 fn scale_up(shape: &Shape, scale: i64) -> Shape {
     let point = |p: Point| at(p.x.get() * scale, p.y.get() * scale);
     match shape {
@@ -310,7 +327,10 @@ fn scale_up(shape: &Shape, scale: i64) -> Shape {
             let rings = polygon.contours().iter().map(|ring| ring.iter().map(|&p| point(p)).collect());
             Shape::Polygon(Polygon::new(rings.collect()).expect("as many points"))
         }
-        Shape::Arc { .. } => panic!("no arcs here"),
+        Shape::Arc { arc, radius } => {
+            let [start, end, center] = [arc.start, arc.end, arc.center].map(point);
+            Shape::Arc { arc: Arc { start, end, center, turn: arc.turn }, radius: *radius * scale }
+        }
     }
 }
 

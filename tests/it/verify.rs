@@ -2,8 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use voromill::board::{Board, Side};
-use voromill::geometry::Nm;
+use voromill::board::{Board, Outline, Side};
+use voromill::geometry::{Nm, Path as Contour, Point, Segment};
 use voromill::import::{self, Selection};
 use voromill::verify::{Finding, Program, Report, Role, Settings, Severity, verify};
 
@@ -48,6 +48,31 @@ fn loops_of_straight_lines_isolate() {
     let board = load(&["verify/pads-F_Cu.gbr"]).board;
     let report = judge(&board, foreign("loops.nc", text("verify/loops.nc"), "endmill:0.2mm", FRONT));
     assert_eq!(names(&report, Severity::Info), [""; 0], "{:?}", report.findings);
+}
+
+#[test]
+fn copper_that_goes_on_beyond_the_edge_is_judged_as_far_as_the_board_goes() {
+    // The right half of the left pad lies on the board, which begins at x = 2 mm.
+    let mut board = load(&["verify/pads-F_Cu.gbr"]).board;
+    let corner = |x: i64, y: i64| Point::new(Nm::from_mm(x), Nm::from_mm(y));
+    let lines = [corner(8, 0), corner(8, 4), corner(2, 4), corner(2, 0)].map(|to| Segment::Line { to });
+    board.outline = Outline::new(vec![Contour { start: corner(2, 0), segments: lines.to_vec() }]);
+    let cut_into = |motion: &str| {
+        let text = format!("G21 G90 G94\nM3 S10000\nG0 Z2\n{motion}\nG0 Z2\nM5\nM2\n");
+        let report = judge(&board, foreign("cut.nc", text, "endmill:0.2mm", FRONT));
+        names(&report, Severity::Warning).contains(&"gouge")
+    };
+    // Cuts that cross the whole pad, that end beyond the edge, and that go round.
+    for (motion, cuts) in [
+        ("G0 X0 Y2\nG1 Z-0.1 F60\nX4 F120", true),
+        ("G0 X0 Y2\nG1 Z-0.1 F60\nX1.85 F120", false),
+        ("G0 X0 Y2\nG1 Z-0.1 F60\nX2.1 F120", true),
+        ("G0 X2.5 Y2\nG1 Z-0.1 F60\nG2 X2.5 Y2 I-1 J0 F120", true),
+        ("G0 X1.8 Y2\nG1 Z-0.1 F60\nG2 X1.8 Y2 I-0.5 J0 F120", false),
+        ("G0 X1 Y3\nG1 Z-0.1 F60\nG2 X1 Y3 I1 J0 F120", true),
+    ] {
+        assert_eq!(cut_into(motion), cuts, "{motion}");
+    }
 }
 
 #[test]

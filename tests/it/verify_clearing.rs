@@ -246,6 +246,14 @@ fn what_is_cleared_is_clear() {
 }
 
 #[test]
+fn passes_that_share_much_of_the_kerf_leave_no_strip_beside_copper() {
+    // Some gaps of the board are wider than the kerf, and too narrow for two passes side by side.
+    for overlap in ["0%", "30%", "45%", "60%"] {
+        made(&format!("tool = \"endmill:0.2mm\"\noverlap = \"{overlap}\"\nclear = true"));
+    }
+}
+
+#[test]
 fn copper_within_a_distance_for_high_voltages_is_an_error() {
     let (board, text) = made("distance-for = \"VCC=1.5mm\"\ntool = \"endmill:0.2mm\"");
     assert_eq!(found(&board, &text, "copper-left"), [], "nothing is left");

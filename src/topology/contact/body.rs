@@ -124,7 +124,12 @@ impl Body {
         // No edge is near the other, so one lies in the other: a point of it is in both.
         let (own, others) = (self.core.points(), other.core.points());
         let mut both = own.chain(others).filter(|&p| self.holds(p, scratch) && other.holds(p, scratch));
-        both.next().unwrap_or_else(|| self.bounds.min().midpoint(self.bounds.max()))
+        if let Some(point) = both.next() {
+            return point;
+        }
+        // The wedge of an arc whose radii differ is near, the arc is not quite.
+        let way = self.way(other, Nm::from_f64(2.0 * ROUND), scratch);
+        way.map_or_else(|| self.bounds.min().midpoint(self.bounds.max()), |way| self.middle(other, &way))
     }
 
     /// Whether `p` is copper. Exact.
@@ -205,7 +210,7 @@ impl Line {
         }
     }
 
-    /// The shortest way to the other, which it does not cross.
+    /// The shortest way to the other; of no length where they cross.
     fn way_to(&self, other: &Self) -> Way {
         match (*self, *other) {
             (Self::Point(p), Self::Point(q)) => nearest::points(p, q),

@@ -194,7 +194,7 @@ pub(super) fn arcs(s: &Sector, t: &Sector, reach: i64) -> bool {
         || point_arc(t.start, s, reach)
         || point_arc(t.end, s, reach)
         || on_the_line_of_centers(s, t, reach)
-        || crossing(s, t)
+        || crossing(s, t).is_some()
 }
 
 /// How much nearer than they are two arcs may be taken to be, in nanometres.
@@ -222,15 +222,16 @@ fn on_the_line_of_centers(s: &Sector, t: &Sector, reach: i64) -> bool {
 /// How far beyond the arm of a wedge a common point of two circles may lie to count as inside, in
 /// nanometres. Chosen: the point of two circles that cross at a fair angle is wrong by less,
 /// however large they are; circles that almost touch are found on the line of their centres.
-const ASIDE: f64 = 1e-3;
+pub(super) const ASIDE: f64 = 1e-3;
 
-/// Whether the arcs cross: a common point of their circles lies in both wedges.
+/// Where the arcs cross, from the first one's centre: a common point of their circles that lies in
+/// both wedges.
 #[expect(clippy::cast_precision_loss, reason = "the exact integer is rounded once")]
-fn crossing(s: &Sector, t: &Sector) -> bool {
+pub(super) fn crossing(s: &Sector, t: &Sector) -> Option<(f64, f64)> {
     let way = t.center - s.center;
     let squared = way.length_squared();
     if squared == 0 {
-        return false;
+        return None;
     }
     let (apart, radius) = (squared as f64, s.outer as f64);
     // The common points lie `along` of the way to the other centre and `aside` of it at right
@@ -238,12 +239,13 @@ fn crossing(s: &Sector, t: &Sector) -> bool {
     let along = (i128::from(squared) + i128::from(s.outer) - i128::from(t.outer)) as f64 / (2.0 * apart);
     let aside = radius / apart - along * along;
     if aside < 0.0 {
-        return false;
+        return None;
     }
     let aside = aside.sqrt();
-    [aside, -aside].into_iter().any(|aside| {
-        let (x, y) = (way.x.to_f64(), way.y.to_f64());
-        let point = (x * along - y * aside, y * along + x * aside);
-        s.nearly_holds(point, ASIDE) && t.nearly_holds((point.0 - x, point.1 - y), ASIDE)
-    })
+    let (x, y) = (way.x.to_f64(), way.y.to_f64());
+    let points = [aside, -aside].map(|aside| (x * along - y * aside, y * along + x * aside));
+    let in_both = |point: &(f64, f64)| {
+        s.nearly_holds(*point, ASIDE) && t.nearly_holds((point.0 - x, point.1 - y), ASIDE)
+    };
+    points.into_iter().find(in_both)
 }

@@ -3,7 +3,7 @@
 
 use crate::geometry::{Point, Vector};
 
-use super::near;
+use super::near::{self, ASIDE};
 use super::sector::Sector;
 
 /// A place in nanometres, not rounded.
@@ -97,8 +97,11 @@ fn place_arc(p: Place, arc: &Sector) -> Way {
     }
 }
 
-/// Between a segment and an arc that do not cross.
+/// Between a segment and an arc; of no length where they cross.
 pub(super) fn segment_arc((a, b): (Point, Point), arc: &Sector) -> Way {
+    if let Some(place) = crossing_of_segment((a, b), arc) {
+        return Way::new(place, place);
+    }
     let along = b - a;
     let (foot, squared) = ((arc.center - a).dot(along), along.length_squared());
     let back = [arc.start, arc.end].map(|end| point_segment(end, (a, b)).reversed());
@@ -109,8 +112,36 @@ pub(super) fn segment_arc((a, b): (Point, Point), arc: &Sector) -> Way {
     shortest(point_arc(a, arc), [point_arc(b, arc)].into_iter().chain(back).chain(middle))
 }
 
-/// Between two arcs that do not cross.
+/// Where a segment crosses an arc, the first along it.
+#[expect(clippy::cast_precision_loss, reason = "a display figure")]
+fn crossing_of_segment((a, b): (Point, Point), arc: &Sector) -> Option<Place> {
+    let (along, way) = (b - a, a - arc.center);
+    let squared = along.length_squared() as f64;
+    if squared == 0.0 {
+        return None;
+    }
+    // |way + t along|² = r² at t = foot ∓ reach.
+    let foot = -(way.dot(along) as f64) / squared;
+    let aside = way.cross(along) as f64;
+    let reach = (arc.outer as f64 - aside * aside / squared) / squared;
+    if reach < 0.0 {
+        return None;
+    }
+    let reach = reach.sqrt();
+    let (x, y) = (way.x.to_f64(), way.y.to_f64());
+    let at = |t: f64| (x + along.x.to_f64() * t, y + along.y.to_f64() * t);
+    let mut crossings = [foot - reach, foot + reach].into_iter();
+    let t = crossings.find(|&t| (0.0..=1.0).contains(&t) && arc.nearly_holds(at(t), ASIDE))?;
+    let (center, (x, y)) = (arc.center.to_f64(), at(t));
+    Some((center.0 + x, center.1 + y))
+}
+
+/// Between two arcs; of no length where they cross.
 pub(super) fn arcs(s: &Sector, t: &Sector) -> Way {
+    if let Some((x, y)) = near::crossing(s, t) {
+        let place = (s.center.x.to_f64() + x, s.center.y.to_f64() + y);
+        return Way::new(place, place);
+    }
     let back = [t.start, t.end].map(|end| point_arc(end, s).reversed());
     shortest(
         point_arc(s.start, t),
