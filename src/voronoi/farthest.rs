@@ -38,3 +38,42 @@ impl Diagram {
         Nm::from_f64(bound.max(farthest).ceil())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::board::{Attributes, Axis, Copper, Feature, Shape, Side};
+    use crate::geometry::Point;
+    use crate::topology::{self, Method};
+    use crate::voronoi::Settings;
+
+    #[test]
+    fn no_place_is_farther_and_few_are_much_nearer() {
+        let disc = |x: i64, y: i64| {
+            let (center, radius) = (Point::new(Nm::from_mm(x), Nm::from_mm(y)), Nm::from_mm(1));
+            Feature {
+                shape: Shape::Disc { center, radius },
+                axis: Axis::Flash(center),
+                attributes: 0,
+                line: 1,
+            }
+        };
+        let features = vec![disc(0, 0), disc(30, 0), disc(25, 22)];
+        let copper = Copper { side: Side::Front, features, attributes: vec![Attributes::default()] };
+        let nets = topology::recover(&copper, Method::Contact);
+        let diagram = Diagram::new(&copper, &nets, None, &Settings::default()).expect("a diagram");
+        let window = diagram.border.window;
+        let mut most = 0.0_f64;
+        for (i, j) in (0..=200_i64).flat_map(|i| (0..=200_i64).map(move |j| (i, j))) {
+            let x = window.min().x + window.width() * i / 200;
+            let y = window.min().y + window.height() * j / 200;
+            let nearest = [(0, 0), (30, 0), (25, 22)].map(|(a, b)| {
+                let (dx, dy) = ((x - Nm::from_mm(a)).to_f64(), (y - Nm::from_mm(b)).to_f64());
+                (dx * dx + dy * dy).sqrt() - 1e6
+            });
+            most = most.max(nearest.into_iter().fold(f64::INFINITY, f64::min));
+        }
+        let farthest = diagram.farthest(Nm::from_um(100)).to_f64();
+        assert!(farthest >= most && farthest <= 1.5 * most + 3e5, "{farthest} where {most} is the farthest");
+    }
+}

@@ -27,7 +27,7 @@ use crate::topology;
 use crate::voronoi::plane::Spot;
 
 use super::WALL;
-use super::form::{Form, Place, clockwise, unit};
+use super::form::{Form, clockwise, unit};
 use super::slit::without_slits;
 use super::weld::welded;
 

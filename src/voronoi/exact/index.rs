@@ -193,23 +193,40 @@ impl Index {
         (is_first && !self.hidden[generator as usize]).then_some(generator)
     }
 
-    /// Shows generators, some more than once, from the nearest box on, until all that are left are
-    /// farther from `p` than `show` says that anything still matters.
+    /// Shows generators, some more than once, the nearer boxes first but for those together in one
+    /// of the tree, until all that are left are farther from `p` than `show` says that anything
+    /// still matters.
     pub(super) fn visit_nearest(&self, p: Spot, mut show: impl FnMut(u32) -> f64) {
         let Some(tree) = &self.tree else { return };
-        let mut reach = f64::INFINITY;
-        let mut show = |number: usize, squared: f64| -> Result<(), ()> {
-            if squared > (reach + NEARER) * (reach + NEARER) {
-                return Err(());
+        let (boxes, numbers, levels) = (tree.all_boxes(), tree.all_box_indices(), tree.level_bounds());
+        let leaves = levels[0];
+        // Farther squared than this nothing matters.
+        let mut limit = f64::INFINITY;
+        let mut open = Vec::with_capacity(64);
+        open.push((0.0, numbers[boxes.len() - 1], levels.len() - 2));
+        while let Some((off, first, level)) = open.pop() {
+            if off > limit {
+                continue;
             }
-            let (generator, _) = self.pieces[number];
-            if !self.hidden[generator as usize] {
-                reach = show(generator);
+            let end = (first + tree.node_size()).min(levels[level]);
+            let before = open.len();
+            for (bounds, &number) in boxes[first..end].iter().zip(&numbers[first..end]) {
+                let off = squared([bounds.min_x, bounds.min_y, bounds.max_x, bounds.max_y], p);
+                if off > limit {
+                    continue;
+                }
+                if first >= leaves {
+                    open.push((off, number, level - 1));
+                    continue;
+                }
+                let (generator, _) = self.pieces[number];
+                if !self.hidden[generator as usize] {
+                    let reach = show(generator) + NEARER;
+                    limit = reach * reach;
+                }
             }
-            Ok(())
-        };
-        // What breaks off has seen all that matters.
-        let (Ok(()) | Err(())) = tree.visit_neighbors(p.x, p.y, &mut show);
+            open[before..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        }
     }
 
     /// The box round all generators.
@@ -224,5 +241,63 @@ impl Index {
     pub(super) fn breaks(&self, generator: u32) -> &[Place] {
         let i = generator as usize;
         &self.breaks[self.starts[i] as usize..self.starts[i + 1] as usize]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::board::Shape;
+    use crate::geometry::{Nm, Point};
+
+    /// Traces at all angles, up to 60 mm long, some arcs of circles among their ends.
+    fn generators() -> Generators {
+        let mut generators = Generators::default();
+        let mut state = 24;
+        let mut below = |bound: u64| {
+            state = topology::splitmix(state);
+            Nm::new(i64::try_from(state % bound).expect("small"))
+        };
+        for owner in 0..40 {
+            let mut point = || Point::new(below(60_000_000), below(60_000_000));
+            let (from, to) = (point(), point());
+            let radius = Nm::new(if owner % 2 == 0 { 100_000 } else { 3_000_000 });
+            generators.add(&Shape::Stroke { from, to, radius }, owner);
+        }
+        generators
+    }
+
+    fn places() -> impl Iterator<Item = Spot> {
+        (0..400_i32).map(|i| Spot::new(f64::from(i % 20) * 4e6 - 1e7, f64::from(i / 20) * 4e6 - 1e7))
+    }
+
+    #[test]
+    fn what_is_nearest_is_found_among_long_slanted_pieces() {
+        let generators = generators();
+        let index = Index::new(&generators);
+        for p in places() {
+            let off = |form: &Form| form.off(p);
+            let brute = generators.forms.iter().map(off).fold(f64::INFINITY, f64::min);
+            let mut nearest = f64::INFINITY;
+            index.visit_nearest(p, |i| {
+                nearest = nearest.min(off(&generators.forms[i as usize]));
+                nearest
+            });
+            assert!((nearest - brute).abs() < 1e-6, "{nearest} is not {brute} at {p:?}");
+        }
+    }
+
+    #[test]
+    fn what_comes_near_is_shown_once() {
+        let generators = generators();
+        let index = Index::new(&generators);
+        for (p, reach) in places().zip([3e5, 3e6, 3e7].into_iter().cycle()) {
+            let mut shown = vec![0; generators.len()];
+            index.visit_round(p, reach, |i| shown[i as usize] += 1);
+            for (form, &count) in generators.forms.iter().zip(&shown) {
+                assert!(count <= 1, "shown {count} times");
+                assert!(count == 1 || form.off(p) > reach, "overlooked at {p:?}");
+            }
+        }
     }
 }

@@ -32,8 +32,8 @@ const SHORTEST: f64 = 1e-4;
 /// radius. Chosen.
 const NEAR: f64 = 2_000.0;
 
-/// Where more generators may enter on a step, the step is first made shorter. Chosen: it costs about
-/// as much as solving for so many.
+/// Where more generators may enter on a step, the step is first made shorter. Chosen: that costs
+/// about as much as solving for so many.
 const CROWD: usize = 16;
 
 /// Boxes are looked at so much farther out than what may enter, in nanometres. Chosen: more than
