@@ -1,5 +1,6 @@
 //! The figures of one layer, and what they cover together.
 
+use super::effort::Effort;
 use super::figure::Figure;
 use crate::board::polarity::{self, TooMuch};
 use crate::board::{Feature, Shape};
@@ -28,6 +29,8 @@ impl Layer {
     ///
     /// [`TooMuch`] for figures made to keep a program busy.
     pub fn features(&self) -> Result<Vec<Feature>, TooMuch> {
+        let mut effort = Effort::default();
+        self.figures.iter().try_for_each(|figure| effort.spend_on(figure))?;
         let mut objects = Vec::with_capacity(self.figures.len());
         for figure in &self.figures {
             objects.extend(figure.features()?.into_iter().map(|feature| (feature, figure.polarity)));
@@ -42,6 +45,12 @@ impl Layer {
     ///
     /// [`TooMuch`] for figures made to keep a program busy.
     pub fn polygons(&self, tolerance: Nm) -> Result<Vec<Polygon>, TooMuch> {
+        self.polygons_at(tolerance, &mut Effort::default())
+    }
+
+    /// The same, with what it costs counted.
+    pub(crate) fn polygons_at(&self, tolerance: Nm, effort: &mut Effort) -> Result<Vec<Polygon>, TooMuch> {
+        self.figures.iter().try_for_each(|figure| effort.spend_on(figure))?;
         let mut objects = Vec::with_capacity(self.figures.len());
         for figure in &self.figures {
             let shapes = figure.shapes(tolerance)?.into_iter();
@@ -106,5 +115,16 @@ mod tests {
             assert_eq!(pieces, 1, "of {count} figures");
             assert!((area - expected).abs() < 1e-9, "{count} figures cover {area} mm²");
         }
+    }
+
+    #[test]
+    fn many_tangles_are_too_much_together() {
+        // Each edge crosses half of the others; alone such a figure takes a second or two.
+        let corner = |i: i64| Point::new(Nm::from_mm((i % 2) * 10), Nm::from_um(i * 7919 % 10_000));
+        let tangle = Path::polyline((0..4000).map(corner)).expect("corners");
+        let tangle = area(vec![tangle], FillRule::NonZero, Polarity::Dark);
+        let layer = Layer { name: String::new(), figures: vec![tangle; 50] };
+        assert_eq!(layer.polygons(Nm::new(100)), Err(TooMuch), "a minute's work");
+        assert_eq!(layer.features(), Err(TooMuch), "as copper, too");
     }
 }

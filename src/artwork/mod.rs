@@ -9,10 +9,12 @@
 //! with a width. Lengths are true ones: a drawing whose unit nobody knows is an error of its
 //! reader, not artwork. x runs to the right and y up, as on a [`Board`](crate::board::Board).
 
+mod effort;
 mod figure;
 mod layer;
 mod round;
 
+pub use effort::Effort;
 pub use figure::{Area, Drawn, Figure, Line};
 pub use layer::Layer;
 pub use round::{diameter, hole};

@@ -169,9 +169,11 @@ fn replace(build: &mut Build, role: &str) {
 
 fn copper(build: &mut Build, named: &Named, side: Side, figures: Vec<Figure>) -> Result<(), Error> {
     let layer = Layer { name: String::new(), figures };
-    let features = layer
-        .features()
-        .map_err(|error| Error::content(&named.file.shown, error.to_string(), "draw with fewer crossings"))?;
+    let too_much = |_| {
+        let what = "areas cross each other or themselves too often to be worked out".to_owned();
+        Error::content(&named.file.shown, what, "draw with fewer crossings")
+    };
+    let features = layer.features().map_err(too_much)?;
     replace(build, &format!("{side}-copper"));
     match side {
         Side::Front => build.board.front = None,

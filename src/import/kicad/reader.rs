@@ -55,6 +55,8 @@ pub(super) struct Reader<'a> {
     /// they were filled.
     pub(super) bare_zones: Vec<(std::ops::Range<usize>, String, bool)>,
     pub(super) filled_zones: u64,
+    /// What their areas cost to work out, in vertices of booleans.
+    pub(super) effort: u64,
     /// The version of the format, where the file says one.
     pub(super) version: u32,
     /// What the board calls its layers.
@@ -78,6 +80,7 @@ impl<'a> Reader<'a> {
             bare_rings: Vec::new(),
             bare_zones: Vec::new(),
             filled_zones: 0,
+            effort: 0,
             version: 0,
             names: Names::default(),
         }

@@ -15,6 +15,10 @@ use crate::geometry::{Nm, Point};
 use crate::import::diagnostic;
 use crate::import::error::Error;
 
+/// The most that the areas of all zones may cost, in vertices of booleans: about a microsecond
+/// each. Chosen: many times what the densest pours take.
+const MOST_EFFORT: u64 = 16_000_000;
+
 impl Reader<'_> {
     /// A zone; one that keeps copper out draws none.
     pub(super) fn zone(&mut self, node: Node<'_>) -> Result<(), Error> {
@@ -39,7 +43,8 @@ impl Reader<'_> {
             let Some(points) = area.find("pts") else { return Err(self.lacks(area, "`(pts (xy …) …)`")) };
             let frame = self.frame;
             let points = self.points(points, &frame)?;
-            if polarity::is_tangled([&points].into_iter()) {
+            self.effort += polarity::effort([&points].into_iter());
+            if self.effort > MOST_EFFORT || polarity::is_tangled([&points].into_iter()) {
                 let what = "this area crosses itself too often";
                 let expected = "an area that does not cross itself";
                 return Err(Error::syntax(

@@ -141,7 +141,8 @@ impl Spline {
     /// The point at `t`, by de Boor's algorithm with weights.
     pub(super) fn at(&self, t: f64) -> Place {
         let (degree, count) = (self.degree, self.controls.len());
-        let span = (degree..count).rev().find(|&at| self.knots[at] <= t).unwrap_or(degree);
+        // The last knot that is no more than `t`.
+        let span = degree + self.knots[degree..count].partition_point(|&knot| knot <= t).saturating_sub(1);
         let weight = |at: usize| self.weights.get(at).copied().unwrap_or(1.0);
         let mut points: Vec<(f64, f64, f64)> = (span - degree..=span)
             .map(|at| {

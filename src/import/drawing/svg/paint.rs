@@ -10,8 +10,8 @@ use usvg::{
 
 use super::document::{Document, Rank};
 use super::size::Size;
-use super::window::{Effort, Window};
-use crate::artwork::{Area, Drawn, Figure, Layer, Line};
+use super::window::Window;
+use crate::artwork::{Area, Drawn, Effort, Figure, Layer, Line};
 use crate::board::polarity::{FillRule, Polarity, TooMuch};
 use crate::board::{FLATTEN, Words};
 use crate::geometry::{self, Nm, Segment};
@@ -242,8 +242,7 @@ impl Painted {
         }
         let figures: Vec<Figure> = inner.layers.into_iter().flat_map(|layer| layer.figures).collect();
         let window = || {
-            figures.iter().try_for_each(|figure| self.effort.spend_on(figure))?;
-            let pieces = Layer { name: String::new(), figures }.polygons(FLATTEN)?;
+            let pieces = Layer { name: String::new(), figures }.polygons_at(FLATTEN, &mut self.effort)?;
             Window::new(pieces, &mut self.effort)
         };
         window().map(Some).map_err(|error| scope.too_much(error))

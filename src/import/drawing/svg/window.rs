@@ -6,40 +6,16 @@
 //! W3C candidate recommendation, 2021, sections 6 and 7.) A mask with greys, gradients or pictures
 //! is no area.
 
-use crate::artwork::{Area, Drawn, Figure, Line};
+use crate::artwork::{Area, Drawn, Effort, Figure};
 use crate::board::FLATTEN;
 use crate::board::polarity::{self, FillRule, TooMuch};
-use crate::geometry::{Path, Point, Polygon, Rect};
+use crate::geometry::{Path, Polygon, Rect};
 
 /// The area in which something is seen.
 #[derive(Debug)]
 pub(super) struct Window {
     /// Simple, and apart from each other.
     pieces: Vec<Polygon>,
-}
-
-/// The most that booleans may cost, in vertices: about a microsecond each. Chosen: the masks of a
-/// board drawn by EasyEDA take some millions.
-const MOST: u64 = 16_000_000;
-
-/// What booleans have cost so far, in vertices.
-#[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Effort(u64);
-
-impl Effort {
-    fn spend(&mut self, vertices: u64) -> Result<(), TooMuch> {
-        self.0 += vertices;
-        if self.0 > MOST { Err(TooMuch) } else { Ok(()) }
-    }
-
-    /// Counts what it costs to make polygons of `figure`, before that is done.
-    pub(super) fn spend_on(&mut self, figure: &Figure) -> Result<(), TooMuch> {
-        let (Drawn::Area(area) | Drawn::Line(Line { painted: Some(area), .. })) = &figure.drawn else {
-            return Ok(());
-        };
-        let rings: Vec<Vec<Point>> = area.contours.iter().map(|path| path.flatten(FLATTEN)).collect();
-        self.spend(polarity::effort(rings.iter()))
-    }
 }
 
 impl Window {
