@@ -73,6 +73,11 @@ impl Rules<'_> {
     /// Copper is no nearer to the straight way between two places than this, in nanometres; none
     /// where it is too near.
     fn keeps_off(&self, a: Spot, b: Spot) -> Option<f64> {
+        // Most ways that are refused are so in their middle, which says so of the whole.
+        let is_long = (b - a).length() >= FINE;
+        if is_long && (self.clearance)(a.midpoint(b)) < self.nearest {
+            return None;
+        }
         self.between((a, (self.clearance)(a)), (b, (self.clearance)(b)))
     }
 

@@ -24,10 +24,25 @@ const NEARER: f64 = 1.0;
 const OF_ARC: usize = 9;
 
 /// How far a box is from a place, squared.
+#[inline]
 fn squared([left, bottom, right, top]: [f64; 4], p: Spot) -> f64 {
-    let x = (left - p.x).max(p.x - right).max(0.0);
-    let y = (bottom - p.y).max(p.y - top).max(0.0);
+    let out = |low: f64, high: f64, at: f64| {
+        if at < low {
+            low - at
+        } else if at > high {
+            at - high
+        } else {
+            0.0
+        }
+    };
+    let (x, y) = (out(left, right, p.x), out(bottom, top, p.y));
     x * x + y * y
+}
+
+/// Whether two boxes meet.
+#[inline]
+fn overlap([a, b, c, d]: [f64; 4], [left, bottom, right, top]: [f64; 4]) -> bool {
+    a <= right && c >= left && b <= top && d >= bottom
 }
 
 /// Generators by place, with the breaks of discs.
@@ -122,18 +137,22 @@ impl Index {
     }
 
     /// Shows the generators of which a box meets a box, left, bottom, right, top, each once.
-    pub(super) fn visit(&self, [left, bottom, right, top]: [f64; 4], mut show: impl FnMut(u32)) {
-        let meets = |[a, b, c, d]: [f64; 4]| a <= right && c >= left && b <= top && d >= bottom;
-        let _: ControlFlow<()> = self.visit_where(meets, |generator| {
-            show(generator);
-            ControlFlow::Continue(())
-        });
+    pub(super) fn visit(&self, within: [f64; 4], mut show: impl FnMut(u32)) {
+        let _: ControlFlow<()> = self.visit_where(
+            |bounds| overlap(bounds, within),
+            |generator| {
+                show(generator);
+                ControlFlow::Continue(())
+            },
+        );
     }
 
     /// Shows the generators of which a box comes within `reach` of `p`, each once.
     pub(super) fn visit_round(&self, p: Spot, reach: f64, mut show: impl FnMut(u32)) {
+        let within = [p.x - reach, p.y - reach, p.x + reach, p.y + reach];
+        // Most boxes are told by the square round the circle.
         let _: ControlFlow<()> = self.visit_where(
-            |bounds| squared(bounds, p) <= reach * reach,
+            |bounds| overlap(bounds, within) && squared(bounds, p) <= reach * reach,
             |generator| {
                 show(generator);
                 ControlFlow::Continue(())
@@ -145,12 +164,11 @@ impl Index {
     /// once, for as long as `show` goes on.
     pub(super) fn visit_both<B>(
         &self,
-        [left, bottom, right, top]: [f64; 4],
+        within: [f64; 4],
         (p, reach): (Spot, f64),
         show: impl FnMut(u32) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        let meets = |[a, b, c, d]: [f64; 4]| a <= right && c >= left && b <= top && d >= bottom;
-        self.visit_where(|bounds| meets(bounds) && squared(bounds, p) <= reach * reach, show)
+        self.visit_where(|bounds| overlap(bounds, within) && squared(bounds, p) <= reach * reach, show)
     }
 
     /// Shows the generators of which a box meets a condition, each once, for as long as `show` goes
@@ -168,13 +186,14 @@ impl Index {
         let mut next = Some((numbers[boxes.len() - 1], levels.len() - 2));
         while let Some((first, level)) = next {
             let end = (first + tree.node_size()).min(levels[level]);
-            for (bounds, &number) in boxes[first..end].iter().zip(&numbers[first..end]) {
+            let numbers = &numbers[first..end];
+            for (i, bounds) in boxes[first..end].iter().enumerate() {
                 if !meets([bounds.min_x, bounds.min_y, bounds.max_x, bounds.max_y]) {
                     continue;
                 }
                 if first >= leaves {
-                    open.push((number, level - 1));
-                } else if let Some(generator) = self.shown(number, &meets) {
+                    open.push((numbers[i], level - 1));
+                } else if let Some(generator) = self.shown(numbers[i], &meets) {
                     show(generator)?;
                 }
             }
@@ -187,6 +206,9 @@ impl Index {
     fn shown(&self, number: usize, meets: impl Fn([f64; 4]) -> bool) -> Option<u32> {
         let (generator, before) = self.pieces[number];
         let before = before as usize;
+        if before == 0 {
+            return (!self.hidden[generator as usize]).then_some(generator);
+        }
         // The pieces of a line are in a straight row.
         let first = number - if before < OF_ARC { before } else { 1 };
         let is_first = !self.boxes[first..number].iter().any(|&bounds| meets(bounds));
