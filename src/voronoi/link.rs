@@ -73,6 +73,11 @@ impl Rules<'_> {
     /// Copper is no nearer to the straight way between two places than this, in nanometres; none
     /// where it is too near.
     fn keeps_off(&self, a: Spot, b: Spot) -> Option<f64> {
+        // Most ways that are refused are so in their middle, which says so of the whole.
+        let is_long = (b - a).length() >= FINE;
+        if is_long && (self.clearance)(a.midpoint(b)) < self.nearest {
+            return None;
+        }
         self.between((a, (self.clearance)(a)), (b, (self.clearance)(b)))
     }
 
@@ -276,7 +281,7 @@ impl Boundaries {
             web.unite(way.from.0, way.to.0);
             chosen.add(&self, &way, clearance);
         }
-        let mut reach = (rules.step + FINE).min(rules.longest);
+        let (mut tried, mut reach) = (0.0, (rules.step + FINE).min(rules.longest));
         loop {
             let part = web.parts.clone().representatives();
             // Mostly one part has nearly all: from there only the others are looked for.
@@ -285,7 +290,9 @@ impl Boundaries {
             let between = web.vertices().into_par_iter().flat_map_iter(|from| {
                 let home = part[from.0];
                 let segments = if home == largest { &others } else { &web.segments };
-                web.ways(from, segments, reach, |edge| part[edge] != home)
+                let ways = web.ways(from, segments, reach, |edge| part[edge] != home);
+                // The others were tried before: what parts them has not changed.
+                ways.into_iter().filter(|way| way.length >= tried)
             });
             let mut ways: Vec<Way> = between.collect();
             ways.sort_by(Way::compare);
@@ -300,7 +307,7 @@ impl Boundaries {
             if reach >= rules.longest {
                 break;
             }
-            reach = (reach * 2.0).min(rules.longest);
+            (tried, reach) = (reach, (reach * 2.0).min(rules.longest));
         }
         let Chosen { nodes, cuts, links, .. } = chosen;
         let mut edges = Vec::with_capacity(self.edges.len());

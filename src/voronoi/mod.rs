@@ -27,6 +27,7 @@ mod clearing;
 mod clip;
 mod edge;
 pub mod exact;
+mod farthest;
 mod fit;
 mod frame;
 mod groove;

@@ -64,11 +64,12 @@ impl Widening {
         (0..=gaps).map(|i| first + (last - first) * i / gaps).take_while(|&level| level <= most).collect()
     }
 
-    /// Those farther out, from `next` on.
+    /// Those farther out: `next`, and what follows on it.
     fn further(&self, next: Nm, most: Nm) -> Vec<Nm> {
-        std::iter::successors(Some(next), |&level| Some(level + self.advance()))
-            .take_while(|&level| level <= most)
-            .collect()
+        std::iter::successors(Some(next), |&level| {
+            Some(level + self.advance()).filter(|&level| level <= most)
+        })
+        .collect()
     }
 
     /// How far passes are apart at most.
@@ -95,7 +96,7 @@ impl Diagram {
         before: &[(Nm, Boundaries)],
     ) -> (Boundaries, Vec<Warning>) {
         let first = widening.kerf / 2 + self.settings.tolerance;
-        let most = self.border.window.width() + self.border.window.height();
+        let most = self.farthest(widening.advance()) + widening.advance() * 2 + widening.kerf;
         let levels = widening.levels(first, most);
         let next = levels.last().map_or(first, |&last| last + widening.advance());
         let further = if clearing.is_wanted() { widening.further(next, most) } else { Vec::new() };
@@ -164,10 +165,7 @@ impl Diagram {
             all.append(passes);
         }
         let fence = Fence::new(&self.border);
-        let clearance = |at| match diagram.owner_near(at, 0.0, NOBODY) {
-            Some(owner) if owner != NOBODY => 0.0,
-            _ => diagram.distance(at),
-        };
+        let clearance = |at| diagram.room(at);
         let owner = |at| diagram.owner_near(at, f64::INFINITY, NOBODY).map(NetId);
         let farthest = levels.last().map_or(0.0, |last| last.to_f64());
         let room = Room { clearance: &clearance, owner: &owner, nearest: first.to_f64(), farthest };

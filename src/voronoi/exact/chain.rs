@@ -9,7 +9,6 @@
 
 use rayon::prelude::*;
 
-use super::seed::FIRST_REACH;
 use super::{Diagram, Edge, Link, WALL};
 use crate::voronoi::plane::Spot;
 use crate::voronoi::sample::{CHORD, Sample};
@@ -137,26 +136,21 @@ impl Diagram {
         self.nearest_edge(p).map_or(f64::INFINITY, |(off, _)| off)
     }
 
+    /// How far copper is, in nanometres; within it zero.
+    pub(in crate::voronoi) fn room(&self, p: Spot) -> f64 {
+        if self.is_copper(p) { 0.0 } else { self.distance(p) }
+    }
+
     /// How far the nearest edge is, from whichever side, and its owner.
     fn nearest_edge(&self, p: Spot) -> Option<(f64, u32)> {
-        let [left, bottom, right, top] = self.window;
-        let all = (right - left) + (top - bottom);
-        let mut reach = FIRST_REACH;
-        loop {
-            let mut nearest: Option<(f64, u32)> = None;
-            self.index.visit_round(p, reach, |i| {
-                let found = (self.forms()[i as usize].off(p), i);
-                if self.owner(i) != WALL && nearest.is_none_or(|nearest| found < nearest) {
-                    nearest = Some(found);
-                }
-            });
-            match nearest {
-                Some((off, generator)) if off <= reach || reach > 4.0 * all => {
-                    return Some((off, self.owner(generator)));
-                }
-                None if reach > 4.0 * all => return None,
-                Some(_) | None => reach *= 2.0,
+        let mut nearest: Option<(f64, u32)> = None;
+        self.index.visit_nearest(p, |i| {
+            let found = (self.forms()[i as usize].off(p), i);
+            if self.owner(i) != WALL && nearest.is_none_or(|nearest| found < nearest) {
+                nearest = Some(found);
             }
-        }
+            nearest.map_or(f64::INFINITY, |(off, _)| off)
+        });
+        nearest.map(|(off, generator)| (off, self.owner(generator)))
     }
 }

@@ -19,9 +19,7 @@
 
 use std::ops::Range;
 
-use bitvec::vec::BitVec;
 use rustc_hash::{FxHashMap, FxHashSet};
-use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::board::{Copper, FLATTEN, Shape};
 use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Vector};
@@ -29,7 +27,7 @@ use crate::topology;
 use crate::voronoi::plane::Spot;
 
 use super::WALL;
-use super::form::{Form, Place, SLAB, clockwise, unit};
+use super::form::{Form, clockwise, unit};
 use super::slit::without_slits;
 use super::weld::welded;
 
@@ -63,13 +61,6 @@ const EXACT: f64 = 1e-3;
 /// So many corners in a row are none at most, so that looking does not take the square of them.
 /// Chosen.
 const LONGEST_RUN: usize = 64;
-
-/// So far from a foot its normal is looked at, in nanometres. Chosen.
-const AHEAD: f64 = 1_000.0;
-
-/// A corner so near to an edge lies on it, in nanometres. Chosen: more than rounding, less than
-/// what shaking leaves.
-const ON: f64 = 1e-3;
 
 /// Copper, by the numbers of the generators that are its edges.
 #[derive(Clone, Debug)]
@@ -434,146 +425,4 @@ fn simple(mut points: Vec<Point>, rounding: f64) -> Vec<Point> {
         }
     }
     if kept.len() > 2 { kept } else { points }
-}
-
-/// Generators by place, with the breaks of discs.
-///
-/// A long slanted line and a large arc are known by pieces, for a box round all of one would lie
-/// over much that they are far from.
-pub(super) struct Index {
-    boxes: Vec<[f64; 4]>,
-    /// Of each box the generator, and how many boxes of it came before.
-    pieces: Vec<(u32, u32)>,
-    tree: Option<StaticAABB2DIndex<f64>>,
-    /// Whether nothing has its foot on generator `i` alone.
-    hidden: BitVec,
-    /// The breaks of generator `i`: `breaks[starts[i]..starts[i + 1]]`.
-    breaks: Vec<Place>,
-    starts: Vec<u32>,
-}
-
-impl Index {
-    pub(super) fn new(generators: &Generators) -> Self {
-        let (mut boxes, mut pieces) = (Vec::new(), Vec::new());
-        for (number, form) in (0_u32..).zip(&generators.forms) {
-            for (before, piece) in (0_u32..).zip(form.pieces()) {
-                boxes.push(piece.bounds());
-                pieces.push((number, before));
-            }
-        }
-        let tree = topology::boxes(boxes.iter().copied());
-        let hidden = BitVec::repeat(false, generators.len());
-        let mut index = Self { boxes, pieces, tree, hidden, breaks: Vec::new(), starts: Vec::new() };
-        index.hidden = index.hidden_corners(generators);
-        index
-    }
-
-    /// Which corners lie on the edge of other copper of their owner: that edge is no farther from
-    /// anywhere. Two of them a nanometre apart, as pads leave that overlap by so little, would have
-    /// an axis between them that leads into the copper.
-    fn hidden_corners(&self, generators: &Generators) -> BitVec {
-        let is_hidden = |(i, form): (usize, &Form)| {
-            let Form::Circle { center, radius: 0.0, .. } = *form else { return false };
-            let mut is_hidden = false;
-            self.visit_round(center, ON, |other| {
-                let (edge, owner) = (&generators.forms[other as usize], generators.owners[other as usize]);
-                let is_corner = matches!(edge, Form::Circle { radius: 0.0, .. });
-                is_hidden |= !is_corner
-                    && owner == generators.owners[i]
-                    && edge.distance(center).abs() <= ON
-                    && edge.slack(center) > ON;
-            });
-            is_hidden
-        };
-        generators.forms.iter().enumerate().map(is_hidden).collect()
-    }
-
-    /// Finds all breaks where distances that differ by less than `tie` are equal.
-    pub(super) fn find_breaks(&mut self, generators: &Generators, tie: f64) {
-        let mut found = self.touching_ends(generators, tie);
-        found.sort_by_key(|(generator, _)| *generator);
-        let starts = (0_u32..).take(generators.len() + 1).map(|i| found.partition_point(|&(of, _)| of < i));
-        self.starts = starts.map(|at| u32::try_from(at).expect("below 2³² breaks")).collect();
-        self.breaks = found.into_iter().map(|(_, place)| place).collect();
-    }
-
-    /// The places on generators where a line or an arc ends with the same foot and normal. A disc
-    /// on its own has two all the same, so that no loop round it is without a vertex.
-    fn touching_ends(&self, generators: &Generators, tie: f64) -> Vec<(u32, Place)> {
-        let mut found: Vec<(u32, Place)> = Vec::new();
-        let mut counts = vec![0_u32; generators.len()];
-        for (i, form) in (0_u32..).zip(&generators.forms) {
-            for place in form.ends().into_iter().flatten() {
-                let (foot, normal) = form.foot(place);
-                // A disc of no radius has its normal a little way off.
-                let ahead = foot + normal * AHEAD;
-                self.visit_round(foot, tie, |other| {
-                    let touched = &generators.forms[other as usize];
-                    let touches = touched.distance(foot).abs() <= tie
-                        && touched.slack(ahead) >= -SLAB
-                        && touched.away(ahead).dot(normal) > 1.0 - 1e-9;
-                    if other != i && touches {
-                        found.push((other, touched.place(ahead)));
-                        counts[other as usize] += 1;
-                    }
-                });
-            }
-        }
-        for (i, (form, &count)) in (0_u32..).zip(generators.forms.iter().zip(&counts)) {
-            if count < 2 && matches!(form, Form::Circle { sector: None, .. }) {
-                found.extend([1.0, -1.0].map(|x| (i, Place::Toward(Spot::new(x, 0.0)))));
-            }
-        }
-        found
-    }
-
-    /// Shows the generators of which a box meets a box, left, bottom, right, top, each once.
-    pub(super) fn visit(&self, within: [f64; 4], show: impl FnMut(u32)) {
-        let [left, bottom, right, top] = within;
-        self.visit_where(within, |[a, b, c, d]| a <= right && c >= left && b <= top && d >= bottom, show);
-    }
-
-    /// Shows the generators of which a box comes within `reach` of `p`, each once.
-    pub(super) fn visit_round(&self, p: Spot, reach: f64, show: impl FnMut(u32)) {
-        let comes_near = |[left, bottom, right, top]: [f64; 4]| {
-            let x = (left - p.x).max(p.x - right).max(0.0);
-            let y = (bottom - p.y).max(p.y - top).max(0.0);
-            x * x + y * y <= reach * reach
-        };
-        self.visit_where([p.x - reach, p.y - reach, p.x + reach, p.y + reach], comes_near, show);
-    }
-
-    /// Shows the generators of which a box within another meets a condition, each once.
-    fn visit_where(
-        &self,
-        [left, bottom, right, top]: [f64; 4],
-        meets: impl Fn([f64; 4]) -> bool,
-        mut show: impl FnMut(u32),
-    ) {
-        let Some(tree) = &self.tree else { return };
-        tree.visit_query(left, bottom, right, top, &mut |i: usize| {
-            let (generator, before) = self.pieces[i];
-            let first = i - before as usize;
-            if !self.hidden[generator as usize]
-                && meets(self.boxes[i])
-                && !self.boxes[first..i].iter().any(|&bounds| meets(bounds))
-            {
-                show(generator);
-            }
-        });
-    }
-
-    /// The box round all generators.
-    pub(super) fn bounds(&self) -> [f64; 4] {
-        let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        self.boxes.iter().fold(far, |[a, b, c, d], [left, bottom, right, top]| {
-            [a.min(*left), b.min(*bottom), c.max(*right), d.max(*top)]
-        })
-    }
-
-    /// The places on a generator where another one begins or ends.
-    pub(super) fn breaks(&self, generator: u32) -> &[Place] {
-        let i = generator as usize;
-        &self.breaks[self.starts[i] as usize..self.starts[i + 1] as usize]
-    }
 }

@@ -70,6 +70,7 @@ mod exposed;
 mod form;
 mod generator;
 mod graph;
+mod index;
 mod level;
 mod query;
 mod seed;
@@ -81,12 +82,14 @@ mod weld;
 
 use std::sync::OnceLock;
 
+use static_aabb2d_index::StaticAABB2DIndex;
+
 use crate::geometry::{Nm, Point, Rect};
 use crate::voronoi::plane::Spot;
 use crate::voronoi::sample::Sample;
 
 use form::Form;
-use generator::Index;
+use index::Index;
 use tolerances::Tolerances;
 use vertex::TIES;
 
@@ -156,6 +159,8 @@ pub struct Edge {
 pub struct Diagram {
     generators: Generators,
     index: Index,
+    /// The bodies of copper by place, once they are asked for.
+    bodies: OnceLock<Option<StaticAABB2DIndex<f64>>>,
     kind: Kind,
     /// Distances that differ by less are equal, in nanometres.
     tie: f64,
@@ -216,6 +221,7 @@ impl Diagram {
         Self {
             generators,
             index,
+            bodies: OnceLock::new(),
             kind,
             tie: TIES[0],
             tolerances,

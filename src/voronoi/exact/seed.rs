@@ -22,7 +22,7 @@ use super::{Diagram, Kind, NOBODY, Space};
 use crate::voronoi::plane::Spot;
 
 /// Where a search begins, in nanometres; it doubles. Chosen.
-pub(super) const FIRST_REACH: f64 = 100_000.0;
+const FIRST_REACH: f64 = 100_000.0;
 
 /// Events along one side of the window at most. Chosen.
 const EVENTS: usize = 1_000_000;

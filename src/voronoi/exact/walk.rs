@@ -12,6 +12,8 @@
 //! [`Form::meet`](super::form::Form::meet)), so the place of the foot on one of them orders all
 //! events.
 
+use std::ops::ControlFlow;
+
 use super::apollonius;
 use super::form::{Form, Place, clockwise, unit};
 use super::tolerances::FLAT;
@@ -29,6 +31,14 @@ const SHORTEST: f64 = 1e-4;
 /// What a flat touch may be seen off its place, in nanometres: the root of a tie times the largest
 /// radius. Chosen.
 const NEAR: f64 = 2_000.0;
+
+/// Where more generators may enter on a step, the step is first made shorter. Chosen: that costs
+/// about as much as solving for so many.
+const CROWD: usize = 16;
+
+/// Boxes are looked at so much farther out than what may enter, in nanometres. Chosen: more than
+/// rounding.
+const MARGIN: f64 = 10.0;
 
 /// Steps in an edge at most, chosen far above need: a fault rather than a hang.
 const STEPS: usize = 100_000;
@@ -61,6 +71,22 @@ struct Here {
     at: Spot,
     clearance: f64,
     place: Place,
+}
+
+/// What is the same for all that may enter on one step of a walk.
+struct Step<'a> {
+    pair: &'a Pair,
+    /// The generator that orders places, as [`Pair::main`] says, its form, and the sense in which
+    /// feet move on it.
+    main: usize,
+    form: &'a Form,
+    sense: f64,
+    here: Here,
+    /// Where the walk began, and what is tied there.
+    start: Spot,
+    tied: &'a [u32],
+    /// What is tied leaves the circle within so much of the start.
+    near: f64,
 }
 
 /// A candidate for the event: how far ahead it is, where, how far from copper, and by whom.
@@ -133,9 +159,9 @@ impl Diagram {
                 (next, leaves, is_end) = (self.leave(pair, main, &here, next), true, false);
             }
             let ahead = form.progress(here.place, next.place, sense);
-            if let Some((_, at, clearance, third)) =
-                self.first_hit(pair, main, &here, &next, ahead, (start, tied))
-            {
+            let near = self.tolerances.resolution(self.tie, here.clearance);
+            let step = Step { pair, main, form, sense, here, start, tied, near };
+            if let Some((_, at, clearance, third)) = self.first_hit(&step, &next, ahead) {
                 return Event::Junction { at, clearance, third, way: pair.way(at) };
             }
             let Here { at, clearance, .. } = next;
@@ -267,16 +293,21 @@ impl Diagram {
     }
 
     /// The first generator that enters between two places, if any does.
-    fn first_hit(
-        &self,
-        pair: &Pair,
-        main: usize,
-        here: &Here,
-        next: &Here,
-        ahead: f64,
-        (start, tied): (Spot, &[u32]),
-    ) -> Option<Hit> {
-        let (form, sense) = (&pair.forms[main], pair.sense(main));
+    fn first_hit(&self, step: &Step<'_>, next: &Here, ahead: f64) -> Option<Hit> {
+        let mut near = Vec::new();
+        if !self.reachable(step, next, CROWD, &mut near) {
+            return self.first_among(step, next, ahead, &near);
+        }
+        // Among so many it is sooner found where the first of them ends the way.
+        let (next, ahead) = self.shortened(step, next, ahead);
+        self.reachable(step, &next, usize::MAX, &mut near);
+        self.first_among(step, &next, ahead, &near)
+    }
+
+    /// Finds what may enter between two places, if it is no more than `most`; whether it is more.
+    fn reachable(&self, step: &Step<'_>, next: &Here, most: usize, near: &mut Vec<u32>) -> bool {
+        let Step { pair, form, here, .. } = step;
+        near.clear();
         let middle = here.at.midpoint(next.at);
         let half = (next.at - here.at).length() / 2.0;
         // The arc strays from its chord by no more than half of it, for it turns by less than a
@@ -289,49 +320,92 @@ impl Diagram {
             here.at.x.max(next.at.x) + room,
             here.at.y.max(next.at.y) + room,
         ];
+        let far = reach + 2.0 * half + self.tie;
+        let found = self.index.visit_both(look, (middle, far + MARGIN), |c| {
+            let distance = || self.forms()[c as usize].distance(middle);
+            let is_other = c != pair.left && c != pair.right && !self.joined_to(pair, c);
+            if is_other && (-half - half - self.tie..=far).contains(&distance()) {
+                if near.len() == most {
+                    return ControlFlow::Break(());
+                }
+                near.push(c);
+            }
+            ControlFlow::Continue(())
+        });
+        found.is_break()
+    }
+
+    /// A place before `next`, if any generator is nearer there, where one enters and none is.
+    fn shortened(&self, step: &Step<'_>, next: &Here, ahead: f64) -> (Here, f64) {
+        let Step { pair, form, .. } = step;
+        let (mut next, mut ahead) = (*next, ahead);
+        loop {
+            let mut nearest = (next.clearance - self.tie, NOBODY);
+            self.index.visit_nearest(next.at, |c| {
+                let other = &self.forms()[c as usize];
+                let is_other = c != pair.left && c != pair.right && !self.joined_to(pair, c);
+                let found = (other.distance(next.at), c);
+                if is_other && found < nearest && other.counts(next.at, self.tie, self.tolerances.slab) {
+                    nearest = found;
+                }
+                nearest.0
+            });
+            if nearest.1 == NOBODY {
+                return (next, ahead);
+            }
+            match self.enters(step, nearest.1, ahead) {
+                Some((along, at, clearance, _)) if along < ahead => {
+                    next = Here { at, clearance, place: form.place(at) };
+                    ahead = along;
+                }
+                Some(_) | None => return (next, ahead),
+            }
+        }
+    }
+
+    /// The first of some generators that enters between two places, if any does.
+    fn first_among(&self, step: &Step<'_>, next: &Here, ahead: f64, among: &[u32]) -> Option<Hit> {
         let mut first: Option<Hit> = None;
         let mut missed: Option<u32> = None;
-        let near = self.tolerances.resolution(self.tie, here.clearance);
-        self.index.visit(look, |c| {
-            if c == pair.left || c == pair.right || self.joined_to(pair, c) {
-                return;
-            }
+        for &c in among {
             let other = &self.forms()[c as usize];
-            let distance = other.distance(middle);
-            if distance > reach + 2.0 * half + self.tie || distance < -half - half - self.tie {
-                return;
-            }
-            let was_tied = tied.contains(&c);
-            for (at, s) in apollonius::solve([&pair.forms[0], &pair.forms[1], other]).into_iter().flatten() {
-                let place = form.place(at);
-                let along = form.progress(here.place, place, sense);
-                let limit = first.map_or(ahead, |hit| hit.0);
-                if !(along > 0.0 && along <= limit)
-                    || other.slack(at) < -self.tolerances.slab
-                    || s < -self.tie
-                {
-                    continue;
-                }
-                let off = (at - start).length();
-                let is_near = off < 2.0 * self.tie || (was_tied && off < near);
-                let entering = (other.away(at) - form.away(at)).dot(pair.way(at));
-                // Between two owners nothing hands over: however flatly one comes, it enters.
-                let flat = if self.is_strange(pair, c) { self.tolerances.flat } else { FLAT };
-                if (is_near && entering > -0.1) || entering >= -flat {
-                    continue;
-                }
-                first = Some((along, at, s, c));
-            }
+            let limit = first.map_or(ahead, |hit| hit.0);
+            first = self.enters(step, c, limit).or(first);
             let nearer = other.distance(next.at) < next.clearance - self.tie
                 && other.counts(next.at, self.tie, self.tolerances.slab);
             if nearer && missed.is_none_or(|known| c < known) {
                 missed = Some(c);
             }
-        });
+        }
         if first.is_some() {
             return first;
         }
-        self.entry(pair, main, here, next, missed?)
+        self.entry(step.pair, step.main, &step.here, next, missed?)
+    }
+
+    /// Where a generator enters, no farther along than `limit`.
+    fn enters(&self, step: &Step<'_>, c: u32, limit: f64) -> Option<Hit> {
+        let Step { pair, form, sense, here, start, tied, near, .. } = *step;
+        let other = &self.forms()[c as usize];
+        let was_tied = tied.contains(&c);
+        let mut first: Option<Hit> = None;
+        for (at, s) in apollonius::solve([&pair.forms[0], &pair.forms[1], other]).into_iter().flatten() {
+            let along = form.progress(here.place, form.place(at), sense);
+            let limit = first.map_or(limit, |hit| hit.0);
+            if !(along > 0.0 && along <= limit) || other.slack(at) < -self.tolerances.slab || s < -self.tie {
+                continue;
+            }
+            let off = (at - start).length();
+            let is_near = off < 2.0 * self.tie || (was_tied && off < near);
+            let entering = (other.away(at) - form.away(at)).dot(pair.way(at));
+            // Between two owners nothing hands over: however flatly one comes, it enters.
+            let flat = if self.is_strange(pair, c) { self.tolerances.flat } else { FLAT };
+            if (is_near && entering > -0.1) || entering >= -flat {
+                continue;
+            }
+            first = Some((along, at, s, c));
+        }
+        first
     }
 
     /// Whether a generator belongs to neither owner of a pair.
