@@ -125,14 +125,16 @@ const SURELY: Nm = Nm::from_um(6);
 /// How wide the gap is to be, where the cutter clears `kerf`, and `floor` at the copper's bottom,
 /// from a width or a number of passes.
 fn widening(options: &Complete, kerf: Nm, floor: Nm) -> Result<Option<Widening>, Error> {
+    // What is left at the bottom of the copper between two passes would be a strip of it.
+    let least = (kerf - floor + SURELY).min(kerf / 2);
     let overlap = match options.overlap {
-        // What is left at the bottom of the copper between two passes would be a strip of it.
-        None => (kerf / 10).max(kerf - floor + SURELY).min(kerf / 2),
+        None => least.max(kerf / 10),
         Some(overlap) if overlap.of(kerf) < Nm::ZERO || overlap.of(kerf) >= kerf => {
             let problem =
                 format!("an overlap of `{overlap}` leaves no stepover with a kerf of {}", Length(kerf));
             return Err(Error::Value { key: "overlap", problem });
         }
+        Some(overlap) if floor < kerf => overlap.of(kerf).max(least),
         Some(overlap) => overlap.of(kerf),
     };
     checked::count("passes", options.passes, 1..=1000)?;

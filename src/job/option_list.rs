@@ -125,7 +125,8 @@ macro_rules! job_options {
     pub keep_area: Vec<AreaChoice>,
 
     /// Overlap of neighbouring passes: a length, or a percentage of the kerf; more where slivers
-    /// are left [default: 10%]
+    /// are left. A V-bit's is never less than it is narrower at the bottom of the copper
+    /// [default: 10%]
     #[arg(long, value_name = "LENGTH|PERCENT")]
     #[serde(with = "text")]
     #[needs(Passes)]

@@ -196,8 +196,10 @@ pub(super) fn drop_doubles(edges: &mut Vec<Edge>) {
     });
 }
 
-/// The most edges that are looked at for crossings; drawings of more are taken as they are. Chosen.
+/// The most edges that are looked at for crossings, and the most pairs of them that cross; drawings
+/// of more are taken as they are: no outline of a board. Both chosen.
 const MOST: usize = 20_000;
+const MOST_CROSSINGS: usize = 100_000;
 
 /// Parts edges where another one ends on them or crosses them; lines that lie on each other become
 /// the same.
@@ -209,11 +211,15 @@ pub(super) fn part_where_they_meet(edges: Vec<Edge>) -> Vec<Edge> {
     let mut order: Vec<usize> = (0..edges.len()).collect();
     order.sort_by_key(|&i| (bounds[i].min().x, i));
     let mut cuts: Vec<BTreeSet<Point>> = vec![BTreeSet::new(); edges.len()];
+    let mut crossings = 0;
     for (k, &i) in order.iter().enumerate() {
         for &j in order[k + 1..].iter().take_while(|&&j| bounds[j].min().x <= bounds[i].max().x) {
             if bounds[i].touches(bounds[j]) {
-                meet(&edges, i, j, &mut cuts);
+                crossings += meet(&edges, i, j, &mut cuts);
             }
+        }
+        if crossings > MOST_CROSSINGS {
+            return edges;
         }
     }
     let mut parts: Vec<Edge> =
@@ -222,13 +228,15 @@ pub(super) fn part_where_they_meet(edges: Vec<Edge>) -> Vec<Edge> {
     parts
 }
 
-fn meet(edges: &[Edge], i: usize, j: usize, cuts: &mut [BTreeSet<Point>]) {
+/// Notes where two edges meet; how often they cross.
+fn meet(edges: &[Edge], i: usize, j: usize, cuts: &mut [BTreeSet<Point>]) -> usize {
     let (a, b) = (&edges[i], &edges[j]);
     cuts[i].extend([b.from, b.to].into_iter().filter(|&p| a.passes(p)));
     cuts[j].extend([a.from, a.to].into_iter().filter(|&p| b.passes(p)));
     let crossings = a.crossings(b);
     cuts[i].extend(&crossings);
     cuts[j].extend(&crossings);
+    crossings.len()
 }
 
 /// `edge` in parts, from one cut to the next.
