@@ -170,17 +170,6 @@ fn lines_that_cross_enclose_what_lies_between_them() {
 }
 
 #[test]
-fn lines_that_cross_too_often_are_no_outline() {
-    let grid = |count: i64| {
-        let across = (0..count).map(|i| [0, 500 * i, 500 * (count - 1), 500 * i]);
-        let all: Vec<[i64; 4]> = across.flat_map(|line| [line, [line[1], 0, line[3], line[2]]]).collect();
-        joined(&lines(&all)).outline.map(|outline| outline.contours().len())
-    };
-    assert_eq!(grid(20), Some(1), "what is round a grid");
-    assert_eq!(grid(400), None, "crossings without end");
-}
-
-#[test]
 fn a_line_across_parts_nothing() {
     let joined = joined(&(lines(&SQUARE) + &lines(&[[5_000, 0, 5_000, 10_000]])));
     assert_eq!(

@@ -257,3 +257,21 @@ fn cut_up(edge: Edge, cuts: BTreeSet<Point>) -> Vec<Edge> {
     parts.push(rest);
     parts
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_drawing_whose_lines_cross_too_often_is_taken_as_it_is() {
+        let grid = |count: i64| {
+            let at = |x: i64, y: i64| Point::new(Nm::from_um(500 * x), Nm::from_um(500 * y));
+            let across = |i: i64| {
+                [Edge::line(at(0, i), at(count + 1, i), 1), Edge::line(at(i, 0), at(i, count + 1), 1)]
+            };
+            part_where_they_meet((1..=count).flat_map(across).collect()).len()
+        };
+        assert_eq!(grid(20), 2 * 20 * 21, "each in as many parts as there are crossings, and one");
+        assert_eq!(grid(400), 2 * 400, "none");
+    }
+}
