@@ -50,6 +50,30 @@ impl Shape {
         }
     }
 
+    /// The length of its axis in nanometres; zero for a disc and a polygon.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Stroke { from, to, .. } => from.distance(*to),
+            Self::Arc { arc, .. } => arc.length(),
+            Self::Disc { .. } | Self::Polygon(_) => 0.0,
+        }
+    }
+
+    /// The place at a fraction of its axis, from 0 to 1; for a disc and a polygon its
+    /// [`anchor`](Self::anchor).
+    #[must_use]
+    pub fn at(&self, fraction: f64) -> Point {
+        match self {
+            Self::Stroke { from, to, .. } => {
+                let ((x, y), way) = (from.to_f64(), *to - *from);
+                Point::from_f64(x + way.x.to_f64() * fraction, y + way.y.to_f64() * fraction)
+            }
+            Self::Arc { arc, .. } => Point::from_f64(arc.at(fraction).0, arc.at(fraction).1),
+            Self::Disc { .. } | Self::Polygon(_) => self.anchor(),
+        }
+    }
+
     /// A rectangle that holds it.
     #[must_use]
     pub fn bounds(&self) -> Rect {

@@ -10,7 +10,7 @@
 //! ```
 
 use crate::board::Shape;
-use crate::geometry::{Nm, Point, Rect};
+use crate::geometry::{Nm, Rect};
 
 /// How long a stretch is, in nanometres. Chosen: a few times what cuts and traces are wide.
 const LONG: f64 = 1_500_000.0;
@@ -29,21 +29,15 @@ pub(super) fn stretches(shape: &Shape) -> Option<Vec<Rect>> {
         return None;
     }
     match shape {
-        Shape::Stroke { from, to, radius } => {
-            let ((x, y), way) = (from.to_f64(), *to - *from);
-            let at = |f: f64| Point::from_f64(x + way.x.to_f64() * f, y + way.y.to_f64() * f);
-            // Places are whole nanometres.
-            Some(parts(way.length(), at, *radius + Nm::new(1)))
-        }
+        // Places are whole nanometres.
+        Shape::Stroke { radius, .. } => Some(parts(shape, *radius + Nm::new(1))),
         Shape::Arc { arc, radius } => {
-            let at = |f: f64| Point::from_f64(arc.at(f).0, arc.at(f).1);
-            let (length, sweep) = (arc.length(), arc.sweep().abs());
             // How far a stretch bulges beyond its ends.
-            let part = sweep / f64::from(count(length));
+            let part = arc.sweep().abs() / f64::from(count(shape.length()));
             let widest = arc.radius() + arc.drift().abs();
             let bulge = widest * (1.0 - libm::cos((part / 2.0).min(std::f64::consts::PI)));
             let room = Nm::from_f64((bulge + arc.drift().abs()).ceil() + 2.0);
-            Some(parts(length, at, *radius + room))
+            Some(parts(shape, *radius + room))
         }
         Shape::Disc { .. } | Shape::Polygon(_) => None,
     }
@@ -55,16 +49,16 @@ fn count(length: f64) -> u32 {
     ((length / LONG).ceil() as u32).clamp(1, MOST)
 }
 
-fn parts(length: f64, at: impl Fn(f64) -> Point, room: Nm) -> Vec<Rect> {
-    let count = count(length);
-    let place = |i: u32| at(f64::from(i) / f64::from(count));
+fn parts(shape: &Shape, room: Nm) -> Vec<Rect> {
+    let count = count(shape.length());
+    let place = |i: u32| shape.at(f64::from(i) / f64::from(count));
     (0..count).map(|i| Rect::new(place(i), place(i + 1)).inflate(room)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Arc, Turn};
+    use crate::geometry::{Arc, Point, Turn};
 
     #[test]
     fn stretches_hold_the_whole_way() {

@@ -158,12 +158,7 @@ fn on_the_board(sheet: &Sheet<'_>, way: &Shape, near: Near, least: f64) -> Optio
     if sheet.holds(near.at) {
         return Some(near);
     }
-    let length = match way {
-        Shape::Stroke { from, to, .. } => from.distance(*to),
-        Shape::Arc { arc, .. } => arc.length(),
-        Shape::Disc { .. } | Shape::Polygon(_) => 0.0,
-    };
-    if length <= SHORTEST {
+    if way.length() <= SHORTEST {
         return None;
     }
     let mut best: Option<Near> = None;

@@ -49,10 +49,10 @@ impl<'a> Interior<'a> {
     pub(super) fn deepest(&self, way: &Shape, floor: f64) -> Option<Deepest> {
         let (mut found, mut floor) = (None, floor);
         let mut stretches = vec![(0.0_f64, 1.0_f64)];
-        let length = length(way);
+        let length = way.length();
         while let Some((from, to)) = stretches.pop() {
             let middle = f64::midpoint(from, to);
-            let at = place(way, middle);
+            let at = way.at(middle);
             let room = length * (to - from) / 2.0;
             let edge = self.edge(at);
             if edge + room <= floor + NEAR {
@@ -91,25 +91,5 @@ impl<'a> Interior<'a> {
         let spot = Shape::Disc { center: p, radius: Nm::ZERO };
         let near = self.sheet.proximity.near(&spot, Nm::ZERO);
         near.iter().any(|near| self.sheet.nets.of(near.feature) == self.net) && self.sheet.holds(p)
-    }
-}
-
-fn length(way: &Shape) -> f64 {
-    match way {
-        Shape::Stroke { from, to, .. } => from.distance(*to),
-        Shape::Arc { arc, .. } => arc.length(),
-        Shape::Disc { .. } | Shape::Polygon(_) => 0.0,
-    }
-}
-
-/// The place at a fraction of a way.
-fn place(way: &Shape, fraction: f64) -> Point {
-    match way {
-        Shape::Stroke { from, to, .. } => {
-            let ((x, y), way) = (from.to_f64(), *to - *from);
-            Point::from_f64(x + way.x.to_f64() * fraction, y + way.y.to_f64() * fraction)
-        }
-        Shape::Arc { arc, .. } => Point::from_f64(arc.at(fraction).0, arc.at(fraction).1),
-        Shape::Disc { .. } | Shape::Polygon(_) => way.anchor(),
     }
 }

@@ -293,25 +293,12 @@ fn axis(way: Way, from: Point, to: Point) -> Shape {
 
 /// The part of an axis between two fractions of it.
 pub(super) fn part(axis: &Shape, from: f64, to: f64) -> Shape {
-    let radius = Nm::ZERO;
+    let (radius, start, end) = (Nm::ZERO, axis.at(from), axis.at(to));
     match axis {
-        Shape::Stroke { from: a, to: b, .. } => {
-            let (x, y) = a.to_f64();
-            let way = *b - *a;
-            let at = |f: f64| Point::from_f64(x + way.x.to_f64() * f, y + way.y.to_f64() * f);
-            let (from, to) = (at(from), at(to));
-            if from == to { Shape::Disc { center: from, radius } } else { Shape::Stroke { from, to, radius } }
-        }
-        Shape::Arc { arc, .. } => {
-            let at = |f: f64| Point::from_f64(arc.at(f).0, arc.at(f).1);
-            let (start, end) = (at(from), at(to));
-            if start == end {
-                Shape::Disc { center: start, radius }
-            } else {
-                Shape::Arc { arc: Arc { start, end, ..*arc }, radius }
-            }
-        }
         Shape::Disc { .. } | Shape::Polygon(_) => axis.clone(),
+        _ if start == end => Shape::Disc { center: start, radius },
+        Shape::Stroke { .. } => Shape::Stroke { from: start, to: end, radius },
+        Shape::Arc { arc, .. } => Shape::Arc { arc: Arc { start, end, ..*arc }, radius },
     }
 }
 

@@ -9,6 +9,8 @@
 //! A pass runs on for as long as it clears anything that a cut does not: up to where it comes
 //! nearer to the cut than passes do to each other.
 
+use std::sync::Arc;
+
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Nm;
@@ -32,11 +34,17 @@ const FARTHEST: f64 = 300_000.0;
 const HALVINGS: usize = 12;
 
 /// What cuts have cleared for passes.
+#[derive(Clone)]
 pub(super) struct Grooves {
-    chords: Vec<(Spot, Spot)>,
-    index: StaticAABB2DIndex<f64>,
+    cuts: Arc<Cuts>,
     /// How far from a cut nothing is left to clear, in nanometres.
     reach: f64,
+}
+
+/// Cuts by place.
+struct Cuts {
+    chords: Vec<(Spot, Spot)>,
+    index: StaticAABB2DIndex<f64>,
 }
 
 impl Grooves {
@@ -48,13 +56,19 @@ impl Grooves {
             chords.extend(points.windows(2).map(|pair| (Spot::from(pair[0]), Spot::from(pair[1]))));
         }
         let index = boxes(chords.iter().map(|&(a, b)| spanned(a, b)))?;
-        Some(Self { chords, index, reach: reach.to_f64() })
+        Some(Self { cuts: Arc::new(Cuts { chords, index }), reach: reach.to_f64() })
+    }
+
+    /// What of it lies within `reach` of the same cuts.
+    pub(super) fn within(&self, reach: Nm) -> Self {
+        Self { reach: self.reach.min(reach.to_f64()), ..self.clone() }
     }
 
     /// Comes by all chords that may lie within `look` of `p`.
     fn visit(&self, p: Spot, look: f64, mut visit: impl FnMut((Spot, Spot))) {
         let [left, bottom, right, top] = [p.x - look, p.y - look, p.x + look, p.y + look];
-        self.index.visit_query(left, bottom, right, top, &mut |i: usize| visit(self.chords[i]));
+        let Cuts { chords, index } = &*self.cuts;
+        index.visit_query(left, bottom, right, top, &mut |i: usize| visit(chords[i]));
     }
 
     /// Whether nothing is left to clear at `p`.

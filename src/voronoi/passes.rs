@@ -135,9 +135,8 @@ impl Diagram {
         let (diagram, found) = owned.diagram(kind, exact::Space::Within, Some(wall), lines);
         let is_whole = found.is_some();
         let wider = wider(before, widening.kerf);
-        let overlap = widening.floor - step;
-        let grooves_of = |reach| Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), reach);
-        let (grooves, innermost) = (grooves_of(overlap), grooves_of(overlap.min(BESIDE)));
+        let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), widening.floor - step);
+        let innermost = grooves.as_ref().map(|grooves| grooves.within(BESIDE));
         let spikes = Spikes {
             kerf: widening.floor.to_f64(),
             step: step.to_f64(),
