@@ -1,5 +1,7 @@
 //! A program followed: its motions on the board, and what the cutter sweeps.
 
+use std::f64::consts::PI;
+
 use crate::board::{Board, Shape, Side};
 use crate::gcode::read::{self, Motion, Note, Way};
 use crate::geometry::{Arc, Nm, Point, Vector};
@@ -296,9 +298,12 @@ pub(super) fn part(axis: &Shape, from: f64, to: f64) -> Shape {
     let (radius, start, end) = (Nm::ZERO, axis.at(from), axis.at(to));
     match axis {
         Shape::Disc { .. } | Shape::Polygon(_) => axis.clone(),
-        _ if start == end => Shape::Disc { center: start, radius },
-        Shape::Stroke { .. } => Shape::Stroke { from: start, to: end, radius },
-        Shape::Arc { arc, .. } => Shape::Arc { arc: Arc { start, end, ..*arc }, radius },
+        // What ends where it begins is next to nothing, or a whole turn.
+        Shape::Arc { arc, .. } if start != end || (to - from) * arc.sweep().abs() > PI => {
+            Shape::Arc { arc: Arc { start, end, ..*arc }, radius }
+        }
+        Shape::Stroke { .. } if start != end => Shape::Stroke { from: start, to: end, radius },
+        Shape::Stroke { .. } | Shape::Arc { .. } => Shape::Disc { center: start, radius },
     }
 }
 

@@ -76,6 +76,21 @@ fn copper_that_goes_on_beyond_the_edge_is_judged_as_far_as_the_board_goes() {
 }
 
 #[test]
+fn a_whole_turn_that_sinks_a_little_is_a_whole_turn() {
+    let board = load(&["verify/pads-F_Cu.gbr"]).board;
+    let taken = |sink: &str| {
+        let text = format!(
+            "G21 G90 G94\nM3 S10000\nG0 Z2\nG0 X2.5 Y2\nG1 Z-0.1 F60\nG2 X2.5 Y2 {sink} I-0.5 J0 F120\nG0 Z2\nM5\nM2\n"
+        );
+        names(&judge(&board, foreign("turn.nc", text, "endmill:0.2mm", FRONT)), Severity::Error)
+    };
+    assert_eq!(taken(""), ["gouge", "open", "short"], "level");
+    for sink in ["Z-0.1001", "Z-0.14", "Z-0.16"] {
+        assert_eq!(taken(sink), taken(""), "{sink}");
+    }
+}
+
+#[test]
 fn what_a_v_bit_leaves_at_the_bottom_of_the_copper_joins() {
     // Round the left pad, and short of closing the loop: at the surface the round ends overlap, at
     // the bottom of the copper they do not.
