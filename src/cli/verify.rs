@@ -303,11 +303,8 @@ impl Verify {
     fn leave_out(&self, board: &mut Board, programs: &[Program]) {
         let mut patterns = self.ignore.clone();
         if patterns.is_empty() {
-            let declared =
-                programs.iter().filter_map(|program| verify::declared_setting(&program.text, "ignore"));
-            let all: BTreeSet<String> = declared
-                .flat_map(|names| names.split_whitespace().map(str::to_owned).collect::<Vec<_>>())
-                .collect();
+            let declared = programs.iter().flat_map(|program| verify::declared_list(&program.text, "ignore"));
+            let all: BTreeSet<String> = declared.collect();
             patterns = all.iter().filter_map(|name| name.parse().ok()).collect();
         }
         let declared =

@@ -7,7 +7,7 @@ use crate::voronoi::Widening;
 
 use super::Error;
 use super::checked::{self, given, positive};
-use super::choice::{Sites, Strategy};
+use super::choice::{Narrow, Sites, Strategy};
 use super::clearing::Clearing;
 use super::options::Complete;
 use super::quantity::Length;
@@ -137,17 +137,18 @@ fn widening(options: &Complete, kerf: Nm, floor: Nm) -> Result<Option<Widening>,
         Some(overlap) if floor < kerf => overlap.of(kerf).max(least),
         Some(overlap) => overlap.of(kerf),
     };
+    let skips = options.narrow == Narrow::Skip;
     checked::count("passes", options.passes, 1..=1000)?;
     let width = match (options.width, options.passes) {
         _ if options.clear == Some(true) => EVERYTHING,
         (Some(width), _) => positive("width", width)?,
         (None, Some(passes)) => kerf + (kerf - overlap) * (i64::from(passes) - 1),
         (None, None) if Clearing::of(options).is_wanted() => {
-            return Ok(Some(Widening { kerf, floor, width: None, overlap }));
+            return Ok(Some(Widening { kerf, floor, width: None, overlap, skips }));
         }
         (None, None) => return Ok(None),
     };
-    Ok(Some(Widening { kerf, floor, width: Some(width), overlap }))
+    Ok(Some(Widening { kerf, floor, width: Some(width), overlap, skips }))
 }
 
 /// What cuts are midway between.

@@ -4,7 +4,7 @@ use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path};
 use crate::report::stages::Stages;
-use crate::toolpath::strategy::{Isolation, Narrow, Role, isolate, share};
+use crate::toolpath::strategy::{Isolation, Narrow, Role, fits, isolate, share};
 use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Gap, Method, NetId, Nets, Translucency};
 use crate::voronoi::{self, Boundaries, Boundary, Diagram, Frame, Loops, Owner, SiteKind};
@@ -260,7 +260,10 @@ fn shares(
     for (cutting, base) in settings.isolation.iter().zip(share(boundaries, &kerfs)) {
         let all = match &cutting.widening {
             Some(widening) => {
-                let (all, found) = diagram.widened(copper, base, widening, &clearing, &cut);
+                let kerf = cutting.tool.least_width(cutting.heights.cut, settings.adaptive_depth);
+                let (base, uncut) = if widening.skips { fitting(base, kerf) } else { (base, Vec::new()) };
+                let (mut all, found) = diagram.widened(copper, base, widening, &clearing, &cut);
+                all.edges.extend(uncut);
                 warnings.extend(found);
                 all
             }
@@ -269,6 +272,14 @@ fn shares(
         cut.push((cutting.kerf(), all));
     }
     (cut, warnings)
+}
+
+/// Those boundaries that a kerf fits, and the others, which clear nothing where they stay uncut.
+fn fitting(mut boundaries: Boundaries, kerf: Nm) -> (Boundaries, Vec<Boundary>) {
+    let does_fit = |edge: &Boundary| edge.clearance.iter().all(|&clearance| fits(kerf, clearance));
+    let (cut, uncut) = boundaries.edges.into_iter().partition(does_fit);
+    boundaries.edges = cut;
+    (boundaries, uncut)
 }
 
 /// The moves of each tool along the boundaries that isolate something, and round the frame where

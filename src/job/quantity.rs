@@ -352,7 +352,7 @@ pub(super) mod text {
 }
 
 /// For serde: a list, as texts in an array, or as one text with blanks or commas between; written
-/// with blanks.
+/// with blanks, those within a text as `^20`, and `^` as `^5E`.
 pub(super) mod list {
     use std::fmt;
     use std::str::FromStr;
@@ -364,7 +364,8 @@ pub(super) mod list {
         values: &[T],
         serializer: S,
     ) -> Result<S::Ok, S::Error> {
-        values.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ").serialize(serializer)
+        let written = |value: &T| value.to_string().replace('^', "^5E").replace(' ', "^20");
+        values.iter().map(written).collect::<Vec<_>>().join(" ").serialize(serializer)
     }
 
     pub(crate) fn deserialize<'de, D, T>(deserializer: D) -> Result<Vec<T>, D::Error>

@@ -189,6 +189,13 @@ impl Tool {
         self.kind.width_at(depth)
     }
 
+    /// The narrowest that it cuts at `depth`, where it may rise to no less than `least`, if that is
+    /// said.
+    #[must_use]
+    pub fn least_width(&self, depth: Nm, least: Option<Nm>) -> Nm {
+        self.width_at(least.unwrap_or(depth).min(depth))
+    }
+
     /// How deep it must go to cut a groove of `width`; none where no depth gives it. An end mill
     /// cuts its one width at any depth, of which the least is returned.
     #[must_use]

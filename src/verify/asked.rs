@@ -5,7 +5,7 @@ use crate::board::Copper;
 use crate::geometry::{Nm, Point, Polygon, Rect, Vector};
 use crate::topology::{NetId, Nets, Pattern, called};
 
-use super::declared::declared_setting;
+use super::declared::{declared_list, declared_setting};
 
 /// What was to be cleared of a side, in the files' coordinates.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -35,27 +35,22 @@ impl Asked {
 
     /// What a program says of itself.
     pub(super) fn declared(text: &str) -> Self {
-        let all = |setting| declared_setting(text, setting).unwrap_or_default();
-        let rectangles = |setting| {
-            let found: Vec<Polygon> = all(setting).split_whitespace().filter_map(rectangle).collect();
-            found
-        };
-        let unread = ["clear-area", "keep-area"].map(|setting| {
-            let is_file = |text: &&str| rectangle(text).is_none();
-            all(setting).split_whitespace().filter(is_file).map(str::to_owned).collect::<Vec<_>>()
-        });
-        let distance = |text: &str| {
+        let all = |setting| declared_list(text, setting).into_iter();
+        let one = |setting| declared_setting(text, setting).unwrap_or_default();
+        let rectangles = |setting| all(setting).filter_map(|text| rectangle(&text)).collect();
+        let unread = ["clear-area", "keep-area"].into_iter().flat_map(all);
+        let distance = |text: String| {
             let (nets, distance) = text.rsplit_once('=')?;
             Some((pattern(nets), distance.parse().ok()?))
         };
         Self {
-            everything: all("clear") == "true",
+            everything: one("clear") == "true",
             areas: rectangles("clear-area"),
-            nets: all("clear-nets").split_whitespace().map(pattern).collect(),
-            distances: all("distance-for").split_whitespace().filter_map(distance).collect(),
+            nets: all("clear-nets").map(|text| pattern(&text)).collect(),
+            distances: all("distance-for").filter_map(distance).collect(),
             kept: rectangles("keep-area"),
-            tolerance: all("tolerance").parse().unwrap_or_default(),
-            unread: unread.concat(),
+            tolerance: one("tolerance").parse().unwrap_or_default(),
+            unread: unread.filter(|text| rectangle(text).is_none()).collect(),
         }
     }
 
@@ -115,13 +110,13 @@ mod tests {
 
     #[test]
     fn a_header_says_what_was_asked_for() {
-        let text = "(x front isolation)\n(clear-area -1mm,2mm,3mm,4mm 1mm,1mm,2mm,2mm)\n(clear-nets HV^2A)\n\
+        let text = "(x front isolation)\n(clear-area -1mm,2mm,3mm,4mm 1mm,1mm,2mm,2mm)\n(clear-nets HV^2A VCC^5E205V)\n\
                     (distance-for HV^3F=6mm GND=1mm)\n(tolerance 0.002mm)\n";
         let asked = Asked::declared(text);
         assert!(asked.is_something() && !asked.everything, "{asked:?}");
         assert_eq!(asked.areas.len(), 2, "two areas");
         assert_eq!(asked.areas[0].bounds().max(), Point::new(Nm::from_mm(2), Nm::from_mm(6)), "the first");
-        assert_eq!(asked.nets, [pattern("HV*")], "a pattern");
+        assert_eq!(asked.nets, [pattern("HV*"), pattern("VCC 5V")], "patterns");
         assert_eq!(asked.distances, [(pattern("HV?"), Nm::from_mm(6)), (pattern("GND"), Nm::from_mm(1))]);
         assert!(Asked::declared("(clear true)\nG21\n").everything, "all");
         assert!(!Asked::declared("G21\n").is_something(), "nothing");

@@ -11,7 +11,7 @@
 use rayon::prelude::*;
 
 use crate::board::polarity::{clean, difference, intersection, offset, union};
-use crate::board::{FLATTEN, Shape};
+use crate::board::{FLATTEN, Feature, Shape};
 use crate::geometry::{Nm, Point, Polygon};
 use crate::topology::NetId;
 
@@ -47,6 +47,9 @@ pub(super) struct Cleared<'a> {
     board: Vec<Polygon>,
     /// Of each tool, where its middle may be.
     middles: Vec<(Kerf, Vec<Polygon>)>,
+    /// Copper with the slope that the flattest of several V-bits leaves beside it: that a steeper
+    /// one would leave less is no reason to go round everything with that, too.
+    slopes: Vec<Polygon>,
     swept: Sweeps,
 }
 
@@ -56,7 +59,8 @@ impl<'a> Cleared<'a> {
         let board = board(sheet);
         let kerfs = sheet.kerfs.par_iter();
         let middles = kerfs.map(|&kerf| (kerf, middle(sheet, asked, &board, kerf))).collect();
-        Self { sheet, asked, board, middles, swept: Sweeps::new(sweeps(sheet)) }
+        let slopes = slopes(sheet, slack(asked));
+        Self { sheet, asked, board, middles, slopes, swept: Sweeps::new(sweeps(sheet)) }
     }
 
     /// What is left of the areas and regions that were to be cleared.
@@ -97,6 +101,11 @@ impl<'a> Cleared<'a> {
             })
             .collect();
         let wanted = common(&common(&union(&wide), areas), &self.board);
+        let beside = |part: &Polygon| -> Vec<Polygon> {
+            let near = self.slopes.iter().filter(|slope| slope.bounds().touches(part.bounds()));
+            difference(part, &near.cloned().collect::<Vec<_>>())
+        };
+        let wanted: Vec<Polygon> = wanted.par_iter().flat_map_iter(beside).collect();
         left(&wanted, &self.swept, 0.0, PITCH)
     }
 
@@ -137,6 +146,18 @@ fn middle(sheet: &Sheet<'_>, asked: &Asked, board: &[Polygon], kerf: Kerf) -> Ve
     walls.extend(union(&asked.kept).iter().flat_map(|kept| offset(kept, away, FLATTEN)));
     let walls = union(&walls);
     board.iter().flat_map(|board| difference(board, &walls)).collect()
+}
+
+/// What the slopes of V-bits leave beside copper, where tools are not all alike in that, with so
+/// much to spare.
+fn slopes(sheet: &Sheet<'_>, slack: Nm) -> Vec<Polygon> {
+    let wide = || sheet.kerfs.iter().map(|kerf| kerf.half - kerf.floor);
+    let (Some(steepest), Some(flattest)) = (wide().min(), wide().max()) else { return Vec::new() };
+    if steepest == flattest {
+        return Vec::new();
+    }
+    let grown = |feature: &Feature| grown(&feature.shape, flattest + slack);
+    union(&sheet.copper.features.par_iter().flat_map_iter(grown).collect::<Vec<_>>())
 }
 
 /// A shape grown by so much.

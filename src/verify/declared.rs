@@ -80,6 +80,14 @@ pub fn declared_setting(text: &str, setting: &str) -> Option<String> {
     (!parts.is_empty()).then(|| unescaped(&parts.join(" ")))
 }
 
+/// The texts of a setting that is a list, each of which may have blanks; none where the program
+/// says nothing.
+#[must_use]
+pub fn declared_list(text: &str, setting: &str) -> Vec<String> {
+    let list = declared_setting(text, setting).unwrap_or_default();
+    list.split_whitespace().map(unescaped).collect()
+}
+
 /// A value as it was before its characters were made fit for a comment.
 fn unescaped(value: &str) -> String {
     let mut bytes = Vec::with_capacity(value.len());
@@ -174,5 +182,6 @@ mod tests {
             "in parts, as it was meant"
         );
         assert_eq!(declared_setting(text, "ignore"), None, "none");
+        assert_eq!(declared_list("(ignore A^5E20B ^5E5E20 C)", "ignore"), ["A B", "^20", "C"], "a list");
     }
 }

@@ -75,21 +75,28 @@ impl<'a> Zone<'a> {
     /// Passes along the edges of areas that are cleared, and round those that are kept where it is
     /// cleared beside them, on `board`.
     pub(super) fn edges(&self, board: &Fence, room: &Room<'_>) -> Vec<Piece> {
-        let Room { clearance, owner, nearest, farthest } = *room;
+        let Room { clearance, nearest, .. } = *room;
         let rings = |fence: &Option<Fence>| fence.iter().flat_map(Fence::rings).collect::<Vec<_>>();
         let round = |ring: &Vec<Spot>| along(ring, clearance, nearest);
         let edges: Vec<Piece> = rings(&self.areas).par_iter().flat_map_iter(round).collect();
-        let beside = |at: Spot| {
-            let room = clearance(at);
-            let is_cleared = room <= farthest
-                || self.areas.as_ref().is_some_and(|areas| areas.holds(at))
-                || owner(at).is_some_and(|net| self.nets.binary_search(&net).is_ok());
-            if is_cleared { room } else { 0.0 }
-        };
+        let beside = |at: Spot| if self.is_cleared(at, room) { clearance(at) } else { 0.0 };
         let round = |ring: &Vec<Spot>| along(ring, beside, nearest);
         let kept: Vec<Piece> = rings(&self.kept).par_iter().flat_map_iter(round).collect();
         let all = self.open(edges).into_par_iter().chain(kept);
         all.flat_map_iter(|piece| board.parts(piece, true)).collect()
+    }
+
+    /// What of the edge of `board` a pass may run along.
+    pub(super) fn rims(&self, board: &Fence, room: &Room<'_>) -> Vec<Piece> {
+        let round = |ring: &Vec<Spot>| along(ring, room.clearance, room.nearest);
+        self.open(board.rings().par_iter().flat_map_iter(round).collect())
+    }
+
+    /// Whether everything is cleared at a place.
+    pub(super) fn is_cleared(&self, at: Spot, room: &Room<'_>) -> bool {
+        (room.clearance)(at) <= room.farthest
+            || self.areas.as_ref().is_some_and(|areas| areas.holds(at))
+            || (room.owner)(at).is_some_and(|net| self.nets.binary_search(&net).is_ok())
     }
 
     /// What of passes lies where anything may be cleared.

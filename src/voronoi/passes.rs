@@ -49,6 +49,8 @@ pub struct Widening {
     pub width: Option<Nm>,
     /// How much of the kerf neighbouring passes share, at least.
     pub overlap: Nm,
+    /// Whether gaps between nets that the kerf does not fit stay uncut.
+    pub skips: bool,
 }
 
 impl Widening {
@@ -111,7 +113,9 @@ impl Diagram {
         let unlooped = |levels: &[Nm]| -> Vec<Nm> {
             levels.iter().copied().filter(|&level| !self.has_loops_of_all_at(level)).collect()
         };
-        let wanted = [unlooped(&levels), unlooped(again), unlooped(&further)];
+        // Loops, too, did not run there.
+        let all_around = if self.settings.enclosed { unlooped(&further) } else { further.clone() };
+        let wanted = [unlooped(&levels), again.to_vec(), all_around];
         if wanted.iter().all(Vec::is_empty) {
             return (base, Vec::new());
         }
@@ -136,6 +140,7 @@ impl Diagram {
         let is_whole = found.is_some();
         let wider = wider(before, widening.kerf);
         let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), widening.floor - step);
+        let loops = Grooves::new(base.edges.iter().filter(|edge| is_pass(edge)), step / 2);
         let innermost = grooves.as_ref().map(|grooves| grooves.within(BESIDE));
         let spikes = Spikes {
             kerf: widening.floor.to_f64(),
@@ -149,12 +154,15 @@ impl Diagram {
         for (number, (&level, mut lines)) in
             wanted.iter().flatten().zip(found.unwrap_or_default()).enumerate()
         {
-            lines.retain(|line| !self.has_loop_at(level, line));
-            if number == wanted[0].len() && !wanted[1].is_empty() {
+            let is_stage_of_loops = number < wanted[0].len() || self.settings.enclosed;
+            if is_stage_of_loops {
+                lines.retain(|line| !self.has_loop_at(level, line));
+            } else if number == wanted[0].len() && !again.is_empty() {
                 passed = Grooves::new(all.edges[first_pass..].iter(), step / 2);
             }
             let grooves = if level > first { &grooves } else { &innermost };
-            for grooves in wider.iter().chain(grooves).chain(&passed) {
+            let loops = loops.as_ref().filter(|_| !is_stage_of_loops && level == first);
+            for grooves in wider.iter().chain(grooves).chain(&passed).chain(loops) {
                 lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
             }
             let mut passes = self.fitted(&lines);
@@ -178,7 +186,7 @@ impl Diagram {
         let kerf = widening.floor.to_f64();
         let passes = Passes { diagram: &diagram, fence: &fence, kerf, step: step.to_f64(), levels: &levels };
         // Between all nets there is a cut along the axis.
-        let is_open = |left: u32, right: u32| left == right || !self.is_plain();
+        let is_open = |left: u32, right: u32| left == right || widening.skips || !self.is_plain();
         let mut lines = zone.open(passes.residues(all.edges.iter(), before, is_open));
         let edges = passes
             .beyond()
@@ -192,6 +200,13 @@ impl Diagram {
             let levels: Vec<f64> = levels.iter().copied().chain(heights(&further)).collect();
             let passes = Passes { levels: &levels, ..passes };
             let lines = zone.cleared(passes.residues(all.edges.iter(), before, is_open));
+            all.append(self.fitted(&lines));
+        }
+        if self.border.frame.is_none() {
+            let wanted = |at| zone.is_cleared(at, &room);
+            let rims = zone.rims(&fence, &room);
+            let within = self.settings.overlap.to_f64();
+            let lines = passes.beside_edge(&rims, within, wanted, all.edges.iter(), before);
             all.append(self.fitted(&lines));
         }
         let longest =

@@ -17,6 +17,8 @@
 //! cut, it would come off sooner or later. So it is cut off, too: along the axis between two
 //! passes, along the edge of the last pass where it is the first cut that lies beside it.
 //!
+//! Where passes run out of the board, a strip may stay along its edge. It is cut off along that.
+//!
 //! M. Held, *On the Computational Geometry of Pocket Machining*, LNCS 500, Springer 1991, ch. 7
 //! (uncleared places by the clearance along bisectors).
 
@@ -185,6 +187,36 @@ impl Passes<'_> {
             runs(&places).filter(|run| length(run) >= LONG).map(part).collect::<Vec<_>>()
         });
         strips.collect()
+    }
+
+    /// The parts of the board's edge, `rims` with the board on their left, beside which something
+    /// is left of what is `wanted`. The board itself begins so far `within` them.
+    pub(super) fn beside_edge<'b>(
+        &self,
+        rims: &[Piece],
+        within: f64,
+        wanted: impl Fn(Spot) -> bool + Sync,
+        cuts: impl Iterator<Item = &'b Boundary>,
+        before: &[(Nm, Boundaries)],
+    ) -> Vec<Piece> {
+        // A pass nearer to the edge than passes are apart leaves nothing where it is wide enough.
+        if rims.is_empty() || self.step - self.kerf / 2.0 <= within {
+            return Vec::new();
+        }
+        let cleared = self.cleared(cuts, before);
+        let parts = rims.par_iter().flat_map_iter(|rim| {
+            let clearance = rim.samples.iter().map(|sample| sample.clearance).fold(f64::INFINITY, f64::min);
+            let beside_strip = |(at, along): (Spot, Spot)| {
+                let on_board = at + Spot::new(-along.y, along.x) * (within + SURE);
+                let is_left = !cleared.holds(on_board) && wanted(on_board);
+                is_left.then_some(Sample { at, clearance })
+            };
+            let places: Vec<Option<Sample>> = ways(rim, THIN / 2.0).map(beside_strip).collect();
+            let Piece { left, right, .. } = *rim;
+            let part = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
+            runs(&places).filter(|run| length(run) >= CRUMB).map(part).collect::<Vec<_>>()
+        });
+        parts.collect()
     }
 
     /// How far from copper the last pass no longer clears.

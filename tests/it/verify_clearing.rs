@@ -21,14 +21,20 @@ use crate::oracle;
 
 /// The program for the back of the blinker, in its files' coordinates.
 fn made(options: &str) -> (Board, String) {
-    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
+    milled("blinker", options)
+}
+
+/// A board of the fixtures with nothing left that was to be cleared, and the program for its back.
+fn milled(name: &str, wanted: &str) -> (Board, String) {
+    let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards").join(name);
     let loaded = import::load(&[path], &Selection::default()).expect("a board");
     let board = loaded.board.clone();
-    let options = Options::from_toml("voromill.toml", &format!("origin = \"keep\"\n{options}"));
+    let options = Options::from_toml("voromill.toml", &format!("origin = \"keep\"\n{wanted}"));
     let settings = Settings::resolve(options.expect("settings")).expect("settings that make sense");
     let job = job::mill(loaded, &settings).expect("a job");
     let report = job.verify(&settings).expect("a verdict");
-    assert!(report.findings.iter().all(|found| found.name != "copper-left"), "{:?}", report.findings);
+    let left: Vec<&Finding> = report.findings.iter().filter(|found| found.name == "copper-left").collect();
+    assert!(left.is_empty(), "{name}: {wanted}: {left:?}");
     let program = job.programs.into_iter().find(|program| program.part == Part::Back).expect("a back");
     (board, program.text)
 }
@@ -241,6 +247,24 @@ fn what_is_cleared_is_clear() {
             let options = options.split("\ntool").next().expect("some");
             made(&format!("tool = {tool}\n{options}"));
             made(&format!("tool = {tool}\n{options}{kept}"));
+        }
+    }
+}
+
+/// Nor in space that one net encloses, where the outline strategy has no loops, beside copper that
+/// only the finer of two V-bits comes nearer to, where a boundary stays uncut, or along the edge.
+#[test]
+fn what_is_cleared_is_clear_whatever_else_is_cut() {
+    for (tool, options) in [
+        ("\"endmill:0.4mm\"", "strategy = \"outline\"\ndistance-for = \"*=1.5mm\""),
+        ("\"endmill:0.4mm\"", "strategy = \"outline\"\nwidth = \"0.9mm\"\ndistance-for = \"*=1.5mm\""),
+        ("[\"vbit:0.1mm:90deg\", \"vbit:0.1mm:60deg\"]", "distance-for = \"GND=2mm\""),
+        ("\"vbit:0.1mm:90deg\"", "passes = 5\nnarrow = \"skip\"\ndistance-for = \"GND=0.75mm\""),
+        ("\"endmill:0.6mm\"", "clear = true"),
+        ("\"endmill:0.8mm\"", "clear-nets = \"*\""),
+    ] {
+        for board in ["blinker", "regulator", "qfn-breakout"] {
+            milled(board, &format!("tool = {tool}\n{options}"));
         }
     }
 }

@@ -520,7 +520,7 @@ fn widened(copper: &Copper, width: Option<Nm>, overlap: i64, clearing: &Clearing
     let nets = topology::recover(copper, Method::Contact);
     let diagram = Diagram::new(copper, &nets, None, &Settings::default()).expect("a diagram");
     let (kerf, overlap) = (Nm::from_um(200), Nm::from_um(overlap));
-    let widening = Widening { kerf, floor: kerf, width, overlap };
+    let widening = Widening { kerf, floor: kerf, width, overlap, skips: false };
     let (cuts, warnings) = diagram.widened(
         (copper, &nets),
         diagram.boundaries().expect("whole boundaries"),

@@ -12,7 +12,7 @@ use crate::toolpath::trails::{Link, Step, walk};
 use crate::toolpath::{Direction, Heights, Machine, Move, Placement, Section, Tool};
 use crate::voronoi::{self, Boundaries, Boundary, Owner};
 
-use super::share::SLACK;
+use super::share::fits;
 
 /// What is done with a boundary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,8 +72,7 @@ pub fn isolate(
     settings: &Isolation<'_>,
 ) -> (Section, Vec<Warning>) {
     // A tool that may rise takes no more copper than at its least depth.
-    let least = settings.adaptive.unwrap_or(settings.heights.cut).min(settings.heights.cut);
-    let kerf = settings.tool.width_at(least);
+    let kerf = settings.tool.least_width(settings.heights.cut, settings.adaptive);
     let mut warnings = Vec::new();
     let mut ways = Vec::new();
     for boundary in &boundaries.edges {
@@ -164,7 +163,7 @@ fn contention(
 ) -> Option<Warning> {
     let (index, &clearance) =
         boundary.clearance.iter().enumerate().min_by_key(|(index, nm)| (**nm, *index))?;
-    if kerf <= clearance * 2 + SLACK {
+    if fits(kerf, clearance) {
         return None;
     }
     let lost = kerf / 2 - clearance;

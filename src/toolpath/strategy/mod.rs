@@ -16,4 +16,4 @@ pub use pocket::{
     Clearings, Engagement, Engaging, Entries, Groove, Levels, ParseEngagementError, Planned, Pocketing,
     Sequence, pocket,
 };
-pub use share::share;
+pub use share::{fits, share};

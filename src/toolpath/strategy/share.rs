@@ -41,11 +41,17 @@ pub fn share(boundaries: &Boundaries, kerfs: &[Nm]) -> Vec<Boundaries> {
 
 /// How much a kerf may be wider than the gap and still fit, so that what was laid out for a kerf is
 /// not lost to rounding.
-pub(super) const SLACK: Nm = Nm::from_um(1);
+const SLACK: Nm = Nm::from_um(1);
+
+/// Whether a kerf fits a gap of twice `clearance`.
+#[must_use]
+pub fn fits(kerf: Nm, clearance: Nm) -> bool {
+    kerf <= clearance * 2 + SLACK
+}
 
 /// The first tool that fits a gap of twice `clearance`; the last if none does.
 fn fitting(clearance: Nm, kerfs: &[Nm]) -> usize {
-    kerfs.iter().position(|&kerf| kerf <= clearance * 2 + SLACK).unwrap_or(kerfs.len().saturating_sub(1))
+    kerfs.iter().position(|&kerf| fits(kerf, clearance)).unwrap_or(kerfs.len().saturating_sub(1))
 }
 
 /// Adds the stretches of `edge` to `parts`, each with its tool, and the places between them to
