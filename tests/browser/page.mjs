@@ -146,6 +146,28 @@ async function sides(page, shoot) {
   await shoot('both');
 }
 
+// The board as it comes from the mill: copper with grooves to the laminate, and nothing beside it.
+async function looksMilled(page, shoot) {
+  const milled = page.locator('[id^=milled-]').first();
+  assert.equal(await milled.locator('canvas').count(), 0, 'nothing is drawn before');
+  const start = Date.now();
+  await milled.locator('summary').click();
+  await milled.locator('canvas').waitFor();
+  console.log(`as milled: drawn in ${Date.now() - start} ms`);
+  await milled.locator('canvas').scrollIntoViewIfNeeded();
+  await shoot('milled');
+  const [copper, laminate, beside] = await milled.locator('canvas').evaluate(canvas => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height), counts = [0, 0, 0];
+    for (let i = 0; i < data.length; i += 4) {
+      const [red, green, , alpha] = data.slice(i, i + 4);
+      counts[alpha === 0 ? 2 : green > 0.85 * red ? 1 : 0] += 1;
+    }
+    return counts.map(count => count / (data.length / 4));
+  });
+  assert(copper > 0.2 && laminate > 0.0005 && beside > 0.02, `copper ${copper}, laminate ${laminate}, beside it ${beside}`);
+  await milled.locator('summary').click();
+}
+
 // The pictures of how cuts are found: drawn when they are unfolded, of this side's nets.
 async function explains(page, shoot) {
   const how = page.locator('[id^=how-]').first();
@@ -203,6 +225,7 @@ await plays(page, shoot);
 await shows(page, shoot);
 await keepsSight(page);
 await prints(page);
+await looksMilled(page, shoot);
 await explains(page, shoot);
 await reads(page);
 assert.deepEqual(wrong, [], 'nothing went wrong meanwhile');

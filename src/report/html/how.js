@@ -2,17 +2,8 @@
 // away from it, at a slant and from above.
 
 // The nets of a side on a raster, turned by an angle: of each pixel the nearest net and how far it is, in pixels.
-function nearestNets(side, [left, bottom, right, top], columns, angle) {
-  const [wide, high] = [right - left, top - bottom], [c, s] = [Math.cos(angle), Math.sin(angle)];
-  const scale = columns / (wide * Math.abs(c) + high * Math.abs(s));
-  const rows = Math.max(1, Math.round((wide * Math.abs(s) + high * Math.abs(c)) * scale));
-  const canvas = make('canvas', { width: columns, height: rows });
-  const pen = canvas.getContext('2d', { willReadFrequently: true });
-  pen.translate(columns / 2, rows / 2);
-  pen.rotate(angle);
-  pen.scale(scale, -scale);
-  pen.translate(-(left + right) / 2, -(bottom + top) / 2);
-  pen.lineCap = pen.lineJoin = 'round';
+function nearestNets(side, bounds, columns, angle) {
+  const { pen, rows, inside } = raster(bounds, columns, angle, 1);
   // Colours far from each other: what is mixed along an edge is none of them.
   const codes = new Map(side.nets.map(net => [((net.id + 1) * 0x9e3779b1 >>> 8) & 0xffffff, net.id]));
   for (const [code, id] of codes) {
@@ -28,10 +19,6 @@ function nearestNets(side, [left, bottom, right, top], columns, angle) {
     if (id !== undefined) { net[i] = id; off[i] = 0; }
   }
   spread(net, off, columns, rows);
-  const inside = (x, y) => {
-    const [u, v] = [x + 0.5 - columns / 2, y + 0.5 - rows / 2];
-    return Math.abs(u * c + v * s) <= wide * scale / 2 && Math.abs(v * c - u * s) <= high * scale / 2;
-  };
   return { net, off, columns, rows, inside };
 }
 
@@ -86,35 +73,11 @@ function shade({ net, off, columns, rows }, hues, x, y, flat) {
   return rgb(hues[net[i]], 0.5, 0.44 - 0.17 * light);
 }
 
-function picture(width, height, label, paint) {
-  const canvas = make('canvas', { width, height, role: 'img', 'aria-label': label });
-  const pen = canvas.getContext('2d'), image = pen.createImageData(width, height);
-  paint((x, y, colour) => image.data.set([...colour, 255], 4 * (y * width + x)));
-  pen.putImageData(image, 0, 0);
-  return canvas;
-}
-
-// Seen from so much above the board: columns from the front to the back, each pixel above what is
-// drawn already.
-function slanted(side, bounds) {
+// Seen from so much above the board.
+function slopes(side, bounds) {
   const seen = nearestNets(side, bounds, 680, -0.42), { off, columns, rows, inside } = seen;
-  const [lie, stand] = [Math.sin(1.0), Math.cos(1.0)], height = Math.ceil(rows * (lie + stand));
-  const down = (x, y) => Math.min(height, Math.round(y * lie + Math.min(off[y * columns + x], rows) * stand));
-  let [top, bottom] = [height, 0];
-  for (let y = 0; y < rows; y++) {
-    for (let x = 0; x < columns; x++) if (inside(x, y)) [top, bottom] = [Math.min(top, down(x, y)), Math.max(bottom, down(x, y) + 1)];
-  }
-  return picture(columns, Math.max(bottom - top, 1), 'Copper with slopes that fall away from it, seen at a slant', dot => {
-    for (let x = 0; x < columns; x++) {
-      let drawn = height;
-      for (let y = rows - 1; y >= 0; y--) {
-        if (!inside(x, y)) continue;
-        const colour = shade(seen, side.hues, x, y, false), upTo = down(x, y);
-        if (drawn === height) drawn = Math.min(bottom, upTo + 1);
-        while (drawn > upTo) { drawn -= 1; dot(x, drawn - top, colour); }
-      }
-    }
-  });
+  const down = (x, y) => Math.min(off[y * columns + x], rows);
+  return slanted({ columns, rows, inside, down, wall: 0 }, 'Copper with slopes that fall away from it, seen at a slant', (x, y) => shade(seen, side.hues, x, y, false));
 }
 
 function fromAbove(side, bounds) {
@@ -127,7 +90,7 @@ function fromAbove(side, bounds) {
 // Both pictures with what they show.
 function howFound(side, bounds) {
   return [
-    make('p', { class: 'how' }, 'Every net is a plateau of copper from which slopes fall away, equally steep for all:'), slanted(side, bounds),
+    make('p', { class: 'how' }, 'Every net is a plateau of copper from which slopes fall away, equally steep for all:'), slopes(side, bounds),
     make('p', { class: 'how' }, 'From above each slope covers what is nearest to its net. Where two of them meet, both nets are equally far: there one cut parts them and leaves each as much copper as it can have.'), fromAbove(side, bounds),
   ];
 }

@@ -59,7 +59,7 @@ class Panel {
     this.rows = new Map();
     this.boxes = new Map();
     element.append(
-      this.verdict(), this.findings(), this.layers(), this.programs(), this.drills(), this.nets(), this.how(), this.about(),
+      this.verdict(), this.findings(), this.layers(), this.programs(), this.drills(), this.nets(), this.milled(), this.how(), this.about(),
     );
   }
 
@@ -172,16 +172,24 @@ class Panel {
     });
   }
 
-  // How the cuts are found, drawn when it is unfolded.
-  how() {
-    const sides = this.stage.sides.filter(side => side.nets.length > 1);
+  // Pictures of sides, drawn when they are unfolded.
+  unfolded(title, id, sides, pictures) {
     if (!sides.length) return null;
-    const unfold = (event, side) => {
-      const { target } = event;
-      if (target.open && !target.querySelector('canvas')) target.append(...howFound(side, this.stage.drawing.bounds));
-    };
-    const fold = side => make('details', { id: `how-${side.side}`, on: { toggle: event => unfold(event, side) } }, make('summary', {}, make('b', {}, side.side)));
-    return this.section('How it was found', ...sides.map(fold));
+    const unfold = ({ target }, side) => { if (target.open && !target.querySelector('canvas')) target.append(...pictures(side)); };
+    const fold = side => make('details', { id: `${id}-${side.side}`, on: { toggle: event => unfold(event, side) } }, make('summary', {}, make('b', {}, side.side)));
+    return this.section(title, ...sides.map(fold));
+  }
+
+  // The board as it comes from the mill.
+  milled() {
+    const sides = this.stage.sides.filter(side => this.stage.programs.some(program => program.side === side.side));
+    return this.unfolded('As milled', 'milled', sides, side => [asMilled(this.stage, side, 1000 * parseFloat(this.report.settings.thickness)),
+      make('p', { class: 'how' }, `What the programs leave of the copper, three times as deep as it is${side.side === 'back' ? '; turned over, as it lies on the mill' : ''}.`)]);
+  }
+
+  // How the cuts are found.
+  how() {
+    return this.unfolded('How it was found', 'how', this.stage.sides.filter(side => side.nets.length > 1), side => howFound(side, this.stage.drawing.bounds));
   }
 
   about() {

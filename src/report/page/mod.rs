@@ -121,14 +121,16 @@ fn holes(holes: &[Hole]) -> Vec<(i64, usize, String)> {
 }
 
 /// The page's program, one file an idea, in the order in which they need each other.
-const SCRIPTS: [&str; 9] = [
+const SCRIPTS: [&str; 11] = [
     include_str!("../html/ways.js"),
     include_str!("../html/theme.js"),
     include_str!("../html/side.js"),
     include_str!("../html/program.js"),
     include_str!("../html/stage.js"),
     include_str!("../html/player.js"),
+    include_str!("../html/slant.js"),
     include_str!("../html/how.js"),
+    include_str!("../html/milled.js"),
     include_str!("../html/panel.js"),
     include_str!("../html/page.js"),
 ];

@@ -38,7 +38,7 @@ fuzz_target!(|bytes: &[u8]| {
     }
     let cutter = Some("endmill:0.2mm".parse().expect("a tool"));
     let role = Some(Role::Isolation(Side::Front));
-    let program = Program { file: "fuzz.nc".to_owned(), text, role, cutter, placement: None };
+    let program = Program { file: "fuzz.nc".to_owned(), text, role, cutter, ..Program::default() };
     let settings = Settings { pixel: Some(Nm::from_um(50)), ..Settings::default() };
     if let Err(error) = verify::verify(&[program], &board(), &[], &settings) {
         assert!(!error.to_string().is_empty(), "an error has words");

@@ -91,6 +91,8 @@ pub(super) struct Drawing {
     size: Spot,
     /// What places are multiples of.
     grid: i64,
+    /// What all that is drawn is a multiple of.
+    step: i64,
     items: Vec<(Spot, Item)>,
     plane: Option<Plane>,
     edge: Option<Edge>,
@@ -167,11 +169,45 @@ pub(super) fn drawing() -> impl Strategy<Value = Drawing> {
     (size, grid, items, optional).prop_map(|(size, grid, items, (plane, edge))| Drawing {
         size,
         grid,
+        step: 1,
         items,
         plane,
         edge,
         drawn: Vec::new(),
     })
+}
+
+/// Small boards on which everything is a multiple of a tenth of a millimetre and of an eighth of a
+/// turn: equal distances, tangencies, copper upon copper.
+pub(super) fn coarse_drawing() -> impl Strategy<Value = Drawing> {
+    let coarse = |drawing: Drawing| {
+        let items = drawing.items.into_iter().map(|(at, item)| (at, item.coarse())).collect();
+        let plane = drawing.plane.map(|plane| Plane { clearance: multiple(plane.clearance), ..plane });
+        Drawing { grid: STEP, step: STEP, items, plane, ..drawing }
+    };
+    drawing().prop_map(coarse)
+}
+
+/// What all that is coarse is a multiple of.
+const STEP: i64 = 100_000;
+
+/// The multiple of the step next to a length, no less than one.
+fn multiple(length: i64) -> i64 {
+    whole(length, STEP).max(STEP)
+}
+
+/// The same of twice the step.
+fn even(length: i64) -> i64 {
+    whole(length, 2 * STEP).max(2 * STEP)
+}
+
+fn whole(length: i64, step: i64) -> i64 {
+    (length + step / 2).div_euclid(step) * step
+}
+
+/// Some quarters of a turn, at most three.
+fn quarters(degrees: i64) -> i64 {
+    (degrees / 90).clamp(1, 3) * 90
 }
 
 /// Small boards with holes and slots drawn on the outline layer, as some CAD programs do.
@@ -188,10 +224,57 @@ fn drawn() -> impl Strategy<Value = Drawn> {
     prop_oneof![3 => hole, 1 => slot]
 }
 
+impl Item {
+    /// The same with lengths that are multiples of the step, and eighths of a turn.
+    fn coarse(self) -> Self {
+        let eighths = |degrees: i64| degrees / 45 * 45;
+        match self {
+            Self::Flash(pad) => Self::Flash(match pad {
+                Pad::Disc { diameter } => Pad::Disc { diameter: even(diameter) },
+                Pad::Rectangle { width, height } => {
+                    Pad::Rectangle { width: even(width), height: even(height) }
+                }
+                Pad::Oblong { width, height } => Pad::Oblong { width: even(width), height: even(height) },
+                Pad::Polygon { diameter, .. } => {
+                    Pad::Polygon { diameter: even(diameter), corners: 4, degrees: 0 }
+                }
+                Pad::Turned { width, height, degrees } => {
+                    Pad::Turned { width: even(width), height: even(height), degrees: eighths(degrees) }
+                }
+            }),
+            Self::Pair { diameters, gap, degrees } => Self::Pair {
+                diameters: diameters.map(even),
+                gap: whole(gap, STEP),
+                degrees: quarters(degrees),
+            },
+            Self::Row { size: (width, height), gap, count, degrees } => Self::Row {
+                size: (even(width), even(height)),
+                gap: whole(gap, STEP),
+                count,
+                degrees: quarters(degrees),
+            },
+            Self::Trace { width, legs } => {
+                let leg = |leg| match leg {
+                    Leg::Line { length, degrees } => {
+                        Leg::Line { length: multiple(length), degrees: eighths(degrees) }
+                    }
+                    Leg::Arc { radius, from, sweep } => Leg::Arc {
+                        radius: multiple(radius.abs()) * radius.signum(),
+                        from: from / 90 * 90,
+                        sweep: quarters(sweep),
+                    },
+                };
+                Self::Trace { width: even(width), legs: legs.into_iter().map(leg).collect() }
+            }
+            Self::Star { corners } => Self::Star { corners },
+        }
+    }
+}
+
 impl Drawing {
     /// The copper.
     pub(super) fn copper(&self) -> String {
-        let mut pen = Pen::default();
+        let mut pen = Pen { step: self.step, ..Pen::default() };
         if let Some(Plane { clearance, joins }) = self.plane {
             let (width, height) = self.size;
             pen.region(&[(0, 0), (width, 0), (width, height), (0, height)]);
@@ -349,6 +432,8 @@ fn polar((x, y): Spot, length: i64, degrees: i64) -> Spot {
 struct Pen {
     apertures: Vec<String>,
     text: String,
+    /// What places are rounded to; nothing for not at all.
+    step: i64,
 }
 
 impl Pen {
@@ -367,11 +452,13 @@ impl Pen {
     }
 
     fn to(&mut self, (x, y): Spot, operation: &str) {
+        let [x, y] = [x, y].map(|place| whole(place, self.step.max(1)));
         self.write(format_args!("X{x}Y{y}{operation}*\n"));
     }
 
     fn arc(&mut self, (x, y): Spot, (i, j): Spot, left: bool) {
         let way = if left { "G03" } else { "G02" };
+        let [x, y, i, j] = [x, y, i, j].map(|place| whole(place, self.step.max(1)));
         self.write(format_args!("{way}*\nX{x}Y{y}I{i}J{j}D01*\nG01*\n"));
     }
 

@@ -21,7 +21,7 @@ use voromill::job::{self, Job, Options, Settings};
 use voromill::verify::{Finding, Severity};
 
 use crate::euler;
-use drawing::{Drawing, drawing, drawing_with_holes};
+use drawing::{Drawing, coarse_drawing, drawing, drawing_with_holes};
 
 /// What cuts them: settings as a settings file gives them.
 const SETTINGS: [&str; 10] = [
@@ -129,6 +129,15 @@ proptest! {
     #[test]
     fn a_random_board_is_isolated_as_it_was_drawn(
         drawing in drawing(),
+        side in prop::sample::select(vec![Side::Front, Side::Back]),
+        settings in prop::sample::select(SETTINGS.to_vec()),
+    ) {
+        judge_drawing(&drawing, side, settings).map_err(TestCaseError::fail)?;
+    }
+
+    #[test]
+    fn a_random_board_on_a_coarse_grid_is_isolated_as_it_was_drawn(
+        drawing in coarse_drawing(),
         side in prop::sample::select(vec![Side::Front, Side::Back]),
         settings in prop::sample::select(SETTINGS.to_vec()),
     ) {
