@@ -1,5 +1,5 @@
-//! The Voronoi graph alone, beside Boost's algorithm (the crate `boostvoronoi`): CPU time of so many
-//! random segments on one thread, for each of them and in units of N·log₂N.
+//! The Voronoi graph alone, beside Boost's algorithm (the crate `boostvoronoi`): the time that so
+//! many random segments take on one thread, for each of them and in units of N·log₂N.
 //!
 //! The segments do not touch: one in each cell of a square grid, as in the inputs by which
 //! OpenVoronoi, Boost and VRONI were compared. Each is an owner of its own, so that both have the

@@ -11,7 +11,7 @@ use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, vo
 use crate::medial_axis::{capitals, random_areas};
 
 /// How far apart places are looked at: a debug build looks at few.
-const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 80 } else { 15 }));
+const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 80 } else { 25 }));
 
 const HOW: Carving =
     Carving { max_depth: None, step: None, corner: Angle::ZERO, raised: None, flat: None, inlay: None };

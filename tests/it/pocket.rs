@@ -12,7 +12,7 @@ use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, vo
 use crate::medial_axis::{capitals, random_areas};
 
 /// How far apart rows are looked at.
-const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 20 } else { 5 }));
+const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 20 } else { 8 }));
 
 fn how() -> Pocketing {
     Pocketing {

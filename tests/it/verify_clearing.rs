@@ -263,7 +263,7 @@ fn what_is_cleared_is_clear_whatever_else_is_cut() {
         ("\"endmill:0.6mm\"", "clear = true"),
         ("\"endmill:0.8mm\"", "clear-nets = \"*\""),
     ] {
-        for board in ["blinker", "regulator", "qfn-breakout"] {
+        for board in ["blinker", "regulator"] {
             milled(board, &format!("tool = {tool}\n{options}"));
         }
     }

@@ -184,7 +184,7 @@ class Panel {
   milled() {
     const sides = this.stage.sides.filter(side => this.stage.programs.some(program => program.side === side.side));
     return this.unfolded('As milled', 'milled', sides, side => [asMilled(this.stage, side, 1000 * parseFloat(this.report.settings.thickness)),
-      make('p', { class: 'how' }, `What the programs leave of the copper, three times as deep as it is${side.side === 'back' ? '; turned over, as it lies on the mill' : ''}.`)]);
+      make('p', { class: 'how' }, `What the programs leave of the copper, three times as deep as it is${side.side === 'back' ? '; mirrored, as it lies on the mill' : ''}.`)]);
   }
 
   // How the cuts are found.
