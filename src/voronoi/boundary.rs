@@ -75,8 +75,9 @@ fn merge_stubs(pieces: &mut Vec<Piece>, size: f64) {
         let (here, first) = resolve(from, samples[0].at);
         let (there, last) = resolve(to, samples[samples.len() - 1].at);
         let is_near = |at: Spot| (at - first).length() < size;
-        let is_stub = here != there && is_near(last) && samples.iter().all(|sample| is_near(sample.at));
-        if is_stub {
+        let is_stub = is_near(last) && samples.iter().all(|sample| is_near(sample.at));
+        // What leads back to its own node, as the last of three round a speck does, goes as well.
+        if is_stub && here != there {
             moved.insert(there, (here, first));
         }
         !is_stub
