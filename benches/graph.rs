@@ -61,7 +61,7 @@ fn best<T>(mut run: impl FnMut() -> T) -> f64 {
 
 fn main() {
     rayon::ThreadPoolBuilder::new().num_threads(1).build_global().expect("a pool of one thread");
-    println!("| segments | voromill, µs each | µs·N·log₂N | Boost's, µs each | µs·N·log₂N | ratio |");
+    println!("| segments | voromill, µs each | µs by N·log₂N | Boost's, µs each | µs by N·log₂N | ratio |");
     println!("|---|---|---|---|---|---|");
     for count in [128, 512, 2_048, 8_192, 32_768, 131_072] {
         let segments = segments(count);

@@ -245,6 +245,9 @@ fn a_probe_finds_the_surface_and_the_zero_it_sets() {
 fn polar_coordinates_turn_about_zero() {
     let text = "G21 G90 G0 X2 Y0 Z0\nG1 ^90 F9\n@1\nG91 ^90\n";
     assert_ends(text, &[[2.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]]);
+    // An arc of which only its polar end is told: round where it is, which is no arc.
+    let error = read("G21 G90 G0 X2 Y0 Z-1\nG2 @3 F9\n").expect_err("no centre").to_string();
+    assert!(error.contains("from its centre"), "{error}");
 }
 
 /// The programs in a folder, other people's: `VOROMILL_ARTWORK`, or `../shared/artwork`.

@@ -64,6 +64,11 @@ impl Contour {
 
     /// A Bézier curve of the third degree.
     pub(in crate::import) fn cubic(&mut self, a: Place, b: Place, to: Place) {
+        // What leaves the range of coordinates is no path: no need to follow it.
+        self.point(to);
+        if self.is_beyond {
+            return;
+        }
         let ends = [self.at, a, b, to];
         if let Some((center, turn)) = circle(ends) {
             self.arc(center, turn, to);
@@ -186,5 +191,8 @@ mod tests {
         contour.line((2e9, 0.0));
         assert_eq!(contour.finish(), None, "two metres");
         assert_eq!(Contour::new((f64::NAN, 0.0)).finish(), None, "no number");
+        let mut contour = Contour::new((0.0, 0.0));
+        contour.cubic((0.0, 1e30), (1e30, 1e30), (1e30, 0.0));
+        assert_eq!((contour.path.segments.len(), contour.finish()), (0, None), "nor is it followed");
     }
 }

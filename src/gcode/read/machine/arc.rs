@@ -34,10 +34,10 @@ struct Round {
 }
 
 impl Machine {
-    pub(super) fn arc(&mut self, run: Run<'_>, turn: Turn) -> Result<(), ReadError> {
+    /// An arc, of whose words this is the `first`.
+    pub(super) fn arc(&mut self, run: Run<'_>, turn: Turn, first: Word) -> Result<(), ReadError> {
         let plane = self.modal.plane;
         let [a, b, normal] = plane.axes();
-        let first = run.block.first("XYZIJKR").expect("a word was asked for");
         // The place is told first: where the zero lies is not known before.
         let _ = self.target(run)?;
         let (from_a, from_b) = (self.known(run, a)?, self.known(run, b)?);

@@ -42,7 +42,7 @@ impl Machine {
                 self.go(run, Way::Rapid, to)
             }
             Mode::Feed | Mode::Synchronous { .. } => self.straight(run),
-            Mode::Arc(turn) => self.arc(run, turn),
+            Mode::Arc(turn) => self.arc(run, turn, first),
             Mode::Cycle(cycle) => self.drill(run, cycle),
             Mode::Probe => self.probe(run),
             Mode::Curve(curve) => self.curve(run, curve),
