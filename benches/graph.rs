@@ -4,6 +4,7 @@
 //! The segments do not touch: one in each cell of a square grid, as in the inputs by which
 //! OpenVoronoi, Boost and VRONI were compared. Each is an owner of its own, so that both have the
 //! same edges but those between a segment and its own ends.
+#![allow(clippy::print_stdout, reason = "a program that prints its figures")]
 
 #[path = "../tests/it/random.rs"]
 mod random;
