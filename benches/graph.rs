@@ -1,5 +1,5 @@
-//! The Voronoi graph alone, beside Boost's algorithm (the crate `boostvoronoi`): the time that so
-//! many random segments take on one thread, for each of them and in units of N·log₂N.
+//! The Voronoi graph alone, beside Boost's algorithm (the crate `boostvoronoi`): the CPU time
+//! that so many random segments take, for each of them and in units of N·log₂N.
 //!
 //! The segments do not touch: one in each cell of a square grid, as in the inputs by which
 //! OpenVoronoi, Boost and VRONI were compared. Each is an owner of its own, so that both have the
@@ -8,16 +8,19 @@
 
 #[path = "../tests/it/random.rs"]
 mod random;
+#[path = "../tests/it/segments.rs"]
+mod segments;
+mod usage;
 
 use std::hint::black_box;
-use std::time::Instant;
 
 use boostvoronoi::prelude::Builder;
-use voromill::board::{Attributes, Axis, Copper, Feature, Shape, Side};
-use voromill::geometry::{Nm, Point};
+use voromill::geometry::Nm;
 use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
 
 use random::splitmix64;
+use segments::{Bare, copper};
+use usage::cpu_seconds;
 
 /// The side of a cell in nanometres: what Boost takes are whole numbers of 32 bits.
 const CELL: i64 = 8_000_000;
@@ -25,7 +28,7 @@ const CELL: i64 = 8_000_000;
 const RUNS: usize = 5;
 
 /// So many segments, x, y, x, y.
-fn segments(count: usize) -> Vec<[i32; 4]> {
+fn scene(count: usize) -> Vec<Bare> {
     let columns = i64::try_from(count).expect("small").isqrt();
     let side = CELL * 100 / columns.max(100);
     let mut seed = 1;
@@ -38,24 +41,12 @@ fn segments(count: usize) -> Vec<[i32; 4]> {
     (0..i64::try_from(count).expect("small")).map(cell).collect()
 }
 
-/// The same as copper without width.
-fn copper(segments: &[[i32; 4]]) -> Copper {
-    let at = |x: i32, y: i32| Point::new(Nm::new(i64::from(x)), Nm::new(i64::from(y)));
-    let feature = |&[ax, ay, bx, by]: &[i32; 4]| {
-        let (from, to) = (at(ax, ay), at(bx, by));
-        let shape = Shape::Stroke { from, to, radius: Nm::ZERO };
-        Feature { axis: Axis::Line(from, to), shape, attributes: 0, line: 0 }
-    };
-    let features = segments.iter().map(feature).collect();
-    Copper { side: Side::Front, features, attributes: vec![Attributes::default()] }
-}
-
-/// How long a run takes at best, in seconds.
+/// The CPU seconds of a run at best.
 fn best<T>(mut run: impl FnMut() -> T) -> f64 {
     let time = |_| {
-        let start = Instant::now();
+        let start = cpu_seconds().expect("Linux");
         black_box(run());
-        start.elapsed().as_secs_f64()
+        cpu_seconds().expect("Linux") - start
     };
     (0..RUNS).map(time).fold(f64::INFINITY, f64::min)
 }
@@ -65,7 +56,7 @@ fn main() {
     println!("| segments | voromill, µs each | µs by N·log₂N | Boost's, µs each | µs by N·log₂N | ratio |");
     println!("|---|---|---|---|---|---|");
     for count in [128, 512, 2_048, 8_192, 32_768, 131_072] {
-        let segments = segments(count);
+        let segments = scene(count);
         let copper = copper(&segments);
         let ours = best(|| {
             let generators = Generators::of_copper(&copper, |i| u32::try_from(i).ok());

@@ -21,6 +21,7 @@ pub(crate) fn cpu_seconds_of(process: &str) -> Option<f64> {
 }
 
 /// Peak resident memory of the process, in MiB.
+#[allow(dead_code, reason = "not every benchmark needs it")]
 pub(crate) fn peak_mib() -> Option<f64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;

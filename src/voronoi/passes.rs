@@ -140,7 +140,10 @@ impl Diagram {
         let is_whole = found.is_some();
         let wider = wider(before, widening.kerf);
         let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), widening.floor - step);
-        let loops = Grooves::new(base.edges.iter().filter(|edge| is_pass(edge)), step / 2);
+        // What also runs in enclosed space minds the loops outside it.
+        let has_both = !further.is_empty() && !self.settings.enclosed;
+        let loops = base.edges.iter().filter(|edge| has_both && is_pass(edge));
+        let loops = Grooves::new(loops, step / 2);
         let innermost = grooves.as_ref().map(|grooves| grooves.within(BESIDE));
         let spikes = Spikes {
             kerf: widening.floor.to_f64(),
@@ -154,14 +157,14 @@ impl Diagram {
         for (number, (&level, mut lines)) in
             wanted.iter().flatten().zip(found.unwrap_or_default()).enumerate()
         {
-            let is_stage_of_loops = number < wanted[0].len() || self.settings.enclosed;
-            if is_stage_of_loops {
+            let minds_loops = number >= wanted[0].len() && !self.settings.enclosed;
+            if !minds_loops {
                 lines.retain(|line| !self.has_loop_at(level, line));
             } else if number == wanted[0].len() && !again.is_empty() {
                 passed = Grooves::new(all.edges[first_pass..].iter(), step / 2);
             }
             let grooves = if level > first { &grooves } else { &innermost };
-            let loops = loops.as_ref().filter(|_| !is_stage_of_loops && level == first);
+            let loops = loops.as_ref().filter(|_| minds_loops && level == first);
             for grooves in wider.iter().chain(grooves).chain(&passed).chain(loops) {
                 lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
             }
@@ -202,10 +205,10 @@ impl Diagram {
             let lines = zone.cleared(passes.residues(all.edges.iter(), before, is_open));
             all.append(self.fitted(&lines));
         }
-        if self.border.frame.is_none() {
+        let within = self.settings.overlap.to_f64();
+        if self.border.frame.is_none() && passes.may_leave_edges(within) {
             let wanted = |at| zone.is_cleared(at, &room);
             let rims = zone.rims(&fence, &room);
-            let within = self.settings.overlap.to_f64();
             let lines = passes.beside_edge(&rims, within, wanted, all.edges.iter(), before);
             all.append(self.fitted(&lines));
         }

@@ -176,17 +176,18 @@ impl Passes<'_> {
         let cleared = self.cleared(cuts, before);
         let strips = edges.par_iter().flat_map_iter(|edge| {
             let right = if edge.left > super::OUTSIDE { self.thin() } else { -self.thin() };
-            let beside_strip = |(at, along): (Spot, Spot)| {
+            stretches(edge, LONG, |at, along| {
                 let beyond = at + Spot::new(along.y, -along.x) * right;
-                let is_strip = cleared.holds(beyond) && !cleared.holds(at);
-                is_strip.then(|| Sample { at, clearance: edge.samples[0].clearance })
-            };
-            let places: Vec<Option<Sample>> = ways(edge, THIN / 2.0).map(beside_strip).collect();
-            let Piece { left, right, .. } = *edge;
-            let part = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
-            runs(&places).filter(|run| length(run) >= LONG).map(part).collect::<Vec<_>>()
+                cleared.holds(beyond) && !cleared.holds(at)
+            })
         });
         strips.collect()
+    }
+
+    /// Whether a strip may stay along the board's edge, which begins so far `within` what passes
+    /// run out to: one nearer to the edge than passes are apart clears it where it is wide enough.
+    pub(super) fn may_leave_edges(&self, within: f64) -> bool {
+        self.step - self.kerf / 2.0 > within
     }
 
     /// The parts of the board's edge, `rims` with the board on their left, beside which something
@@ -199,22 +200,12 @@ impl Passes<'_> {
         cuts: impl Iterator<Item = &'b Boundary>,
         before: &[(Nm, Boundaries)],
     ) -> Vec<Piece> {
-        // A pass nearer to the edge than passes are apart leaves nothing where it is wide enough.
-        if rims.is_empty() || self.step - self.kerf / 2.0 <= within {
-            return Vec::new();
-        }
         let cleared = self.cleared(cuts, before);
         let parts = rims.par_iter().flat_map_iter(|rim| {
-            let clearance = rim.samples.iter().map(|sample| sample.clearance).fold(f64::INFINITY, f64::min);
-            let beside_strip = |(at, along): (Spot, Spot)| {
+            stretches(rim, CRUMB, |at, along| {
                 let on_board = at + Spot::new(-along.y, along.x) * (within + SURE);
-                let is_left = !cleared.holds(on_board) && wanted(on_board);
-                is_left.then_some(Sample { at, clearance })
-            };
-            let places: Vec<Option<Sample>> = ways(rim, THIN / 2.0).map(beside_strip).collect();
-            let Piece { left, right, .. } = *rim;
-            let part = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
-            runs(&places).filter(|run| length(run) >= CRUMB).map(part).collect::<Vec<_>>()
+                !cleared.holds(on_board) && wanted(on_board)
+            })
         });
         parts.collect()
     }
@@ -248,6 +239,17 @@ fn ways(line: &Piece, step: f64) -> impl Iterator<Item = (Spot, Spot)> {
         let along = way * (1.0 / way.length());
         parts((way.length() / step).ceil()).map(move |part| (from + way * part, along))
     })
+}
+
+/// The stretches of a line, no shorter than `long`, at whose places `is_wanted` holds; it is asked
+/// with the direction in which one comes there.
+fn stretches(line: &Piece, long: f64, is_wanted: impl Fn(Spot, Spot) -> bool) -> Vec<Piece> {
+    let clearance = line.samples.iter().map(|sample| sample.clearance).fold(f64::INFINITY, f64::min);
+    let place = |(at, along)| is_wanted(at, along).then_some(Sample { at, clearance });
+    let places: Vec<Option<Sample>> = ways(line, THIN / 2.0).map(place).collect();
+    let Piece { left, right, .. } = *line;
+    let part = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
+    runs(&places).filter(|run| length(run) >= long).map(part).collect()
 }
 
 fn length(samples: &[Sample]) -> f64 {

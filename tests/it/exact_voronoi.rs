@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 
 use boostvoronoi::prelude::{Builder, Diagram as Exact, EdgeIndex};
-use voromill::board::{Attributes, Axis, Copper, Feature, Shape, Side};
-use voromill::geometry::{Nm, Point};
+use voromill::board::Copper;
+use voromill::geometry::Nm;
 use voromill::topology::{self, Method, NetId, Nets};
 use voromill::voronoi::{Diagram, Owner, Settings, exact};
 
@@ -12,6 +12,7 @@ use crate::oracle::field::Spot;
 use crate::oracle::parabola::parabola;
 use crate::oracle::polyline;
 use crate::random::splitmix64;
+use crate::segments::{Bare, copper};
 
 /// Curves by the two nets that they part.
 type Curves = BTreeMap<(NetId, NetId), Vec<Vec<Spot>>>;
@@ -25,9 +26,6 @@ impl Random {
         i32::try_from((high * u64::from(bound.unsigned_abs())) >> 31).expect("below the bound")
     }
 }
-
-/// A bare segment in nanometres: x, y, x, y.
-type Bare = [i32; 4];
 
 /// The side of the square round all scenes.
 const SIDE: i32 = 12_000_000;
@@ -78,17 +76,6 @@ fn scene(seed: u64, count: usize, longest: i32) -> Vec<Bare> {
         segments.extend(net);
     }
     segments
-}
-
-fn copper(segments: &[Bare]) -> Copper {
-    let at = |x: i32, y: i32| Point::new(Nm::new(i64::from(x)), Nm::new(i64::from(y)));
-    let feature = |&[ax, ay, bx, by]: &Bare| {
-        let (from, to) = (at(ax, ay), at(bx, by));
-        let shape = Shape::Stroke { from, to, radius: Nm::ZERO };
-        Feature { axis: Axis::Line(from, to), shape, attributes: 0, line: 0 }
-    };
-    let features = segments.iter().map(feature).collect();
-    Copper { side: Side::Front, features, attributes: vec![Attributes::default()] }
 }
 
 fn pair(a: NetId, b: NetId) -> (NetId, NetId) {

@@ -55,6 +55,7 @@ mod raster;
 mod real_boards;
 mod rules;
 mod scans;
+mod segments;
 mod sets;
 mod snapshot;
 mod strategies;

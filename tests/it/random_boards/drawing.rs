@@ -274,7 +274,7 @@ impl Item {
 impl Drawing {
     /// The copper.
     pub(super) fn copper(&self) -> String {
-        let mut pen = Pen { step: self.step, ..Pen::default() };
+        let mut pen = Pen::new(self.step);
         if let Some(Plane { clearance, joins }) = self.plane {
             let (width, height) = self.size;
             pen.region(&[(0, 0), (width, 0), (width, height), (0, height)]);
@@ -297,7 +297,7 @@ impl Drawing {
         let (left, bottom) = (low.x.get() - margin, low.y.get() - margin);
         let (right, top) = (high.x.get() + margin, high.y.get() + margin);
         let round = round.min((right - left).min(top - bottom) / 2);
-        let mut pen = Pen::default();
+        let mut pen = Pen::new(1);
         pen.take("C,0.1");
         // Straight to one place, then round a corner to the next, as far as the edge has such
         // parts.
@@ -428,15 +428,18 @@ fn polar((x, y): Spot, length: i64, degrees: i64) -> Spot {
 }
 
 /// Writes Gerber.
-#[derive(Default)]
 struct Pen {
     apertures: Vec<String>,
     text: String,
-    /// What places are rounded to; nothing for not at all.
+    /// What places are rounded to.
     step: i64,
 }
 
 impl Pen {
+    fn new(step: i64) -> Self {
+        Self { apertures: Vec::new(), text: String::new(), step }
+    }
+
     /// Takes up an aperture.
     fn take(&mut self, aperture: &str) {
         let known = self.apertures.iter().position(|other| other == aperture).unwrap_or_else(|| {
@@ -452,13 +455,13 @@ impl Pen {
     }
 
     fn to(&mut self, (x, y): Spot, operation: &str) {
-        let [x, y] = [x, y].map(|place| whole(place, self.step.max(1)));
+        let [x, y] = [x, y].map(|place| whole(place, self.step));
         self.write(format_args!("X{x}Y{y}{operation}*\n"));
     }
 
     fn arc(&mut self, (x, y): Spot, (i, j): Spot, left: bool) {
         let way = if left { "G03" } else { "G02" };
-        let [x, y, i, j] = [x, y, i, j].map(|place| whole(place, self.step.max(1)));
+        let [x, y, i, j] = [x, y, i, j].map(|place| whole(place, self.step));
         self.write(format_args!("{way}*\nX{x}Y{y}I{i}J{j}D01*\nG01*\n"));
     }
 

@@ -9,6 +9,7 @@
 //!         Z ───┴──┘
 //! ```
 
+use crate::gcode::read::block::Word;
 use crate::gcode::read::error::ReadError;
 use crate::gcode::read::expression::index;
 use crate::gcode::read::listing::Way;
@@ -51,15 +52,14 @@ impl Machine {
         self.holes = Holes { initial: self.axes[normal].at, ..Holes::default() };
     }
 
-    pub(super) fn drill(&mut self, run: Run<'_>, cycle: Cycle) -> Result<(), ReadError> {
+    /// A hole, of whose words this is the `first`.
+    pub(super) fn drill(&mut self, run: Run<'_>, cycle: Cycle, first: Word) -> Result<(), ReadError> {
         let [a, b, normal] = self.modal.plane.axes();
         if normal != 2 || self.modal.distance == Distance::Incremental || !is_simple(cycle) {
             self.listing.is_indirect(run.line(), "a cycle of this kind");
         }
         let incremental = self.modal.distance == Distance::Incremental;
         self.remember(run, normal, incremental)?;
-        let first = run.block.first("XYZ").or(run.block.radius).or(run.block.angle);
-        let first = first.expect("a word was asked for");
         let (Some(bottom), Some(retract)) = (self.holes.bottom, self.holes.retract) else {
             return Err(run.error(first, "a drilling cycle needs Z and R"));
         };

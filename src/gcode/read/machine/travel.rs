@@ -43,7 +43,7 @@ impl Machine {
             }
             Mode::Feed | Mode::Synchronous { .. } => self.straight(run),
             Mode::Arc(turn) => self.arc(run, turn, first),
-            Mode::Cycle(cycle) => self.drill(run, cycle),
+            Mode::Cycle(cycle) => self.drill(run, cycle, first),
             Mode::Probe => self.probe(run),
             Mode::Curve(curve) => self.curve(run, curve),
         }
