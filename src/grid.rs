@@ -83,6 +83,12 @@ impl Grid {
         self.part((0, top), self.width, height)
     }
 
+    /// Which row of `whole`, of which it is a part, is its first.
+    #[must_use]
+    pub fn first_row(&self, whole: &Self) -> usize {
+        usize::try_from((whole.top - self.top).get() / self.pitch.get()).expect("a part of it")
+    }
+
     /// `width` by `height` of its pixels from a column and row on, as a picture of their own.
     #[must_use]
     pub fn part(&self, (column, row): (u32, u32), width: u32, height: u32) -> Self {

@@ -11,7 +11,7 @@ use voromill::grid::Grid;
 use voromill::import::Loaded;
 use voromill::job::{self, Job, Settings};
 use voromill::report::document::WarningEntry;
-use voromill::report::picture::{self, Depth, Shown};
+use voromill::report::picture::{self, Depth, Ground, Shown, Toolpath};
 use voromill::report::svg::{self, Over};
 use voromill::report::thinning::Thinning;
 use voromill::report::translucent::Translucent;
@@ -364,7 +364,8 @@ impl Drawn {
             | Stage::Toolpath
             | Stage::Thinning => {
                 let shown = self.shown()?;
-                png::bands(&grid, |band| self.stage.coloured(&shown, band))
+                let paint = self.stage.painter(&shown, &grid);
+                png::bands(&grid, paint)
             }
         })
     }
@@ -380,7 +381,7 @@ impl Drawn {
             | Stage::Boundaries
             | Stage::Heat
             | Stage::Toolpath
-            | Stage::Thinning => self.stage.coloured(&self.shown()?, grid),
+            | Stage::Thinning => self.stage.painter(&self.shown()?, &grid)(grid),
         })
     }
 
@@ -415,14 +416,19 @@ impl Stage {
         }
     }
 
-    fn coloured(self, shown: &Shown<'_>, grid: Grid) -> Canvas {
+    /// What paints bands of a picture of `grid`.
+    fn painter<'a>(self, shown: &'a Shown<'a>, grid: &Grid) -> Box<dyn Fn(Grid) -> Canvas + 'a> {
         match self {
-            Self::Nets => picture::nets(shown.board, shown.copper, shown.nets, grid),
-            Self::Voronoi => picture::voronoi(shown, grid),
-            Self::Boundaries => picture::boundaries(shown, grid),
-            Self::Heat => picture::heat(shown, grid),
+            Self::Nets => Box::new(|band| picture::nets(shown.board, shown.copper, shown.nets, band)),
+            Self::Voronoi => {
+                let ground = Ground::new(shown, grid);
+                Box::new(move |band| picture::voronoi(&ground, band))
+            }
+            Self::Boundaries => Box::new(|band| picture::boundaries(shown, band)),
+            Self::Heat => Box::new(|band| picture::heat(shown, band)),
             Self::Toolpath | Self::Copper | Self::Translucent | Self::Depth | Self::Thinning => {
-                picture::toolpath(shown, grid, true)
+                let toolpath = Toolpath::new(shown, grid, true);
+                Box::new(move |band| toolpath.draw(band))
             }
         }
     }

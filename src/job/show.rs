@@ -3,7 +3,7 @@
 use crate::board::Side;
 use crate::geometry::Nm;
 use crate::grid::Grid;
-use crate::report::picture::{self, Shown};
+use crate::report::picture::{self, Shown, Toolpath};
 use crate::report::{legend, png, svg};
 use crate::toolpath::{Placement, Section};
 
@@ -44,8 +44,9 @@ impl Job {
         let area = picture::whole(&self.board, MARGIN)?;
         let caption = self.caption(side, settings);
         let draw = |grid: Grid| {
+            let toolpath = Toolpath::new(&shown, &grid, false);
             png::bands(&grid, |band| {
-                let mut canvas = picture::toolpath(&shown, band, false);
+                let mut canvas = toolpath.draw(band);
                 legend::draw(&mut canvas, &grid, &caption);
                 canvas
             })

@@ -116,7 +116,7 @@ impl Canvas {
     /// Fills a polygon by the non-zero rule.
     pub fn polygon(&mut self, polygon: &Polygon, colour: Rgb, opacity: f32) {
         let mut outline = PathBuilder::new();
-        for ring in polygon.contours() {
+        for ring in polygon.contours().iter().filter(|ring| self.shows(bounds(ring))) {
             for (i, &point) in ring.iter().enumerate() {
                 let (x, y) = self.place(point);
                 if i == 0 { outline.move_to(x, y) } else { outline.line_to(x, y) }
@@ -224,6 +224,10 @@ impl Canvas {
     fn pixels(&self, length: Nm) -> f32 {
         self.grid.pixels(length)
     }
+}
+
+fn bounds(ring: &[Point]) -> Rect {
+    ring.iter().fold(Rect::new(ring[0], ring[0]), |bounds, &p| bounds.union(Rect::new(p, p)))
 }
 
 fn path_of(arc: &Arc) -> Path {

@@ -1,6 +1,7 @@
 //! Pictures of a side: each stage of the work as a person sees it, the front view for both sides.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 use crate::board::{Board, Copper, FLATTEN, Hole, Outline};
 use crate::geometry::{Nm, Path, Point, Rect, Segment};
@@ -59,10 +60,11 @@ pub fn nets(board: &Board, copper: &Copper, nets: &Nets, grid: Grid) -> Canvas {
     canvas
 }
 
-/// Regions, copper and the boundaries between them.
+/// Regions, copper and the boundaries between them, on a band of the picture that `ground` is for.
 #[must_use]
-pub fn voronoi(side: &Shown<'_>, grid: Grid) -> Canvas {
-    let mut canvas = ground(side, grid);
+pub fn voronoi(ground: &Ground<'_>, band: Grid) -> Canvas {
+    let side = ground.side;
+    let mut canvas = ground.canvas(band);
     let lines = side.boundaries.edges.iter().filter(|edge| !edge.is_border()).map(|edge| &edge.path);
     canvas.strokes(lines, Nm::ZERO, CUT, 1.0);
     holes(&mut canvas, &side.board.holes);
@@ -153,46 +155,90 @@ impl<'a> Depth<'a> {
 }
 
 /// Everything: regions, copper, cuts at their true width, holes; with the tool's way through the
-/// air where `rapids`.
-#[must_use]
-pub fn toolpath(side: &Shown<'_>, grid: Grid, rapids: bool) -> Canvas {
-    let mut canvas = ground(side, grid);
-    for section in side.sections {
-        let ways = Ways::of(section, side.placement);
-        for (depth, paths) in &ways.cuts {
-            canvas.strokes(paths, section.tool.width_at(*depth), CUT, 0.92);
-        }
-        if rapids {
-            canvas.strokes(&ways.rapids, Nm::ZERO, RAPID, 0.8);
-        }
+/// air where asked.
+pub struct Toolpath<'a> {
+    ground: Ground<'a>,
+    ways: Vec<(&'a Section, Ways)>,
+    /// What goes all the way through, and how wide: the tabs are where it does not.
+    through: Option<(Vec<Path>, Nm)>,
+    rapids: bool,
+}
+
+impl<'a> Toolpath<'a> {
+    /// A picture of `grid`, with the tool's way through the air where `rapids`.
+    #[must_use]
+    pub fn new(side: &'a Shown<'a>, grid: &Grid, rapids: bool) -> Self {
+        let ways = side.sections.iter().map(|section| (section, Ways::of(section, side.placement)));
+        let through = side.cutout.and_then(|(section, placement)| {
+            let (depth, paths) = Ways::of(section, placement).cuts.pop_last()?;
+            Some((paths, section.tool.width_at(depth)))
+        });
+        Self { ground: Ground::new(side, grid), ways: ways.collect(), through, rapids }
     }
-    if let Some((section, placement)) = side.cutout {
-        // What goes all the way through: the tabs are where it does not.
-        if let Some((depth, paths)) = Ways::of(section, placement).cuts.last_key_value() {
-            canvas.strokes(paths, section.tool.width_at(*depth), EDGE, 0.45);
+
+    /// A band of it.
+    #[must_use]
+    pub fn draw(&self, band: Grid) -> Canvas {
+        let board = self.ground.side.board;
+        let mut canvas = self.ground.canvas(band);
+        for (section, ways) in &self.ways {
+            for (depth, paths) in &ways.cuts {
+                canvas.strokes(paths, section.tool.width_at(*depth), CUT, 0.92);
+            }
+            if self.rapids {
+                canvas.strokes(&ways.rapids, Nm::ZERO, RAPID, 0.8);
+            }
         }
+        if let Some((paths, width)) = &self.through {
+            canvas.strokes(paths, *width, EDGE, 0.45);
+        }
+        if let Some(outline) = &board.outline {
+            canvas.strokes(outline.contours(), Nm::ZERO, EDGE, 0.9);
+        }
+        holes(&mut canvas, &board.holes);
+        canvas
     }
-    if let Some(outline) = &side.board.outline {
-        canvas.strokes(outline.contours(), Nm::ZERO, EDGE, 0.9);
-    }
-    holes(&mut canvas, &side.board.holes);
-    canvas
 }
 
 /// Substrate, regions in their tints, copper.
-fn ground(side: &Shown<'_>, grid: Grid) -> Canvas {
-    let mut canvas = Canvas::new(grid, GROUND);
-    substrate(&mut canvas, side.board.outline.as_ref());
-    let tints = tints(side.nets.nets().len(), side.boundaries);
-    side.diagram.regions(&grid, |row, columns, owner| {
-        if let Owner::Net(net) = owner {
-            canvas.set_row(row, columns, tints[net.index()]);
-        }
-    });
-    for feature in &side.copper.features {
-        canvas.fill(&feature.shape, COPPER);
+///
+/// The regions of the whole picture are found at once: each of its bands would look at all copper.
+pub struct Ground<'a> {
+    side: &'a Shown<'a>,
+    grid: Grid,
+    /// The colour of some columns, row by row.
+    rows: Vec<Vec<(Range<u32>, Rgb)>>,
+}
+
+impl<'a> Ground<'a> {
+    /// That of a picture of `grid`.
+    #[must_use]
+    pub fn new(side: &'a Shown<'a>, grid: &Grid) -> Self {
+        let tints = tints(side.nets.nets().len(), side.boundaries);
+        let mut rows = vec![Vec::new(); grid.height() as usize];
+        side.diagram.regions(grid, |row, columns, owner| {
+            if let Owner::Net(net) = owner {
+                rows[row as usize].push((columns, tints[net.index()]));
+            }
+        });
+        Self { side, grid: *grid, rows }
     }
-    canvas
+
+    /// A band of it.
+    fn canvas(&self, band: Grid) -> Canvas {
+        let mut canvas = Canvas::new(band, GROUND);
+        substrate(&mut canvas, self.side.board.outline.as_ref());
+        let rows = self.rows.iter().skip(band.first_row(&self.grid));
+        for (row, columns) in (0..band.height()).zip(rows) {
+            for (columns, tint) in columns {
+                canvas.set_row(row, columns.clone(), *tint);
+            }
+        }
+        for feature in &self.side.copper.features {
+            canvas.fill(&feature.shape, COPPER);
+        }
+        canvas
+    }
 }
 
 fn substrate(canvas: &mut Canvas, outline: Option<&Outline>) {
