@@ -5,6 +5,8 @@
 //! polygons. Of the libraries tried (a C++ and a Rust Clipper2, `geo`) it was the fastest by a
 //! factor of five, and the one that independent sampling sided with where they disagreed.
 
+use std::ops::Range;
+
 use i_overlay::core::fill_rule::FillRule as LibraryRule;
 use i_overlay::core::overlay::{Overlay, ShapeType};
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -92,6 +94,9 @@ pub fn offset(polygon: &Polygon, by: Nm, tolerance: Nm) -> Vec<Polygon> {
 /// How many pairs of edges that may cross cost as much as a vertex: measured, 0.13 µs beside 1 µs.
 const NEAR_PAIRS: u64 = 8;
 
+/// Edges below which any number of crossings is worked out. Chosen.
+const FEW: usize = 4096;
+
 /// What a crossing costs, in vertices: measured, 5 s for the two million of 4000 edges drawn at
 /// random.
 const CROSSING: u64 = 2;
@@ -99,13 +104,13 @@ const CROSSING: u64 = 2;
 /// Whether the edges of `contours` cross so often that a boolean of them would take minutes and
 /// gigabytes. Contours of fewer than four thousand points are never tangled.
 #[must_use]
-pub fn is_tangled<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> bool {
-    Tangle::of(contours).is_too_much()
+pub fn is_tangled<'a>(contours: impl Iterator<Item = &'a Vec<Point>> + Clone) -> bool {
+    edges_of(contours.clone()) >= FEW && Tangle::of(contours).is_too_much()
 }
 
 /// What a boolean of `contours` takes, in vertices: about a microsecond each.
 #[must_use]
-pub fn effort<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> u64 {
+pub fn effort<'a>(contours: impl Iterator<Item = &'a Vec<Point>> + Clone) -> u64 {
     Tangle::of(contours).effort()
 }
 
@@ -120,25 +125,20 @@ pub(super) struct Tangle {
 }
 
 impl Tangle {
-    pub(super) fn of<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> Self {
+    pub(super) fn of<'a>(contours: impl Iterator<Item = &'a Vec<Point>> + Clone) -> Self {
         /// Chosen: a fraction of what the boolean itself takes, and enough to tell a tangle from a
         /// plane.
         const SAMPLE: usize = 64;
-        let ends = contours.flat_map(|ring| ring.iter().copied().zip(ring.iter().copied().cycle().skip(1)));
-        let edges: Vec<(Rect, (Point, Point))> = ends.map(|(a, b)| (Rect::new(a, b), (a, b))).collect();
-        let sample = edges.iter().step_by(edges.len().div_ceil(SAMPLE).max(1));
-        let sampled = sample.clone().count().max(1);
-        let (mut touched, mut crossed) = (0_usize, 0_usize);
-        for (bounds, edge) in sample {
-            for (_, other) in edges.iter().filter(|(other, _)| bounds.touches(*other)) {
-                touched += 1;
-                crossed += usize::from(cross(*edge, *other));
-            }
-        }
-        let pairs = |count: usize| (count as u64 * edges.len() as u64) / (2 * sampled as u64);
+        let count = edges_of(contours.clone());
+        let all = contours.clone().flat_map(|ring| edges(ring, 0..ring.len()));
+        let sample: Vec<Edge> = all.step_by(count.div_ceil(SAMPLE).max(1)).collect();
+        let sampled = sample.len().max(1);
+        let met = contours.map(|ring| met(&sample, ring));
+        let (touched, crossed) = met.fold((0, 0), |sum, met| (sum.0 + met.0, sum.1 + met.1));
+        let pairs = |found: usize| (found as u64 * count as u64) / (2 * sampled as u64);
         // Each edge touches itself and the two beside it.
         let near = pairs(touched.saturating_sub(3 * sampled));
-        Self { edges: edges.len() as u64, near, crossings: pairs(crossed) }
+        Self { edges: count as u64, near, crossings: pairs(crossed) }
     }
 
     pub(super) const fn effort(self) -> u64 {
@@ -146,12 +146,43 @@ impl Tangle {
     }
 
     pub(super) const fn is_too_much(self) -> bool {
-        /// Edges below which any number of crossings is worked out. Chosen.
-        const FEW: u64 = 4096;
         /// Crossings beyond which a layer of more edges is refused. Chosen.
         const PAIRS: u64 = 20_000_000;
-        self.edges >= FEW && self.near > PAIRS
+        self.edges >= FEW as u64 && self.near > PAIRS
     }
+}
+
+/// The bounds of an edge, and its ends.
+type Edge = (Rect, (Point, Point));
+
+/// The edges of `ring` that begin at its points `at`.
+fn edges(ring: &[Point], at: Range<usize>) -> impl Iterator<Item = Edge> {
+    at.map(|at| (ring[at], ring[(at + 1) % ring.len()])).map(|(a, b)| (Rect::new(a, b), (a, b)))
+}
+
+/// How many pairs of an edge of `sample` and one of `ring` have bounds that touch, and how many
+/// cross.
+fn met(sample: &[Edge], ring: &[Point]) -> (usize, usize) {
+    /// Edges one after another lie together, and most of the sample is far from all of them.
+    /// Chosen.
+    const RUN: usize = 32;
+    let (mut touched, mut crossed) = (0, 0);
+    for from in (0..ring.len()).step_by(RUN) {
+        let run = || edges(ring, from..(from + RUN).min(ring.len()));
+        let Some(around) = run().map(|edge| edge.0).reduce(Rect::union) else { continue };
+        for (bounds, one) in sample.iter().filter(|(bounds, _)| bounds.touches(around)) {
+            for (_, other) in run().filter(|(other, _)| other.touches(*bounds)) {
+                touched += 1;
+                crossed += usize::from(cross(*one, other));
+            }
+        }
+    }
+    (touched, crossed)
+}
+
+/// How many edges `contours` have.
+fn edges_of<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> usize {
+    contours.map(Vec::len).sum()
 }
 
 /// Whether two edges cross between their ends.
@@ -182,4 +213,29 @@ fn int(p: Point) -> IntPoint<i32> {
 
 fn int_length(nm: Nm) -> i32 {
     i32::try_from(nm.clamp(Nm::MIN, Nm::MAX).get()).expect("the range of Nm fits 31 bits")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tangle_is_what_comparing_every_edge_with_the_sample_counts() {
+        let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
+        let ring = |count: i64, step: i64| (0..count).map(|i| at(i * step % 1009, i * i * 7 % 997)).collect();
+        // Longer than a run, a run and shorter, and as many edges as the sample has, or not.
+        for counts in [[500, 32, 3], [64, 33, 31], [1, 2, 61], [0, 0, 0]] {
+            let rings: Vec<Vec<Point>> = counts.iter().map(|&count| ring(count, 5 + count)).collect();
+            let tangle = Tangle::of(rings.iter());
+            let all: Vec<Edge> = rings.iter().flat_map(|ring| edges(ring, 0..ring.len())).collect();
+            let sample: Vec<&Edge> = all.iter().step_by(all.len().div_ceil(64).max(1)).collect();
+            let pairs = sample.iter().flat_map(|one| all.iter().map(move |other| (*one, other)));
+            let touching: Vec<_> = pairs.filter(|(one, other)| one.0.touches(other.0)).collect();
+            let crossing = touching.iter().filter(|(one, other)| cross(one.1, other.1)).count();
+            let share = |found: usize| (found * all.len() / (2 * sample.len().max(1))) as u64;
+            assert_eq!(tangle.edges, all.len() as u64, "edges of {counts:?}");
+            assert_eq!(tangle.near, share(touching.len().saturating_sub(3 * sample.len())), "of {counts:?}");
+            assert_eq!(tangle.crossings, share(crossing), "of {counts:?}");
+        }
+    }
 }

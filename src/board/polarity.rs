@@ -99,7 +99,10 @@ fn dark(objects: Vec<(Feature, Polarity)>) -> impl Iterator<Item = (usize, Featu
 }
 
 /// The polygons of the clear objects `over` a feature.
-fn clips<'a>(clear: &'a [(usize, Polygon)], over: &'a [usize]) -> impl ExactSizeIterator<Item = &'a Polygon> {
+fn clips<'a>(
+    clear: &'a [(usize, Polygon)],
+    over: &'a [usize],
+) -> impl ExactSizeIterator<Item = &'a Polygon> + Clone {
     over.iter().map(|&i| &clear[i].1)
 }
 

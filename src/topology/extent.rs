@@ -55,8 +55,8 @@ fn extent(copper: &Copper, net: &Net) -> Extent {
     let shapes = net.features.iter().map(|&feature| &copper.features[feature as usize].shape);
     let shapes: Vec<&Shape> = shapes.filter(|&shape| seen.insert(shape)).collect();
     let joined = |polygons: Vec<Polygon>| {
-        let mut contours = polygons.iter().flat_map(Polygon::contours);
-        let is_easy = polygons.len() > 1 && !polarity::is_tangled(&mut contours);
+        let contours = polygons.iter().flat_map(Polygon::contours);
+        let is_easy = polygons.len() > 1 && !polarity::is_tangled(contours);
         if is_easy { polarity::union(&polygons) } else { polygons }
     };
     let polygons = |shapes: &[&Shape]| shapes.iter().filter_map(|shape| shape.polygon(CHORDS)).collect();
