@@ -2,6 +2,8 @@
 
 use std::collections::BTreeSet;
 
+use rustc_hash::FxHashSet;
+
 use crate::geometry::{Arc, Nm, Point, Rect, Segment, Turn, Vector};
 
 /// A line or an arc that is no full circle.
@@ -188,7 +190,7 @@ pub(super) fn halves(circle: &Edge, arc: &Arc) -> [Edge; 2] {
 
 /// Leaves out edges of no length and edges drawn twice, either way round.
 pub(super) fn drop_doubles(edges: &mut Vec<Edge>) {
-    let mut seen = BTreeSet::new();
+    let mut seen = FxHashSet::default();
     edges.retain(|edge| {
         let turned = if edge.from <= edge.to { *edge } else { edge.reversed() };
         let round = turned.round.map(|(center, turn)| (center, turn == Turn::Clockwise));

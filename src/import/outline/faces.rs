@@ -4,60 +4,89 @@
 //! on with the edge that turns most to the right. Each face comes out once; bounded ones run
 //! counter-clockwise, the face around a drawing clockwise. The latter is its contour.
 
-use std::collections::BTreeMap;
-
 use super::edge::Edge;
 use super::{Notes, area_mm2};
-use crate::geometry::{Path, Point, Vector};
+use crate::geometry::{Path, Vector};
 use crate::import::diagnostic;
 
 /// The contour around each connected part of `edges`, counter-clockwise. No edge may lead nowhere.
 pub(super) fn outermost(edges: &[Edge], notes: &mut Notes<'_>) -> Vec<Path> {
-    let walks: Vec<Edge> = edges.iter().flat_map(|edge| [*edge, edge.reversed()]).collect();
-    let mut leaving: BTreeMap<Point, Vec<usize>> = BTreeMap::new();
-    for (index, walk) in walks.iter().enumerate() {
-        leaving.entry(walk.from).or_default().push(index);
-    }
-    for around in leaving.values_mut() {
-        around.sort_by(|&a, &b| by_direction(&walks[a], &walks[b]));
-    }
-    let mut walked = vec![false; walks.len()];
+    let walks = Walks::new(edges);
+    let mut walked = vec![false; walks.order.len()];
     let (mut contours, mut bounded) = (Vec::new(), 0_usize);
-    for start in 0..walks.len() {
+    for start in 0..walked.len() {
         if walked[start] {
             continue;
         }
-        let face = face_from(start, &walks, &leaving, &mut walked);
+        let face = walks.face_from(start, &mut walked);
         if area_mm2(&face) < 0.0 { contours.push(face.reversed()) } else { bounded += 1 }
     }
     if bounded > contours.len() {
-        let at = walks.iter().find(|walk| leaving[&walk.from].len() > 2).map(|walk| (walk.from, walk.line));
+        let at = walks.first_of_crowd().map(|walk| (walk.from, walk.line));
         let message = "lines inside the outline touch it; only its outer edge is used";
         notes.add(&diagnostic::OUTLINE_PARTED, message, at);
     }
     contours
 }
 
-/// Walks round the face to the left of `start`.
-fn face_from(
-    start: usize,
-    walks: &[Edge],
-    leaving: &BTreeMap<Point, Vec<usize>>,
-    walked: &mut [bool],
-) -> Path {
-    let mut face = Path { start: walks[start].from, segments: Vec::new() };
-    let mut at = start;
-    while !walked[at] {
-        walked[at] = true;
-        face.segments.push(walks[at].segment());
-        // The way back stands in the order of directions; the one before it, clockwise, goes on
-        // round this face.
-        let around = &leaving[&walks[at].to];
-        let back = at ^ 1;
-        let place = around.iter().position(|&walk| walk == back).unwrap_or(0);
-        at = around[(place + around.len() - 1) % around.len()];
+/// Every edge walked both ways: walk 2i is edge i, walk 2i + 1 its way back.
+struct Walks<'a> {
+    edges: &'a [Edge],
+    /// The walks by the point that they leave, and there by direction.
+    order: Vec<usize>,
+    /// Where each walk stands in that order.
+    place: Vec<usize>,
+}
+
+impl<'a> Walks<'a> {
+    fn new(edges: &'a [Edge]) -> Self {
+        let mut walks =
+            Self { edges, order: (0..2 * edges.len()).collect(), place: vec![0; 2 * edges.len()] };
+        let mut order = std::mem::take(&mut walks.order);
+        order.sort_by(|&a, &b| {
+            let (a, b) = (walks.walk(a), walks.walk(b));
+            a.from.cmp(&b.from).then_with(|| by_direction(&a, &b))
+        });
+        for (place, &walk) in order.iter().enumerate() {
+            walks.place[walk] = place;
+        }
+        Self { order, ..walks }
     }
-    face
+
+    fn walk(&self, index: usize) -> Edge {
+        let edge = &self.edges[index / 2];
+        if index.is_multiple_of(2) { *edge } else { edge.reversed() }
+    }
+
+    /// Walks round the face to the left of `start`.
+    fn face_from(&self, start: usize, walked: &mut [bool]) -> Path {
+        let mut face = Path { start: self.walk(start).from, segments: Vec::new() };
+        let mut at = start;
+        while !walked[at] {
+            walked[at] = true;
+            face.segments.push(self.walk(at).segment());
+            // The way back stands in the order of directions; the one before it, clockwise, goes on
+            // round this face.
+            at = self.before(at ^ 1);
+        }
+        face.segments.shrink_to_fit();
+        face
+    }
+
+    /// The walk from the same point that stands before `walk`; the last one before the first.
+    fn before(&self, walk: usize) -> usize {
+        let (place, from) = (self.place[walk], self.walk(walk).from);
+        let leaves = |walk: &usize| self.walk(*walk).from == from;
+        let previous = place.checked_sub(1).map(|place| self.order[place]).filter(leaves);
+        let last = || self.order[place..].iter().copied().take_while(leaves).last();
+        previous.or_else(last).unwrap_or(walk)
+    }
+
+    /// The first walk that leaves a point together with two others or more.
+    fn first_of_crowd(&self) -> Option<Edge> {
+        let groups = self.order.chunk_by(|&a, &b| self.walk(a).from == self.walk(b).from);
+        groups.filter(|group| group.len() > 2).flatten().min().map(|&walk| self.walk(walk))
+    }
 }
 
 /// Counter-clockwise from −x, and by bend where two edges leave in the same direction.

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::iter::successors;
 
+use rustc_hash::FxHashSet;
+
 use super::Notes;
 use super::edge::Edge;
 use crate::geometry::{Nm, Point, Rect};
@@ -21,15 +23,22 @@ struct End {
     edge: usize,
 }
 
+/// The ends of `edges` with the edge of each, sorted: those that meet stand together.
+fn meeting(edges: &[Edge]) -> Vec<(Point, usize)> {
+    let both = |(index, edge): (usize, &Edge)| [(edge.from, index), (edge.to, index)];
+    let mut meeting: Vec<(Point, usize)> = edges.iter().enumerate().flat_map(both).collect();
+    meeting.sort_unstable();
+    meeting
+}
+
 fn ends(edges: &[Edge]) -> BTreeMap<Point, End> {
-    let mut ends = BTreeMap::<Point, End>::new();
-    for (index, edge) in edges.iter().enumerate() {
-        for p in [edge.from, edge.to] {
-            let end = ends.entry(p).or_default();
-            *end = End { count: end.count + 1, edge: index };
-        }
-    }
-    ends
+    meeting(edges).chunk_by(|a, b| a.0 == b.0).filter_map(end).collect()
+}
+
+/// What ends at the point where all of `meeting` do.
+fn end(meeting: &[(Point, usize)]) -> Option<(Point, End)> {
+    let &(p, edge) = meeting.last()?;
+    Some((p, End { count: u32::try_from(meeting.len()).unwrap_or(u32::MAX), edge }))
 }
 
 /// How far apart ends may be that meet.
@@ -179,11 +188,11 @@ fn is_overrun(end: &Edge, other: &Edge, distance: f64) -> bool {
 /// grows with their number alone. That the nearest come first makes it the same as sorting all
 /// pairs at once.
 fn nearest_pairs(edges: &[Edge], limit: &Limit, loose_only: bool) -> Vec<(f64, Point, Point)> {
-    let mut free = ends(edges);
+    let widest = limit.widest();
+    let mut free = near_loose(edges, widest);
     free.retain(|_, end| end.count == 1 || !loose_only);
     let mut pairs = Vec::new();
-    let widest = limit.widest();
-    let first = (widest > Nm::ZERO).then_some(Nm::new(1));
+    let first = (!free.is_empty()).then_some(Nm::new(1));
     for reach in successors(first, |&reach| (reach < widest).then(|| (reach * 4).min(widest))) {
         let mut round = pairs_within(edges, &free, limit, reach);
         round.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
@@ -195,6 +204,25 @@ fn nearest_pairs(edges: &[Edge], limit: &Limit, loose_only: bool) -> Vec<(f64, P
         }
     }
     pairs
+}
+
+/// The loose ends, and all others that may be within `reach` of one.
+fn near_loose(edges: &[Edge], reach: Nm) -> BTreeMap<Point, End> {
+    if reach <= Nm::ZERO {
+        return BTreeMap::new();
+    }
+    let meeting = meeting(edges);
+    let all = || meeting.chunk_by(|a, b| a.0 == b.0).filter_map(end);
+    let loose = all().filter(|(_, end)| end.count == 1);
+    let cells: FxHashSet<(i64, i64)> = loose.map(|(p, _)| cell(p, reach)).collect();
+    if cells.is_empty() {
+        return BTreeMap::new();
+    }
+    let is_near = |(p, _): &(Point, End)| {
+        let (x, y) = cell(*p, reach);
+        (x - 1..=x + 1).any(|x| (y - 1..=y + 1).any(|y| cells.contains(&(x, y))))
+    };
+    all().filter(is_near).collect()
 }
 
 /// All pairs of a loose end and another one of `free` within `limit` and `reach`.
@@ -268,11 +296,14 @@ pub(super) struct Loose {
 
 /// Leaves out edges that lead nowhere, until all that is left closes.
 pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loose> {
+    let ends = ends(edges);
+    if ends.values().all(|end| end.count > 1) {
+        return None;
+    }
     let dead = dead_ends(edges);
     let left_out = || edges.iter().zip(&dead).filter_map(|(edge, &dead)| dead.then_some(edge));
     let bounds = left_out().map(Edge::bounds).reduce(Rect::union)?;
     let length = left_out().map(Edge::length).fold(0.0, |sum, length| sum + length);
-    let ends = ends(edges);
     let loose = |edge: &Edge| [edge.from, edge.to].into_iter().find(|p| ends[p].count == 1);
     let place = left_out().find_map(|edge| Some((loose(edge)?, edge.line)))?;
     let message = format!(
@@ -289,16 +320,14 @@ pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loos
 /// Which edges lead nowhere: those with a loose end, and those whose end is loose without them, one
 /// after the other.
 fn dead_ends(edges: &[Edge]) -> Vec<bool> {
-    let mut meeting: BTreeMap<Point, Vec<usize>> = BTreeMap::new();
-    for (index, edge) in edges.iter().enumerate() {
-        meeting.entry(edge.from).or_default().push(index);
-        meeting.entry(edge.to).or_default().push(index);
-    }
-    let mut live: BTreeMap<Point, usize> = meeting.iter().map(|(&p, edges)| (p, edges.len())).collect();
+    let meeting = meeting(edges);
+    let groups = meeting.chunk_by(|a, b| a.0 == b.0);
+    let mut live: BTreeMap<Point, usize> = groups.map(|group| (group[0].0, group.len())).collect();
     let mut dead = vec![false; edges.len()];
     let mut loose: Vec<Point> = live.iter().filter(|&(_, &count)| count == 1).map(|(&p, _)| p).collect();
     while let Some(p) = loose.pop() {
-        let Some(&last) = meeting[&p].iter().find(|&&edge| !dead[edge]) else { continue };
+        let here = meeting[meeting.partition_point(|end| end.0 < p)..].iter().take_while(|end| end.0 == p);
+        let Some(last) = here.map(|end| end.1).find(|&edge| !dead[edge]) else { continue };
         dead[last] = true;
         for end in [edges[last].from, edges[last].to] {
             let count = live.entry(end).and_modify(|count| *count -= 1).or_default();

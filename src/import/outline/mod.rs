@@ -17,7 +17,7 @@ mod faces;
 mod heal;
 mod nest;
 
-use std::collections::BTreeMap;
+use std::borrow::Borrow;
 
 use crate::board::Diagnostic;
 use crate::board::{Axis, Feature, Outline, Shape, Warning};
@@ -44,8 +44,13 @@ pub struct Joined {
 /// Joins the axes of `features`, read from the file `file` with content `bytes`, into contours;
 /// ends meet whose strokes touch, and then such as are up to `gap` apart.
 #[must_use]
-pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
-    let mut notes = Notes { file, bytes, lines: BTreeMap::new(), warnings: Vec::new() };
+pub fn join(
+    file: &str,
+    bytes: &[u8],
+    features: impl IntoIterator<Item = impl Borrow<Feature>>,
+    gap: Nm,
+) -> Joined {
+    let mut notes = Notes { file, bytes, lines: Vec::new(), warnings: Vec::new() };
     let (mut edges, mut contours) = collect(features, &mut notes);
     if edges.is_empty() && contours.is_empty() {
         notes.add(&diagnostic::OUTLINE_EMPTY, "the outline layer has nothing that can be cut", None);
@@ -61,7 +66,8 @@ pub fn join(file: &str, bytes: &[u8], features: &[Feature], gap: Nm) -> Joined {
     let loose = heal::prune(&mut edges, &mut notes);
     heal::note_joints(&edges, joints, &mut notes);
     contours.extend(faces::outermost(&edges, &mut notes));
-    contours.sort_by_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
+    drop(edges);
+    contours.sort_by_cached_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
     contours.dedup();
     let contours = nest::without_decoration(contours, &mut notes);
     let contours = nest::without_doubles(contours, gap, &mut notes);
@@ -85,8 +91,8 @@ fn reaches_around(loose: &heal::Loose, outline: &Outline) -> bool {
 pub(in crate::import::outline) struct Notes<'a> {
     file: &'a str,
     bytes: &'a [u8],
-    /// The line of the file that drew a point first.
-    lines: BTreeMap<Point, u32>,
+    /// The line of the file that drew a point first, by point.
+    lines: Vec<(Point, u32)>,
     warnings: Vec<Warning>,
 }
 
@@ -106,22 +112,31 @@ impl Notes<'_> {
         self.warnings.push(warning.caused_by(locate(self.file, self.bytes, bytes)));
     }
 
-    fn drawn(&mut self, at: Point, line: u32) {
-        self.lines.entry(at).or_insert(line);
+    /// Each point that was drawn, in order, with its line.
+    fn drawn(&mut self, lines: Vec<(Point, u32)>) {
+        self.lines = lines;
+        self.lines.sort_by_key(|(p, _)| *p);
+        self.lines.dedup_by_key(|(p, _)| *p);
     }
 
     /// `at`, with the line that drew it; a point that crossing lines made is on the line of one
     /// beside it.
     fn place(&self, at: Point) -> Option<(Point, u32)> {
-        let drawn = self.lines.range(at..).next().or_else(|| self.lines.last_key_value());
-        drawn.map(|(_, &line)| (at, line))
+        let next = self.lines.partition_point(|(p, _)| *p < at);
+        let drawn = self.lines.get(next).or_else(|| self.lines.last());
+        drawn.map(|&(_, line)| (at, line))
     }
 }
 
 /// The axes of drawn features as edges, and the contours of regions, closed as they come.
-fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>) {
+fn collect(
+    features: impl IntoIterator<Item = impl Borrow<Feature>>,
+    notes: &mut Notes<'_>,
+) -> (Vec<Edge>, Vec<Path>) {
     let (mut edges, mut contours, mut flashes) = (Vec::new(), Vec::new(), Vec::new());
+    let mut drawn: Vec<(Point, u32)> = Vec::new();
     for feature in features {
+        let feature: &Feature = feature.borrow();
         let line = feature.line;
         let half = half_width(&feature.shape);
         match (&feature.axis, &feature.shape) {
@@ -132,7 +147,7 @@ fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>
             (Axis::Arc(arc), _) => edges.push(Edge::arc(*arc, line).drawn(half)),
             (Axis::Region, Shape::Polygon(polygon)) => {
                 for ring in polygon.contours() {
-                    ring.iter().for_each(|&corner| notes.drawn(corner, line));
+                    drawn.extend(ring.iter().map(|&corner| (corner, line)));
                     contours.extend(Path::polyline(ring.iter().copied().chain(ring.first().copied())));
                 }
             }
@@ -141,10 +156,8 @@ fn collect(features: &[Feature], notes: &mut Notes<'_>) -> (Vec<Edge>, Vec<Path>
             }
         }
     }
-    for edge in &edges {
-        notes.drawn(edge.from, edge.line);
-        notes.drawn(edge.to, edge.line);
-    }
+    drawn.extend(edges.iter().flat_map(|edge| [(edge.from, edge.line), (edge.to, edge.line)]));
+    notes.drawn(drawn);
     if let Some(&first) = flashes.first() {
         let message = format!("{} flashes on the outline layer are ignored", flashes.len());
         notes.add(&diagnostic::OUTLINE_FLASHES, message, Some(first));

@@ -88,10 +88,14 @@ fn come_near(a: &[Point], b: &[Point], gap: Nm) -> bool {
         let Some(around) = Rect::around(corners.iter().copied()).map(|bounds| bounds.inflate(gap)) else {
             return false;
         };
+        let mut sorted = corners.to_vec();
+        sorted.sort_unstable();
         let mut sides = ring.iter().zip(ring.iter().cycle().skip(1));
         sides.any(|(&from, &to)| {
-            around.touches(Rect::new(from, to))
-                && corners.iter().any(|&p| distance(p, from, to) < gap.to_f64())
+            let near = Rect::new(from, to).inflate(gap);
+            let first = sorted.partition_point(|p| p.x < near.min().x);
+            let mut beside = sorted[first..].iter().take_while(|p| p.x <= near.max().x);
+            around.touches(Rect::new(from, to)) && beside.any(|&p| distance(p, from, to) < gap.to_f64())
         })
     };
     corner_near(a, b) || corner_near(b, a)
@@ -108,4 +112,35 @@ pub(super) fn ring(contour: &Path) -> Option<Polygon> {
     let mut points = contour.flatten(FLATTEN);
     points.pop();
     Polygon::new(vec![points])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As [`come_near`], the obvious way: every corner and every side of the other ring.
+    fn obvious(a: &[Point], b: &[Point], gap: Nm) -> bool {
+        let near = |corners: &[Point], ring: &[Point]| {
+            let sides = || ring.iter().zip(ring.iter().cycle().skip(1));
+            corners.iter().any(|&p| sides().any(|(&from, &to)| distance(p, from, to) < gap.to_f64()))
+        };
+        near(a, b) || near(b, a)
+    }
+
+    #[test]
+    fn rings_come_near_as_if_every_corner_was_looked_at() {
+        let rhomb = |reach: i64, x: i64| {
+            let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
+            [at(x + reach, 0), at(x, reach), at(x - reach, 0), at(x, -reach)]
+        };
+        let outer = rhomb(10_000, 0);
+        let mut found = [0, 0];
+        for x in (-9_000..9_000).step_by(13) {
+            let (inner, gap) = (rhomb(1_000, x), Nm::from_um(100));
+            let is_near = come_near(&outer, &inner, gap);
+            assert_eq!(is_near, obvious(&outer, &inner, gap), "moved by {x} µm");
+            found[usize::from(is_near)] += 1;
+        }
+        assert!(found.iter().all(|&count| count > 10), "both answers: {found:?}");
+    }
 }
