@@ -28,11 +28,12 @@ impl Layer {
     /// # Errors
     ///
     /// [`TooMuch`] for figures made to keep a program busy.
-    pub fn features(&self) -> Result<Vec<Feature>, TooMuch> {
+    pub fn into_features(self) -> Result<Vec<Feature>, TooMuch> {
         let mut effort = Effort::default();
         self.figures.iter().try_for_each(|figure| effort.spend_on(figure))?;
         let mut objects = Vec::with_capacity(self.figures.len());
-        for figure in &self.figures {
+        // Each figure goes as its features come: a large drawing is in memory once.
+        for figure in self.figures {
             objects.extend(figure.features()?.into_iter().map(|feature| (feature, figure.polarity)));
         }
         polarity::resolve(objects)
@@ -125,6 +126,6 @@ mod tests {
         let tangle = area(vec![tangle], FillRule::NonZero, Polarity::Dark);
         let layer = Layer { name: String::new(), figures: vec![tangle; 50] };
         assert_eq!(layer.polygons(Nm::new(100)), Err(TooMuch), "a minute's work");
-        assert_eq!(layer.features(), Err(TooMuch), "as copper, too");
+        assert_eq!(layer.into_features(), Err(TooMuch), "as copper, too");
     }
 }

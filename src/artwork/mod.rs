@@ -36,6 +36,12 @@ impl Artwork {
         self.layers.iter().find(|layer| layer.name.eq_ignore_ascii_case(name))
     }
 
+    /// The figures of all layers, in their order.
+    #[must_use]
+    pub fn into_figures(self) -> Vec<Figure> {
+        self.layers.into_iter().flat_map(|layer| layer.figures).collect()
+    }
+
     /// A rectangle that holds all figures; none without one.
     #[must_use]
     pub fn bounds(&self) -> Option<Rect> {

@@ -39,7 +39,8 @@ impl Build {
         let mut warnings = image.warnings;
         let name = &file.name;
         self.sources.push(Source { role: format!("{side}-copper"), ..image.source });
-        let (features, bare): (Vec<Feature>, Vec<Feature>) = image.features.into_iter().partition(has_area);
+        let mut features = image.features;
+        let bare: Vec<Feature> = features.extract_if(.., |feature| !has_area(feature)).collect();
         if let Some(first) = bare.first() {
             let message = format!("{} objects of {name} have no width and draw no copper", bare.len());
             let warning = diagnostic::ZERO_WIDTH_COPPER.warning(message).at(first.shape.anchor());

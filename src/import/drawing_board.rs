@@ -67,6 +67,7 @@ pub(super) fn load(
         }
     }
     let Some(first) = named.first() else { return Ok(None) };
+    let shown = first.file.shown.clone();
     let mut build = Build::new(naming::whole_board_name(&first.file.name, selection));
     let mut ignored = Vec::new();
     let selected = [&rest.front, &rest.back, &rest.outline].into_iter().flatten().chain(&rest.drill);
@@ -76,10 +77,10 @@ pub(super) fn load(
         (build.board, build.sources, build.warnings) = (loaded.board, loaded.sources, loaded.warnings);
         ignored = loaded.ignored;
     }
-    for named in &named {
+    for named in named {
         add(&mut build, named, selection)?;
     }
-    finish(&mut build, &named[0].file, need)?;
+    finish(&mut build, &shown, need)?;
     Ok(Some(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored }))
 }
 
@@ -111,22 +112,16 @@ fn refuse_pictures<'a>(paths: impl Iterator<Item = &'a PathBuf>) -> Result<(), E
 }
 
 /// Takes over what one drawing has.
-fn add(build: &mut Build, named: &Named, selection: &Selection) -> Result<(), Error> {
-    let Named { file, drawing, layer, role } = named;
-    build.warnings.extend(drawing.warnings.iter().cloned());
-    let whole;
+fn add(build: &mut Build, named: Named, selection: &Selection) -> Result<(), Error> {
+    let Named { file, drawing: Drawing { artwork, source, warnings }, layer, role } = named;
+    build.warnings.extend(warnings);
     let artwork = match layer {
-        None => &drawing.artwork,
-        Some(name) => {
-            let kept = drawing::layer(&drawing.artwork, &file.shown, name)?.clone();
-            whole = artwork::Artwork { layers: vec![kept] };
-            &whole
-        }
+        None => artwork,
+        Some(name) => drawing::layer(artwork, &file.shown, &name)?,
     };
     let parts = match role {
         Some(role) => {
-            let figures = artwork.layers.iter().flat_map(|layer| &layer.figures).cloned().collect();
-            Parts { parts: vec![Part { role: *role, figures }], ..Parts::default() }
+            Parts { parts: vec![Part { role, figures: artwork.into_figures() }], ..Parts::default() }
         }
         None => Parts::of(artwork),
     };
@@ -145,14 +140,14 @@ fn add(build: &mut Build, named: &Named, selection: &Selection) -> Result<(), Er
     for (name, what) in &parts.aside {
         let what = what.unwrap_or("unknown role");
         let role = format!("ignored ({what}: {})", called(name));
-        build.sources.push(Source { role, design: String::new(), ..drawing.source.clone() });
+        build.sources.push(Source { role, design: String::new(), ..source.clone() });
     }
     for part in parts.parts {
         match part.role {
-            Role::Copper(side) => copper(build, named, side, part.figures)?,
-            Role::Outline => edge(build, named, &part.figures, selection),
+            Role::Copper(side) => copper(build, (&file, &source), side, part.figures)?,
+            Role::Outline => edge(build, (&file, &source), part.figures, selection),
             Role::Drill if selection.no_drill => {}
-            Role::Drill => holes(build, named, &part.figures),
+            Role::Drill => holes(build, (&file, &source), &part.figures),
             Role::Group(_) | Role::Other(_) => {}
         }
     }
@@ -167,31 +162,36 @@ fn replace(build: &mut Build, role: &str) {
     }
 }
 
-fn copper(build: &mut Build, named: &Named, side: Side, figures: Vec<Figure>) -> Result<(), Error> {
+fn copper(
+    build: &mut Build,
+    (file, source): (&Found, &Source),
+    side: Side,
+    figures: Vec<Figure>,
+) -> Result<(), Error> {
     let layer = Layer { name: String::new(), figures };
     let too_much = |_| {
         let what = "areas cross each other or themselves too often to be worked out".to_owned();
-        Error::content(&named.file.shown, what, "draw with fewer crossings")
+        Error::content(&file.shown, what, "draw with fewer crossings")
     };
-    let features = layer.features().map_err(too_much)?;
+    let features = layer.into_features().map_err(too_much)?;
     replace(build, &format!("{side}-copper"));
     match side {
         Side::Front => build.board.front = None,
         Side::Back => build.board.back = None,
     }
-    let source = named.drawing.source.clone();
+    let source = source.clone();
     let attributes = vec![Attributes::default()];
     let image = Image { features, attributes, source, function: None, warnings: Vec::new() };
-    build.copper(&named.file, image, side);
+    build.copper(file, image, side);
     Ok(())
 }
 
-fn edge(build: &mut Build, named: &Named, figures: &[Figure], selection: &Selection) {
-    let features: Vec<Feature> = figures.iter().flat_map(middles).collect();
+fn edge(build: &mut Build, (file, source): (&Found, &Source), figures: Vec<Figure>, selection: &Selection) {
+    let features = figures.into_iter().flat_map(|figure| middles(&figure));
     let gap = selection.outline_gap.unwrap_or(outline::GAP);
-    let joined = outline::join(&named.file.name, &named.file.bytes, &features, gap);
+    let joined = outline::join(&file.name, &file.bytes, features, gap);
     replace(build, "outline");
-    build.sources.push(Source { role: "outline".to_owned(), ..named.drawing.source.clone() });
+    build.sources.push(Source { role: "outline".to_owned(), ..source.clone() });
     build.board.outline = joined.outline;
     build.warnings.extend(joined.warnings);
 }
@@ -228,7 +228,7 @@ fn close(path: &Course) -> Course {
 }
 
 /// Takes over the round and obround figures as holes, small ones first.
-fn holes(build: &mut Build, named: &Named, figures: &[Figure]) {
+fn holes(build: &mut Build, (file, source): (&Found, &Source), figures: &[Figure]) {
     let mut holes: Vec<Hole> = Vec::new();
     let mut left_out: Vec<&Figure> = Vec::new();
     for figure in figures {
@@ -265,19 +265,19 @@ fn holes(build: &mut Build, named: &Named, figures: &[Figure]) {
         let message = format!(
             "{} shapes among the holes of {} are neither round nor obround and are not drilled",
             left_out.len(),
-            named.file.name
+            file.name
         );
         let warning = diagnostic::NOT_A_HOLE.warning(message);
         let at = first.bounds().map(|bounds| bounds.min()).unwrap_or_default();
-        warnings.push(warning.at(at).caused_by(named.file.at_line(first.line)));
+        warnings.push(warning.at(at).caused_by(file.at_line(first.line)));
     }
-    build.sources.push(Source { role: "drill".to_owned(), ..named.drawing.source.clone() });
-    build.add_holes(holes, &named.file, &mut warnings);
+    build.sources.push(Source { role: "drill".to_owned(), ..source.clone() });
+    build.add_holes(holes, file, &mut warnings);
     build.warnings.append(&mut warnings);
 }
 
 /// What a board must have.
-fn finish(build: &mut Build, file: &Found, need: Need) -> Result<(), Error> {
+fn finish(build: &mut Build, shown: &str, need: Need) -> Result<(), Error> {
     let has_copper = build.board.front.is_some() || build.board.back.is_some();
     let missing = [diagnostic::COPPER_MISSING, diagnostic::OUTLINE_MISSING, diagnostic::SIZE_IMPLAUSIBLE];
     build.warnings.retain(|warning| !missing.contains(warning.kind));
@@ -290,12 +290,12 @@ fn finish(build: &mut Build, file: &Found, need: Need) -> Result<(), Error> {
     }
     build.warn_of_size();
     if need == Need::Job {
-        build.refuse_size(&file.shown)?;
+        build.refuse_size(shown)?;
         if !has_copper && build.board.holes.is_empty() && build.board.outline.is_none() {
             let hint = Words::of(
                 "name the layers of the drawing, or choose them with {front}, {outline} or {drill}",
             );
-            return Err(Error::content(&file.shown, "nothing of it can be milled", hint));
+            return Err(Error::content(shown, "nothing of it can be milled", hint));
         }
     }
     Ok(())

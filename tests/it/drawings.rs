@@ -559,7 +559,7 @@ fn damage_is_read_or_refused() {
             }
             if let Ok(drawing) = drawing::read(name, &bytes, &in_millimetres()) {
                 drop(drawing.artwork.polygons(Nm::from_um(10)));
-                drawing.artwork.layers.iter().for_each(|layer| drop(layer.features()));
+                drawing.artwork.layers.into_iter().for_each(|layer| drop(layer.into_features()));
             }
         }
     }

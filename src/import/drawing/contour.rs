@@ -93,7 +93,8 @@ impl Contour {
     }
 
     /// The path; none where it leaves the range of coordinates.
-    pub(in crate::import) fn finish(self) -> Option<Path> {
+    pub(in crate::import) fn finish(mut self) -> Option<Path> {
+        self.path.segments.shrink_to_fit();
         (!self.is_beyond).then_some(self.path)
     }
 

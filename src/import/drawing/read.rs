@@ -53,8 +53,7 @@ pub fn open(path: &Path, options: &Options) -> Result<Drawing, Error> {
     let shown = file.display().to_string();
     let mut drawing = read(&name_of(&file), &read_file(&file, &shown)?, options)?;
     if let Some(layer) = layer {
-        let kept = roles::layer(&drawing.artwork, &shown, &layer)?.clone();
-        drawing.artwork.layers = vec![kept];
+        drawing.artwork = roles::layer(drawing.artwork, &shown, &layer)?;
     }
     Ok(drawing)
 }

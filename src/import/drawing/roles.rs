@@ -1,6 +1,6 @@
 //! Which part of a drawing is which layer of a board.
 
-use crate::artwork::{Artwork, Drawn, Figure, Layer, diameter};
+use crate::artwork::{Artwork, Drawn, Figure, diameter};
 use crate::board::Side;
 use crate::geometry::Nm;
 use crate::import::error::Error;
@@ -29,39 +29,38 @@ pub(in crate::import) struct Parts {
 
 impl Parts {
     /// The parts of `artwork` by the names of its layers, or by what is drawn.
-    pub(in crate::import) fn of(artwork: &Artwork) -> Self {
-        let roles: Vec<(&Layer, Option<Role>)> =
-            artwork.layers.iter().map(|layer| (layer, role_of(&layer.name))).collect();
+    pub(in crate::import) fn of(artwork: Artwork) -> Self {
+        let roles: Vec<Option<Role>> = artwork.layers.iter().map(|layer| role_of(&layer.name)).collect();
         let is_known =
             |role: &Option<Role>| matches!(role, Some(Role::Copper(_) | Role::Outline | Role::Drill));
-        if !roles.iter().any(|(_, role)| is_known(role)) {
+        if !roles.iter().any(is_known) {
             return Self::guessed(artwork);
         }
         let mut parts = Self::default();
-        for (layer, role) in roles {
+        for (layer, role) in artwork.layers.into_iter().zip(roles) {
             match role {
-                Some(Role::Other(what)) => parts.aside.push((layer.name.clone(), Some(what))),
-                None | Some(Role::Group(_)) => parts.aside.push((layer.name.clone(), None)),
-                Some(role) => parts.add(role, &layer.figures),
+                Some(Role::Other(what)) => parts.aside.push((layer.name, Some(what))),
+                None | Some(Role::Group(_)) => parts.aside.push((layer.name, None)),
+                Some(role) => parts.add(role, layer.figures),
             }
         }
         parts
     }
 
-    fn add(&mut self, role: Role, figures: &[Figure]) {
+    fn add(&mut self, role: Role, figures: Vec<Figure>) {
         match self.parts.iter_mut().find(|part| part.role == role) {
-            Some(part) => part.figures.extend_from_slice(figures),
-            None => self.parts.push(Part { role, figures: figures.to_vec() }),
+            Some(part) => part.figures.extend(figures),
+            None => self.parts.push(Part { role, figures }),
         }
     }
 
     /// Areas are copper of the front; bare lines are the edge, small circles among them holes.
-    fn guessed(artwork: &Artwork) -> Self {
+    fn guessed(artwork: Artwork) -> Self {
         let mut parts = Self::default();
-        let figures: Vec<Figure> = artwork.layers.iter().flat_map(|layer| &layer.figures).cloned().collect();
+        let figures = artwork.into_figures();
         if figures.iter().any(covers) {
             parts.guess = Some("all of it is read as front copper");
-            parts.add(Role::Copper(Side::Front), &figures);
+            parts.add(Role::Copper(Side::Front), figures);
             return parts;
         }
         let circles = |figure: &Figure| match figure.paths() {
@@ -79,7 +78,7 @@ impl Parts {
         }
         for (role, figures) in [(Role::Outline, edge), (Role::Drill, holes)] {
             if !figures.is_empty() {
-                parts.add(role, &figures);
+                parts.add(role, figures);
             }
         }
         parts
@@ -94,27 +93,28 @@ fn covers(figure: &Figure) -> bool {
     }
 }
 
-/// The layer `name` of a drawing.
-pub(in crate::import) fn layer<'a>(
-    artwork: &'a Artwork,
-    shown: &str,
-    name: &str,
-) -> Result<&'a Layer, Error> {
-    artwork.layer(name).ok_or_else(|| {
-        /// Layers that a message lists. Chosen: fits two lines.
-        const SHOWN: usize = 12;
-        let names: Vec<&str> =
-            artwork.layers.iter().map(|layer| layer.name.as_str()).filter(|name| !name.is_empty()).collect();
-        let more = if names.len() > SHOWN { ", …" } else { "" };
-        let listed = names.iter().take(SHOWN).copied().collect::<Vec<_>>().join(", ");
-        let what = format!("the drawing has no layer `{name}`, or nothing is on it");
-        let hint = if names.is_empty() {
-            "its layers have no names".to_owned()
-        } else {
-            format!("it has {listed}{more}")
-        };
-        Error::content(shown, what, hint)
-    })
+/// The layer `name` of a drawing, alone.
+pub(in crate::import) fn layer(mut artwork: Artwork, shown: &str, name: &str) -> Result<Artwork, Error> {
+    match artwork.layers.iter().position(|layer| layer.name.eq_ignore_ascii_case(name)) {
+        Some(at) => Ok(Artwork { layers: vec![artwork.layers.swap_remove(at)] }),
+        None => Err(no_layer(&artwork, shown, name)),
+    }
+}
+
+fn no_layer(artwork: &Artwork, shown: &str, name: &str) -> Error {
+    /// Layers that a message lists. Chosen: fits two lines.
+    const SHOWN: usize = 12;
+    let names: Vec<&str> =
+        artwork.layers.iter().map(|layer| layer.name.as_str()).filter(|name| !name.is_empty()).collect();
+    let more = if names.len() > SHOWN { ", …" } else { "" };
+    let listed = names.iter().take(SHOWN).copied().collect::<Vec<_>>().join(", ");
+    let what = format!("the drawing has no layer `{name}`, or nothing is on it");
+    let hint = if names.is_empty() {
+        "its layers have no names".to_owned()
+    } else {
+        format!("it has {listed}{more}")
+    };
+    Error::content(shown, what, hint)
 }
 
 /// What a layer is for, by its name; none where that does not tell.

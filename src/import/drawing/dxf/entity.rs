@@ -42,6 +42,8 @@ impl From<NoNumber> for Refusal {
 #[derive(Debug, Default)]
 pub(super) struct Sheet {
     pub(super) layers: Vec<Layer>,
+    /// Where each of them stands, by its name.
+    places: BTreeMap<String, usize>,
     /// What was not, by what it is.
     pub(super) left_out: BTreeMap<String, u64>,
     drawn: usize,
@@ -168,7 +170,8 @@ impl Sheet {
     }
 
     fn layer(&mut self, name: &str) -> &mut Vec<Figure> {
-        let at = self.layers.iter().position(|layer| layer.name == name).unwrap_or_else(|| {
+        let at = self.places.get(name).copied().unwrap_or_else(|| {
+            self.places.insert(name.to_owned(), self.layers.len());
             self.layers.push(Layer { name: name.to_owned(), figures: Vec::new() });
             self.layers.len() - 1
         });

@@ -37,6 +37,8 @@ const MOST_SEGMENTS: usize = 20_000_000;
 #[derive(Debug, Default)]
 pub(super) struct Painted {
     pub(super) layers: Vec<Layer>,
+    /// Where each of them stands, by its name.
+    places: BTreeMap<String, usize>,
     /// Effects that are not followed, and how many of each there are.
     pub(super) effects: BTreeMap<&'static str, u64>,
     /// White figures that erase.
@@ -331,7 +333,8 @@ impl Painted {
     }
 
     fn layer(&mut self, name: &str) -> &mut Vec<Figure> {
-        let at = self.layers.iter().position(|layer| layer.name == name).unwrap_or_else(|| {
+        let at = self.places.get(name).copied().unwrap_or_else(|| {
+            self.places.insert(name.to_owned(), self.layers.len());
             self.layers.push(Layer { name: name.to_owned(), figures: Vec::new() });
             self.layers.len() - 1
         });
