@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::pairs::{NoNumber, Pair, SENTINEL, pairs};
+use super::pairs::{NoNumber, Pair, SENTINEL};
 use crate::import::drawing::Unit;
 use crate::import::error::Error;
 
@@ -11,7 +11,7 @@ use crate::import::error::Error;
 pub(super) struct Entity<'a> {
     /// `LINE`, `CIRCLE`, …
     pub(super) kind: String,
-    pairs: Vec<Pair<'a>>,
+    pairs: &'a [Pair<'a>],
     /// Where its name stands.
     pub(super) at: usize,
     /// The line of that, from 1.
@@ -22,8 +22,8 @@ pub(super) struct Entity<'a> {
 
 impl<'a> Entity<'a> {
     /// All pairs, in file order.
-    pub(super) fn pairs(&self) -> &[Pair<'a>] {
-        &self.pairs
+    pub(super) const fn pairs(&self) -> &'a [Pair<'a>] {
+        self.pairs
     }
 
     /// The first value of `code` as a number.
@@ -52,7 +52,7 @@ impl<'a> Entity<'a> {
     /// The points of `code` and the `code + 10` after it, in order.
     pub(super) fn points(&self, code: i32) -> Result<Vec<(f64, f64)>, NoNumber> {
         let mut points: Vec<(f64, f64)> = Vec::new();
-        for pair in &self.pairs {
+        for pair in self.pairs {
             if pair.code == code {
                 points.push((pair.real()?, 0.0));
             } else if pair.code == code + 10
@@ -113,13 +113,13 @@ const UNITS: [(i64, &str, f64); 11] = [
 ];
 
 impl<'a> Dxf<'a> {
-    pub(super) fn read(name: &str, bytes: &'a [u8]) -> Result<Self, Error> {
-        let pairs = pairs(name, bytes)?;
+    /// What `pairs` say, those of the file `name` with content `bytes`.
+    pub(super) fn read(name: &str, bytes: &'a [u8], pairs: &'a [Pair<'a>]) -> Result<Self, Error> {
         let mut dxf = Self::default();
         let mut section = String::new();
         let mut block: Option<(String, Block<'a>)> = None;
         let mut open = false;
-        let mut records = Records { pairs: pairs.into_iter().peekable(), bytes, counted: (0, 1) };
+        let mut records = Records { pairs, bytes, counted: (0, 1) };
         let no_number = |NoNumber(place)| super::no_number(name, bytes, place);
         while let Some(mut record) = records.next() {
             match record.kind.as_str() {
@@ -127,7 +127,7 @@ impl<'a> Dxf<'a> {
                     section = record.text(2).unwrap_or_default().to_ascii_uppercase();
                     open = true;
                     if section == "HEADER" {
-                        dxf.header(&record.pairs).map_err(no_number)?;
+                        dxf.header(record.pairs).map_err(no_number)?;
                     }
                     continue;
                 }
@@ -202,22 +202,22 @@ impl<'a> Dxf<'a> {
 }
 
 /// Pairs from one code 0 to the next.
-struct Records<'a, I: Iterator<Item = Pair<'a>>> {
-    pairs: std::iter::Peekable<I>,
+struct Records<'a> {
+    /// What is left of them.
+    pairs: &'a [Pair<'a>],
     bytes: &'a [u8],
     /// Up to which byte lines are counted, and the line of that.
     counted: (usize, u32),
 }
 
-impl<'a, I: Iterator<Item = Pair<'a>>> Records<'a, I> {
+impl<'a> Records<'a> {
     /// The next record; what stands before the first is passed over.
     fn next(&mut self) -> Option<Entity<'a>> {
-        while self.pairs.next_if(|pair| pair.code != 0).is_some() {}
-        let first = self.pairs.next()?;
-        let mut pairs = Vec::new();
-        while let Some(pair) = self.pairs.next_if(|pair| pair.code != 0) {
-            pairs.push(pair);
-        }
+        let start = self.pairs.iter().position(|pair| pair.code == 0)?;
+        let (first, rest) = self.pairs[start..].split_first()?;
+        let count = rest.iter().position(|pair| pair.code == 0).unwrap_or(rest.len());
+        let (pairs, rest) = rest.split_at(count);
+        self.pairs = rest;
         let kind = first.text().to_ascii_uppercase();
         let at = first.place.start;
         Some(Entity { kind, pairs, at, line: self.line(at), parts: Vec::new() })
@@ -238,8 +238,8 @@ impl<'a, I: Iterator<Item = Pair<'a>>> Records<'a, I> {
 
     /// Adds to `entity` the vertices or attributes that follow, up to the end of their sequence.
     fn parts(&mut self, entity: &mut Entity<'a>) {
-        let is_part = |pair: &Pair<'a>| matches!(pair.text().as_ref(), "VERTEX" | "ATTRIB" | "SEQEND");
-        while self.pairs.peek().is_some_and(is_part) {
+        let is_part = |pair: &Pair<'_>| matches!(pair.text().as_ref(), "VERTEX" | "ATTRIB" | "SEQEND");
+        while self.pairs.first().is_some_and(is_part) {
             let Some(part) = self.next() else { return };
             if part.kind == "SEQEND" {
                 return;

@@ -67,7 +67,8 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
         let what = format!("a drawing of {} MB is too large", bytes.len() >> 20);
         return Err(Error::content(name, what, "simplify the drawing"));
     }
-    let dxf = Dxf::read(name, bytes)?;
+    let pairs = pairs::pairs(name, bytes)?;
+    let dxf = Dxf::read(name, bytes, &pairs)?;
     let unit = unit(name, &dxf, options)?;
     let sheet = entity::drawn(&dxf, unit.nanometres()).map_err(|refusal| match refusal {
         Refusal::NoNumber(NoNumber(place)) => no_number(name, bytes, place),
