@@ -10,6 +10,7 @@ use std::fmt::Write as _;
 use crate::board::{Shape, Side, polarity};
 use crate::geometry::{Nm, Point, Polygon, Turn, Vector};
 
+use super::cut::cut_in;
 use super::sheet::{Sheet, What};
 
 /// The text of a Gerber file.
@@ -158,55 +159,6 @@ fn simple(polygon: &Polygon) -> Vec<Polygon> {
     if polygon.contours().len() == 1 { vec![polygon.clone()] } else { polarity::clean(polygon.contours()) }
 }
 
-/// The contours of a polygon, the first of them the outer one, as a single ring.
-///
-/// ```text
-///  ┌───────────────┐      From the leftmost corner of a hole a level line leads left to the first edge.
-///  │    ╱──┐       │      Holes are taken from the left, so that edge is of the outer contour or of
-///  p════q  │       │      a hole that is cut in already.
-///  │    ╲──┘       │
-///  └───────────────┘
-/// ```
-fn cut_in(polygon: &Polygon) -> Vec<Point> {
-    let outer = polygon.contours().iter().position(|ring| turns_left(ring)).unwrap_or(0);
-    let mut ring = polygon.contours()[outer].clone();
-    let mut holes: Vec<Vec<Point>> = Vec::new();
-    for (at, hole) in polygon.contours().iter().enumerate() {
-        if at != outer
-            && let Some(first) = (0..hole.len()).min_by_key(|&i| hole[i])
-        {
-            holes.push(hole[first..].iter().chain(&hole[..first]).copied().collect());
-        }
-    }
-    holes.sort_by_key(|hole| hole[0]);
-    for hole in holes {
-        let q = hole[0];
-        let Some((edge, p)) = left_of(&ring, q) else { continue };
-        let cut = [p].into_iter().chain(hole).chain([q, p]);
-        ring.splice(edge + 1..edge + 1, cut);
-    }
-    ring.dedup();
-    ring
-}
-
-/// The edge of a ring that a level line from `q` to the left meets first, and where.
-fn left_of(ring: &[Point], q: Point) -> Option<(usize, Point)> {
-    let ends = ring.iter().zip(ring.iter().cycle().skip(1));
-    let met = ends.enumerate().filter_map(|(edge, (&a, &b))| {
-        if (a.y <= q.y) == (b.y <= q.y) {
-            return None;
-        }
-        let part = (q.y - a.y).to_f64() / (b.y - a.y).to_f64();
-        let x = Nm::from_f64(a.x.to_f64() + (b.x - a.x).to_f64() * part);
-        (x <= q.x).then_some((edge, Point::new(x, q.y)))
-    });
-    met.max_by_key(|(_, p)| p.x)
-}
-
-fn turns_left(ring: &[Point]) -> bool {
-    Polygon::new(vec![ring.to_vec()]).is_some_and(|ring| ring.area_mm2() > 0.0)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -215,25 +167,5 @@ mod tests {
     fn what_means_something_in_a_name_is_escaped() {
         assert_eq!(field("A*B,C%D\\"), "A\\u002AB\\u002CC\\u0025D\\u005C", "signs of the format");
         assert_eq!(field("µ\u{1F600} /RST"), "\\u00B5\\U0001F600 /RST", "no ASCII");
-    }
-
-    #[test]
-    fn holes_are_cut_in_without_loss_of_area() {
-        let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
-        let square = |x: i64, y: i64, side: i64| {
-            vec![at(x, y), at(x + side, y), at(x + side, y + side), at(x, y + side)]
-        };
-        let mut rings = vec![square(0, 0, 10_000)];
-        for (x, y) in [(1000, 1000), (4000, 1500), (7000, 1000), (4000, 6000)] {
-            let mut hole = square(x, y, 1000);
-            hole.reverse();
-            rings.push(hole);
-        }
-        let polygon = Polygon::new(rings).expect("a square with four holes");
-        let ring = cut_in(&polygon);
-        let back = polarity::clean(&[ring]);
-        assert_eq!(back.len(), 1, "one piece");
-        assert_eq!(back[0].contours().len(), 5, "and its holes");
-        assert!((back[0].area_mm2() - polygon.area_mm2()).abs() < 1e-9, "area {}", back[0].area_mm2());
     }
 }

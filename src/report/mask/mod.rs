@@ -15,6 +15,7 @@
 //! one.
 
 mod bitmap;
+mod cut;
 mod drawing;
 mod film;
 mod outline;
