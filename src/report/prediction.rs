@@ -25,6 +25,10 @@ impl PredictionEntry {
     /// less.
     #[must_use]
     pub fn new(copper: &Copper, nets: &Nets, outline: Option<&Outline>, radius: Nm) -> Option<Self> {
+        // With nothing to part, how large the nets are need not be worked out.
+        if nets.nets().len() < 2 {
+            return None;
+        }
         let known = Known::new(copper, nets, &extents(copper, nets), outline)?;
         let (voronoi, outline) = (known.voronoi(), known.outline(radius));
         let length = |mm: f64| Millimetres(Nm::from_f64((mm * 1e6).round()));
