@@ -85,8 +85,8 @@ impl Grid {
 
     /// Which row of `whole`, of which it is a part, is its first.
     #[must_use]
-    pub fn first_row(&self, whole: &Self) -> usize {
-        usize::try_from((whole.top - self.top).get() / self.pitch.get()).expect("a part of it")
+    pub fn first_row(&self, whole: &Self) -> u32 {
+        u32::try_from((whole.top - self.top).get() / self.pitch.get()).expect("a part of it")
     }
 
     /// `width` by `height` of its pixels from a column and row on, as a picture of their own.

@@ -33,7 +33,23 @@ impl Artwork {
     /// The layer `name`, in any case of letters.
     #[must_use]
     pub fn layer(&self, name: &str) -> Option<&Layer> {
-        self.layers.iter().find(|layer| layer.name.eq_ignore_ascii_case(name))
+        self.layers.get(self.place(name)?)
+    }
+
+    /// The layer `name` alone, in any case of letters.
+    ///
+    /// # Errors
+    ///
+    /// All of it where there is none.
+    pub fn into_layer(mut self, name: &str) -> Result<Layer, Self> {
+        match self.place(name) {
+            Some(at) => Ok(self.layers.swap_remove(at)),
+            None => Err(self),
+        }
+    }
+
+    fn place(&self, name: &str) -> Option<usize> {
+        self.layers.iter().position(|layer| layer.name.eq_ignore_ascii_case(name))
     }
 
     /// The figures of all layers, in their order.

@@ -52,8 +52,7 @@ impl Canvas {
     /// How many of its rows lie above the lower edge of `whole`, of which it is a band.
     #[expect(clippy::cast_precision_loss, reason = "a picture is less than 2²⁴ pixels high")]
     pub(super) fn rows_to(&self, whole: &Grid) -> f32 {
-        let rest = self.grid.rect().max().y - whole.rect().min().y;
-        (rest.get() / self.grid.pitch().get()) as f32
+        (whole.height() - self.grid.first_row(whole)) as f32
     }
 
     /// What it covers.
@@ -116,7 +115,9 @@ impl Canvas {
     /// Fills a polygon by the non-zero rule.
     pub fn polygon(&mut self, polygon: &Polygon, colour: Rgb, opacity: f32) {
         let mut outline = PathBuilder::new();
-        for ring in polygon.contours().iter().filter(|ring| self.shows(bounds(ring))) {
+        let bounds = |ring: &[Point]| Rect::around(ring.iter().copied());
+        let shown = |ring: &&Vec<Point>| bounds(ring).is_some_and(|bounds| self.shows(bounds));
+        for ring in polygon.contours().iter().filter(shown) {
             for (i, &point) in ring.iter().enumerate() {
                 let (x, y) = self.place(point);
                 if i == 0 { outline.move_to(x, y) } else { outline.line_to(x, y) }
@@ -224,10 +225,6 @@ impl Canvas {
     fn pixels(&self, length: Nm) -> f32 {
         self.grid.pixels(length)
     }
-}
-
-fn bounds(ring: &[Point]) -> Rect {
-    ring.iter().fold(Rect::new(ring[0], ring[0]), |bounds, &p| bounds.union(Rect::new(p, p)))
 }
 
 fn path_of(arc: &Arc) -> Path {

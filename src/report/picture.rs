@@ -228,7 +228,7 @@ impl<'a> Ground<'a> {
     fn canvas(&self, band: Grid) -> Canvas {
         let mut canvas = Canvas::new(band, GROUND);
         substrate(&mut canvas, self.side.board.outline.as_ref());
-        let rows = self.rows.iter().skip(band.first_row(&self.grid));
+        let rows = self.rows.iter().skip(band.first_row(&self.grid) as usize);
         for (row, columns) in (0..band.height()).zip(rows) {
             for (columns, tint) in columns {
                 canvas.set_row(row, columns.clone(), *tint);

@@ -7,6 +7,7 @@
 
 mod contour;
 pub mod dxf;
+mod layers;
 mod read;
 mod roles;
 mod sheet;

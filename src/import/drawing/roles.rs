@@ -94,10 +94,10 @@ fn covers(figure: &Figure) -> bool {
 }
 
 /// The layer `name` of a drawing, alone.
-pub(in crate::import) fn layer(mut artwork: Artwork, shown: &str, name: &str) -> Result<Artwork, Error> {
-    match artwork.layers.iter().position(|layer| layer.name.eq_ignore_ascii_case(name)) {
-        Some(at) => Ok(Artwork { layers: vec![artwork.layers.swap_remove(at)] }),
-        None => Err(no_layer(&artwork, shown, name)),
+pub(in crate::import) fn layer(artwork: Artwork, shown: &str, name: &str) -> Result<Artwork, Error> {
+    match artwork.into_layer(name) {
+        Ok(layer) => Ok(Artwork { layers: vec![layer] }),
+        Err(artwork) => Err(no_layer(&artwork, shown, name)),
     }
 }
 

@@ -40,22 +40,18 @@ struct Walks<'a> {
 
 impl<'a> Walks<'a> {
     fn new(edges: &'a [Edge]) -> Self {
-        let mut walks =
-            Self { edges, order: (0..2 * edges.len()).collect(), place: vec![0; 2 * edges.len()] };
-        let mut order = std::mem::take(&mut walks.order);
+        let mut order: Vec<usize> = (0..2 * edges.len()).collect();
         order.sort_by(|&a, &b| {
-            let (a, b) = (walks.walk(a), walks.walk(b));
+            let (a, b) = (walk(edges, a), walk(edges, b));
             a.from.cmp(&b.from).then_with(|| by_direction(&a, &b))
         });
-        for (place, &walk) in order.iter().enumerate() {
-            walks.place[walk] = place;
-        }
-        Self { order, ..walks }
+        let mut place = vec![0; order.len()];
+        order.iter().enumerate().for_each(|(at, &walk)| place[walk] = at);
+        Self { edges, order, place }
     }
 
     fn walk(&self, index: usize) -> Edge {
-        let edge = &self.edges[index / 2];
-        if index.is_multiple_of(2) { *edge } else { edge.reversed() }
+        walk(self.edges, index)
     }
 
     /// Walks round the face to the left of `start`.
@@ -87,6 +83,12 @@ impl<'a> Walks<'a> {
         let groups = self.order.chunk_by(|&a, &b| self.walk(a).from == self.walk(b).from);
         groups.filter(|group| group.len() > 2).flatten().min().map(|&walk| self.walk(walk))
     }
+}
+
+/// Edge `index / 2`, back from its end where the index is odd.
+fn walk(edges: &[Edge], index: usize) -> Edge {
+    let edge = edges[index / 2];
+    if index.is_multiple_of(2) { edge } else { edge.reversed() }
 }
 
 /// Counter-clockwise from −x, and by bend where two edges leave in the same direction.

@@ -10,10 +10,11 @@ use super::hatch;
 use super::pairs::NoNumber;
 use super::vertex::{Beyond, Vertex};
 use super::wide;
-use crate::artwork::{Area, Drawn, Figure, Layer, Line};
+use crate::artwork::{Area, Drawn, Figure, Line};
 use crate::board::polarity::{FillRule, Polarity};
 use crate::geometry::{Nm, Path};
 use crate::import::drawing::Contour;
+use crate::import::drawing::layers::Layers;
 
 /// How deep inserts may lie in each other. Chosen: drawings nest a handful.
 const DEEPEST: usize = 24;
@@ -41,9 +42,7 @@ impl From<NoNumber> for Refusal {
 /// What was drawn.
 #[derive(Debug, Default)]
 pub(super) struct Sheet {
-    pub(super) layers: Vec<Layer>,
-    /// Where each of them stands, by its name.
-    places: BTreeMap<String, usize>,
+    pub(super) layers: Layers,
     /// What was not, by what it is.
     pub(super) left_out: BTreeMap<String, u64>,
     drawn: usize,
@@ -117,7 +116,7 @@ impl Sheet {
             if self.steps > MOST_STEPS {
                 return Err(Refusal::TooMany);
             }
-            self.layer(&layer).push(figure);
+            self.layers.of(&layer).push(figure);
         }
         Ok(())
     }
@@ -167,15 +166,6 @@ impl Sheet {
             }
         }
         Ok(())
-    }
-
-    fn layer(&mut self, name: &str) -> &mut Vec<Figure> {
-        let at = self.places.get(name).copied().unwrap_or_else(|| {
-            self.places.insert(name.to_owned(), self.layers.len());
-            self.layers.push(Layer { name: name.to_owned(), figures: Vec::new() });
-            self.layers.len() - 1
-        });
-        &mut self.layers[at].figures
     }
 }
 

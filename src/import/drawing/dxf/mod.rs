@@ -1,4 +1,4 @@
-//! DXF drawings → [`Artwork`]: text and binary, release 12 to 2018.
+//! DXF drawings → [`Artwork`](crate::artwork::Artwork): text and binary, release 12 to 2018.
 //!
 //! ```text
 //!  bytes ─ pairs ─▶ codes and values ─ file ─▶ unit, layers, blocks, entities ─ entity ─▶ Artwork
@@ -25,7 +25,6 @@ mod wide;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::artwork::Artwork;
 use crate::board::{Source, Words};
 use crate::import::diagnostic;
 use crate::import::digest;
@@ -84,7 +83,7 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
     })?;
     let left_out: Vec<String> =
         sheet.left_out.iter().map(|(what, count)| format!("{count} {what}")).collect();
-    if sheet.layers.is_empty() {
+    if sheet.layers.count() == 0 {
         let why = if left_out.is_empty() { String::new() } else { format!(": {}", left_out.join(", ")) };
         let hint = "expected lines, arcs, polylines, splines or hatches in model space";
         return Err(Error::content(name, format!("nothing is drawn in the DXF{why}"), hint));
@@ -99,7 +98,7 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
         warnings.push(diagnostic::DXF_NO_END.warning(message));
     }
     let source = source(name, bytes, &dxf, unit, &sheet);
-    Ok(Drawing { artwork: Artwork { layers: sheet.layers }, source, warnings })
+    Ok(Drawing { artwork: sheet.layers.into_artwork(), source, warnings })
 }
 
 /// An error for what should be a number.
@@ -121,8 +120,7 @@ fn source(name: &str, bytes: &[u8], dxf: &Dxf<'_>, unit: Unit, sheet: &Sheet) ->
     for entity in &dxf.entities {
         *counts.entry(entity.kind.clone()).or_insert(0) += 1;
     }
-    let figures = sheet.layers.iter().map(|layer| layer.figures.len() as u64).sum();
-    counts.insert("figures".to_owned(), figures);
+    counts.insert("figures".to_owned(), sheet.layers.count());
     let sha256 = digest::sha256(bytes);
     let version = dxf.version.as_deref().unwrap_or("unknown version");
     Source {

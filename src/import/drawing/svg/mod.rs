@@ -1,4 +1,4 @@
-//! SVG drawings → [`Artwork`], by the crate `usvg`, which resolves styles, transforms, uses and
+//! SVG drawings → [`Artwork`](crate::artwork::Artwork), by the crate `usvg`, which resolves styles, transforms, uses and
 //! units.
 //!
 //! ```text
@@ -26,7 +26,6 @@ use std::sync::Arc;
 
 use usvg::fontdb;
 
-use crate::artwork::Artwork;
 use crate::board::{Source, Words};
 use crate::import::diagnostic;
 use crate::import::digest;
@@ -75,7 +74,7 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
     let size = Size::of(name, &xml, &tree, options, &mut warnings)?;
     let painted = paint::painted(name, &tree, &document, &size)?;
     let left_out = painted.left_out(&document, options);
-    if painted.layers.iter().all(|layer| layer.figures.is_empty()) {
+    if painted.layers.count() == 0 {
         let why = if left_out.is_empty() { String::new() } else { format!(": {}", left_out.join(", ")) };
         let hint = if document.texts > 0 && options.fonts.is_empty() {
             Words::of("choose a font for its texts with {font} FILE, or convert them to paths")
@@ -98,8 +97,8 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
         let message = format!("{} white shapes of {name} erase what lies below them", painted.erased);
         warnings.push(diagnostic::SVG_WHITE.warning(message));
     }
-    let source = source(name, bytes, &document, &size, painted.figures());
-    Ok(Drawing { artwork: Artwork { layers: painted.layers }, source, warnings })
+    let source = source(name, bytes, &document, &size, painted.layers.count());
+    Ok(Drawing { artwork: painted.layers.into_artwork(), source, warnings })
 }
 
 /// Texts take the font that a person named; nothing is read from the machine.

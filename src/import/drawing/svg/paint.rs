@@ -15,6 +15,7 @@ use crate::artwork::{Area, Drawn, Effort, Figure, Layer, Line};
 use crate::board::polarity::{FillRule, Polarity, TooMuch};
 use crate::board::{FLATTEN, Words};
 use crate::geometry::{self, Nm, Segment};
+use crate::import::drawing::layers::Layers;
 use crate::import::drawing::{Contour, Options, Place};
 use crate::import::error::Error;
 
@@ -36,9 +37,7 @@ const MOST_SEGMENTS: usize = 20_000_000;
 /// What was painted.
 #[derive(Debug, Default)]
 pub(super) struct Painted {
-    pub(super) layers: Vec<Layer>,
-    /// Where each of them stands, by its name.
-    places: BTreeMap<String, usize>,
+    pub(super) layers: Layers,
     /// Effects that are not followed, and how many of each there are.
     pub(super) effects: BTreeMap<&'static str, u64>,
     /// White figures that erase.
@@ -66,13 +65,11 @@ pub(super) fn painted(name: &str, tree: &Tree, document: &Document, size: &Size)
         window: None,
     };
     painted.group(tree.root(), &scope)?;
-    painted.layers.retain(|layer| !layer.figures.is_empty());
-    let figures = || painted.layers.iter().flat_map(|layer| &layer.figures);
-    let clear = figures().filter(|figure| figure.polarity == Polarity::Clear).count() as u64;
-    if clear == painted.figures() {
+    let is_clear = |figure: &&Figure| figure.polarity == Polarity::Clear;
+    let clear = painted.layers.figures().filter(is_clear).count() as u64;
+    if clear == painted.layers.count() {
         // White alone is what was meant.
-        let all = painted.layers.iter_mut().flat_map(|layer| &mut layer.figures);
-        all.for_each(|figure| figure.polarity = Polarity::Dark);
+        painted.layers.figures_mut().for_each(|figure| figure.polarity = Polarity::Dark);
     } else {
         painted.erased = clear;
     }
@@ -114,11 +111,6 @@ impl Scope<'_> {
 }
 
 impl Painted {
-    /// How many figures there are.
-    pub(super) fn figures(&self) -> u64 {
-        self.layers.iter().map(|layer| layer.figures.len() as u64).sum()
-    }
-
     /// What is not drawn, in words.
     pub(super) fn left_out(&self, document: &Document, options: &Options) -> Vec<String> {
         let texts = if options.fonts.is_empty() { document.texts } else { 0 };
@@ -242,7 +234,7 @@ impl Painted {
         if !inner.effects.is_empty() {
             return Ok(None);
         }
-        let figures: Vec<Figure> = inner.layers.into_iter().flat_map(|layer| layer.figures).collect();
+        let figures = inner.layers.into_artwork().into_figures();
         let window = || {
             let pieces = Layer { name: String::new(), figures }.polygons_at(FLATTEN, &mut self.effort)?;
             Window::new(pieces, &mut self.effort)
@@ -298,7 +290,7 @@ impl Painted {
                 }
             };
             self.clipped += u64::from(seen.is_none());
-            self.layer(&scope.layer).extend(seen);
+            self.layers.of(&scope.layer).extend(seen);
         }
         Ok(())
     }
@@ -330,15 +322,6 @@ impl Painted {
             }
         };
         Figure { drawn, polarity, line: 1 }
-    }
-
-    fn layer(&mut self, name: &str) -> &mut Vec<Figure> {
-        let at = self.places.get(name).copied().unwrap_or_else(|| {
-            self.places.insert(name.to_owned(), self.layers.len());
-            self.layers.push(Layer { name: name.to_owned(), figures: Vec::new() });
-            self.layers.len() - 1
-        });
-        &mut self.layers[at].figures
     }
 }
 
