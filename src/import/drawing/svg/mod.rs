@@ -1,5 +1,5 @@
-//! SVG drawings → [`Artwork`](crate::artwork::Artwork), by the crate `usvg`, which resolves styles, transforms, uses and
-//! units.
+//! SVG drawings → [`Artwork`](crate::artwork::Artwork), by the crate `usvg`, which resolves styles,
+//! transforms, uses and units.
 //!
 //! ```text
 //!  bytes ─ document ─▶ groups with names, size, counts ─ usvg ─▶ paths ─ paint ─▶ Artwork
@@ -7,8 +7,7 @@
 //!
 //! What is painted counts: fills by their rule, strokes with caps, joins and dashes, cut where a
 //! clipping path or a mask ends. White erases what was painted before it, where anything else is
-//! painted at all. y points up; the lower left
-//! corner of the page is zero.
+//! painted at all. y points up; the lower left corner of the page is zero.
 //!
 //! # Sources
 //!
