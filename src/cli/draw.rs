@@ -12,6 +12,7 @@ use voromill::import::Loaded;
 use voromill::job::{self, Job, Settings};
 use voromill::report::document::WarningEntry;
 use voromill::report::picture::{self, Depth, Ground, Shown, Toolpath};
+use voromill::report::relief::Relief;
 use voromill::report::svg::{self, Over};
 use voromill::report::thinning::Thinning;
 use voromill::report::translucent::Translucent;
@@ -71,6 +72,7 @@ Examples:
   voromill draw board-F_Cu.gbr --stage copper --dpi 500 -o copper.png
   voromill draw board/ -o front.svg
   voromill draw board/ -o -                    look at it here
+  voromill draw board/ --stage milled -o milled.png   the board as it comes from the mill
   voromill draw board/ --stage toolpath --side back --window 10mm,5mm,20mm,15mm --pixel 10um -o detail.png";
 
 /// A stage that can be looked at.
@@ -93,6 +95,9 @@ enum Stage {
     Depth,
     /// What is cut, at its true width, and the way through the air
     Toolpath,
+    /// The side as it comes from the mill, drilled and cut out, seen at a slant: what the programs
+    /// mill, read back; the back as one sees it who has turned the board over
+    Milled,
     /// The bare board worn away to lines by a cellular automaton, as Cisolate does: dark what goes
     /// first, blue and magenta where three and four lines meet; a picture by its own pixels
     Thinning,
@@ -158,7 +163,11 @@ impl Draw {
         } else {
             Nm::ZERO
         };
-        let margin = if format == Format::Svg { MARGIN.max(rim) } else { rim + settings.picture_pixel() * 4 };
+        let margin = match (format, self.stage) {
+            (_, Stage::Milled) => rim + settings.cutout_tool.width_at(settings.thickness) + MARGIN,
+            (Format::Svg, _) => MARGIN.max(rim),
+            _ => rim + settings.picture_pixel() * 4,
+        };
         let area = area.or_else(|| picture::whole(&loaded.board, margin));
         let area = area.ok_or_else(|| job::Error::NoCopper("to draw".to_owned()))?;
         let sampled =
@@ -173,8 +182,8 @@ impl Draw {
             Side::Front => loaded.board.back = None,
             Side::Back => loaded.board.front = None,
         }
-        let drawn = Drawn::new(self.stage, loaded, side, &settings)?;
-        let warnings = drawn.job.as_ref().map_or(read, |job| job.describe(&settings).warnings);
+        let drawn = Drawn::new(self.stage, loaded, side, settings)?;
+        let warnings = drawn.job.as_ref().map_or(read, |job| job.describe(&drawn.settings).warnings);
         self.input.judge(&warnings)?;
         let bytes = match format {
             Format::Png => drawn.png(grid)?,
@@ -323,15 +332,16 @@ struct Drawn {
     /// The job; none for stages that come before it.
     job: Option<Job>,
     board: Board,
+    settings: Settings,
 }
 
 impl Drawn {
-    fn new(stage: Stage, loaded: Loaded, side: Side, settings: &Settings) -> Result<Self, Failure> {
+    fn new(stage: Stage, loaded: Loaded, side: Side, settings: Settings) -> Result<Self, Failure> {
         loaded.board.copper(side).ok_or_else(|| no_copper(side))?;
         let board = loaded.board.clone();
         let early = matches!(stage, Stage::Copper | Stage::Translucent);
-        let job = if early { None } else { Some(job::mill(loaded, settings)?) };
-        Ok(Self { stage, side, job, board })
+        let job = if early { None } else { Some(job::mill(loaded, &settings)?) };
+        Ok(Self { stage, side, job, board, settings })
     }
 
     fn copper(&self) -> Result<&Copper, Failure> {
@@ -340,6 +350,12 @@ impl Drawn {
 
     fn shown(&self) -> Result<Shown<'_>, Failure> {
         Ok(self.job.as_ref().and_then(|job| job.shown(self.side)).ok_or_else(|| no_copper(self.side))?)
+    }
+
+    /// What is milled in the area of `grid`.
+    fn milled(&self, grid: &Grid) -> Result<Relief<impl Fn(&Grid) -> Vec<f32>>, Failure> {
+        let job = self.job.as_ref().ok_or_else(|| no_copper(self.side))?;
+        Ok(job.milled(self.side, (grid.rect(), grid.pitch()), &self.settings)?)
     }
 
     /// As a PNG, band by band.
@@ -357,6 +373,7 @@ impl Drawn {
                 let translucent = self.translucent(&grid)?;
                 png::bands(&grid, |band| translucent.draw(band))
             }
+            Stage::Milled => self.milled(&grid)?.png(),
             Stage::Nets
             | Stage::Voronoi
             | Stage::Boundaries
@@ -376,6 +393,10 @@ impl Drawn {
             Stage::Copper => Canvas::grey(grid, &picture::copper(self.copper()?, &grid)),
             Stage::Depth => Canvas::grey(grid, &Depth::new(self.shown()?.diagram, &grid).greys(&grid)),
             Stage::Translucent => self.translucent(&grid)?.draw(grid),
+            Stage::Milled => {
+                let milled = self.milled(&grid)?;
+                milled.draw(*milled.grid())
+            }
             Stage::Nets
             | Stage::Voronoi
             | Stage::Boundaries
@@ -393,7 +414,7 @@ impl Drawn {
     fn svg(&self, area: Rect) -> Result<String, Failure> {
         let over = match self.stage {
             Stage::Nets => return Ok(svg::nets(&self.shown()?, area)),
-            Stage::Translucent | Stage::Heat | Stage::Depth | Stage::Thinning => {
+            Stage::Translucent | Stage::Heat | Stage::Depth | Stage::Milled | Stage::Thinning => {
                 return Err(no_svg());
             }
             Stage::Copper => Over::Nothing,
@@ -412,7 +433,9 @@ impl Stage {
     const fn shows_frame(self) -> bool {
         match self {
             Self::Copper | Self::Nets | Self::Translucent | Self::Thinning => false,
-            Self::Voronoi | Self::Boundaries | Self::Heat | Self::Depth | Self::Toolpath => true,
+            Self::Voronoi | Self::Boundaries | Self::Heat | Self::Depth | Self::Toolpath | Self::Milled => {
+                true
+            }
         }
     }
 
@@ -426,7 +449,12 @@ impl Stage {
             }
             Self::Boundaries => Box::new(|band| picture::boundaries(shown, band)),
             Self::Heat => Box::new(|band| picture::heat(shown, band)),
-            Self::Toolpath | Self::Copper | Self::Translucent | Self::Depth | Self::Thinning => {
+            Self::Toolpath
+            | Self::Copper
+            | Self::Translucent
+            | Self::Depth
+            | Self::Milled
+            | Self::Thinning => {
                 let toolpath = Toolpath::new(shown, grid, true);
                 Box::new(move |band| toolpath.draw(band))
             }

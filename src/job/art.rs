@@ -5,7 +5,8 @@ use crate::board::Warning;
 use crate::board::polarity::difference;
 use crate::gcode::{self, Header, Input};
 use crate::geometry::{Nm, Polygon, Rect};
-use crate::report::relief::relief;
+use crate::grid::Grid;
+use crate::report::relief::{Material, Relief};
 use crate::toolpath::{Placement, Program, Section, Statistics, ToolKind, measure};
 use crate::verify::carving::{self, Text};
 use crate::verify::{Cutter, CutterKind};
@@ -111,7 +112,8 @@ pub(super) fn picture(programs: &[OneTool], areas: &[Polygon], width: u32) -> Re
     let around = areas.iter().map(Polygon::bounds).reduce(Rect::union);
     let around = around.ok_or_else(|| Error::NoCopper("to show".to_owned()))?.inflate(MARGIN);
     let pitch = around.width() / i64::from(width.max(1)) + Nm::new(1);
-    Ok(relief(|at| milled.depth(at), around, pitch)?)
+    let depths = |grid: &Grid| milled.depths(grid);
+    Ok(Relief::new(depths, milled.deepest(), (around, pitch), Material::Wood)?.png())
 }
 
 /// What programs do, a line for each.

@@ -1,11 +1,13 @@
 //! A job as its pictures.
 
 use crate::board::Side;
-use crate::geometry::Nm;
+use crate::geometry::{Nm, Rect};
 use crate::grid::Grid;
 use crate::report::picture::{self, Shown, Toolpath};
+use crate::report::relief::{Material, Relief};
 use crate::report::{legend, png, svg};
 use crate::toolpath::{Placement, Section};
+use crate::verify;
 
 use super::{Error, Job, Layer, Part, Settings};
 
@@ -53,6 +55,41 @@ impl Job {
         };
         let grid = legend::grid(area, settings.picture_pixel(), MOST);
         Some(grid.map(draw).map_err(Error::from))
+    }
+
+    /// `side` as it comes from the mill, drilled and cut out, seen at a slant by someone who stands
+    /// before it: the back is mirrored. `area` is the part of the board, `pitch` its pixels. All is
+    /// what the texts of the programs mill; of those that run with the other side up one sees where
+    /// they go through.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Verify`] for a program that cannot be followed, [`Error::Grid`] for pixels that are
+    /// too small or too many.
+    pub fn milled(
+        &self,
+        side: Side,
+        (area, pitch): (Rect, Nm),
+        settings: &Settings,
+    ) -> Result<Relief<impl Fn(&Grid) -> Vec<f32>>, Error> {
+        let thickness = settings.thickness;
+        let own = self.surface(|up| up == side, settings)?;
+        let other = self.surface(|up| up != side, settings)?;
+        let width = Grid::covering(area, pitch)?.width() as usize;
+        let depths = move |grid: &Grid| {
+            let mut depths = own.depths(grid);
+            for (depth, below) in depths.iter_mut().zip(other.depths(grid)) {
+                if f64::from(below) >= thickness.to_f64() {
+                    *depth = depth.max(below);
+                }
+            }
+            if side == Side::Back {
+                depths.chunks_mut(width).for_each(<[f32]>::reverse);
+            }
+            depths
+        };
+        let material = Material::Clad { copper: verify::Settings::default().copper, thickness };
+        Ok(Relief::new(depths, thickness, (area, pitch), material)?)
     }
 
     /// `side` with its cuts as SVG. None where the side has no copper.

@@ -2,7 +2,7 @@
 
 use crate::board::Side;
 use crate::toolpath;
-use crate::verify::{self, Known, Placement, Program, Report, Role, verify};
+use crate::verify::{self, Known, Placement, Program, Report, Role, Surface, verify};
 
 use super::{Error, Job, Part, Settings, Written};
 
@@ -18,40 +18,42 @@ impl Job {
     ///
     /// [`Error::Verify`] where a program cannot be followed.
     pub fn verify(&self, settings: &Settings) -> Result<Report, Error> {
-        let everything = settings.options().clear == Some(true);
-        let tolerance = settings.tolerance;
-        let asked = settings.clearing.drawn(everything, tolerance);
-        let programs: Vec<Program> = self
-            .programs
-            .iter()
-            // The holes for turning several tiles over lie beside all of them.
-            .filter(|written| written.part != Part::Alignment || settings.tiles.is_none())
-            .map(|written| Program {
-                file: written.file_name(&self.board.name, settings),
-                text: written.tile.as_ref().unwrap_or(&written.text).clone(),
-                role: Some(role(written.part)),
-                cutter: None,
-                placement: Some(self.laid(written)),
-                asked: asked.clone(),
-            })
-            .collect();
+        let programs = self.judged(settings, |_| true);
         let known: Vec<Known<'_>> =
             self.layers.iter().map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
-        let usual = verify::Settings::default();
-        // What the settings allow is no finding.
-        let judging = verify::Settings {
-            diameter: if settings.one_drill {
-                verify::Settings::ANY_DIAMETER
-            } else {
-                usual.diameter.max(settings.drill_tolerance)
-            },
-            board: settings.thickness,
-            travel: settings.machine.travel,
-            tabs: settings.tabs.count(),
-            tab_width: Some(settings.tab_width),
-            ..usual
+        Ok(verify(&programs, &self.board, &known, &judging(settings))?)
+    }
+
+    /// What those of its programs mill that run with such a side up, read back from their texts.
+    ///
+    /// # Errors
+    ///
+    /// As for [`verify`](Self::verify).
+    pub(super) fn surface(
+        &self,
+        is_up: impl Fn(Side) -> bool,
+        settings: &Settings,
+    ) -> Result<Surface, Error> {
+        let programs = self.judged(settings, |written| is_up(written.side));
+        Ok(Surface::of_board(&programs, &self.board, &judging(settings))?)
+    }
+
+    /// Those of its programs that `which` asks for, as the judge takes them: of one tile.
+    fn judged(&self, settings: &Settings, which: impl Fn(&Written) -> bool) -> Vec<Program> {
+        let everything = settings.options().clear == Some(true);
+        let asked = settings.clearing.drawn(everything, settings.tolerance);
+        // The holes for turning several tiles over lie beside all of them.
+        let is_beside = |written: &Written| written.part == Part::Alignment && settings.tiles.is_some();
+        let wanted = self.programs.iter().filter(|written| which(written) && !is_beside(written));
+        let program = |written: &Written| Program {
+            file: written.file_name(&self.board.name, settings),
+            text: written.tile.as_ref().unwrap_or(&written.text).clone(),
+            role: Some(role(written.part)),
+            cutter: None,
+            placement: Some(self.laid(written)),
+            asked: asked.clone(),
         };
-        Ok(verify(&programs, &self.board, &known, &judging)?)
+        wanted.map(program).collect()
     }
 
     /// How the board lies while a program runs.
@@ -60,6 +62,23 @@ impl Job {
         let mirror = (written.side == Side::Back).then_some(self.axis);
         let degrees = rotation.degrees();
         Placement { degrees, shift, mirror }
+    }
+}
+
+/// What the judge tolerates: what the settings allow is no finding.
+fn judging(settings: &Settings) -> verify::Settings {
+    let usual = verify::Settings::default();
+    verify::Settings {
+        diameter: if settings.one_drill {
+            verify::Settings::ANY_DIAMETER
+        } else {
+            usual.diameter.max(settings.drill_tolerance)
+        },
+        board: settings.thickness,
+        travel: settings.machine.travel,
+        tabs: settings.tabs.count(),
+        tab_width: Some(settings.tab_width),
+        ..usual
     }
 }
 

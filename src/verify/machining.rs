@@ -18,6 +18,8 @@ pub(super) struct Machining {
     pub(super) placement: Placement,
     /// What it says, until that was looked at.
     pub(super) motions: Vec<Motion>,
+    /// With what.
+    pub(super) tools: Tools,
     /// What was assumed to follow it.
     pub(super) notes: Vec<Note>,
     /// What is cut away, deep enough to part the copper.
@@ -105,7 +107,7 @@ impl Machining {
         if let Some(degrees) = point.and_then(|angle| angle.strip_suffix("deg")?.parse::<f64>().ok()) {
             declared.cutters.iter_mut().for_each(|(_, cutter)| *cutter = cutter.pointed(degrees));
         }
-        let tools = Tools { only: program.cutter, declared: &declared.cutters };
+        let tools = Tools { only: program.cutter, declared: declared.cutters };
         let role = match program.role.or(declared.role) {
             Some(role) => role,
             None => {
@@ -123,19 +125,20 @@ impl Machining {
             role,
             placement,
             motions: listing.motions,
+            tools,
             notes: listing.notes,
             swept: Vec::new(),
             plunges: Vec::new(),
             kerfs: Vec::new(),
             asked: program.asked.clone().unwrap_or_else(|| Asked::declared(&program.text)),
         };
-        machining.sweep(&tools, settings)?;
+        machining.sweep(settings)?;
         machining.plunge();
         Ok(machining)
     }
 
     /// Collects what is cut.
-    fn sweep(&mut self, tools: &Tools<'_>, settings: &Settings) -> Result<(), Error> {
+    fn sweep(&mut self, settings: &Settings) -> Result<(), Error> {
         let copper = settings.copper;
         let mut deepest: Vec<(Cutter, Nm)> = Vec::new();
         for motion in &self.motions {
@@ -147,7 +150,7 @@ impl Machining {
             if !within_range(&[from, to]) {
                 return Err(Error::Range { file: self.file.clone(), line: motion.line });
             }
-            let Some(cutter) = tools.at(motion.line) else {
+            let Some(cutter) = self.tools.at(motion.line) else {
                 return Err(Error::NoTool { file: self.file.clone(), line: motion.line });
             };
             match deepest.iter_mut().find(|(known, _)| *known == cutter) {
@@ -203,14 +206,15 @@ impl Machining {
 }
 
 /// The tools of a program by line.
-struct Tools<'a> {
+#[derive(Debug)]
+pub(super) struct Tools {
     only: Option<Cutter>,
-    declared: &'a [(u32, Cutter)],
+    declared: Vec<(u32, Cutter)>,
 }
 
-impl Tools<'_> {
+impl Tools {
     /// The tool that cuts in `line`.
-    fn at(&self, line: u32) -> Option<Cutter> {
+    pub(super) fn at(&self, line: u32) -> Option<Cutter> {
         let before = self.declared.partition_point(|(from, _)| *from <= line);
         self.only.or_else(|| Some(self.declared[before.checked_sub(1)?].1))
     }
@@ -309,7 +313,7 @@ pub(super) fn part(axis: &Shape, from: f64, to: f64) -> Shape {
 
 /// What a program is for, by its motions: drilling where it never goes sideways below the surface,
 /// cutting out where it goes deeper than copper asks for, else isolating the side that has copper.
-fn guess(motions: &[Motion], tools: &Tools<'_>, board: &Board) -> Option<Role> {
+fn guess(motions: &[Motion], tools: &Tools, board: &Board) -> Option<Role> {
     let sunk = |motion: &&Motion| heights(motion).is_some_and(|(a, b)| a.min(b) < Nm::ZERO);
     let sideways =
         |motion: &Motion| motion.from.point() != motion.to.point() || matches!(motion.way, Way::Arc { .. });

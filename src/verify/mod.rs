@@ -62,6 +62,7 @@ mod ruling;
 mod runs;
 mod sheet;
 mod spans;
+mod surface;
 mod tiles;
 mod walls;
 mod width;
@@ -84,6 +85,7 @@ pub use diff::{Change, Comparison, Region, Spot, diff};
 pub use placement::Placement;
 pub use register::{Orientation, register};
 pub use report::{Finding, Judged, Report};
+pub use surface::Surface;
 pub use tiles::Tiles;
 
 use bores::Bores;

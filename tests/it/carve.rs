@@ -4,7 +4,8 @@ use voromill::geometry::{Nm, Point, Polygon, Rect};
 use voromill::import::text::text;
 use voromill::job::{Art, Carving, Engraving, Inlay, Options, Settings, carve};
 use voromill::toolpath::{Angle, ToolKind};
-use voromill::verify::carving::{Milled, Text, milled};
+use voromill::verify::Surface;
+use voromill::verify::carving::{Text, milled};
 use voromill::verify::{Cutter, CutterKind};
 
 use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, voromill, word};
@@ -133,7 +134,7 @@ fn what_stands_is_as_sharp_as_what_is_sunk() {
 }
 
 /// How deep the programs of one half mill at a place of the machine.
-fn surface(made: &Engraving) -> Milled {
+fn surface(made: &Engraving) -> Surface {
     let texts = made.programs.iter().map(|one| {
         let cutter = match one.program.sections[0].tool.kind {
             ToolKind::VBit { tip, angle } => Cutter { kind: CutterKind::VBit, tip, degrees: angle.degrees() },

@@ -525,7 +525,9 @@ fn a_window_of_copper_is_white_where_a_pixels_centre_is_copper() {
 fn every_stage_can_be_drawn() {
     let out = folder();
     let board = fixture("boards/blinker");
-    for stage in ["copper", "nets", "voronoi", "boundaries", "heat", "depth", "toolpath", "thinning"] {
+    for stage in
+        ["copper", "nets", "voronoi", "boundaries", "heat", "depth", "toolpath", "milled", "thinning"]
+    {
         let picture = format!("{stage}.png");
         let arguments =
             ["draw", &board.to_string_lossy(), "--stage", stage, "--pixel", "0.1mm", "-o", &picture];

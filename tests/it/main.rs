@@ -36,6 +36,7 @@ mod level;
 mod machine;
 mod mask;
 mod medial_axis;
+mod milled;
 mod millproject;
 mod mixed;
 mod mutations;

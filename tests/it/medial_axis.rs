@@ -73,6 +73,23 @@ fn diagram(area: &Polygon) -> (Diagram, bool) {
     (others.min_by_key(|diagram| diagram.faults().len()).expect("some"), true)
 }
 
+/// An area without the corners that lie within 20 nm of the one before.
+fn welded(area: &Polygon) -> Polygon {
+    let ring = |corners: &Vec<Point>| {
+        let mut kept: Vec<Point> = Vec::new();
+        for &corner in corners {
+            if kept.last().is_none_or(|last| last.distance(corner) > 20.0) {
+                kept.push(corner);
+            }
+        }
+        if kept.len() > 3 && kept[0].distance(kept[kept.len() - 1]) <= 20.0 {
+            kept.pop();
+        }
+        kept
+    };
+    Polygon::new(area.contours().iter().map(ring).collect()).expect("rings of some corners")
+}
+
 /// A curve with the box round it: left, bottom, right, top.
 struct Curve(Vec<Spot>, [f64; 4]);
 
@@ -138,11 +155,25 @@ fn exact(area: &Polygon) -> Option<Vec<Curve>> {
         };
         let i = (points.len() - 1) / 2;
         let middle = [0, 1].map(|axis| f64::midpoint(points[i][axis], points[i + 1][axis]));
-        if is_inside(area, middle) {
+        let is_bend = match sites {
+            [(a, None), (b, None)] => !is_straight(segments[a], segments[b]),
+            _ => true,
+        };
+        if is_bend && is_inside(area, middle) {
             curves.push(Curve::new(points));
         }
     }
     Some(curves)
+}
+
+/// Whether two segments meet in a corner that is none to our diagram: of less than 3 µrad, which
+/// rounding to nanometres makes of what is straight.
+fn is_straight(a: [i32; 4], b: [i32; 4]) -> bool {
+    let meet = |[.., x, y]: [i32; 4], [u, v, ..]: [i32; 4]| (x, y) == (u, v);
+    let way = |[ax, ay, bx, by]: [i32; 4]| [f64::from(bx) - f64::from(ax), f64::from(by) - f64::from(ay)];
+    let ([ax, ay], [bx, by]) = (way(a), way(b));
+    let sine = (ax * by - ay * bx) / ((ax * ax + ay * ay) * (bx * bx + by * by)).sqrt();
+    (meet(a, b) || meet(b, a)) && sine.abs() < 3e-6 && ax * bx + ay * by > 0.0
 }
 
 /// The segment that an edge is beside, and which of its ends if it is only that.
@@ -197,7 +228,9 @@ impl Compared {
         let (diagram, is_shaken) = diagram(area);
         self.shaken += usize::from(is_shaken);
         self.faults += usize::from(!diagram.faults().is_empty());
-        let Some(exact) = exact(area) else {
+        // What ours welds the other takes as it is, down to notches of two nanometres.
+        let other = if is_shaken { welded(area) } else { area.clone() };
+        let Some(exact) = exact(&other) else {
             self.failed += 1;
             return;
         };
@@ -233,8 +266,8 @@ impl Compared {
         assert_eq!(self.faults, 0, "{name}: no diagram has a fault");
         let worst = [&self.missing, &self.clearance].map(|found| found[found.len() - 1]);
         assert!(worst.iter().all(|&worst| worst < 1_000.0), "{name}: {worst:?} nm off");
-        let off = self.off[self.off.len() * 99 / 100];
-        assert!(off < 1_000.0, "{name}: of 99 in 100 places of ours the worst is {off} nm off");
+        let off = self.off[self.off.len() * 9_999 / 10_000];
+        assert!(off < 1_000.0, "{name}: of 9999 in 10 000 places of ours the worst is {off} nm off");
     }
 
     /// The same, where all of our edges are edges of the other.
@@ -275,8 +308,8 @@ fn the_medial_axis_of_capitals_is_that_of_another_algorithm() {
 /// `VOROMILL_ARTWORK` is set, else every fourth, and none where they are not at hand. (Stroked
 /// circles of some meet in edges of two nanometres: there corners that all but meet are one.)
 ///
-/// All edges of the other are ours; why in some drawings a few of ours lie up to 55 µm beside its
-/// own is not known.
+/// All edges of the other are ours. One of ours is none of its own: between the two ends of an edge
+/// of 45 nm that was welded, straight away from both.
 #[test]
 #[cfg_attr(debug_assertions, ignore = "slow without optimisation")]
 fn the_medial_axis_of_drawings_is_that_of_another_algorithm() {

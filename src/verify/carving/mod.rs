@@ -11,8 +11,6 @@
 //! Distances are measured to the edges themselves, and what is milled to the motions that the text
 //! is read back as: no medial axis, no diagram, nothing of the planner.
 
-mod milled;
-
 use crate::board::Diagnostic;
 use crate::board::diagnostic::planning;
 use rayon::prelude::*;
@@ -21,11 +19,10 @@ use super::check;
 use super::cutter::Cutter;
 use super::edges::Edges;
 use super::report::Finding;
+use super::surface::{self, Surface};
 use super::{Error, ReadError};
 use crate::gcode::read::{self, Listing, Way};
 use crate::geometry::{Nm, Point, Polygon, Rect};
-
-pub use milled::Milled;
 
 /// What should be carved, on the machine.
 #[derive(Clone, Debug)]
@@ -106,7 +103,7 @@ struct Off {
 /// [`Error::Read`] for a text that cannot be followed.
 pub fn carving(programs: &[Text<'_>], ideal: &Ideal<'_>) -> Result<Carved, Error> {
     let listings = followed(programs)?;
-    let mut carved = compare(&Milled::new(&listings, milled::CHORD), ideal);
+    let mut carved = compare(&Surface::new(&listings, surface::CHORD), ideal);
     let harm = programs.iter().zip(&listings).flat_map(|(program, (listing, _))| {
         harm(listing).into_iter().map(|found| Finding { program: Some(program.file.to_owned()), ..found })
     });
@@ -119,8 +116,8 @@ pub fn carving(programs: &[Text<'_>], ideal: &Ideal<'_>) -> Result<Carved, Error
 /// # Errors
 ///
 /// [`Error::Read`] for a text that cannot be followed.
-pub fn milled(programs: &[Text<'_>]) -> Result<Milled, Error> {
-    Ok(Milled::new(&followed(programs)?, milled::COARSE))
+pub fn milled(programs: &[Text<'_>]) -> Result<Surface, Error> {
+    Ok(Surface::new(&followed(programs)?, surface::COARSE))
 }
 
 /// What programs do, each with its tool.
@@ -163,7 +160,7 @@ pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
     findings
 }
 
-fn compare(milled: &Milled, ideal: &Ideal<'_>) -> Carved {
+fn compare(milled: &Surface, ideal: &Ideal<'_>) -> Carved {
     let Some(bounds) = ideal.areas.iter().map(Polygon::bounds).reduce(Rect::union) else {
         return Carved::default();
     };
@@ -269,7 +266,7 @@ struct Row {
 
 impl Row {
     /// Looks at a place inside or outside the areas.
-    fn look(&mut self, at: (f64, f64), inside: bool, milled: &Milled, edges: &Edges, limits: &Limits) {
+    fn look(&mut self, at: (f64, f64), inside: bool, milled: &Surface, edges: &Edges, limits: &Limits) {
         self.places += 1;
         let depth = milled.depth(at);
         if !inside {
