@@ -130,7 +130,8 @@ impl Area {
         if polarity::is_tangled(rings.iter()) {
             return Err(TooMuch);
         }
-        Ok(polarity::filled(&rings, self.rule))
+        let circles = self.contours.iter().flat_map(Path::circles).collect();
+        Ok(polarity::of_circles(polarity::filled(&rings, self.rule), circles))
     }
 }
 

@@ -15,8 +15,9 @@ use i_overlay::i_float::int::point::IntPoint;
 use i_overlay::mesh::int::arc::ArcOptions;
 use i_overlay::mesh::int::outline::offset::IntOutlineOffset;
 use i_overlay::mesh::int::style::{IntLineJoin, IntOutlineStyle};
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
-use crate::geometry::{Nm, Orientation, Point, Polygon, Rect, orientation};
+use crate::geometry::{Circle, Nm, Orientation, Point, Polygon, Rect, orientation};
 
 /// Which points contours, taken together, have inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -51,30 +52,31 @@ pub fn clean(contours: &[Vec<Point>]) -> Vec<Polygon> {
 
 /// What at least one of `polygons` covers, one polygon for each connected piece.
 ///
-/// Each must be simple, as [`clean`] and the other functions here return them.
+/// Each must be simple, as [`clean`] and the other functions here return them. What they remember
+/// of circles is kept, here and in the others.
 #[must_use]
 pub fn union<'a>(polygons: impl IntoIterator<Item = &'a Polygon>) -> Vec<Polygon> {
-    let mut overlay = Overlay::new(0);
-    polygons.into_iter().for_each(|polygon| add(&mut overlay, polygon, ShapeType::Subject));
-    self::polygons(overlay.overlay(OverlayRule::Subject, LibraryRule::NonZero))
+    let mut operands = Operands::new();
+    polygons.into_iter().for_each(|polygon| operands.add(polygon, ShapeType::Subject));
+    operands.overlay(OverlayRule::Subject)
 }
 
 /// What `subject` covers and none of `clips` does; polygons as for [`union`].
 #[must_use]
 pub fn difference<'a>(subject: &Polygon, clips: impl IntoIterator<Item = &'a Polygon>) -> Vec<Polygon> {
-    let mut overlay = Overlay::new(0);
-    add(&mut overlay, subject, ShapeType::Subject);
-    clips.into_iter().for_each(|clip| add(&mut overlay, clip, ShapeType::Clip));
-    polygons(overlay.overlay(OverlayRule::Difference, LibraryRule::NonZero))
+    let mut operands = Operands::new();
+    operands.add(subject, ShapeType::Subject);
+    clips.into_iter().for_each(|clip| operands.add(clip, ShapeType::Clip));
+    operands.overlay(OverlayRule::Difference)
 }
 
 /// What both cover; polygons as for [`union`].
 #[must_use]
 pub fn intersection(a: &Polygon, b: &Polygon) -> Vec<Polygon> {
-    let mut overlay = Overlay::new(0);
-    add(&mut overlay, a, ShapeType::Subject);
-    add(&mut overlay, b, ShapeType::Clip);
-    polygons(overlay.overlay(OverlayRule::Intersect, LibraryRule::NonZero))
+    let mut operands = Operands::new();
+    operands.add(a, ShapeType::Subject);
+    operands.add(b, ShapeType::Clip);
+    operands.overlay(OverlayRule::Intersect)
 }
 
 /// `polygon` grown by `by` on every side, with round corners within `tolerance`; shrunk where `by`
@@ -193,10 +195,54 @@ fn cross((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
     is_parted(a, b, c, d) && is_parted(c, d, a, b)
 }
 
-fn add(overlay: &mut Overlay<i32>, polygon: &Polygon, kind: ShapeType) {
-    for ring in polygon.contours() {
-        overlay.add_path_iter(ring.iter().copied().map(int), kind);
+/// What a boolean is of.
+struct Operands {
+    overlay: Overlay<i32>,
+    circles: Vec<Circle>,
+}
+
+impl Operands {
+    fn new() -> Self {
+        Self { overlay: Overlay::new(0), circles: Vec::new() }
     }
+
+    fn add(&mut self, polygon: &Polygon, kind: ShapeType) {
+        for ring in polygon.contours() {
+            self.overlay.add_path_iter(ring.iter().copied().map(int), kind);
+        }
+        self.circles.extend_from_slice(polygon.circles());
+    }
+
+    fn overlay(mut self, rule: OverlayRule) -> Vec<Polygon> {
+        of_circles(polygons(self.overlay.overlay(rule, LibraryRule::NonZero)), self.circles)
+    }
+}
+
+/// Polygons that remember those of `circles` that reach them.
+pub(crate) fn of_circles(polygons: Vec<Polygon>, mut circles: Vec<Circle>) -> Vec<Polygon> {
+    circles.sort_unstable();
+    circles.dedup();
+    let Some(index) = index(circles.iter().map(|circle| circle.bounds())) else { return polygons };
+    let remembering = |polygon: Polygon| {
+        let mut near = query(&index, polygon.bounds());
+        near.sort_unstable();
+        polygon.of_circles(near.into_iter().map(|i| circles[i]))
+    };
+    polygons.into_iter().map(remembering).collect()
+}
+
+/// An index of rectangles; none for no rectangle.
+pub(super) fn index(rects: impl ExactSizeIterator<Item = Rect>) -> Option<StaticAABB2DIndex<i64>> {
+    let mut builder = StaticAABB2DIndexBuilder::new(rects.len());
+    for rect in rects {
+        builder.add(rect.min().x.get(), rect.min().y.get(), rect.max().x.get(), rect.max().y.get());
+    }
+    builder.build().ok()
+}
+
+/// The rectangles of `index` that touch `rect`.
+pub(super) fn query(index: &StaticAABB2DIndex<i64>, rect: Rect) -> Vec<usize> {
+    index.query(rect.min().x.get(), rect.min().y.get(), rect.max().x.get(), rect.max().y.get())
 }
 
 fn polygons(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> Vec<Polygon> {

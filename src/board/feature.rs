@@ -2,7 +2,7 @@
 //!
 //! The shape decides contact and distance; the axis is kept for the paper's core medial axes.
 
-use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Turn, Vector};
+use crate::geometry::{Arc, Circle, Nm, Point, Polygon, Rect, Turn, Vector};
 
 use super::boolean;
 
@@ -114,7 +114,9 @@ impl Shape {
             Self::Disc { center, radius } => Polygon::disc(center, radius, tolerance),
             Self::Stroke { from, to, radius } => {
                 let ends = [from, to].map(|end| Polygon::disc(end, radius, tolerance));
-                Polygon::hull(ends.iter().flatten().flat_map(|end| end.contours()[0].iter().copied()))
+                let points = ends.iter().flatten().flat_map(|end| end.contours()[0].iter().copied());
+                let circles = [from, to].map(|center| Circle { center, radius });
+                Polygon::hull(points).map(|hull| hull.of_circles(circles))
             }
             Self::Arc { ref arc, radius } => swept_arc(arc, radius, tolerance),
         }
@@ -149,7 +151,12 @@ fn swept_arc(arc: &Arc, radius: Nm, tolerance: Nm) -> Option<Polygon> {
     }
     let ends = [arc.start, arc.end].map(|end| Polygon::disc(end, radius, tolerance));
     contours.extend(ends.iter().flatten().map(|end| end.contours()[0].clone()));
-    boolean::clean(&contours).into_iter().next()
+    let around = |center: Point, radius: f64| Circle { center, radius: Nm::from_f64(radius) };
+    let sides = [radius, -radius].map(|out| arc.radius() + out.to_f64());
+    let sides = sides.into_iter().filter(|&side| side > 0.0).map(|side| around(arc.center, side));
+    let caps = [arc.start, arc.end].map(|end| around(end, radius.to_f64()));
+    let circles: Vec<Circle> = sides.chain(caps).collect();
+    boolean::clean(&contours).into_iter().next().map(|polygon| polygon.of_circles(circles))
 }
 
 /// How a feature was drawn: the paper's vertices and approximate core medial axis (§III-A.1,

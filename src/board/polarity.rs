@@ -1,14 +1,13 @@
 //! What clear polarity leaves of the copper, and exact polygon booleans.
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use crate::geometry::Polygon;
 
-use crate::geometry::{Polygon, Rect};
-
+pub(crate) use super::boolean::of_circles;
 pub use super::boolean::{
     FillRule, clean, difference, effort, filled, intersection, is_tangled, offset, union,
 };
 
-use super::boolean::Tangle;
+use super::boolean::{Tangle, index, query};
 use super::{FLATTEN, Feature, Shape};
 
 /// Whether an object adds copper or takes away what was drawn before it.
@@ -134,25 +133,11 @@ pub fn twice_area(polygon: &Polygon) -> i128 {
     polygon.edges().map(|(a, b)| i128::from((a - origin).cross(b - origin))).sum()
 }
 
-/// An index of rectangles; none for no rectangle.
-fn index(rects: impl ExactSizeIterator<Item = Rect>) -> Option<StaticAABB2DIndex<i64>> {
-    let mut builder = StaticAABB2DIndexBuilder::new(rects.len());
-    for rect in rects {
-        builder.add(rect.min().x.get(), rect.min().y.get(), rect.max().x.get(), rect.max().y.get());
-    }
-    builder.build().ok()
-}
-
-/// The rectangles of `index` that touch `rect`.
-fn query(index: &StaticAABB2DIndex<i64>, rect: Rect) -> Vec<usize> {
-    index.query(rect.min().x.get(), rect.min().y.get(), rect.max().x.get(), rect.max().y.get())
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::Axis;
     use super::*;
-    use crate::geometry::{Nm, Point};
+    use crate::geometry::{Nm, Point, Rect};
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::from_um(x), Nm::from_um(y))

@@ -24,6 +24,23 @@ impl Turn {
     }
 }
 
+/// A circle, as a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub struct Circle {
+    /// The point in its middle.
+    pub center: Point,
+    /// How far it is from there.
+    pub radius: Nm,
+}
+
+impl Circle {
+    /// A rectangle that holds it.
+    #[must_use]
+    pub fn bounds(self) -> Rect {
+        Rect::new(self.center, self.center).inflate(self.radius)
+    }
+}
+
 /// A circular arc from `start` round `center` to `end`; a full circle where `start` and `end` are
 /// the same point.
 ///
@@ -54,6 +71,13 @@ impl Arc {
     #[must_use]
     pub fn drift(&self) -> f64 {
         (self.radius() - self.center.distance(self.end)).abs()
+    }
+
+    /// The circle that it is a part of, to a nanometre; none where its two radii differ by more.
+    #[must_use]
+    pub fn circle(&self) -> Option<Circle> {
+        let radius = f64::midpoint(self.radius(), self.center.distance(self.end));
+        (self.drift() <= 1.0).then(|| Circle { center: self.center, radius: Nm::from_f64(radius) })
     }
 
     /// The angle from +x to the start, in radians within −π..=π.

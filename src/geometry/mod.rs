@@ -22,7 +22,7 @@ mod path;
 mod point;
 mod polygon;
 
-pub use arc::{Arc, Turn};
+pub use arc::{Arc, Circle, Turn};
 pub use length::ParseLengthError;
 pub(crate) use length::nanometres;
 pub(crate) use nearest::{between, off_segment, part_nearest};

@@ -1,6 +1,6 @@
 //! Connected lines and arcs: what a stroke, a contour or a cut follows.
 
-use super::{Arc, Nm, Point, Rect, Turn, Vector};
+use super::{Arc, Circle, Nm, Point, Rect, Turn, Vector};
 
 /// A step of a [`Path`], from where the one before it ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -100,6 +100,11 @@ impl Path {
     pub fn steps(&self) -> impl Iterator<Item = (Point, &Segment)> {
         let starts = std::iter::once(self.start).chain(self.segments.iter().map(Segment::to));
         starts.zip(&self.segments)
+    }
+
+    /// The circles that its arcs are parts of.
+    pub fn circles(&self) -> impl Iterator<Item = Circle> {
+        self.steps().filter_map(|(from, segment)| segment.arc(from)?.circle())
     }
 
     /// The same path walked from its end.

@@ -1,6 +1,6 @@
 //! Filled areas of closed contours, and their clipping to rectangles.
 
-use super::{Nm, Orientation, Point, Rect, Vector, orientation};
+use super::{Circle, Nm, Orientation, Point, Rect, Vector, orientation};
 
 /// A filled area: closed contours, of which each point counts as inside by the non-zero winding
 /// rule.
@@ -10,9 +10,13 @@ use super::{Nm, Orientation, Point, Rect, Vector, orientation};
 /// Every contour has at least three points; the closing edge from last to first is implied. A
 /// polygon that comes from a boolean is simple: outer contours counter-clockwise, holes clockwise,
 /// no crossing.
+///
+/// Where its edges are chords of curves it may remember of which circles, in any order: what knows
+/// arcs can take them for arcs again.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct Polygon {
     contours: Vec<Vec<Point>>,
+    circles: Vec<Circle>,
 }
 
 impl Polygon {
@@ -21,13 +25,27 @@ impl Polygon {
     #[must_use]
     pub fn new(mut contours: Vec<Vec<Point>>) -> Option<Self> {
         contours.retain(|contour| contour.len() >= 3);
-        (!contours.is_empty()).then_some(Self { contours })
+        (!contours.is_empty()).then_some(Self { contours, circles: Vec::new() })
+    }
+
+    /// The same, with some of its edges chords of `circles`, within the tolerance of what flattened
+    /// them.
+    #[must_use]
+    pub fn of_circles(mut self, circles: impl IntoIterator<Item = Circle>) -> Self {
+        self.circles.extend(circles);
+        self
+    }
+
+    /// The circles that edges may be chords of.
+    #[must_use]
+    pub fn circles(&self) -> &[Circle] {
+        &self.circles
     }
 
     /// The rectangle as a polygon.
     #[must_use]
     pub fn rectangle(rect: Rect) -> Self {
-        Self { contours: vec![rect.corners().to_vec()] }
+        Self { contours: vec![rect.corners().to_vec()], circles: Vec::new() }
     }
 
     /// The contours, each a ring of at least three points.
@@ -86,7 +104,11 @@ impl Polygon {
     /// Moved by `way`.
     #[must_use]
     pub fn translated(&self, way: Vector) -> Self {
-        Self { contours: self.contours.iter().map(|ring| ring.iter().map(|&p| p + way).collect()).collect() }
+        let circles = self.circles.iter().map(|&circle| Circle { center: circle.center + way, ..circle });
+        Self {
+            contours: self.contours.iter().map(|ring| ring.iter().map(|&p| p + way).collect()).collect(),
+            circles: circles.collect(),
+        }
     }
 
     /// What of it lies within `rect`, contour by contour; none where nothing does. Edges may run
@@ -98,7 +120,8 @@ impl Polygon {
         if within(self.bounds()) {
             return Some(self.clone());
         }
-        Self::new(self.contours.iter().map(|ring| clip(ring.clone(), rect)).collect())
+        let clipped = Self::new(self.contours.iter().map(|ring| clip(ring.clone(), rect)).collect())?;
+        Some(clipped.of_circles(self.circles.iter().copied()))
     }
 
     /// The total length of all edges, in nanometres.
@@ -120,7 +143,8 @@ impl Polygon {
             let (sin, cos) = libm::sincos(angle);
             Point::from_f64(x + radius.to_f64() * cos, y + radius.to_f64() * sin)
         };
-        Self::new(vec![(0..4 * quarter).map(point).collect()])
+        let disc = Self::new(vec![(0..4 * quarter).map(point).collect()])?;
+        Some(disc.of_circles([Circle { center, radius }]))
     }
 
     /// The convex hull of `points`, counter-clockwise, without points on its edges; none where it

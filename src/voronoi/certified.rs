@@ -6,7 +6,7 @@
 
 use std::borrow::Cow;
 
-use crate::board::{Axis, Copper, Feature, Shape};
+use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
 use crate::geometry::{Nm, Point, Rect};
 use crate::topology::{self, Method, NetId, Nets, smallest_gap};
 
@@ -20,8 +20,8 @@ pub(super) struct Owned<'a> {
     shapes: Vec<(Cow<'a, Shape>, u32)>,
     /// Whether what one owner has may lie in pieces.
     is_loose: bool,
-    /// Whether owners are nearer to each other than [`CLOSE`].
-    is_close: bool,
+    /// The smallest gap between owners, if there are two.
+    gap: Option<Nm>,
 }
 
 impl<'a> Owned<'a> {
@@ -58,7 +58,7 @@ impl<'a> Owned<'a> {
         let owner = |net: NetId| pieces.as_ref().map_or(net.0, |pieces| pieces[net.index()]);
         let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
         let shapes = kept.map(|(number, feature)| (shape(feature), owner(nets.of(number)))).collect();
-        Self { shapes, is_loose, is_close: gap.is_some_and(|gap| gap < CLOSE) }
+        Self { shapes, is_loose, gap }
     }
 
     /// Whether one owner has all.
@@ -76,16 +76,21 @@ impl<'a> Owned<'a> {
         wall: Option<Rect>,
         asked: impl Fn(&Diagram) -> Option<T>,
     ) -> (Diagram, Option<T>) {
+        let is_below = |width: Nm| self.gap.is_some_and(|gap| gap < width);
+        let is_close = is_below(CLOSE);
         let attempt = |attempt: u32| {
             let mut generators = Generators::shaken(attempt);
-            if !self.is_close {
+            if !is_close {
                 generators.weld(self.shapes.iter().flat_map(|(shape, _)| points(shape)).collect());
             }
             if self.is_loose {
                 generators.loosen();
             }
-            if self.is_close {
+            if is_close {
                 generators.keep_all();
+            }
+            if !is_below(ROUND) {
+                generators.round();
             }
             self.shapes.iter().for_each(|(shape, owner)| generators.add(shape, *owner));
             if let Some(wall) = wall {
@@ -116,6 +121,10 @@ fn points(shape: &Shape) -> Vec<Point> {
 /// Nets nearer to each other than this have all their corners. Chosen: more than the corners and
 /// slits that others lose.
 const CLOSE: Nm = Nm::new(130);
+
+/// Nets nearer to each other than this keep the chords that flattening made. Chosen: four times
+/// what arcs differ from them.
+const ROUND: Nm = Nm::new(4 * FLATTEN.get());
 
 /// The axis of a feature, if its copper still holds it: clear polarity may have cut it away.
 pub(super) fn axis(feature: &Feature) -> Option<Axis> {

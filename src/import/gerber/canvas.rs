@@ -4,7 +4,7 @@ use std::sync::Arc as Shared;
 
 use crate::board::polarity::Polarity;
 use crate::board::{Axis, Feature, Shape};
-use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Vector};
+use crate::geometry::{Arc, Circle, Nm, Point, Polygon, Rect, Vector};
 
 use super::fault::Fault;
 use super::linear::Linear;
@@ -226,7 +226,12 @@ pub(super) fn moved(feature: &Feature, linear: Linear, way: Vector) -> Feature {
                 }
                 ring
             });
-            Polygon::new(rings.collect()).map_or_else(|| feature.shape.clone(), Shape::Polygon)
+            let circles = polygon
+                .circles()
+                .iter()
+                .map(|circle| Circle { center: point(circle.center), radius: length(circle.radius) });
+            let image = Polygon::new(rings.collect()).map(|image| image.of_circles(circles));
+            image.map_or_else(|| feature.shape.clone(), Shape::Polygon)
         }
     };
     let axis = match feature.axis {

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::board::{FLATTEN, polarity};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Circle, Nm, Point, Polygon};
 
 use super::linear::Linear;
 
@@ -79,6 +79,20 @@ impl Figure {
         }
     }
 
+    /// The circles of a ring under `linear`.
+    fn circles(&self, linear: Linear) -> impl Iterator<Item = Circle> {
+        let (center, radii) = match *self {
+            Self::Ring { center, outer, inner } => (center, [outer, inner]),
+            Self::Contour(_) => ((0.0, 0.0), [0.0; 2]),
+        };
+        let (x, y) = linear.apply(center);
+        let circle = move |radius: f64| Circle {
+            center: Point::from_f64(x, y),
+            radius: Nm::from_f64(radius * linear.scale()),
+        };
+        radii.into_iter().filter(|&radius| radius > 0.0).map(circle)
+    }
+
     /// The image under `linear`, its contours as they are written.
     pub(super) fn outlines(&self, linear: Linear) -> Vec<Vec<Point>> {
         match self {
@@ -142,7 +156,8 @@ pub(super) fn area(primitives: &[Primitive], linear: Linear) -> Vec<Polygon> {
         let left = pieces.iter().flat_map(|piece| polarity::difference(piece, &erased));
         image = left.flat_map(|piece| piece.contours().to_vec()).collect();
     }
-    polarity::clean(&image)
+    let circles = primitives.iter().flat_map(|primitive| primitive.figure.circles(linear));
+    polarity::of_circles(polarity::clean(&image), circles.collect())
 }
 
 /// The vertices of an arc within [`FLATTEN`] of it, the start but not the end; a quarter circle is
@@ -172,6 +187,24 @@ mod tests {
         let total: f64 = pieces.iter().map(Polygon::area_mm2).sum();
         assert_eq!(pieces.len(), 2, "a frame and a square in it");
         assert!((total - 68.0).abs() < 1e-9, "area {total}");
+    }
+
+    /// As KiCad writes it: an outline, a disc in each corner, and a line along each side.
+    #[test]
+    fn a_rounded_rectangle_remembers_its_corners() {
+        let on = |figure| Primitive { exposed: true, figure };
+        let corners = [(-4e5, -2e5), (4e5, -2e5), (4e5, 2e5), (-4e5, 2e5)];
+        let discs = corners.map(|corner| on(Figure::disc(corner, 1e5)));
+        let bars = [Figure::rectangle((0.0, 0.0), 1e6, 4e5), Figure::rectangle((0.0, 0.0), 8e5, 6e5)].map(on);
+        let turned = area(&[&discs[..], &bars].concat(), Linear::IDENTITY);
+        let [piece] = turned.as_slice() else { panic!("one piece: {turned:?}") };
+        let circle = |(x, y): Place| Circle { center: Point::from_f64(x, y), radius: Nm::from_um(100) };
+        let mut expected = corners.map(circle);
+        expected.sort_unstable();
+        assert_eq!(piece.circles(), expected, "and nothing else");
+        let on_one = |p: &Point| expected.iter().any(|c| (c.center.distance(*p) - 1e5).abs() < 2.0);
+        let ring = &piece.contours()[0];
+        assert!(ring.iter().filter(|p| on_one(p)).count() * 10 > ring.len() * 8, "most lie on them");
     }
 
     #[test]

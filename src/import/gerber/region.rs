@@ -3,12 +3,14 @@
 use std::ops::Range;
 
 use crate::board::{FLATTEN, polarity};
-use crate::geometry::{Arc, Point, Polygon};
+use crate::geometry::{Arc, Circle, Point, Polygon};
 
 /// The contour being drawn.
 #[derive(Debug, Default)]
 pub(super) struct Region {
     points: Vec<Point>,
+    /// What arcs of it are parts of.
+    circles: Vec<Circle>,
     /// Where it began.
     line: u32,
     place: Range<usize>,
@@ -46,6 +48,7 @@ impl Region {
     /// Draws the outline on along an arc.
     pub(super) fn arc(&mut self, arc: Arc) {
         self.points.extend(arc.flatten(FLATTEN));
+        self.circles.extend(arc.circle());
     }
 
     /// Ends the contour; none where none had begun.
@@ -54,6 +57,7 @@ impl Region {
     /// which the specification forbids, fills what it winds round.
     pub(super) fn finish(&mut self) -> Option<Contour> {
         let mut points = std::mem::take(&mut self.points);
+        let circles = std::mem::take(&mut self.circles);
         let (first, last) = (*points.first()?, *points.last()?);
         let closed = points.len() == 1 || first == last;
         if closed {
@@ -61,6 +65,7 @@ impl Region {
         }
         let tangled = polarity::is_tangled([&points].into_iter());
         let pieces = if points.len() < 3 || tangled { Vec::new() } else { polarity::clean(&[points]) };
+        let pieces = polarity::of_circles(pieces, circles);
         Some(Contour { pieces, closed, tangled, line: self.line, place: self.place.clone() })
     }
 

@@ -8,7 +8,7 @@
 
 use super::frame::Frame;
 use crate::board::{FLATTEN, Shape, polarity};
-use crate::geometry::{Arc, Nm, Point, Polygon, Turn};
+use crate::geometry::{Arc, Circle, Nm, Point, Polygon, Turn};
 
 /// A circle, or with different sides an obround.
 pub(super) fn obround(frame: &Frame, width: Nm, height: Nm) -> Shape {
@@ -47,6 +47,7 @@ pub(super) fn rounded(frame: &Frame, width: Nm, height: Nm, corners: Corners) ->
     // The corners with the clock, each with the way of the side that runs into it.
     let places = [(-w, h, 0.0, 1.0), (w, h, 1.0, 0.0), (w, -h, 0.0, -1.0), (-w, -h, -1.0, 0.0)];
     let mut points: Vec<Point> = Vec::new();
+    let mut circles: Vec<Circle> = Vec::new();
     for ((x, y, dx, dy), cut_off) in places.into_iter().zip(corners.chosen) {
         // The side that leaves a corner is turned by a quarter with the clock.
         let (ex, ey) = (dy, -dx);
@@ -55,17 +56,19 @@ pub(super) fn rounded(frame: &Frame, width: Nm, height: Nm, corners: Corners) ->
         points.push(start);
         if !cut_off && start != end {
             let center = frame.map(x - dx * back + ex * back, y - dy * back + ey * back);
-            points.extend(Arc { start, end, center, turn: Turn::Clockwise }.flatten(FLATTEN));
+            let arc = Arc { start, end, center, turn: Turn::Clockwise };
+            points.extend(arc.flatten(FLATTEN));
+            circles.extend(arc.circle());
         } else {
             points.push(end);
         }
     }
     points.dedup();
-    polygon(points)
+    polygon(points).map(|polygon| Shape::Polygon(polygon.of_circles(circles)))
 }
 
 /// The area inside `ring`, counter-clockwise; none where it has none.
-fn polygon(mut ring: Vec<Point>) -> Option<Shape> {
+fn polygon(mut ring: Vec<Point>) -> Option<Polygon> {
     if ring.first() == ring.last() {
         ring.pop();
     }
@@ -73,9 +76,9 @@ fn polygon(mut ring: Vec<Point>) -> Option<Shape> {
     let area = polygon.area_mm2();
     if area < 0.0 {
         let turned = polygon.contours()[0].iter().rev().copied().collect();
-        return Polygon::new(vec![turned]).map(Shape::Polygon);
+        return Polygon::new(vec![turned]);
     }
-    (area > 0.0).then_some(Shape::Polygon(polygon))
+    (area > 0.0).then_some(polygon)
 }
 
 #[cfg(test)]

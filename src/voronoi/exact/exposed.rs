@@ -94,14 +94,35 @@ impl<'a> Bodies<'a> {
                     && form(*outer).slack(p) >= 0.0
                     && inner.is_none_or(|inner| form(inner).distance(p) < 0.0)
             }
-            Body::Rings { edges, open } => {
-                let crosses = |i: &u32| {
-                    let Form::Line { from, along, length } = *form(*i) else { return false };
-                    let to = from + along * length;
-                    (from.y > p.y) != (to.y > p.y) && ((to - from).cross(p - from) > 0.0) == (to.y > from.y)
+            Body::Rings { rings, open } => {
+                let start = |i: u32| self.diagram.generators.start_of(i);
+                let is_crossed =
+                    |(&edge, &next): (&u32, &u32)| is_crossed(form(edge), [start(edge), start(next)], p);
+                let crossed = |ring: &Vec<u32>| {
+                    ring.iter().zip(ring.iter().cycle().skip(1)).filter(|&pair| is_crossed(pair)).count()
                 };
-                (edges.clone().filter(crosses).count() % 2 == 1) != *open
+                (rings.iter().map(crossed).sum::<usize>() % 2 == 1) != *open
             }
+        }
+    }
+}
+
+/// Whether the way from `p` in +x crosses an edge an odd number of times; a way along an end of it
+/// is one a hair higher.
+fn is_crossed(edge: &Form, [from, to]: [Spot; 2], p: Spot) -> bool {
+    // Against the clock about the centre of an arc.
+    let [from, to] = if edge.is_hollow() { [to, from] } else { [from, to] };
+    let side = (to - from).cross(p - from);
+    let chord = (from.y > p.y) != (to.y > p.y) && (side > 0.0) == (to.y > from.y);
+    match *edge {
+        Form::Line { .. } => chord,
+        Form::Circle { center, radius, sector, .. } => {
+            // Between the arc and its chord, which lies to the left of it.
+            let is_level = (from.y - to.y).abs() <= 0.0;
+            let is_upper = !is_level || to.x < from.x;
+            let is_beyond = side < 0.0 || (side <= 0.0 && is_upper);
+            let is_within = (p - center).length() < radius;
+            chord != (is_within && (is_beyond || sector.is_none()))
         }
     }
 }
@@ -124,7 +145,9 @@ impl Diagram {
                 let middle = [center.x, center.y, center.x, center.y];
                 round(&mut [form(*outer).bounds(), middle].into_iter())
             }
-            Body::Rings { edges, open: false } => round(&mut edges.clone().map(|i| form(i).bounds())),
+            Body::Rings { rings, open: false } => {
+                round(&mut rings.iter().flatten().map(|&i| form(i).bounds()))
+            }
             // It is everywhere but inside.
             Body::Rings { open: true, .. } => [f64::MIN, f64::MIN, f64::MAX, f64::MAX],
         }

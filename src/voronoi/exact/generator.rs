@@ -17,17 +17,16 @@
 //! What is the same from two features is one generator. Buried edges need not be found: from
 //! outside all copper they are never nearest.
 
-use std::ops::Range;
-
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::board::{Copper, FLATTEN, Shape};
-use crate::geometry::{Arc, Nm, Point, Polygon, Rect, Vector};
+use crate::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Segment, Turn, Vector};
 use crate::topology;
 use crate::voronoi::plane::Spot;
 
 use super::WALL;
 use super::form::{Form, clockwise, unit};
+use super::rounding::Circles;
 use super::slit::without_slits;
 use super::weld::welded;
 
@@ -72,7 +71,7 @@ pub(super) enum Body {
     /// Within an outer arc, and outside an inner one.
     Band(u32, Option<u32>),
     /// What rings enclose, or where they are `open`, what they do not.
-    Rings { edges: Range<u32>, open: bool },
+    Rings { rings: Vec<Vec<u32>>, open: bool },
 }
 
 /// Generators under construction: what [`Diagram::new`](super::Diagram::new) takes.
@@ -94,6 +93,8 @@ pub struct Generators {
     pub(super) is_loose: bool,
     /// Whether owners may be so near to each other that a nanometre matters.
     pub(super) is_close: bool,
+    /// Whether they are so far apart that what flattening left does not matter.
+    is_round: bool,
 }
 
 impl Generators {
@@ -122,6 +123,12 @@ impl Generators {
     /// and every corner.
     pub const fn keep_all(&mut self) {
         self.is_close = true;
+    }
+
+    /// Says that owners are farther apart than flattening moves edges: then what chords are left of
+    /// a curve is an arc.
+    pub const fn round(&mut self) {
+        self.is_round = true;
     }
 
     /// Says that those of `points`, of shapes to come, that all but meet are one: the first of them
@@ -226,26 +233,43 @@ impl Generators {
         let rings: Vec<Vec<Point>> = polygon.contours().iter().map(|ring| simple(points(ring))).collect();
         let largest = rings.iter().map(|ring| twice_area(ring)).max_by_key(|area| area.unsigned_abs());
         let backwards = largest.is_some_and(|area| area < 0);
-        let first = self.number();
+        let circles = Circles::new(if self.is_round && !is_exact { polygon.circles() } else { &[] });
+        let mut numbers = Vec::new();
         for (i, mut ring) in rings.into_iter().enumerate().filter(|(_, ring)| ring.len() > 1) {
             if backwards != inwards {
                 ring.reverse();
             }
             let rings = if is_exact { vec![ring] } else { without_slits(vec![ring]) };
             for ring in rings {
-                self.ring(&self.shake(simple(ring)), owner(i));
+                let ring = simple(ring);
+                let path = circles.rounded(ring);
+                let path = path.map(|path| self.shake(path));
+                numbers.extend(path.map(|path| self.ring(&path, owner(i))));
             }
         }
-        self.bodies.push(Body::Rings { edges: first..self.number(), open: inwards });
+        self.bodies.push(Body::Rings { rings: numbers, open: inwards });
     }
 
     /// A ring with each point where it is moved to. Slits and what rounding leaves are gone by
     /// then: they are found by points that all but meet.
-    fn shake(&self, ring: Vec<Point>) -> Vec<Point> {
-        match self.attempt {
-            0 => ring,
-            _ => simple(ring.into_iter().map(|p| self.moved(p)).collect(), EXACT),
+    fn shake(&self, ring: Path) -> Path {
+        if self.attempt == 0 {
+            return ring;
         }
+        let moved = |segment: &Segment| match *segment {
+            Segment::Line { to } => Segment::Line { to: self.moved(to) },
+            Segment::Arc { to, center, turn } => {
+                Segment::Arc { to: self.moved(to), center: self.moved(center), turn }
+            }
+        };
+        let mut path =
+            Path { start: self.moved(ring.start), segments: ring.segments.iter().map(moved).collect() };
+        let mut at = path.start;
+        path.segments.retain(|segment| {
+            let from = std::mem::replace(&mut at, segment.to());
+            segment.to() != from || segment.arc(from).is_some()
+        });
+        path
     }
 
     /// Adds the sides of a rectangle that holds all else; the space inside it is free.
@@ -258,25 +282,56 @@ impl Generators {
         u32::try_from(self.forms.len()).expect("below 2³² generators")
     }
 
-    /// A ring with copper on its left.
-    fn ring(&mut self, ring: &[Point], owner: u32) {
-        let n = ring.len();
+    /// A ring with copper on its left: the numbers of its edges.
+    fn ring(&mut self, ring: &Path, owner: u32) -> Vec<u32> {
+        let first = ring.segments.first().and_then(|segment| segment.arc(ring.start));
+        if let Some(circle) = first.filter(|arc| arc.start == arc.end) {
+            return vec![self.circle(&circle, owner)];
+        }
+        let steps: Vec<(Point, &Segment)> = ring.steps().collect();
+        let n = steps.len();
         let corner = |i: usize| {
-            let (a, b, c) = (ring[(i + n - 1) % n], ring[i], ring[(i + 1) % n]);
-            cross(a, b, c) > 0 || (cross(a, b, c) == 0 && is_back(a, b, c))
+            let ((a, before), (b, after)) = (steps[(i + n - 1) % n], steps[i]);
+            match (before, after) {
+                (Segment::Line { .. }, Segment::Line { to: c }) => {
+                    cross(a, b, *c) > 0 || (cross(a, b, *c) == 0 && is_back(a, b, *c))
+                }
+                // Where it is none, what ends there hides it.
+                _ => true,
+            }
         };
         let corners: Vec<u32> =
-            (0..n).map(|i| if corner(i) { self.disc(ring[i], 0, owner) } else { NONE }).collect();
+            (0..n).map(|i| if corner(i) { self.disc(steps[i].0, 0, owner) } else { NONE }).collect();
         let first = self.number();
-        for i in 0..n {
-            let next = (i + 1) % n;
-            let form = Form::line(self.spot(ring[i]), self.spot(ring[next]));
-            self.push(form, owner, [corners[i], corners[next]]);
+        for (i, &(from, segment)) in steps.iter().enumerate() {
+            let ends = [corners[i], corners[(i + 1) % n]];
+            match segment.arc(from) {
+                None => drop(self.push(Form::line(self.spot(from), self.spot(segment.to())), owner, ends)),
+                Some(arc) => self.bow(&arc, owner, ends),
+            }
         }
         let count = self.number() - first;
         for (line, next) in (0..count).map(|i| (first + i, first + (i + 1) % count)) {
             self.join_straight(line, next);
         }
+        (first..self.number()).collect()
+    }
+
+    /// A circle that is a whole ring.
+    fn circle(&mut self, circle: &Arc, owner: u32) -> u32 {
+        let (center, radius) = (self.spot(circle.center), circle.radius());
+        let hollow = circle.turn == Turn::Clockwise;
+        self.push(Form::Circle { center, radius, hollow, sector: None }, owner, [NONE; 2])
+    }
+
+    /// An arc of a ring.
+    fn bow(&mut self, arc: &Arc, owner: u32, [start, end]: [u32; 2]) {
+        let [from, to] = [arc.start, arc.end].map(|p| self.spot(p));
+        let (center, radius) = between(from, to, self.spot(arc.center));
+        let [from, to] = [from, to].map(|p| unit(p - center));
+        let hollow = arc.turn == Turn::Clockwise;
+        let (sector, ends) = if hollow { ([to, from], [end, start]) } else { ([from, to], [start, end]) };
+        self.push(Form::Circle { center, radius, hollow, sector: Some(sector) }, owner, ends);
     }
 
     /// Joins two lines one after the other that turn so little into the free space that nothing is
@@ -357,11 +412,8 @@ impl Generators {
         if arc.drift() > DRIFT {
             return None;
         }
-        // The foot of the centre on the perpendicular bisector of the chord.
-        let (middle, along) = (a.midpoint(b), unit(b - a));
-        let moved = center - along * (center - middle).dot(along);
-        let small = (moved - center).length() <= DRIFT;
-        small.then(|| (moved, f64::midpoint((a - moved).length(), (b - moved).length())))
+        let (moved, radius) = between(a, b, center);
+        ((moved - center).length() <= DRIFT).then_some((moved, radius))
     }
 
     /// Whether two generators have the same foot and normal where one ends on the other.
@@ -369,10 +421,33 @@ impl Generators {
         self.ends[a as usize].contains(&b) || self.ends[b as usize].contains(&a)
     }
 
+    /// Where an edge of a ring begins, and where the one before it ends.
+    pub(super) fn start_of(&self, edge: u32) -> Spot {
+        let form = &self.forms[edge as usize];
+        match *form {
+            Form::Line { from, .. } => from,
+            Form::Circle { center, hollow, .. } => {
+                let corner = self.ends[edge as usize][usize::from(hollow)];
+                match self.forms.get(corner as usize) {
+                    Some(Form::Circle { center, .. }) => *center,
+                    Some(Form::Line { .. }) | None => center,
+                }
+            }
+        }
+    }
+
     /// What goes on at the ends of a generator.
     pub(super) fn ends_of(&self, a: u32) -> [Option<u32>; 2] {
         self.ends[a as usize].map(|end| (end != NONE).then_some(end))
     }
+}
+
+/// The centre nearest to `center` that is as far from `a` as from `b`, and how far: its foot on the
+/// perpendicular bisector of the chord.
+fn between(a: Spot, b: Spot, center: Spot) -> (Spot, f64) {
+    let along = unit(b - a);
+    let moved = center - along * (center - a.midpoint(b)).dot(along);
+    (moved, f64::midpoint((a - moved).length(), (b - moved).length()))
 }
 
 /// Twice the signed area of the triangle.

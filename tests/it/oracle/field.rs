@@ -78,6 +78,28 @@ fn spot(p: Point) -> Spot {
     p.to_f64().into()
 }
 
+/// An edge of a polygon; where it is a chord within a quarter of a micrometre of a circle that the
+/// polygon remembers, as points on that, ten times as many: their chords leave it by a hundredth.
+fn curve(polygon: &Polygon, a: Point, b: Point) -> Vec<Point> {
+    let mut bows = polygon.circles().iter().filter_map(|circle| {
+        let (center, radius) = (spot(circle.center), circle.radius.to_f64());
+        let is_on = |p: Point| (circle.center.distance(p) - radius).abs() <= 2.0;
+        let half = a.distance(b) / 2.0;
+        let is_near = half < radius && radius - (radius * radius - half * half).sqrt() <= 252.0;
+        (is_on(a) && is_on(b) && is_near).then_some((center, radius))
+    });
+    let Some((center, radius)) = bows.next() else { return vec![a, b] };
+    let between = (1..10_i32).map(|i| {
+        let way = [0, 1].map(|axis| {
+            let (from, to) = (spot(a)[axis], spot(b)[axis]);
+            from + (to - from) * f64::from(i) / 10.0 - center[axis]
+        });
+        let length = (way[0] * way[0] + way[1] * way[1]).sqrt();
+        Point::from_f64(center[0] + way[0] / length * radius, center[1] + way[1] / length * radius)
+    });
+    std::iter::once(a).chain(between).chain([b]).collect()
+}
+
 impl Field {
     /// The index of a layer that has copper.
     pub(crate) fn new(copper: &Copper, nets: &Nets) -> Self {
@@ -106,7 +128,10 @@ impl Field {
                 points.windows(2).for_each(|pair| self.add_bar(pair[0], pair[1], *radius, net));
             }
             Shape::Polygon(polygon) => {
-                polygon.edges().for_each(|(a, b)| self.add_bar(a, b, Nm::ZERO, net));
+                for (a, b) in polygon.edges() {
+                    let points = curve(polygon, a, b);
+                    points.windows(2).for_each(|pair| self.add_bar(pair[0], pair[1], Nm::ZERO, net));
+                }
                 self.add_area(polygon, net);
             }
         }

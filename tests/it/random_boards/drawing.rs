@@ -15,11 +15,35 @@ const PARTS: i64 = 10_000;
 /// The shape of a pad, in nanometres and degrees.
 #[derive(Clone, Copy, Debug)]
 enum Pad {
-    Disc { diameter: i64 },
-    Rectangle { width: i64, height: i64 },
-    Oblong { width: i64, height: i64 },
-    Polygon { diameter: i64, corners: i64, degrees: i64 },
-    Turned { width: i64, height: i64, degrees: i64 },
+    Disc {
+        diameter: i64,
+    },
+    Rectangle {
+        width: i64,
+        height: i64,
+    },
+    Oblong {
+        width: i64,
+        height: i64,
+    },
+    Polygon {
+        diameter: i64,
+        corners: i64,
+        degrees: i64,
+    },
+    Turned {
+        width: i64,
+        height: i64,
+        degrees: i64,
+    },
+    /// With corners rounded by so many twentieths of the shorter side, as a macro of discs and
+    /// rectangles.
+    Rounded {
+        width: i64,
+        height: i64,
+        twentieths: i64,
+        degrees: i64,
+    },
 }
 
 /// A part of a trace: straight on, or round a centre on its left (or right, if the radius is
@@ -132,6 +156,9 @@ fn pad() -> impl Strategy<Value = Pad> {
             degrees
         }),
         (side(), side(), FULL).prop_map(|(width, height, degrees)| Pad::Turned { width, height, degrees }),
+        (side(), side(), 1..10_i64, degrees()).prop_map(|(width, height, twentieths, degrees)| {
+            Pad::Rounded { width, height, twentieths, degrees }
+        }),
     ]
 }
 
@@ -241,6 +268,12 @@ impl Item {
                 Pad::Turned { width, height, degrees } => {
                     Pad::Turned { width: even(width), height: even(height), degrees: eighths(degrees) }
                 }
+                Pad::Rounded { width, height, degrees, .. } => Pad::Rounded {
+                    width: even(width),
+                    height: even(height),
+                    twentieths: 5,
+                    degrees: eighths(degrees),
+                },
             }),
             Self::Pair { diameters, gap, degrees } => Self::Pair {
                 diameters: diameters.map(even),
@@ -411,6 +444,10 @@ impl Pad {
             Self::Turned { width, height, degrees } => {
                 format!("TURNED,{}X{}X{degrees}", mm(width), mm(height))
             }
+            Self::Rounded { width, height, twentieths, degrees } => {
+                let radius = millimetres(width.min(height) * twentieths / 20 + grown);
+                format!("ROUNDED,{}X{}X{radius}X{degrees}", mm(width), mm(height))
+            }
         }
     }
 }
@@ -426,6 +463,18 @@ fn polar((x, y): Spot, length: i64, degrees: i64) -> Spot {
     let along = |part: f64| Nm::from_f64(Nm::new(length).to_f64() * part).get();
     (x + along(cosine), y + along(sine))
 }
+
+/// What each file begins with.
+const MACROS: &str = "%FSLAX46Y46*%
+%MOMM*%
+%AMTURNED*21,1,$1,$2,0,0,$3*%
+%AMROUNDED*21,1,$1,$2-$3-$3,0,0,$4*
+21,1,$1-$3-$3,$2,0,0,$4*
+1,1,$3+$3,$1/2-$3,$2/2-$3,$4*
+1,1,$3+$3,$3-$1/2,$2/2-$3,$4*
+1,1,$3+$3,$1/2-$3,$3-$2/2,$4*
+1,1,$3+$3,$3-$1/2,$3-$2/2,$4*%
+";
 
 /// Writes Gerber.
 struct Pen {
@@ -495,7 +544,7 @@ impl Pen {
 
     /// The file.
     fn finish(self) -> String {
-        let mut file = "%FSLAX46Y46*%\n%MOMM*%\n%AMTURNED*21,1,$1,$2,0,0,$3*%\n".to_owned();
+        let mut file = MACROS.to_owned();
         for (code, aperture) in (10..).zip(&self.apertures) {
             writeln!(file, "%ADD{code}{aperture}*%").expect("written to memory");
         }

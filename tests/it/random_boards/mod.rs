@@ -171,6 +171,7 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         ("pads-that-overlap-by-a-nanometre", SETTINGS[8]),
         ("row-of-pads-that-touch", SETTINGS[8]),
         ("corners-a-hair-apart", SETTINGS[7]),
+        ("trace-in-a-round-hole", SETTINGS[6]),
     ] {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let copper = copper(&text, Side::Front).expect("readable").expect("copper");
