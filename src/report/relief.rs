@@ -114,63 +114,78 @@ impl<D: Fn(&Grid) -> Vec<f32>> Relief<D> {
     pub fn draw(&self, band: Grid) -> Canvas {
         let (width, height) = (self.surface.width(), self.surface.height());
         let top = band.first_row(&self.grid);
-        let rows = top..top + band.height();
-        // What may lie in these rows, and a row before it, which says where the first begins.
+        let lines = top..top + band.height();
+        // What may lie in these lines, and a row before it, which says how far up its walls go.
         let first = pixel(((f64::from(top) - self.lowest) / BACK).floor() - 2.0);
-        let end = pixel((f64::from(rows.end) / BACK).ceil() + 2.0).min(height);
+        let end = pixel((f64::from(lines.end) / BACK).ceil() + 2.0).min(height);
         let mut canvas = Canvas::new(band, GROUND);
         if first >= end {
             return canvas;
         }
         let depths = (self.depths)(&self.surface.rows(first, end - first));
-        let depth = |column: u32, row: u32| f64::from(depths[((row - first) * width + column) as usize]);
-        let pitch = self.surface.pitch().to_f64();
-        let mut drawn = vec![0; width as usize];
-        let mut paint = |column: u32, row: u32, colour: Rgb| {
-            if rows.contains(&row) {
-                canvas.set(column, row - top, colour);
+        let mut paint = |column: u32, line: u32, colour: Rgb| {
+            if lines.contains(&line) {
+                canvas.set(column, line - top, colour);
             }
         };
-        for row in first..end {
-            for column in 0..width {
-                let deep = self.seen(depth(column, row));
-                let behind = if row > first { self.seen(depth(column, row - 1)) } else { deep };
-                let beside = self.seen(depth((column + 1).min(width - 1), row));
-                let lit = lit([beside - deep, behind - deep].map(|rise| rise / pitch));
-                let foot = f64::from(row + 1) * BACK + deep / pitch * UP;
-                let down = pixel(foot);
-                let from = &mut drawn[column as usize];
-                let start =
-                    if row == first && first > 0 { down } else { (*from).min(down.saturating_sub(1)) };
-                for line in start..down {
-                    let wall = deep - (foot - f64::from(line + 1)).max(0.0) * pitch / UP;
-                    paint(column, line, shaded(self.material.colour(wall.max(behind.min(deep))), lit));
-                }
-                *from = down;
-            }
+        // Where each column is drawn to; what lies above the first row is out of sight.
+        let mut drawn = vec![if first > 0 { u32::MAX } else { 0 }; width as usize];
+        let mut behind: &[f32] = &[];
+        for (row, depths) in (first..end).zip(depths.chunks_exact(width as usize)) {
+            self.row(row, [behind, depths], &mut drawn, &mut paint);
+            behind = depths;
         }
-        if end == height && self.material.edge() > Nm::ZERO {
-            for column in 0..width {
-                for line in drawn[column as usize]..self.grid.height() {
-                    let low = (f64::from(line) + 0.5 - f64::from(height) * BACK) * pitch / UP;
-                    let seen = depth(column, end - 1).max(low);
-                    if seen < self.material.edge().to_f64() {
-                        paint(column, line, shaded(self.material.colour(low), EDGE));
-                    }
-                }
-            }
+        if end == height {
+            self.edge(behind, &drawn, paint);
         }
         canvas
     }
 
+    /// Paints a row of the surface, with the walls up to the row behind it, if there is one.
+    fn row(
+        &self,
+        row: u32,
+        [behind, depths]: [&[f32]; 2],
+        drawn: &mut [u32],
+        mut paint: impl FnMut(u32, u32, Rgb),
+    ) {
+        let pitch = self.surface.pitch().to_f64();
+        for (column, from) in (0..).zip(drawn) {
+            let at = column as usize;
+            let deep = self.seen(depths[at]);
+            let behind = behind.get(at).map_or(deep, |&behind| self.seen(behind));
+            let beside = depths.get(at + 1).map_or(deep, |&beside| self.seen(beside));
+            let lit = lit([beside - deep, behind - deep].map(|rise| rise / pitch));
+            let foot = f64::from(row + 1) * BACK + deep / pitch * UP;
+            let down = pixel(foot);
+            for line in (*from).min(down.saturating_sub(1))..down {
+                let wall = deep - (foot - f64::from(line + 1)).max(0.0) * pitch / UP;
+                paint(column, line, shaded(self.material.colour(wall.max(behind.min(deep))), lit));
+            }
+            *from = down;
+        }
+    }
+
+    /// Paints the edge of the sheet below its nearest row.
+    fn edge(&self, depths: &[f32], drawn: &[u32], mut paint: impl FnMut(u32, u32, Rgb)) {
+        let edge = self.material.edge().to_f64();
+        let foot = f64::from(self.surface.height()) * BACK;
+        for (column, (&from, &depth)) in (0..).zip(drawn.iter().zip(depths)) {
+            for line in from..self.grid.height() {
+                let low = (f64::from(line) + 0.5 - foot) * self.surface.pitch().to_f64() / UP;
+                if low.max(f64::from(depth)) < edge {
+                    paint(column, line, shaded(self.material.colour(low), EDGE));
+                }
+            }
+        }
+    }
+
     /// How deep a place is seen: not below the table.
-    fn seen(&self, depth: f64) -> f64 {
-        let edge = self.material.edge();
+    fn seen(&self, depth: f32) -> f64 {
+        let (depth, edge) = (f64::from(depth), self.material.edge());
         if edge > Nm::ZERO { depth.clamp(0.0, edge.to_f64()) } else { depth.max(0.0) }
     }
-}
 
-impl<D: Fn(&Grid) -> Vec<f32>> Relief<D> {
     /// The whole picture as a PNG.
     #[must_use]
     pub fn png(&self) -> Vec<u8> {
