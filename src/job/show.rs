@@ -75,7 +75,6 @@ impl Job {
         let thickness = settings.thickness;
         let own = self.surface(|up| up == side, settings)?;
         let other = self.surface(|up| up != side, settings)?;
-        let width = Grid::covering(area, pitch)?.width() as usize;
         let depths = move |grid: &Grid| {
             let mut depths = own.depths(grid);
             for (depth, below) in depths.iter_mut().zip(other.depths(grid)) {
@@ -84,7 +83,7 @@ impl Job {
                 }
             }
             if side == Side::Back {
-                depths.chunks_mut(width).for_each(<[f32]>::reverse);
+                depths.chunks_mut(grid.width() as usize).for_each(<[f32]>::reverse);
             }
             depths
         };

@@ -64,6 +64,14 @@ impl Material {
         }
     }
 
+    /// How deep a place is seen: not below the table.
+    fn seen(self, depth: f64) -> f64 {
+        match self {
+            Self::Wood => depth.max(0.0),
+            Self::Clad { thickness, .. } => depth.clamp(0.0, thickness.to_f64()),
+        }
+    }
+
     /// The sheet's thickness, as far as its edge is seen.
     const fn edge(self) -> Nm {
         match self {
@@ -98,11 +106,10 @@ impl<D: Fn(&Grid) -> Vec<f32>> Relief<D> {
         material: Material,
     ) -> Result<Self, GridError> {
         let surface = Grid::covering(area, pitch)?;
-        let low = |depth: Nm| depth.to_f64() / pitch.to_f64() * UP;
-        let rows = f64::from(surface.height()) * BACK + low(material.edge());
+        let low = |depth: f64| depth / pitch.to_f64() * UP;
+        let rows = f64::from(surface.height()) * BACK + low(material.edge().to_f64());
         let grid = surface.rows(0, pixel(rows.ceil()));
-        let deepest = if material.edge() > Nm::ZERO { deepest.min(material.edge()) } else { deepest };
-        Ok(Self { depths, surface, grid, material, lowest: low(deepest) })
+        Ok(Self { depths, surface, grid, material, lowest: low(material.seen(deepest.to_f64())) })
     }
 
     /// The pixels of the picture.
@@ -152,9 +159,10 @@ impl<D: Fn(&Grid) -> Vec<f32>> Relief<D> {
         let pitch = self.surface.pitch().to_f64();
         for (column, from) in (0..).zip(drawn) {
             let at = column as usize;
-            let deep = self.seen(depths[at]);
-            let behind = behind.get(at).map_or(deep, |&behind| self.seen(behind));
-            let beside = depths.get(at + 1).map_or(deep, |&beside| self.seen(beside));
+            let seen = |depth: &f32| self.material.seen(f64::from(*depth));
+            let deep = seen(&depths[at]);
+            let behind = behind.get(at).map_or(deep, seen);
+            let beside = depths.get(at + 1).map_or(deep, seen);
             let lit = lit([beside - deep, behind - deep].map(|rise| rise / pitch));
             let foot = f64::from(row + 1) * BACK + deep / pitch * UP;
             let down = pixel(foot);
@@ -178,12 +186,6 @@ impl<D: Fn(&Grid) -> Vec<f32>> Relief<D> {
                 }
             }
         }
-    }
-
-    /// How deep a place is seen: not below the table.
-    fn seen(&self, depth: f32) -> f64 {
-        let (depth, edge) = (f64::from(depth), self.material.edge());
-        if edge > Nm::ZERO { depth.clamp(0.0, edge.to_f64()) } else { depth.max(0.0) }
     }
 
     /// The whole picture as a PNG.

@@ -161,12 +161,20 @@ const fn pixel(place: f64) -> u32 {
 
 /// The straight sweeps of a motion that reaches below the surface.
 fn swept(motion: &Motion, cutter: &Cutter, chord: Nm, sweeps: &mut Vec<Sweep>) {
-    let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { return };
-    let (Some(top), Some(bottom)) = (motion.from.z, motion.to.z) else { return };
-    if top >= Nm::ZERO && bottom >= Nm::ZERO {
-        return;
-    }
     let [blunt, flank] = cutter.cone();
+    let sweep = |(from, to, depths)| Sweep { from, to, depths, blunt, flank };
+    sweeps.extend(stretches(motion, chord).into_iter().map(sweep));
+}
+
+/// The straight parts of a motion that reaches below the surface, arcs as chords within `chord`:
+/// from where, to where, and how deep at either end. None of one that does not, or whose places are
+/// not known.
+pub(super) fn stretches(motion: &Motion, chord: Nm) -> Vec<(At, At, [f64; 2])> {
+    let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { return Vec::new() };
+    let (Some(top), Some(bottom)) = (motion.from.z, motion.to.z) else { return Vec::new() };
+    if top >= Nm::ZERO && bottom >= Nm::ZERO {
+        return Vec::new();
+    }
     let mut places = vec![from.to_f64()];
     match motion.way {
         Way::Rapid | Way::Feed => places.push(to.to_f64()),
@@ -176,14 +184,10 @@ fn swept(motion: &Motion, cutter: &Cutter, chord: Nm, sweeps: &mut Vec<Sweep>) {
             places.extend((1..=count).map(|i| arc.at(f64::from(i) / f64::from(count))));
         }
     }
-    let parts = f64::from(u32::try_from(places.len() - 1).unwrap_or(u32::MAX));
-    let depth = |part: f64| -(top.to_f64() + (bottom - top).to_f64() * part);
-    let mut part = 0.0;
-    for pair in places.windows(2) {
-        let depths = [depth(part / parts), depth((part + 1.0) / parts)];
-        sweeps.push(Sweep { from: pair[0], to: pair[1], depths, blunt, flank });
-        part += 1.0;
-    }
+    let parts = u32::try_from(places.len() - 1).unwrap_or(u32::MAX);
+    let depth = |part: u32| -(top.to_f64() + (bottom - top).to_f64() * (f64::from(part) / f64::from(parts)));
+    let stretch = |(pair, part): (&[At], u32)| (pair[0], pair[1], [depth(part), depth(part + 1)]);
+    places.windows(2).zip(0..).map(stretch).collect()
 }
 
 impl Sweep {

@@ -80,17 +80,14 @@ impl Figure {
     }
 
     /// The circles of a ring under `linear`.
-    fn circles(&self, linear: Linear) -> impl Iterator<Item = Circle> {
-        let (center, radii) = match *self {
-            Self::Ring { center, outer, inner } => (center, [outer, inner]),
-            Self::Contour(_) => ((0.0, 0.0), [0.0; 2]),
-        };
+    fn circles(&self, linear: Linear) -> Vec<Circle> {
+        let Self::Ring { center, outer, inner } = *self else { return Vec::new() };
         let (x, y) = linear.apply(center);
-        let circle = move |radius: f64| Circle {
+        let circle = |radius: f64| Circle {
             center: Point::from_f64(x, y),
             radius: Nm::from_f64(radius * linear.scale()),
         };
-        radii.into_iter().filter(|&radius| radius > 0.0).map(circle)
+        [outer, inner].into_iter().filter(|&radius| radius > 0.0).map(circle).collect()
     }
 
     /// The image under `linear`, its contours as they are written.

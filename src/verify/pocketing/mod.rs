@@ -20,14 +20,15 @@ use rayon::prelude::*;
 use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
 use crate::board::{Diagnostic, FLATTEN, Severity};
-use crate::gcode::read::{Listing, Motion, Way};
-use crate::geometry::{Arc, Nm, Point, Polygon, off_segment};
+use crate::gcode::read::{Listing, Motion};
+use crate::geometry::{Nm, Point, Polygon, off_segment};
 
 use super::Error;
 use super::carving::{Text, followed, harm};
 use super::cutter::Cutter;
 use super::edges::{Edges, length};
 use super::report::Finding;
+use super::surface::stretches;
 
 use super::runs::{Piece, Spot, Sweep, Sweeps, left};
 use engagement::{Stretch, Work, borne};
@@ -146,41 +147,17 @@ pub fn pocketing(programs: &[Text<'_>], floor: &Floor<'_>) -> Result<Pocketed, E
 /// The steps of a program below the surface.
 fn all_steps(listing: &Listing, cutter: &Cutter, program: usize, steps: &mut Vec<Step>) {
     for motion in &listing.motions {
-        let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { continue };
-        let (Some(top), Some(bottom)) = (motion.from.z, motion.to.z) else { continue };
-        if top >= Nm::ZERO && bottom >= Nm::ZERO {
-            continue;
-        }
-        let places = places(motion, from, to);
-        let parts = f64::from(u32::try_from(places.len() - 1).unwrap_or(u32::MAX));
-        let depth = |part: f64| -(top.to_f64() + (bottom - top).to_f64() * part / parts);
-        let mut part = 0.0;
-        for pair in places.windows(2) {
+        for (from, to, depths) in stretches(motion, CHORD) {
             steps.push(Step {
-                ends: [pair[0], pair[1]],
-                depths: [depth(part), depth(part + 1.0)],
+                ends: [from, to],
+                depths,
                 radius: cutter.cone()[0],
                 order: steps.len(),
                 line: motion.line,
                 program,
             });
-            part += 1.0;
         }
     }
-}
-
-/// Places along a motion, arcs as chords.
-fn places(motion: &Motion, from: Point, to: Point) -> Vec<Spot> {
-    let mut places = vec![from.to_f64()];
-    match motion.way {
-        Way::Rapid | Way::Feed => places.push(to.to_f64()),
-        Way::Arc { center, turn } => {
-            let arc = Arc { start: from, end: to, center, turn };
-            let count = u32::try_from(arc.chords(CHORD)).unwrap_or(u32::MAX).max(1);
-            places.extend((1..=count).map(|i| arc.at(f64::from(i) / f64::from(count))));
-        }
-    }
-    places
 }
 
 struct Judge<'a> {

@@ -57,30 +57,23 @@ impl<'a> Circles<'a> {
     /// The ring as a closed path in which runs of chords are arcs.
     pub(super) fn rounded(&self, mut ring: Vec<Point>) -> Option<Path> {
         let n = ring.len();
-        let mut chords: Vec<Option<Chord>> = Vec::with_capacity(n);
-        if self.tree.is_some() {
-            let mut last = None;
-            for i in 0..n {
-                let found = self.chord((ring[i], ring[(i + 1) % n]), last);
-                chords.push(found);
-                last = found.or(last);
-            }
-        }
+        let mut last = None;
+        let chord = |i: usize| {
+            let found = self.chord((ring[i], ring[(i + 1) % n]), last);
+            last = found.or(last);
+            found
+        };
+        let mut chords: Vec<Option<Chord>> = (0..n).map(chord).collect();
         // A run has a beginning that does not depend on where the ring has.
-        let is_first = |&i: &usize| chords[i] != chords[(i + n - 1) % n];
-        match (0..chords.len()).find(is_first) {
-            Some(first) => {
-                ring.rotate_left(first);
-                chords.rotate_left(first);
-            }
-            None => {
-                if let Some(&Some((number, is_left))) = chords.first()
-                    && n > FEWEST
-                {
-                    return Some(self.whole(number, is_left));
-                }
-                chords = vec![None; n];
-            }
+        if let Some(first) = (0..n).find(|&i| chords[i] != chords[(i + n - 1) % n]) {
+            ring.rotate_left(first);
+            chords.rotate_left(first);
+        } else if let Some(&Some((number, is_left))) = chords.first()
+            && n > FEWEST
+        {
+            return Some(self.whole(number, is_left));
+        } else {
+            chords.fill(None);
         }
         let start = *ring.first()?;
         ring.push(start);
