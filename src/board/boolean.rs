@@ -15,9 +15,8 @@ use i_overlay::i_float::int::point::IntPoint;
 use i_overlay::mesh::int::arc::ArcOptions;
 use i_overlay::mesh::int::outline::offset::IntOutlineOffset;
 use i_overlay::mesh::int::style::{IntLineJoin, IntOutlineStyle};
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
-use crate::geometry::{Circle, Nm, Orientation, Point, Polygon, Rect, orientation};
+use crate::geometry::{Circle, Nm, Orientation, Point, Polygon, Rect, RectIndex, orientation};
 
 /// Which points contours, taken together, have inside.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -222,27 +221,15 @@ impl Operands {
 pub(crate) fn of_circles(polygons: Vec<Polygon>, mut circles: Vec<Circle>) -> Vec<Polygon> {
     circles.sort_unstable();
     circles.dedup();
-    let Some(index) = index(circles.iter().map(|circle| circle.bounds())) else { return polygons };
+    if circles.is_empty() {
+        return polygons;
+    }
+    let index = RectIndex::new(circles.iter().map(|circle| circle.bounds()));
     let remembering = |polygon: Polygon| {
-        let mut near = query(&index, polygon.bounds());
-        near.sort_unstable();
+        let near = index.touching(polygon.bounds());
         polygon.of_circles(near.into_iter().map(|i| circles[i]))
     };
     polygons.into_iter().map(remembering).collect()
-}
-
-/// An index of rectangles; none for no rectangle.
-pub(super) fn index(rects: impl ExactSizeIterator<Item = Rect>) -> Option<StaticAABB2DIndex<i64>> {
-    let mut builder = StaticAABB2DIndexBuilder::new(rects.len());
-    for rect in rects {
-        builder.add(rect.min().x.get(), rect.min().y.get(), rect.max().x.get(), rect.max().y.get());
-    }
-    builder.build().ok()
-}
-
-/// The rectangles of `index` that touch `rect`.
-pub(super) fn query(index: &StaticAABB2DIndex<i64>, rect: Rect) -> Vec<usize> {
-    index.query(rect.min().x.get(), rect.min().y.get(), rect.max().x.get(), rect.max().y.get())
 }
 
 fn polygons(shapes: Vec<Vec<Vec<IntPoint<i32>>>>) -> Vec<Polygon> {

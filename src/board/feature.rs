@@ -4,7 +4,7 @@
 
 use crate::geometry::{Arc, Circle, Nm, Point, Polygon, Rect, Turn, Vector};
 
-use super::boolean;
+use super::{FLATTEN, boolean};
 
 /// The copper of one feature, its edge included.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -34,7 +34,7 @@ pub enum Shape {
         radius: Nm,
     },
     /// Anything else: rectangles, regions, macros, and what clear polarity left. Curves are
-    /// flattened within [`FLATTEN`](super::FLATTEN).
+    /// flattened within [`FLATTEN`].
     Polygon(Polygon),
 }
 
@@ -120,6 +120,17 @@ impl Shape {
             }
             Self::Arc { ref arc, radius } => swept_arc(arc, radius, tolerance),
         }
+    }
+
+    /// Whether any of its area lies in `area`.
+    #[must_use]
+    pub fn lies_in(&self, area: &Polygon) -> bool {
+        // A point of copper within the area has some of its copper around it, in the area too.
+        if area.winding(self.anchor()).is_some_and(|times| times != 0) {
+            return true;
+        }
+        let Some(near) = area.clipped(self.bounds()) else { return false };
+        self.polygon(FLATTEN).is_some_and(|shape| !boolean::intersection(&shape, &near).is_empty())
     }
 }
 

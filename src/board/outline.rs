@@ -1,6 +1,6 @@
 //! The edge of a board: the closed contours along which it is cut out of its sheet.
 
-use crate::geometry::{Nm, Path, Polygon, Rect};
+use crate::geometry::{Nm, Path, Polygon, Rect, RectIndex};
 
 /// The edge of a board: closed contours along which it is cut out.
 ///
@@ -48,10 +48,11 @@ impl Outline {
                 Polygon::new(vec![points])
             })
             .collect();
+        let index = RectIndex::new(rings.iter().map(Polygon::bounds));
         let turned = rings.iter().enumerate().map(|(i, ring)| {
             let probe = ring.contours()[0][0];
-            let around =
-                rings.iter().enumerate().filter(|(j, other)| *j != i && other.contains(probe)).count();
+            let near = index.touching(Rect::new(probe, probe));
+            let around = near.into_iter().filter(|&j| j != i && rings[j].contains(probe)).count();
             let mut points = ring.contours()[0].clone();
             if (ring.area_mm2() > 0.0) == (around % 2 == 1) {
                 points.reverse();

@@ -1,13 +1,13 @@
 //! What clear polarity leaves of the copper, and exact polygon booleans.
 
-use crate::geometry::Polygon;
+use crate::geometry::{Polygon, RectIndex};
 
 pub(crate) use super::boolean::of_circles;
 pub use super::boolean::{
     FillRule, clean, difference, effort, filled, intersection, is_tangled, offset, union,
 };
 
-use super::boolean::{Tangle, index, query};
+use super::boolean::Tangle;
 use super::{FLATTEN, Feature, Shape};
 
 /// Whether an object adds copper or takes away what was drawn before it.
@@ -57,9 +57,10 @@ pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Result<Vec<Feature>, TooMuc
         .filter(|(_, (_, polarity))| *polarity == Polarity::Clear)
         .filter_map(|(at, (feature, _))| Some((at, feature.shape.polygon(FLATTEN)?)))
         .collect();
-    let Some(index) = index(clear.iter().map(|(_, polygon)| polygon.bounds())) else {
+    if clear.is_empty() {
         return Ok(dark(objects).map(|(_, feature)| feature).collect());
-    };
+    }
+    let index = RectIndex::new(clear.iter().map(|(_, polygon)| polygon.bounds()));
     // All is counted before anything is erased: the cheap count first.
     let size = |polygon: &Polygon| polygon.contours().iter().map(|ring| ring.len() as u64).sum();
     let sizes: Vec<u64> = clear.iter().map(|(_, polygon)| size(polygon)).collect();
@@ -67,9 +68,8 @@ pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Result<Vec<Feature>, TooMuc
     let mut cut: Vec<(Feature, Vec<usize>)> = Vec::with_capacity(objects.len());
     let mut vertices = 0;
     for (at, feature) in dark(objects) {
-        let mut over = query(&index, feature.shape.bounds());
+        let mut over = index.touching(feature.shape.bounds());
         over.retain(|&i| clear[i].0 > at);
-        over.sort_unstable();
         vertices += over.iter().map(|&i| sizes[i]).sum::<u64>();
         if vertices > EFFORT {
             return Err(TooMuch);

@@ -15,6 +15,7 @@
 //! rounded to the nanometre before they leave.
 
 mod arc;
+mod index;
 mod length;
 mod nearest;
 mod nm;
@@ -23,9 +24,10 @@ mod point;
 mod polygon;
 
 pub use arc::{Arc, Circle, Turn};
+pub(crate) use index::{RectIndex, boxes, spanned};
 pub use length::ParseLengthError;
 pub(crate) use length::nanometres;
-pub(crate) use nearest::{between, off_segment, part_nearest};
+pub(crate) use nearest::{between, distance_to_segment, off_segment, part_nearest};
 pub use nm::{Nm, RangeError};
 pub use path::{Path, Segment};
 pub use point::{Orientation, Point, Rect, Vector, orientation};

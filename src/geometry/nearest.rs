@@ -7,6 +7,8 @@
 //!   a ────────┴───── b      part 0 at a, 1 at b; beyond the ends, the end
 //! ```
 
+use super::Point;
+
 /// What part of the way from `a` to `b` the place nearest to `p` is, from 0 to 1; 0 for a segment
 /// of no length.
 pub(crate) fn part_nearest(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> f64 {
@@ -25,6 +27,12 @@ pub(crate) fn between(a: (f64, f64), b: (f64, f64), part: f64) -> (f64, f64) {
 pub(crate) fn off_segment(p: (f64, f64), a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
     let part = part_nearest(p, a, b);
     (p.0 - a.0 - (b.0 - a.0) * part, p.1 - a.1 - (b.1 - a.1) * part)
+}
+
+/// How far a point is from a segment, in nanometres.
+pub(crate) fn distance_to_segment(p: Point, (a, b): (Point, Point)) -> f64 {
+    let (x, y) = off_segment(p.to_f64(), a.to_f64(), b.to_f64());
+    libm::hypot(x, y)
 }
 
 #[cfg(test)]

@@ -71,39 +71,38 @@ impl Build {
         Err(Error::content(&shown, "the board has no copper: nothing is drawn", hint))
     }
 
-    /// Takes over `holes`, less those that another file has drilled already.
+    /// Takes over `holes`, less those that are drilled already, by this file or another.
     pub(super) fn add_holes(&mut self, holes: Vec<Hole>, file: &Found, warnings: &mut Vec<Warning>) {
-        /// The cell in which two holes of different files are looked for. In nanometres; as wide as
-        /// holes of one place may be apart (`same_hole`).
+        /// The cell in which holes of one place are looked for. In nanometres; as wide as they may
+        /// be apart (`same_hole`).
         const CELL: i64 = 20_000;
         let cell = |p: Point| (p.x.get().div_euclid(CELL), p.y.get().div_euclid(CELL));
+        let all = &mut self.board.holes;
+        let others = all.len();
         let mut known: BTreeMap<(i64, i64), Vec<usize>> = BTreeMap::new();
-        for (index, hole) in self.board.holes.iter().enumerate() {
+        for (index, hole) in all.iter().enumerate() {
             known.entry(cell(hole.path.start)).or_default().push(index);
         }
-        let mut doubles = None::<(u32, Point, u32)>;
-        let before = std::mem::take(&mut self.board.holes);
-        let fresh: Vec<Hole> = holes
-            .into_iter()
-            .filter(|hole| {
-                let (x, y) = cell(hole.path.start);
-                let near = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
-                let double =
-                    near.filter_map(|cell| known.get(&cell)).flatten().any(|&i| same_hole(&before[i], hole));
-                if double {
-                    let (count, at, line) = doubles.unwrap_or((0, hole.path.start, hole.line));
-                    doubles = Some((count + 1, at, line));
-                }
-                !double
-            })
-            .collect();
-        self.board.holes = before;
-        self.board.holes.extend(fresh);
-        if let Some((count, at, line)) = doubles {
-            let message = format!(
-                "{count} holes of {} are in another drill file too; they are drilled once",
-                file.name
-            );
+        // The first of those of another file, and of this one.
+        let mut doubles = [None::<(u32, Point, u32)>; 2];
+        for hole in holes {
+            let (at, line) = (hole.path.start, hole.line);
+            let (x, y) = cell(at);
+            let near = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| (x, y)));
+            let mut near = near.filter_map(|cell| known.get(&cell)).flatten();
+            if let Some(&double) = near.find(|&&i| same_hole(&all[i], &hole)) {
+                let of = &mut doubles[usize::from(double >= others)];
+                of.get_or_insert((0, at, line)).0 += 1;
+            } else {
+                known.entry((x, y)).or_default().push(all.len());
+                all.push(hole);
+            }
+        }
+        let places = ["in another drill file, too", "there more than once"];
+        for ((count, at, line), place) in
+            doubles.into_iter().zip(places).filter_map(|(of, place)| Some((of?, place)))
+        {
+            let message = format!("{count} holes of {} are {place}; they are drilled once", file.name);
             let warning = diagnostic::DUPLICATE_HOLES.warning(message).at(at);
             warnings.push(warning.caused_by(file.at_line(line)));
         }
@@ -136,7 +135,7 @@ impl Build {
     }
 }
 
-/// Whether two files mean the same hole: within a rounding to 0.001 inch.
+/// Whether two mean the same hole: within a rounding to 0.001 inch.
 fn same_hole(a: &Hole, b: &Hole) -> bool {
     /// Derived: a rounding to 0.001 inch is off by 13 µm at most. Two of them are 18 µm apart.
     const NEAR: Nm = Nm::from_um(20);

@@ -374,8 +374,8 @@ diagnostics! {
 
     DUPLICATE_HOLES: Warning =
         "duplicate-holes",
-        "The same holes in two files",
-        "each hole in one drill file",
+        "The same holes twice",
+        "each hole once, in one drill file",
         "leave out the file that repeats the others ({drill} chooses those to read)";
 
     // Of the outline.
@@ -518,8 +518,8 @@ diagnostics! {
 
     KICAD_TEXT: Warning =
         "kicad-text",
-        "A text in KiCad's stroke font",
-        "copper whose shape is stored in the file",
+        "A text that is not drawn, or not whole",
+        "texts on copper, clear of all other copper, in letters that the program has",
         "if the text matters, plot the board as Gerber in KiCad and give those files; nets do not change";
 
     KICAD_NOT_READ: Warning =

@@ -6,7 +6,7 @@ use crate::board::Copper;
 use crate::geometry::{Nm, Point};
 use crate::grid::{Grid, GridError};
 
-use super::contact::{Bodies, Scratch};
+use super::contact::{Bodies, JOINED, Scratch};
 use super::sets::DisjointSets;
 use super::{Method, NetId, Nets, Sampling, Translucency, coincidence, translucency};
 
@@ -111,11 +111,11 @@ impl Search<'_> {
         let mut stack = Vec::new();
         for &feature in split.flat_map(|net| &net.features) {
             let body = &self.bodies.bodies[feature as usize];
-            let _ = self.bodies.index.visit(body.bounds(), &mut stack, |other| {
+            let _ = self.bodies.index.visit(body.bounds().inflate(JOINED), &mut stack, |other| {
                 let number = u32::try_from(other).expect("fewer than 2³² features");
                 if number > feature
                     && fine.of(feature as usize) != fine.of(other)
-                    && body.touches(&self.bodies.bodies[other], &mut self.scratch)
+                    && body.is_within(&self.bodies.bodies[other], JOINED, &mut self.scratch)
                 {
                     found.push((feature, number));
                 }

@@ -7,7 +7,7 @@
 //! |---|---|---|
 //! | [`coincidence`](Method::Coincidence) | features that share a vertex: Algorithm 1 of the paper (§III-A.1) | linear |
 //! | [`translucency`](Method::Translucency) | also what overlaps at some pixel: Algorithm 2 (§III-A.2) | with the area, in pixels |
-//! | [`contact`](Method::Contact) | also all whose copper touches, exactly | near-linear |
+//! | [`contact`](Method::Contact) | also all copper within 0.25 µm, exactly | near-linear |
 //!
 //! Both others run after coincidence, which does most of their work for next to nothing.
 //! [`differences()`] holds all three against each other.
@@ -30,7 +30,6 @@ mod differences;
 mod electrical;
 mod extent;
 mod gap;
-mod index;
 mod names;
 mod nets;
 mod pattern;
@@ -45,7 +44,6 @@ pub use differences::{Differences, Missed, Reason, differences};
 pub use electrical::{Electrical, ElectricalNet, electrical};
 pub use extent::{Extent, extents};
 pub use gap::{Gap, smallest_gap};
-pub(crate) use index::{RectIndex, boxes, spanned};
 pub use names::{called, islands_of_names, names_check};
 pub use nets::{Net, NetId, Nets};
 pub use pattern::Pattern;
@@ -58,6 +56,7 @@ pub use translucency::{Colour, Odds, Overlap, Sampling, Translucency, translucen
 use crate::board::Copper;
 
 use contact::Bodies;
+pub(crate) use contact::JOINED;
 
 /// How connected copper is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]

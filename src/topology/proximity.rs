@@ -9,8 +9,8 @@ use crate::geometry::{Nm, Point, Rect};
 
 use super::contact::{Bodies, Body, Scratch};
 use super::density::Density;
-use super::index::RectIndex;
 use super::stretches::stretches;
+use crate::geometry::RectIndex;
 
 /// Shapes made ready to be asked what comes near another.
 #[derive(Debug)]

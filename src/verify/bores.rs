@@ -15,8 +15,8 @@
 use rayon::prelude::*;
 
 use crate::board::{Board, Hole, Shape};
-use crate::geometry::{Nm, Point, off_segment};
-use crate::topology::RectIndex;
+use crate::geometry::RectIndex;
+use crate::geometry::{Nm, Point, distance_to_segment};
 
 use super::cut::Cut;
 use super::machining::Machining;
@@ -142,7 +142,7 @@ impl<'a> Wall<'a> {
     /// How far a point is from where the hole's cutter goes.
     fn off(&self, p: Point) -> f64 {
         let first = p.distance(self.path[0]);
-        self.path.windows(2).map(|pair| from_segment(p, pair[0], pair[1])).fold(first, f64::min)
+        self.path.windows(2).map(|pair| distance_to_segment(p, (pair[0], pair[1]))).fold(first, f64::min)
     }
 
     /// How far a piece reaches past the wall; below zero where it stays within.
@@ -255,7 +255,7 @@ fn middles(a: Point, b: Point, step: f64) -> impl Iterator<Item = Point> {
 pub(super) fn from_axis(shape: &Shape, p: Point) -> f64 {
     match shape {
         Shape::Disc { center, .. } => p.distance(*center),
-        Shape::Stroke { from, to, .. } => from_segment(p, *from, *to),
+        Shape::Stroke { from, to, .. } => distance_to_segment(p, (*from, *to)),
         Shape::Arc { arc, .. } => {
             let ends = p.distance(arc.start).min(p.distance(arc.end));
             let (way, sweep) = (p - arc.center, arc.sweep());
@@ -269,10 +269,4 @@ pub(super) fn from_axis(shape: &Shape, p: Point) -> f64 {
         }
         Shape::Polygon(_) => f64::INFINITY,
     }
-}
-
-/// The distance from a point to a segment, in nanometres.
-fn from_segment(p: Point, a: Point, b: Point) -> f64 {
-    let (x, y) = off_segment(p.to_f64(), a.to_f64(), b.to_f64());
-    (x * x + y * y).sqrt()
 }

@@ -9,10 +9,11 @@ use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use crate::board::{Board, Shape};
+use crate::geometry::RectIndex;
 use crate::geometry::{Arc, Nm, Point, Rect, Turn};
 use crate::grid::Grid;
 use crate::raster::{Buffers, Label, Scene, render};
-use crate::topology::{RectIndex, surface};
+use crate::topology::surface;
 
 use super::machining::Machining;
 use super::pieces::{Joiner, Run};

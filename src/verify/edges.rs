@@ -3,7 +3,7 @@
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::{Polygon, between, part_nearest};
-use crate::topology::{boxes, spanned};
+use crate::geometry::{boxes, spanned};
 
 /// A point in nanometres.
 type Spot = (f64, f64);

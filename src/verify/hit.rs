@@ -129,7 +129,8 @@ fn taken(sheet: &Sheet<'_>, index: usize, closed: &BTreeSet<NetId>, tolerance: N
     let (half, axis) = (cut.swept.half(), cut.swept.axis());
     let mut hits: Vec<Hit> = Vec::new();
     let is_open = |feature: usize| closed.is_empty() || !closed.contains(&sheet.nets.of(feature));
-    for near in sheet.proximity.near_of(&axis, half - tolerance, is_open) {
+    let near = sheet.proximity.near_of(&axis, half - tolerance, is_open).into_iter();
+    for near in near.filter(|near| sheet.has_some_of(near.feature)) {
         let net = sheet.nets.of(near.feature);
         let known = hits.iter().position(|other| other.net == net);
         let least = known.map_or((half - tolerance).to_f64(), |known| half.to_f64() - hits[known].depth);

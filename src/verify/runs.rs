@@ -9,7 +9,8 @@ use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::{Point, Polygon, off_segment};
-use crate::topology::{DisjointSets, boxes, spanned};
+use crate::geometry::{boxes, spanned};
+use crate::topology::DisjointSets;
 use crate::verify::edges::{Edges, length};
 
 /// A point in nanometres.

@@ -1,12 +1,14 @@
 //! The copper-clad sheet and what is cut out of it: exact shapes, and pictures of parts of it.
 
 use std::borrow::Cow;
+use std::sync::OnceLock;
 
 use crate::board::{Board, Copper, FLATTEN, Shape, Side, polarity};
+use crate::geometry::RectIndex;
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::grid::Grid;
 use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
-use crate::topology::{Method, NetId, Nets, Proximity, RectIndex, recover, surface};
+use crate::topology::{Method, NetId, Nets, Proximity, recover, surface};
 
 use super::asked::Asked;
 use super::cut::Cut;
@@ -45,6 +47,8 @@ pub(super) struct Sheet<'a> {
     pub(super) outline: Option<Polygon>,
     /// The pixels of its picture.
     pub(super) grid: Grid,
+    /// Whether any of a feature lies on the board, once it is asked for.
+    on_board: Vec<OnceLock<bool>>,
 }
 
 /// Where cuts and features lie, by their bounds.
@@ -106,6 +110,7 @@ impl<'a> Sheet<'a> {
             places,
             outline,
             grid,
+            on_board: copper.features.iter().map(|_| OnceLock::new()).collect(),
         })
     }
 
@@ -147,6 +152,16 @@ impl<'a> Sheet<'a> {
     /// Whether a point lies on the board.
     pub(super) fn holds(&self, p: Point) -> bool {
         self.outline.as_ref().is_none_or(|outline| outline.contains(p))
+    }
+
+    /// Whether any copper of a feature lies on the board: what lies beyond its edge altogether is
+    /// not isolated, and may be cut away.
+    pub(super) fn has_some_of(&self, feature: usize) -> bool {
+        let Some(outline) = &self.outline else { return true };
+        let shape = &self.copper.features[feature].shape;
+        // Its very edge is the board's.
+        let is_on_board = || outline.contains(shape.anchor()) || shape.lies_in(outline);
+        *self.on_board[feature].get_or_init(is_on_board)
     }
 
     /// The area of so many of its pixels, in mm².

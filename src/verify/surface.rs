@@ -6,9 +6,9 @@ use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::board::Board;
 use crate::gcode::read::{Listing, Motion, Way};
+use crate::geometry::boxes;
 use crate::geometry::{Arc, Nm, Point, Rect};
 use crate::grid::Grid;
-use crate::topology::boxes;
 
 use super::cutter::Cutter;
 use super::edges::length;

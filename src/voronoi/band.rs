@@ -17,7 +17,7 @@
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Nm;
-use crate::topology::boxes;
+use crate::geometry::boxes;
 
 use super::exact::{Chain, Diagram, WALL};
 use super::plane::{Spot, spanned};

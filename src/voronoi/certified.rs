@@ -1,8 +1,9 @@
 //! The certified diagram of a layer's copper, or of its core axes.
 //!
-//! Where a diagram contradicts itself, which equal distances may make it do, the copper is shaken:
-//! every point is moved by up to 25 nanometres, the same point alike. Nets whose copper touches,
-//! as Algorithm 1 alone may leave them, have one owner here, since nothing can part them.
+//! Where a diagram contradicts itself, which equal distances may make it do, chords stay chords,
+//! and then the copper is shaken: every point is moved by up to 25 nanometres, the same point
+//! alike. Nets whose copper touches, as Algorithm 1 alone may leave them, have one owner here,
+//! since nothing can part them.
 
 use std::borrow::Cow;
 
@@ -53,7 +54,7 @@ impl<'a> Owned<'a> {
         is_loose: bool,
     ) -> Self {
         let gap = smallest_gap(copper, nets).map(|gap| gap.width);
-        let is_touching = gap.is_some_and(|gap| gap <= Nm::ZERO);
+        let is_touching = gap.is_some_and(|gap| gap <= topology::JOINED);
         let pieces = is_touching.then(|| pieces(copper, nets));
         let owner = |net: NetId| pieces.as_ref().map_or(net.0, |pieces| pieces[net.index()]);
         let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
@@ -67,8 +68,9 @@ impl<'a> Owned<'a> {
     }
 
     /// The diagram of these edges of copper, which a wall may enclose, and what is `asked` of it;
-    /// where that or the diagram contradicts itself, of the copper shaken. None for the one that is
-    /// at fault in the end.
+    /// where that or the diagram contradicts itself, of the copper with chords that stay chords,
+    /// since arcs may bulge through a web that these leave; then of the copper shaken. None for the
+    /// one that is at fault in the end.
     pub(super) fn diagram<T>(
         &self,
         kind: Kind,
@@ -76,20 +78,14 @@ impl<'a> Owned<'a> {
         wall: Option<Rect>,
         asked: impl Fn(&Diagram) -> Option<T>,
     ) -> (Diagram, Option<T>) {
-        let is_below = |width: Nm| self.gap.is_some_and(|gap| gap < width);
-        let is_close = is_below(CLOSE);
-        let attempt = |attempt: u32| {
-            let mut generators = Generators::shaken(attempt);
-            if !is_close {
-                generators.weld(self.shapes.iter().flat_map(|(shape, _)| points(shape)).collect());
-            }
+        let is_round = self.gap.is_none_or(|gap| gap >= ROUND);
+        let attempt = |number: u32, rounds: bool| {
+            let mut generators = Generators::shaken(number);
+            generators.weld(self.shapes.iter().flat_map(|(shape, _)| points(shape)).collect());
             if self.is_loose {
                 generators.loosen();
             }
-            if is_close {
-                generators.keep_all();
-            }
-            if !is_below(ROUND) {
+            if rounds {
                 generators.round();
             }
             self.shapes.iter().for_each(|(shape, owner)| generators.add(shape, *owner));
@@ -100,11 +96,12 @@ impl<'a> Owned<'a> {
             let answer = if diagram.faults().is_empty() { asked(&diagram) } else { None };
             (diagram, answer)
         };
-        let first = attempt(0);
+        let first = attempt(0, is_round);
         if first.1.is_some() {
             return first;
         }
-        (1..=ATTEMPTS).map(attempt).find(|(_, answer)| answer.is_some()).unwrap_or(first)
+        let mut others = (u32::from(!is_round)..=ATTEMPTS).map(|number| attempt(number, false));
+        others.find(|(_, answer)| answer.is_some()).unwrap_or(first)
     }
 }
 
@@ -117,10 +114,6 @@ fn points(shape: &Shape) -> Vec<Point> {
         Shape::Polygon(polygon) => polygon.contours().iter().flatten().copied().collect(),
     }
 }
-
-/// Nets nearer to each other than this have all their corners. Chosen: more than the corners and
-/// slits that others lose.
-const CLOSE: Nm = Nm::new(130);
 
 /// Nets nearer to each other than this keep the chords that flattening made. Chosen: four times
 /// what arcs differ from them.

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Polygon;
-use crate::topology::boxes;
+use crate::geometry::boxes;
 
 use super::OUTSIDE;
 use super::edge::Border;

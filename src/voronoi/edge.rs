@@ -76,18 +76,8 @@ impl Border {
     /// Whether any of a shape's area lies on the board: a pad round a drawn hole does, though its
     /// middle does not.
     pub(super) fn has_some_of(&self, shape: &Shape) -> bool {
-        self.inside.iter().any(|inside| lies_in(shape, inside))
+        self.inside.iter().any(|inside| shape.lies_in(inside))
     }
-}
-
-/// Whether any of a shape's area lies in `area`.
-pub(super) fn lies_in(shape: &Shape, area: &Polygon) -> bool {
-    // A point of copper within the area has some of its copper around it, in the area too.
-    if area.winding(shape.anchor()).is_some_and(|times| times != 0) {
-        return true;
-    }
-    let Some(near) = area.clipped(shape.bounds()) else { return false };
-    shape.polygon(FLATTEN).is_some_and(|shape| !polarity::intersection(&shape, &near).is_empty())
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Nm;
-use crate::topology::boxes;
+use crate::geometry::boxes;
 
 use super::Boundary;
 use super::clip::{Node, Piece};

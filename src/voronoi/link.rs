@@ -16,8 +16,9 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use static_aabb2d_index::StaticAABB2DIndex;
 
+use crate::geometry::boxes;
 use crate::geometry::{Nm, Path, Point, Segment};
-use crate::topology::{DisjointSets, boxes};
+use crate::topology::DisjointSets;
 
 use super::part::{Cut, foot_on, part, vertex};
 use super::plane::{Spot, spanned};

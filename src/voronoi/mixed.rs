@@ -25,7 +25,7 @@ use crate::geometry::{Nm, Path, Point, Polygon, Rect};
 use crate::grid::Grid;
 use crate::topology::{NetId, Nets};
 
-use super::edge::{Border, lies_in};
+use super::edge::Border;
 use super::junction::Junctions;
 use super::part::foot;
 use super::plane::Spot;
@@ -144,7 +144,7 @@ fn fields(
         let lies_in = |piece: usize| {
             let shapes = net.features.iter().map(|&feature| &copper.features[feature as usize].shape);
             let mut near = shapes.filter(|shape| shape.bounds().touches(bounds[piece]));
-            near.any(|shape| lies_in(shape, &pieces[piece]))
+            near.any(|shape| shape.lies_in(&pieces[piece]))
         };
         (0..pieces.len()).find(|&piece| !looped && lies_in(piece))
     };

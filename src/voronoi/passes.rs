@@ -145,11 +145,13 @@ impl Diagram {
         let loops = base.edges.iter().filter(|edge| has_both && is_pass(edge));
         let loops = Grooves::new(loops, step / 2);
         let innermost = grooves.as_ref().map(|grooves| grooves.within(BESIDE));
+        let fence = Fence::new(&self.border);
         let spikes = Spikes {
             kerf: widening.floor.to_f64(),
             step: step.to_f64(),
             clearance: &|at| diagram.distance(at.into()),
             nearest: first.to_f64(),
+            fence: &fence,
         };
         let first_pass = base.edges.len();
         let mut all = base;
@@ -174,7 +176,6 @@ impl Diagram {
             }
             all.append(passes);
         }
-        let fence = Fence::new(&self.border);
         let clearance = |at| diagram.room(at);
         let owner = |at| diagram.owner_near(at, f64::INFINITY, NOBODY).map(NetId);
         let farthest = levels.last().map_or(0.0, |last| last.to_f64());

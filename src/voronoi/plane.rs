@@ -3,8 +3,8 @@
 
 use std::ops::{Add, Mul, Sub};
 
+use crate::geometry;
 use crate::geometry::Point;
-use crate::topology;
 
 /// A position or direction in the plane, in nanometres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,7 +46,7 @@ impl Spot {
 
 /// The box round two places: left, bottom, right, top.
 pub(super) fn spanned(a: Spot, b: Spot) -> [f64; 4] {
-    topology::spanned((a.x, a.y), (b.x, b.y))
+    geometry::spanned((a.x, a.y), (b.x, b.y))
 }
 
 /// The point of the chord from `a` to `b` nearest to `p`.

@@ -12,8 +12,10 @@
 
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 
+use super::clip::{Fence, Node, Piece};
 use super::plane::Spot;
-use super::{Boundary, Owner};
+use super::sample::Sample;
+use super::{BACKGROUND, Boundary, Owner};
 
 /// Ways that turn back on themselves have no tip: 2°. Chosen.
 const LEAST_SINE: f64 = 0.02;
@@ -30,6 +32,18 @@ pub(super) struct Spikes<'a> {
     pub(super) clearance: &'a (dyn Fn(Point) -> f64 + Sync),
     /// How near to copper a spike may come.
     pub(super) nearest: f64,
+    /// Where the board ends, and spikes with it.
+    pub(super) fence: &'a Fence,
+}
+
+/// What a corner needs.
+struct Tip {
+    /// The leg after which it is cut.
+    last: usize,
+    at: Spot,
+    /// Whether it lies where the passes have their corners: the ways before and after a jog meet
+    /// anywhere.
+    is_near: bool,
 }
 
 /// A segment with the directions in which it begins and ends.
@@ -47,8 +61,12 @@ impl Spikes<'_> {
         let copper_on_left = matches!(pass.left, Owner::Net(_));
         let mut tips = vec![None; legs.len()];
         for corner in self.corners(&legs, pass.path.is_closed()) {
-            for (last, tip) in self.tips(&legs, &corner, copper_on_left) {
-                tips[last] = Some((tip, Nm::from_f64((self.clearance)(tip))));
+            for Tip { last, at, .. } in self.tips(&legs, &corner, copper_on_left) {
+                let to = self.on_board(legs[last].to, at);
+                if (to - legs[last].to).length() >= LEAST_LENGTH {
+                    let tip = to.rounded();
+                    tips[last] = Some((tip, Nm::from_f64((self.clearance)(tip))));
+                }
             }
         }
         let mut path = Path { start: pass.path.start, segments: Vec::with_capacity(legs.len()) };
@@ -81,16 +99,24 @@ impl Spikes<'_> {
         corners
     }
 
-    /// The tips that a corner needs, each with the leg after which it is cut: one, or one for each
-    /// bend where that would pierce the wall at the narrow end of a wedge.
-    fn tips(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Vec<(usize, Point)> {
+    /// The tips that a corner needs: one, or one for each bend where that would pierce the wall at
+    /// the narrow end of a wedge, or is no tip of the corner.
+    fn tips(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Vec<Tip> {
         let tip = |bends: &[usize]| self.tip(legs, bends, copper_on_left);
-        let is_clear = |&(last, tip): &(usize, Point)| self.is_clear(legs[last].to, tip.into());
+        let is_good = |tip: &Tip| tip.is_near && self.is_clear(legs[tip.last].to, tip.at);
         let whole = tip(corner);
-        if whole.is_none() || whole.as_ref().is_some_and(is_clear) {
+        if whole.as_ref().is_none_or(is_good) {
             return whole.into_iter().collect();
         }
-        corner.windows(2).filter_map(tip).filter(is_clear).collect()
+        corner.windows(2).filter_map(tip).filter(is_good).collect()
+    }
+
+    /// The last place of a way up to which it stays on the board.
+    fn on_board(&self, from: Spot, to: Spot) -> Spot {
+        let samples = [from, to].map(|at| Sample { at, clearance: 0.0 }).to_vec();
+        let way = Piece { left: BACKGROUND, right: BACKGROUND, samples, ends: Some([Node::END; 2]) };
+        let first = self.fence.parts(way, true).find(|part| part.samples[0].at == from);
+        first.and_then(|part| part.samples.last().map(|end| end.at)).unwrap_or(from)
     }
 
     /// Whether a way keeps off the copper.
@@ -107,9 +133,8 @@ impl Spikes<'_> {
         }
     }
 
-    /// The tip that a corner needs, and after which leg it is cut; none where it needs none, or is
-    /// none of an inner corner.
-    fn tip(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Option<(usize, Point)> {
+    /// The tip that a corner needs; none where it needs none, or is none of an inner corner.
+    fn tip(&self, legs: &[Leg], corner: &[usize], copper_on_left: bool) -> Option<Tip> {
         let (before, after) = (&legs[*corner.first()?], &legs[*corner.last()?]);
         let turn = before.ends.cross(after.begins);
         // A pass turns away from the copper at an inner corner of it.
@@ -123,10 +148,13 @@ impl Spikes<'_> {
         let apex = before.to + before.ends * ((after.from - before.to).cross(after.begins) / turn);
         let length = (self.step - self.kerf / 2.0 * (1.0 + sine)) / sine;
         let way = way * (1.0 / way.length());
-        let tip = (apex + way * length).rounded();
-        let reach = |last: &usize| (Spot::from(tip) - legs[*last].to).length();
-        let last = corner[..corner.len() - 1].iter().copied().min_by(|a, b| reach(a).total_cmp(&reach(b)))?;
-        ((Spot::from(tip) - legs[last].to).dot(way) >= LEAST_LENGTH).then_some((last, tip))
+        let at = apex + way * length;
+        let reach = |last: &usize| (at - legs[*last].to).length();
+        let bends = &corner[..corner.len() - 1];
+        let last = bends.iter().copied().min_by(|a, b| reach(a).total_cmp(&reach(b)))?;
+        let round: f64 = bends[1..].iter().map(|&leg| (legs[leg].to - legs[leg].from).length()).sum();
+        let is_near = reach(&last) <= (self.step + round) / sine;
+        ((at - legs[last].to).dot(way) >= LEAST_LENGTH).then_some(Tip { last, at, is_near })
     }
 }
 

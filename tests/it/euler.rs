@@ -9,7 +9,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use voromill::geometry::{Nm, Path};
+use voromill::geometry::{Nm, Path, Point};
 use voromill::topology::{self, DisjointSets, Method};
 use voromill::voronoi::{Boundaries, Boundary, Diagram, Owner, Settings};
 
@@ -33,11 +33,14 @@ fn left(edge: &Boundary, backwards: bool) -> Owner {
     if backwards { edge.right } else { edge.left }
 }
 
-/// The direction in which a walk leaves, in radians.
+/// The direction in which a walk leaves, in radians: that to a place 30 µm off, or to the farthest
+/// of one that soon comes back.
 fn direction(edge: &Boundary, backwards: bool) -> f64 {
     let path = if backwards { Path::reversed(&edge.path) } else { edge.path.clone() };
     let points = path.flatten(Nm::new(100));
-    let far = points.iter().find(|p| p.distance(path.start) > 30_000.0).or(points.last());
+    let off = |p: &Point| p.distance(path.start);
+    let farthest = || points.iter().max_by(|a, b| off(a).total_cmp(&off(b)));
+    let far = points.iter().find(|p| off(p) > 30_000.0).or_else(farthest);
     let ((ax, ay), (bx, by)) = (path.start.to_f64(), far.copied().unwrap_or(path.start).to_f64());
     libm::atan2(by - ay, bx - ax)
 }
@@ -57,7 +60,10 @@ fn onward(found: &Boundaries, leaving: &BTreeMap<u32, Vec<Walk>>, walk: Walk) ->
             let back = direction(edge, !walk.1);
             let turn = |next: &Walk| {
                 let angle = back - direction(&found.edges[next.0], next.1);
-                angle.rem_euclid(std::f64::consts::TAU)
+                // What leads back the way that it came is the last choice: both ways round a wedge
+                // that is thinner than a fit may be one line.
+                let turn = angle.rem_euclid(std::f64::consts::TAU);
+                if turn > 0.0 { turn } else { std::f64::consts::TAU }
             };
             same.into_iter().min_by(|a, b| turn(a).total_cmp(&turn(b))).copied()
         }

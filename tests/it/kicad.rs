@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::OnceLock;
 
-use voromill::board::{Board, Copper, FLATTEN, Feature, Hole, Outline, Plating, Side, polarity};
-use voromill::geometry::{Nm, Polygon};
+use voromill::board::{Axis, Board, Copper, FLATTEN, Feature, Hole, Outline, Plating, Side, polarity};
+use voromill::geometry::{Nm, Polygon, Rect};
 use voromill::import::{self, Loaded, Selection};
 
 /// A board of KiCad beside its plots, which are moved to where the board lies.
@@ -15,6 +15,8 @@ struct Pair {
     plotted: Board,
     /// How far the two may be apart.
     within: Nm,
+    /// Whether there are texts on copper, whose letters differ in shape.
+    lettered: bool,
 }
 
 /// The folder that a variable names, or that lies beside the repository.
@@ -52,7 +54,7 @@ fn pairs() -> &'static [Pair] {
             let ours = load(&artwork.join(name).join(file).with_extension("kicad_pcb"));
             let plotted = load(&artwork.join(name).join("gerbers")).board;
             let plotted = if moved { laid_on(&plotted, &ours.board) } else { plotted };
-            pairs.push(Pair { name, ours, plotted, within: Nm::from_um(1) });
+            pairs.push(Pair { name, ours, plotted, within: Nm::from_um(1), lettered: false });
         }
         // KiCad plots custom pads with few chords for an arc: up to 22 µm inside it where one ends,
         // as a third program measures, and 0.015 % of the copper.
@@ -66,7 +68,8 @@ fn pairs() -> &'static [Pair] {
             for (name, plots, within) in elsewhere {
                 let ours = load(&artwork.join(format!("{name}.kicad_pcb")));
                 let plotted = load(&boards.join(plots)).board;
-                pairs.push(Pair { name, ours, plotted, within: Nm::from_um(within) });
+                let lettered = matches!(plots, "kicad_custom_pads" | "kicad_interf_u");
+                pairs.push(Pair { name, ours, plotted, within: Nm::from_um(within), lettered });
             }
         }
         pairs
@@ -93,15 +96,13 @@ fn laid_on(board: &Board, other: &Board) -> Board {
     }
 }
 
-/// The copper as polygons that do not touch, without lettering where the board says that it left
-/// some out, and without what a hole that is not plated takes: KiCad 6 plots the pad of a slot that
-/// is as large as the slot.
+/// The copper as polygons that do not touch, without lettering, and without what a hole that is not
+/// plated takes: KiCad 6 plots the pad of a slot that is as large as the slot.
 fn islands(board: &Board, side: Side, pair: &Pair) -> Vec<Polygon> {
     let Some(copper) = board.copper(side) else { return Vec::new() };
-    let without_text = pair.ours.warnings.iter().any(|warning| warning.code() == "kicad-text");
     let counts = |feature: &&Feature| {
         let function = copper.attributes_of(feature).function.as_deref();
-        !(without_text && function == Some("NonConductor"))
+        !(pair.lettered && function == Some("NonConductor"))
     };
     let features = copper.features.iter().filter(counts);
     let shapes: Vec<Polygon> = features.filter_map(|feature| feature.shape.polygon(FLATTEN)).collect();
@@ -171,6 +172,123 @@ fn copper_is_that_of_the_plots() {
         }
         found
     });
+}
+
+/// What letters and other drawings that conduct nothing cover on a side, at most.
+fn drawn(board: &Board, side: Side) -> Option<Rect> {
+    let copper = board.copper(side)?;
+    let function = |feature: &Feature| copper.attributes_of(feature).function.clone();
+    let is_drawn = |feature: &&Feature| function(feature).as_deref() == Some("NonConductor");
+    copper.features.iter().filter(is_drawn).map(|feature| feature.shape.bounds()).reduce(Rect::union)
+}
+
+#[test]
+fn letters_lie_where_those_of_the_plots_do() {
+    let mut seen = 0;
+    for pair in pairs().iter().filter(|pair| pair.lettered) {
+        for side in SIDES {
+            let (Some(ours), Some(plotted)) = (drawn(&pair.ours.board, side), drawn(&pair.plotted, side))
+            else {
+                continue;
+            };
+            seen += 1;
+            // A fifth of the height of the largest letters there, 2.3 mm.
+            let off = [ours.min() - plotted.min(), ours.max() - plotted.max()];
+            let most = off.iter().flat_map(|way| [way.x.abs(), way.y.abs()]).max().expect("four");
+            assert!(most < Nm::from_um(460), "{} {side}: {ours:?} and not {plotted:?}", pair.name);
+        }
+    }
+    assert!(seen == 0 || seen >= 3, "both sides of one, one of the other: {seen}");
+}
+
+/// A board with a square of copper and what `more` says.
+fn lettered(more: &str) -> Loaded {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("board.kicad_pcb");
+    let text = format!(
+        "(kicad_pcb (version 20221018) (generator test)
+          (gr_rect (start 0 0) (end 40 30) (stroke (width 0.1)) (fill none) (layer \"Edge.Cuts\"))
+          (gr_rect (start 30 20) (end 38 28) (stroke (width 0)) (fill solid) (layer \"F.Cu\")) {more})"
+    );
+    std::fs::write(&path, text).expect("written");
+    load(&path)
+}
+
+/// The letters that `more` draws on `side`: their bounds in mm, left, low, right, high.
+fn letters(loaded: &Loaded, side: Side) -> Option<[f64; 4]> {
+    let copper = loaded.board.copper(side)?;
+    let strokes = copper.features.iter().filter(|feature| !matches!(feature.axis, Axis::Region));
+    let bounds = strokes.map(|feature| feature.shape.bounds()).reduce(Rect::union)?;
+    let (low, high) = (bounds.min(), bounds.max());
+    Some([low.x, low.y, high.x, high.y].map(Nm::to_mm))
+}
+
+fn assert_about(found: Option<[f64; 4]>, expected: [f64; 4], what: &str) {
+    let found = found.unwrap_or_else(|| panic!("{what}: nothing is drawn"));
+    let near = found.iter().zip(expected).all(|(a, b)| (a - b).abs() < 0.01);
+    assert!(near, "{what}: {found:?} and not {expected:?}");
+}
+
+#[test]
+fn texts_are_set_as_the_file_says() {
+    let text = |said: &str, at: &str, layer: &str, more: &str| {
+        let font = "(font (size 2 2) (thickness 0.2))";
+        lettered(&format!("(gr_text \"{said}\" (at {at}) (layer \"{layer}\") (effects {font} {more}))"))
+    };
+    // An H is half as wide as high; a pen of 0.2 mm lies half outside.
+    let front = |loaded: Loaded| letters(&loaded, Side::Front);
+    assert_about(front(text("H", "10 10", "F.Cu", "")), [9.4, -11.0, 10.6, -8.8], "about its middle");
+    let left = "(justify left bottom)";
+    assert_about(front(text("H", "10 10", "F.Cu", left)), [9.9, -10.0, 11.1, -7.8], "left, on its line");
+    assert_about(front(text("H", "10 10 90", "F.Cu", left)), [7.8, -10.1, 10.0, -8.9], "turned to the left");
+    let right = "(justify right top)";
+    assert_about(front(text("H", "10 10", "F.Cu", right)), [8.9, -12.0, 10.1, -9.8], "right, under its top");
+    // A second line 1.62 heights lower, three eighths between two letters.
+    assert_about(front(text("H\\nHH", "10 10", "F.Cu", left)), [9.9, -10.0, 12.85, -4.56], "two lines");
+    let mirrored = text("H", "10 10", "B.Cu", "(justify left bottom mirror)");
+    assert_about(letters(&mirrored, Side::Back), [8.9, -10.0, 10.1, -7.8], "read from behind");
+    assert_about(front(text("~{H}", "10 10", "F.Cu", left)), [9.525, -10.0, 11.475, -7.2], "a bar above");
+}
+
+#[test]
+fn texts_of_footprints_are_upright_and_say_what_they_refer_to() {
+    let turned = |angle: &str| {
+        let loaded = lettered(&format!(
+            "(footprint \"x\" (layer \"F.Cu\") (at 10 10 180)
+               (property \"Reference\" \"H\" (at 0 0) (layer \"F.SilkS\"))
+               (fp_text user \"${{REFERENCE}}\" (at -3 0 {angle}) (layer \"F.Cu\")
+                 (effects (font (size 2 2) (thickness 0.2)) (justify left))))"
+        ));
+        letters(&loaded, Side::Front)
+    };
+    assert_about(turned("0"), [12.9, -11.0, 14.1, -8.8], "beside the footprint, which is turned");
+    assert_about(turned("180"), [12.9, -11.0, 14.1, -8.8], "never on its head");
+    assert_about(turned("180 unlocked"), [11.9, -11.2, 13.1, -9.0], "but where it may");
+}
+
+#[test]
+fn letters_keep_clear_of_copper_and_what_is_not_drawn_is_said() {
+    let font = "(effects (font (size 2 2) (thickness 0.2)))";
+    let text = |said: &str, at: &str, layer: &str, more: &str| {
+        let loaded = lettered(&format!("(gr_text \"{said}\" (at {at}) (layer {layer}) {font} {more})"));
+        let said: Vec<_> = loaded.warnings.iter().map(|warning| warning.message.clone()).collect();
+        (letters(&loaded, Side::Front), said)
+    };
+    // The square begins at x = 30; the second H ends at 29.575 and at 29.875 mm.
+    assert_eq!(text("HH", "28.1 24", "\"F.Cu\"", "").1, Vec::<String>::new(), "clear");
+    let (drawn, said) = text("HH", "28.4 24", "\"F.Cu\"", "");
+    assert_about(drawn, [26.925, -25.0, 28.125, -22.8], "the first letter alone");
+    let near = "1 letter is left out of the text `HH` on F.Cu: within 0.2 mm of other copper";
+    assert_eq!(said, [near]);
+    let (drawn, said) = text("HHH", "34 24", "\"F.Cu\"", "");
+    assert_eq!((drawn, said.len()), (None, 1), "inside copper there is nothing to see");
+    let (drawn, said) = text("HжH", "10 10", "\"F.Cu\"", "");
+    assert_about(drawn, [8.525, -11.0, 11.475, -8.8], "what there is");
+    assert_eq!(said, ["the text `HжH` on F.Cu is drawn without `ж`"]);
+    let (drawn, said) = text("H", "10 10", "\"F.Cu\" knockout", "");
+    assert_eq!((drawn, said), (None, vec!["the text `H` on F.Cu is not read".to_owned()]));
+    let (drawn, said) = text("${ISSUE_DATE}", "10 10", "\"F.Cu\"", "");
+    assert_eq!((drawn, said), (None, vec!["the text `${ISSUE_DATE}` on F.Cu is not read".to_owned()]));
 }
 
 #[test]
@@ -333,7 +451,7 @@ fn what_is_not_read_is_said() {
     let said: Vec<_> =
         loaded.warnings.iter().map(|warning| (warning.code(), warning.message.as_str())).collect();
     let expected = [
-        ("kicad-text", "the text `REV 1` on F.Cu at (5.000, 3.000) is not read"),
+        ("kicad-text", "the text `REV 1` on F.Cu is not read"),
         ("kicad-not-read", "dimensions (dimension) on copper or Edge.Cuts are not read"),
         (
             "kicad-blind-via",

@@ -468,6 +468,16 @@ fn plated_and_unplated_holes_are_both_taken_and_doubles_once() {
 }
 
 #[test]
+fn what_one_file_drills_twice_is_one_hole() {
+    let twice = DRILL.replace("X5.0Y5.0", "X5.0Y5.0\nX5.0Y5.0\nX5.01Y5.0\nX5.3Y5.0");
+    let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp-PTH.drl", &twice)]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    assert_eq!(loaded.board.holes.len(), 2, "one, and that beside it");
+    let said = loaded.warnings.iter().find(|warning| warning.code() == "duplicate-holes").expect("a warning");
+    assert!(said.message.starts_with("2 holes of amp-PTH.drl are there more than once"), "{}", said.message);
+}
+
+#[test]
 fn a_gerber_drill_file_has_holes_and_slots() {
     let text = "%TF.FileFunction,Plated,1,2,PTH*%\n%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.8*%\n%ADD11O,2.0X1.0*%\nD10*\nX1000000Y1000000D03*\nX5000000Y5000000D02*\nX7000000Y5000000D01*\nD11*\nX9000000Y9000000D03*\nM02*\n";
     let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp-PTH-drl.gbr", text)]);

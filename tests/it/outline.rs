@@ -4,16 +4,28 @@ use std::fs;
 use std::path::PathBuf;
 
 use proptest::prelude::*;
-use voromill::geometry::{Nm, Path, Polygon, Segment};
+use proptest::test_runner::RngSeed;
+use voromill::board::{Shape, polarity};
+use voromill::geometry::{Nm, Path, Point, Polygon, Segment};
 use voromill::import::gerber;
 use voromill::import::outline::{GAP, Joined, join};
 
 /// A profile layer with `body` behind its header: coordinates in micrometres, D10 of no width.
 fn joined(body: &str) -> Joined {
-    let text = format!("%FSLAX33Y33*%\n%MOMM*%\n%ADD10C,0*%\nG75*\nG01*\nD10*\n{body}\nM02*\n");
+    joined_in("FSLAX33Y33", body)
+}
+
+/// A profile layer with `body` behind its header: coordinates as it says, D10 of no width.
+fn joined_in(format: &str, body: &str) -> Joined {
+    let text = format!("%{format}*%\n%MOMM*%\n%ADD10C,0*%\nG75*\nG01*\nD10*\n{body}\nM02*\n");
     let image = gerber::read("edge.gbr", text.as_bytes(), &gerber::Options::default());
     let image = image.unwrap_or_else(|error| panic!("{}", error.render()));
     join("edge.gbr", text.as_bytes(), &image.features, GAP)
+}
+
+/// As [`joined`], of coordinates in nanometres.
+fn joined_finely(body: &str) -> Joined {
+    joined_in("FSLAX46Y46", body)
 }
 
 /// A profile layer of `fixtures/outline`.
@@ -233,6 +245,56 @@ fn a_region_is_an_edge_and_a_flash_is_none() {
     assert!(flash.outline.is_none(), "and nothing else");
 }
 
+/// A filled rectangle.
+fn region([left, bottom, right, top]: [i64; 4]) -> String {
+    format!(
+        "G36*\nX{left}Y{bottom}D02*\nX{right}Y{bottom}D01*\nX{right}Y{top}D01*\nX{left}Y{top}D01*\n\
+         X{left}Y{bottom}D01*\nG37*\n"
+    )
+}
+
+#[test]
+fn filled_areas_that_overlap_are_one_board() {
+    let filled = |areas: &[[i64; 4]]| areas.iter().copied().map(region).collect::<String>();
+    let cases: [(&str, String, &[i64], &[&str]); 6] = [
+        ("an L", filled(&[[0, 0, 10_000, 2000], [0, 0, 2000, 10_000]]), &[3600], &["outline-parted"]),
+        (
+            "a step",
+            filled(&[[0, 0, 10_000, 5000], [5000, 2500, 15_000, 9000]]),
+            &[10_250],
+            &["outline-parted"],
+        ),
+        (
+            "a frame of four bars",
+            filled(&[
+                [0, 0, 10_000, 1000],
+                [0, 9000, 10_000, 10_000],
+                [0, 0, 1000, 10_000],
+                [9000, 0, 10_000, 10_000],
+            ]),
+            &[10_000, 6400],
+            &["outline-parted"],
+        ),
+        (
+            "one within another",
+            filled(&[[0, 0, 10_000, 10_000], [2000, 2000, 8000, 8000]]),
+            &[10_000, 3600],
+            &[],
+        ),
+        ("two beside each other", filled(&[[0, 0, 5000, 5000], [6000, 0, 9000, 5000]]), &[2500, 1500], &[]),
+        (
+            "an area across what lines enclose",
+            lines(&SQUARE) + &region([500, 500, 12_000, 12_000]),
+            &[10_000 + 13_225 - 9025],
+            &["outline-parted"],
+        ),
+    ];
+    for (what, body, expected, warnings) in cases {
+        let joined = joined(&body);
+        assert_eq!((areas(&joined).as_slice(), codes(&joined).as_slice()), (expected, warnings), "{what}");
+    }
+}
+
 #[test]
 fn outlines_of_the_corpus_close() {
     let folder =
@@ -288,6 +350,149 @@ proptest! {
             prop_assert!(contour.is_closed(), "open: {contour:?}");
         }
         prop_assert_eq!(areas(&first), areas(&joined(&body)), "the same twice");
+    }
+}
+
+/// The same cases every time; others, as many as it says, where `PROPTEST_CASES` is set.
+fn same_cases() -> ProptestConfig {
+    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
+    if std::env::var_os("PROPTEST_CASES").is_some() {
+        return config;
+    }
+    ProptestConfig { cases: 500, rng_seed: RngSeed::Fixed(41), ..config }
+}
+
+/// A place or a length, off by a nanometre as well as by thirty micrometres.
+fn off() -> impl Strategy<Value = i64> {
+    (0..15_u32, -1.0..1.0_f64)
+        .prop_map(|(scale, share)| Nm::from_f64(share * f64::from(2_u32 << scale)).get())
+}
+
+proptest! {
+    #![proptest_config(same_cases())]
+
+    /// A hole that a footprint and a drawing both have, each rounded otherwise.
+    #[test]
+    fn circles_drawn_nearly_twice_become_what_they_cover(
+        radius in 300_000..3_000_000_i64,
+        circles in prop::collection::vec((off(), off(), off(), 0.0..6.3_f64), 2..4),
+    ) {
+        let circle = |&(x, y, larger, start): &(i64, i64, i64, f64)| {
+            let (sine, cosine) = libm::sincos(start);
+            let part = |share: f64| Nm::from_f64(Nm::new(radius + larger).to_f64() * share).get();
+            (x, y, part(cosine), part(sine))
+        };
+        let circles: Vec<(i64, i64, i64, i64)> = circles.iter().map(circle).collect();
+        let draw = |&(x, y, i, j): &(i64, i64, i64, i64)| {
+            let (from_x, from_y) = (x + i, y + j);
+            format!("X{from_x}Y{from_y}D02*\nG03*\nX{from_x}Y{from_y}I{}J{}D01*\n", -i, -j)
+        };
+        let joined = joined_finely(&circles.iter().map(draw).collect::<String>());
+        let disc = |&(x, y, i, j): &(i64, i64, i64, i64)| {
+            let radius = Nm::from_f64(libm::hypot(Nm::new(i).to_f64(), Nm::new(j).to_f64()));
+            Polygon::disc(Point::new(Nm::new(x), Nm::new(y)), radius, Nm::new(250)).expect("a disc")
+        };
+        let discs: Vec<Polygon> = circles.iter().map(disc).collect();
+        let expected: f64 = polarity::union(&discs).iter().map(Polygon::area_mm2).sum();
+        let contours = joined.outline.iter().flat_map(|outline| outline.contours());
+        let found: Vec<f64> = contours.map(area).collect();
+        prop_assert_eq!(found.len(), 1, "one contour of {} mm²: {:?}", expected, found);
+        // As much as two micrometres all round.
+        let slack = 2e-3 * 6.3 * Nm::new(radius).to_mm();
+        prop_assert!((found[0] - expected).abs() < slack, "{} mm² of {} mm²", found[0], expected);
+    }
+}
+
+proptest! {
+    #![proptest_config(same_cases())]
+
+    /// The edge of a board on two layers of one export, its corners rounded otherwise on each.
+    #[test]
+    fn edges_drawn_nearly_twice_become_what_they_cover(
+        corners in prop::collection::vec((2_000_000..9_000_000_i64, off(), off()), 3..9),
+        begin in 0..9_usize,
+    ) {
+        let step = std::f64::consts::TAU / Nm::new(i64::try_from(corners.len()).expect("a few")).to_f64();
+        let at = |index: usize, far: i64| {
+            let (sine, cosine) = libm::sincos(step * Nm::new(i64::try_from(index).expect("a few")).to_f64());
+            [cosine, sine].map(|part| Nm::from_f64(Nm::new(far).to_f64() * part).get())
+        };
+        let first: Vec<[i64; 2]> = corners.iter().enumerate().map(|(i, corner)| at(i, corner.0)).collect();
+        let second = || first.iter().zip(&corners).map(|(&[x, y], &(_, right, up))| [x + right, y + up]);
+        let mut second: Vec<[i64; 2]> = second().collect();
+        let turned = begin % second.len();
+        second.rotate_left(turned);
+        let draw = |ring: &[[i64; 2]]| {
+            let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
+            lines(&pairs.map(|(&[a, b], &[c, d])| [a, b, c, d]).collect::<Vec<_>>())
+        };
+        let joined = joined_finely(&(draw(&first) + &draw(&second)));
+        let polygon = |ring: &[[i64; 2]]| {
+            Polygon::new(vec![ring.iter().map(|&[x, y]| Point::new(Nm::new(x), Nm::new(y))).collect()])
+        };
+        let rings: Vec<Polygon> = [&first, &second].into_iter().filter_map(|ring| polygon(ring)).collect();
+        let hole_less = |polygon: &Polygon| Polygon::new(vec![polygon.contours()[0].clone()]);
+        let expected: f64 =
+            polarity::union(&rings).iter().filter_map(hole_less).map(|ring| ring.area_mm2()).sum();
+        let contours = joined.outline.iter().flat_map(|outline| outline.contours());
+        let found: Vec<f64> = contours.map(area).collect();
+        prop_assert_eq!(found.len(), 1, "one contour of {} mm²: {:?}", expected, found);
+        let perimeter: f64 = rings[0].perimeter() / 1e6;
+        prop_assert!((found[0] - expected).abs() < 2e-3 * perimeter, "{} mm² of {} mm²", found[0], expected);
+    }
+}
+
+proptest! {
+    #![proptest_config(same_cases())]
+
+    /// Slots of which a footprint and a drawing both have the edge, each moved and turned by
+    /// little.
+    #[test]
+    fn slots_drawn_nearly_twice_become_what_they_cover(
+        length in 300_000..5_000_000_i64,
+        radius in 300_000..2_000_000_i64,
+        slots in prop::collection::vec((off(), off(), off(), off(), 0..2_usize), 2..4),
+    ) {
+        // Each by the middles of its ends, its radius, and which of its parts is drawn first.
+        let ends = |&(x, y, turned, wider, _): &(i64, i64, i64, i64, usize)| {
+            ([x, y], [x + length, y + turned], radius + wider)
+        };
+        let corners = |slot: &(i64, i64, i64, i64, usize)| {
+            let ([ax, ay], [bx, by], radius) = ends(slot);
+            let (x, y) = (Nm::new(bx - ax).to_f64(), Nm::new(by - ay).to_f64());
+            let reach = Nm::new(radius).to_f64() / libm::hypot(x, y);
+            let (x, y) = (Nm::from_f64(-y * reach).get(), Nm::from_f64(x * reach).get());
+            [[ax + x, ay + y], [ax - x, ay - y], [bx - x, by - y], [bx + x, by + y]]
+        };
+        let draw = |slot: &(i64, i64, i64, i64, usize)| {
+            let (a, b, _) = ends(slot);
+            let [first, second, third, fourth] = corners(slot);
+            let arc = |from: [i64; 2], to: [i64; 2], center: [i64; 2]| {
+                let [i, j] = [center[0] - from[0], center[1] - from[1]];
+                format!(
+                    "X{}Y{}D02*\nG03*\nX{}Y{}I{i}J{j}D01*\nG01*\n",
+                    from[0], from[1], to[0], to[1]
+                )
+            };
+            let line = |from: [i64; 2], to: [i64; 2]| lines(&[[from[0], from[1], to[0], to[1]]]);
+            let mut parts =
+                [arc(first, second, a), line(second, third), arc(third, fourth, b), line(fourth, first)];
+            parts.rotate_left(slot.4);
+            parts.concat()
+        };
+        let joined = joined_finely(&slots.iter().map(draw).collect::<String>());
+        let stroke = |slot: &(i64, i64, i64, i64, usize)| {
+            let ([ax, ay], [bx, by], radius) = ends(slot);
+            let [from, to] = [[ax, ay], [bx, by]].map(|[x, y]| Point::new(Nm::new(x), Nm::new(y)));
+            Shape::Stroke { from, to, radius: Nm::new(radius) }.polygon(Nm::new(250)).expect("a slot")
+        };
+        let strokes: Vec<Polygon> = slots.iter().map(stroke).collect();
+        let expected: f64 = polarity::union(&strokes).iter().map(Polygon::area_mm2).sum();
+        let contours = joined.outline.iter().flat_map(|outline| outline.contours());
+        let found: Vec<f64> = contours.map(area).collect();
+        prop_assert_eq!(found.len(), 1, "one contour of {} mm²: {:?}", expected, found);
+        let slack = 2e-3 * strokes[0].perimeter() / 1e6;
+        prop_assert!((found[0] - expected).abs() < slack, "{} mm² of {} mm²", found[0], expected);
     }
 }
 

@@ -202,13 +202,13 @@ fn a_board_with_a_window_is_cut_from_the_inside_out() {
 }
 
 /// How much of the way at full depth is missing, in stretches: the openings over the tabs.
-fn bridges(section: &Section, top: Nm) -> Vec<f64> {
+fn bridges(section: &Section, top: Nm) -> Vec<(Point, f64)> {
     let (mut here, mut bridges) = (Position::default(), Vec::new());
     for step in &section.moves {
         let to = step.to().unwrap_or(here);
         let level = matches!(step, Move::Feed { .. }) && here.z == to.z && here.point() != to.point();
         if level && here.z == -top {
-            bridges.push(here.point().distance(to.point()));
+            bridges.push((here.point(), here.point().distance(to.point())));
         }
         here = to;
     }
@@ -224,7 +224,7 @@ fn tabs_are_really_there() {
     let bridges = bridges(&section, top);
     let below = settings.heights.passes().filter(|&depth| depth > top).count();
     assert_eq!(bridges.len(), 2 * 3 * below, "three on each contour, in each pass below their top");
-    for bridge in bridges {
+    for (_, bridge) in bridges {
         // A tab of 2 mm and half a cutter on both sides.
         assert!((bridge - 3e6).abs() < 2.0, "an opening of {bridge} nm");
     }
@@ -251,6 +251,27 @@ fn a_window_narrower_than_the_cutter_is_left_with_a_warning() {
     let (tool, placement) = (tool("endmill:12mm"), Placement::default());
     let (_, warnings) = cutout(&outline(), &cutting(&tool, &placement, 0));
     assert_eq!(warnings.iter().map(|w| w.code()).collect::<Vec<_>>(), ["cut-out-narrower-than-tool"], "one");
+}
+
+#[test]
+fn boards_that_the_cutter_does_not_fit_between_have_tabs_of_their_own() {
+    let (tool, placement) = (tool("endmill:1mm"), Placement::default());
+    let square = |left: i64| {
+        let corners = [(left, 0), (left + 20_000, 0), (left + 20_000, 20_000), (left, 20_000), (left, 0)];
+        line(&corners.map(|(x, y)| at(x, y)))
+    };
+    let settings = cutting(&tool, &placement, 3);
+    let top = settings.heights.cut - settings.tabs.height;
+    let below = settings.heights.passes().filter(|&depth| depth > top).count();
+    for (gap, codes) in [(1_100, vec![]), (600, vec!["boards-closer-than-tool"])] {
+        let outline = Outline::new(vec![square(0), square(20_000 + gap)]).expect("two boards");
+        let (section, warnings) = cutout(&outline, &settings);
+        assert_eq!(warnings.iter().map(|w| w.code()).collect::<Vec<_>>(), codes, "{gap} µm apart");
+        let bridges = bridges(&section, top);
+        let middle = Nm::from_um(20_000 + gap / 2);
+        let of_first = bridges.iter().filter(|(at, _)| at.x < middle).count();
+        assert_eq!((bridges.len(), of_first), (6 * below, 3 * below), "{gap} µm apart: three each");
+    }
 }
 
 fn hole(x: i64, y: i64, diameter: i64, to: Option<Point>) -> Hole {
@@ -385,6 +406,26 @@ fn alignment_holes_fall_on_themselves_when_the_board_is_turned_over() {
     }
 }
 
+#[test]
+fn holes_that_begin_within_others_are_told() {
+    let placement = Placement::default();
+    let codes = |holes: &[Hole]| {
+        let (_, warnings) = drill(holes, &drilling(&[], None, &placement));
+        warnings.iter().map(|warning| warning.code()).collect::<Vec<_>>()
+    };
+    let beside = |apart: i64, diameter: i64| codes(&[hole(0, 0, 800, None), hole(apart, 0, diameter, None)]);
+    assert_eq!(beside(400, 800), ["holes-overlap"], "half a hole apart");
+    assert_eq!(beside(840, 1000), ["holes-overlap"], "of two drills");
+    assert_eq!(beside(900, 1000), Vec::<&str>::new(), "side by side");
+    assert_eq!(beside(0, 1000), Vec::<&str>::new(), "one in the middle of the other");
+    let slot = hole(400, 0, 800, Some(at(3000, 0)));
+    assert_eq!(
+        codes(&[hole(0, 0, 800, None), slot]),
+        Vec::<&str>::new(),
+        "slots are holes in a row themselves"
+    );
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(32))]
 
@@ -398,7 +439,8 @@ proptest! {
         let placement = Placement { mirror: mirror.map(Nm::from_mm), ..Placement::default() };
         let settings = drilling(&[], None, &placement);
         let (sections, warnings) = drill(&holes, &settings);
-        prop_assert!(warnings.is_empty(), "all diameters are at hand");
+        let is_told = warnings.iter().all(|warning| warning.code() == "holes-overlap");
+        prop_assert!(is_told, "all diameters are at hand: {warnings:?}");
         let bottom = Nm::from_um(-1800);
         let mut hit: Vec<(Point, Nm)> = Vec::new();
         for section in &sections {

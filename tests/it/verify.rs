@@ -50,13 +50,21 @@ fn loops_of_straight_lines_isolate() {
     assert_eq!(names(&report, Severity::Info), [""; 0], "{:?}", report.findings);
 }
 
+/// Two pads on a board that begins at this x and ends at 8 mm, 4 mm high.
+fn pads_from(left: Nm) -> Board {
+    let mut board = load(&["verify/pads-F_Cu.gbr"]).board;
+    let [right, bottom, top] = [8, 0, 4].map(Nm::from_mm);
+    let start = Point::new(left, bottom);
+    let corners = [Point::new(right, bottom), Point::new(right, top), Point::new(left, top), start];
+    let segments = corners.map(|to| Segment::Line { to }).to_vec();
+    board.outline = Outline::new(vec![Contour { start, segments }]);
+    board
+}
+
 #[test]
 fn copper_that_goes_on_beyond_the_edge_is_judged_as_far_as_the_board_goes() {
     // The right half of the left pad lies on the board, which begins at x = 2 mm.
-    let mut board = load(&["verify/pads-F_Cu.gbr"]).board;
-    let corner = |x: i64, y: i64| Point::new(Nm::from_mm(x), Nm::from_mm(y));
-    let lines = [corner(8, 0), corner(8, 4), corner(2, 4), corner(2, 0)].map(|to| Segment::Line { to });
-    board.outline = Outline::new(vec![Contour { start: corner(2, 0), segments: lines.to_vec() }]);
+    let board = pads_from(Nm::from_mm(2));
     let cut_into = |motion: &str| {
         let text = format!("G21 G90 G94\nM3 S10000\nG0 Z2\n{motion}\nG0 Z2\nM5\nM2\n");
         let report = judge(&board, foreign("cut.nc", text, "endmill:0.2mm", FRONT));
@@ -73,6 +81,18 @@ fn copper_that_goes_on_beyond_the_edge_is_judged_as_far_as_the_board_goes() {
     ] {
         assert_eq!(cut_into(motion), cuts, "{motion}");
     }
+}
+
+#[test]
+fn copper_that_lies_beyond_the_edge_altogether_may_be_cut() {
+    // The left pad ends at x = 3 mm. A cut 0.3 mm from it reaches 0.1 mm into it.
+    let cut = "G21 G90 G94\nM3 S10000\nG0 Z2\nG0 X3.3 Y1\nG1 Z-0.1 F60\nG1 Y3 F120\nG0 Z2\nM5\nM2\n";
+    let cuts = |edge: i64| {
+        let board = pads_from(Nm::from_um(edge));
+        let report = judge(&board, foreign("cut.nc", cut.to_owned(), "endmill:0.8mm", FRONT));
+        names(&report, Severity::Warning).contains(&"gouge")
+    };
+    assert_eq!([cuts(3_100), cuts(2_900)], [false, true], "the edge beyond the pad, and in it");
 }
 
 #[test]

@@ -39,6 +39,12 @@ diagnostics! {
         "{blend} has no effect",
         "leave {blend} out, or set path blending on the machine";
 
+    BOARDS_CLOSER_THAN_TOOL: Warning =
+        "boards-closer-than-tool",
+        "the cutter does not fit between two boards",
+        "what lies between them stays on both",
+        "use a thinner cutter ({cutout-tool}), or move the boards apart";
+
     CARVED_OUTSIDE: Error =
         "carved-outside",
         "a program mills outside the shapes to be carved",
@@ -86,6 +92,12 @@ diagnostics! {
         "a gap between two nets is narrower than the kerf",
         "the cut removes copper of both nets",
         "use a narrower tool, a smaller {depth} with a V-bit, or {narrow} skip to leave the gap uncut";
+
+    HOLES_OVERLAP: Warning =
+        "holes-overlap",
+        "holes to be drilled overlap each other",
+        "the drill slips into the hole that is there already, or breaks",
+        "draw a slot in their place, or bore them with a mill ({drill-bore}, {drill-bore-from})";
 
     LOOPS_BY_OFFSETS: Warning =
         "loops-by-offsets",

@@ -26,7 +26,7 @@ impl Reader<'_> {
                     if head::is_graphic(head) {
                         self.draw(part, &frame, layers, Some(component.as_deref().unwrap_or_default()))?;
                     } else if head::is_text(head) {
-                        self.text(part, layers, false)?;
+                        self.text(part, layers, &frame, Some(component.as_deref().unwrap_or_default()))?;
                     } else {
                         self.not_read(part);
                     }

@@ -11,7 +11,7 @@
 //! coordinates of the page or of the auxiliary origin, whichever the board's own plot settings say.
 //! Numbers become whole nanometres without a float between.
 //!
-//! What is not read is said: texts on copper, which KiCad draws with a font of its own, dimensions,
+//! Texts on copper are drawn with letters of our own. What is not read is said: dimensions,
 //! pictures. A board whose zones are not filled is an error.
 
 mod curve;
@@ -20,11 +20,14 @@ mod frame;
 mod graphic;
 mod head;
 mod layers;
+mod letter;
+mod lettering;
 mod number;
 mod pad;
 mod pad_shape;
 mod reader;
 mod ring;
+mod stroke_font;
 mod text;
 mod track;
 mod tree;

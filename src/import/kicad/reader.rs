@@ -6,6 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::frame::Frame;
 use super::layers::{Layers, Names};
+use super::letter::Letter;
 use super::ring::{Drawing, Ring};
 use super::tree::{Node, Tree};
 use super::{head, number};
@@ -54,6 +55,8 @@ pub(super) struct Reader<'a> {
     /// Zones on copper without any filled area: where they stand, what they are called, and whether
     /// they were filled.
     pub(super) bare_zones: Vec<(std::ops::Range<usize>, String, bool)>,
+    /// The letters of texts.
+    pub(super) letters: Vec<Letter>,
     pub(super) filled_zones: u64,
     /// What their areas cost to work out, in vertices of booleans.
     pub(super) effort: u64,
@@ -79,6 +82,7 @@ impl<'a> Reader<'a> {
             via_drills: BTreeMap::new(),
             bare_rings: Vec::new(),
             bare_zones: Vec::new(),
+            letters: Vec::new(),
             filled_zones: 0,
             effort: 0,
             version: 0,
@@ -104,6 +108,7 @@ impl<'a> Reader<'a> {
             self.thing(node)?;
         }
         self.rings();
+        self.settle_letters();
         self.judge_zones()
     }
 
@@ -156,7 +161,7 @@ impl<'a> Reader<'a> {
             return self.draw(node, &self.frame.clone(), layers, None);
         }
         if head::is_text(head) {
-            return self.text(node, layers, true);
+            return self.text(node, layers, &self.frame.clone(), None);
         }
         if head != b"layers" {
             self.not_read(node);

@@ -1,11 +1,13 @@
 //! Texts on copper and on the edge.
 //!
-//! KiCad draws them with a font of its own, which is not ours to carry, and another font would make
-//! other copper. So a text is left out with a warning that says what it says and where: it belongs
-//! to no net, and what is isolated round it stays isolated. Texts in other fonts carry their
-//! outlines (`render_cache`, since version 7), which are read.
+//! KiCad draws them with a font of strokes of its own, which is not ours to carry: `lettering`
+//! draws them with another. They belong to no net. Texts in other fonts carry their outlines
+//! (`render_cache`, since version 7), which are read. Those that are knocked out of an area, those
+//! in boxes, those on the edge and those with variables are left out with a warning.
 
+use super::frame::Frame;
 use super::layers::Layers;
+use super::lettering::{Setting, shown};
 use super::reader::Reader;
 use super::ring::Drawing;
 use super::tree::Node;
@@ -15,8 +17,15 @@ use crate::import::diagnostic;
 use crate::import::error::Error;
 
 impl Reader<'_> {
-    /// A text; `outlines` says whether those that it may carry are given in the board's frame.
-    pub(super) fn text(&mut self, node: Node<'_>, layers: Layers, outlines: bool) -> Result<(), Error> {
+    /// A text of the board, or that of the footprint `component` that lies in `frame`; the outlines
+    /// that it may carry are read of the board's own alone.
+    pub(super) fn text(
+        &mut self,
+        node: Node<'_>,
+        layers: Layers,
+        frame: &Frame,
+        component: Option<&str>,
+    ) -> Result<(), Error> {
         let effects = node.find("effects");
         let hidden = |node: Node<'_>| node.says("hide") || node.has_word("hide");
         if hidden(node) || effects.is_some_and(hidden) {
@@ -32,24 +41,24 @@ impl Reader<'_> {
             node.says("knockout") || node.find("layer").is_some_and(|layer| layer.has_word("knockout"));
         let cache = node
             .find("render_cache")
-            .filter(|_| outlines && !knocked_out && layers.is_copper() && !layers.edge);
+            .filter(|_| component.is_none() && !knocked_out && layers.is_copper() && !layers.edge);
         if let Some(cache) = cache {
             return self.outlined(node, cache, layers);
         }
-        let place = match node.find("at") {
-            Some(at) => {
-                Some(self.frame.place((self.length(at, 0)?, self.length(at, 1)?))).filter(|_| outlines)
-            }
-            None => None,
-        };
+        let said = component
+            .map_or_else(|| said.clone(), |name| said.replace("${REFERENCE}", name).replace("%R", name));
+        let drawn = (!knocked_out && !layers.edge && !said.contains("${")).then_some(frame);
+        if let Some(setting) = drawn.map(|frame| Setting::of(self, node, frame)).transpose()?.flatten() {
+            self.count("texts");
+            let said = said.replace("\\n", "\n");
+            return layers.sides().try_for_each(|side| self.letter(node, &said, &setting, side));
+        }
         let on = match (layers.edge, layers.on(Side::Front)) {
             (true, _) => "Edge.Cuts",
             (false, true) => "F.Cu",
             (false, false) => "B.Cu",
         };
-        let at = place.map_or_else(String::new, |p| format!(" at ({:.3}, {:.3})", p.x, p.y));
-        let shown: String = said.chars().take(40).map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let message = format!("the text `{shown}` on {on}{at} is not read");
+        let message = format!("the text {} on {on} is not read", shown(&said));
         self.warnings.add(&diagnostic::KICAD_TEXT, node.place(), message);
         Ok(())
     }

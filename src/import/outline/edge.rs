@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use rustc_hash::FxHashSet;
 
-use crate::geometry::{Arc, Nm, Point, Rect, Segment, Turn, Vector};
+use crate::geometry::{Arc, Nm, Point, Rect, Segment, Turn};
 
 /// A line or an arc that is no full circle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +13,8 @@ pub(super) struct Edge {
     pub(super) to: Point,
     /// The centre and the way round of an arc.
     pub(super) round: Option<(Point, Turn)>,
+    /// Of a line that is a chord: those of its arc.
+    pub(super) bow: Option<(Point, Turn)>,
     /// The line of the file that drew it.
     pub(super) line: u32,
     /// Half the width that it is drawn with.
@@ -21,11 +23,12 @@ pub(super) struct Edge {
 
 impl Edge {
     pub(super) const fn line(from: Point, to: Point, line: u32) -> Self {
-        Self { from, to, round: None, line, half: Nm::ZERO }
+        Self { from, to, round: None, bow: None, line, half: Nm::ZERO }
     }
 
     pub(super) const fn arc(arc: Arc, line: u32) -> Self {
-        Self { from: arc.start, to: arc.end, round: Some((arc.center, arc.turn)), line, half: Nm::ZERO }
+        let round = Some((arc.center, arc.turn));
+        Self { round, ..Self::line(arc.start, arc.end, line) }
     }
 
     /// The same, drawn with a round aperture.
@@ -42,11 +45,12 @@ impl Edge {
 
     /// The same edge walked the other way.
     pub(super) fn reversed(&self) -> Self {
-        let round = self.round.map(|(center, turn)| (center, turn.reversed()));
-        Self { from: self.to, to: self.from, round, ..*self }
+        let [round, bow] =
+            [self.round, self.bow].map(|of| of.map(|(center, turn)| (center, turn.reversed())));
+        Self { from: self.to, to: self.from, round, bow, ..*self }
     }
 
-    fn as_arc(&self) -> Option<Arc> {
+    pub(super) fn as_arc(&self) -> Option<Arc> {
         self.segment().arc(self.from)
     }
 
@@ -58,21 +62,9 @@ impl Edge {
         self.as_arc().map_or(Rect::new(self.from, self.to), |arc| arc.bounds())
     }
 
-    /// The direction in which it leaves `from`.
-    pub(super) fn leaves(&self) -> Vector {
-        let Some((center, turn)) = self.round else { return self.to - self.from };
-        let out = (self.from - center).perpendicular();
-        if turn == Turn::CounterClockwise { out } else { -out }
-    }
-
-    /// How it bends, positive to the left, per nanometre: tells edges apart that leave in the same
-    /// direction.
-    pub(super) fn bend(&self) -> f64 {
-        match self.round {
-            None => 0.0,
-            Some((center, Turn::CounterClockwise)) => 1.0 / center.distance(self.from).max(1.0),
-            Some((center, Turn::Clockwise)) => -1.0 / center.distance(self.from).max(1.0),
-        }
+    /// The line between its ends.
+    const fn straight(self) -> Self {
+        Self { round: None, ..self }
     }
 
     /// The two parts on both sides of `at`.
@@ -129,7 +121,7 @@ impl Edge {
     }
 }
 
-fn line_and_line(one: &Edge, other: &Edge) -> Vec<Point> {
+pub(super) fn line_and_line(one: &Edge, other: &Edge) -> Vec<Point> {
     let (a, b) = (one.to - one.from, other.to - other.from);
     let share = to_float((other.from - one.from).cross(b)) / to_float(a.cross(b));
     along(one, share).into_iter().collect()
@@ -178,6 +170,10 @@ fn circles(a: Point, r: f64, b: Point, s: f64) -> Vec<Point> {
 /// places on slanted lines, with a margin.
 const ON: f64 = 1_500.0;
 
+/// The shortest part of an arc, in nanometres, that is an arc. Chosen: both ends may lie beside it
+/// by [`ON`], and the direction between them says nothing of the way round where that is much.
+const SHORT: f64 = 8.0 * ON;
+
 #[expect(clippy::cast_precision_loss, reason = "compared with tolerances far above the rounding")]
 const fn to_float(value: i64) -> f64 {
     value as f64
@@ -201,7 +197,7 @@ pub(super) fn drop_doubles(edges: &mut Vec<Edge>) {
 /// The most edges that are looked at for crossings, and the most pairs of them that cross; drawings
 /// of more are taken as they are: no outline of a board. Both chosen.
 const MOST: usize = 20_000;
-const MOST_CROSSINGS: usize = 100_000;
+pub(super) const MOST_CROSSINGS: usize = 100_000;
 
 /// Parts edges where another one ends on them or crosses them; lines that lie on each other become
 /// the same.
@@ -243,20 +239,20 @@ fn meet(edges: &[Edge], i: usize, j: usize, cuts: &mut [BTreeSet<Point>]) -> usi
 
 /// `edge` in parts, from one cut to the next.
 fn cut_up(edge: Edge, cuts: BTreeSet<Point>) -> Vec<Edge> {
-    let mut cuts: Vec<Point> = cuts.into_iter().collect();
     let along = |p: Point| match edge.round {
         None => (p - edge.from).length(),
-        Some((center, turn)) => Arc { start: edge.from, end: p, center, turn }.sweep().abs(),
+        Some((center, turn)) => Arc { start: edge.from, end: p, center, turn }.length(),
     };
-    cuts.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
+    let mut cuts: Vec<(f64, Point)> = cuts.into_iter().map(|p| (along(p), p)).collect();
+    cuts.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut parts = Vec::with_capacity(cuts.len() + 1);
-    let mut rest = edge;
-    for at in cuts {
+    let (mut rest, mut from) = (edge, 0.0);
+    for (to, at) in cuts {
         let [part, left] = rest.parted(at);
-        parts.push(part);
-        rest = left;
+        parts.push(if to - from < SHORT { part.straight() } else { part });
+        (rest, from) = (left, to);
     }
-    parts.push(rest);
+    parts.push(if edge.length() - from < SHORT { rest.straight() } else { rest });
     parts
 }
 

@@ -6,10 +6,11 @@
 
 use super::edge::Edge;
 use super::{Notes, area_mm2};
-use crate::geometry::{Path, Vector};
+use crate::geometry::{Path, Segment, Vector};
 use crate::import::diagnostic;
 
-/// The contour around each connected part of `edges`, counter-clockwise. No edge may lead nowhere.
+/// The contour around each connected part of `edges`, counter-clockwise. No edge may lead nowhere
+/// or cross another, and where more than two meet all must be lines.
 pub(super) fn outermost(edges: &[Edge], notes: &mut Notes<'_>) -> Vec<Path> {
     let walks = Walks::new(edges);
     let mut walked = vec![false; walks.order.len()];
@@ -56,17 +57,16 @@ impl<'a> Walks<'a> {
 
     /// Walks round the face to the left of `start`.
     fn face_from(&self, start: usize, walked: &mut [bool]) -> Path {
-        let mut face = Path { start: self.walk(start).from, segments: Vec::new() };
+        let mut face = Vec::new();
         let mut at = start;
         while !walked[at] {
             walked[at] = true;
-            face.segments.push(self.walk(at).segment());
+            face.push(self.walk(at));
             // The way back stands in the order of directions; the one before it, clockwise, goes on
             // round this face.
             at = self.before(at ^ 1);
         }
-        face.segments.shrink_to_fit();
-        face
+        path(&face)
     }
 
     /// The walk from the same point that stands before `walk`; the last one before the first.
@@ -91,9 +91,25 @@ fn walk(edges: &[Edge], index: usize) -> Edge {
     if index.is_multiple_of(2) { edge } else { edge.reversed() }
 }
 
-/// Counter-clockwise from −x, and by bend where two edges leave in the same direction.
+/// Counter-clockwise from −x. Where only two edges leave a point, which stands first is the same.
 fn by_direction(a: &Edge, b: &Edge) -> std::cmp::Ordering {
-    let (u, v) = (a.leaves(), b.leaves());
+    let (u, v) = (a.to - a.from, b.to - b.from);
     let half = |w: Vector| w.y.get() > 0 || (w.y.get() == 0 && w.x.get() > 0);
-    half(u).cmp(&half(v)).then_with(|| 0.cmp(&u.cross(v))).then_with(|| a.bend().total_cmp(&b.bend()))
+    half(u).cmp(&half(v)).then_with(|| 0.cmp(&u.cross(v)))
+}
+
+/// The closed path along `walks`: enough chords of one arc, one after the other, are an arc.
+fn path(walks: &[Edge]) -> Path {
+    /// Chosen: of fewer the ends say too little about the way round.
+    const ENOUGH: usize = 3;
+    let mut segments = Vec::new();
+    for run in walks.chunk_by(|a, b| a.bow.is_some() && a.bow == b.bow) {
+        match (run[0].bow, run.last()) {
+            (Some((center, turn)), Some(last)) if run.len() >= ENOUGH => {
+                segments.push(Segment::Arc { to: last.to, center, turn });
+            }
+            _ => segments.extend(run.iter().map(Edge::segment)),
+        }
+    }
+    Path { start: walks[0].from, segments }
 }

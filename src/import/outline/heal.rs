@@ -24,7 +24,7 @@ struct End {
 }
 
 /// The ends of `edges` with the edge of each, sorted: those that meet stand together.
-fn meeting(edges: &[Edge]) -> Vec<(Point, usize)> {
+pub(super) fn meeting(edges: &[Edge]) -> Vec<(Point, usize)> {
     let both = |(index, edge): (usize, &Edge)| [(edge.from, index), (edge.to, index)];
     let mut meeting: Vec<(Point, usize)> = edges.iter().enumerate().flat_map(both).collect();
     meeting.sort_unstable();
@@ -306,15 +306,28 @@ pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loos
     let length = left_out().map(Edge::length).fold(0.0, |sum, length| sum + length);
     let loose = |edge: &Edge| [edge.from, edge.to].into_iter().find(|p| ends[p].count == 1);
     let place = left_out().find_map(|edge| Some((loose(edge)?, edge.line)))?;
-    let message = format!(
-        "{} lines of the outline layer, {:.1} mm in all, belong to no closed contour and are ignored",
-        left_out().count(),
-        Nm::from_f64(length)
-    );
-    notes.add(&diagnostic::OUTLINE_LOOSE_LINES, message, Some(place));
+    // Shorter, it is but a corner that was drawn twice.
+    if length >= super::GAP.to_f64() {
+        let message = format!(
+            "{} lines of the outline layer, {:.1} mm in all, belong to no closed contour and are ignored",
+            left_out().count(),
+            Nm::from_f64(length)
+        );
+        notes.add(&diagnostic::OUTLINE_LOOSE_LINES, message, Some(place));
+    }
+    leave_out(edges, dead);
+    Some(Loose { length, bounds, place })
+}
+
+/// Leaves out edges that lead nowhere, without a word.
+pub(super) fn drop_dead_ends(edges: &mut Vec<Edge>) {
+    let dead = dead_ends(edges);
+    leave_out(edges, dead);
+}
+
+fn leave_out(edges: &mut Vec<Edge>, dead: Vec<bool>) {
     let mut dead = dead.into_iter();
     edges.retain(|_| !dead.next().unwrap_or(false));
-    Some(Loose { length, bounds, place })
 }
 
 /// Which edges lead nowhere: those with a loose end, and those whose end is loose without them, one

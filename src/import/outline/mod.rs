@@ -5,13 +5,17 @@
 //! beside. What counts is what they enclose:
 //!
 //! ```text
-//!  edges ─ heal ─▶ gaps closed ─ edge ─▶ parted where they meet ─ heal ─▶ dead ends off ─ faces, nest ─▶ contours
+//!  edges ─ heal ─▶ gaps closed ─ edge ─▶ parted where they meet
+//!        ─ heal ─▶ dead ends off ─ chords ─▶ crossing nowhere
+//!        ─ faces, areas, nest ─▶ contours
 //! ```
 //!
 //! Of every connected drawing the outermost boundary is a contour. What lies inside it without
 //! touching it is a contour of its own, a cut-out; what lies inside and touches it, or comes nearer
 //! to it than lines are joined over, is left out with a warning.
 
+mod areas;
+mod chords;
 mod edge;
 mod faces;
 mod heal;
@@ -65,8 +69,11 @@ pub fn join(
     }
     let loose = heal::prune(&mut edges, &mut notes);
     heal::note_joints(&edges, joints, &mut notes);
-    contours.extend(faces::outermost(&edges, &mut notes));
-    drop(edges);
+    let is_filled = !contours.is_empty();
+    contours.extend(faces::outermost(&chords::of_crowded(edges), &mut notes));
+    if is_filled {
+        contours = areas::united(contours, &mut notes);
+    }
     contours.sort_by_cached_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
     contours.dedup();
     let contours = nest::without_decoration(contours, &mut notes);

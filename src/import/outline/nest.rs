@@ -2,7 +2,7 @@
 
 use super::{Notes, area_mm2};
 use crate::board::FLATTEN;
-use crate::geometry::{Nm, Path, Point, Polygon, Rect, off_segment};
+use crate::geometry::{Nm, Path, Point, Polygon, Rect, distance_to_segment};
 use crate::import::diagnostic;
 
 /// The smallest area of a contour, in mm²: below lie letters' eyes and doubled lines, which nothing
@@ -14,7 +14,7 @@ const SMALLEST: f64 = 0.05;
 const SHARE: f64 = 0.02;
 
 /// The most contours that are compared with each other; a layer of more is taken as it is. Chosen.
-const MOST: usize = 2_000;
+pub(super) const MOST: usize = 2_000;
 
 /// The contours without tiny ones, and without small ones that lie outside every board.
 pub(super) fn without_decoration(mut contours: Vec<Path>, notes: &mut Notes<'_>) -> Vec<Path> {
@@ -73,8 +73,9 @@ pub(super) fn without_doubles(contours: Vec<Path>, gap: Nm, notes: &mut Notes<'_
         if kept.iter().any(is_double) { dropped.push(i) } else { kept.push(i) }
     }
     if let Some(&first) = dropped.first() {
-        let message =
-            format!("lines come nearer than {gap} to the outline around them; only the outer ones are used");
+        let message = format!(
+            "lines come nearer than {gap:.3} mm to the outline around them; only the outer ones are used"
+        );
         notes.add(&diagnostic::OUTLINE_PARTED, message, notes.place(contours[first].start));
     }
     kept.sort_unstable();
@@ -95,16 +96,11 @@ fn come_near(a: &[Point], b: &[Point], gap: Nm) -> bool {
             let near = Rect::new(from, to).inflate(gap);
             let first = sorted.partition_point(|p| p.x < near.min().x);
             let mut beside = sorted[first..].iter().take_while(|p| p.x <= near.max().x);
-            around.touches(Rect::new(from, to)) && beside.any(|&p| distance(p, from, to) < gap.to_f64())
+            around.touches(Rect::new(from, to))
+                && beside.any(|&p| distance_to_segment(p, (from, to)) < gap.to_f64())
         })
     };
     corner_near(a, b) || corner_near(b, a)
-}
-
-/// How far a place is from a line, in nanometres.
-fn distance(p: Point, from: Point, to: Point) -> f64 {
-    let (x, y) = off_segment(p.to_f64(), from.to_f64(), to.to_f64());
-    libm::hypot(x, y)
 }
 
 /// The area inside a closed path.
@@ -122,7 +118,9 @@ mod tests {
     fn obvious(a: &[Point], b: &[Point], gap: Nm) -> bool {
         let near = |corners: &[Point], ring: &[Point]| {
             let sides = || ring.iter().zip(ring.iter().cycle().skip(1));
-            corners.iter().any(|&p| sides().any(|(&from, &to)| distance(p, from, to) < gap.to_f64()))
+            corners
+                .iter()
+                .any(|&p| sides().any(|(&from, &to)| distance_to_segment(p, (from, to)) < gap.to_f64()))
         };
         near(a, b) || near(b, a)
     }

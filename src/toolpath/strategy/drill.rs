@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::bore;
 use crate::board::diagnostic::planning;
 use crate::board::{Hole, Warning};
-use crate::geometry::{Nm, Path, Point, Segment, Vector};
+use crate::geometry::{Nm, Path, Point, RectIndex, Segment, Vector};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Angle, DrillSpeeds, Heights, Placement, Section, Tool, ToolKind};
@@ -50,7 +50,8 @@ const THICKEST: Nm = Nm::from_um(3200);
 /// Tools keep their numbers; drills that are only taken to be at hand all have 1, and who knows all
 /// tools of a job numbers them.
 ///
-/// Warned about: `no-drill-for-hole` where neither a drill nor the mill fits.
+/// Warned about: `no-drill-for-hole` where neither a drill nor the mill fits, `holes-overlap` where
+/// one drilled hole begins within another.
 pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warning>) {
     let mut jobs: BTreeMap<(Nm, u32), (Tool, Vec<&Hole>)> = BTreeMap::new();
     let (mut bored, mut warnings) = (Vec::new(), Vec::new());
@@ -74,6 +75,8 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
             None => warnings.push(missing(hole)),
         }
     }
+    let drilled = jobs.values().flat_map(|(_, holes)| holes.iter().copied());
+    warnings.extend(overlaps(&drilled.filter(|hole| !hole.is_slot()).collect::<Vec<_>>()));
     let mut sections: Vec<Section> = Vec::with_capacity(jobs.len() + 1);
     sections.extend(jobs.into_values().map(|(tool, holes)| section(tool, &holes, settings)));
     if let Some(mill) = settings.mill.filter(|_| !bored.is_empty()) {
@@ -104,6 +107,23 @@ fn bit(hole: &Hole, settings: &Drilling<'_>) -> Option<Tool> {
 fn missing(hole: &Hole) -> Warning {
     let message = format!("no available drill is near {:.3} mm: the hole is not drilled", hole.diameter);
     planning::NO_DRILL_FOR_HOLE.warning(message).at(hole.path.start)
+}
+
+/// The warning for holes that begin within others, if any do. One in the middle of another is only
+/// widened.
+fn overlaps(holes: &[&Hole]) -> Option<Warning> {
+    /// So much neither bends a drill nor is more than rounding. Chosen.
+    const NOTHING: Nm = Nm::from_um(50);
+    let index = RectIndex::new(holes.iter().map(|hole| hole.bounds()));
+    let do_overlap = |a: &Hole, b: &Hole| {
+        let apart = a.path.start.distance(b.path.start);
+        apart > NOTHING.to_f64() && apart < ((a.diameter + b.diameter) / 2 - NOTHING).to_f64()
+    };
+    let of = |i: usize| index.touching(holes[i].bounds()).into_iter().map(|j| holes[j]);
+    let mut found = (0..holes.len()).filter(|&i| of(i).any(|other| do_overlap(holes[i], other)));
+    let first = holes[found.next()?];
+    let message = format!("{} drilled holes overlap each other", 1 + found.count());
+    Some(planning::HOLES_OVERLAP.warning(message).at(first.path.start))
 }
 
 /// All holes of one drill.

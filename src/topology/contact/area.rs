@@ -2,8 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use crate::geometry::{Orientation, Point, Polygon, Rect, orientation};
-use crate::topology::index::RectIndex;
+use crate::geometry::RectIndex;
+use crate::geometry::{Nm, Orientation, Point, Polygon, Rect, orientation};
 
 use super::near;
 use super::nearest::{self, Way};
@@ -90,12 +90,14 @@ impl Area {
         on_edge || winding != 0
     }
 
-    /// Whether the two areas share a point: edges meet, or a contour of one lies in the other.
-    pub(super) fn touches(&self, other: &Self, scratch: &mut Scratch) -> bool {
+    /// Whether the two areas are no farther apart than `gap`: edges are, or a contour of one lies
+    /// in the other.
+    pub(super) fn is_within(&self, other: &Self, gap: Nm, scratch: &mut Scratch) -> bool {
         let (few, many) = if self.edges.len() < other.edges.len() { (self, other) } else { (other, self) };
         let Scratch { edges, facing } = scratch;
-        few.any_edge(many.bounds, edges, |edge| {
-            many.any_edge(Rect::new(edge.0, edge.1), facing, |other| near::segments(edge, other, 0))
+        few.any_edge(many.bounds.inflate(gap), edges, |edge| {
+            let near = Rect::new(edge.0, edge.1).inflate(gap);
+            many.any_edge(near, facing, |other| near::segments(edge, other, gap.get()))
         }) || few.contours.iter().any(|&p| many.contains(p, scratch))
             || many.contours.iter().any(|&p| few.contains(p, scratch))
     }

@@ -65,24 +65,29 @@ impl Body {
         self.bounds
     }
 
-    /// Whether the two share at least a point. Exact but for the insides of two arcs (see
-    /// [`near`]).
+    /// Whether the two share at least a point. Exact as [`Body::is_within`].
     pub(in crate::topology) fn touches(&self, other: &Self, scratch: &mut Scratch) -> bool {
-        if !self.bounds.touches(other.bounds) {
+        self.is_within(other, Nm::ZERO, scratch)
+    }
+
+    /// Whether the two are no farther apart than `gap`. Exact but for the insides of two arcs (see
+    /// [`near`]).
+    pub(in crate::topology) fn is_within(&self, other: &Self, gap: Nm, scratch: &mut Scratch) -> bool {
+        if !self.bounds.inflate(gap).touches(other.bounds) {
             return false;
         }
         match (&self.core, &other.core) {
-            (Core::Line(a), Core::Line(b)) => a.is_within(b, (self.radius + other.radius).get()),
-            (Core::Line(line), Core::Area(area)) => self.touches_area(line, area, scratch),
-            (Core::Area(area), Core::Line(line)) => other.touches_area(line, area, scratch),
-            (Core::Area(a), Core::Area(b)) => a.touches(b, scratch),
+            (Core::Line(a), Core::Line(b)) => a.is_within(b, (self.radius + other.radius + gap).get()),
+            (Core::Line(line), Core::Area(area)) => self.reaches_area(line, area, gap, scratch),
+            (Core::Area(area), Core::Line(line)) => other.reaches_area(line, area, gap, scratch),
+            (Core::Area(a), Core::Area(b)) => a.is_within(b, gap, scratch),
         }
     }
 
-    /// Whether this, whose core is `line`, reaches `area`.
-    fn touches_area(&self, line: &Line, area: &Area, scratch: &mut Scratch) -> bool {
-        area.any_edge(self.bounds, &mut scratch.edges, |(a, b)| {
-            line.is_within(&Line::Segment(a, b), self.radius.get())
+    /// Whether this, whose core is `line`, comes as near to `area` as `gap`.
+    fn reaches_area(&self, line: &Line, area: &Area, gap: Nm, scratch: &mut Scratch) -> bool {
+        area.any_edge(self.bounds.inflate(gap), &mut scratch.edges, |(a, b)| {
+            line.is_within(&Line::Segment(a, b), (self.radius + gap).get())
         }) || area.contains(*line.point(), scratch)
     }
 }

@@ -1,8 +1,10 @@
 //! The exact method: features whose copper touches conduct, decided in integers.
 //!
 //! Candidates come from an R-tree over the features' rectangles, so the time is near-linear; a pair
-//! that is joined already, by coincidence or through others, is not looked at. Touching counts, a
-//! gap of 1 nm does not.
+//! that is joined already, by coincidence or through others, is not looked at.
+//!
+//! What is no farther apart than [`JOINED`] touches: what was drawn side by side is parted by so
+//! much where corners of a slanted pad were rounded, or a curve became chords.
 
 mod area;
 mod body;
@@ -14,13 +16,17 @@ use std::ops::ControlFlow;
 
 use rayon::prelude::*;
 
-use crate::board::{Copper, Shape};
+use crate::board::{Copper, FLATTEN, Shape};
 
-use super::index::RectIndex;
 use super::sets::DisjointSets;
+use crate::geometry::{Nm, RectIndex};
 
 pub(super) use area::Scratch;
 pub(super) use body::{Body, Narrowest};
+
+/// Copper so near to other copper is one with it. Derived: curves are flattened within so much, and
+/// less cannot be told from nothing; the narrowest gap that is etched is a hundred times wider.
+pub(crate) const JOINED: Nm = FLATTEN;
 
 /// How many features one worker takes at least.
 ///
@@ -71,10 +77,10 @@ impl Bodies {
         let body = &self.bodies[feature];
         let number = |index: usize| u32::try_from(index).expect("fewer than 2³² features");
         let own = number(feature);
-        let _ = self.index.visit(body.bounds(), stack, |other| {
+        let _ = self.index.visit(body.bounds().inflate(JOINED), stack, |other| {
             if other > feature
                 && sets.find(own) != sets.find(number(other))
-                && body.touches(&self.bodies[other], scratch)
+                && body.is_within(&self.bodies[other], JOINED, scratch)
             {
                 sets.union(own, number(other));
             }

@@ -29,6 +29,11 @@ fn scaled((e, k): Plane) -> Plane {
 
 /// The points equally far from three forms, wherever their feet lie; at most two.
 pub(super) fn solve(forms: [&Form; 3]) -> [Option<Solution>; 2] {
+    solve_within(forms, (Spot::default(), f64::INFINITY))
+}
+
+/// Those no farther than this from a place; others, too, but not all.
+pub(super) fn solve_within(forms: [&Form; 3], (middle, reach): (Spot, f64)) -> [Option<Solution>; 2] {
     let base = forms.iter().position(|form| matches!(form, Form::Circle { .. }));
     let (origin, raw) = match base {
         Some(i) => on_cone(forms, i),
@@ -36,7 +41,9 @@ pub(super) fn solve(forms: [&Form; 3]) -> [Option<Solution>; 2] {
     };
     raw.map(|root| {
         let [x, y, s] = root?;
-        polished(forms, origin + Spot::new(x, y), s)
+        let p = origin + Spot::new(x, y);
+        let may_be = (p - middle).length() <= reach + f64::from(POLISHES) * most(s);
+        may_be.then(|| polished(forms, p, s)).flatten()
     })
 }
 
@@ -103,6 +110,14 @@ fn on_cone(forms: [&Form; 3], base: usize) -> (Spot, [Option<[f64; 3]>; 2]) {
     (origin, [at(q / a), at(c / q)])
 }
 
+/// How many of Newton's steps are taken. Chosen: the second finds rounding alone.
+const POLISHES: u32 = 2;
+
+/// How long one of them may be.
+fn most(s: f64) -> f64 {
+    1.0 + 1e-3 * s.abs()
+}
+
 /// The solution nearest to a rough one; none on the wrong sheet of a cone.
 fn polished(forms: [&Form; 3], mut p: Spot, mut s: f64) -> Option<Solution> {
     // What Newton's steps may have to make good.
@@ -117,7 +132,7 @@ fn polished(forms: [&Form; 3], mut p: Spot, mut s: f64) -> Option<Solution> {
     if s < -slack || !forms.iter().all(|form| on_sheet(form, s)) {
         return None;
     }
-    for _ in 0..2 {
+    for _ in 0..POLISHES {
         let d = forms.map(|form| form.distance(p));
         let away = forms.map(|form| form.away(p));
         let (u, v) = (away[0] - away[2], away[1] - away[2]);
@@ -127,7 +142,7 @@ fn polished(forms: [&Form; 3], mut p: Spot, mut s: f64) -> Option<Solution> {
         }
         let (e, f) = (d[2] - d[0], d[2] - d[1]);
         let step = Spot::new(e * v.y - f * u.y, f * u.x - e * v.x) * (1.0 / volume);
-        if step.length() > 1.0 + 1e-3 * s.abs() {
+        if step.length() > most(s) {
             break;
         }
         p = p + step;

@@ -3,7 +3,6 @@
 
 use rayon::prelude::*;
 
-use super::form::Form;
 use super::{Diagram, Edge, Vertex};
 use crate::geometry::Point;
 use crate::voronoi::plane::Spot;
@@ -50,11 +49,12 @@ impl Diagram {
 
     /// The place midway between two of an edge, by the foot on one of its generators.
     ///
-    /// Between lines the edge is straight, and its middle that of the chord: where they turn by a
-    /// hundred thousandth, feet a fraction of a nanometre apart are those of places far apart.
+    /// Between lines, and between corners that all but meet, the edge is straight, and its middle
+    /// that of the chord: where lines turn by a hundred thousandth, or corners lie a nanometre
+    /// apart, feet a fraction of a nanometre apart are those of places far apart.
     pub(super) fn midway(&self, edge: &Edge, a: Spot, b: Spot) -> Option<Sample> {
         let pair = self.pair(edge.left, edge.right);
-        if let [Form::Line { .. }, Form::Line { .. }] = pair.forms {
+        if pair.is_straight() {
             let at = a.midpoint(b);
             return Some(Sample { at, clearance: pair.forms[0].distance(at) });
         }
@@ -122,7 +122,8 @@ impl Diagram {
     }
 
     fn check(&self, at: Spot, clearance: f64, tied: &[u32], found: &mut Vec<Violation>) {
-        let off = tied.iter().map(|&i| (self.forms()[i as usize].distance(at) - clearance).abs());
+        // Their feet must lie on them.
+        let off = tied.iter().map(|&i| (self.forms()[i as usize].off(at) - clearance).abs());
         let mut worst = off.fold(0.0, f64::max);
         // No edge of copper, seen from whichever side, lies within an empty circle; so what lies in
         // copper is told from what lies outside, too.

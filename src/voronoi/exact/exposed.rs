@@ -16,7 +16,7 @@ use super::form::{Form, Place, turn, unit};
 use super::generator::Body;
 use super::graph::Growth;
 use super::tolerances::OFF;
-use crate::topology::boxes;
+use crate::geometry::boxes;
 use crate::voronoi::plane::Spot;
 
 /// Shorter pieces of an edge are none, in nanometres. Chosen: no cutter fits what they enclose.
@@ -68,7 +68,7 @@ impl<'a> Bodies<'a> {
 
     /// Whether copper lies off an edge with this foot and normal.
     pub(super) fn cover(&self, foot: Spot, normal: Spot) -> bool {
-        self.hold(foot + normal * self.diagram.tolerances.off, true)
+        self.hold(foot + normal * OFF, true)
     }
 
     /// Whether copper lies at `p`; what rings keep free ends within them where `beyond` says so.

@@ -13,11 +13,8 @@
 //! hyperbola and an ellipse are all one closed expression: from the foot on one form along its
 //! normal, the place where the other is equally far solves a linear equation ([`Form::meet`]).
 
+use super::tolerances::SLAB;
 use crate::voronoi::plane::Spot;
-
-/// A foot may lie so far beyond the end of a slab and count, in nanometres: far more than rounding
-/// and than what makes two places one vertex, far less than any real length. Chosen.
-pub(super) const SLAB: f64 = 0.05;
 
 /// Nothing on a board is so far away, in nanometres: bisectors end here that rounding has turned
 /// from parallel ones. Chosen.
@@ -80,6 +77,11 @@ pub(super) fn clockwise(v: Spot) -> Spot {
 pub(super) fn unit(v: Spot) -> Spot {
     let length = v.length();
     if length > 0.0 { Spot::new(v.x / length, v.y / length) } else { Spot::default() }
+}
+
+/// Whether two directions are one but for an angle of this sine.
+pub(super) fn is_one_way(u: Spot, v: Spot, sine: f64) -> bool {
+    u.dot(v) > 0.0 && u.cross(v).abs() < sine
 }
 
 /// A number in 0..4 that grows with the angle from `from` to `to`, counter-clockwise; exact for

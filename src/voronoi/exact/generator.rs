@@ -25,7 +25,7 @@ use crate::topology;
 use crate::voronoi::plane::Spot;
 
 use super::WALL;
-use super::form::{Form, clockwise, unit};
+use super::form::{Form, clockwise, is_one_way, unit};
 use super::rounding::Circles;
 use super::slit::without_slits;
 use super::weld::welded;
@@ -48,13 +48,10 @@ const ROUNDING: f64 = 1.5;
 /// Shaken points are moved by up to so many nanometres along either axis. Measured: of 3000 scenes
 /// of tracks with rounded corners, whose lines and arcs end fractions of a nanometre apart, 170
 /// have a fault when moved by 2, for that leaves them about as far apart as what is equal; 4 when
-/// moved by 20, and none by 50. Nets [`CLOSE`](crate::voronoi::certified) or more apart stay apart.
+/// moved by 20, and none by 50.
 const SHAKE: i64 = 25;
 
-/// The share of a shake where a nanometre matters. Chosen: a tenth of one at most.
-const SHARE: f64 = 0.004;
-
-/// The rounding where a nanometre matters: what floats leave of a straight edge. Chosen.
+/// The same of what is looked at from within: what floats leave of a straight edge. Chosen.
 const EXACT: f64 = 1e-3;
 
 /// So many corners in a row are none at most, so that looking does not take the square of them.
@@ -91,8 +88,6 @@ pub struct Generators {
     attempt: u32,
     /// Whether what one owner has may lie in pieces.
     pub(super) is_loose: bool,
-    /// Whether owners may be so near to each other that a nanometre matters.
-    pub(super) is_close: bool,
     /// Whether they are so far apart that what flattening left does not matter.
     is_round: bool,
 }
@@ -105,8 +100,7 @@ impl Generators {
     }
 
     /// None yet; each point of those to come is moved by up to 25 nanometres along either axis, as
-    /// the number of the attempt says, the same point alike, so that equal distances differ; by no
-    /// more than a tenth of a nanometre where owners may be close ([`Generators::keep_all`]). The
+    /// the number of the attempt says, the same point alike, so that equal distances differ. The
     /// first attempt, zero, leaves all as it is.
     #[must_use]
     pub fn shaken(attempt: u32) -> Self {
@@ -117,12 +111,6 @@ impl Generators {
     /// has one rightmost point, each piece of these its own.
     pub const fn loosen(&mut self) {
         self.is_loose = true;
-    }
-
-    /// Says that owners may be nearer to each other than slits are wide: then polygons keep theirs,
-    /// and every corner.
-    pub const fn keep_all(&mut self) {
-        self.is_close = true;
     }
 
     /// Says that owners are farther apart than flattening moves edges: then what chords are left of
@@ -144,14 +132,8 @@ impl Generators {
 
     /// Where a point is moved to.
     fn moved(&self, p: Point) -> Point {
-        let [x, y] = if self.is_close { [0; 2] } else { self.steps(p) };
+        let [x, y] = self.steps(p);
         p + Vector::new(Nm::new(x), Nm::new(y))
-    }
-
-    /// The place of a point that has been moved: where owners are close, this alone moves it.
-    fn spot(&self, p: Point) -> Spot {
-        let [x, y] = if self.is_close { self.steps(p) } else { [0; 2] };
-        Spot::from(p) + Spot::new(Nm::new(x).to_f64(), Nm::new(y).to_f64()) * SHARE
     }
 
     /// How far a point is moved along either axis, in nanometres.
@@ -165,6 +147,16 @@ impl Generators {
         [hash >> 32, hash & u64::from(u32::MAX)].map(|bits| {
             i64::try_from(bits % (2 * SHAKE.cast_unsigned() + 1)).expect("twice as many and one") - SHAKE
         })
+    }
+
+    /// The same without what was only needed to add more.
+    pub(super) fn finished(mut self) -> Self {
+        (self.discs, self.strokes, self.welded) = Default::default();
+        self.forms.shrink_to_fit();
+        self.owners.shrink_to_fit();
+        self.ends.shrink_to_fit();
+        self.bodies.shrink_to_fit();
+        self
     }
 
     /// How many there are.
@@ -226,20 +218,19 @@ impl Generators {
 
     fn rings(&mut self, polygon: &Polygon, owner: impl Fn(usize) -> u32, inwards: bool) {
         // The inside of shapes is taken as it is: there every corner may have an axis.
-        let is_exact = self.is_close || inwards;
-        let rounding = if is_exact { EXACT } else { ROUNDING };
+        let rounding = if inwards { EXACT } else { ROUNDING };
         let simple = |ring: Vec<Point>| simple(ring, rounding);
         let points = |ring: &Vec<Point>| ring.iter().map(|&p| self.point(p)).collect::<Vec<_>>();
         let rings: Vec<Vec<Point>> = polygon.contours().iter().map(|ring| simple(points(ring))).collect();
         let largest = rings.iter().map(|ring| twice_area(ring)).max_by_key(|area| area.unsigned_abs());
         let backwards = largest.is_some_and(|area| area < 0);
-        let circles = Circles::new(if self.is_round && !is_exact { polygon.circles() } else { &[] });
+        let circles = Circles::new(if self.is_round && !inwards { polygon.circles() } else { &[] });
         let mut numbers = Vec::new();
         for (i, mut ring) in rings.into_iter().enumerate().filter(|(_, ring)| ring.len() > 1) {
             if backwards != inwards {
                 ring.reverse();
             }
-            let rings = if is_exact { vec![ring] } else { without_slits(vec![ring]) };
+            let rings = if inwards { vec![ring] } else { without_slits(vec![ring]) };
             for ring in rings {
                 let ring = simple(ring);
                 let path = circles.rounded(ring);
@@ -306,7 +297,7 @@ impl Generators {
         for (i, &(from, segment)) in steps.iter().enumerate() {
             let ends = [corners[i], corners[(i + 1) % n]];
             match segment.arc(from) {
-                None => drop(self.push(Form::line(self.spot(from), self.spot(segment.to())), owner, ends)),
+                None => drop(self.push(Form::line(Spot::from(from), Spot::from(segment.to())), owner, ends)),
                 Some(arc) => self.bow(&arc, owner, ends),
             }
         }
@@ -319,15 +310,15 @@ impl Generators {
 
     /// A circle that is a whole ring.
     fn circle(&mut self, circle: &Arc, owner: u32) -> u32 {
-        let (center, radius) = (self.spot(circle.center), circle.radius());
+        let (center, radius) = (Spot::from(circle.center), circle.radius());
         let hollow = circle.turn == Turn::Clockwise;
         self.push(Form::Circle { center, radius, hollow, sector: None }, owner, [NONE; 2])
     }
 
     /// An arc of a ring.
     fn bow(&mut self, arc: &Arc, owner: u32, [start, end]: [u32; 2]) {
-        let [from, to] = [arc.start, arc.end].map(|p| self.spot(p));
-        let (center, radius) = between(from, to, self.spot(arc.center));
+        let [from, to] = [arc.start, arc.end].map(Spot::from);
+        let (center, radius) = between(from, to, Spot::from(arc.center));
         let [from, to] = [from, to].map(|p| unit(p - center));
         let hollow = arc.turn == Turn::Clockwise;
         let (sector, ends) = if hollow { ([to, from], [end, start]) } else { ([from, to], [start, end]) };
@@ -341,8 +332,7 @@ impl Generators {
             Form::Line { along, .. } => along,
             Form::Circle { .. } => Spot::default(),
         });
-        let is_straight = ways[0].cross(ways[1]).abs() < STRAIGHT && ways[0].dot(ways[1]) > 0.0;
-        if is_straight && line != next && self.ends[line as usize][1] == NONE {
+        if is_one_way(ways[0], ways[1], STRAIGHT) && line != next && self.ends[line as usize][1] == NONE {
             self.ends[line as usize][1] = next;
             self.ends[next as usize][0] = line;
         }
@@ -360,7 +350,7 @@ impl Generators {
         if let Some(&known) = self.discs.get(&(center, radius, owner)) {
             return known;
         }
-        let disc = self.push(Form::disc(self.spot(center), Nm::new(radius).to_f64()), owner, [NONE; 2]);
+        let disc = self.push(Form::disc(Spot::from(center), Nm::new(radius).to_f64()), owner, [NONE; 2]);
         self.discs.insert((center, radius, owner), disc);
         self.bodies.push(Body::Disc(disc));
         disc
@@ -372,7 +362,7 @@ impl Generators {
         if from == to || !self.strokes.insert((from, to, radius, owner)) {
             return;
         }
-        self.sides(self.spot(from), self.spot(to), Nm::new(radius).to_f64(), owner, discs);
+        self.sides(Spot::from(from), Spot::from(to), Nm::new(radius).to_f64(), owner, discs);
     }
 
     /// The two sides of a stroke.
@@ -393,7 +383,7 @@ impl Generators {
             return;
         };
         let (from, to) = if arc.sweep() > 0.0 { (arc.start, arc.end) } else { (arc.end, arc.start) };
-        let sector = (!whole).then(|| [from, to].map(|end| unit(self.spot(end) - center)));
+        let sector = (!whole).then(|| [from, to].map(|end| unit(Spot::from(end) - center)));
         let ends = if whole { [NONE; 2] } else { [from, to].map(|end| self.disc(end, radius, owner)) };
         let outer = Form::Circle { center, radius: reach + half, hollow: false, sector };
         let outer = self.push(outer, owner, ends);
@@ -405,7 +395,7 @@ impl Generators {
     /// The centre and radius of an arc that meets both its ends; none where the radii differ too
     /// much.
     fn centred(&self, arc: &Arc) -> Option<(Spot, f64)> {
-        let [a, b, center] = [arc.start, arc.end, arc.center].map(|p| self.spot(p));
+        let [a, b, center] = [arc.start, arc.end, arc.center].map(Spot::from);
         if arc.start == arc.end {
             return Some((center, arc.radius()));
         }

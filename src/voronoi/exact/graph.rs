@@ -8,7 +8,7 @@ use std::sync::OnceLock;
 use rustc_hash::FxHashMap;
 
 use super::form::turn;
-use super::tolerances::Tolerances;
+use super::tolerances::{SNAP, resolution};
 use super::vertex::{Junction, Slot};
 use super::walk::{Event, Pair};
 use super::{Diagram, Edge, Space, Vertex};
@@ -18,7 +18,6 @@ use crate::voronoi::plane::Spot;
 #[derive(Default)]
 pub(super) struct Growth {
     tie: f64,
-    tolerances: Tolerances,
     pub(super) junctions: Vec<Junction>,
     edges: Vec<Edge>,
     /// The junctions of each cell of the plane.
@@ -46,21 +45,16 @@ fn cell(p: Spot) -> [i64; 2] {
 
 impl Growth {
     /// The junction at the place of another, or where the same generators are tied all the way
-    /// there, or three owners where they are hardly apart.
+    /// there.
     fn known(&self, junction: &Junction) -> Option<u32> {
         let Junction { at, clearance, .. } = *junction;
-        let reach = self.tolerances.resolution(self.tie, clearance);
+        let reach = resolution(self.tie, clearance);
         let [low, high] = [cell(at - Spot::new(reach, reach)), cell(at + Spot::new(reach, reach))];
         let cells = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
         let known = cells.filter_map(|cell| self.by_place.get(&cell)).flatten().copied();
         let off = |i: u32| (self.junctions[i as usize].at - at).length();
-        let is_alike = |other: &Junction| {
-            let is_star = junction.owners.len() > 2 && other.owners == junction.owners;
-            is_star || other.tied == junction.tied
-        };
-        let one = known.filter(|&i| {
-            off(i) <= 2.0 * self.tie || (off(i) <= reach && is_alike(&self.junctions[i as usize]))
-        });
+        let is_alike = |i: u32| self.junctions[i as usize].tied == junction.tied;
+        let one = known.filter(|&i| off(i) <= 2.0 * self.tie || (off(i) <= reach && is_alike(i)));
         one.min_by(|&a, &b| off(a).total_cmp(&off(b)))
     }
 
@@ -123,14 +117,14 @@ pub(super) struct Arrival {
 fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Arrival {
     let slot = Slot { left: pair.right, right: pair.left, way: way * -1.0, edge: None };
     let tied = vec![pair.left.min(pair.right), pair.left.max(pair.right)];
-    let junction = Junction { at, clearance, tied, owners: Vec::new(), slots: vec![slot], is_end: true };
+    let junction = Junction { at, clearance, tied, slots: vec![slot], is_end: true };
     Arrival { junction, at, clearance, way }
 }
 
 impl Diagram {
     /// Finds all vertices and edges.
     pub(super) fn walk_all(&mut self, space: Space) {
-        let mut growth = Growth { tie: self.tie, tolerances: self.tolerances, ..Growth::default() };
+        let mut growth = Growth { tie: self.tie, ..Growth::default() };
         self.sow(&mut growth, space);
         self.finish(growth);
     }
@@ -170,7 +164,7 @@ impl Diagram {
     /// direction in which it arrives.
     fn next(&self, growth: &Growth, from: u32, mut pair: Pair) -> Option<(Pair, Junction, Spot)> {
         let home = &growth.junctions[from as usize];
-        let near = self.tolerances.resolution(self.tie, home.clearance) + self.tolerances.snap;
+        let near = resolution(self.tie, home.clearance) + SNAP;
         let mut start = home.at;
         for _ in 0..RETRIES {
             let event = self.follow(&pair, start, &home.tied);
@@ -190,8 +184,8 @@ impl Diagram {
 
     /// What is nearest on either side of an edge a little ahead of a place on it.
     fn ahead_of_pair(&self, pair: &Pair, at: Spot, clearance: f64) -> Pair {
-        let (way, snap) = (pair.way(at), self.tolerances.snap);
-        let tied = self.about(at, clearance + self.tie, snap);
+        let way = pair.way(at);
+        let tied = self.about(at, clearance + self.tie, SNAP);
         let [left, right] = [0, 1].map(|side| {
             let [here, there] = [side, 1 - side].map(|side| pair.forms[side].away(at));
             let is_beside = |&i: &u32| {

@@ -5,9 +5,10 @@ use std::ops::ControlFlow;
 use bitvec::vec::BitVec;
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use super::form::{Form, Place, SLAB};
+use super::form::{Form, Place};
 use super::generator::Generators;
-use crate::topology;
+use super::tolerances::SLAB;
+use crate::geometry;
 use crate::voronoi::plane::Spot;
 
 /// So far from a foot its normal is looked at, in nanometres. Chosen.
@@ -70,7 +71,7 @@ impl Index {
                 pieces.push((number, before));
             }
         }
-        let tree = topology::boxes(boxes.iter().copied());
+        let tree = geometry::boxes(boxes.iter().copied());
         let hidden = BitVec::repeat(false, generators.len());
         let mut index = Self { boxes, pieces, tree, hidden, breaks: Vec::new(), starts: Vec::new() };
         index.hidden = index.hidden_corners(generators);
@@ -277,7 +278,7 @@ mod tests {
         let mut generators = Generators::default();
         let mut state = 24;
         let mut below = |bound: u64| {
-            state = topology::splitmix(state);
+            state = crate::topology::splitmix(state);
             Nm::new(i64::try_from(state % bound).expect("small"))
         };
         for owner in 0..40 {

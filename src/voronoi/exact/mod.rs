@@ -33,8 +33,9 @@
 //! used. With [`Kind::Owners`] the graph is complete if every owner's copper is connected.
 //! Distances that differ by less than a *tie* are equal; where one tie leaves an end loose, all is
 //! walked anew with another, and what no tie resolves is a fault, for which
-//! [`Diagram`](super::Diagram) shakes the copper by some nanometres and walks again. None of the 47
-//! layers of real boards needs that, at six levels each and in both kinds of level sets.
+//! [`Diagram`](super::Diagram) leaves chords what they are, or shakes the copper by some
+//! nanometres, and walks again. None of the 47 layers of real boards needs that, at six levels each
+//! and in both kinds of level sets.
 //!
 //! Polygons come with slits and with corners that are only rounding: rings that lead in to a hole
 //! and out again along themselves (`slit`), and points within a nanometre and a half of the chord
@@ -92,7 +93,7 @@ use crate::voronoi::sample::Sample;
 
 use form::Form;
 use index::Index;
-use tolerances::Tolerances;
+use tolerances::WRONG;
 use vertex::TIES;
 
 pub use certify::Violation;
@@ -166,7 +167,6 @@ pub struct Diagram {
     kind: Kind,
     /// Distances that differ by less are equal, in nanometres.
     tie: f64,
-    tolerances: Tolerances,
     /// Left, bottom, right, top.
     window: [f64; 4],
     vertices: Vec<Vertex>,
@@ -194,8 +194,7 @@ impl Diagram {
             diagram.tie = tie;
             diagram.walk_all(space);
             if diagram.faults.is_empty() {
-                let wrong =
-                    diagram.certify(CLOSE).into_iter().filter(|found| found.by > diagram.tolerances.wrong);
+                let wrong = diagram.certify(CLOSE).into_iter().filter(|found| found.by > WRONG);
                 diagram.faults = wrong.map(|found| found.at).collect();
             }
             if diagram.faults.is_empty() {
@@ -207,8 +206,8 @@ impl Diagram {
 
     /// The diagram before any edge is known.
     fn unwalked(generators: Generators, kind: Kind, space: Space) -> Self {
+        let generators = generators.finished();
         let index = Index::new(&generators);
-        let tolerances = if generators.is_close { Tolerances::CLOSE } else { Tolerances::default() };
         let margin = match space {
             Space::Around(margin) => margin.to_f64(),
             Space::Window(_) | Space::Within => BEYOND,
@@ -226,7 +225,6 @@ impl Diagram {
             bodies: OnceLock::new(),
             kind,
             tie: TIES[0],
-            tolerances,
             window,
             vertices: Vec::new(),
             edges: Vec::new(),

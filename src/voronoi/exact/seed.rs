@@ -16,6 +16,7 @@ use std::collections::BTreeMap;
 use super::exposed::Bodies;
 use super::form::{Form, Place};
 use super::graph::Growth;
+use super::tolerances::SLAB;
 use super::vertex::Junction;
 use super::walk::{Event, Pair};
 use super::{Diagram, Kind, NOBODY, Space};
@@ -91,7 +92,7 @@ impl Diagram {
                 }
                 let Some(s) = form.meet(foot, normal).filter(|&s| s > self.tie) else { return };
                 let nearer = nearest.is_none_or(|known| (s, c) < known);
-                if nearer && form.counts(foot + normal * s, self.tie, self.tolerances.slab) {
+                if nearer && form.counts(foot + normal * s, self.tie, SLAB) {
                     nearest = Some((s, c));
                 }
             });

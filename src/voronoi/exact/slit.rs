@@ -21,7 +21,7 @@ use rustc_hash::FxHashMap;
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::Point;
-use crate::topology::boxes;
+use crate::geometry::boxes;
 use crate::voronoi::plane::{Spot, spanned};
 
 /// Slits are no wider, in nanometres. Chosen: several times what six decimals of a millimetre

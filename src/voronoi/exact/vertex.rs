@@ -10,8 +10,8 @@
 //!           ╱  │
 //! ```
 
-use super::form::{clockwise, turn};
-use super::tolerances::{SAME, Tolerances};
+use super::form::{clockwise, is_one_way, turn};
+use super::tolerances::{SAME, SLAB, SNAP, resolution};
 use super::{Diagram, Kind, apollonius};
 use crate::voronoi::plane::Spot;
 
@@ -58,9 +58,6 @@ pub(super) struct Junction {
     pub(super) at: Spot,
     pub(super) clearance: f64,
     pub(super) tied: Vec<u32>,
-    /// The owners that are tied where they may be so near to each other that their generators
-    /// change within rounding; else none.
-    pub(super) owners: Vec<u32>,
     pub(super) slots: Vec<Slot>,
     /// Whether any number of edges may end here.
     pub(super) is_end: bool,
@@ -69,7 +66,7 @@ pub(super) struct Junction {
 impl Diagram {
     /// The generators that count at `p` and are at most `reach` far, with their distances.
     pub(super) fn within(&self, p: Spot, reach: f64) -> Vec<(u32, f64)> {
-        self.about(p, reach, self.tolerances.slab)
+        self.about(p, reach, SLAB)
     }
 
     /// Those, and others whose ends are at most `slab` behind.
@@ -89,16 +86,15 @@ impl Diagram {
     /// What is tied near `p`, which `third` generators at about `clearance` have led to; none where
     /// something is nearer.
     pub(super) fn junction(&self, p: Spot, clearance: f64, led: [u32; 3]) -> Option<Junction> {
-        let Tolerances { slab, snap, .. } = self.tolerances;
-        let near = self.about(p, clearance + 8.0 * self.tie, snap);
-        let counts = |&&(i, _): &&(u32, f64)| self.forms()[i as usize].counts(p, self.tie, slab);
+        let near = self.about(p, clearance + 8.0 * self.tie, SNAP);
+        let counts = |&&(i, _): &&(u32, f64)| self.forms()[i as usize].counts(p, self.tie, SLAB);
         let least = near.iter().filter(counts).map(|&(_, d)| d).fold(f64::INFINITY, f64::min);
         if least.is_infinite() || least < clearance - 4.0 * self.tie {
             return None;
         }
         let numbers = || near.iter().map(|&(i, _)| i);
-        let at_first = self.tied(p, clearance, numbers(), slab, &[]);
-        let handed = self.hand_over(p, &self.tied(p, clearance, numbers(), snap, &[]));
+        let at_first = self.tied(p, clearance, numbers(), SLAB, &[]);
+        let handed = self.hand_over(p, clearance, &self.tied(p, clearance, numbers(), SNAP, &[]));
         let (mut at, mut joints) = handed.unwrap_or_else(|| (self.settled(p, &at_first, led), Vec::new()));
         let away = |at: Spot| {
             let all = at_first.iter().map(|tied| self.forms()[tied.generator as usize].distance(at));
@@ -110,23 +106,13 @@ impl Diagram {
             (at, joints) = (p, Vec::new());
         }
         let clearance = away(at);
-        let tied = self.tied(at, clearance, numbers(), slab, &joints);
+        let tied = self.tied(at, clearance, numbers(), SLAB, &joints);
         let slots = self.slots(at, clearance, &tied);
         let mut generators: Vec<u32> = tied.iter().map(|tied| tied.generator).collect();
         generators.sort_unstable();
         generators.dedup();
         let is_end = slots.is_empty();
-        let owners = self.owners_of(&generators);
-        Some(Junction { at, clearance, tied: generators, owners, slots, is_end })
-    }
-
-    /// The owners of tied generators, ascending, where these alone tell a vertex from another.
-    fn owners_of(&self, tied: &[u32]) -> Vec<u32> {
-        let is_close = self.generators.is_close;
-        let mut owners: Vec<u32> = tied.iter().filter(|_| is_close).map(|&i| self.owner(i)).collect();
-        owners.sort_unstable();
-        owners.dedup();
-        owners
+        Some(Junction { at, clearance, tied: generators, slots, is_end })
     }
 
     /// The generators among some that are `clearance` far from `p`, by the direction of their feet,
@@ -144,7 +130,7 @@ impl Diagram {
         for generator in among {
             let form = &self.forms()[generator as usize];
             let joint = joints.iter().find(|joint| joint.generator == generator);
-            let slab = if joint.is_some() { self.tolerances.snap } else { slab };
+            let slab = if joint.is_some() { SNAP } else { slab };
             if (form.distance(p) - clearance).abs() > self.tie
                 || form.slack(p) < -slab
                 || form.distance(p) < -self.tie
@@ -177,11 +163,7 @@ impl Diagram {
             turn(from, a.toward).total_cmp(&turn(from, b.toward)).then(a.generator.cmp(&b.generator))
         });
         let turned = 2.0 * self.tie / clearance.max(self.tie);
-        let is_same = |a: &Tied, b: &Tied| {
-            let is_one = self.owner(a.generator) == self.owner(b.generator);
-            let same = turned + if is_one { SAME } else { self.tolerances.apart };
-            a.toward.dot(b.toward) > 0.0 && a.toward.cross(b.toward).abs() < same
-        };
+        let is_same = |a: &Tied, b: &Tied| is_one_way(a.toward, b.toward, turned + SAME);
         // Begin after a gap between two directions, so that no group is cut in two.
         let n = tied.len();
         if let Some(gap) = (0..n).find(|&i| !is_same(&tied[(i + n - 1) % n], &tied[i])) {
@@ -233,31 +215,43 @@ impl Diagram {
     }
 
     /// The place where a line or an arc hands over to the disc at its end, if two tied ones do, and
-    /// all lines and arcs that end at a tied disc there, or less than a nanometre beside.
-    fn hand_over(&self, p: Spot, tied: &[Tied]) -> Option<(Spot, Vec<Joint>)> {
+    /// all lines and arcs that end at a tied disc there, or less than a nanometre beside. Where
+    /// copper is near, feet no farther apart than a slab reaches beyond its end may have two
+    /// directions.
+    fn hand_over(&self, p: Spot, clearance: f64, tied: &[Tied]) -> Option<(Spot, Vec<Joint>)> {
         let mut joints: Vec<Joint> = Vec::new();
         for entry in tied {
             let slacks = self.forms()[entry.generator as usize].slacks(p);
             for (end, disc) in self.generators.ends_of(entry.generator).into_iter().enumerate() {
-                let is_tied = |disc: u32| {
-                    tied.iter().any(|other| other.generator == disc && other.group == entry.group)
+                let off = slacks[end].abs();
+                let beside = SAME + off / clearance.max(self.tie);
+                let is_there = |other: &Tied| {
+                    other.group == entry.group
+                        || (off <= SLAB && is_one_way(other.toward, entry.toward, beside))
                 };
-                if slacks[end].abs() <= self.tolerances.snap
+                let is_tied = |disc: u32| tied.iter().any(|other| other.generator == disc && is_there(other));
+                if off <= SNAP
                     && let Some(disc) = disc.filter(|&disc| is_tied(disc))
                 {
                     joints.push(Joint { generator: entry.generator, end, group: entry.group, disc });
                 }
             }
         }
-        let &Joint { generator, end, group, .. } = joints.iter().min()?;
+        let &Joint { generator, end, disc, .. } = joints.iter().min()?;
         let form = &self.forms()[generator as usize];
         let (foot, normal) = form.foot(form.ends()?[end]);
-        let other = tied.iter().filter(|other| other.group != group).map(|other| other.generator).min()?;
+        // What meets at that disc may have several directions.
+        let is_there = |group: usize| {
+            joints.iter().any(|joint| joint.disc == disc && joint.group == group)
+                || tied.iter().any(|other| other.generator == disc && other.group == group)
+        };
+        let elsewhere = tied.iter().filter(|other| !is_there(other.group));
+        let other = elsewhere.map(|other| other.generator).min()?;
         let s = self.forms()[other as usize].meet(foot, normal)?;
         let at = foot + normal * s;
         let stays =
             |other: &Tied| (self.forms()[other.generator as usize].distance(at) - s).abs() <= self.tie;
-        let is_near = (at - p).length() < 2.0 * self.tolerances.snap;
+        let is_near = (at - p).length() < 2.0 * SNAP;
         (is_near && tied.iter().all(stays)).then_some((at, joints))
     }
 
@@ -290,7 +284,7 @@ impl Diagram {
 
     /// The one of some tied generators that is nearest a little ahead.
     pub(super) fn ahead_of(&self, at: Spot, clearance: f64, way: Spot, tied: &[u32]) -> Option<u32> {
-        let (toward, group, slab) = (Spot::default(), 0, self.tolerances.slab);
+        let (toward, group, slab) = (Spot::default(), 0, SLAB);
         let tied: Vec<Tied> = tied.iter().map(|&generator| Tied { generator, toward, group, slab }).collect();
         (!tied.is_empty()).then(|| self.ahead(at, clearance, way, tied.iter()))
     }
@@ -303,7 +297,7 @@ impl Diagram {
         way: Spot,
         group: impl Iterator<Item = &'a Tied> + Clone,
     ) -> u32 {
-        let probe = at + way * self.tolerances.resolution(self.tie, clearance);
+        let probe = at + way * resolution(self.tie, clearance);
         let goes_on = |tied: &&Tied| {
             let form = &self.forms()[tied.generator as usize];
             let Some(ends) = form.ends() else { return true };

@@ -16,7 +16,7 @@ use std::ops::ControlFlow;
 
 use super::apollonius;
 use super::form::{Form, Place, clockwise, unit};
-use super::tolerances::FLAT;
+use super::tolerances::{FLAT, SLAB, resolution};
 use super::{Diagram, Kind, NOBODY};
 use crate::voronoi::plane::Spot;
 
@@ -39,6 +39,11 @@ const CROWD: usize = 16;
 /// Boxes are looked at so much farther out than what may enter, in nanometres. Chosen: more than
 /// rounding.
 const MARGIN: f64 = 10.0;
+
+/// Discs nearer to each other than this, in nanometres, lie all but in one place. Chosen: a tie may
+/// leave a vertex a nanometre beside their bisector, and of discs a nanometre apart a foot may then
+/// be turned beyond it.
+const TOGETHER: f64 = 1_000.0;
 
 /// Steps in an edge at most, chosen far above need: a fault rather than a hang.
 const STEPS: usize = 100_000;
@@ -111,6 +116,19 @@ impl Pair {
         usize::from(rank(&self.forms[1]) < rank(&self.forms[0]))
     }
 
+    /// Whether places on the bisector are known by themselves and not by the directions of their
+    /// feet: that of two lines, or of two discs of one size that lie all but in one place.
+    pub(super) fn is_straight(&self) -> bool {
+        match self.forms {
+            [Form::Line { .. }, Form::Line { .. }] => true,
+            [
+                Form::Circle { center, radius, hollow: false, .. },
+                Form::Circle { center: c, radius: r, hollow: false, .. },
+            ] => radius.total_cmp(&r).is_eq() && (c - center).length() < TOGETHER,
+            _ => false,
+        }
+    }
+
     /// The sense in which feet move on a side.
     pub(super) fn sense(&self, side: usize) -> f64 {
         self.forms[side].sense_on_left() * if side == 0 { 1.0 } else { -1.0 }
@@ -159,7 +177,7 @@ impl Diagram {
                 (next, leaves, is_end) = (self.leave(pair, main, &here, next), true, false);
             }
             let ahead = form.progress(here.place, next.place, sense);
-            let near = self.tolerances.resolution(self.tie, here.clearance);
+            let near = resolution(self.tie, here.clearance);
             let step = Step { pair, main, form, sense, here, start, tied, near };
             if let Some((_, at, clearance, third)) = self.first_hit(&step, &next, ahead) {
                 return Event::Junction { at, clearance, third, way: pair.way(at) };
@@ -208,9 +226,8 @@ impl Diagram {
                     Form::Line { .. } => 1.0,
                     Form::Circle { center, .. } => (here.at - center).length(),
                 };
-                let is_behind =
-                    matches!(form, Form::Circle { .. }) && (4.0 - ahead) * out <= 2.0 * self.tolerances.slab;
-                if ahead * out <= self.tolerances.slab || is_behind {
+                let is_behind = matches!(form, Form::Circle { .. }) && (4.0 - ahead) * out <= 2.0 * SLAB;
+                if ahead * out <= SLAB || is_behind {
                     continue;
                 }
                 let Some((at, clearance)) = pair.at(side, place) else { continue };
@@ -255,6 +272,10 @@ impl Diagram {
             Place::Along(_) => way.dot(clockwise(form.away(here.at))).abs(),
             Place::Toward(n) => way.cross(n).abs(),
         };
+        // A bisector with an arc from within is an ellipse, and may be far narrower than the way to
+        // copper is long: no step goes round its end.
+        let is_ellipse = pair.forms.iter().any(|form| matches!(form, Form::Circle { hollow: true, .. }));
+        let turns = |at: Spot| is_ellipse && pair.way(at).dot(way) < 0.0;
         let wanted = (here.clearance * stride).max(LEAST);
         let mut length = wanted * across.max(1e-6);
         for _ in 0..60 {
@@ -263,11 +284,13 @@ impl Diagram {
             if let Some(end) = end
                 && form.progress(here.place, end.place, sense) <= ahead
                 && (end.at - here.at).length() <= 3.0 * wanted
+                && !turns(end.at)
             {
                 return Some((*end, true));
             }
             if let Some((at, clearance)) = pair.at(main, place)
                 && (at - here.at).length() <= 3.0 * wanted
+                && !turns(at)
             {
                 return Some((Here { at, clearance, place }, false));
             }
@@ -345,7 +368,7 @@ impl Diagram {
                 let other = &self.forms()[c as usize];
                 let is_other = c != pair.left && c != pair.right && !self.joined_to(pair, c);
                 let found = (other.distance(next.at), c);
-                if is_other && found < nearest && other.counts(next.at, self.tie, self.tolerances.slab) {
+                if is_other && found < nearest && other.counts(next.at, self.tie, SLAB) {
                     nearest = found;
                 }
                 nearest.0
@@ -353,7 +376,7 @@ impl Diagram {
             if nearest.1 == NOBODY {
                 return (next, ahead);
             }
-            match self.enters(step, nearest.1, ahead) {
+            match self.enters(step, &next, nearest.1, ahead) {
                 Some((along, at, clearance, _)) if along < ahead => {
                     next = Here { at, clearance, place: form.place(at) };
                     ahead = along;
@@ -370,9 +393,9 @@ impl Diagram {
         for &c in among {
             let other = &self.forms()[c as usize];
             let limit = first.map_or(ahead, |hit| hit.0);
-            first = self.enters(step, c, limit).or(first);
-            let nearer = other.distance(next.at) < next.clearance - self.tie
-                && other.counts(next.at, self.tie, self.tolerances.slab);
+            first = self.enters(step, next, c, limit).or(first);
+            let nearer =
+                other.distance(next.at) < next.clearance - self.tie && other.counts(next.at, self.tie, SLAB);
             if nearer && missed.is_none_or(|known| c < known) {
                 missed = Some(c);
             }
@@ -383,34 +406,31 @@ impl Diagram {
         self.entry(step.pair, step.main, &step.here, next, missed?)
     }
 
-    /// Where a generator enters, no farther along than `limit`.
-    fn enters(&self, step: &Step<'_>, c: u32, limit: f64) -> Option<Hit> {
+    /// Where a generator enters on the way to a place, no farther along than `limit`.
+    fn enters(&self, step: &Step<'_>, next: &Here, c: u32, limit: f64) -> Option<Hit> {
         let Step { pair, form, sense, here, start, tied, near, .. } = *step;
+        // The way strays from its chord by no more than half of it.
+        let around = (here.at.midpoint(next.at), (next.at - here.at).length());
         let other = &self.forms()[c as usize];
         let was_tied = tied.contains(&c);
         let mut first: Option<Hit> = None;
-        for (at, s) in apollonius::solve([&pair.forms[0], &pair.forms[1], other]).into_iter().flatten() {
+        for (at, s) in
+            apollonius::solve_within([&pair.forms[0], &pair.forms[1], other], around).into_iter().flatten()
+        {
             let along = form.progress(here.place, form.place(at), sense);
             let limit = first.map_or(limit, |hit| hit.0);
-            if !(along > 0.0 && along <= limit) || other.slack(at) < -self.tolerances.slab || s < -self.tie {
+            if !(along > 0.0 && along <= limit) || other.slack(at) < -SLAB || s < -self.tie {
                 continue;
             }
             let off = (at - start).length();
             let is_near = off < 2.0 * self.tie || (was_tied && off < near);
             let entering = (other.away(at) - form.away(at)).dot(pair.way(at));
-            // Between two owners nothing hands over: however flatly one comes, it enters.
-            let flat = if self.is_strange(pair, c) { self.tolerances.flat } else { FLAT };
-            if (is_near && entering > -0.1) || entering >= -flat {
+            if (is_near && entering > -0.1) || entering >= -FLAT {
                 continue;
             }
             first = Some((along, at, s, c));
         }
         first
-    }
-
-    /// Whether a generator belongs to neither owner of a pair.
-    fn is_strange(&self, pair: &Pair, c: u32) -> bool {
-        [pair.left, pair.right].into_iter().all(|i| i == NOBODY || self.owner(i) != self.owner(c))
     }
 
     /// Where a generator comes nearer that touches too flatly for an equation: by halving.
@@ -421,8 +441,7 @@ impl Diagram {
             let Some(place) = clear.place.halfway(hit.place, pair.sense(main)) else { break };
             let Some((at, clearance)) = pair.at(main, place) else { break };
             let middle = Here { at, clearance, place };
-            let nearer = other.distance(at) < clearance - self.tie / 4.0
-                && other.counts(at, self.tie, self.tolerances.slab);
+            let nearer = other.distance(at) < clearance - self.tie / 4.0 && other.counts(at, self.tie, SLAB);
             if nearer { hit = middle } else { clear = middle }
         }
         let along = form.progress(here.place, hit.place, pair.sense(main));

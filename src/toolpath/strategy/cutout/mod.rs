@@ -6,6 +6,7 @@
 //! begun by a plunge or down a ramp; below a tab's top the cutter climbs over the tabs, which are
 //! spread evenly and kept off corners, where they would be hard to file away.
 
+mod boards;
 mod ring;
 mod tabs;
 
@@ -17,6 +18,7 @@ use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Position, Section, Tool};
 use crate::voronoi;
 
+use boards::Stretches;
 use ring::Ring;
 pub use tabs::{TabPlaces, Tabs};
 
@@ -45,9 +47,10 @@ const TOLERANCE: Nm = Nm::from_um(4);
 /// Cuts along every contour of `outline`, half the cutter's width outside the board; cut-outs
 /// first.
 ///
-/// Warned about: `cut-out-narrower-than-tool` where the cutter does not fit into a cut-out,
-/// `no-place-for-tabs` where a contour round a board is too short for them, `tab-off-the-outline`
-/// where one is wanted far from any contour.
+/// Warned about: `cut-out-narrower-than-tool` where the cutter does not fit into a cut-out or round
+/// a board, `boards-closer-than-tool` where it does not fit between two, `no-place-for-tabs` where
+/// a contour round a board is too short for them, `tab-off-the-outline` where one is wanted far
+/// from any contour.
 pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning>) {
     let radius = settings.tool.width_at(settings.heights.cut) / 2;
     let board = outline.polygon(FLATTEN);
@@ -65,16 +68,15 @@ pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning
             if boards { &mut outer } else { &mut inner }.extend(way.map(Ring::new));
         }
     }
-    let (wanted, count) = (board.contours().len(), inner.len() + outer.len());
-    if count < wanted {
-        let message = format!(
-            "the cutter of {:.3} mm does not fit into {} of {wanted} contours of the outline: they are not cut",
-            radius * 2,
-            wanted - count
-        );
-        warnings.push(planning::CUT_OUT_NARROWER_THAN_TOOL.warning(message));
-    }
-    let held = hold(&inner, &outer, settings, &mut warnings);
+    let (edges, holes): (Vec<Polygon>, Vec<Polygon>) = board
+        .contours()
+        .iter()
+        .filter_map(|contour| Polygon::new(vec![contour.clone()]))
+        .partition(|ring| ring.area_mm2() > 0.0);
+    let stretches = boards::stretches(&outer, &edges, radius);
+    warn([&inner, &outer], &stretches, [&edges, &holes], radius, &mut warnings);
+    let count = inner.len() + outer.len();
+    let held = hold(&inner, &outer, &stretches, settings, &mut warnings);
     let mut head = Head::new(settings.heights, settings.tool.plunge);
     let (inner_held, outer_held) = held.split_at(inner.len());
     cut_all(&mut head, &inner, inner_held, settings);
@@ -83,13 +85,55 @@ pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning
     (Section { tool: settings.tool.clone(), label, moves: head.finish() }, warnings)
 }
 
+/// Tells where the cutter does not fit round `edges` of boards, between them, or into `holes`.
+fn warn(
+    [inner, outer]: [&[Ring]; 2],
+    stretches: &[Stretches],
+    [edges, holes]: [&[Polygon]; 2],
+    radius: Nm,
+    warnings: &mut Vec<Warning>,
+) {
+    let holds = |hole: &Polygon, p: Point| hole.bounds().contains(p) && hole.contains(p);
+    let is_empty = |hole: &&Polygon| !inner.iter().any(|way| holds(hole, way.path().start));
+    let narrow: Vec<&Polygon> = holes.iter().filter(is_empty).collect();
+    let rounded: usize = stretches.iter().map(Vec::len).sum();
+    let missing = narrow.len() + edges.len().saturating_sub(rounded);
+    if missing > 0 {
+        let message = format!(
+            "the cutter of {:.3} mm does not fit into {missing} of {} contours of the outline: they are not cut",
+            radius * 2,
+            edges.len() + holes.len(),
+        );
+        let warning = planning::CUT_OUT_NARROWER_THAN_TOOL.warning(message);
+        warnings.push(match narrow.first() {
+            Some(hole) => warning.at(hole.bounds().min().midpoint(hole.bounds().max())),
+            None => warning,
+        });
+    }
+    let joined = || outer.iter().zip(stretches).filter(|(_, boards)| boards.len() > 1);
+    if let Some((way, boards)) = joined().next() {
+        let message = format!(
+            "{} boards are closer to others than the cutter of {:.3} mm: it goes round them together",
+            joined().map(|(_, boards)| boards.len()).sum::<usize>(),
+            radius * 2
+        );
+        warnings.push(planning::BOARDS_CLOSER_THAN_TOOL.warning(message).at(way.at(boards[1][0])));
+    }
+}
+
 /// How wide the way over a tab is: the tab, and half a cutter on both sides.
 fn opening(settings: &Cutout<'_>) -> f64 {
     (settings.tabs.width + settings.tool.width_at(settings.heights.cut)).to_f64()
 }
 
 /// The middles of the tabs of each contour, those of `inner` first.
-fn hold(inner: &[Ring], outer: &[Ring], settings: &Cutout<'_>, warnings: &mut Vec<Warning>) -> Vec<Vec<f64>> {
+fn hold(
+    inner: &[Ring],
+    outer: &[Ring],
+    stretches: &[Stretches],
+    settings: &Cutout<'_>,
+    warnings: &mut Vec<Warning>,
+) -> Vec<Vec<f64>> {
     if let TabPlaces::At(places) = settings.tabs.places {
         let rings: Vec<&Ring> = inner.iter().chain(outer).collect();
         return at_places(&rings, places, settings, warnings);
@@ -97,28 +141,35 @@ fn hold(inner: &[Ring], outer: &[Ring], settings: &Cutout<'_>, warnings: &mut Ve
     let opening = opening(settings);
     let small = inner.iter().map(|ring| {
         // What falls out of a small cut-out needs no holding.
-        let count = wanted(ring, settings).min(tabs::room(ring.length(), 2.0 * opening));
-        tabs::spread(ring, if count < 2 { 0 } else { count }, opening)
+        let own: Vec<f64> = tabs::places(ring).collect();
+        let count = wanted(ring.length(), settings).min(tabs::room(ring.length(), 2.0 * opening));
+        tabs::spread(ring, &own, if count < 2 { 0 } else { count }, opening)
     });
     let mut held: Vec<Vec<f64>> = small.collect();
-    for ring in outer {
-        let wanted = wanted(ring, settings);
-        let found = tabs::spread(ring, wanted.min(tabs::room(ring.length(), opening)), opening);
-        if found.len() < wanted as usize {
-            let message = format!("only {} of {wanted} tabs fit on a contour", found.len());
-            warnings.push(planning::NO_PLACE_FOR_TABS.warning(message).at(ring.path().start));
+    for (ring, boards) in outer.iter().zip(stretches) {
+        let mut all = Vec::new();
+        for own in boards {
+            let length = tabs::length(ring, own);
+            let wanted = wanted(length, settings);
+            let found = tabs::spread(ring, own, wanted.min(tabs::room(length, opening)), opening);
+            if found.len() < wanted as usize {
+                let message = format!("only {} of {wanted} tabs fit on a contour", found.len());
+                warnings.push(planning::NO_PLACE_FOR_TABS.warning(message).at(ring.at(own[0])));
+            }
+            all.extend(found);
         }
-        held.push(found);
+        all.sort_by(f64::total_cmp);
+        held.push(all);
     }
     held
 }
 
-/// How many tabs a contour is to have.
+/// How many tabs a contour of a length is to have.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
-fn wanted(ring: &Ring, settings: &Cutout<'_>) -> u32 {
+fn wanted(length: f64, settings: &Cutout<'_>) -> u32 {
     match settings.tabs.places {
         TabPlaces::Count(count) => count,
-        TabPlaces::Spacing(apart) => (ring.length() / apart.to_f64().max(1.0)).ceil() as u32,
+        TabPlaces::Spacing(apart) => (length / apart.to_f64().max(1.0)).ceil() as u32,
         TabPlaces::At(places) => u32::try_from(places.len()).unwrap_or(u32::MAX),
     }
 }

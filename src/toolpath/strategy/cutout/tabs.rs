@@ -35,23 +35,36 @@ const PLACES: u32 = 2000;
 /// How many beginnings of an even spread are tried. Chosen.
 const PHASES: u32 = 24;
 
+/// The distances along a ring at which a tab may have its middle.
+pub(super) fn places(ring: &Ring) -> impl Iterator<Item = f64> {
+    let step = step(ring);
+    (0..PLACES).map(move |place| step * f64::from(place))
+}
+
+fn step(ring: &Ring) -> f64 {
+    ring.length() / f64::from(PLACES)
+}
+
+/// How long the stretch of a ring is that has these places.
+pub(super) fn length(ring: &Ring, own: &[f64]) -> f64 {
+    step(ring) * f64::from(u32::try_from(own.len()).unwrap_or(PLACES))
+}
+
 /// The most tabs a contour has room for: each with as much way between them.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
 pub(super) fn room(length: f64, opening: f64) -> u32 {
     (length / (2.0 * opening)) as u32
 }
 
-/// The middles of `count` tabs, ascending distances along the ring; fewer where no more find room.
-pub(super) fn spread(ring: &Ring, count: u32, opening: f64) -> Vec<f64> {
-    let step = ring.length() / f64::from(PLACES);
-    let turns: Vec<(f64, f64)> = (0..PLACES)
-        .map(|place| step * f64::from(place))
-        .map(|distance| (distance, ring.turn_around(distance, opening)))
-        .collect();
+/// The middles of `count` tabs at some of the places `own`, ascending distances along the ring;
+/// fewer where no more find room.
+pub(super) fn spread(ring: &Ring, own: &[f64], count: u32, opening: f64) -> Vec<f64> {
+    let turns: Vec<(f64, f64)> =
+        own.iter().map(|&distance| (distance, ring.turn_around(distance, opening))).collect();
     let mut best = Vec::new();
     for limit in STRAIGHT {
         let places: Vec<f64> = turns.iter().filter(|place| place.1 < limit).map(|place| place.0).collect();
-        let found = evenest(&places, ring.length(), count, opening);
+        let found = evenest(ring, own, &places, count, opening);
         if found.len() > best.len() {
             best = found;
         }
@@ -63,16 +76,18 @@ pub(super) fn spread(ring: &Ring, count: u32, opening: f64) -> Vec<f64> {
     best
 }
 
-/// Of several even spreads moved to the nearest of `places`, the one that has most tabs and is
-/// moved least.
-fn evenest(places: &[f64], length: f64, count: u32, opening: f64) -> Vec<f64> {
-    let share = length / f64::from(count.max(1));
+/// Of several even spreads over `own` moved to the nearest of `places`, the one that has most tabs
+/// and is moved least.
+fn evenest(ring: &Ring, own: &[f64], places: &[f64], count: u32, opening: f64) -> Vec<f64> {
+    let length = ring.length();
+    let share = self::length(ring, own) / f64::from(count.max(1));
     let mut best: (Vec<f64>, f64) = (Vec::new(), f64::INFINITY);
     for phase in 0..PHASES {
         let mut found: Vec<f64> = Vec::new();
         let mut moved = 0.0;
         for index in 0..count {
             let even = share * (f64::from(index) + (f64::from(phase) + 0.5) / f64::from(PHASES));
+            let Some(even) = at(ring, own, even) else { continue };
             let free =
                 |place: &&f64| found.iter().all(|other| apart(**place, *other, length) >= 2.0 * opening);
             let nearest = |a: &&f64, b: &&f64| apart(**a, even, length).total_cmp(&apart(**b, even, length));
@@ -87,6 +102,13 @@ fn evenest(places: &[f64], length: f64, count: u32, opening: f64) -> Vec<f64> {
         }
     }
     best.0
+}
+
+/// The distance along the ring of what is so far along its places `own`.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
+fn at(ring: &Ring, own: &[f64], along: f64) -> Option<f64> {
+    let whole = (along / step(ring)).floor();
+    own.get(whole as usize).map(|before| before + (along - whole * step(ring)))
 }
 
 /// How far two places of a ring are apart, the shorter way round.

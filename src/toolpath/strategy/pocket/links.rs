@@ -13,8 +13,8 @@ use std::collections::BinaryHeap;
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::{between, part_nearest};
+use crate::geometry::{boxes, spanned};
 use crate::toolpath::ordered::Ordered;
-use crate::topology::{boxes, spanned};
 use crate::voronoi::medial::nest::Nest;
 
 use super::course::{Course, Spot, distance};

@@ -1,10 +1,10 @@
-//! Rectangles by place: the packed R-tree behind contact and gaps.
+//! Rectangles by place: a packed R-tree.
 
 use std::ops::ControlFlow;
 
 use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
-use crate::geometry::Rect;
+use super::Rect;
 
 /// Rectangles by place: a packed R-tree, filled once.
 #[derive(Debug)]
@@ -40,7 +40,7 @@ impl RectIndex {
 
     /// The numbers of all rectangles, neighbours close to each other: the order in which to ask
     /// about all of them.
-    pub(super) fn order(&self) -> &[usize] {
+    pub(crate) fn order(&self) -> &[usize] {
         self.tree.item_indices()
     }
 
@@ -59,7 +59,7 @@ impl RectIndex {
     /// breaks.
     ///
     /// `stack` is scratch memory. The order depends on the rectangles alone.
-    pub(super) fn visit(
+    pub(crate) fn visit(
         &self,
         window: Rect,
         stack: &mut Vec<usize>,
