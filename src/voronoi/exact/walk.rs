@@ -272,10 +272,9 @@ impl Diagram {
             Place::Along(_) => way.dot(clockwise(form.away(here.at))).abs(),
             Place::Toward(n) => way.cross(n).abs(),
         };
-        // A bisector with an arc from within is an ellipse, and may be far narrower than the way to
-        // copper is long: no step goes round its end.
-        let is_ellipse = pair.forms.iter().any(|form| matches!(form, Form::Circle { hollow: true, .. }));
-        let turns = |at: Spot| is_ellipse && pair.way(at).dot(way) < 0.0;
+        // An ellipse may be far narrower than the way to copper is long, and the two ends of a
+        // hyperbola far nearer to each other than its way is: no step goes round.
+        let turns = |at: Spot| pair.way(at).dot(way) < 0.0;
         let wanted = (here.clearance * stride).max(LEAST);
         let mut length = wanted * across.max(1e-6);
         for _ in 0..60 {

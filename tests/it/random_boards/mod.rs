@@ -197,6 +197,7 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         ("corner-within-an-open-ring", SETTINGS[0]),
         ("slanted-pads-side-by-side", SETTINGS[0]),
         ("hole-drawn-nearly-twice", SETTINGS[0]),
+        ("ring-that-just-opens-an-edge", SETTINGS[0]),
     ] {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let edge = fs::read_to_string(folder.join(format!("{name}.edge.gbr"))).ok();
