@@ -257,8 +257,8 @@ diagnostics! {
     TEXT_AFTER_END: Warning =
         "text-after-end",
         "Content after the end of the file",
-        "nothing after `M02*`",
-        "export the layer again if something is missing";
+        "nothing after `M02*`, in a drill file after `M30`",
+        "export it again if something is missing; of two programs in one file make two files";
 
     // Of any file.
 

@@ -148,6 +148,27 @@ fn tool_sizes_may_stand_in_comments() {
     let sizes: Vec<_> = drilling.holes.iter().map(|hole| hole.diameter).collect();
     let expected = [Nm::new(304_800), Nm::new(304_800), Nm::new(609_600), Nm::new(3_175_000)];
     assert_eq!(sizes, expected, "12 mils, 0.024 inches and 125 mils, of tools named before the sizes");
+    assert_eq!(drilling.holes[3].plating, Plating::NonPlated, "as the table says");
+}
+
+#[test]
+fn where_no_tool_is_chosen_a_stop_changes_to_the_next_of_the_table() {
+    let drilling = fixture("allegro_stops.drl");
+    let tools: Vec<_> = drilling.holes.iter().map(|hole| hole.tool).collect();
+    assert_eq!(tools, [1, 1, 1, 1, 2, 2], "two, two repeats, and two behind the stop");
+    let (first, last) = (&drilling.holes[0], &drilling.holes[5]);
+    assert_eq!((first.diameter, last.diameter), (Nm::new(609_600), Nm::new(3_175_000)), "24 and 125 mils");
+    assert_eq!((first.plating, last.plating), (Plating::Plated, Plating::NonPlated), "of the table");
+    assert_eq!(last.path.start, at(63_500, 38_100), "inches, as the sizes are in mils, of seven digits");
+}
+
+#[test]
+fn a_stop_ends_nothing_and_what_follows_the_end_is_told() {
+    let drilling = fixture("two_programs.drl");
+    assert_eq!(starts(&drilling), [at(1_000, 2_000), at(3_000, 2_000)], "one behind M00, none behind M30");
+    assert_eq!(codes(&drilling), ["text-after-end"], "what is left out");
+    let cut = read("M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0\nM00\nX2.0Y1.0\n").expect("readable");
+    assert_eq!(codes(&cut), ["missing-end-of-file"], "a stop with holes behind it is no end");
 }
 
 #[test]

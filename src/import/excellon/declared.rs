@@ -4,7 +4,7 @@
 //! Eagle), `;FORMAT={3:3/ absolute / metric / suppress leading zeros}` and
 //! `; #@! TF.FileFunction,…` (KiCad), `;TYPE=NON_PLATED` (Altium, EasyEDA),
 //! `;Holesize 1. = 24.0 … PLATED MILS` and `;T01 Holesize 1. = 24.0 …` (OrCAD and Allegro, whose
-//! tools have no `C`).
+//! tools have no `C`, and which may name none where it drills: then `M00` changes to the next).
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -27,10 +27,24 @@ pub(super) struct Declared {
     pub(super) function: Option<String>,
     /// The program that wrote it.
     pub(super) generator: Option<String>,
-    /// Diameters that stand in comments only, by tool.
-    pub(super) commented: BTreeMap<u32, Nm>,
-    /// Whether `M30` or `M00` ends it.
+    /// Tools that stand in comments only, by number.
+    pub(super) commented: BTreeMap<u32, Commented>,
+    /// Whether a tool is chosen anywhere.
+    pub(super) chooses_tools: bool,
+    /// Whether `M30` ends it, or `M00` with no place behind it.
     pub(super) ended: bool,
+    /// Whether `M30` was met.
+    is_over: bool,
+}
+
+/// A tool of a table in comments.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Commented {
+    pub(super) diameter: Nm,
+    /// The units that its size is given in.
+    pub(super) units: Units,
+    /// None where the table does not say.
+    pub(super) plating: Option<Plating>,
 }
 
 impl Declared {
@@ -42,7 +56,8 @@ impl Declared {
                 Kind::Comment(text) => declared.comment(text),
                 Kind::Keyword(fields) => declared.keyword(fields, &line.place),
                 Kind::Words(words) => declared.words(words, &line.place),
-                Kind::Percent | Kind::BrokenTool(..) => {}
+                Kind::BrokenTool(..) => declared.chooses_tools = true,
+                Kind::Percent => {}
             }
         }
         declared
@@ -61,12 +76,22 @@ impl Declared {
         }
     }
 
+    /// The tool in hand before any is chosen, in a file that chooses none and has a table of them;
+    /// or the one that comes after `tool` in the table.
+    pub(super) fn tool_after(&self, tool: Option<u32>) -> Option<u32> {
+        let mut tools = self.commented.keys().copied().filter(|_| !self.chooses_tools);
+        tools.find(|&next| tool.is_none_or(|tool| next > tool))
+    }
+
     fn words(&mut self, words: &[Word], place: &Range<usize>) {
+        self.chooses_tools |= words.iter().any(|word| word.letter == b'T');
+        self.ended &= self.is_over || !words.iter().any(|word| matches!(word.letter, b'X' | b'Y'));
         for word in words.iter().filter(|word| word.letter == b'M') {
             match word.number.integer() {
                 Some(71) => _ = self.units.get_or_insert((Units::Mm, place.clone())),
                 Some(72) => _ = self.units.get_or_insert((Units::Inch, place.clone())),
-                Some(0 | 30) => self.ended = true,
+                Some(0) => self.ended = true,
+                Some(30) => (self.ended, self.is_over) = (true, true),
                 _ => {}
             }
         }
@@ -121,15 +146,23 @@ impl Declared {
         let counted = words.next().and_then(|word| word.trim_end_matches('.').parse::<u32>().ok());
         let tool = tool.or(counted);
         let size = words.find(|&word| word != "=");
-        let unit = words.find_map(|word| match word {
-            "MILS" | "MIL" => Some("mil"),
-            "INCH" | "INCHES" => Some("in"),
-            "MM" | "MILLIMETERS" => Some("mm"),
-            _ => None,
-        });
-        let (Some(tool), Some(size), Some(unit)) = (tool, size, unit) else { return };
+        let (mut unit, mut plating) = (None, None);
+        for word in words {
+            unit = unit.or(match word {
+                "MILS" | "MIL" => Some(("mil", Units::Inch)),
+                "INCH" | "INCHES" => Some(("in", Units::Inch)),
+                "MM" | "MILLIMETERS" => Some(("mm", Units::Mm)),
+                _ => None,
+            });
+            plating = plating.or(match word {
+                "PLATED" => Some(Plating::Plated),
+                "NON_PLATED" => Some(Plating::NonPlated),
+                _ => None,
+            });
+        }
+        let (Some(tool), Some(size), Some((unit, units))) = (tool, size, unit) else { return };
         if let Some(diameter) = format!("{size}{unit}").parse::<Nm>().ok().filter(|&d| d > Nm::ZERO) {
-            self.commented.entry(tool).or_insert(diameter);
+            self.commented.entry(tool).or_insert(Commented { diameter, units, plating });
         }
     }
 }

@@ -98,19 +98,21 @@ pub(super) fn all(lines: &[Line]) -> Vec<NumberFormat> {
 /// The readings that a file allows, the likeliest first. One alone where it says all, or writes
 /// every point.
 pub(super) fn candidates(declared: &Declared, lines: &[Line]) -> Vec<NumberFormat> {
-    let units = declared.units.as_ref().map_or_else(|| likely_units(lines), |(units, _)| vec![*units]);
+    let units =
+        declared.units.as_ref().map_or_else(|| likely_units(declared, lines), |(units, _)| vec![*units]);
     let open = has_bare_coordinates(lines);
     let zeros = match declared.zeros {
         Some(zeros) => vec![zeros],
         None if !open => vec![Zeros::Trailing],
         None => vec![Zeros::Trailing, Zeros::Leading],
     };
+    let width = width(lines);
     let mut formats = Vec::new();
     for &units in &units {
         let digits = match declared.digits {
             Some(digits) => vec![digits],
             None if !open => vec![units.default_digits()],
-            None => usual_digits(units),
+            None => usual_digits(units, width),
         };
         formats.extend(
             digits
@@ -121,19 +123,43 @@ pub(super) fn candidates(declared: &Declared, lines: &[Line]) -> Vec<NumberForma
     formats
 }
 
-fn usual_digits(units: Units) -> Vec<Digits> {
+/// Those in use, the commonest first; before them those of as many digits as `width`.
+fn usual_digits(units: Units, width: Option<u8>) -> Vec<Digits> {
     let usual: &[(u8, u8)] = match units {
         Units::Inch => &[(2, 4), (3, 3), (2, 3), (1, 4), (2, 5), (2, 6), (3, 5), (4, 4)],
         Units::Mm => {
             &[(3, 3), (4, 2), (3, 2), (2, 3), (4, 3), (3, 4), (2, 4), (4, 4), (5, 3), (3, 5), (3, 6)]
         }
     };
-    usual.iter().map(|&(whole, decimals)| Digits { whole, decimals }).collect()
+    let mut usual: Vec<Digits> = usual.iter().map(|&(whole, decimals)| Digits { whole, decimals }).collect();
+    usual.sort_by_key(|digits| width.is_some_and(|width| digits.whole + digits.decimals != width));
+    usual
 }
 
-/// The units by the sizes of the tools: no board has all its holes below 0.3 mm, nor one of 7 mm
-/// that is an inch wide.
-fn likely_units(lines: &[Line]) -> Vec<Units> {
+/// How many digits a coordinate has, if zeros are left out at neither end: all have as many, some
+/// begin with a zero and some end with one.
+fn width(lines: &[Line]) -> Option<u8> {
+    let of_place = |word: &&Word| matches!(word.letter, b'X' | b'Y') && word.number.decimals.is_none();
+    let mut numbers = words(lines).filter(of_place).map(|word| word.number);
+    let first = numbers.next()?;
+    let (mut starts, mut ends) = (first.has_leading_zero(), first.digits % 10 == 0);
+    for number in numbers {
+        if number.count != first.count {
+            return None;
+        }
+        starts |= number.has_leading_zero();
+        ends |= number.digits % 10 == 0;
+    }
+    (starts && ends).then_some(first.count)
+}
+
+/// The units of a table of tools in comments, or else those by the sizes of the tools: no board has
+/// all its holes below 0.3 mm, nor one of 7 mm that is an inch wide.
+fn likely_units(declared: &Declared, lines: &[Line]) -> Vec<Units> {
+    if let Some(tool) = declared.commented.values().next() {
+        let other = if tool.units == Units::Inch { Units::Mm } else { Units::Inch };
+        return vec![tool.units, other];
+    }
     let sizes = || words(lines).filter(|word| word.letter == b'C').filter_map(|word| value(word.number));
     let largest = sizes().fold(0.0_f64, f64::max);
     if largest > 0.0 && largest < 0.28 { vec![Units::Inch, Units::Mm] } else { vec![Units::Mm, Units::Inch] }

@@ -23,6 +23,11 @@ pub(super) struct Number {
 }
 
 impl Number {
+    /// Whether its first digit, of several, is a zero.
+    pub(super) const fn has_leading_zero(self) -> bool {
+        self.count > 1 && self.beyond == 0 && self.digits < 10_u64.saturating_pow(self.count as u32 - 1)
+    }
+
     /// As a count or a code, `T01`, `R5`: none with a sign or a point, or beyond 2³² − 1.
     pub(super) fn integer(self) -> Option<u32> {
         (!self.negative && self.decimals.is_none() && self.beyond == 0)
@@ -66,6 +71,14 @@ pub(super) struct Line {
     pub(super) number: u32,
     /// What it is.
     pub(super) kind: Kind,
+}
+
+impl Line {
+    /// Whether it names a place.
+    pub(super) fn has_place(&self) -> bool {
+        let Kind::Words(words) = &self.kind else { return false };
+        words.iter().any(|word| matches!(word.letter, b'X' | b'Y'))
+    }
 }
 
 /// The most lines that a file may have. Chosen above [`MOST_HOLES`](super::machine::MOST_HOLES),

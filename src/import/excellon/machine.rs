@@ -25,6 +25,13 @@ use crate::import::error::{Error, Warnings};
 /// Chosen: forty times the densest panel met, and some 200 MB of memory.
 pub(super) const MOST_HOLES: usize = 2_000_000;
 
+/// Header commands without effect here.
+pub(super) const WITHOUT_EFFECT: [&str; 30] = [
+    "AFS", "ATC", "BLKD", "CCW", "CP", "DETECT", "DN", "DTMDIST", "EDI", "EXDA", "FMAT", "FSB", "HPCK",
+    "NCSL", "OM48", "OSTOP", "PCKPARAM", "PF", "PLD", "R", "RC", "RTSEL", "SBK", "SG", "SIXM", "TCST", "UP",
+    "VER", "ZA", "ZC",
+];
+
 /// A drill or router bit.
 #[derive(Clone, Debug)]
 pub(super) struct Tool {
@@ -149,11 +156,17 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
     }
 
     fn all(&mut self) -> Result<(), Error> {
-        for line in self.file.lines {
+        self.take_next(&(0..0))?;
+        let mut lines = self.file.lines.iter();
+        for line in lines.by_ref() {
             self.line(line)?;
             if self.ended {
                 break;
             }
+        }
+        if let Some(line) = lines.find(|line| line.has_place()) {
+            let message = "what follows the end of the program (M30) is ignored, with its holes";
+            self.warnings.add(&diagnostic::TEXT_AFTER_END, line.place.clone(), message);
         }
         self.raise()
     }
@@ -182,11 +195,6 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
     }
 
     fn keyword(&mut self, fields: &[String], place: &Range<usize>) {
-        const WITHOUT_EFFECT: [&str; 30] = [
-            "AFS", "ATC", "BLKD", "CCW", "CP", "DETECT", "DN", "DTMDIST", "EDI", "EXDA", "FMAT", "FSB",
-            "HPCK", "NCSL", "OM48", "OSTOP", "PCKPARAM", "PF", "PLD", "R", "RC", "RTSEL", "SBK", "SG",
-            "SIXM", "TCST", "UP", "VER", "ZA", "ZC",
-        ];
         let name = fields[0].as_str();
         if let Some(units) = units_of(name) {
             self.units(units, place);

@@ -112,8 +112,8 @@ pub fn looks_like(bytes: &[u8]) -> bool {
             return Some(false);
         }
         let neutral = upper == "%" || upper.starts_with('(') || upper.starts_with('/');
-        let modal =
-            ["G90", "G05", "M71", "M72", "G91", "FMAT", "ICI"].iter().any(|code| upper.starts_with(code));
+        let modal = ["G90", "G05", "M71", "M72", "G91", "ICI"].iter().any(|code| upper.starts_with(code))
+            || machine::WITHOUT_EFFECT.contains(&upper.split(',').next().unwrap_or_default());
         (!neutral && !modal).then(|| begins_as_drill(&upper))
     });
     tells.into_iter().next().unwrap_or(false)

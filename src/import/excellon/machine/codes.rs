@@ -29,12 +29,26 @@ impl Machine<'_, '_, '_> {
                 self.warnings.add(&diagnostic::DIAMETER_WITHOUT_POINT, size.place.clone(), message);
             }
             self.tools.insert(number, Tool { diameter, plating: self.plating, place: word.place.clone() });
-        } else if let (false, Some(&diameter)) =
-            (self.tools.contains_key(&number), self.file.declared.commented.get(&number))
-        {
-            self.tools.insert(number, Tool { diameter, plating: self.plating, place: word.place.clone() });
+        } else {
+            self.take_commented(number, &word.place);
         }
         self.change_to(number)
+    }
+
+    /// Defines a tool that a table in comments has, where nothing else does.
+    fn take_commented(&mut self, number: u32, place: &Range<usize>) {
+        let commented = self.file.declared.commented.get(&number);
+        if let (false, Some(tool)) = (self.tools.contains_key(&number), commented) {
+            let plating = tool.plating.unwrap_or(self.plating);
+            self.tools.insert(number, Tool { diameter: tool.diameter, plating, place: place.clone() });
+        }
+    }
+
+    /// Takes up the next tool of the table in comments, in a file that chooses none otherwise.
+    pub(super) fn take_next(&mut self, place: &Range<usize>) -> Result<(), Error> {
+        let Some(next) = self.file.declared.tool_after(self.tool) else { return Ok(()) };
+        self.take_commented(next, place);
+        self.change_to(next)
     }
 
     /// Takes up another tool.
@@ -94,7 +108,12 @@ impl Machine<'_, '_, '_> {
         line: &Line,
     ) -> Result<bool, Error> {
         match word.number.integer() {
-            Some(0 | 30) => {
+            // The end, or a stop to change the tool: then the program goes on.
+            Some(0) => {
+                self.raise()?;
+                self.take_next(&word.place)?;
+            }
+            Some(30) => {
                 self.raise()?;
                 self.ended = true;
             }
