@@ -163,6 +163,20 @@ fn where_no_tool_is_chosen_a_stop_changes_to_the_next_of_the_table() {
 }
 
 #[test]
+fn who_writes_points_leaves_them_out_of_whole_numbers() {
+    let drilling = fixture("points_where_needed.drl");
+    let expected = [at(10_500, 7_620), at(12_000, 7_620), at(5_000, 5_000), at(15_000, 5_000)];
+    assert_eq!(starts(&drilling), expected, "millimetres, whatever zeros are said to be kept");
+    let text = "M48\nMETRIC\nT1C0.8\n%\nT1\nX10Y20\nX12Y20\nX5Y5\nM30\n";
+    let pads = [at(10_000, 20_000), at(12_000, 20_000), at(5_000, 5_000)];
+    let bounds = Rect::new(at(0, 0), at(30_000, 30_000));
+    let context = Context::new(pads, Some(bounds));
+    let drilling = excellon::read("f.drl", text.as_bytes(), &context).expect("readable");
+    assert_eq!(starts(&drilling), pads, "where pads say so, without any point, too");
+    assert_eq!(codes(&drilling), ["drill-format-guessed"], "and says so");
+}
+
+#[test]
 fn a_stop_ends_nothing_and_what_follows_the_end_is_told() {
     let drilling = fixture("two_programs.drl");
     assert_eq!(starts(&drilling), [at(1_000, 2_000), at(3_000, 2_000)], "one behind M00, none behind M30");

@@ -72,6 +72,11 @@ pub(super) struct NumberFormat {
 }
 
 impl NumberFormat {
+    /// What has no point is a whole number of units.
+    pub(super) const fn whole(units: Units) -> Self {
+        Self { units, digits: Digits { whole: 4, decimals: 0 }, zeros: Zeros::Trailing }
+    }
+
     /// The length that `number` means; none outside what [`Nm`] holds.
     pub(super) fn length(self, number: Number) -> Option<Nm> {
         let point = number.decimals.map_or_else(
@@ -110,6 +115,9 @@ fn scaled(number: Number, point: i32, units: Units) -> Option<Nm> {
 
 impl fmt::Display for NumberFormat {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if self.digits.decimals == 0 {
+            return f.write_str("whole numbers");
+        }
         let zeros = match self.zeros {
             Zeros::Leading => "trailing zeros omitted",
             Zeros::Trailing => "leading zeros omitted",

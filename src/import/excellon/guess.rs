@@ -107,8 +107,14 @@ pub(super) fn candidates(declared: &Declared, lines: &[Line]) -> Vec<NumberForma
         None => vec![Zeros::Trailing, Zeros::Leading],
     };
     let width = width(lines);
+    let is_left_open = open && declared.digits.is_none();
+    let writes_points = places(lines).any(|number| number.decimals.is_some());
     let mut formats = Vec::new();
     for &units in &units {
+        // Who writes points leaves them out of whole numbers alone.
+        if is_left_open && writes_points {
+            formats.push(NumberFormat::whole(units));
+        }
         let digits = match declared.digits {
             Some(digits) => vec![digits],
             None if !open => vec![units.default_digits()],
@@ -119,6 +125,9 @@ pub(super) fn candidates(declared: &Declared, lines: &[Line]) -> Vec<NumberForma
                 .iter()
                 .flat_map(|&digits| zeros.iter().map(move |&zeros| NumberFormat { units, digits, zeros })),
         );
+    }
+    if is_left_open && !writes_points {
+        formats.extend(units.iter().map(|&units| NumberFormat::whole(units)));
     }
     formats
 }
@@ -139,8 +148,7 @@ fn usual_digits(units: Units, width: Option<u8>) -> Vec<Digits> {
 /// How many digits a coordinate has, if zeros are left out at neither end: all have as many, some
 /// begin with a zero and some end with one.
 fn width(lines: &[Line]) -> Option<u8> {
-    let of_place = |word: &&Word| matches!(word.letter, b'X' | b'Y') && word.number.decimals.is_none();
-    let mut numbers = words(lines).filter(of_place).map(|word| word.number);
+    let mut numbers = places(lines).filter(|number| number.decimals.is_none());
     let first = numbers.next()?;
     let (mut starts, mut ends) = (first.has_leading_zero(), first.digits % 10 == 0);
     for number in numbers {
@@ -172,7 +180,12 @@ fn value(number: Number) -> Option<f64> {
 }
 
 pub(super) fn has_bare_coordinates(lines: &[Line]) -> bool {
-    words(lines).any(|word| matches!(word.letter, b'X' | b'Y') && word.number.decimals.is_none())
+    places(lines).any(|number| number.decimals.is_none())
+}
+
+/// The coordinates of all places.
+fn places(lines: &[Line]) -> impl Iterator<Item = Number> {
+    words(lines).filter(|word| matches!(word.letter, b'X' | b'Y')).map(|word| word.number)
 }
 
 fn words(lines: &[Line]) -> impl Iterator<Item = &Word> {

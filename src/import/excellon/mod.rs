@@ -331,7 +331,10 @@ fn source(file: File<'_>, reading: &Reading, run: &Run) -> Source {
         format: "excellon".to_owned(),
         role: String::new(),
         units: reading.format.units.name().to_owned(),
-        number_format: if bare { reading.format.to_string() } else { "decimal point".to_owned() },
+        number_format: match (bare, reading.format.digits.decimals) {
+            (true, 1..) => reading.format.to_string(),
+            (true, 0) | (false, _) => "decimal point".to_owned(),
+        },
         sha256: crate::import::digest::sha256(file.bytes),
         design: crate::import::design::of_holes(&run.holes),
         bytes: file.bytes.len() as u64,
