@@ -530,8 +530,8 @@ diagnostics! {
 
     KICAD_LINE_STYLE: Warning =
         "kicad-line-style",
-        "A line style, fill or corner that is simplified",
-        "solid lines, solid fills and square corners on copper",
+        "A line style or fill that is simplified",
+        "solid lines and solid fills on copper",
         "plot the board as Gerber in KiCad and give those files";
 
     KICAD_BLIND_VIA: Warning =
@@ -555,6 +555,6 @@ diagnostics! {
     KICAD_VERSION: Warning =
         "kicad-version",
         "A board of a newer KiCad",
-        "a board of KiCad 4 to 9",
+        "a board of KiCad 4 to 10",
         "compare what `draw` shows with KiCad, or plot the board as Gerber and give those files";
 }

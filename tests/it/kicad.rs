@@ -549,6 +549,42 @@ fn layers_are_known_by_number_where_a_person_named_them() {
 }
 
 #[test]
+fn rectangles_of_kicad_10_have_round_corners() {
+    let rect = |angle: u32, radius: u32, more: &str| {
+        let rect = format!("(start 8 6) (end -2 2) {more} (radius {radius}) (layer F.Cu)");
+        let things = format!("(footprint x (layer F.Cu) (at 20 20 {angle}) (fp_rect {rect}))");
+        copper_of(20_260_206, CANONICAL, &things)[0]
+    };
+    let pi = std::f64::consts::PI;
+    let solid = "(stroke (width 0)) (fill yes)";
+    for angle in [0, 90, 33] {
+        assert!((rect(angle, 1, solid) - (40.0 - (4.0 - pi))).abs() < 4e-3, "turned by {angle}");
+        let pen = rect(angle, 1, "(stroke (width 0.2)) (fill no)");
+        assert!(
+            (pen - 0.2 * (2.0 * (8.0 + 2.0) + 2.0 * pi)).abs() < 1e-3,
+            "its line, turned by {angle}: {pen}"
+        );
+    }
+    assert!((rect(0, 9, solid) - (6.0 * 4.0 + 4.0 * pi)).abs() < 4e-3, "no more than half its height");
+    let text = "(kicad_pcb (version 20260206) (layers (0 F.Cu signal) (2 B.Cu signal) (25 Edge.Cuts user))
+        (gr_rect (start 10 10) (end 50 40) (radius 5) (stroke (width 0.05)) (fill no) (layer Edge.Cuts))
+        (footprint x (layer F.Cu) (at 20 20) (pad 1 smd rect (at 0 0) (size 2 1) (layers F.Cu) (net GND)))
+        (segment (start 20 20) (end 30 20) (width 0.3) (layer F.Cu) (net GND)))";
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("ten.kicad_pcb");
+    std::fs::write(&path, text).expect("written");
+    let loaded = load(&path);
+    let outline = loaded.board.outline.as_ref().expect("an edge");
+    let around = area(&[outline.polygon(Nm::new(100))]);
+    assert!((around - (1200.0 - 25.0 * (4.0 - pi))).abs() < 1e-2, "the board itself: {around}");
+    let copper = loaded.board.copper(Side::Front).expect("copper");
+    let names =
+        copper.features.iter().map(|feature| copper.attributes[feature.attributes as usize].net.as_deref());
+    assert_eq!(names.collect::<Vec<_>>(), [Some("GND"), Some("GND")], "nets by their names");
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+}
+
+#[test]
 fn old_zones_are_drawn_round_with_a_pen_and_new_ones_are_not() {
     let zone = |more: &str| {
         format!(

@@ -1,14 +1,16 @@
 //! Lines, arcs, circles, rectangles, polygons and curves: of the board, of footprints, and of what
 //! custom pads are made of.
 
-use super::curve::{Curve, line};
+use std::cmp::Ordering;
+
+use super::curve::Curve;
 use super::frame::Frame;
 use super::head::kind;
 use super::reader::Reader;
 use super::ring::Drawing;
 use super::tree::Node;
 use crate::board::{Axis, Shape, polarity};
-use crate::geometry::{Arc, Nm, Point, Turn, Vector};
+use crate::geometry::{Arc, Nm, Orientation, Point, Turn, Vector, orientation};
 use crate::import::diagnostic;
 use crate::import::error::Error;
 
@@ -85,14 +87,16 @@ impl Reader<'_> {
 
     fn rectangle(&mut self, node: Node<'_>, frame: &Frame, pen: Pen) -> Result<Drawing, Error> {
         let (a, b) = (self.point(node, "start")?, self.point(node, "end")?);
-        if let Some(radius) = node.find("radius")
-            && self.length(radius, 0)? > Nm::ZERO
-        {
-            let message = "the rounded corners of a rectangle are read as square";
-            self.warnings.add(&diagnostic::KICAD_LINE_STYLE, node.place(), message);
+        let corners = [a, (b.0, a.1), b, (a.0, b.1)];
+        let radius = match node.find("radius") {
+            Some(radius) => self.length(radius, 0)?,
+            None => Nm::ZERO,
+        };
+        let radius = radius.min((b.0 - a.0).abs() / 2).min((b.1 - a.1).abs() / 2);
+        if radius <= Nm::ZERO {
+            return Ok(area(&corners.map(|corner| frame.place(corner)), pen));
         }
-        let corners = [a, (b.0, a.1), b, (a.0, b.1)].map(|corner| frame.place(corner));
-        Ok(area(&corners, pen))
+        Ok(enclosed(&rounded(corners, radius, frame), pen))
     }
 
     fn polygon(&mut self, node: Node<'_>, frame: &Frame, pen: Pen) -> Result<Drawing, Error> {
@@ -144,16 +148,59 @@ impl Reader<'_> {
     }
 }
 
+/// The sides of a rectangle with these corners in the file, and the quarters of circles at its
+/// corners: since version 10.
+fn rounded(corners: [(Nm, Nm); 4], radius: Nm, frame: &Frame) -> Vec<Curve> {
+    let moved = |corner: Nm, neighbour: Nm| match neighbour.cmp(&corner) {
+        Ordering::Less => corner - radius,
+        Ordering::Equal => corner,
+        Ordering::Greater => corner + radius,
+    };
+    let toward = |corner: (Nm, Nm), other: (Nm, Nm)| (moved(corner.0, other.0), moved(corner.1, other.1));
+    let mut curves = Vec::new();
+    let mut last: Option<Point> = None;
+    for number in 0..=4 {
+        let [before, corner, after] = [3, 4, 5].map(|ahead| corners[(number + ahead) % 4]);
+        let (start, end) = (toward(corner, before), toward(corner, after));
+        let center = (start.0 + end.0 - corner.0, start.1 + end.1 - corner.1);
+        let [start, corner, end, center] = [start, corner, end, center].map(|p| frame.place(p));
+        if let Some(last) = last.filter(|&last| last != start) {
+            curves.push(Curve::Line(last, start));
+        }
+        if number == 4 {
+            break;
+        }
+        let turn = match orientation(start, corner, end) {
+            Orientation::Right => Turn::Clockwise,
+            Orientation::Left | Orientation::Straight => Turn::CounterClockwise,
+        };
+        curves.push(Curve::Arc(Arc { start, end, center, turn }));
+        last = Some(end);
+    }
+    curves
+}
+
 /// The closed line through `corners`, and what is in it.
 fn area(corners: &[Point], pen: Pen) -> Drawing {
+    let next = corners.iter().cycle().skip(1);
+    let sides: Vec<Curve> = corners.iter().zip(next).map(|(&from, &to)| Curve::Line(from, to)).collect();
+    enclosed(&sides, pen)
+}
+
+/// A closed line, and what is in it.
+fn enclosed(sides: &[Curve], pen: Pen) -> Drawing {
     let mut drawing = Drawing::new();
-    if pen.filled && corners.len() >= 3 {
-        let pieces = polarity::clean(&[corners.to_vec()]);
+    if pen.filled {
+        let flat = sides.iter().flat_map(|side| std::iter::once(side.start()).chain(side.flatten()));
+        let mut corners: Vec<Point> = flat.collect();
+        corners.dedup();
+        // Where it began.
+        corners.pop();
+        let pieces = if corners.len() < 3 { Vec::new() } else { polarity::clean(&[corners]) };
         drawing.extend(pieces.into_iter().map(|piece| (Shape::Polygon(piece), Axis::Region)));
     }
     if pen.width > Nm::ZERO || !pen.filled {
-        let next = corners.iter().cycle().skip(1);
-        drawing.extend(corners.iter().zip(next).map(|(&from, &to)| line(from, to, pen.width / 2)));
+        drawing.extend(sides.iter().flat_map(|side| side.drawn(pen.width)));
     }
     drawing
 }

@@ -1,4 +1,4 @@
-//! KiCad boards (`.kicad_pcb`, versions 4 to 9) → the copper of both sides, the edge and the holes.
+//! KiCad boards (`.kicad_pcb`, versions 4 to 10) → the copper of both sides, the edge and the holes.
 //!
 //! ```text
 //! bytes ─ tree ─▶ nodes ─ reader ─▶ features and holes ─▶ Layout
@@ -64,8 +64,8 @@ pub struct Layout {
     pub warnings: Vec<Warning>,
 }
 
-/// The newest version of the format that is known: that of KiCad 9.
-const NEWEST: u32 = 20_241_229;
+/// The newest version of the format that is known: that of KiCad 10.
+const NEWEST: u32 = 20_260_206;
 
 /// Whether `bytes` begin like a KiCad board.
 #[must_use]
@@ -86,7 +86,7 @@ pub fn read(name: &str, bytes: &[u8]) -> Result<Layout, Error> {
     let root = tree.root();
     let version = root.find("version").and_then(|version| version.argument(0));
     if let Some(version) = version.filter(|_| reader.version > NEWEST) {
-        let message = "the board was saved by a KiCad newer than 9, whose format voromill does not know";
+        let message = "the board was saved by a KiCad newer than 10, whose format voromill does not know";
         reader.warnings.add(&diagnostic::KICAD_VERSION, version.place(), message);
     }
     let thickness = match root.find("general").and_then(|general| general.find("thickness")) {
