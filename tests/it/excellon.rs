@@ -160,6 +160,8 @@ fn where_no_tool_is_chosen_a_stop_changes_to_the_next_of_the_table() {
     assert_eq!((first.diameter, last.diameter), (Nm::new(609_600), Nm::new(3_175_000)), "24 and 125 mils");
     assert_eq!((first.plating, last.plating), (Plating::Plated, Plating::NonPlated), "of the table");
     assert_eq!(last.path.start, at(63_500, 38_100), "inches, as the sizes are in mils, of seven digits");
+    let table = "; Holesize 1. = 24.0 PLATED MILS Quantity = 1\n%\nG90\nX1.0Y1.0\nM00\nX2.0Y1.0\nM30\n";
+    assert!(read(table).is_err_and(|error| error.starts_with("f.drl:6:1: a hole is drilled")), "too short");
 }
 
 #[test]

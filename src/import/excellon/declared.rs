@@ -30,7 +30,7 @@ pub(super) struct Declared {
     /// Tools that stand in comments only, by number.
     pub(super) commented: BTreeMap<u32, Commented>,
     /// Whether a tool is chosen anywhere.
-    pub(super) chooses_tools: bool,
+    chooses_tools: bool,
     /// Whether `M30` ends it, or `M00` with no place behind it.
     pub(super) ended: bool,
     /// Whether `M30` was met.
@@ -76,11 +76,14 @@ impl Declared {
         }
     }
 
-    /// The tool in hand before any is chosen, in a file that chooses none and has a table of them;
-    /// or the one that comes after `tool` in the table.
+    /// Whether tools change by a stop alone, in the order of the table.
+    pub(super) fn changes_by_stops(&self) -> bool {
+        !self.chooses_tools && !self.commented.is_empty()
+    }
+
+    /// The tool that comes after another in the table, the first where there is none before.
     pub(super) fn tool_after(&self, tool: Option<u32>) -> Option<u32> {
-        let mut tools = self.commented.keys().copied().filter(|_| !self.chooses_tools);
-        tools.find(|&next| tool.is_none_or(|tool| next > tool))
+        self.commented.keys().copied().find(|&next| tool.is_none_or(|tool| next > tool))
     }
 
     fn words(&mut self, words: &[Word], place: &Range<usize>) {

@@ -44,11 +44,17 @@ impl Machine<'_, '_, '_> {
         }
     }
 
-    /// Takes up the next tool of the table in comments, in a file that chooses none otherwise.
+    /// Takes up the next tool of the table in comments, in a file that chooses none otherwise; none
+    /// after the last.
     pub(super) fn take_next(&mut self, place: &Range<usize>) -> Result<(), Error> {
-        let Some(next) = self.file.declared.tool_after(self.tool) else { return Ok(()) };
-        self.take_commented(next, place);
-        self.change_to(next)
+        if !self.file.declared.changes_by_stops() {
+            return Ok(());
+        }
+        let next = self.file.declared.tool_after(self.tool);
+        if let Some(next) = next {
+            self.take_commented(next, place);
+        }
+        self.change_to(next.unwrap_or(0))
     }
 
     /// Takes up another tool.
