@@ -5,12 +5,11 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 
 use crate::board::{Copper, Shape};
-use crate::geometry::{Nm, Point, Rect};
+use crate::geometry::{Nm, Point, Rect, RectIndex};
 
 use super::contact::{Bodies, Body, Scratch};
 use super::density::Density;
 use super::stretches::stretches;
-use crate::geometry::RectIndex;
 
 /// Shapes made ready to be asked what comes near another.
 #[derive(Debug)]

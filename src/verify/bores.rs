@@ -15,8 +15,7 @@
 use rayon::prelude::*;
 
 use crate::board::{Board, Hole, Shape};
-use crate::geometry::RectIndex;
-use crate::geometry::{Nm, Point, distance_to_segment};
+use crate::geometry::{Nm, Point, RectIndex, distance_to_segment};
 
 use super::cut::Cut;
 use super::machining::Machining;

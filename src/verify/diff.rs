@@ -9,8 +9,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use crate::board::{Board, Shape};
-use crate::geometry::RectIndex;
-use crate::geometry::{Arc, Nm, Point, Rect, Turn};
+use crate::geometry::{Arc, Nm, Point, Rect, RectIndex, Turn};
 use crate::grid::Grid;
 use crate::raster::{Buffers, Label, Scene, render};
 use crate::topology::surface;

@@ -2,8 +2,7 @@
 
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Polygon, between, part_nearest};
-use crate::geometry::{boxes, spanned};
+use crate::geometry::{Polygon, between, boxes, part_nearest, spanned};
 
 /// A point in nanometres.
 type Spot = (f64, f64);

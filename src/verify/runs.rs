@@ -8,8 +8,7 @@
 use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Point, Polygon, off_segment};
-use crate::geometry::{boxes, spanned};
+use crate::geometry::{Point, Polygon, boxes, off_segment, spanned};
 use crate::topology::DisjointSets;
 use crate::verify::edges::{Edges, length};
 

@@ -4,8 +4,7 @@ use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use crate::board::{Board, Copper, FLATTEN, Shape, Side, polarity};
-use crate::geometry::RectIndex;
-use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::geometry::{Nm, Point, Polygon, Rect, RectIndex};
 use crate::grid::Grid;
 use crate::raster::{Buffers, FillRule, Label, Scene, Surface, render};
 use crate::topology::{Method, NetId, Nets, Proximity, recover, surface};

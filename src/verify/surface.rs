@@ -6,8 +6,7 @@ use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::board::Board;
 use crate::gcode::read::{Listing, Motion, Way};
-use crate::geometry::boxes;
-use crate::geometry::{Arc, Nm, Point, Rect};
+use crate::geometry::{Arc, Nm, Point, Rect, boxes};
 use crate::grid::Grid;
 
 use super::cutter::Cutter;

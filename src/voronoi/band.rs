@@ -16,8 +16,7 @@
 
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::Nm;
-use crate::geometry::boxes;
+use crate::geometry::{Nm, boxes};
 
 use super::exact::{Chain, Diagram, WALL};
 use super::plane::{Spot, spanned};

@@ -12,8 +12,7 @@ use std::cmp::Ordering;
 use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::Polygon;
-use crate::geometry::boxes;
+use crate::geometry::{Polygon, boxes};
 
 use super::OUTSIDE;
 use super::edge::Border;

@@ -13,8 +13,7 @@ use std::sync::Arc;
 
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::Nm;
-use crate::geometry::boxes;
+use crate::geometry::{Nm, boxes};
 
 use super::Boundary;
 use super::clip::{Node, Piece};

@@ -16,8 +16,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::boxes;
-use crate::geometry::{Nm, Path, Point, Segment};
+use crate::geometry::{Nm, Path, Point, Segment, boxes};
 use crate::topology::DisjointSets;
 
 use super::part::{Cut, foot_on, part, vertex};

@@ -88,7 +88,7 @@ impl Declared {
 
     fn words(&mut self, words: &[Word], place: &Range<usize>) {
         self.chooses_tools |= words.iter().any(|word| word.letter == b'T');
-        self.ended &= self.is_over || !words.iter().any(|word| matches!(word.letter, b'X' | b'Y'));
+        self.ended &= self.is_over || !words.iter().any(Word::is_coordinate);
         for word in words.iter().filter(|word| word.letter == b'M') {
             match word.number.integer() {
                 Some(71) => _ = self.units.get_or_insert((Units::Mm, place.clone())),

@@ -106,7 +106,6 @@ pub(super) fn candidates(declared: &Declared, lines: &[Line]) -> Vec<NumberForma
         None if !open => vec![Zeros::Trailing],
         None => vec![Zeros::Trailing, Zeros::Leading],
     };
-    let width = width(lines);
     let is_left_open = open && declared.digits.is_none();
     let writes_points = places(lines).any(|number| number.decimals.is_some());
     let mut formats = Vec::new();
@@ -118,7 +117,7 @@ pub(super) fn candidates(declared: &Declared, lines: &[Line]) -> Vec<NumberForma
         let digits = match declared.digits {
             Some(digits) => vec![digits],
             None if !open => vec![units.default_digits()],
-            None => usual_digits(units, width),
+            None => usual_digits(units, width(lines)),
         };
         formats.extend(
             digits
@@ -185,7 +184,7 @@ pub(super) fn has_bare_coordinates(lines: &[Line]) -> bool {
 
 /// The coordinates of all places.
 fn places(lines: &[Line]) -> impl Iterator<Item = Number> {
-    words(lines).filter(|word| matches!(word.letter, b'X' | b'Y')).map(|word| word.number)
+    words(lines).filter(|word| word.is_coordinate()).map(|word| word.number)
 }
 
 fn words(lines: &[Line]) -> impl Iterator<Item = &Word> {

@@ -73,11 +73,17 @@ pub(super) struct Line {
     pub(super) kind: Kind,
 }
 
+impl Word {
+    /// Whether it is a coordinate of a place.
+    pub(super) const fn is_coordinate(&self) -> bool {
+        matches!(self.letter, b'X' | b'Y')
+    }
+}
+
 impl Line {
     /// Whether it names a place.
     pub(super) fn has_place(&self) -> bool {
-        let Kind::Words(words) = &self.kind else { return false };
-        words.iter().any(|word| matches!(word.letter, b'X' | b'Y'))
+        matches!(&self.kind, Kind::Words(words) if words.iter().any(Word::is_coordinate))
     }
 }
 

@@ -157,27 +157,21 @@ fn rounded(corners: [(Nm, Nm); 4], radius: Nm, frame: &Frame) -> Vec<Curve> {
         Ordering::Greater => corner + radius,
     };
     let toward = |corner: (Nm, Nm), other: (Nm, Nm)| (moved(corner.0, other.0), moved(corner.1, other.1));
-    let mut curves = Vec::new();
-    let mut last: Option<Point> = None;
-    for number in 0..=4 {
+    let quarter = |number: usize| {
         let [before, corner, after] = [3, 4, 5].map(|ahead| corners[(number + ahead) % 4]);
         let (start, end) = (toward(corner, before), toward(corner, after));
         let center = (start.0 + end.0 - corner.0, start.1 + end.1 - corner.1);
         let [start, corner, end, center] = [start, corner, end, center].map(|p| frame.place(p));
-        if let Some(last) = last.filter(|&last| last != start) {
-            curves.push(Curve::Line(last, start));
-        }
-        if number == 4 {
-            break;
-        }
         let turn = match orientation(start, corner, end) {
             Orientation::Right => Turn::Clockwise,
             Orientation::Left | Orientation::Straight => Turn::CounterClockwise,
         };
-        curves.push(Curve::Arc(Arc { start, end, center, turn }));
-        last = Some(end);
-    }
-    curves
+        Arc { start, end, center, turn }
+    };
+    let quarters = [0, 1, 2, 3].map(quarter);
+    let side = |arc: &Arc, next: &Arc| (arc.end != next.start).then_some(Curve::Line(arc.end, next.start));
+    let pairs = quarters.iter().zip(quarters.iter().cycle().skip(1));
+    pairs.flat_map(|(arc, next)| [Some(Curve::Arc(*arc)), side(arc, next)]).flatten().collect()
 }
 
 /// The closed line through `corners`, and what is in it.

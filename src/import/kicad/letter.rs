@@ -3,7 +3,7 @@
 use super::curve::line;
 use super::ring::Drawing;
 use crate::board::{FLATTEN, Feature, Side};
-use crate::geometry::{Nm, Point, Rect, off_segment, orientation};
+use crate::geometry::{Nm, Point, Rect, distance_to_segment, orientation};
 
 /// How near a letter may come to other copper: the least clearance that KiCad starts a board with.
 pub(super) const CLEAR: Nm = Nm::from_um(200);
@@ -53,10 +53,7 @@ fn parts(stroke: &[Point]) -> impl Iterator<Item = (Point, Point)> {
 /// Whether two segments come nearer to each other than `reach`.
 fn are_within((a, b): (Point, Point), (c, d): (Point, Point), reach: f64) -> bool {
     let parted = |from, to, p, q| orientation(from, to, p) != orientation(from, to, q);
-    let near = |p: Point, from: Point, to: Point| {
-        let (x, y) = off_segment(p.to_f64(), from.to_f64(), to.to_f64());
-        x * x + y * y < reach * reach
-    };
+    let near = |p: Point, from: Point, to: Point| distance_to_segment(p, (from, to)) < reach;
     near(a, c, d)
         || near(b, c, d)
         || near(c, a, b)

@@ -1,4 +1,4 @@
-//! KiCad boards (`.kicad_pcb`, versions 4 to 10) → the copper of both sides, the edge and the holes.
+//! KiCad boards (`.kicad_pcb`, versions 4 to 10) → copper of both sides, the edge and the holes.
 //!
 //! ```text
 //! bytes ─ tree ─▶ nodes ─ reader ─▶ features and holes ─▶ Layout

@@ -2,8 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use crate::geometry::RectIndex;
-use crate::geometry::{Nm, Orientation, Point, Polygon, Rect, orientation};
+use crate::geometry::{Nm, Orientation, Point, Polygon, Rect, RectIndex, orientation};
 
 use super::near;
 use super::nearest::{self, Way};

@@ -15,8 +15,7 @@
 use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::board::FLATTEN;
-use crate::geometry::boxes;
-use crate::geometry::{Circle, Path, Point, Segment, Turn};
+use crate::geometry::{Circle, Path, Point, Segment, Turn, boxes};
 use crate::voronoi::plane::Spot;
 
 /// Chords of an arc are no farther from it, in nanometres: what flattening leaves, and rounding.

@@ -20,8 +20,7 @@ use std::collections::BTreeMap;
 use rustc_hash::FxHashMap;
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::Point;
-use crate::geometry::boxes;
+use crate::geometry::{Point, boxes};
 use crate::voronoi::plane::{Spot, spanned};
 
 /// Slits are no wider, in nanometres. Chosen: several times what six decimals of a millimetre

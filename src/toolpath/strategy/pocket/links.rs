@@ -12,8 +12,7 @@ use std::collections::BinaryHeap;
 
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{between, part_nearest};
-use crate::geometry::{boxes, spanned};
+use crate::geometry::{between, boxes, part_nearest, spanned};
 use crate::toolpath::ordered::Ordered;
 use crate::voronoi::medial::nest::Nest;
 
