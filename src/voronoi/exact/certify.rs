@@ -85,8 +85,9 @@ impl Diagram {
         }
     }
 
-    /// Checks every vertex and, at places at most `spacing` nanometres apart, every edge against
-    /// all generators; the middle of each edge at least.
+    /// Checks every vertex and every edge against all generators: the middle of each edge at least,
+    /// and places at most `spacing` nanometres apart. Where copper is farther away than that they
+    /// are so far apart that an eighth of it is no more than lies between one circle and the next.
     #[must_use]
     pub fn certify(&self, spacing: f64) -> Vec<Violation> {
         let of_vertex = |vertex: &Vertex| {
@@ -115,7 +116,8 @@ impl Diagram {
     ) {
         let Some(Sample { at: middle, clearance }) = self.midway(edge, a, b) else { return };
         self.check(middle, clearance, &[edge.left, edge.right], found);
-        if left > 0 && (b - a).length() > spacing {
+        let chord = b - a;
+        if left > 0 && chord.dot(chord) > spacing * clearance.max(spacing) {
             self.check_between(edge, (a, middle), spacing, left - 1, found);
             self.check_between(edge, (middle, b), spacing, left - 1, found);
         }
@@ -127,10 +129,11 @@ impl Diagram {
         let mut worst = off.fold(0.0, f64::max);
         // No edge of copper, seen from whichever side, lies within an empty circle; so what lies in
         // copper is told from what lies outside, too.
-        self.index.visit_round(at, clearance, |i| {
+        let allowed = 2.0 * self.tie;
+        self.index.visit_round(at, (clearance - allowed).max(0.0), |i| {
             worst = worst.max(clearance - self.forms()[i as usize].off(at));
         });
-        if worst > 2.0 * self.tie {
+        if worst > allowed {
             found.push(Violation { at: at.rounded(), by: worst });
         }
     }

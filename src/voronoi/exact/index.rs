@@ -1,14 +1,11 @@
 //! Generators by place: what comes near a place, what is nearest to it, and the breaks of discs.
 
-use std::ops::ControlFlow;
-
 use bitvec::vec::BitVec;
-use static_aabb2d_index::StaticAABB2DIndex;
 
 use super::form::{Form, Place};
 use super::generator::Generators;
 use super::tolerances::SLAB;
-use crate::geometry;
+use super::tree::Tree;
 use crate::voronoi::plane::Spot;
 
 /// So far from a foot its normal is looked at, in nanometres. Chosen.
@@ -18,43 +15,9 @@ const AHEAD: f64 = 1_000.0;
 /// what shaking leaves.
 const ON: f64 = 1e-3;
 
-/// A box is so much nearer than what lies in it by rounding at most, in nanometres. Chosen.
-const NEARER: f64 = 1.0;
-
-/// An arc has no more pieces. Derived: eighths, and what is left of one.
-const OF_ARC: usize = 9;
-
-/// How far a box is from a place, squared.
-#[inline]
-fn squared([left, bottom, right, top]: [f64; 4], p: Spot) -> f64 {
-    let out = |low: f64, high: f64, at: f64| {
-        if at < low {
-            low - at
-        } else if at > high {
-            at - high
-        } else {
-            0.0
-        }
-    };
-    let (x, y) = (out(left, right, p.x), out(bottom, top, p.y));
-    x * x + y * y
-}
-
-/// Whether two boxes meet.
-#[inline]
-fn overlap([a, b, c, d]: [f64; 4], [left, bottom, right, top]: [f64; 4]) -> bool {
-    a <= right && c >= left && b <= top && d >= bottom
-}
-
 /// Generators by place, with the breaks of discs.
-///
-/// A long slanted line and a large arc are known by pieces, for a box round all of one would lie
-/// over much that they are far from.
 pub(super) struct Index {
-    boxes: Vec<[f64; 4]>,
-    /// Of each box the generator, and how many boxes of it came before.
-    pieces: Vec<(u32, u32)>,
-    tree: Option<StaticAABB2DIndex<f64>>,
+    tree: Tree,
     /// Whether nothing has its foot on generator `i` alone.
     hidden: BitVec,
     /// The breaks of generator `i`: `breaks[starts[i]..starts[i + 1]]`.
@@ -64,16 +27,9 @@ pub(super) struct Index {
 
 impl Index {
     pub(super) fn new(generators: &Generators) -> Self {
-        let (mut boxes, mut pieces) = (Vec::new(), Vec::new());
-        for (number, form) in (0_u32..).zip(&generators.forms) {
-            for (before, piece) in (0_u32..).zip(form.pieces()) {
-                boxes.push(piece.bounds());
-                pieces.push((number, before));
-            }
-        }
-        let tree = geometry::boxes(boxes.iter().copied());
+        let bounds = generators.forms.iter().map(|form| form.pieces().iter().map(Form::bounds).collect());
         let hidden = BitVec::repeat(false, generators.len());
-        let mut index = Self { boxes, pieces, tree, hidden, breaks: Vec::new(), starts: Vec::new() };
+        let mut index = Self { tree: Tree::new(bounds), hidden, breaks: Vec::new(), starts: Vec::new() };
         index.hidden = index.hidden_corners(generators);
         index
     }
@@ -139,125 +95,40 @@ impl Index {
 
     /// Shows the generators of which a box meets a box, left, bottom, right, top, each once.
     pub(super) fn visit(&self, within: [f64; 4], mut show: impl FnMut(u32)) {
-        let _: ControlFlow<()> = self.visit_where(
-            |bounds| overlap(bounds, within),
-            |generator| {
-                show(generator);
-                ControlFlow::Continue(())
-            },
-        );
+        self.tree.visit(within, |generator| self.show(generator, &mut show));
     }
 
     /// Shows the generators of which a box comes within `reach` of `p`, each once.
     pub(super) fn visit_round(&self, p: Spot, reach: f64, mut show: impl FnMut(u32)) {
-        let within = [p.x - reach, p.y - reach, p.x + reach, p.y + reach];
-        // Most boxes are told by the square round the circle.
-        let _: ControlFlow<()> = self.visit_where(
-            |bounds| overlap(bounds, within) && squared(bounds, p) <= reach * reach,
-            |generator| {
-                show(generator);
-                ControlFlow::Continue(())
-            },
-        );
+        self.tree.visit_round(p, reach, |generator| self.show(generator, &mut show));
     }
 
-    /// Shows the generators of which a box meets another, and comes within `reach` of `p`, each
-    /// once, for as long as `show` goes on.
-    pub(super) fn visit_both<B>(
-        &self,
-        within: [f64; 4],
-        (p, reach): (Spot, f64),
-        show: impl FnMut(u32) -> ControlFlow<B>,
-    ) -> ControlFlow<B> {
-        self.visit_where(|bounds| overlap(bounds, within) && squared(bounds, p) <= reach * reach, show)
-    }
-
-    /// Shows the generators of which a box meets a condition, each once, for as long as `show` goes
-    /// on. What holds two boxes meets it if either does; and of boxes in a straight row those that
-    /// meet it are in a row, as with all that is convex.
-    fn visit_where<B>(
-        &self,
-        meets: impl Fn([f64; 4]) -> bool,
-        mut show: impl FnMut(u32) -> ControlFlow<B>,
-    ) -> ControlFlow<B> {
-        let Some(tree) = &self.tree else { return ControlFlow::Continue(()) };
-        let (boxes, numbers, levels) = (tree.all_boxes(), tree.all_box_indices(), tree.level_bounds());
-        let leaves = levels[0];
-        let mut open = Vec::with_capacity(64);
-        let mut next = Some((numbers[boxes.len() - 1], levels.len() - 2));
-        while let Some((first, level)) = next {
-            let end = (first + tree.node_size()).min(levels[level]);
-            let numbers = &numbers[first..end];
-            for (i, bounds) in boxes[first..end].iter().enumerate() {
-                if !meets([bounds.min_x, bounds.min_y, bounds.max_x, bounds.max_y]) {
-                    continue;
-                }
-                if first >= leaves {
-                    open.push((numbers[i], level - 1));
-                } else if let Some(generator) = self.shown(numbers[i], &meets) {
-                    show(generator)?;
-                }
-            }
-            next = open.pop();
-        }
-        ControlFlow::Continue(())
-    }
-
-    /// The generator of a box that meets a condition, if no box of it did before.
-    fn shown(&self, number: usize, meets: impl Fn([f64; 4]) -> bool) -> Option<u32> {
-        let (generator, before) = self.pieces[number];
-        let before = before as usize;
-        if before == 0 {
-            return (!self.hidden[generator as usize]).then_some(generator);
-        }
-        // The pieces of a line are in a straight row.
-        let first = number - if before < OF_ARC { before } else { 1 };
-        let is_first = !self.boxes[first..number].iter().any(|&bounds| meets(bounds));
-        (is_first && !self.hidden[generator as usize]).then_some(generator)
+    /// Shows the generators of which a box comes within `reach` of a chord, and some more, each
+    /// once.
+    pub(super) fn visit_along(&self, chord: [Spot; 2], reach: f64, mut show: impl FnMut(u32)) {
+        self.tree.visit_along(chord, reach, |generator| self.show(generator, &mut show));
     }
 
     /// Shows generators, some more than once, the nearer boxes first but for those together in one
     /// of the tree, until all that are left are farther from `p` than `show` says that anything
     /// still matters.
     pub(super) fn visit_nearest(&self, p: Spot, mut show: impl FnMut(u32) -> f64) {
-        let Some(tree) = &self.tree else { return };
-        let (boxes, numbers, levels) = (tree.all_boxes(), tree.all_box_indices(), tree.level_bounds());
-        let leaves = levels[0];
-        // Farther squared than this nothing matters.
         let mut limit = f64::INFINITY;
-        let mut open = Vec::with_capacity(64);
-        open.push((0.0, numbers[boxes.len() - 1], levels.len() - 2));
-        while let Some((off, first, level)) = open.pop() {
-            if off > limit {
-                continue;
-            }
-            let end = (first + tree.node_size()).min(levels[level]);
-            let before = open.len();
-            for (bounds, &number) in boxes[first..end].iter().zip(&numbers[first..end]) {
-                let off = squared([bounds.min_x, bounds.min_y, bounds.max_x, bounds.max_y], p);
-                if off > limit {
-                    continue;
-                }
-                if first >= leaves {
-                    open.push((off, number, level - 1));
-                    continue;
-                }
-                let (generator, _) = self.pieces[number];
-                if !self.hidden[generator as usize] {
-                    let reach = show(generator) + NEARER;
-                    limit = reach * reach;
-                }
-            }
-            open[before..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
+        self.tree.visit_nearest(p, |generator| {
+            self.show(generator, &mut |generator| limit = show(generator));
+            limit
+        });
+    }
+
+    fn show(&self, generator: u32, show: &mut impl FnMut(u32)) {
+        if !self.hidden[generator as usize] {
+            show(generator);
         }
     }
 
-    /// The box round all generators.
-    pub(super) fn bounds(&self) -> [f64; 4] {
-        let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        self.boxes.iter().fold(far, |[a, b, c, d], [left, bottom, right, top]| {
-            [a.min(*left), b.min(*bottom), c.max(*right), d.max(*top)]
-        })
+    /// The box round all generators: left, bottom, right, top.
+    pub(super) const fn bounds(&self) -> [f64; 4] {
+        self.tree.bounds()
     }
 
     /// The places on a generator where another one begins or ends.

@@ -156,7 +156,7 @@ impl Diagram {
 
     /// Where an edge ends that passes a place.
     fn end_of(&self, pair: &Pair, at: Spot) -> Option<Junction> {
-        let tied = [pair.left, pair.right];
+        let tied = [pair.left.min(pair.right), pair.left.max(pair.right)];
         self.ending(pair, at, self.follow(pair, at, &tied)).map(|arrival| arrival.junction)
     }
 

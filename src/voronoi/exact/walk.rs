@@ -12,10 +12,9 @@
 //! [`Form::meet`](super::form::Form::meet)), so the place of the foot on one of them orders all
 //! events.
 
-use std::ops::ControlFlow;
-
 use super::apollonius;
 use super::form::{Form, Place, clockwise, unit};
+use super::sweep::Sweep;
 use super::tolerances::{FLAT, SLAB, resolution};
 use super::{Diagram, Kind, NOBODY};
 use crate::voronoi::plane::Spot;
@@ -31,14 +30,6 @@ const SHORTEST: f64 = 1e-4;
 /// What a flat touch may be seen off its place, in nanometres: the root of a tie times the largest
 /// radius. Chosen.
 const NEAR: f64 = 2_000.0;
-
-/// Where more generators may enter on a step, the step is first made shorter. Chosen: that costs
-/// about as much as solving for so many.
-const CROWD: usize = 16;
-
-/// Boxes are looked at so much farther out than what may enter, in nanometres. Chosen: more than
-/// rounding.
-const MARGIN: f64 = 10.0;
 
 /// Discs nearer to each other than this, in nanometres, lie all but in one place. Chosen: a tie may
 /// leave a vertex a nanometre beside their bisector, and of discs a nanometre apart a foot may then
@@ -87,7 +78,7 @@ struct Step<'a> {
     form: &'a Form,
     sense: f64,
     here: Here,
-    /// Where the walk began, and what is tied there.
+    /// Where the walk began, and what is tied there, ascending.
     start: Spot,
     tied: &'a [u32],
     /// What is tied leaves the circle within so much of the start.
@@ -161,7 +152,7 @@ impl Pair {
 }
 
 impl Diagram {
-    /// Follows a bisector from `start`, where `tied` are tied, to its first event.
+    /// Follows a bisector from `start`, where `tied`, ascending, are tied, to its first event.
     pub(super) fn follow(&self, pair: &Pair, start: Spot, tied: &[u32]) -> Event {
         let main = pair.main(start);
         let (form, sense) = (&pair.forms[main], pair.sense(main));
@@ -316,102 +307,63 @@ impl Diagram {
 
     /// The first generator that enters between two places, if any does.
     fn first_hit(&self, step: &Step<'_>, next: &Here, ahead: f64) -> Option<Hit> {
-        let mut near = Vec::new();
-        if !self.reachable(step, next, CROWD, &mut near) {
-            return self.first_among(step, next, ahead, &near);
+        let Step { pair, here, .. } = step;
+        let mut sweep = Sweep::new(pair, (here.at, here.clearance), (next.at, next.clearance), self.tie);
+        let mut reached = self.reached(step, &sweep);
+        let (mut first, mut ahead): (Option<Hit>, f64) = (None, ahead);
+        let mut tried = 0;
+        while let Some(&(_, c)) = reached.get(tried) {
+            tried += 1;
+            let Some(hit) = self.enters(step, &sweep, c, ahead) else { continue };
+            let (along, at, clearance, _) = hit;
+            (first, ahead) = (Some(hit), along);
+            sweep.shorten((at, clearance));
+            // What only touches where another one enters is tied there.
+            reached.drain(..tried);
+            reached.retain(|&(_, c)| !sweep.misses(&self.forms()[c as usize]));
+            self.sort_by_distance(&mut reached, sweep.to);
+            tried = 0;
         }
-        // Among so many it is sooner found where the first of them ends the way.
-        let (next, ahead) = self.shortened(step, next, ahead);
-        self.reachable(step, &next, usize::MAX, &mut near);
-        self.first_among(step, &next, ahead, &near)
+        let nearer = |&&(off, c): &&(f64, u32)| {
+            off < -self.tie && self.forms()[c as usize].counts(next.at, self.tie, SLAB)
+        };
+        let missed = || reached.iter().filter(nearer).map(|&(_, c)| c).min();
+        first.or_else(|| self.entry(pair, step.main, here, next, missed()?))
     }
 
-    /// Finds what may enter between two places, if it is no more than `most`; whether it is more.
-    fn reachable(&self, step: &Step<'_>, next: &Here, most: usize, near: &mut Vec<u32>) -> bool {
-        let Step { pair, form, here, .. } = step;
-        near.clear();
-        let middle = here.at.midpoint(next.at);
-        let half = (next.at - here.at).length() / 2.0;
-        // The arc strays from its chord by no more than half of it, for it turns by less than a
-        // quarter.
-        let reach = form.distance(middle).max(0.0).max(here.clearance).max(next.clearance);
-        let room = reach + half + self.tie;
-        let look = [
-            here.at.x.min(next.at.x) - room,
-            here.at.y.min(next.at.y) - room,
-            here.at.x.max(next.at.x) + room,
-            here.at.y.max(next.at.y) + room,
-        ];
-        let far = reach + 2.0 * half + self.tie;
-        let found = self.index.visit_both(look, (middle, far + MARGIN), |c| {
-            let distance = || self.forms()[c as usize].distance(middle);
-            let is_other = c != pair.left && c != pair.right && !self.joined_to(pair, c);
-            if is_other && (-half - half - self.tie..=far).contains(&distance()) {
-                if near.len() == most {
-                    return ControlFlow::Break(());
-                }
-                near.push(c);
+    /// What may enter between two places, in the order of how much farther than copper it is at the
+    /// second.
+    fn reached(&self, step: &Step<'_>, sweep: &Sweep) -> Vec<(f64, u32)> {
+        let pair = step.pair;
+        let mut reached = Vec::new();
+        let (chord, reach) = sweep.swath(step.form);
+        self.index.visit_along(chord, reach, |c| {
+            let is_own = || c == pair.left || c == pair.right || self.joined_to(pair, c);
+            if !sweep.misses(&self.forms()[c as usize]) && !is_own() {
+                reached.push((0.0, c));
             }
-            ControlFlow::Continue(())
         });
-        found.is_break()
+        self.sort_by_distance(&mut reached, sweep.to);
+        reached
     }
 
-    /// A place before `next`, if any generator is nearer there, where one enters and none is.
-    fn shortened(&self, step: &Step<'_>, next: &Here, ahead: f64) -> (Here, f64) {
-        let Step { pair, form, .. } = step;
-        let (mut next, mut ahead) = (*next, ahead);
-        loop {
-            let mut nearest = (next.clearance - self.tie, NOBODY);
-            self.index.visit_nearest(next.at, |c| {
-                let other = &self.forms()[c as usize];
-                let is_other = c != pair.left && c != pair.right && !self.joined_to(pair, c);
-                let found = (other.distance(next.at), c);
-                if is_other && found < nearest && other.counts(next.at, self.tie, SLAB) {
-                    nearest = found;
-                }
-                nearest.0
-            });
-            if nearest.1 == NOBODY {
-                return (next, ahead);
-            }
-            match self.enters(step, &next, nearest.1, ahead) {
-                Some((along, at, clearance, _)) if along < ahead => {
-                    next = Here { at, clearance, place: form.place(at) };
-                    ahead = along;
-                }
-                Some(_) | None => return (next, ahead),
-            }
+    /// Sorts generators by how much farther than copper they are from a place, which they are given
+    /// with then.
+    fn sort_by_distance(&self, generators: &mut [(f64, u32)], (at, clearance): (Spot, f64)) {
+        for (off, c) in &mut *generators {
+            *off = self.forms()[*c as usize].distance(at) - clearance;
         }
-    }
-
-    /// The first of some generators that enters between two places, if any does.
-    fn first_among(&self, step: &Step<'_>, next: &Here, ahead: f64, among: &[u32]) -> Option<Hit> {
-        let mut first: Option<Hit> = None;
-        let mut missed: Option<u32> = None;
-        for &c in among {
-            let other = &self.forms()[c as usize];
-            let limit = first.map_or(ahead, |hit| hit.0);
-            first = self.enters(step, next, c, limit).or(first);
-            let nearer =
-                other.distance(next.at) < next.clearance - self.tie && other.counts(next.at, self.tie, SLAB);
-            if nearer && missed.is_none_or(|known| c < known) {
-                missed = Some(c);
-            }
-        }
-        if first.is_some() {
-            return first;
-        }
-        self.entry(step.pair, step.main, &step.here, next, missed?)
+        generators.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     }
 
     /// Where a generator enters on the way to a place, no farther along than `limit`.
-    fn enters(&self, step: &Step<'_>, next: &Here, c: u32, limit: f64) -> Option<Hit> {
+    fn enters(&self, step: &Step<'_>, sweep: &Sweep, c: u32, limit: f64) -> Option<Hit> {
         let Step { pair, form, sense, here, start, tied, near, .. } = *step;
         // The way strays from its chord by no more than half of it.
-        let around = (here.at.midpoint(next.at), (next.at - here.at).length());
+        let next = sweep.to.0;
+        let around = (here.at.midpoint(next), (next - here.at).length());
         let other = &self.forms()[c as usize];
-        let was_tied = tied.contains(&c);
+        let was_tied = tied.binary_search(&c).is_ok();
         let mut first: Option<Hit> = None;
         for (at, s) in
             apollonius::solve_within([&pair.forms[0], &pair.forms[1], other], around).into_iter().flatten()
