@@ -2,14 +2,16 @@
 
 use std::ops::ControlFlow;
 
-use static_aabb2d_index::{Control, StaticAABB2DIndex, StaticAABB2DIndexBuilder};
+use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
 
 use super::Rect;
+use super::tree::BoxTree;
 
 /// Rectangles by place: a packed R-tree, filled once.
 #[derive(Debug)]
 pub(crate) struct RectIndex {
-    tree: StaticAABB2DIndex<i64>,
+    rects: Vec<Rect>,
+    tree: BoxTree,
 }
 
 /// Boxes by place, numbered as they come, each as left, bottom, right and top; none where there is
@@ -30,18 +32,18 @@ pub(crate) fn spanned(a: (f64, f64), b: (f64, f64)) -> [f64; 4] {
 impl RectIndex {
     /// The index of `rects`, numbered as they come.
     pub(crate) fn new(rects: impl ExactSizeIterator<Item = Rect>) -> Self {
-        let mut builder = StaticAABB2DIndexBuilder::new(rects.len());
-        for rect in rects {
-            let (min, max) = (rect.min(), rect.max());
-            builder.add(min.x.get(), min.y.get(), max.x.get(), max.y.get());
-        }
-        Self { tree: builder.build().expect("as many rectangles as announced") }
+        let rects: Vec<Rect> = rects.collect();
+        let tree = BoxTree::new(rects.iter().map(|rect| {
+            let ((left, bottom), (right, top)) = (rect.min().to_f64(), rect.max().to_f64());
+            [left, bottom, right, top]
+        }));
+        Self { rects, tree }
     }
 
     /// The numbers of all rectangles, neighbours close to each other: the order in which to ask
     /// about all of them.
-    pub(crate) fn order(&self) -> &[usize] {
-        self.tree.item_indices()
+    pub(crate) fn order(&self) -> Vec<usize> {
+        self.tree.order().collect()
     }
 
     /// The numbers of all rectangles that share a point with `window`, in order.
@@ -65,15 +67,10 @@ impl RectIndex {
         stack: &mut Vec<usize>,
         mut visit: impl FnMut(usize) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let (min, max) = (window.min(), window.max());
-        let mut visitor = |number| match visit(number) {
-            ControlFlow::Continue(()) => Control::Continue,
-            ControlFlow::Break(()) => Control::Break(()),
-        };
-        let (x0, y0, x1, y1) = (min.x.get(), min.y.get(), max.x.get(), max.y.get());
-        match self.tree.visit_query_with_stack(x0, y0, x1, y1, &mut visitor, stack) {
-            Control::Continue => ControlFlow::Continue(()),
-            Control::Break(()) => ControlFlow::Break(()),
-        }
+        let ((left, bottom), (right, top)) = (window.min().to_f64(), window.max().to_f64());
+        let region = self.tree.window([left, bottom, right, top]);
+        self.tree.visit(&region, stack, |number| {
+            if self.rects[number].touches(window) { visit(number) } else { ControlFlow::Continue(()) }
+        })
     }
 }

@@ -22,6 +22,7 @@ mod nm;
 mod path;
 mod point;
 mod polygon;
+mod tree;
 
 pub use arc::{Arc, Circle, Turn};
 pub(crate) use index::{RectIndex, boxes, spanned};
@@ -32,3 +33,4 @@ pub use nm::{Nm, RangeError};
 pub use path::{Path, Segment};
 pub use point::{Orientation, Point, Rect, Vector, orientation};
 pub use polygon::Polygon;
+pub(crate) use tree::{BoxTree, Region};

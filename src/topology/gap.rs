@@ -68,9 +68,9 @@ impl Found {
 
 fn narrowest_within(bodies: &Bodies, nets: &Nets, limit: Nm) -> Option<Found> {
     let worker = || (None, Vec::new(), Scratch::default());
-    let found = bodies.index.order().par_iter().with_min_len(SHARE).fold(
+    let found = bodies.index.order().into_par_iter().with_min_len(SHARE).fold(
         worker,
-        |(mut best, mut stack, mut scratch): (Option<Found>, _, _), &feature| {
+        |(mut best, mut stack, mut scratch): (Option<Found>, _, _), feature| {
             let window = bodies.bodies[feature].bounds().inflate(reach(best, limit));
             let _ = bodies.index.visit(window, &mut stack, |other| {
                 if other > feature && nets.of(feature) != nets.of(other) {

@@ -151,10 +151,10 @@ impl Proximity {
     #[must_use]
     pub fn order(&self) -> Vec<usize> {
         match self.index() {
-            (index, None) => index.order().to_vec(),
+            (index, None) => index.order(),
             (index, Some(owners)) => {
-                let is_first = |number: &&usize| **number == 0 || owners[**number - 1] != owners[**number];
-                index.order().iter().filter(is_first).map(|&number| owners[number]).collect()
+                let is_first = |&number: &usize| number == 0 || owners[number - 1] != owners[number];
+                index.order().into_iter().filter(is_first).map(|number| owners[number]).collect()
             }
         }
     }

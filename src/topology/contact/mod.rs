@@ -58,8 +58,8 @@ impl Bodies {
     /// change the result, which is the finest partition that has all touching pairs together.
     pub(super) fn join(&self, sets: &DisjointSets) -> DisjointSets {
         let worker = || (sets.clone(), Vec::new(), Scratch::default());
-        let shares = self.index.order().par_iter().with_min_len(SHARE);
-        let joined = shares.fold(worker, |(mut sets, mut stack, mut scratch), &feature| {
+        let shares = self.index.order().into_par_iter().with_min_len(SHARE);
+        let joined = shares.fold(worker, |(mut sets, mut stack, mut scratch), feature| {
             self.join_one(feature, &mut sets, &mut stack, &mut scratch);
             (sets, stack, scratch)
         });

@@ -130,8 +130,13 @@ impl Diagram {
         // No edge of copper, seen from whichever side, lies within an empty circle; so what lies in
         // copper is told from what lies outside, too.
         let allowed = 2.0 * self.tie;
-        self.index.visit_round(at, (clearance - allowed).max(0.0), |i| {
-            worst = worst.max(clearance - self.forms()[i as usize].off(at));
+        let room = (clearance - allowed).max(0.0);
+        self.index.visit_round(at, room, |i| {
+            let form = &self.forms()[i as usize];
+            // The whole line or circle is nearer than the part of it that counts.
+            if form.distance(at).abs() < room {
+                worst = worst.max(clearance - form.off(at));
+            }
         });
         if worst > allowed {
             found.push(Violation { at: at.rounded(), by: worst });

@@ -14,7 +14,7 @@
 //! normal, the place where the other is equally far solves a linear equation ([`Form::meet`]).
 
 use super::tolerances::SLAB;
-use crate::voronoi::plane::Spot;
+use crate::voronoi::plane::{self, Spot};
 
 /// Nothing on a board is so far away, in nanometres: bisectors end here that rounding has turned
 /// from parallel ones. Chosen.
@@ -22,7 +22,7 @@ const FAR: f64 = 1e11;
 
 /// Lines that lie across more of a square of this side are known by pieces, and circles of a larger
 /// radius, in nanometres; a line by so many at most. Chosen: boards rarely have such.
-const PIECE: f64 = 1_000_000.0;
+const PIECE: f64 = 3_000_000.0;
 const PIECES: f64 = 256.0;
 
 /// A line or a circle, one side of which is free.
@@ -332,15 +332,18 @@ impl Form {
         }
     }
 
-    /// It, or pieces of it with far smaller boxes.
-    pub(super) fn pieces(&self) -> Vec<Self> {
+    /// Adds the box round it, or those round pieces of it that are far smaller: left, bottom, right,
+    /// top.
+    pub(super) fn add_bounds(&self, boxes: &mut Vec<[f64; 4]>) {
         match *self {
             Self::Line { from, along, length } => {
                 let slant = (along.x.abs().min(along.y.abs()) * length / PIECE).ceil();
                 let count = slant.clamp(1.0, PIECES);
                 let step = length / count;
                 let starts = std::iter::successors(Some(0.0), |i| Some(i + 1.0)).take_while(|&i| i < count);
-                starts.map(|i| Self::Line { from: from + along * (step * i), along, length: step }).collect()
+                let pieces =
+                    starts.map(|i| Self::Line { from: from + along * (step * i), along, length: step });
+                boxes.extend(pieces.map(|piece| piece.bounds()));
             }
             Self::Circle { center, radius, hollow, sector } if radius > PIECE => {
                 let east = Spot::new(1.0, 0.0);
@@ -356,27 +359,28 @@ impl Form {
                 }
                 ends.push(last);
                 let sectors = ends.windows(2).map(|pair| Some([pair[0], pair[1]]));
-                sectors.map(|sector| Self::Circle { center, radius, hollow, sector }).collect()
+                let pieces = sectors.map(|sector| Self::Circle { center, radius, hollow, sector });
+                boxes.extend(pieces.map(|piece| piece.bounds()));
             }
-            Self::Circle { .. } => vec![*self],
+            Self::Circle { .. } => boxes.push(self.bounds()),
         }
     }
 
     /// The box round it: left, bottom, right, top.
     pub(super) fn bounds(&self) -> [f64; 4] {
-        let mut spots = Vec::with_capacity(6);
         match *self {
-            Self::Line { from, along, length } => spots.extend([from, from + along * length]),
-            Self::Circle { center, radius, sector, .. } => {
+            Self::Line { from, along, length } => plane::spanned(from, from + along * length),
+            Self::Circle { center, radius, sector: None, .. } => {
+                [center.x - radius, center.y - radius, center.x + radius, center.y + radius]
+            }
+            Self::Circle { center, radius, sector: Some(ends), .. } => {
+                let [from, to] = ends.map(|n| center + n * radius);
                 let axes = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x, y)| Spot::new(x, y));
-                let far = axes.map(|n| center + n * radius);
-                spots.extend(far.into_iter().filter(|&p| self.slack(p) >= -SLAB));
-                spots.extend(sector.into_iter().flatten().map(|n| center + n * radius));
+                let far = axes.map(|n| center + n * radius).into_iter().filter(|&p| self.slack(p) >= -SLAB);
+                far.fold(plane::spanned(from, to), |[left, bottom, right, top], p| {
+                    [left.min(p.x), bottom.min(p.y), right.max(p.x), top.max(p.y)]
+                })
             }
         }
-        let far = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
-        spots.into_iter().fold(far, |[left, bottom, right, top], p| {
-            [left.min(p.x), bottom.min(p.y), right.max(p.x), top.max(p.y)]
-        })
     }
 }

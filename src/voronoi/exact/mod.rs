@@ -80,7 +80,6 @@ mod seed;
 mod slit;
 mod sweep;
 mod tolerances;
-mod tree;
 mod vertex;
 mod walk;
 mod weld;

@@ -70,10 +70,15 @@ impl Sweep {
             Form::Circle { .. } => form.distance(p) >= r && form.distance(q) >= s,
             Form::Line { from, along, length } => {
                 let out = SNAP + self.stray;
-                (form.distance(q) >= s && form.distance(p) >= r) || {
+                let off = [p, q].map(|end| form.distance(end));
+                // Their feet beyond its ends, or themselves behind it.
+                let is_elsewhere = || {
                     let feet = [p, q].map(|end| along.dot(end - from));
-                    feet[0].max(feet[1]) < -out || feet[0].min(feet[1]) > length + out
-                }
+                    off[0].max(off[1]) < -out
+                        || feet[0].max(feet[1]) < -out
+                        || feet[0].min(feet[1]) > length + out
+                };
+                (off[0] >= r && off[1] >= s) || is_elsewhere()
             }
         };
         self.is_convex && is_out()

@@ -80,6 +80,7 @@ impl Diagram {
             }
         });
         found.sort_unstable_by_key(|&(i, _)| i);
+        found.dedup();
         found
     }
 

@@ -344,6 +344,7 @@ impl Diagram {
             }
         });
         self.sort_by_distance(&mut reached, sweep.to);
+        reached.dedup();
         reached
     }
 
