@@ -17,7 +17,7 @@
 //!    (`seed`).
 //! 3. From each, the [walk] follows the bisector to the first event: the end of a generator,
 //!    or a third one that enters the empty circle. All events are one equation, the problem of
-//!    [Apollonius](apollonius).
+//!    [Apollonius](apollonius), which is solved for what may enter the circles of a [sweep].
 //! 4. At an event all generators within a [tie](vertex) of the circle are sorted by the direction
 //!    of their feet; an edge leaves between each two neighbours with different owners. Four and
 //!    more, the rule on a grid, are nothing special.

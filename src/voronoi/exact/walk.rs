@@ -2,10 +2,10 @@
 //!
 //! ```text
 //!     a ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓          One step: from p along the bisector to q, no farther than the nearest end of a slab. Whatever
-//!      ╭───────────────╮                could enter a circle that is empty at p lies within the capsule round the chord; the
-//!      │ p ─── m ─── q │ capsule        first that does shortens the step, and is the event. Only what *enters* counts: its
-//!      ╰───────────────╯     ●          foot lies ahead of those of a and b.
-//!     b ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
+//!      ╭───────────────╮                could enter a circle that is empty at p reaches into the hull of the circles at p and q
+//!      │ p ─────────── q │ hull         (see sweep.rs); what is nearest to q is solved for first, and where it enters shortens the
+//!      ╰───────────────╯     ●          step, so that most of the others are out of it. The first to enter is the event. Only what
+//!     b ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓          *enters* counts: its foot lies ahead of those of a and b.
 //! ```
 //!
 //! Along a bisector the feet on both generators move in one sense only (see
