@@ -280,7 +280,7 @@ impl Node {
         (0..WIDTH).fold(EMPTY, |all, i| both(all, [left[i], bottom[i], right[i], top[i]]))
     }
 
-    /// Which of its boxes meet a region: a byte each, which is one where it does, the first the least.
+    /// Which of its boxes meet a region: a byte each, one where it does, the first the least.
     #[inline(always)]
     fn meeting(&self, region: &impl Region) -> u128 {
         let [left, bottom, right, top] = &self.rows;

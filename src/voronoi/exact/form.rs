@@ -332,8 +332,8 @@ impl Form {
         }
     }
 
-    /// Adds the box round it, or those round pieces of it that are far smaller: left, bottom, right,
-    /// top.
+    /// Adds the box round it, or those round pieces of it that are far smaller: left, bottom,
+    /// right, top.
     pub(super) fn add_bounds(&self, boxes: &mut Vec<[f64; 4]>) {
         match *self {
             Self::Line { from, along, length } => {

@@ -8,9 +8,10 @@ use std::sync::OnceLock;
 use rustc_hash::FxHashMap;
 
 use super::form::turn;
+use super::pair::Pair;
 use super::tolerances::{SNAP, resolution};
 use super::vertex::{Junction, Slot};
-use super::walk::{Event, Pair};
+use super::walk::Event;
 use super::{Diagram, Edge, Space, Vertex};
 use crate::voronoi::plane::Spot;
 

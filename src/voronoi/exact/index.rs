@@ -138,8 +138,8 @@ impl Index {
     }
 
     /// Shows generators, some more than once, the nearer boxes first but for those together in one
-    /// node of the tree, until all that are left are farther from `p` than `show` says that anything
-    /// still matters.
+    /// node of the tree, until all that are left are farther from `p` than `show` says that
+    /// anything still matters.
     pub(super) fn visit_nearest(&self, p: Spot, mut show: impl FnMut(u32) -> f64) {
         let mut limit = f64::INFINITY;
         self.tree.visit_nearest((p.x, p.y), |number| {

@@ -74,6 +74,7 @@ mod generator;
 mod graph;
 mod index;
 mod level;
+mod pair;
 mod query;
 mod rounding;
 mod seed;

@@ -16,9 +16,10 @@ use std::collections::BTreeMap;
 use super::exposed::Bodies;
 use super::form::{Form, Place};
 use super::graph::Growth;
+use super::pair::Pair;
 use super::tolerances::SLAB;
 use super::vertex::Junction;
-use super::walk::{Event, Pair};
+use super::walk::Event;
 use super::{Diagram, Kind, NOBODY, Space};
 use crate::voronoi::plane::Spot;
 

@@ -9,8 +9,8 @@
 //! ```
 
 use super::form::{Form, clockwise, unit};
+use super::pair::Pair;
 use super::tolerances::SNAP;
-use super::walk::Pair;
 use crate::voronoi::plane::Spot;
 
 /// Boxes are looked at so much farther out than what may enter, in nanometres. Chosen: more than
@@ -88,8 +88,8 @@ impl Sweep {
 /// The hull of two discs, the first of them smaller by one length and the other larger by another
 /// than they are, and what lies between them on the bisector; how far that strays from the chord.
 ///
-/// No farther than the direction in which it begins leads away, for it turns by less than a quarter;
-/// and where it strays clearance and distance change by no more than that.
+/// No farther than the direction in which it begins leads away, for it turns by less than a
+/// quarter; and where it strays clearance and distance change by no more than that.
 fn reach((p, r): Disc, (q, s): Disc, way: Option<Spot>, [less, more]: [f64; 2]) -> (Hull, f64) {
     let stray = way.map_or(0.0, |way| way.cross(q - p).abs());
     (Hull::new([p, q], [r - less, s + 2.0 * stray + more]), stray)
