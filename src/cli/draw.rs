@@ -366,7 +366,8 @@ impl Drawn {
                 png::grey_bands(&grid, |band| picture::copper(copper, &band))
             }
             Stage::Depth => {
-                let depth = Depth::new(self.shown()?.diagram, &grid);
+                let shown = self.shown()?;
+                let depth = Depth::new(&shown, &grid);
                 png::grey_bands(&grid, |band| depth.greys(&band))
             }
             Stage::Translucent => {
@@ -391,7 +392,7 @@ impl Drawn {
     fn canvas(&self, grid: Grid) -> Result<Canvas, Failure> {
         Ok(match self.stage {
             Stage::Copper => Canvas::grey(grid, &picture::copper(self.copper()?, &grid)),
-            Stage::Depth => Canvas::grey(grid, &Depth::new(self.shown()?.diagram, &grid).greys(&grid)),
+            Stage::Depth => Canvas::grey(grid, &Depth::new(&self.shown()?, &grid).greys(&grid)),
             Stage::Translucent => self.translucent(&grid)?.draw(grid),
             Stage::Milled => {
                 let milled = self.milled(&grid)?;

@@ -89,7 +89,8 @@ impl Mill {
         progress.say("reading");
         let mut stages = Stages::default();
         let loaded = stages.run("reading", || self.input.load(&settings), |_| [])?;
-        let settings = self.config.settings_for(&self.input, &loaded.board)?;
+        let mut settings = self.config.settings_for(&self.input, &loaded.board)?;
+        settings.couplings = true;
         let folder = self.output.clone().or(self.input.project()?.output).filter(|_| !self.cache_key);
         if folder.is_none() && !self.cache_key {
             let hint = "set -o OUT, or output-dir in the project";
@@ -107,9 +108,6 @@ impl Mill {
         stages.extend(&job.stages);
         let mut document = job.describe(&settings);
         self.input.judge(&document.warnings)?;
-        for (layer, found) in document.layers.iter_mut().zip(job.couplings(&settings)) {
-            layer.coupling = found;
-        }
         let mut passes = true;
         if !self.no_verify {
             progress.say("simulating");

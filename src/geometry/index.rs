@@ -2,8 +2,6 @@
 
 use std::ops::ControlFlow;
 
-use static_aabb2d_index::{StaticAABB2DIndex, StaticAABB2DIndexBuilder};
-
 use super::Rect;
 use super::tree::BoxTree;
 
@@ -12,16 +10,6 @@ use super::tree::BoxTree;
 pub(crate) struct RectIndex {
     rects: Vec<Rect>,
     tree: BoxTree,
-}
-
-/// Boxes by place, numbered as they come, each as left, bottom, right and top; none where there is
-/// no box.
-pub(crate) fn boxes(boxes: impl ExactSizeIterator<Item = [f64; 4]>) -> Option<StaticAABB2DIndex<f64>> {
-    let mut builder = StaticAABB2DIndexBuilder::new(boxes.len());
-    for [left, bottom, right, top] in boxes {
-        builder.add(left, bottom, right, top);
-    }
-    builder.build().ok()
 }
 
 /// The box round two places.

@@ -25,7 +25,7 @@ mod polygon;
 mod tree;
 
 pub use arc::{Arc, Circle, Turn};
-pub(crate) use index::{RectIndex, boxes, spanned};
+pub(crate) use index::{RectIndex, spanned};
 pub use length::ParseLengthError;
 pub(crate) use length::nanometres;
 pub(crate) use nearest::{between, distance_to_segment, off_segment, part_nearest};

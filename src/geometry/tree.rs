@@ -34,7 +34,7 @@ struct Node {
 }
 
 /// Boxes by place, numbered as they come: a packed R-tree, filled once.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct BoxTree {
     bounds: [f64; 4],
     middle: (f64, f64),
@@ -231,6 +231,22 @@ impl BoxTree {
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Shows the boxes that meet a rectangle: left, bottom, right, top.
+    pub(crate) fn visit_window(&self, within: [f64; 4], mut show: impl FnMut(usize)) {
+        let _: ControlFlow<()> = self.visit(&self.window(within), &mut Vec::with_capacity(64), |number| {
+            show(number);
+            ControlFlow::Continue(())
+        });
+    }
+
+    /// The boxes that meet a rectangle, in their order.
+    pub(crate) fn within(&self, within: [f64; 4]) -> Vec<usize> {
+        let mut found = Vec::new();
+        self.visit_window(within, |number| found.push(number));
+        found.sort_unstable();
+        found
     }
 
     /// Shows boxes, the nearer ones first but for those together in a node, until all that are left

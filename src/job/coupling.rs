@@ -4,10 +4,11 @@ use crate::board::{Copper, Outline};
 use crate::coupling::Coupling;
 use crate::coupling::strips::Substrate;
 use crate::report::coupling::CouplingEntry;
-use crate::topology::{self, NetId, Pattern};
+use crate::topology::{self, Extent, NetId, Nets, Pattern};
+use crate::voronoi::{Boundaries, Diagram};
 
 use super::choice::{Sites, Strategy};
-use super::{Error, Job, Layer, Settings, layer};
+use super::{Error, Settings, plain};
 
 /// Pairs that the report of a job has. Chosen: who wants all asks `inspect`.
 const STRONGEST: usize = 20;
@@ -24,8 +25,8 @@ pub fn coupling(
     settings: &Settings,
     asked: &[Pattern],
 ) -> Result<CouplingEntry, Error> {
-    let nets = topology::recover(copper, layer::method(settings.asked.topology));
-    let (diagram, boundaries) = layer::plain(copper, &nets, outline, settings)?;
+    let nets = topology::recover(copper, plain::method(settings.asked.topology));
+    let (diagram, boundaries) = plain::diagram(copper, &nets, outline, settings)?;
     let kerf = settings.finest_kerf();
     let substrate = Substrate::fr4(settings.thickness.to_mm());
     let found = Coupling::new(&diagram, &boundaries, &topology::extents(copper, &nets), kerf, substrate);
@@ -37,27 +38,28 @@ pub fn coupling(
     Ok(CouplingEntry::new(&found, &nets, (kerf, substrate), None, &asked))
 }
 
-impl Job {
-    /// The strongest neighbours of each layer, in their order; none for a layer whose nets are not
-    /// parted by regions alone.
-    #[must_use]
-    pub fn couplings(&self, settings: &Settings) -> Vec<Option<CouplingEntry>> {
-        let is_plain = settings.asked.strategy == Strategy::Voronoi
-            && settings.asked.strategy_for.is_empty()
-            && settings.sites == Sites::Copper
-            && settings.limit.is_none()
-            && settings.isolation.iter().all(|cutting| cutting.widening.is_none());
-        self.layers
-            .iter()
-            .map(|layer| is_plain.then(|| self.coupling_of(layer, settings)).flatten())
-            .collect()
+impl Settings {
+    /// Whether the report has the neighbours of a layer: where its nets are parted by regions
+    /// alone.
+    pub(super) fn couples(&self) -> bool {
+        self.couplings
+            && self.asked.strategy == Strategy::Voronoi
+            && self.asked.strategy_for.is_empty()
+            && self.sites == Sites::Copper
+            && self.limit.is_none()
+            && self.isolation.iter().all(|cutting| cutting.widening.is_none())
     }
+}
 
-    fn coupling_of(&self, layer: &Layer, settings: &Settings) -> Option<CouplingEntry> {
-        let extents = topology::extents(self.board.copper(layer.side)?, &layer.nets);
-        let kerf = settings.finest_kerf();
-        let substrate = Substrate::fr4(settings.thickness.to_mm());
-        let found = Coupling::new(&layer.diagram, &layer.boundaries, &extents, kerf, substrate);
-        Some(CouplingEntry::new(&found, &layer.nets, (kerf, substrate), Some(STRONGEST), &[]))
-    }
+/// The strongest neighbours among the nets of a layer that has this diagram.
+pub(super) fn strongest(
+    nets: &Nets,
+    extents: &[Extent],
+    (diagram, boundaries): (&Diagram, &Boundaries),
+    settings: &Settings,
+) -> CouplingEntry {
+    let kerf = settings.finest_kerf();
+    let substrate = Substrate::fr4(settings.thickness.to_mm());
+    let found = Coupling::new(diagram, boundaries, extents, kerf, substrate);
+    CouplingEntry::new(&found, nets, (kerf, substrate), Some(STRONGEST), &[])
 }

@@ -70,7 +70,7 @@ impl Layer {
                 .map(|frame_cut| Millimetres(Nm::from_f64(frame_cut.length()))),
             negligible_gaps: 0,
             strategy: self.chosen.as_ref().map(strategy_entry),
-            coupling: None,
+            coupling: self.coupling.clone(),
         }
     }
 }

@@ -6,7 +6,7 @@ use crate::topology::{self, Nets, Pattern, called};
 
 use super::Topology;
 use super::by_net::without_net;
-use super::layer::method;
+use super::plain::method;
 
 /// Takes the nets that a pattern means out of the copper of `board`: cuts go through them as if
 /// they were not there.

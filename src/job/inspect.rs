@@ -12,7 +12,7 @@ use crate::topology::{self, Electrical, Nets, Sampling};
 use super::Settings;
 use super::choice::Topology;
 use super::describe::{drills, gap_entry, net_entries, size};
-use super::layer::method;
+use super::plain::method;
 
 /// What is known of a board before anything is done to it.
 #[must_use]

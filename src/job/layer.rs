@@ -3,15 +3,17 @@
 use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path};
+use crate::report::coupling::CouplingEntry;
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Isolation, Narrow, Role, fits, isolate, share};
 use crate::toolpath::{Order, Placement, Section};
-use crate::topology::{self, Gap, Method, NetId, Nets, Translucency};
-use crate::voronoi::{self, Boundaries, Boundary, Diagram, Frame, Loops, Owner, SiteKind};
+use crate::topology::{self, Extent, Gap, Method, NetId, Nets, Translucency};
+use crate::voronoi::{self, Boundaries, Boundary, Diagram, Frame, Loops, Owner, Regions, SiteKind};
 
-use super::choice::{self, Sites, Topology};
+use super::choice::{self, Sites};
+use super::plain::method;
 use super::plan::{Chosen, Plan};
-use super::{Cutting, Error, Settings, auto, by_net};
+use super::{Cutting, Error, Settings, auto, by_net, coupling};
 
 /// What became of one side.
 pub struct Layer {
@@ -23,10 +25,12 @@ pub struct Layer {
     pub translucency: Option<Translucency>,
     /// The narrowest place between two of them.
     pub gap: Option<Gap>,
-    /// Their Voronoi diagram.
-    pub diagram: Diagram,
-    /// The diagram's lines.
+    /// Their regions, for pictures.
+    pub regions: Regions,
+    /// The lines between these.
     pub boundaries: Boundaries,
+    /// The strongest neighbours, where they are asked for and parted by regions alone.
+    pub coupling: Option<CouplingEntry>,
     /// The frame cut round the frame, where one is cut.
     pub frame_cut: Option<Path>,
     /// How the side lies on the machine: the back mirrored.
@@ -65,19 +69,23 @@ impl Layer {
             stages.run(format!("{side}: smallest gap"), || topology::smallest_gap(copper, &nets), |_| []);
         let strategies =
             by_net::strategies(copper, &nets, &settings.asked.strategy_for, settings.asked.strategy);
+        let is_open = strategies.contains(&choice::Strategy::Auto);
+        // Before there is a diagram, since it takes as much memory.
+        let extents =
+            if is_open || settings.couples() { topology::extents(copper, &nets) } else { Vec::new() };
         let plan = |looped: Vec<NetId>| {
-            let planned = Planned { copper, nets: &nets, placement: &placement, settings };
+            let extents = settings.couples().then_some(&extents[..]);
+            let planned = Planned { copper, nets: &nets, extents, placement: &placement, settings };
             planned.plan(board, looped)
         };
-        let (plan, chosen) = if strategies.contains(&choice::Strategy::Auto) {
-            let extents = topology::extents(copper, &nets);
+        let (plan, chosen) = if is_open {
             let (plan, chosen) = auto::fastest(&strategies, &extents, settings, plan)?;
             (plan, Some(chosen))
         } else {
             (plan(by_net::looped(&strategies))?, None)
         };
         stages.extend(&plan.stages);
-        let Plan { diagram, boundaries, frame_cut, sections, warnings: found, .. } = plan;
+        let Plan { regions, boundaries, coupling, frame_cut, sections, warnings: found, .. } = plan;
         let mut warnings = topology::names_check(copper, &nets);
         warnings.extend(found);
         Ok(Self {
@@ -85,8 +93,9 @@ impl Layer {
             nets,
             translucency,
             gap,
-            diagram,
+            regions,
             boundaries,
+            coupling,
             frame_cut,
             placement,
             sections,
@@ -108,13 +117,15 @@ impl Layer {
 struct Planned<'a> {
     copper: &'a Copper,
     nets: &'a Nets,
+    /// The extents of the nets, where their coupling is asked for.
+    extents: Option<&'a [Extent]>,
     placement: &'a Placement,
     settings: &'a Settings,
 }
 
 impl Planned<'_> {
     fn plan(&self, board: &Board, looped: Vec<NetId>) -> Result<Plan, Error> {
-        let Self { copper, nets, placement, settings } = *self;
+        let Self { copper, nets, extents, placement, settings } = *self;
         let side = copper.side;
         let error = |reason| Error::Voronoi { side, reason };
         let mut stages = Stages::default();
@@ -153,7 +164,12 @@ impl Planned<'_> {
             warnings.push(planning::FRAME_NOT_CUT.warning(FRAME_NOT_CUT).on(side));
         }
         let frame_cut = frame_cut.cloned();
-        Ok(Plan { diagram, boundaries, frame_cut, sections, warnings, stages })
+        let coupling = extents.map(|extents| {
+            let couple = || coupling::strongest(nets, extents, (&diagram, &boundaries), settings);
+            stages.run(format!("{side}: coupling"), couple, |found| [("pairs", found.pair_count)])
+        });
+        let regions = diagram.regions();
+        Ok(Plan { regions, boundaries, coupling, frame_cut, sections, warnings, stages })
     }
 }
 
@@ -162,25 +178,6 @@ impl Planned<'_> {
 fn needed_frame(diagram: &Diagram, boundaries: &Boundaries) -> Option<Path> {
     let reached = boundaries.edges.iter().any(|edge| edge.is_border() && !edge.is_bare());
     diagram.frame().filter(|_| reached).cloned()
-}
-
-/// The diagram of all nets, midway between them and as far as there is room, with its boundaries
-/// and what is to be said of them: what parts regions on a mask.
-pub(super) fn plain(
-    copper: &Copper,
-    nets: &Nets,
-    outline: Option<&Outline>,
-    settings: &Settings,
-) -> Result<(Diagram, Boundaries), Error> {
-    let settings = voronoi::Settings {
-        tolerance: settings.tolerance,
-        frame: Frame::Hull(settings.frame_margin),
-        ..voronoi::Settings::default()
-    };
-    let error = |reason| Error::Voronoi { side: copper.side, reason };
-    let diagram = Diagram::new(copper, nets, outline, &settings).map_err(error)?;
-    let boundaries = diagram.boundaries().map_err(error)?;
-    Ok((diagram, boundaries))
 }
 
 const FRAME_NOT_CUT: &str = "without an outline and without the frame cut, nets that reach the edge stay joined through the copper outside";
@@ -192,15 +189,6 @@ fn recover(copper: &Copper, method: Method) -> (Nets, Option<Translucency>) {
     }
     let found = topology::by_translucency(copper);
     (found.nets.clone(), Some(found))
-}
-
-/// The topology's own name for what was chosen.
-pub(super) fn method(topology: Topology) -> Method {
-    match topology {
-        Topology::Contact | Topology::All => Method::Contact,
-        Topology::Coincidence => Method::Coincidence,
-        Topology::Translucency => Method::Translucency,
-    }
 }
 
 /// The diagram in which some nets have a loop.

@@ -8,8 +8,8 @@ use crate::report::mask::{Parted, Sheet, What, ground};
 use crate::report::picture;
 use crate::topology;
 
-use super::layer::{method, plain};
 use super::pipeline::refuse_cut_off;
+use super::plain::{self, method};
 use super::{Error, Settings};
 
 /// How a mask is made.
@@ -57,7 +57,7 @@ pub fn mask(loaded: &Loaded, settings: &Settings, masking: &Masking) -> Result<(
         What::Copper => Sheet::copper(board, copper, &nets, area),
         What::Openings => openings(board, copper, &nets, area, masking.clearance, &mut warnings)?,
         What::Regions => {
-            let (diagram, boundaries) = plain(copper, &nets, board.outline.as_ref(), settings)?;
+            let (diagram, boundaries) = plain::diagram(copper, &nets, board.outline.as_ref(), settings)?;
             warnings.extend_from_slice(diagram.warnings());
             let ground = ground(board.outline.as_ref(), diagram.frame());
             let ground = ground.ok_or_else(|| Error::NoCopper(format!("on the {side}")))?;

@@ -44,6 +44,7 @@ mod page;
 mod paper;
 mod part;
 mod pipeline;
+mod plain;
 mod plan;
 mod pocketing;
 mod probing;

@@ -7,7 +7,7 @@ use crate::report::picture;
 use crate::report::thinning::Thinning;
 use crate::topology;
 
-use super::{Error, Settings, layer};
+use super::{Error, Settings, plain};
 
 /// The neighbours among the nets of `copper`, a side of `board`, by `thinning` of its picture, or
 /// else of one that is drawn of it with its holes, and by Voronoi regions of all of it, whatever
@@ -22,8 +22,8 @@ pub fn neighbours(
     settings: &Settings,
     thinning: Option<Thinning>,
 ) -> Result<NeighboursEntry, Error> {
-    let nets = topology::recover(copper, layer::method(settings.asked.topology));
-    let (_, boundaries) = layer::plain(copper, &nets, None, settings)?;
+    let nets = topology::recover(copper, plain::method(settings.asked.topology));
+    let (_, boundaries) = plain::diagram(copper, &nets, None, settings)?;
     let thinning = match thinning {
         Some(thinning) => thinning,
         None => {

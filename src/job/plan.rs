@@ -3,9 +3,10 @@
 use crate::board::Warning;
 use crate::board::diagnostic::planning;
 use crate::geometry::Path;
+use crate::report::coupling::CouplingEntry;
 use crate::report::stages::Stages;
 use crate::toolpath::{Program, Section, measure};
-use crate::voronoi::{Boundaries, Diagram};
+use crate::voronoi::{Boundaries, Regions};
 
 use super::{Settings, choice};
 
@@ -31,8 +32,9 @@ pub struct Tried {
 
 /// How a side is isolated when some of its nets have loops.
 pub(super) struct Plan {
-    pub(super) diagram: Diagram,
+    pub(super) regions: Regions,
     pub(super) boundaries: Boundaries,
+    pub(super) coupling: Option<CouplingEntry>,
     pub(super) frame_cut: Option<Path>,
     pub(super) sections: Vec<Section>,
     pub(super) warnings: Vec<Warning>,

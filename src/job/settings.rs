@@ -47,8 +47,7 @@ pub struct Settings {
     pub sites: Sites,
     /// How far from copper a net's region may reach.
     pub limit: Option<Nm>,
-    /// The pixel of the picture that finds the boundaries, at most; none for as coarse as the
-    /// smallest gap allows.
+    /// The pixel of pictures; none for one of 1000 to the inch.
     pub pixel: Option<Nm>,
     /// How far the frame cut keeps from copper.
     pub frame_margin: Nm,
@@ -112,6 +111,8 @@ pub struct Settings {
     pub tab_width: Nm,
     /// How thick each is.
     pub tab_height: Nm,
+    /// Whether the report says how strongly neighbours are coupled.
+    pub couplings: bool,
 }
 
 /// The height above the copper from which the tool goes down at the plunge feed. Chosen: clear of
@@ -236,6 +237,7 @@ impl Settings {
             tabs,
             tab_width: positive("tab-width", options.tab_width)?,
             tab_height,
+            couplings: false,
             // Said though nobody gave them, so that programs tell how deep the cutout is and
             // where all tiles lie.
             options: Options {

@@ -31,7 +31,7 @@ impl Job {
             board: &self.board,
             copper: self.board.copper(side)?,
             nets: &layer.nets,
-            diagram: &layer.diagram,
+            regions: &layer.regions,
             boundaries: &layer.boundaries,
             sections: &layer.sections,
             placement: &layer.placement,

@@ -9,7 +9,7 @@ use crate::grid::{Grid, GridError};
 use crate::raster::{self, Buffers, Label, Scene};
 use crate::toolpath::{Move, Placement, Section};
 use crate::topology::{self, Nets};
-use crate::voronoi::{Boundaries, Diagram, Owner};
+use crate::voronoi::{Boundaries, Owner, Regions};
 
 use super::palette::{COLD, COPPER, CUT, EDGE, GROUND, HOLE, HOT, INK, RAPID, SUBSTRATE, WARM, tints, vivid};
 use super::{Canvas, Lettering, Rgb, png};
@@ -23,9 +23,9 @@ pub struct Shown<'a> {
     pub copper: &'a Copper,
     /// Its nets.
     pub nets: &'a Nets,
-    /// Their diagram.
-    pub diagram: &'a Diagram,
-    /// The diagram's lines.
+    /// Their regions.
+    pub regions: &'a Regions,
+    /// The lines between these.
     pub boundaries: &'a Boundaries,
     /// What the machine does to it, tool by tool.
     pub sections: &'a [Section],
@@ -125,7 +125,7 @@ fn dimmed(side: &Shown<'_>, grid: Grid) -> Canvas {
 /// but black beside one corner of a centimetre, in proportion; half as bright is a quarter as far.
 #[derive(Clone, Copy)]
 pub struct Depth<'a> {
-    diagram: &'a Diagram,
+    side: &'a Shown<'a>,
     /// The farthest of all that are in reach, in pixels.
     deepest: f32,
 }
@@ -134,13 +134,17 @@ impl<'a> Depth<'a> {
     /// The greys of a picture of `grid`, which is looked through band by band for its deepest
     /// pixel.
     #[must_use]
-    pub fn new(diagram: &'a Diagram, grid: &Grid) -> Self {
+    pub fn new(side: &'a Shown<'a>, grid: &Grid) -> Self {
         let mut deepest = 1.0_f32;
         png::each_band(grid, |band| {
-            let depths = diagram.depths(&band).into_iter().filter(|depth| depth.is_finite());
+            let depths = side
+                .regions
+                .depths(side.copper, side.nets, &band)
+                .into_iter()
+                .filter(|depth| depth.is_finite());
             deepest = depths.fold(deepest, f32::max);
         });
-        Self { diagram, deepest }
+        Self { side, deepest }
     }
 
     /// The pixels of a band of the picture, one byte each.
@@ -150,7 +154,8 @@ impl<'a> Depth<'a> {
         let grey = |depth: f32| {
             if depth.is_finite() { ((depth / self.deepest).sqrt() * 255.0) as u8 } else { u8::MAX }
         };
-        self.diagram.depths(band).into_iter().map(grey).collect()
+        let Self { side, .. } = *self;
+        side.regions.depths(side.copper, side.nets, band).into_iter().map(grey).collect()
     }
 }
 
@@ -216,7 +221,7 @@ impl<'a> Ground<'a> {
     pub fn new(side: &'a Shown<'a>, grid: &Grid) -> Self {
         let tints = tints(side.nets.nets().len(), side.boundaries);
         let mut rows = vec![Vec::new(); grid.height() as usize];
-        side.diagram.regions(grid, |row, columns, owner| {
+        side.regions.paint(side.copper, side.nets, grid, |row, columns, owner| {
             if let Owner::Net(net) = owner {
                 rows[row as usize].push((columns, tints[net.index()]));
             }

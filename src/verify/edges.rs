@@ -2,7 +2,9 @@
 
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Polygon, between, boxes, part_nearest, spanned};
+use crate::geometry::{Polygon, between, part_nearest, spanned};
+
+use super::boxes::boxes;
 
 /// A point in nanometres.
 type Spot = (f64, f64);

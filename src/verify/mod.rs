@@ -31,6 +31,7 @@
 
 mod asked;
 mod bores;
+mod boxes;
 pub mod carving;
 pub mod check;
 mod cleared;

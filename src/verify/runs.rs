@@ -8,8 +8,9 @@
 use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Point, Polygon, boxes, off_segment, spanned};
+use crate::geometry::{Point, Polygon, off_segment, spanned};
 use crate::topology::DisjointSets;
+use crate::verify::boxes::boxes;
 use crate::verify::edges::{Edges, length};
 
 /// A point in nanometres.

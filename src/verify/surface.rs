@@ -6,9 +6,10 @@ use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::board::Board;
 use crate::gcode::read::{Listing, Motion, Way};
-use crate::geometry::{Arc, Nm, Point, Rect, boxes};
+use crate::geometry::{Arc, Nm, Point, Rect};
 use crate::grid::Grid;
 
+use super::boxes::boxes;
 use super::cutter::Cutter;
 use super::edges::length;
 use super::machining::Machining;

@@ -14,9 +14,7 @@
 //! the band, from where the one crosses the other to where it crosses it again. Where bands of two
 //! nets meet, it runs midway between their copper.
 
-use static_aabb2d_index::StaticAABB2DIndex;
-
-use crate::geometry::{Nm, boxes};
+use crate::geometry::{BoxTree, Nm};
 
 use super::exact::{Chain, Diagram, WALL};
 use super::plane::{Spot, spanned};
@@ -139,26 +137,25 @@ struct Edges<'a> {
     chains: &'a [&'a Chain],
     /// The chain of each segment, and the sample that it leads to.
     segments: Vec<(usize, usize)>,
-    index: Option<StaticAABB2DIndex<f64>>,
+    tree: BoxTree,
 }
 
 impl<'a> Edges<'a> {
     fn new(chains: &'a [&'a Chain]) -> Self {
         let of = |(i, chain): (usize, &&'a Chain)| (1..chain.samples.len()).map(move |to| (i, to));
         let segments: Vec<(usize, usize)> = chains.iter().enumerate().flat_map(of).collect();
-        let index = boxes(segments.iter().map(|&place| {
+        let tree = BoxTree::new(segments.iter().map(|&place| {
             let [a, b] = ends(chains, place);
             spanned(a, b)
         }));
-        Self { chains, segments, index }
+        Self { chains, segments, tree }
     }
 
     /// Shows where the way from `p` to `q` crosses: which segment, how far along the way and along
     /// the segment, whether the way leaves the band, and whether the segment goes to its left.
     fn crossed(&self, [p, q]: [Spot; 2], mut show: impl FnMut((usize, usize), [f64; 2], [bool; 2])) {
-        let Some(index) = &self.index else { return };
         let is_left = |from: Spot, to: Spot, at: Spot| (to - from).cross(at - from) > 0.0;
-        for i in index.query(p.x.min(q.x), p.y.min(q.y), p.x.max(q.x), p.y.max(q.y)) {
+        for i in self.tree.within(spanned(p, q)) {
             let [a, b] = ends(self.chains, self.segments[i]);
             if is_left(a, b, p) != is_left(a, b, q) && is_left(p, q, a) != is_left(p, q, b) {
                 let (way, side) = (q - p, b - a);

@@ -10,9 +10,8 @@
 use std::cmp::Ordering;
 
 use rayon::prelude::*;
-use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Polygon, boxes};
+use crate::geometry::{BoxTree, Polygon};
 
 use super::OUTSIDE;
 use super::edge::Border;
@@ -88,7 +87,7 @@ pub(super) struct Fence {
     edges: Vec<[Spot; 2]>,
     /// Of each ring its first edge; one more ends the last.
     starts: Vec<usize>,
-    index: Option<StaticAABB2DIndex<f64>>,
+    tree: BoxTree,
 }
 
 /// Where a chain crosses the border.
@@ -141,8 +140,8 @@ impl Fence {
             edges.extend(ring.iter().zip(next).map(|(&a, &b)| [a + OFF_GRID, b + OFF_GRID]));
             starts.push(edges.len());
         }
-        let index = boxes(edges.iter().map(|&[a, b]| spanned(a, b)));
-        Self { edges, starts, index }
+        let tree = BoxTree::new(edges.iter().map(|&[a, b]| spanned(a, b)));
+        Self { edges, starts, tree }
     }
 
     /// Its rings, corner by corner.
@@ -151,13 +150,9 @@ impl Fence {
         self.starts.windows(2).map(ring).collect()
     }
 
-    fn query(&self, [left, bottom, right, top]: [f64; 4]) -> Vec<usize> {
-        self.index.as_ref().map_or(Vec::new(), |index| index.query(left, bottom, right, top))
-    }
-
     /// Whether `p` lies on the board.
     pub(super) fn holds(&self, p: Spot) -> bool {
-        let beyond = self.query([p.x, p.y, f64::MAX, p.y]).into_iter().filter(|&edge| {
+        let beyond = self.tree.within([p.x, p.y, f64::MAX, p.y]).into_iter().filter(|&edge| {
             let [a, b] = self.edges[edge];
             (a.y > p.y) != (b.y > p.y) && (is_left(a, b, p) == (b.y > a.y))
         });
@@ -184,13 +179,13 @@ impl Fence {
     /// Where a line crosses the border, in its order; the owners are those on its left and right.
     fn crossings(&self, samples: &[Sample], (left, right): (u32, u32)) -> Vec<Crossing> {
         let mut crossings = Vec::new();
-        if self.query(bounds(samples)).is_empty() {
+        if self.tree.within(bounds(samples)).is_empty() {
             return crossings;
         }
         for (sample, pair) in samples.windows(2).enumerate() {
             let (p, q) = (pair[0].at, pair[1].at);
             let from = crossings.len();
-            for edge in self.query(bounds(pair)) {
+            for edge in self.tree.within(bounds(pair)) {
                 let [a, b] = self.edges[edge];
                 let leaves = is_left(a, b, p);
                 if leaves == is_left(a, b, q) || is_left(p, q, a) == is_left(p, q, b) {

@@ -12,6 +12,7 @@ use super::Settings;
 use super::site::Rings;
 
 /// What is cut, and what is drawn, ends here.
+#[derive(Clone)]
 pub(super) struct Border {
     /// What lies within it.
     pub(super) inside: Vec<Polygon>,

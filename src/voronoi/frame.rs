@@ -68,7 +68,12 @@ fn corners(shape: &Shape) -> Vec<(Point, Nm)> {
             let points = std::iter::once(arc.start).chain(arc.flatten(CHORD));
             points.map(|p| (p, *radius + CHORD)).collect()
         }
-        Shape::Polygon(polygon) => polygon.contours().iter().flatten().map(|&p| (p, Nm::ZERO)).collect(),
+        Shape::Polygon(polygon) => {
+            let points = || polygon.contours().iter().flatten().copied();
+            let hull = Polygon::hull(points());
+            let corners = hull.map_or_else(|| points().collect(), |hull| hull.contours().concat());
+            corners.into_iter().map(|p| (p, Nm::ZERO)).collect()
+        }
     }
 }
 

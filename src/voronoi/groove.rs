@@ -11,9 +11,7 @@
 
 use std::sync::Arc;
 
-use static_aabb2d_index::StaticAABB2DIndex;
-
-use crate::geometry::{Nm, boxes};
+use crate::geometry::{BoxTree, Nm};
 
 use super::Boundary;
 use super::clip::{Node, Piece};
@@ -43,7 +41,7 @@ pub(super) struct Grooves {
 /// Cuts by place.
 struct Cuts {
     chords: Vec<(Spot, Spot)>,
-    index: StaticAABB2DIndex<f64>,
+    tree: BoxTree,
 }
 
 impl Grooves {
@@ -54,8 +52,9 @@ impl Grooves {
             let points = edge.path.flatten(Nm::new(500));
             chords.extend(points.windows(2).map(|pair| (Spot::from(pair[0]), Spot::from(pair[1]))));
         }
-        let index = boxes(chords.iter().map(|&(a, b)| spanned(a, b)))?;
-        Some(Self { cuts: Arc::new(Cuts { chords, index }), reach: reach.to_f64() })
+        let tree = BoxTree::new(chords.iter().map(|&(a, b)| spanned(a, b)));
+        let is_any = !chords.is_empty();
+        is_any.then(|| Self { cuts: Arc::new(Cuts { chords, tree }), reach: reach.to_f64() })
     }
 
     /// What of it lies within `reach` of the same cuts.
@@ -65,9 +64,8 @@ impl Grooves {
 
     /// Comes by all chords that may lie within `look` of `p`.
     fn visit(&self, p: Spot, look: f64, mut visit: impl FnMut((Spot, Spot))) {
-        let [left, bottom, right, top] = [p.x - look, p.y - look, p.x + look, p.y + look];
-        let Cuts { chords, index } = &*self.cuts;
-        index.visit_query(left, bottom, right, top, &mut |i: usize| visit(chords[i]));
+        let Cuts { chords, tree } = &*self.cuts;
+        tree.visit_window([p.x - look, p.y - look, p.x + look, p.y + look], |i| visit(chords[i]));
     }
 
     /// Whether nothing is left to clear at `p`.

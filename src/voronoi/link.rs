@@ -14,9 +14,8 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
-use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Nm, Path, Point, Segment, boxes};
+use crate::geometry::{BoxTree, Nm, Path, Point, Segment};
 use crate::topology::DisjointSets;
 
 use super::part::{Cut, foot_on, part, vertex};
@@ -101,7 +100,7 @@ impl Rules<'_> {
 struct Segments {
     /// The edge and the segment of each box.
     places: Vec<(usize, usize)>,
-    index: StaticAABB2DIndex<f64>,
+    tree: BoxTree,
 }
 
 impl Segments {
@@ -117,7 +116,8 @@ impl Segments {
                 bounds.push(spanned(bound.min().into(), bound.max().into()));
             }
         }
-        Some(Self { places, index: boxes(bounds.into_iter())? })
+        let is_any = !places.is_empty();
+        is_any.then(|| Self { places, tree: BoxTree::new(bounds.iter().copied()) })
     }
 }
 
@@ -166,8 +166,8 @@ impl<'a> Web<'a> {
     ) -> Vec<Way> {
         let p = Spot::from(vertex(&self.graph.edges[from.0].path, from.1));
         let mut nearest: BTreeMap<usize, Way> = BTreeMap::new();
-        let Segments { places, index } = segments;
-        index.visit_query(p.x - reach, p.y - reach, p.x + reach, p.y + reach, &mut |i: usize| {
+        let Segments { places, tree } = segments;
+        tree.visit_window([p.x - reach, p.y - reach, p.x + reach, p.y + reach], |i| {
             let (edge, segment) = places[i];
             if !wanted(edge) {
                 return;

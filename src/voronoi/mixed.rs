@@ -18,17 +18,16 @@
 //! the fields' boundaries become junctions of the loops.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use crate::board::{Copper, Outline, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon, Rect};
-use crate::grid::Grid;
 use crate::topology::{NetId, Nets};
 
 use super::edge::Border;
 use super::junction::Junctions;
 use super::part::foot;
 use super::plane::Spot;
+use super::regions::{Parts, has_loop};
 use super::{Boundaries, Boundary, Diagram, Error, Owner, Settings, SiteKind};
 
 /// Which nets have a loop of their own.
@@ -100,23 +99,10 @@ impl Mixed {
         Ok(junctions.finish())
     }
 
-    /// As [`Diagram::regions`].
-    pub(super) fn regions(&self, all: &Diagram, grid: &Grid, paint: &mut dyn FnMut(u32, Range<u32>, Owner)) {
-        all.paint(grid, &mut |row, columns, owner| {
-            paint(row, columns, if self.has_loop(owner) { owner } else { Owner::Background });
-        });
-        for field in &self.fields {
-            field.paint(grid, &mut |row, columns, owner| {
-                if matches!(owner, Owner::Net(_)) {
-                    paint(row, columns, owner);
-                }
-            });
-        }
+    /// What pictures are drawn from.
+    pub(super) fn parts(&self) -> Parts {
+        Parts { looped: self.looped.clone(), fields: self.fields.iter().map(Diagram::regions).collect() }
     }
-}
-
-fn has_loop(looped: &[bool], owner: Owner) -> bool {
-    matches!(owner, Owner::Net(net) if looped[net.index()])
 }
 
 /// A point of a boundary between its ends.
@@ -153,8 +139,8 @@ fn fields(
     let field = |(piece, polygon): (usize, Polygon)| {
         let Border { window, ref frame, clearance, .. } = all.border;
         let border = Border::round(vec![polygon], window, frame.clone(), clearance);
-        let keep = |feature: usize| homes[nets.of(feature).index()] == Some(piece);
-        Diagram::within(border, copper, nets, settings, keep)
+        let kept = homes.iter().map(|home| *home == Some(piece)).collect();
+        Diagram::within(border, copper, nets, settings, kept)
     };
     inhabited.map(field).collect()
 }

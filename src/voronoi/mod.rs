@@ -40,19 +40,17 @@ pub mod paper;
 mod part;
 mod passes;
 mod plane;
+mod regions;
 mod residual;
 mod sample;
 mod seed;
 mod site;
 mod spike;
 
-use std::ops::Range;
-
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect};
 use crate::grid::{Grid, GridError};
-use crate::raster::{self, Scene, TileContent};
 use crate::topology::{NetId, Nets};
 
 pub use clearing::Clearing;
@@ -61,12 +59,12 @@ pub use frame::Frame;
 pub use link::Link;
 pub use mixed::Loops;
 pub use passes::Widening;
+pub use regions::Regions;
 
 use band::Band;
 use certified::Owned;
 use edge::Border;
 use mixed::Mixed;
-use seed::Sites;
 
 /// The owner number of nothing at all.
 const BACKGROUND: u32 = 0;
@@ -248,11 +246,8 @@ pub enum Error {
     },
 }
 
-/// The Voronoi diagram of a layer, ready to be traced or drawn.
+/// The Voronoi diagram of a layer.
 pub struct Diagram {
-    sites: Sites,
-    /// The owner of each label: a table of its own, because every pixel asks.
-    owners: Vec<u32>,
     border: Border,
     grid: Grid,
     settings: Settings,
@@ -300,25 +295,24 @@ impl Diagram {
         }
         let mut kept = vec![true; nets.nets().len()];
         aside.iter().for_each(|(net, _)| kept[net.index()] = false);
-        let keep = |feature: usize| kept[nets.of(feature).index()];
-        let diagram = Self::within(border, copper, nets, settings, keep)?;
-        Ok(Self { warnings, kept, ..diagram })
+        let diagram = Self::within(border, copper, nets, settings, kept)?;
+        Ok(Self { warnings, ..diagram })
     }
 
-    /// The diagram, within `border`, of the features that `keep` accepts.
+    /// The diagram, within `border`, of those nets that are `kept`.
     fn within(
         border: Border,
         copper: &Copper,
         nets: &Nets,
         settings: &Settings,
-        keep: impl Fn(usize) -> bool,
+        kept: Vec<bool>,
     ) -> Result<Self, Error> {
-        let sites = Sites::new(copper, nets, settings, &keep);
+        let keep = |feature: usize| kept[nets.of(feature).index()];
         let grid = Grid::covering(border.window, settings.pitch)?;
         let bounds = copper.bounds().unwrap_or(border.window);
         let owned = match settings.sites {
-            SiteKind::Copper => Owned::copper(copper, nets, &keep),
-            SiteKind::Core => Owned::axes(copper, nets, &keep),
+            SiteKind::Copper => Owned::copper(copper, nets, keep),
+            SiteKind::Core => Owned::axes(copper, nets, keep),
         };
         let (certified, mut chains) = match settings.limit {
             Some(limit) => {
@@ -340,7 +334,7 @@ impl Diagram {
         let width = settings.min_width.map(Band::width).filter(|_| !owned.is_of_one());
         if let (SiteKind::Core, Some(width)) = (settings.sites, width) {
             let (room, floor) = Band::room(width);
-            let copper = Owned::copper(copper, nets, &keep);
+            let copper = Owned::copper(copper, nets, keep);
             let wall = Some(bounds.inflate(room));
             let edges = |diagram: &exact::Diagram| diagram.limited_chains(width.to_f64(), NOBODY, true);
             let (copper, edges) =
@@ -351,8 +345,6 @@ impl Diagram {
             band = Some(Box::new(round));
         }
         Ok(Self {
-            owners: sites.owners(),
-            sites,
             border,
             grid,
             settings: settings.clone(),
@@ -363,14 +355,8 @@ impl Diagram {
             certified: Box::new(certified),
             chains,
             band,
-            kept: vec![true; nets.nets().len()],
+            kept,
         })
-    }
-
-    /// The grid of a picture of the board.
-    #[must_use]
-    pub const fn grid(&self) -> &Grid {
-        &self.grid
     }
 
     /// What was left aside.
@@ -385,65 +371,12 @@ impl Diagram {
         self.border.frame.as_ref()
     }
 
-    /// Shows `paint` who owns the pixels of `grid` (row, columns, owner), tile by tile: nothing
-    /// holds the whole picture but what `paint` makes of it. A pixel may be painted again.
-    pub fn regions(&self, grid: &Grid, mut paint: impl FnMut(u32, Range<u32>, Owner)) {
-        match &self.mixed {
-            Some(mixed) => mixed.regions(self, grid, &mut paint),
-            None => self.paint(grid, &mut paint),
-        }
-    }
-
-    /// [`Diagram::regions`] of this diagram alone.
-    fn paint(&self, grid: &Grid, paint: &mut dyn FnMut(u32, Range<u32>, Owner)) {
-        let scene = self.scene(grid);
-        let work = |tile: raster::Tile<'_>| {
-            let rows = tile.row0..tile.row0 + tile.height;
-            let all = tile.column0..tile.column0 + tile.width;
-            match &tile.content {
-                TileContent::Uniform(owner) => rows.map(|row| (row, all.clone(), *owner)).collect(),
-                TileContent::Pixels(pixels) => {
-                    let labels = (0_i32..).map(|row| pixels.label_row(row));
-                    rows.zip(labels)
-                        .flat_map(|(row, labels)| self.stretches(row, all.start, labels))
-                        .collect()
-                }
-            }
-        };
-        raster::stream(&scene, &raster::Options::default(), work, |stretches: Vec<_>| {
-            for (row, columns, owner) in stretches {
-                paint(row, columns, Owner::from_number(owner));
-            }
-        });
-    }
-
-    /// What each owner has of a row of labels, the first of which is that of `column`.
-    fn stretches<'a>(
-        &'a self,
-        row: u32,
-        column: u32,
-        labels: &'a [u32],
-    ) -> impl Iterator<Item = (u32, Range<u32>, u32)> + 'a {
-        let owner = |label: u32| self.owners[label as usize];
-        let same = labels.chunk_by(move |&a, &b| a == b || owner(a) == owner(b));
-        same.scan(column, move |column, same| {
-            let from = *column;
-            *column += u32::try_from(same.len()).expect("as wide as a tile");
-            Some((row, from..*column, owner(same[0])))
-        })
-    }
-
-    /// How far each pixel's centre is from the sites, in pixels, row by row from the top; infinite
-    /// where nothing is in reach.
+    /// The regions, for pictures.
     #[must_use]
-    pub fn depths(&self, grid: &Grid) -> Vec<f32> {
-        let mut buffers = raster::Buffers::default();
-        raster::render(&self.scene(grid), &mut buffers);
-        buffers.depths().to_vec()
-    }
-
-    fn scene(&self, grid: &Grid) -> Scene {
-        self.sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
+    pub fn regions(&self) -> Regions {
+        let parts = self.mixed.as_ref().map(|mixed| Box::new(mixed.parts()));
+        let (border, settings, kept) = (self.border.clone(), self.settings.clone(), self.kept.clone());
+        Regions { border, settings, grid: self.grid, kept, parts }
     }
 
     /// The boundaries between all regions.

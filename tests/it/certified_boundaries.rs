@@ -17,10 +17,11 @@ const FEATURES_UNOPTIMISED: usize = 600;
 fn difference(layer: &Layer, settings: &Settings) -> Option<String> {
     let nets = topology::recover(&layer.copper, Method::Contact);
     let diagram = Diagram::new(&layer.copper, &nets, layer.outline.as_ref(), settings).expect("a diagram");
-    let grid = *diagram.grid();
+    let regions = diagram.regions();
+    let grid = *regions.grid();
     let width = grid.width() as usize;
     let mut picture = vec![Owner::Outside; width * grid.height() as usize];
-    diagram.regions(&grid, |row, columns, owner| {
+    regions.paint(&layer.copper, &nets, &grid, |row, columns, owner| {
         let row = row as usize * width;
         picture[row + columns.start as usize..row + columns.end as usize].fill(owner);
     });

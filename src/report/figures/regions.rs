@@ -54,7 +54,7 @@ pub(super) fn regions(
     let settings = Settings { sites: SiteKind::Core, limit, frame, ..Settings::default() };
     let diagram = Diagram::new(copper, nets, None, &settings)?;
     let mut owners = vec![0_u32; (grid.width() * grid.height()) as usize];
-    diagram.regions(&grid, |row, columns, owner| {
+    diagram.regions().paint(copper, nets, &grid, |row, columns, owner| {
         let number = match owner {
             Owner::Net(net) => net.0 + 1,
             Owner::Background | Owner::Outside => 0,

@@ -9,14 +9,12 @@
 //!   ▓▓▓▓▓▓▓▓▓▓▓▓▓▓▓
 //! ```
 
-use static_aabb2d_index::StaticAABB2DIndex;
-
 use super::Diagram;
 use super::form::{Form, Place, turn, unit};
 use super::generator::Body;
 use super::graph::Growth;
 use super::tolerances::OFF;
-use crate::geometry::boxes;
+use crate::geometry::BoxTree;
 use crate::voronoi::plane::Spot;
 
 /// Shorter pieces of an edge are none, in nanometres. Chosen: no cutter fits what they enclose.
@@ -25,7 +23,7 @@ const SHORT: f64 = 200.0;
 /// Bodies by place.
 pub(super) struct Bodies<'a> {
     diagram: &'a Diagram,
-    index: Option<&'a StaticAABB2DIndex<f64>>,
+    tree: &'a BoxTree,
 }
 
 /// How far along an edge a place is: nanometres, or a number in 0..4 that grows round a circle.
@@ -62,8 +60,8 @@ fn at_position(form: &Form, position: f64) -> Place {
 
 impl<'a> Bodies<'a> {
     pub(super) fn new(diagram: &'a Diagram) -> Self {
-        let by_place = || boxes(diagram.generators.bodies.iter().map(|body| diagram.bounds_of(body)));
-        Self { diagram, index: diagram.bodies.get_or_init(by_place).as_ref() }
+        let bounds = || diagram.generators.bodies.iter().map(|body| diagram.bounds_of(body));
+        Self { diagram, tree: diagram.bodies.get_or_init(|| BoxTree::new(bounds())) }
     }
 
     /// Whether copper lies off an edge with this foot and normal.
@@ -74,7 +72,7 @@ impl<'a> Bodies<'a> {
     /// Whether copper lies at `p`; what rings keep free ends within them where `beyond` says so.
     pub(super) fn hold(&self, p: Spot, beyond: bool) -> bool {
         let bodies = &self.diagram.generators.bodies;
-        let found = self.index.map_or(Vec::new(), |index| index.query(p.x, p.y, p.x, p.y));
+        let found = self.tree.within([p.x, p.y, p.x, p.y]);
         let is_open = |body: &&Body| matches!(body, Body::Rings { open: true, .. });
         let (open, closed): (Vec<&Body>, Vec<&Body>) =
             found.into_iter().map(|i| &bodies[i]).partition(is_open);

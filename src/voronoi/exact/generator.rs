@@ -68,7 +68,7 @@ pub(super) enum Body {
     /// Within an outer arc, and outside an inner one.
     Band(u32, Option<u32>),
     /// What rings enclose, or where they are `open`, what they do not.
-    Rings { rings: Vec<Vec<u32>>, open: bool },
+    Rings { rings: Box<[Vec<u32>]>, open: bool },
 }
 
 /// Generators under construction: what [`Diagram::new`](super::Diagram::new) takes.
@@ -238,7 +238,7 @@ impl Generators {
                 numbers.extend(path.map(|path| self.ring(&path, owner(i))));
             }
         }
-        self.bodies.push(Body::Rings { rings: numbers, open: inwards });
+        self.bodies.push(Body::Rings { rings: numbers.into(), open: inwards });
     }
 
     /// A ring with each point where it is moved to. Slits and what rounding leaves are gone by

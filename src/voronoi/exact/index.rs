@@ -1,23 +1,19 @@
-//! Generators by place: what comes near a place, what is nearest to it, and the breaks of discs.
+//! Generators by place: what comes near a place, and what is nearest to it.
 
 use std::ops::ControlFlow;
 
 use bitvec::vec::BitVec;
 
-use super::form::{Form, Place};
+use super::form::Form;
 use super::generator::Generators;
-use super::tolerances::SLAB;
 use crate::geometry::{BoxTree, Region};
 use crate::voronoi::plane::Spot;
-
-/// So far from a foot its normal is looked at, in nanometres. Chosen.
-const AHEAD: f64 = 1_000.0;
 
 /// A corner so near to an edge lies on it, in nanometres. Chosen: more than rounding, less than
 /// what shaking leaves.
 const ON: f64 = 1e-3;
 
-/// Generators by place, with the breaks of discs.
+/// Generators by place.
 pub(super) struct Index {
     /// A long slanted line and a large arc are known by pieces, for a box round all of one would
     /// lie over much that they are far from.
@@ -26,9 +22,6 @@ pub(super) struct Index {
     items: Vec<u32>,
     /// Whether nothing has its foot on generator `i` alone.
     hidden: BitVec,
-    /// The breaks of generator `i`: `breaks[starts[i]..starts[i + 1]]`.
-    breaks: Vec<Place>,
-    starts: Vec<u32>,
 }
 
 impl Index {
@@ -40,7 +33,7 @@ impl Index {
         }
         let tree = BoxTree::new(boxes.iter().copied());
         let hidden = BitVec::repeat(false, generators.len());
-        let mut index = Self { tree, items, hidden, breaks: Vec::new(), starts: Vec::new() };
+        let mut index = Self { tree, items, hidden };
         index.hidden = index.hidden_corners(generators);
         index
     }
@@ -63,51 +56,6 @@ impl Index {
             is_hidden
         };
         generators.forms.iter().enumerate().map(is_hidden).collect()
-    }
-
-    /// Finds all breaks where distances that differ by less than `tie` are equal.
-    pub(super) fn find_breaks(&mut self, generators: &Generators, tie: f64) {
-        let mut found = self.touching_ends(generators, tie);
-        found.sort_by_key(|(generator, _)| *generator);
-        let starts = (0_u32..).take(generators.len() + 1).map(|i| found.partition_point(|&(of, _)| of < i));
-        self.starts = starts.map(|at| u32::try_from(at).expect("below 2³² breaks")).collect();
-        self.breaks = found.into_iter().map(|(_, place)| place).collect();
-    }
-
-    /// The places on generators where a line or an arc ends with the same foot and normal. A disc
-    /// on its own has two all the same, so that no loop round it is without a vertex.
-    fn touching_ends(&self, generators: &Generators, tie: f64) -> Vec<(u32, Place)> {
-        let mut found: Vec<(u32, Place)> = Vec::new();
-        let mut counts = vec![0_u32; generators.len()];
-        let mut near: Vec<u32> = Vec::new();
-        for (i, form) in (0_u32..).zip(&generators.forms) {
-            for place in form.ends().into_iter().flatten() {
-                let (foot, normal) = form.foot(place);
-                // A disc of no radius has its normal a little way off.
-                let ahead = foot + normal * AHEAD;
-                let touches = |other: u32| {
-                    let touched = &generators.forms[other as usize];
-                    other != i
-                        && touched.distance(foot).abs() <= tie
-                        && touched.slack(ahead) >= -SLAB
-                        && touched.away(ahead).dot(normal) > 1.0 - 1e-9
-                };
-                near.clear();
-                self.visit_round(foot, tie, |other| near.extend(touches(other).then_some(other)));
-                near.sort_unstable();
-                near.dedup();
-                for &other in &near {
-                    found.push((other, generators.forms[other as usize].place(ahead)));
-                    counts[other as usize] += 1;
-                }
-            }
-        }
-        for (i, (form, &count)) in (0_u32..).zip(generators.forms.iter().zip(&counts)) {
-            if count < 2 && matches!(form, Form::Circle { sector: None, .. }) {
-                found.extend([1.0, -1.0].map(|x| (i, Place::Toward(Spot::new(x, 0.0)))));
-            }
-        }
-        found
     }
 
     /// Shows the generators of which a box meets a box, left, bottom, right, top, some more than
@@ -154,12 +102,6 @@ impl Index {
     /// The box round all generators: left, bottom, right, top.
     pub(super) const fn bounds(&self) -> [f64; 4] {
         self.tree.bounds()
-    }
-
-    /// The places on a generator where another one begins or ends.
-    pub(super) fn breaks(&self, generator: u32) -> &[Place] {
-        let i = generator as usize;
-        &self.breaks[self.starts[i] as usize..self.starts[i + 1] as usize]
     }
 }
 

@@ -65,6 +65,7 @@
 
 mod apollonius;
 mod axis;
+mod breaks;
 mod certify;
 mod chain;
 mod enclosed;
@@ -87,12 +88,11 @@ mod weld;
 
 use std::sync::OnceLock;
 
-use static_aabb2d_index::StaticAABB2DIndex;
-
-use crate::geometry::{Nm, Point, Rect};
+use crate::geometry::{BoxTree, Nm, Point, Rect};
 use crate::voronoi::plane::Spot;
 use crate::voronoi::sample::Sample;
 
+use breaks::Breaks;
 use form::Form;
 use index::Index;
 use tolerances::WRONG;
@@ -164,8 +164,10 @@ pub struct Edge {
 pub struct Diagram {
     generators: Generators,
     index: Index,
+    /// Empty when all edges are known.
+    breaks: Breaks,
     /// The bodies of copper by place, once they are asked for.
-    bodies: OnceLock<Option<StaticAABB2DIndex<f64>>>,
+    bodies: OnceLock<BoxTree>,
     kind: Kind,
     /// Distances that differ by less are equal, in nanometres.
     tie: f64,
@@ -192,7 +194,7 @@ impl Diagram {
             return diagram;
         }
         for tie in TIES {
-            diagram.index.find_breaks(&diagram.generators, tie);
+            diagram.breaks = Breaks::new(&diagram.generators, &diagram.index, tie);
             diagram.tie = tie;
             diagram.walk_all(space);
             if diagram.faults.is_empty() {
@@ -203,6 +205,7 @@ impl Diagram {
                 break;
             }
         }
+        diagram.breaks = Breaks::default();
         diagram
     }
 
@@ -224,6 +227,7 @@ impl Diagram {
         Self {
             generators,
             index,
+            breaks: Breaks::default(),
             bodies: OnceLock::new(),
             kind,
             tie: TIES[0],

@@ -12,10 +12,8 @@
 //! corners, of which one arc is what the file says. Chords that the file itself has stay chords,
 //! however fine they are.
 
-use static_aabb2d_index::StaticAABB2DIndex;
-
 use crate::board::FLATTEN;
-use crate::geometry::{Circle, Path, Point, Segment, Turn, boxes};
+use crate::geometry::{BoxTree, Circle, Path, Point, Segment, Turn};
 use crate::voronoi::plane::Spot;
 
 /// Chords of an arc are no farther from it, in nanometres: what flattening leaves, and rounding.
@@ -38,7 +36,7 @@ const SHORTEST: f64 = 2_000.0;
 /// The circles that a polygon remembers, by place.
 pub(super) struct Circles<'a> {
     all: &'a [Circle],
-    tree: Option<StaticAABB2DIndex<f64>>,
+    tree: BoxTree,
 }
 
 /// An edge as a chord: of which circle, and whether it runs against the clock.
@@ -46,7 +44,7 @@ type Chord = (usize, bool);
 
 impl<'a> Circles<'a> {
     pub(super) fn new(all: &'a [Circle]) -> Self {
-        let tree = boxes(all.iter().map(|circle| {
+        let tree = BoxTree::new(all.iter().map(|circle| {
             let (Spot { x, y }, reach) = (Spot::from(circle.center), circle.radius.to_f64() + OFF);
             [x - reach, y - reach, x + reach, y + reach]
         }));
@@ -97,9 +95,7 @@ impl<'a> Circles<'a> {
         };
         last.and_then(|(number, _)| side(number)).or_else(|| {
             let Spot { x, y } = Spot::from(from);
-            let mut near = self.tree.as_ref()?.query(x, y, x, y);
-            near.sort_unstable();
-            near.into_iter().find_map(side)
+            self.tree.within([x, y, x, y]).into_iter().find_map(side)
         })
     }
 

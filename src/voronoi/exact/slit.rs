@@ -18,9 +18,8 @@
 use std::collections::BTreeMap;
 
 use rustc_hash::FxHashMap;
-use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Point, boxes};
+use crate::geometry::{BoxTree, Point};
 use crate::voronoi::plane::{Spot, spanned};
 
 /// Slits are no wider, in nanometres. Chosen: several times what six decimals of a millimetre
@@ -32,7 +31,7 @@ type Part = (Point, Point, u32);
 
 /// `rings` with copper on the left, without their slits.
 pub(super) fn without_slits(rings: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
-    let Some(edges) = Edges::new(&rings) else { return rings };
+    let edges = Edges::new(&rings);
     if !edges.any_meet() {
         return rings;
     }
@@ -46,27 +45,27 @@ pub(super) fn without_slits(rings: Vec<Vec<Point>>) -> Vec<Vec<Point>> {
 /// The edges of rings by place.
 struct Edges {
     ends: Vec<[Point; 2]>,
-    index: StaticAABB2DIndex<f64>,
+    tree: BoxTree,
 }
 
 impl Edges {
-    fn new(rings: &[Vec<Point>]) -> Option<Self> {
+    fn new(rings: &[Vec<Point>]) -> Self {
         let ring = |ring: &Vec<Point>| {
             let next = ring.iter().cycle().skip(1);
             ring.iter().zip(next).map(|(&from, &to)| [from, to]).collect::<Vec<_>>()
         };
         let ends: Vec<[Point; 2]> = rings.iter().flat_map(ring).collect();
-        let index = boxes(ends.iter().map(|&[a, b]| {
+        let tree = BoxTree::new(ends.iter().map(|&[a, b]| {
             let [left, bottom, right, top] = spanned(a.into(), b.into());
             [left - WIDE, bottom - WIDE, right + WIDE, top + WIDE]
-        }))?;
-        Some(Self { ends, index })
+        }));
+        Self { ends, tree }
     }
 
     /// The edges that all but run through `p`.
     fn near(&self, p: Point) -> impl Iterator<Item = usize> {
         let at = Spot::from(p);
-        let mut found = self.index.query(at.x, at.y, at.x, at.y);
+        let mut found = self.tree.within([at.x, at.y, at.x, at.y]);
         found.retain(|&i| {
             let [a, b] = self.ends[i].map(Spot::from);
             at.distance_to_chord(a, b) <= WIDE

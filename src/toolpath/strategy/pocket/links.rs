@@ -10,9 +10,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use static_aabb2d_index::StaticAABB2DIndex;
-
-use crate::geometry::{between, boxes, part_nearest, spanned};
+use crate::geometry::{BoxTree, between, part_nearest, spanned};
 use crate::toolpath::ordered::Ordered;
 use crate::voronoi::medial::nest::Nest;
 
@@ -51,26 +49,23 @@ pub(super) struct Links {
 #[derive(Default)]
 struct Level {
     segments: Vec<(usize, usize)>,
-    tree: Option<StaticAABB2DIndex<f64>>,
+    tree: BoxTree,
 }
 
 impl Level {
     fn new(segments: Vec<(usize, usize)>, courses: &[Course]) -> Self {
         let ends = |&(number, i): &(usize, usize)| courses[number].segment(i);
-        let tree = boxes(segments.iter().map(ends).map(|[a, b]| spanned(a, b)));
+        let tree = BoxTree::new(segments.iter().map(ends).map(|[a, b]| spanned(a, b)));
         Self { segments, tree }
     }
 
     /// Shows the segments within a box of `reach` round `p`.
     fn visit(&self, [p, q]: [Spot; 2], reach: f64, mut show: impl FnMut(usize, usize)) {
-        if let Some(tree) = &self.tree {
-            let [left, right] = [p.0.min(q.0) - reach, p.0.max(q.0) + reach];
-            let [bottom, top] = [p.1.min(q.1) - reach, p.1.max(q.1) + reach];
-            tree.visit_query(left, bottom, right, top, &mut |found: usize| {
-                let (number, i) = self.segments[found];
-                show(number, i);
-            });
-        }
+        let [left, bottom, right, top] = spanned(p, q);
+        self.tree.visit_window([left - reach, bottom - reach, right + reach, top + reach], |found| {
+            let (number, i) = self.segments[found];
+            show(number, i);
+        });
     }
 
     /// The loop that passes `p`, and how far along it that is.

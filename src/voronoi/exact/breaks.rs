@@ -1,0 +1,80 @@
+//! Breaks: the places on a generator where another one begins or ends with the same foot.
+
+use super::form::{Form, Place};
+use super::generator::Generators;
+use super::index::Index;
+use super::tolerances::SLAB;
+use crate::voronoi::plane::Spot;
+
+/// So far from a foot its normal is looked at, in nanometres. Chosen.
+const AHEAD: f64 = 1_000.0;
+
+/// The breaks of all generators, which only who walks along edges must know.
+#[derive(Default)]
+pub(super) struct Breaks {
+    /// Those of generator `i`: `places[starts[i]..starts[i + 1]]`.
+    places: Vec<Place>,
+    starts: Vec<u32>,
+}
+
+impl Breaks {
+    /// The places where distances that differ by less than `tie` are equal.
+    pub(super) fn new(generators: &Generators, index: &Index, tie: f64) -> Self {
+        let found = touching_ends(generators, index, tie);
+        let mut starts = vec![0_u32; generators.len() + 1];
+        found.iter().for_each(|&(generator, _)| starts[generator as usize + 1] += 1);
+        for i in 0..generators.len() {
+            starts[i + 1] += starts[i];
+        }
+        let mut free = starts.clone();
+        let mut places = vec![Place::Along(0.0); found.len()];
+        for (generator, place) in found {
+            let next = &mut free[generator as usize];
+            places[*next as usize] = place;
+            *next += 1;
+        }
+        Self { places, starts }
+    }
+
+    /// Those of a generator.
+    pub(super) fn of(&self, generator: u32) -> &[Place] {
+        let i = generator as usize;
+        &self.places[self.starts[i] as usize..self.starts[i + 1] as usize]
+    }
+}
+
+/// The places on generators where a line or an arc ends with the same foot and normal. A disc on
+/// its own has two all the same, so that no loop round it is without a vertex.
+fn touching_ends(generators: &Generators, index: &Index, tie: f64) -> Vec<(u32, Place)> {
+    let mut found: Vec<(u32, Place)> = Vec::new();
+    let mut counts = vec![0_u32; generators.len()];
+    let mut near: Vec<u32> = Vec::new();
+    for (i, form) in (0_u32..).zip(&generators.forms) {
+        for place in form.ends().into_iter().flatten() {
+            let (foot, normal) = form.foot(place);
+            // A disc of no radius has its normal a little way off.
+            let ahead = foot + normal * AHEAD;
+            let touches = |other: u32| {
+                let touched = &generators.forms[other as usize];
+                other != i
+                    && touched.distance(foot).abs() <= tie
+                    && touched.slack(ahead) >= -SLAB
+                    && touched.away(ahead).dot(normal) > 1.0 - 1e-9
+            };
+            near.clear();
+            index.visit_round(foot, tie, |other| near.extend(touches(other).then_some(other)));
+            near.sort_unstable();
+            near.dedup();
+            for &other in &near {
+                found.push((other, generators.forms[other as usize].place(ahead)));
+                counts[other as usize] += 1;
+            }
+        }
+    }
+    for (i, (form, &count)) in (0_u32..).zip(generators.forms.iter().zip(&counts)) {
+        if count < 2 && matches!(form, Form::Circle { sector: None, .. }) {
+            found.extend([1.0, -1.0].map(|x| (i, Place::Toward(Spot::new(x, 0.0)))));
+        }
+    }
+    found
+}
