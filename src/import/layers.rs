@@ -213,6 +213,9 @@ const PARTS: &[(&str, Role)] = &[
     ("border", Role::Outline),
     ("dimension", Role::Outline),
     ("cutout", Role::Outline),
+    ("perimeter", Role::Outline),
+    // Zuken's.
+    ("boardfigure", Role::Outline),
 ];
 
 /// Whole words that set a layer aside, whatever else its name says: `StopTop`, `PosiBot`,
@@ -232,6 +235,7 @@ const WORDS: &[(&str, Role)] = &[
     ("top", Role::Copper(Side::Front)),
     ("front", Role::Copper(Side::Front)),
     ("component", Role::Copper(Side::Front)),
+    ("comp", Role::Copper(Side::Front)),
     ("toplayer", Role::Copper(Side::Front)),
     ("bottom", Role::Copper(Side::Back)),
     ("bot", Role::Copper(Side::Back)),

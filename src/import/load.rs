@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use super::advice::{LEAVE_ASIDE, NO_DRILL, quoted};
-use super::archive::{Found, Gathered, name_of, read_file};
+use super::archive::{Found, Gathered, Look, name_of, read_file};
 use super::assign::assign;
 use super::build::{Build, Loaded};
 use super::describe::describe;
@@ -20,7 +20,8 @@ use crate::geometry::{Nm, Rect};
 use crate::import::diagnostic;
 
 /// Reads the board in `paths`: folders, zip archives and single files, mixed, or one KiCad board.
-/// Folders inside folders are not looked into.
+/// Folders inside folders are looked into only where the given ones have neither a layer nor a
+/// board.
 ///
 /// # Errors
 ///
@@ -53,7 +54,7 @@ fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Load
     if let Some(loaded) = picture_board::load(paths, selection)? {
         return Ok(loaded);
     }
-    let mut gathered = Gathered::under(paths, &selection.skip)?;
+    let mut gathered = Gathered::under(paths, &selection.skip, Look::default())?;
     gathered.add_selected(selection)?;
     let gathered = whole_board::instead(gathered, paths, selection)?;
     if whole_board::is_among(&gathered) {

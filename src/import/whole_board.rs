@@ -2,12 +2,13 @@
 //!
 //! A folder of layers with the board they were plotted from beside them is a folder of layers: the
 //! plots are what a person chose to have made. Only where a folder or an archive has no layer is
-//! its board read, as KiCad's project folders are.
+//! its board read, as KiCad's project folders are. Where a folder has neither, those inside it are
+//! looked into, as EAGLE's `CAMOutputs` and Altium's `Project Outputs` are laid out.
 
 use std::path::PathBuf;
 
 use super::advice::quoted;
-use super::archive::{Found, Gathered};
+use super::archive::{Found, Gathered, Look};
 use super::build::{Build, Loaded};
 use super::error::Error;
 use super::format::Kind;
@@ -18,7 +19,12 @@ use super::{kicad, outline};
 use crate::board::{Side, Source, Words};
 use crate::import::diagnostic;
 
-/// What is to be read: `gathered`, or where it has no layer the boards under `paths`, if any.
+/// How deep folders are looked into that have nothing to read themselves. Chosen:
+/// `Project/Outputs/Gerber`.
+const DEPTH: u32 = 2;
+
+/// What is to be read: `gathered`, or where it has no layer the boards under `paths`, if any; else
+/// what folders inside folders hold, if it is one board.
 pub(super) fn instead(
     gathered: Gathered,
     paths: &[PathBuf],
@@ -27,13 +33,15 @@ pub(super) fn instead(
     if !gathered.files.is_empty() || !gathered.jobs.is_empty() {
         return Ok(gathered);
     }
-    let boards = Gathered::boards_under(paths, &selection.skip)?;
-    if boards.files.is_empty() {
-        return Ok(gathered);
+    for look in [Look { boards: true, depth: 0 }, Look { boards: false, depth: DEPTH }] {
+        let found = Gathered::under(paths, &selection.skip, look)?;
+        if if look.boards { !found.files.is_empty() } else { found.is_of_one_board() } {
+            // A layer that is damaged must not be replaced in silence.
+            gathered.refuse_unusable(&Job::default(), selection)?;
+            return Ok(found);
+        }
     }
-    // A layer that is damaged must not be replaced in silence.
-    gathered.refuse_unusable(&Job::default(), selection)?;
-    Ok(boards)
+    Ok(gathered)
 }
 
 /// Whether a KiCad board is among the files.

@@ -173,7 +173,9 @@ impl Folder {
     pub(crate) fn with(files: &[(&str, &str)]) -> Self {
         let folder = tempfile::tempdir().expect("a temporary folder");
         for (name, text) in files {
-            fs::write(folder.path().join(name), text).expect("written");
+            let path = folder.path().join(name);
+            fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+            fs::write(path, text).expect("written");
         }
         Self(folder)
     }
@@ -311,6 +313,49 @@ fn an_archive_is_as_good_as_a_folder() {
     assert_eq!(files_of(&loaded, "front-copper"), ["top.gbr"], "from inside");
     assert_eq!(loaded.board.holes.len(), 1, "with its drill file");
     assert_eq!(loaded.board.name, "amp", "named as the archive");
+}
+
+#[test]
+fn folders_inside_one_that_has_no_file_of_a_board_are_looked_into() {
+    let eagle = [
+        ("CAMOutputs/GerberFiles/copper_top.gbr", SQUARE),
+        ("CAMOutputs/GerberFiles/profile.gbr", SQUARE),
+        ("CAMOutputs/DrillFiles/drill_1_16.xln", DRILL),
+        ("CAMOutputs/Assembly/amp.txt", "Parts of the board, by name and place\n"),
+        (".git/old/copper_top.gbr", &SQUARE.replace("0.2", "0.3")),
+    ];
+    let loaded = Folder::with(&eagle).load(&Selection::default()).expect("a board");
+    assert_eq!(files_of(&loaded, "front-copper"), ["copper_top.gbr"]);
+    assert_eq!(loaded.board.holes.len(), 1, "with the drill files of another folder");
+    assert!(loaded.board.outline.is_some());
+    // Of two folders with layers nothing tells that they are of one board.
+    let mixed = [("old/amp-F_Cu.gbr", SQUARE), ("new/amp-B_Cu.gbr", SQUARE), ("new/amp.drl", DRILL)];
+    let error = Folder::with(&mixed).load(&Selection::default()).expect_err("which one?");
+    assert!(error.contains("no copper layer found") && error.contains("new, old"), "{error}");
+    // Whoever gives a folder with layers means these.
+    let beside = [("amp-F_Cu.gbr", SQUARE), ("old/amp-B_Cu.gbr", SQUARE)];
+    let loaded = Folder::with(&beside).load(&Selection::default()).expect("a board");
+    assert!(loaded.board.back.is_none() && loaded.ignored == ["old/"], "{:?}", loaded.ignored);
+}
+
+#[test]
+fn folders_of_an_archive_are_read_and_nothing_else_is_said_of_them() {
+    let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    let options = zip::write::SimpleFileOptions::default();
+    for folder in ["out/", "out/DrillFiles/", "out/drill/"] {
+        zip.add_directory(folder, options).expect("an entry");
+    }
+    for (name, text) in [("out/top.gbr", SQUARE), ("out/DrillFiles/a.xln", DRILL)] {
+        zip.start_file(name, options).expect("an entry");
+        std::io::Write::write_all(&mut zip, text.as_bytes()).expect("written");
+    }
+    let folder = Folder::with(&[]);
+    fs::write(folder.path("amp.zip"), zip.finish().expect("finished").into_inner()).expect("written");
+    let loaded = load(&[folder.path("amp.zip")], &Selection::default()).expect("a board");
+    assert_eq!(loaded.board.holes.len(), 1);
+    let told: Vec<&str> =
+        loaded.warnings.iter().map(|w| w.message.as_str()).filter(|m| m.contains("folder")).collect();
+    assert_eq!(told, ["the folder drill, named like a drill file, is not read"], "only the empty one");
 }
 
 #[test]

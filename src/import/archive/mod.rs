@@ -61,33 +61,52 @@ pub(super) struct Gathered {
     pub(super) ignored: Vec<String>,
     /// What of it can be no layer by its content, and may be meant as one.
     pub(super) unusable: Vec<Unusable>,
-    /// Folders inside the given folders, which are not looked into.
+    /// Folders that are not looked into.
     pub(super) folders: Vec<String>,
     /// What a person wants left aside, and whether it was met.
     skipped: Vec<(PathBuf, bool)>,
-    /// Whether KiCad boards are looked for in folders and archives, and not layers.
-    boards: bool,
+    look: Look,
+    /// How many files of folders were looked at.
+    looked_at: usize,
 }
 
+/// What is looked for in folders and archives.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Look {
+    /// Whether KiCad boards, and not layers.
+    pub(super) boards: bool,
+    /// How deep in folders inside the given ones. Archives are looked through.
+    pub(super) depth: u32,
+}
+
+/// The most files of folders inside folders that are looked at. Chosen: a board has some dozen, and
+/// whoever gives the wrong folder does not wait.
+const MOST_NESTED: usize = 1000;
+
 impl Gathered {
-    /// Everything under `paths` but what `skip` names.
-    pub(super) fn under(paths: &[impl AsRef<Path>], skip: &[PathBuf]) -> Result<Self, Error> {
-        Self::found(paths, skip, false)
-    }
-
-    /// The KiCad boards under `paths`, where there is no layer.
-    pub(super) fn boards_under(paths: &[impl AsRef<Path>], skip: &[PathBuf]) -> Result<Self, Error> {
-        Self::found(paths, skip, true)
-    }
-
-    fn found(paths: &[impl AsRef<Path>], skip: &[PathBuf], boards: bool) -> Result<Self, Error> {
+    /// What is looked for under `paths`, but what `skip` names.
+    pub(super) fn under(paths: &[impl AsRef<Path>], skip: &[PathBuf], look: Look) -> Result<Self, Error> {
         let plain = |path: &PathBuf| path.components().filter(|part| *part != Component::CurDir).collect();
         let skipped = skip.iter().map(|path| (plain(path), false)).collect();
-        let mut gathered = Self { skipped, boards, ..Self::default() };
+        let mut gathered = Self { skipped, look, ..Self::default() };
         for path in paths {
             gathered.path(path.as_ref())?;
         }
         Ok(gathered)
+    }
+
+    /// Whether all that was looked for lies as the files of one board do: all layers in one folder,
+    /// and all drill files in one, be it another, as EAGLE and Altium write them.
+    pub(super) fn is_of_one_board(&self) -> bool {
+        let is_alone = |kind: Kind| {
+            let mut of_kind = self.files.iter().filter(|file| file.kind == kind);
+            let folder = |file: &Found| Path::new(&file.shown).parent().map(Path::to_path_buf);
+            let first = of_kind.next().map(folder);
+            of_kind.all(|file| first == Some(folder(file)))
+        };
+        self.looked_at <= MOST_NESTED
+            && !self.files.is_empty()
+            && [Kind::Gerber, Kind::Excellon].into_iter().all(is_alone)
     }
 
     /// Whether a person wants the layer `name` of a KiCad board left aside.
@@ -133,7 +152,7 @@ impl Gathered {
         }
         let meta = fs::metadata(path).map_err(|error| unreadable(&shown, &error))?;
         if meta.is_dir() {
-            return self.folder(path, &shown);
+            return self.folder(path, &shown, self.look.depth);
         }
         let bytes = read_file(path, &shown)?;
         if bytes.starts_with(b"PK\x03\x04") || bytes.starts_with(b"PK\x05\x06") {
@@ -144,7 +163,8 @@ impl Gathered {
         Ok(())
     }
 
-    fn folder(&mut self, path: &Path, shown: &str) -> Result<(), Error> {
+    /// Takes what a folder holds, and those inside it so deep.
+    fn folder(&mut self, path: &Path, shown: &str, depth: u32) -> Result<(), Error> {
         let entries = fs::read_dir(path).and_then(Iterator::collect::<io::Result<Vec<_>>>);
         let mut paths: Vec<_> =
             entries.map_err(|error| unreadable(shown, &error))?.iter().map(fs::DirEntry::path).collect();
@@ -154,7 +174,13 @@ impl Gathered {
             if self.skips(&shown) {
                 continue;
             }
-            if path.is_dir() {
+            self.looked_at += 1;
+            if self.look.depth > 0 && self.looked_at > MOST_NESTED {
+                return Ok(());
+            }
+            if path.is_dir() && depth > 0 && !name.starts_with('.') {
+                self.folder(&path, &shown, depth - 1)?;
+            } else if path.is_dir() {
                 self.folders.push(name.clone());
                 self.unusable.push(Unusable::folder(name, shown));
             } else if !self.looks_for(&name) {
@@ -172,7 +198,7 @@ impl Gathered {
 
     /// Whether a file of a folder or an archive is opened.
     fn looks_for(&self, name: &str) -> bool {
-        if self.boards { is_board(name) } else { worth_reading(name) }
+        if self.look.boards { is_board(name) } else { worth_reading(name) }
     }
 
     fn take(&mut self, name: String, shown: String, bytes: Vec<u8>, named: bool) {
@@ -180,7 +206,7 @@ impl Gathered {
             return self.jobs.push((name, bytes));
         }
         let kind = Kind::of(&bytes);
-        if kind == Kind::Kicad && !named && !self.boards {
+        if kind == Kind::Kicad && !named && !self.look.boards {
             return self.ignored.push(name);
         }
         let listed = named || ApertureList::is_named(&name);

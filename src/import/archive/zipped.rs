@@ -34,6 +34,7 @@ impl Gathered {
             return Err(Error::content(shown, what, "unpack it, keep the right one, and give the folder"));
         }
         let mut entries: Vec<(String, usize)> = Vec::new();
+        let mut folders: Vec<String> = Vec::new();
         for index in 0..archive.len() {
             let entry = archive.by_index_raw(index).map_err(broken)?;
             let name = String::from_utf8_lossy(entry.name_raw()).replace('\\', "/");
@@ -41,15 +42,20 @@ impl Gathered {
                 continue;
             }
             if entry.is_dir() {
-                let (full, name) = (format!("{shown}/{name}"), last_of(name.trim_end_matches('/')));
-                if !self.skips(&full) {
-                    self.unusable.push(Unusable::folder(name, full));
-                }
+                folders.push(name);
                 continue;
             }
             entries.push((name, index));
         }
         entries.sort();
+        // What others hold is read with the rest.
+        folders.retain(|folder| !entries.iter().any(|(name, _)| name.starts_with(folder)));
+        for name in folders {
+            let (full, name) = (format!("{shown}/{name}"), last_of(name.trim_end_matches('/')));
+            if !self.skips(&full) {
+                self.unusable.push(Unusable::folder(name, full));
+            }
+        }
         let mut left = limit;
         for (full, index) in entries {
             let name = last_of(&full);
