@@ -225,12 +225,22 @@ fn diagram_settings(settings: &Settings) -> voronoi::Settings {
         // A cut along the edge of a region then leaves the copper alone, where there is room.
         min_width: settings.asked.min_width.then(|| settings.finest_kerf() / 2 + settings.tolerance),
         tolerance: settings.tolerance,
+        rises: rises(settings),
         // The end of a cut is round: with half a kerf beyond the outline its whole width reaches
         // the edge, and a fine cutter leaves no scratches outside.
         overlap: voronoi::Settings::default().overlap.min(settings.finest_kerf() / 2),
         frame: Frame::Hull(settings.frame_margin),
         ..voronoi::Settings::default()
     }
+}
+
+/// The clearances between which some tool rises.
+fn rises(settings: &Settings) -> Option<[Nm; 2]> {
+    let least = settings.adaptive_depth?;
+    let ends = settings.isolation.iter().map(|Cutting { tool, heights, .. }| {
+        [tool.least_width(heights.cut, Some(least)) / 2, tool.width_at(heights.cut) / 2]
+    });
+    ends.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
 /// What each tool cuts, with its kerf, the widest first: its share of the boundaries, and the

@@ -17,10 +17,10 @@ use crate::topology::NetId;
 
 use super::clip::{Node, Piece};
 use super::exact;
-use super::fit;
+use super::fit::{self, Fit};
 use super::plane::Spot;
 use super::seed::owner_of;
-use super::{BACKGROUND, Boundaries, Diagram, NOBODY};
+use super::{BACKGROUND, Boundaries, Diagram, NOBODY, Settings};
 
 impl Diagram {
     /// The boundaries of the certified diagram, and where it contradicts itself.
@@ -56,9 +56,11 @@ impl Diagram {
 
     /// Pieces fitted, with nodes in the order in which they are met.
     pub(super) fn fitted(&self, pieces: &[Piece]) -> Boundaries {
+        let Settings { tolerance, arcs, rises, .. } = self.settings;
+        let how = Fit { tolerance, arcs, rises };
         // Two nodes that fall on the same nanometre are one, and nothing runs between them.
         let fit = |piece: &Piece| {
-            let fitted = fit::fit(&piece.samples, self.settings.tolerance, self.settings.arcs)?;
+            let fitted = fit::fit(&piece.samples, how)?;
             Some((fitted, (piece.left, piece.right), piece.ends.is_none()))
         };
         Boundaries::of(pieces.par_iter().filter_map(fit).collect())

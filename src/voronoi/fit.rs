@@ -7,6 +7,15 @@
 //!
 //! An arc passes three of the true points; it is taken only where it reaches half as far again as
 //! the line would.
+//!
+//! For a tool that rises where there is less room (*adaptive depth*), clearance goes evenly from
+//! one vertex to the next, as the tool's tip does:
+//!
+//! ```text
+//!   room  ╲                 ╱      from vertex to vertex straight down, the tip would be too deep
+//!          ╲_______________╱       nearly everywhere on the way to the narrowest place
+//!          •               •
+//! ```
 
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 
@@ -16,6 +25,9 @@ use super::sample::{CHORD, Sample};
 /// Clearance may dip between vertices by this much before a vertex is kept there, in nanometres.
 /// Chosen.
 const DIP: f64 = 2_000.0;
+/// Where the tool rises, clearance may differ so much from what lies evenly between vertices, in
+/// nanometres. Chosen: a quarter of what sampling leaves.
+const EVEN: f64 = 250.0;
 /// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight.
 /// Chosen.
 const RADII: std::ops::Range<f64> = 5_000.0..2e8;
@@ -31,13 +43,26 @@ const SHARE: f64 = 0.27;
 /// quadratic. Chosen.
 const REACH: usize = 4096;
 
+/// How points are fitted.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fit {
+    /// How far segments may leave them.
+    pub(super) tolerance: Nm,
+    /// Whether segments may be arcs.
+    pub(super) arcs: bool,
+    /// The clearances between which the tool rises as they fall, if it does.
+    pub(super) rises: Option<[Nm; 2]>,
+}
+
 /// A fitted path with the clearance at its vertices: the start's, then each segment's end.
-pub(super) fn fit(vertices: &[Sample], tolerance: Nm, arcs: bool) -> Option<(Path, Vec<Nm>)> {
+pub(super) fn fit(vertices: &[Sample], how: Fit) -> Option<(Path, Vec<Nm>)> {
+    let Fit { tolerance, arcs, rises } = how;
     let start = vertices.first()?;
     let mut path = Path { start: start.at.rounded(), segments: Vec::new() };
     let mut clearance = vec![Nm::from_f64(finite(start.clearance))];
     // What sampling may already have lost counts against the tolerance.
-    let fitter = Fitter { vertices, tolerance: (tolerance.to_f64() * SHARE - CHORD).max(CHORD), arcs };
+    let tolerance = (tolerance.to_f64() * SHARE - CHORD).max(CHORD);
+    let fitter = Fitter { vertices, tolerance, arcs, rises: rises.map(|ends| ends.map(Nm::to_f64)) };
     let mut i = 0;
     while i + 1 < vertices.len() {
         let (j, segment) = fitter.longest(i);
@@ -56,7 +81,7 @@ pub(super) fn fit(vertices: &[Sample], tolerance: Nm, arcs: bool) -> Option<(Pat
 pub fn fit_points(points: impl IntoIterator<Item = Point>, tolerance: Nm) -> Option<Path> {
     let vertices: Vec<Sample> =
         points.into_iter().map(|point| Sample { at: point.into(), clearance: 0.0 }).collect();
-    fit(&vertices, tolerance, true).map(|(path, _)| path)
+    fit(&vertices, Fit { tolerance, arcs: true, rises: None }).map(|(path, _)| path)
 }
 
 /// Clearances from nowhere (a path along the border) are the largest length.
@@ -68,12 +93,17 @@ struct Fitter<'a> {
     vertices: &'a [Sample],
     tolerance: f64,
     arcs: bool,
+    rises: Option<[f64; 2]>,
 }
 
 impl Fitter<'_> {
     /// The vertex that the best segment from vertex `i` reaches, and the segment.
     fn longest(&self, i: usize) -> (usize, Segment) {
         let end = self.next_minimum(i);
+        let end = self.rises.map_or(end, |[least, most]| {
+            let room = |vertex: &Sample| vertex.clearance.clamp(least, most);
+            farthest(i + 1, end, |j| is_even(&self.vertices[i..=j], room))
+        });
         let line = farthest(i + 1, end, |j| self.is_line(i, j));
         let straight = Segment::Line { to: self.point(line) };
         if !self.arcs || line == end {
@@ -141,6 +171,18 @@ impl Fitter<'_> {
     }
 }
 
+/// Whether what `room` says of places goes evenly along the way from the first to the last.
+fn is_even(vertices: &[Sample], room: impl Fn(&Sample) -> f64) -> bool {
+    let steps = || vertices.windows(2).map(|pair| (pair[1].at - pair[0].at).length());
+    let whole: f64 = steps().sum();
+    let (first, last) = (room(&vertices[0]), room(&vertices[vertices.len() - 1]));
+    let mut gone = 0.0;
+    vertices[1..].iter().zip(steps()).all(|(vertex, step)| {
+        gone += step;
+        (first + (last - first) * (gone / whole.max(1.0)) - room(vertex)).abs() <= EVEN
+    })
+}
+
 /// The largest j in `least..=most` up to which `holds` is seen to hold, by doubling and then
 /// halving; at least `least`.
 fn farthest(least: usize, most: usize, holds: impl Fn(usize) -> bool) -> usize {
@@ -182,6 +224,8 @@ fn circle(a: Spot, b: Spot, c: Spot) -> Option<Spot> {
 mod tests {
     use super::*;
 
+    const FIT: Fit = Fit { tolerance: Nm::from_um(2), arcs: true, rises: None };
+
     fn vertex(x: f64, y: f64, clearance: f64) -> Sample {
         Sample { at: Spot::new(x, y), clearance }
     }
@@ -192,10 +236,10 @@ mod tests {
             .map(|i| libm::sincos(f64::from(i) * 0.05))
             .map(|(sin, cos)| vertex(1e6 * cos, 1e6 * sin, 1e5))
             .collect();
-        let (path, clearance) = fit(&points, Nm::from_um(2), true).expect("a path");
+        let (path, clearance) = fit(&points, FIT).expect("a path");
         assert_eq!(path.segments.len(), 1, "{path:?}");
         assert_eq!(clearance.len(), 2, "one at each vertex");
-        let (lines, _) = fit(&points, Nm::from_um(2), false).expect("a path");
+        let (lines, _) = fit(&points, Fit { arcs: false, ..FIT }).expect("a path");
         assert!(lines.segments.len() > 10, "{} lines", lines.segments.len());
     }
 
@@ -203,14 +247,31 @@ mod tests {
     fn a_corner_is_kept() {
         let points =
             [vertex(0.0, 0.0, 1e5), vertex(5e5, 0.0, 1e5), vertex(1e6, 0.0, 1e5), vertex(1e6, 1e6, 1e5)];
-        let (path, _) = fit(&points, Nm::from_um(2), true).expect("a path");
+        let (path, _) = fit(&points, FIT).expect("a path");
         assert_eq!(path.segments.len(), 2, "{path:?}");
+    }
+
+    #[test]
+    fn where_the_tool_rises_clearance_goes_evenly_from_vertex_to_vertex() {
+        // Between both ends nearly all is as narrow as the narrowest place.
+        let room = |x: f64| (8e4 - 0.3 * x).max(6.51e4 - x / 5e3).max(8e4 - 0.3 * (5e5 - x));
+        let points: Vec<Sample> =
+            (0..=50_u32).map(|i| f64::from(i) * 1e4).map(|x| vertex(x, 0.0, room(x))).collect();
+        let vertices = |rises: Option<[Nm; 2]>| {
+            let (path, clearance) = fit(&points, Fit { rises, ..FIT }).expect("a path");
+            let at = path.steps().map(|(from, _)| from.x.get() / 1000);
+            at.zip(clearance).map(|(x, room)| (x, room.get() / 1000)).collect::<Vec<_>>()
+        };
+        assert_eq!(vertices(None), [(0, 80), (450, 65)], "the narrowest place alone");
+        assert_eq!(vertices(Some([60, 90].map(Nm::from_um))), [(0, 80), (50, 65), (450, 65)]);
+        // What is deep enough for all of the tool is even.
+        assert_eq!(vertices(Some([50, 60].map(Nm::from_um))), [(0, 80), (450, 65)]);
     }
 
     #[test]
     fn the_narrowest_place_is_a_vertex() {
         let points = [vertex(0.0, 0.0, 3e5), vertex(5e5, 0.0, 1e5), vertex(1e6, 0.0, 3e5)];
-        let (path, clearance) = fit(&points, Nm::from_um(2), true).expect("a path");
+        let (path, clearance) = fit(&points, FIT).expect("a path");
         assert_eq!(path.segments.len(), 2, "straight, but split");
         assert_eq!(clearance[1], Nm::from_um(100), "the narrowest");
     }

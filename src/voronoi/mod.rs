@@ -192,6 +192,9 @@ pub struct Settings {
     pub tolerance: Nm,
     /// Whether paths may have arcs.
     pub arcs: bool,
+    /// The clearances between which the tool rises as they fall, if it does: there clearance goes
+    /// evenly from vertex to vertex.
+    pub rises: Option<[Nm; 2]>,
     /// How far boundaries run out beyond the outline.
     pub overlap: Nm,
     /// What boundaries run out to where no outline is known.
@@ -215,6 +218,7 @@ impl Default for Settings {
             min_width: Some(Nm::ZERO),
             tolerance: Nm::from_um(2),
             arcs: true,
+            rises: None,
             overlap: Nm::from_um(100),
             frame: Frame::Rectangle(Nm::from_mm(1)),
         }
