@@ -14,7 +14,10 @@
 //! the band, from where the one crosses the other to where it crosses it again. Where bands of two
 //! nets meet, it runs midway between their copper.
 
+use std::collections::BTreeMap;
+
 use crate::geometry::{BoxTree, Nm};
+use crate::topology::DisjointSets;
 
 use super::exact::{Chain, Diagram, WALL};
 use super::plane::{Spot, spanned};
@@ -81,15 +84,11 @@ impl Band {
         let inner = self.chains.iter().filter(|chain| !is_edge(chain)).cloned();
         let (of_edges, of_axes) = crossings(&edges, &between);
         let mut all: Vec<Chain> = inner.collect();
-        for (edge, found) in edges.into_iter().zip(of_edges) {
-            for (part, sides) in parted(edge.clone(), found) {
-                let by_place = || middle(&part.samples).and_then(&owner).unwrap_or(NOBODY);
-                let right = agreed(sides).unwrap_or_else(by_place);
-                if right != part.left {
-                    all.push(Chain { right, ..part });
-                }
-            }
-        }
+        let parts = edges.into_iter().zip(of_edges);
+        let parts: Vec<Part> = parts.flat_map(|(edge, found)| parted(edge.clone(), found)).collect();
+        let rights = beside(&parts, &owner);
+        let parts = parts.into_iter().zip(rights).filter(|((part, _), right)| *right != part.left);
+        all.extend(parts.map(|((part, _), right)| Chain { right, ..part }));
         for (chain, found) in between.into_iter().zip(of_axes) {
             let ends = chain.ends.map(|ends| ends.map(|end| end + OF_AXES));
             for (part, sides) in parted(Chain { ends, ..chain }, found) {
@@ -106,18 +105,53 @@ impl Band {
     }
 }
 
-/// What the crossings at its ends say of a part, if they say one thing.
-fn agreed(sides: [Option<u32>; 2]) -> Option<u32> {
-    match sides {
-        [Some(first), Some(last)] => (first == last).then_some(first),
-        [first, last] => first.or(last),
+/// A part of a chain between its crossings, with what these say of it.
+type Part = (Chain, [Option<u32>; 2]);
+
+/// Who owns what lies beside each part of the edges of bands. Parts that meet where nothing crosses
+/// them lie beside one region: of the two sides of a sliver a few nanometres long, asked for by
+/// themselves, each may be told that the other's band goes on there.
+fn beside(parts: &[Part], owner: impl Fn(Spot) -> Option<u32>) -> Vec<u32> {
+    let mut at_node: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
+    for (number, (part, _)) in (0_u32..).zip(parts) {
+        for node in part.ends.into_iter().flatten().filter(|&node| node < OF_CROSSINGS) {
+            at_node.entry(node).or_default().push(number);
+        }
     }
+    let mut regions = DisjointSets::new(parts.len());
+    // Where four meet, two regions do.
+    for met in at_node.values().filter(|met| met.len() == 2) {
+        regions.union(met[0], met[1]);
+    }
+    let regions = regions.representatives();
+    let mut members: BTreeMap<u32, Vec<&Part>> = BTreeMap::new();
+    regions.iter().zip(parts).for_each(|(&region, part)| members.entry(region).or_default().push(part));
+    let owner_of = |members: Vec<&Part>| {
+        let by_place = || {
+            let longest = members.iter().max_by(|a, b| length(&a.0.samples).total_cmp(&length(&b.0.samples)));
+            longest.and_then(|part| middle(&part.0.samples)).and_then(&owner).unwrap_or(NOBODY)
+        };
+        agreed(members.iter().flat_map(|part| part.1)).unwrap_or_else(by_place)
+    };
+    let owners: BTreeMap<u32, u32> =
+        members.into_iter().map(|(region, members)| (region, owner_of(members))).collect();
+    regions.iter().map(|region| owners[region]).collect()
+}
+
+/// What crossings say of a region, if they say one thing.
+fn agreed(sides: impl IntoIterator<Item = Option<u32>>) -> Option<u32> {
+    let mut said = sides.into_iter().flatten();
+    let first = said.next()?;
+    said.all(|other| other == first).then_some(first)
+}
+
+fn length(samples: &[Sample]) -> f64 {
+    samples.windows(2).map(|pair| (pair[1].at - pair[0].at).length()).sum()
 }
 
 /// The place midway along a chain.
 fn middle(samples: &[Sample]) -> Option<Spot> {
-    let length: f64 = samples.windows(2).map(|pair| (pair[1].at - pair[0].at).length()).sum();
-    let mut left = length / 2.0;
+    let mut left = length(samples) / 2.0;
     for pair in samples.windows(2) {
         let way = pair[1].at - pair[0].at;
         if way.length() >= left && way.length() > 0.0 {
@@ -204,7 +238,7 @@ fn crossings(edges: &[&Chain], between: &[Chain]) -> (Vec<Vec<Crossing>>, Vec<Ve
 }
 
 /// The parts of a chain between its crossings, with what these say of each.
-fn parted(chain: Chain, crossings: Vec<Crossing>) -> Vec<(Chain, [Option<u32>; 2])> {
+fn parted(chain: Chain, crossings: Vec<Crossing>) -> Vec<Part> {
     let (Some(&first), Some(&last)) = (crossings.first(), crossings.last()) else {
         return vec![(chain, [None; 2])];
     };

@@ -198,6 +198,8 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         ("slanted-pads-side-by-side", SETTINGS[0]),
         ("hole-drawn-nearly-twice", SETTINGS[0]),
         ("ring-that-just-opens-an-edge", SETTINGS[0]),
+        ("sliver-between-two-bands", SETTINGS[6]),
+        ("pads-that-the-tool-rises-between", SETTINGS[5]),
     ] {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let edge = fs::read_to_string(folder.join(format!("{name}.edge.gbr"))).ok();
