@@ -335,7 +335,9 @@ impl Diagram {
             }
         };
         let mut band = None;
-        let width = settings.min_width.map(Band::width).filter(|_| !owned.is_of_one());
+        // Nothing parts one net from itself, but its loop goes round its copper, too.
+        let is_cut = settings.limit.is_some() || !owned.is_of_one();
+        let width = settings.min_width.map(Band::width).filter(|_| is_cut);
         if let (SiteKind::Core, Some(width)) = (settings.sites, width) {
             let (room, floor) = Band::room(width);
             let copper = Owned::copper(copper, nets, keep);

@@ -24,7 +24,7 @@ use crate::euler;
 use drawing::{Drawing, coarse_drawing, drawing, drawing_with_holes};
 
 /// What cuts them: settings as a settings file gives them.
-const SETTINGS: [&str; 10] = [
+const SETTINGS: [&str; 14] = [
     "",
     "strategy = \"outline\"\ntool = \"endmill:0.15mm\"",
     "passes = 3\ntool = \"endmill:0.15mm\"",
@@ -35,6 +35,10 @@ const SETTINGS: [&str; 10] = [
     "limit = \"0.3mm\"",
     "clear = true\ntool = [\"endmill:1mm\", \"endmill:0.2mm\"]",
     "rotate = \"17deg\"\norigin = \"center\"\ndialect = \"linuxcnc\"",
+    "sites = \"core\"\nlimit = \"0.3mm\"",
+    "sites = \"core\"\nadaptive-depth = \"0.05mm\"\ntool = \"vbit:0.05mm:45deg\"",
+    "adaptive-depth = \"0.05mm\"\ntool = [\"vbit:0.2mm:60deg\", \"vbit:0.1mm:20deg\"]",
+    "adaptive-depth = \"0.05mm\"\nwidth = \"0.8mm\"\ntool = \"vbit:0.1mm:30deg\"",
 ];
 
 /// The same cases every time; others, as many as it says, where `PROPTEST_CASES` is set.
@@ -200,6 +204,7 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         ("ring-that-just-opens-an-edge", SETTINGS[0]),
         ("sliver-between-two-bands", SETTINGS[6]),
         ("pads-that-the-tool-rises-between", SETTINGS[5]),
+        ("pad-alone", SETTINGS[10]),
     ] {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let edge = fs::read_to_string(folder.join(format!("{name}.edge.gbr"))).ok();
