@@ -17,6 +17,7 @@ use crate::voronoi::medial::Place;
 use super::axis::{Edge, Graph};
 use super::contact::Cleared;
 use super::path::{Piece, arc, pulled, tangent_link};
+use super::wall::Wall;
 
 /// Material along less of the circumference is none, in radians. Chosen: 2.5°, a burr of a
 /// thousandth of the radius.
@@ -92,6 +93,7 @@ pub(super) struct Clearer<'a> {
     graph: &'a Graph,
     bounds: Bounds,
     cleared: Cleared,
+    wall: &'a Wall,
     is_done: Vec<bool>,
     is_reached: Vec<bool>,
     clearing: Clearing,
@@ -109,8 +111,8 @@ pub(super) struct Clearer<'a> {
 
 impl<'a> Clearer<'a> {
     /// Clears all that is connected with `root`, a node; none where that is more than is bounded.
-    pub(super) fn run(graph: &'a Graph, root: usize, bounds: Bounds) -> Option<Self> {
-        let mut clearer = Self::new(graph, root, bounds);
+    pub(super) fn run(graph: &'a Graph, wall: &'a Wall, root: usize, bounds: Bounds) -> Option<Self> {
+        let mut clearer = Self::new(graph, wall, root, bounds);
         clearer.spiral();
         let mut open = vec![root];
         while let Some(&node) = open.last() {
@@ -133,7 +135,7 @@ impl<'a> Clearer<'a> {
         Some(clearer)
     }
 
-    fn new(graph: &'a Graph, root: usize, bounds: Bounds) -> Self {
+    fn new(graph: &'a Graph, wall: &'a Wall, root: usize, bounds: Bounds) -> Self {
         let Place { at, clearance } = graph.nodes[root];
         let far = |(x, y): Spot, by: f64| [x - by, y - by, x + by, y + by];
         let reached = graph.ways(root, |_| true);
@@ -151,6 +153,7 @@ impl<'a> Clearer<'a> {
             graph,
             bounds,
             cleared: Cleared::new(bounds.radius, around),
+            wall,
             is_done: vec![false; graph.edges.len()],
             is_reached,
             clearing: Clearing { root: at, helix, pieces: Vec::new(), grooves: Vec::new() },
@@ -421,7 +424,7 @@ impl<'a> Clearer<'a> {
             let heads = [self.angle(from), angle];
             let turn = turn(self.is_counter_clockwise);
             if let Some((path, spots)) = tangent_link([from, place], heads, turn)
-                && spots.windows(2).all(|pair| self.cleared.is_clear(pair[0], pair[1], self.bounds.touches()))
+                && spots.windows(2).all(|pair| self.is_clear(pair[0], pair[1]))
             {
                 self.clearing.pieces.push(Piece::Link(path));
                 self.at = start;
@@ -432,18 +435,22 @@ impl<'a> Clearer<'a> {
         self.go(start);
     }
 
+    /// Whether the tool meets nothing on a straight way.
+    fn is_clear(&mut self, from: Spot, to: Spot) -> bool {
+        self.cleared.is_clear(from, to, self.bounds.touches()) && self.wall.is_free(from, to)
+    }
+
     /// To a place through what is cleared: straight, or along the axis, as straight as may be.
     fn go(&mut self, to: Spot) {
         if distance(self.at, to) < 1.0 {
             return;
         }
-        let touches = self.bounds.touches();
-        if self.cleared.is_clear(self.at, to, touches) {
+        if self.is_clear(self.at, to) {
             self.clearing.pieces.push(Piece::Link(vec![Segment::Line { to: point(to) }]));
         } else {
             let way: Vec<Spot> =
                 std::iter::once(self.at).chain(self.trail.iter().copied()).chain([to]).collect();
-            let way = pulled(&way, |a, b| self.cleared.is_clear(a, b, touches));
+            let way = pulled(&way, |a, b| self.is_clear(a, b));
             let most = self.bounds.contact * 0.7;
             // What is not clear is milled in layers.
             self.clearing.pieces.push(

@@ -22,6 +22,7 @@ mod clearing;
 mod contact;
 mod path;
 mod target;
+mod wall;
 
 use rayon::prelude::*;
 
@@ -38,6 +39,7 @@ use super::{Levels, halves};
 use axis::Graph;
 use clearing::{Bounds, Clearer, Clearing};
 use path::Piece;
+use wall::Wall;
 
 pub use target::{Engagement, ParseEngagementError};
 
@@ -201,9 +203,10 @@ fn parts(area: &Polygon, planned: &Planned<'_>, radius: f64) -> Vec<(usize, Clea
         is_counter_clockwise: planned.direction == Direction::Climb,
         both_ways: planned.engaging.both_ways,
     };
+    let wall = Wall::new(area, planned.levels.wall);
     let part = |node: usize| {
         let root = planned.nest.root_at(graph.nodes[node].at)?;
-        let clearer = Clearer::run(&graph, node, bounds)?;
+        let clearer = Clearer::run(&graph, &wall, node, bounds)?;
         Some((root, walls(clearer, root, planned)))
     };
     graph.roots().into_iter().filter(is_wide).filter_map(part).collect()
