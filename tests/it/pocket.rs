@@ -259,7 +259,9 @@ fn arcs_along_the_axis_bear_no_more_than_they_may() {
 #[test]
 fn random_areas_are_cleared_in_arcs_without_residue() {
     let seeds = if cfg!(debug_assertions) { 2 } else { 12 };
-    for seed in 0..seeds {
+    // Among sharp islands, to which ways from arc to arc came too near.
+    let sharp = (!cfg!(debug_assertions)).then_some(1006);
+    for seed in (0..seeds).chain(sharp) {
         let areas = random_areas(seed, if seed % 2 == 0 { 1 } else { 250_000 });
         let made = pocketed("random", areas, "endmill:0.5mm", &engaging("15%", seed % 2 == 1));
         check_engaged(&format!("seed {seed}"), &made, 0.15);
