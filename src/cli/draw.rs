@@ -352,6 +352,12 @@ impl Drawn {
         Ok(self.job.as_ref().and_then(|job| job.shown(self.side)).ok_or_else(|| no_copper(self.side))?)
     }
 
+    /// How far the pixels of `grid` are from copper.
+    fn depth(&self, grid: &Grid) -> Result<Depth<impl Fn(&Grid) -> Vec<f32>>, Failure> {
+        let Shown { regions, copper, nets, .. } = self.shown()?;
+        Ok(Depth::new(regions.depths(copper, nets), grid))
+    }
+
     /// What is milled in the area of `grid`.
     fn milled(&self, grid: &Grid) -> Result<Relief<impl Fn(&Grid) -> Vec<f32>>, Failure> {
         let job = self.job.as_ref().ok_or_else(|| no_copper(self.side))?;
@@ -366,8 +372,7 @@ impl Drawn {
                 png::grey_bands(&grid, |band| picture::copper(copper, &band))
             }
             Stage::Depth => {
-                let shown = self.shown()?;
-                let depth = Depth::new(&shown, &grid);
+                let depth = self.depth(&grid)?;
                 png::grey_bands(&grid, |band| depth.greys(&band))
             }
             Stage::Translucent => {
@@ -392,7 +397,7 @@ impl Drawn {
     fn canvas(&self, grid: Grid) -> Result<Canvas, Failure> {
         Ok(match self.stage {
             Stage::Copper => Canvas::grey(grid, &picture::copper(self.copper()?, &grid)),
-            Stage::Depth => Canvas::grey(grid, &Depth::new(&self.shown()?, &grid).greys(&grid)),
+            Stage::Depth => Canvas::grey(grid, &self.depth(&grid)?.greys(&grid)),
             Stage::Translucent => self.translucent(&grid)?.draw(grid),
             Stage::Milled => {
                 let milled = self.milled(&grid)?;

@@ -35,7 +35,7 @@ pub(super) fn instead(
     }
     for look in [Look { boards: true, depth: 0 }, Look { boards: false, depth: DEPTH }] {
         let found = Gathered::under(paths, &selection.skip, look)?;
-        if if look.boards { !found.files.is_empty() } else { found.is_of_one_board() } {
+        if found.lies_together() {
             // A layer that is damaged must not be replaced in silence.
             gathered.refuse_unusable(&Job::default(), selection)?;
             return Ok(found);

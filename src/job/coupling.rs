@@ -27,15 +27,13 @@ pub fn coupling(
 ) -> Result<CouplingEntry, Error> {
     let nets = topology::recover(copper, plain::method(settings.asked.topology));
     let (diagram, boundaries) = plain::diagram(copper, &nets, outline, settings)?;
-    let kerf = settings.finest_kerf();
-    let substrate = Substrate::fr4(settings.thickness.to_mm());
-    let found = Coupling::new(&diagram, &boundaries, &topology::extents(copper, &nets), kerf, substrate);
     let is_asked = |id: &NetId| {
         let names = topology::called(copper, &nets, *id);
         asked.iter().any(|pattern| pattern.matches_any(&names))
     };
     let asked: Vec<NetId> = (0..).map(NetId).take(nets.nets().len()).filter(is_asked).collect();
-    Ok(CouplingEntry::new(&found, &nets, (kerf, substrate), None, &asked))
+    let extents = topology::extents(copper, &nets);
+    Ok(entry(&nets, &extents, (&diagram, &boundaries), settings, (None, &asked)))
 }
 
 impl Settings {
@@ -55,11 +53,23 @@ impl Settings {
 pub(super) fn strongest(
     nets: &Nets,
     extents: &[Extent],
+    found: (&Diagram, &Boundaries),
+    settings: &Settings,
+) -> CouplingEntry {
+    entry(nets, extents, found, settings, (Some(STRONGEST), &[]))
+}
+
+/// The neighbours among the nets of a layer that has this diagram: so many, and the nets that are
+/// asked for.
+fn entry(
+    nets: &Nets,
+    extents: &[Extent],
     (diagram, boundaries): (&Diagram, &Boundaries),
     settings: &Settings,
+    (most, asked): (Option<usize>, &[NetId]),
 ) -> CouplingEntry {
     let kerf = settings.finest_kerf();
     let substrate = Substrate::fr4(settings.thickness.to_mm());
     let found = Coupling::new(diagram, boundaries, extents, kerf, substrate);
-    CouplingEntry::new(&found, nets, (kerf, substrate), Some(STRONGEST), &[])
+    CouplingEntry::new(&found, nets, (kerf, substrate), most, asked)
 }

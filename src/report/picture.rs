@@ -123,28 +123,23 @@ fn dimmed(side: &Shown<'_>, grid: Grid) -> Canvas {
 ///
 /// Brightness goes with the square root of the distance. Gaps of a fifth of a millimetre were all
 /// but black beside one corner of a centimetre, in proportion; half as bright is a quarter as far.
-#[derive(Clone, Copy)]
-pub struct Depth<'a> {
-    side: &'a Shown<'a>,
+pub struct Depth<F> {
+    depths: F,
     /// The farthest of all that are in reach, in pixels.
     deepest: f32,
 }
 
-impl<'a> Depth<'a> {
+impl<F: Fn(&Grid) -> Vec<f32>> Depth<F> {
     /// The greys of a picture of `grid`, which is looked through band by band for its deepest
-    /// pixel.
+    /// pixel; `depths` are those of the pixels of a band.
     #[must_use]
-    pub fn new(side: &'a Shown<'a>, grid: &Grid) -> Self {
+    pub fn new(depths: F, grid: &Grid) -> Self {
         let mut deepest = 1.0_f32;
         png::each_band(grid, |band| {
-            let depths = side
-                .regions
-                .depths(side.copper, side.nets, &band)
-                .into_iter()
-                .filter(|depth| depth.is_finite());
+            let depths = depths(&band).into_iter().filter(|depth| depth.is_finite());
             deepest = depths.fold(deepest, f32::max);
         });
-        Self { side, deepest }
+        Self { depths, deepest }
     }
 
     /// The pixels of a band of the picture, one byte each.
@@ -154,8 +149,7 @@ impl<'a> Depth<'a> {
         let grey = |depth: f32| {
             if depth.is_finite() { ((depth / self.deepest).sqrt() * 255.0) as u8 } else { u8::MAX }
         };
-        let Self { side, .. } = *self;
-        side.regions.depths(side.copper, side.nets, band).into_iter().map(grey).collect()
+        (self.depths)(band).into_iter().map(grey).collect()
     }
 }
 

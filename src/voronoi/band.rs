@@ -21,7 +21,7 @@ use crate::topology::DisjointSets;
 
 use super::exact::{Chain, Diagram, WALL};
 use super::plane::{Spot, spanned};
-use super::sample::Sample;
+use super::sample::{Sample, length};
 use super::{BEYOND, FLOOR, NOBODY};
 
 /// What a band is wide at least, so that its edge is one. Chosen: no cutter is as true.
@@ -143,10 +143,6 @@ fn agreed(sides: impl IntoIterator<Item = Option<u32>>) -> Option<u32> {
     let mut said = sides.into_iter().flatten();
     let first = said.next()?;
     said.all(|other| other == first).then_some(first)
-}
-
-fn length(samples: &[Sample]) -> f64 {
-    samples.windows(2).map(|pair| (pair[1].at - pair[0].at).length()).sum()
 }
 
 /// The place midway along a chain.

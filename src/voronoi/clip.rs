@@ -17,7 +17,7 @@ use super::OUTSIDE;
 use super::edge::Border;
 use super::exact::Chain;
 use super::plane::{Spot, spanned};
-use super::sample::Sample;
+use super::sample::{Sample, length};
 
 /// Where a piece ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -250,7 +250,7 @@ pub(super) fn within(
         for (i, &(from, start)) in on.iter().enumerate() {
             let (to, end) = on[(i + 1) % on.len()];
             let samples = lap.between(&from, &to, on.len() == 1);
-            let length: f64 = samples.windows(2).map(|pair| (pair[1].at - pair[0].at).length()).sum();
+            let length = length(&samples);
             let mut side = from.ahead;
             if from.ahead != to.behind {
                 let middle = &samples[samples.len() / 2 - 1..=samples.len() / 2];

@@ -20,7 +20,7 @@
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 
 use super::plane::Spot;
-use super::sample::{CHORD, Sample};
+use super::sample::{CHORD, Sample, length};
 
 /// Clearance may dip between vertices by this much before a vertex is kept there, in nanometres.
 /// Chosen.
@@ -173,11 +173,11 @@ impl Fitter<'_> {
 
 /// Whether what `room` says of places goes evenly along the way from the first to the last.
 fn is_even(vertices: &[Sample], room: impl Fn(&Sample) -> f64) -> bool {
-    let steps = || vertices.windows(2).map(|pair| (pair[1].at - pair[0].at).length());
-    let whole: f64 = steps().sum();
+    let steps = vertices.windows(2).map(|pair| (pair[1].at - pair[0].at).length());
+    let whole = length(vertices);
     let (first, last) = (room(&vertices[0]), room(&vertices[vertices.len() - 1]));
     let mut gone = 0.0;
-    vertices[1..].iter().zip(steps()).all(|(vertex, step)| {
+    vertices[1..].iter().zip(steps).all(|(vertex, step)| {
         gone += step;
         (first + (last - first) * (gone / whole.max(1.0)) - room(vertex)).abs() <= EVEN
     })

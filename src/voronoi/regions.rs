@@ -68,7 +68,11 @@ impl Regions {
         grid: &Grid,
         paint: &mut dyn FnMut(u32, Range<u32>, Owner),
     ) {
-        let (scene, owners) = self.scene(copper, nets, grid);
+        let sites = self.sites(copper, nets);
+        let scene = self.scene(&sites, grid);
+        // A table of its own, because every pixel asks; and all that is left of the sites.
+        let owners = sites.owners();
+        drop(sites);
         let work = |tile: raster::Tile<'_>| {
             let rows = tile.row0..tile.row0 + tile.height;
             let all = tile.column0..tile.column0 + tile.width;
@@ -88,20 +92,23 @@ impl Regions {
         });
     }
 
-    /// How far each pixel's centre is from the sites, in pixels, row by row from the top; infinite
-    /// where nothing is in reach.
-    #[must_use]
-    pub fn depths(&self, copper: &Copper, nets: &Nets, grid: &Grid) -> Vec<f32> {
-        let mut buffers = raster::Buffers::default();
-        raster::render(&self.scene(copper, nets, grid).0, &mut buffers);
-        buffers.depths().to_vec()
+    /// How far the centre of each pixel of a grid is from the sites, in pixels, row by row from the
+    /// top; infinite where nothing is in reach.
+    pub fn depths(&self, copper: &Copper, nets: &Nets) -> impl Fn(&Grid) -> Vec<f32> {
+        let sites = self.sites(copper, nets);
+        move |grid| {
+            let mut buffers = raster::Buffers::default();
+            raster::render(&self.scene(&sites, grid), &mut buffers);
+            buffers.depths().to_vec()
+        }
     }
 
-    /// What is drawn, and the owner of each label: a table of its own, because every pixel asks.
-    fn scene(&self, copper: &Copper, nets: &Nets, grid: &Grid) -> (Scene, Vec<u32>) {
-        let sites = Sites::new(copper, nets, &self.settings, |feature| self.kept[nets.of(feature).index()]);
-        let limit = self.settings.limit.map(|limit| grid.pixels(limit));
-        (sites.scene(grid, &self.border, limit), sites.owners())
+    fn sites(&self, copper: &Copper, nets: &Nets) -> Sites {
+        Sites::new(copper, nets, &self.settings, |feature| self.kept[nets.of(feature).index()])
+    }
+
+    fn scene(&self, sites: &Sites, grid: &Grid) -> Scene {
+        sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
     }
 }
 

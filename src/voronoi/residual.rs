@@ -31,7 +31,7 @@ use super::clip::{Fence, Node, Piece};
 use super::exact::{self, OnAxis};
 use super::groove::Grooves;
 use super::plane::Spot;
-use super::sample::Sample;
+use super::sample::{Sample, length};
 use super::seed::owner_of;
 use super::{Boundaries, Boundary};
 
@@ -250,10 +250,6 @@ fn stretches(line: &Piece, long: f64, is_wanted: impl Fn(Spot, Spot) -> bool) ->
     let Piece { left, right, .. } = *line;
     let part = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
     runs(&places).filter(|run| length(run) >= long).map(part).collect()
-}
-
-fn length(samples: &[Sample]) -> f64 {
-    samples.windows(2).map(|ends| (ends[1].at - ends[0].at).length()).sum()
 }
 
 /// Those stretches of places in a row that are some.

@@ -25,3 +25,8 @@ impl Sample {
         }
     }
 }
+
+/// How long the way along samples is, in nanometres.
+pub(super) fn length(samples: &[Sample]) -> f64 {
+    samples.windows(2).map(|pair| (pair[1].at - pair[0].at).length()).sum()
+}

@@ -66,7 +66,7 @@ pub(super) struct Gathered {
     /// What a person wants left aside, and whether it was met.
     skipped: Vec<(PathBuf, bool)>,
     look: Look,
-    /// How many files of folders were looked at.
+    /// How many files were looked at, where folders inside folders are looked into.
     looked_at: usize,
 }
 
@@ -95,9 +95,9 @@ impl Gathered {
         Ok(gathered)
     }
 
-    /// Whether all that was looked for lies as the files of one board do: all layers in one folder,
-    /// and all drill files in one, be it another, as EAGLE and Altium write them.
-    pub(super) fn is_of_one_board(&self) -> bool {
+    /// Whether something was found, and lies as the files of one board do: all layers in one
+    /// folder, and all drill files in one, be it another, as EAGLE and Altium write them.
+    pub(super) fn lies_together(&self) -> bool {
         let is_alone = |kind: Kind| {
             let mut of_kind = self.files.iter().filter(|file| file.kind == kind);
             let folder = |file: &Found| Path::new(&file.shown).parent().map(Path::to_path_buf);
@@ -174,9 +174,11 @@ impl Gathered {
             if self.skips(&shown) {
                 continue;
             }
-            self.looked_at += 1;
-            if self.look.depth > 0 && self.looked_at > MOST_NESTED {
-                return Ok(());
+            if self.look.depth > 0 {
+                self.looked_at += 1;
+                if self.looked_at > MOST_NESTED {
+                    return Ok(());
+                }
             }
             if path.is_dir() && depth > 0 && !name.starts_with('.') {
                 self.folder(&path, &shown, depth - 1)?;

@@ -4,8 +4,8 @@
 //! an island it meets next to nothing, however deep it cuts into it: so ways are held against the
 //! edges themselves.
 
-use crate::geometry::{BoxTree, Polygon, off_segment, spanned};
-use crate::toolpath::strategy::pocket::course::Spot;
+use crate::geometry::{BoxTree, Polygon, between, part_nearest, spanned};
+use crate::toolpath::strategy::pocket::course::{Spot, distance};
 
 /// So much nearer than it may the tool comes to an edge, in nanometres: what fitting and rounding
 /// leave of the places where ways begin and end. Chosen.
@@ -40,10 +40,7 @@ fn apart([a, b]: [Spot; 2], [c, d]: [Spot; 2]) -> f64 {
     if is_parted([a, b], [c, d]) && is_parted([c, d], [a, b]) {
         return 0.0;
     }
-    let off = |p: Spot, from: Spot, to: Spot| {
-        let (x, y) = off_segment(p, from, to);
-        (x * x + y * y).sqrt()
-    };
+    let off = |p: Spot, from: Spot, to: Spot| distance(p, between(from, to, part_nearest(p, from, to)));
     off(a, c, d).min(off(b, c, d)).min(off(c, a, b)).min(off(d, a, b))
 }
 
