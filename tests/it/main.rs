@@ -56,6 +56,7 @@ mod raster;
 mod real_boards;
 mod rules;
 mod scans;
+mod seeds;
 mod segments;
 mod sets;
 mod snapshot;

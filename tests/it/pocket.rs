@@ -10,6 +10,7 @@ use voromill::toolpath::strategy::{Engaging, Sequence};
 
 use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, voromill, word};
 use crate::medial_axis::{capitals, random_areas};
+use crate::seeds::seeds;
 
 /// How far apart rows are looked at.
 const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 20 } else { 8 }));
@@ -78,8 +79,8 @@ fn letters_are_milled_without_residue() {
 
 #[test]
 fn random_areas_are_milled_without_residue() {
-    let seeds = if cfg!(debug_assertions) { 6 } else { 200 };
-    for seed in 0..seeds {
+    let usual = if cfg!(debug_assertions) { 6 } else { 200 };
+    for seed in seeds(0..usual) {
         let areas = random_areas(seed, if seed % 2 == 0 { 1 } else { 250_000 });
         let sequence = if seed % 3 == 2 { Sequence::OutsideIn } else { Sequence::InsideOut };
         let stock = if seed % 2 == 0 { Nm::ZERO } else { Nm::from_um(50) };
@@ -167,9 +168,9 @@ fn passes_and_both_orders_end_at_the_same_floor() {
 
 #[test]
 fn a_finer_tool_clears_what_a_coarser_one_left() {
-    let seeds = if cfg!(debug_assertions) { 2 } else { 50 };
-    let random = (0..seeds).map(|seed| random_areas(seed, 1));
-    for (number, areas) in (0..).zip(random.chain([dumbbell()])) {
+    let asked = seeds(0..if cfg!(debug_assertions) { 2 } else { 50 });
+    let random = asked.clone().map(|seed| random_areas(seed, 1));
+    for (number, areas) in (asked.start..).zip(random.chain([dumbbell()])) {
         let how = Pocketing { step: Some(Nm::from_um(600)), ..how() };
         let both = pocketed("both", areas.clone(), "endmill:2.2mm,endmill:0.6mm", &how);
         let judged = both.verify(PITCH).expect("programs");
@@ -183,7 +184,7 @@ fn a_finer_tool_clears_what_a_coarser_one_left() {
         assert_eq!((coarse.tag.as_str(), rest.tag.as_str()), ("1", "2"), "files by their order");
         let found = both.judge(&texts, PITCH).expect("programs").findings;
         assert!(!found.is_empty(), "without the finer one's program much is left");
-        if seeds == number {
+        if number == asked.end {
             // Of two squares only corners and the passage are left.
             let [after, before] = [&both, &alone]
                 .map(|made| made.programs.last().expect("a program").statistics.cut_length.to_mm());
@@ -258,10 +259,10 @@ fn arcs_along_the_axis_bear_no_more_than_they_may() {
 
 #[test]
 fn random_areas_are_cleared_in_arcs_without_residue() {
-    let seeds = if cfg!(debug_assertions) { 2 } else { 12 };
+    let usual = if cfg!(debug_assertions) { 2 } else { 12 };
     // Among sharp islands, to which ways from arc to arc came too near.
     let sharp = (!cfg!(debug_assertions)).then_some(1006);
-    for seed in (0..seeds).chain(sharp) {
+    for seed in seeds(0..usual).chain(sharp) {
         let areas = random_areas(seed, if seed % 2 == 0 { 1 } else { 250_000 });
         let made = pocketed("random", areas, "endmill:0.5mm", &engaging("15%", seed % 2 == 1));
         check_engaged(&format!("seed {seed}"), &made, 0.15);

@@ -189,6 +189,14 @@ impl Form {
         }
     }
 
+    /// Where the centre is of what is a circle.
+    pub(super) const fn center(&self) -> Option<Spot> {
+        match *self {
+            Self::Circle { center, .. } => Some(center),
+            Self::Line { .. } => None,
+        }
+    }
+
     /// The place of the foot of `p`.
     pub(super) fn place(&self, p: Spot) -> Place {
         match *self {

@@ -290,7 +290,9 @@ impl Diagram {
         (!tied.is_empty()).then(|| self.ahead(at, clearance, way, tied.iter()))
     }
 
-    /// The one of a group that is nearest a little ahead.
+    /// The one of a group that is nearest a little ahead. How far ahead that shows goes by the
+    /// nearest centre of a circle, which a contact of copper may be far from; within a hollow arc
+    /// it may be anywhere.
     fn ahead<'a>(
         &self,
         at: Spot,
@@ -298,9 +300,12 @@ impl Diagram {
         way: Spot,
         group: impl Iterator<Item = &'a Tied> + Clone,
     ) -> u32 {
-        let probe = at + way * resolution(self.tie, clearance);
+        let form = |tied: &Tied| &self.forms()[tied.generator as usize];
+        let bends = group.clone().filter_map(|tied| Some((at - form(tied).center()?).length()));
+        let bend = bends.reduce(f64::min).map_or(clearance, |bend| bend.max(clearance));
+        let probe = at + way * resolution(self.tie, bend);
         let goes_on = |tied: &&Tied| {
-            let form = &self.forms()[tied.generator as usize];
+            let form = form(tied);
             let Some(ends) = form.ends() else { return true };
             if form.around(at).is_some() {
                 return form.slack(probe) >= 0.0;
@@ -321,7 +326,7 @@ impl Diagram {
             if a_first { a } else { b }
         };
         let ranked = |tied: &Tied| rank(tied.generator);
-        let is_there = |tied: &&Tied| self.forms()[tied.generator as usize].slack(probe) >= -tied.slab;
+        let is_there = |tied: &&Tied| form(tied).slack(probe) >= -tied.slab;
         let going = group.clone().filter(goes_on);
         let there = going.clone().filter(is_there).map(ranked).reduce(nearer);
         let going = there.or_else(|| going.map(ranked).reduce(nearer));
