@@ -1,4 +1,5 @@
-//! Boundaries from the certified diagram: chains cut at the border, stubs merged, fitted.
+//! Boundaries from the certified diagram: chains cut at the border, stubs merged, slivers closed,
+//! fitted.
 //!
 //! The graph is the diagram's own: no pixel, no tile and no order of search has a part in it.
 //!
@@ -20,6 +21,7 @@ use super::exact;
 use super::fit::{self, Fit};
 use super::plane::Spot;
 use super::seed::owner_of;
+use super::sliver::close_slivers;
 use super::{BACKGROUND, Boundaries, Diagram, NOBODY, Settings};
 
 impl Diagram {
@@ -34,7 +36,9 @@ impl Diagram {
         }
         let faults = self.certified.faults().iter().copied().chain(torn.iter().map(|at| at.rounded()));
         let faults = faults.collect();
-        merge_stubs(&mut pieces, self.settings.tolerance.to_f64() / 2.0);
+        let half = self.settings.tolerance.to_f64() / 2.0;
+        merge_stubs(&mut pieces, half);
+        close_slivers(&mut pieces, half);
         (self.fitted(&pieces), faults)
     }
 

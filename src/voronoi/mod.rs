@@ -45,6 +45,7 @@ mod residual;
 mod sample;
 mod seed;
 mod site;
+mod sliver;
 mod spike;
 
 use crate::board::diagnostic::planning;

@@ -33,15 +33,21 @@ fn left(edge: &Boundary, backwards: bool) -> Owner {
     if backwards { edge.right } else { edge.left }
 }
 
-/// The direction in which a walk leaves, in radians: that to a place 30 µm off, or to the farthest
-/// of one that soon comes back.
+/// The direction in which a walk leaves, in radians: that to where it is 30 µm off, or to the
+/// farthest of one that soon comes back.
 fn direction(edge: &Boundary, backwards: bool) -> f64 {
+    const FAR: f64 = 30_000.0;
     let path = if backwards { Path::reversed(&edge.path) } else { edge.path.clone() };
-    let points = path.flatten(Nm::new(100));
     let off = |p: &Point| p.distance(path.start);
+    let points = path.flatten(Nm::new(100));
+    let crossing = points.windows(2).find(|pair| off(&pair[1]) > FAR).map(|pair| {
+        let part = (FAR - off(&pair[0])) / (off(&pair[1]) - off(&pair[0]));
+        let [(ax, ay), (bx, by)] = [pair[0], pair[1]].map(Point::to_f64);
+        (ax + (bx - ax) * part, ay + (by - ay) * part)
+    });
     let farthest = || points.iter().max_by(|a, b| off(a).total_cmp(&off(b)));
-    let far = points.iter().find(|p| off(p) > 30_000.0).or_else(farthest);
-    let ((ax, ay), (bx, by)) = (path.start.to_f64(), far.copied().unwrap_or(path.start).to_f64());
+    let (ax, ay) = path.start.to_f64();
+    let (bx, by) = crossing.unwrap_or_else(|| farthest().copied().unwrap_or(path.start).to_f64());
     libm::atan2(by - ay, bx - ax)
 }
 

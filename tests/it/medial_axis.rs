@@ -385,3 +385,23 @@ fn what_is_worth_nothing_is_pruned() {
     let axis = MedialAxis::new(&[rectangle], &blunt);
     assert_eq!((axis.nodes.len(), axis.ways.len()), (2, 1), "no right angle is left");
 }
+
+/// Nothing but points joins it to the rest.
+#[test]
+fn what_islands_enclose_that_touch_each_other_has_an_axis_of_its_own() {
+    let ring = |corners: &[(i64, i64)]| {
+        corners.iter().map(|&(x, y)| Point::new(Nm::from_um(x), Nm::from_um(y))).collect::<Vec<_>>()
+    };
+    let contours = vec![
+        ring(&[(0, 0), (10_000, 0), (10_000, 10_000), (0, 10_000)]),
+        ring(&[(4000, 5000), (6000, 5000), (5000, 3000)]),
+        ring(&[(6000, 5000), (5000, 6500), (7000, 7000)]),
+        ring(&[(5000, 6500), (4000, 5000), (3000, 7000)]),
+    ];
+    let area = Polygon::new(contours).expect("a square with three holes");
+    let axis = MedialAxis::new(&[area], &Pruning { loss: 0.0, corner: 1.0 });
+    let widest = axis.nodes.iter().find(|node| (node.clearance - 535_184.0).abs() < 100.0);
+    let at = widest.expect("the middle of the triangle between the islands").at;
+    assert!((at.0 - 5e6).abs() < 100.0 && (at.1 - 5.535_184e6).abs() < 100.0, "{at:?}");
+    assert_eq!(axis.faults, []);
+}

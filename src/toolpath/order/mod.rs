@@ -3,9 +3,9 @@
 //! Trails between which the tool retracts are the cities of a travelling salesman who enters each
 //! at one end and leaves at the other (a closed one anywhere). Nearest-next starts; exchanges of
 //! two and three links over neighbour lists (2-opt, Or-opt and 3-opt moves in one) improve it; then
-//! small double bridges, seeded, shake it where it is kept if the repaired tour is shorter, until
-//! many in a row were in vain. Of a few trails all orders are tried. Everything is bounded by
-//! counts, never by a clock, so the order depends on the trails alone.
+//! small double bridges, seeded, shake it at one trail after the other, kept where the repaired
+//! tour is shorter, until at each many in a row were in vain. Of a few trails all orders are tried.
+//! Everything is bounded by counts, never by a clock, so the order depends on the trails alone.
 //!
 //! # Sources
 //!

@@ -53,7 +53,8 @@ impl Tour {
         u32::try_from(self.entered.len()).expect("stretches are numbered in 32 bits")
     }
 
-    fn place(&self, end: End) -> u32 {
+    /// Where the stretch of an end is in the order.
+    pub(super) fn place(&self, end: End) -> u32 {
         self.place[(end / 2) as usize]
     }
 
@@ -136,6 +137,11 @@ impl Tour {
     /// Forgets the exchanges: what is now cannot be taken back.
     pub(super) fn mark(&mut self) {
         self.log.clear();
+    }
+
+    /// The ends whose links were exchanged since the mark, some more than once.
+    pub(super) fn changed(&self) -> impl Iterator<Item = End> {
+        self.log.iter().flat_map(|exchange| exchange.ends)
     }
 
     /// Takes back all exchanges since the mark.

@@ -14,6 +14,7 @@ use super::form::{Form, Place, turn, unit};
 use super::generator::Body;
 use super::graph::Growth;
 use super::tolerances::OFF;
+use super::vertex::Junction;
 use crate::geometry::BoxTree;
 use crate::voronoi::plane::Spot;
 
@@ -166,7 +167,10 @@ impl Diagram {
                 return;
             }
             for piece in self.pieces(number).windows(2) {
-                for junction in &growth.junctions[seen..] {
+                // Where the axis runs into a corner, the edge may go on in another part of the free
+                // space.
+                let is_off = |junction: &&Junction| junction.clearance >= self.tie;
+                for junction in growth.junctions[seen..].iter().filter(is_off) {
                     for &tied in &junction.tied {
                         feet[tied as usize].push(position(&self.forms()[tied as usize], junction.at));
                     }

@@ -62,6 +62,7 @@ impl Growth {
     /// The number of a junction, which is new or known.
     pub(super) fn place(&mut self, junction: Junction) -> u32 {
         if let Some(known) = self.known(&junction) {
+            self.meet(known, junction);
             return known;
         }
         let number = u32::try_from(self.junctions.len()).expect("below 2³² vertices");
@@ -69,6 +70,21 @@ impl Growth {
         self.open.extend((0..junction.slots.len()).map(|slot| (number, slot)));
         self.junctions.push(junction);
         number
+    }
+
+    /// Where copper touches, edges end from all sides: those of another part of free space, too.
+    fn meet(&mut self, number: u32, other: Junction) {
+        let known = &mut self.junctions[number as usize];
+        if !(known.is_end && other.is_end) {
+            return;
+        }
+        for slot in other.slots {
+            let is_known = |own: &Slot| (own.left, own.right) == (slot.left, slot.right);
+            if !known.slots.iter().any(is_known) {
+                self.open.push((number, known.slots.len()));
+                known.slots.push(slot);
+            }
+        }
     }
 
     pub(super) const fn is_faulty(&self) -> bool {
