@@ -291,8 +291,8 @@ impl Diagram {
     }
 
     /// The one of a group that is nearest a little ahead. How far ahead that shows goes by the
-    /// nearest centre of a circle, which a contact of copper may be far from; within a hollow arc
-    /// it may be anywhere.
+    /// nearest centre of a circle: a contact of copper may be far from it, and the middle of a
+    /// hollow arc next to it, where a little farther on other ends are nearer.
     fn ahead<'a>(
         &self,
         at: Spot,
@@ -302,8 +302,8 @@ impl Diagram {
     ) -> u32 {
         let form = |tied: &Tied| &self.forms()[tied.generator as usize];
         let bends = group.clone().filter_map(|tied| Some((at - form(tied).center()?).length()));
-        let bend = bends.reduce(f64::min).map_or(clearance, |bend| bend.max(clearance));
-        let probe = at + way * resolution(self.tie, bend);
+        let bend = bends.reduce(f64::min).unwrap_or(clearance);
+        let probe = at + way * resolution(self.tie, bend).max(4.0 * SNAP);
         let goes_on = |tied: &&Tied| {
             let form = form(tied);
             let Some(ends) = form.ends() else { return true };

@@ -206,6 +206,8 @@ fn what_random_boards_once_brought_to_light_stays_mended() {
         ("pads-that-the-tool-rises-between", SETTINGS[5]),
         ("pad-alone", SETTINGS[10]),
         ("sliver-at-the-limit", SETTINGS[10]),
+        ("pad-as-far-as-an-arc-from-its-middle", SETTINGS[0]),
+        ("trace-as-far-as-an-arc-from-its-middle", SETTINGS[10]),
     ] {
         let text = fs::read_to_string(folder.join(format!("{name}.gbr"))).expect("a fixture");
         let edge = fs::read_to_string(folder.join(format!("{name}.edge.gbr"))).ok();
