@@ -3,9 +3,11 @@
 //!
 //! ```text
 //!     ╲   A   ╱          ╲   A   ╱
-//!      ●━━━━━●     ─▶     ●─────●       One boundary of A and B stands for the two.
+//!      ●━━━━━●     ─▶     ●─────●
 //!     ╱   B   ╲          ╱   B   ╲
 //! ```
+//!
+//! One boundary of A and B stands for the two.
 
 use std::collections::BTreeMap;
 

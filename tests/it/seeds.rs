@@ -1,5 +1,5 @@
-//! Which random scenes a test draws: `VOROMILL_SEEDS=1000..2000` asks for others than the usual,
-//! in all tests that are named.
+//! Which random scenes a test draws: `VOROMILL_SEEDS=1000..2000` asks for others than the usual
+//! ones, in every test that runs and takes its scenes by seeds.
 
 use std::ops::Range;
 

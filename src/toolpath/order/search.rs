@@ -100,6 +100,7 @@ impl Search {
         }
         let reach = BRIDGE.min((count - 1) / 2);
         let mut waiting: VecDeque<End> = self.tour.entered().iter().map(|entry| entry / 2).collect();
+        // Of each stretch that waits; none of one that is left alone.
         let mut vain = vec![Some(0); waiting.len()];
         for _ in 0..times {
             let Some(stretch) = waiting.pop_front() else { return };

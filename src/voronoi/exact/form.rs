@@ -189,10 +189,10 @@ impl Form {
         }
     }
 
-    /// Where the centre is of what is a circle.
-    pub(super) const fn center(&self) -> Option<Spot> {
+    /// How far `p` is from the centre of a circle: the radius of what is as far from it as `p`.
+    pub(super) fn bend(&self, p: Spot) -> Option<f64> {
         match *self {
-            Self::Circle { center, .. } => Some(center),
+            Self::Circle { center, .. } => Some((p - center).length()),
             Self::Line { .. } => None,
         }
     }

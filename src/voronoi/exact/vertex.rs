@@ -301,9 +301,9 @@ impl Diagram {
         group: impl Iterator<Item = &'a Tied> + Clone,
     ) -> u32 {
         let form = |tied: &Tied| &self.forms()[tied.generator as usize];
-        let bends = group.clone().filter_map(|tied| Some((at - form(tied).center()?).length()));
-        let bend = bends.reduce(f64::min).unwrap_or(clearance);
-        let probe = at + way * resolution(self.tie, bend).max(4.0 * SNAP);
+        let bend = group.clone().filter_map(|tied| form(tied).bend(at)).reduce(f64::min);
+        // Off the centre of a hollow circle, too, about which all directions are one.
+        let probe = at + way * resolution(self.tie, bend.unwrap_or(clearance)).max(4.0 * SNAP);
         let goes_on = |tied: &&Tied| {
             let form = form(tied);
             let Some(ends) = form.ends() else { return true };

@@ -158,10 +158,7 @@ impl Diagram {
             for place in ends {
                 let ahead = form.progress(from, place, sense);
                 // In nanometres where it is small, which alone matters here.
-                let out = match *form {
-                    Form::Line { .. } => 1.0,
-                    Form::Circle { center, .. } => (here.at - center).length(),
-                };
+                let out = form.bend(here.at).unwrap_or(1.0);
                 let is_behind = matches!(form, Form::Circle { .. }) && (4.0 - ahead) * out <= 2.0 * SLAB;
                 if ahead * out <= SLAB || is_behind {
                     continue;
@@ -199,10 +196,7 @@ impl Diagram {
         stride: f64,
     ) -> Option<(Here, bool)> {
         let (form, sense) = (&pair.forms[main], pair.sense(main));
-        let out = match *form {
-            Form::Line { .. } => 1.0,
-            Form::Circle { center, .. } => (here.at - center).length(),
-        };
+        let out = form.bend(here.at).unwrap_or(1.0);
         let way = pair.way(here.at);
         let across = match here.place {
             Place::Along(_) => way.dot(clockwise(form.away(here.at))).abs(),
