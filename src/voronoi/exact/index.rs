@@ -70,19 +70,32 @@ impl Index {
     }
 
     /// Shows the generators of which a box comes within `reach` of a chord, and others, some more
-    /// than once.
-    pub(super) fn visit_along(&self, chord: [Spot; 2], reach: f64, show: impl FnMut(u32)) {
-        self.visit_region(&self.tree.along(chord.map(|p| (p.x, p.y)), reach), show);
+    /// than once, for as long as `show` goes on.
+    pub(super) fn visit_along(
+        &self,
+        chord: [Spot; 2],
+        reach: f64,
+        show: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.visit_while(&self.tree.along(chord.map(|p| (p.x, p.y)), reach), show)
     }
 
     fn visit_region(&self, region: &impl Region, mut show: impl FnMut(u32)) {
-        let _: ControlFlow<()> = self.tree.visit(region, &mut Vec::with_capacity(64), |number| {
-            let generator = self.items[number];
-            if !self.hidden[generator as usize] {
-                show(generator);
-            }
+        let _: ControlFlow<()> = self.visit_while(region, |generator| {
+            show(generator);
             ControlFlow::Continue(())
         });
+    }
+
+    fn visit_while(
+        &self,
+        region: &impl Region,
+        mut show: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.tree.visit(region, &mut Vec::with_capacity(64), |number| {
+            let generator = self.items[number];
+            if self.hidden[generator as usize] { ControlFlow::Continue(()) } else { show(generator) }
+        })
     }
 
     /// Shows generators, some more than once, the nearer boxes first but for those together in one

@@ -12,6 +12,8 @@
 //! [`Form::meet`](super::form::Form::meet)), so the place of the foot on one of them orders all
 //! events.
 
+use std::ops::ControlFlow;
+
 use super::apollonius;
 use super::form::{Form, Place, clockwise};
 use super::pair::Pair;
@@ -24,6 +26,10 @@ use crate::voronoi::plane::Spot;
 /// module's table.
 const STRIDE: f64 = 2.0;
 const LEAST: f64 = 20_000.0;
+
+/// Where a step reaches more generators than this, the nearest are looked for first. Measured: see
+/// `benches/README.md`.
+const MANY: usize = 32;
 
 /// Who cannot step so far has come to where two generators touch, in nanometres. Chosen.
 const SHORTEST: f64 = 1e-4;
@@ -248,8 +254,12 @@ impl Diagram {
     fn first_hit(&self, step: &Step<'_>, next: &Here, ahead: f64) -> Option<Hit> {
         let Step { pair, here, .. } = step;
         let mut sweep = Sweep::new(pair, (here.at, here.clearance), (next.at, next.clearance), self.tie);
-        let mut reached = self.reached(step, &sweep);
-        let (mut first, mut ahead): (Option<Hit>, f64) = (None, ahead);
+        let mut first: Option<Hit> = None;
+        let mut reached = self.reached(step, &sweep, MANY).unwrap_or_else(|| {
+            first = self.nearest_hit(step, &mut sweep, ahead);
+            self.reached(step, &sweep, usize::MAX).unwrap_or_default()
+        });
+        let mut ahead = first.map_or(ahead, |hit| hit.0);
         let mut tried = 0;
         while let Some(&(_, c)) = reached.get(tried) {
             tried += 1;
@@ -270,21 +280,55 @@ impl Diagram {
         first.or_else(|| self.entry(pair, step.main, here, next, missed()?))
     }
 
+    /// Shortens a sweep to where what is nearest to its end enters, again and again, as long as
+    /// that takes much of it away; the last of what enters.
+    fn nearest_hit(&self, step: &Step<'_>, sweep: &mut Sweep, mut ahead: f64) -> Option<Hit> {
+        let mut first = None;
+        while let Some(hit) =
+            self.nearest_third(step.pair, sweep.to).and_then(|c| self.enters(step, sweep, c, ahead))
+        {
+            let (along, at, clearance, _) = hit;
+            let is_much = along < ahead * 0.75;
+            (first, ahead) = (Some(hit), along);
+            sweep.shorten((at, clearance));
+            if !is_much {
+                break;
+            }
+        }
+        first
+    }
+
+    /// What is nearest to a place on a bisector, where it is nearer than what that lies between.
+    fn nearest_third(&self, pair: &Pair, (at, clearance): (Spot, f64)) -> Option<u32> {
+        let (mut least, mut nearest) = (clearance - self.tie, None);
+        self.index.visit_nearest(at, |c| {
+            let form = &self.forms()[c as usize];
+            let off = form.distance(at);
+            if off < least && form.counts(at, self.tie, SLAB) && !self.is_own(pair, c) {
+                (least, nearest) = (off, Some(c));
+            }
+            least
+        });
+        nearest
+    }
+
     /// What may enter between two places, in the order of how much farther than copper it is at the
-    /// second.
-    fn reached(&self, step: &Step<'_>, sweep: &Sweep) -> Vec<(f64, u32)> {
-        let pair = step.pair;
+    /// second; none if that is more than so many.
+    fn reached(&self, step: &Step<'_>, sweep: &Sweep, most: usize) -> Option<Vec<(f64, u32)>> {
         let mut reached = Vec::new();
         let (chord, reach) = sweep.swath(step.form);
-        self.index.visit_along(chord, reach, |c| {
-            let is_own = || c == pair.left || c == pair.right || self.joined_to(pair, c);
-            if !sweep.misses(&self.forms()[c as usize]) && !is_own() {
+        let shown = self.index.visit_along(chord, reach, |c| {
+            if !sweep.misses(&self.forms()[c as usize]) && !self.is_own(step.pair, c) {
                 reached.push((0.0, c));
             }
+            if reached.len() > most { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
+        if shown.is_break() {
+            return None;
+        }
         self.sort_by_distance(&mut reached, sweep.to);
         reached.dedup();
-        reached
+        Some(reached)
     }
 
     /// Sorts generators by how much farther than copper they are from a place, which they are given
@@ -355,8 +399,10 @@ impl Diagram {
         self.entry(pair, main, &here, &next, c).map(|(_, at, clearance, _)| (at, clearance))
     }
 
-    fn joined_to(&self, pair: &Pair, c: u32) -> bool {
-        [pair.left, pair.right].into_iter().any(|i| i != NOBODY && self.generators.are_joined(i, c))
+    /// Whether a generator is one of two or joined to one of them.
+    fn is_own(&self, pair: &Pair, c: u32) -> bool {
+        let is_one = |i| i == c || (i != NOBODY && self.generators.are_joined(i, c));
+        is_one(pair.left) || is_one(pair.right)
     }
 }
 
