@@ -47,6 +47,12 @@ impl Segment {
             Self::Arc { to, center, turn } => Some(Arc { start: from, end: to, center, turn }),
         }
     }
+
+    /// A rectangle that holds it when begun at `from`.
+    #[must_use]
+    pub fn bounds(&self, from: Point) -> Rect {
+        self.arc(from).map_or_else(|| Rect::new(from, self.to()), |arc| arc.bounds())
+    }
 }
 
 /// A connected way of lines and arcs.
@@ -135,9 +141,8 @@ impl Path {
     /// A rectangle that holds it.
     #[must_use]
     pub fn bounds(&self) -> Rect {
-        self.steps().fold(Rect::new(self.start, self.start), |bounds, (from, segment)| {
-            bounds.union(segment.arc(from).map_or(Rect::new(from, segment.to()), |arc| arc.bounds()))
-        })
+        let start = Rect::new(self.start, self.start);
+        self.steps().fold(start, |bounds, (from, segment)| bounds.union(segment.bounds(from)))
     }
 }
 

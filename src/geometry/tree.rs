@@ -249,13 +249,17 @@ impl BoxTree {
         found
     }
 
-    /// Shows boxes, the nearer ones first but for those together in a node, until all that are left
-    /// are farther from `p` than `show` says that anything still matters.
-    pub(crate) fn visit_nearest(&self, p: (f64, f64), mut show: impl FnMut(usize) -> f64) {
+    /// Shows boxes within `reach` of `p`, the nearer ones first but for those together in a node,
+    /// until all that are left are farther than `show` says that anything still matters.
+    pub(crate) fn visit_nearest(&self, p: (f64, f64), reach: f64, mut show: impl FnMut(usize) -> f64) {
         let Some(root) = self.nodes.len().checked_sub(1) else { return };
         let (at, rounding) = self.place(p);
         // Farther squared than this nothing matters.
-        let mut limit = f32::INFINITY;
+        let squared = |reach: f64| {
+            let reach = above(reach + rounding + reach * ROUNDING);
+            reach * reach
+        };
+        let mut limit = squared(reach);
         let mut open = Vec::with_capacity(64);
         open.push((0.0, root));
         while let Some((off, number)) = open.pop() {
@@ -272,9 +276,7 @@ impl BoxTree {
                     open.push((off, below as usize));
                     continue;
                 }
-                let reach = show(below as usize);
-                let reach = above(reach + rounding + reach * ROUNDING);
-                limit = reach * reach;
+                limit = squared(show(below as usize));
             }
             open[before..].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
         }
@@ -400,7 +402,7 @@ mod tests {
         for place in 0_u32..50 {
             let p = (f64::from(place) * 2e7, f64::from(place * 37 % 50) * 2e7);
             let (mut nearest, mut shown) = (f64::INFINITY, 0);
-            tree.visit_nearest(p, |i| {
+            tree.visit_nearest(p, f64::INFINITY, |i| {
                 shown += 1;
                 nearest = nearest.min(off(boxes[i], p));
                 nearest

@@ -140,21 +140,9 @@ impl Canvas {
         colour: Rgb,
         opacity: f32,
     ) {
-        // A twentieth of a pixel cannot be seen, and small circles stay round.
-        let tolerance = (self.grid.pitch() / 20).max(Nm::new(1));
         let mut line = PathBuilder::new();
         for path in paths {
-            if !self.shows(path.bounds().inflate(width / 2)) {
-                continue;
-            }
-            let points = path.flatten(tolerance);
-            for (i, &point) in points.iter().enumerate() {
-                let (x, y) = self.place(point);
-                if i == 0 { line.move_to(x, y) } else { line.line_to(x, y) }
-            }
-            if path.is_closed() {
-                line.close();
-            }
+            self.trace(path, width / 2, &mut line);
         }
         let stroke = Stroke {
             width: self.pixels(width).max(THINNEST),
@@ -165,6 +153,35 @@ impl Canvas {
         let Some(line) = line.finish() else { return };
         let paint = self.paint(colour, opacity);
         self.pixmap.stroke_path(&line, &paint, &stroke, Transform::identity(), None);
+    }
+
+    /// Adds those parts of a path to a line that come within `reach` of the picture.
+    fn trace(&self, path: &Path, reach: Nm, line: &mut PathBuilder) {
+        // A twentieth of a pixel cannot be seen, and small circles stay round.
+        let tolerance = (self.grid.pitch() / 20).max(Nm::new(1));
+        let (mut is_down, mut is_whole) = (false, true);
+        for (from, segment) in path.steps() {
+            if !self.shows(segment.bounds(from).inflate(reach)) {
+                (is_down, is_whole) = (false, false);
+                continue;
+            }
+            if !is_down {
+                let (x, y) = self.place(from);
+                line.move_to(x, y);
+                is_down = true;
+            }
+            let mut add = |point: Point| {
+                let (x, y) = self.place(point);
+                line.line_to(x, y);
+            };
+            match segment.arc(from) {
+                Some(arc) => arc.flatten(tolerance).for_each(add),
+                None => add(segment.to()),
+            }
+        }
+        if is_whole && path.is_closed() {
+            line.close();
+        }
     }
 
     /// Strokes polylines given in pixels: lettering and rulers.

@@ -144,7 +144,7 @@ impl Diagram {
     /// How far the nearest edge is, from whichever side, and its owner.
     fn nearest_edge(&self, p: Spot) -> Option<(f64, u32)> {
         let mut nearest: Option<(f64, u32)> = None;
-        self.index.visit_nearest(p, |i| {
+        self.index.visit_nearest(p, f64::INFINITY, |i| {
             let found = (self.forms()[i as usize].off(p), i);
             if self.owner(i) != WALL && nearest.is_none_or(|nearest| found < nearest) {
                 nearest = Some(found);

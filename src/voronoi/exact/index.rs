@@ -98,12 +98,12 @@ impl Index {
         })
     }
 
-    /// Shows generators, some more than once, the nearer boxes first but for those together in one
-    /// node of the tree, until all that are left are farther from `p` than `show` says that
-    /// anything still matters.
-    pub(super) fn visit_nearest(&self, p: Spot, mut show: impl FnMut(u32) -> f64) {
-        let mut limit = f64::INFINITY;
-        self.tree.visit_nearest((p.x, p.y), |number| {
+    /// Shows generators within `reach` of `p`, some more than once, the nearer boxes first but for
+    /// those together in one node of the tree, until all that are left are farther than `show` says
+    /// that anything still matters.
+    pub(super) fn visit_nearest(&self, p: Spot, reach: f64, mut show: impl FnMut(u32) -> f64) {
+        let mut limit = reach;
+        self.tree.visit_nearest((p.x, p.y), reach, |number| {
             let generator = self.items[number];
             if !self.hidden[generator as usize] {
                 limit = show(generator);
@@ -153,7 +153,7 @@ mod tests {
             let off = |form: &Form| form.off(p);
             let brute = generators.forms.iter().map(off).fold(f64::INFINITY, f64::min);
             let mut nearest = f64::INFINITY;
-            index.visit_nearest(p, |i| {
+            index.visit_nearest(p, f64::INFINITY, |i| {
                 nearest = nearest.min(off(&generators.forms[i as usize]));
                 nearest
             });

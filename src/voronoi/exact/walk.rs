@@ -301,7 +301,7 @@ impl Diagram {
     /// What is nearest to a place on a bisector, where it is nearer than what that lies between.
     fn nearest_third(&self, pair: &Pair, (at, clearance): (Spot, f64)) -> Option<u32> {
         let (mut least, mut nearest) = (clearance - self.tie, None);
-        self.index.visit_nearest(at, |c| {
+        self.index.visit_nearest(at, clearance, |c| {
             let form = &self.forms()[c as usize];
             let off = form.distance(at);
             if off < least && form.counts(at, self.tie, SLAB) && !self.is_own(pair, c) {
