@@ -3,7 +3,8 @@
 use std::ops::Range;
 
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform,
+    Color, FillRule, LineCap, LineJoin, Paint, Path as Outline, PathBuilder, Pixmap, PremultipliedColorU8,
+    Stroke, Transform,
 };
 
 use crate::board::Shape;
@@ -81,9 +82,10 @@ impl Canvas {
         if !self.shows(shape.bounds()) {
             return;
         }
+        let Some(area) = self.area(shape) else { return };
         for smooth in [false, true] {
             self.smooth = smooth;
-            self.fill_once(shape, colour);
+            self.fill_path(&area, colour, 1.0);
         }
     }
 
@@ -92,28 +94,42 @@ impl Canvas {
         rect.inflate(self.grid.pitch()).touches(self.grid.rect())
     }
 
-    fn fill_once(&mut self, shape: &Shape, colour: Rgb) {
+    /// The outline of a shape.
+    fn area(&self, shape: &Shape) -> Option<Outline> {
         match shape {
-            Shape::Disc { center, radius } => self.disc(*center, *radius, colour, 1.0),
+            Shape::Disc { center, radius } => self.circle(*center, *radius),
             Shape::Stroke { from, to, radius } => {
                 let line = Path { start: *from, segments: vec![Segment::Line { to: *to }] };
-                self.stroke(&line, *radius * 2, colour, 1.0);
+                self.stroked(std::iter::once(&line), *radius * 2)
             }
-            Shape::Arc { arc, radius } => self.stroke(&path_of(arc), *radius * 2, colour, 1.0),
-            Shape::Polygon(polygon) => self.polygon(polygon, colour, 1.0),
+            Shape::Arc { arc, radius } => self.stroked(std::iter::once(&path_of(arc)), *radius * 2),
+            Shape::Polygon(polygon) => self.rings(polygon),
         }
     }
 
     /// Fills a disc.
     pub fn disc(&mut self, center: Point, radius: Nm, colour: Rgb, opacity: f32) {
+        if let Some(circle) = self.circle(center, radius) {
+            self.fill_path(&circle, colour, opacity);
+        }
+    }
+
+    fn circle(&self, center: Point, radius: Nm) -> Option<Outline> {
         let (x, y) = self.place(center);
         let mut outline = PathBuilder::new();
         outline.push_circle(x, y, self.pixels(radius));
-        self.fill_path(outline, colour, opacity);
+        outline.finish()
     }
 
     /// Fills a polygon by the non-zero rule.
     pub fn polygon(&mut self, polygon: &Polygon, colour: Rgb, opacity: f32) {
+        if let Some(rings) = self.rings(polygon) {
+            self.fill_path(&rings, colour, opacity);
+        }
+    }
+
+    /// The rings of a polygon that the picture shows.
+    fn rings(&self, polygon: &Polygon) -> Option<Outline> {
         let mut outline = PathBuilder::new();
         let bounds = |ring: &[Point]| Rect::around(ring.iter().copied());
         let shown = |ring: &&Vec<Point>| bounds(ring).is_some_and(|bounds| self.shows(bounds));
@@ -124,7 +140,7 @@ impl Canvas {
             }
             outline.close();
         }
-        self.fill_path(outline, colour, opacity);
+        outline.finish()
     }
 
     /// Strokes `path` with a round cutter of diameter `width`, never thinner than a pixel.
@@ -140,19 +156,18 @@ impl Canvas {
         colour: Rgb,
         opacity: f32,
     ) {
+        if let Some(outline) = self.stroked(paths, width) {
+            self.fill_path(&outline, colour, opacity);
+        }
+    }
+
+    /// The outline of strokes along paths.
+    fn stroked<'a>(&self, paths: impl IntoIterator<Item = &'a Path>, width: Nm) -> Option<Outline> {
         let mut line = PathBuilder::new();
         for path in paths {
             self.trace(path, width / 2, &mut line);
         }
-        let stroke = Stroke {
-            width: self.pixels(width).max(THINNEST),
-            line_cap: LineCap::Round,
-            line_join: LineJoin::Round,
-            ..Stroke::default()
-        };
-        let Some(line) = line.finish() else { return };
-        let paint = self.paint(colour, opacity);
-        self.pixmap.stroke_path(&line, &paint, &stroke, Transform::identity(), None);
+        line.finish()?.stroke(&round(self.pixels(width).max(THINNEST)), 1.0)
     }
 
     /// Adds those parts of a path to a line that come within `reach` of the picture.
@@ -192,11 +207,9 @@ impl Canvas {
                 if i == 0 { ink.move_to(x, y) } else { ink.line_to(x, y) }
             }
         }
-        let stroke =
-            Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() };
         let Some(ink) = ink.finish() else { return };
         let paint = self.paint(colour, 1.0);
-        self.pixmap.stroke_path(&ink, &paint, &stroke, Transform::identity(), None);
+        self.pixmap.stroke_path(&ink, &paint, &round(width), Transform::identity(), None);
     }
 
     /// Fills an upright rectangle given in pixels: left, top, width, height.
@@ -226,10 +239,9 @@ impl Canvas {
         paint
     }
 
-    fn fill_path(&mut self, outline: PathBuilder, colour: Rgb, opacity: f32) {
-        let Some(outline) = outline.finish() else { return };
+    fn fill_path(&mut self, outline: &Outline, colour: Rgb, opacity: f32) {
         let paint = self.paint(colour, opacity);
-        self.pixmap.fill_path(&outline, &paint, FillRule::Winding, Transform::identity(), None);
+        self.pixmap.fill_path(outline, &paint, FillRule::Winding, Transform::identity(), None);
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "the drawing library takes f32; this is a picture")]
@@ -242,6 +254,11 @@ impl Canvas {
     fn pixels(&self, length: Nm) -> f32 {
         self.grid.pixels(length)
     }
+}
+
+/// A round pen of a width in pixels.
+fn round(width: f32) -> Stroke {
+    Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() }
 }
 
 fn path_of(arc: &Arc) -> Path {
