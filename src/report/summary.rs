@@ -22,7 +22,7 @@ impl Document {
             });
             let slight = match layer.negligible_gaps {
                 0 => String::new(),
-                gaps => format!(", {} at most a hundredth narrower than the kerf (no warning)", count(gaps, "gap")),
+                gaps => format!(", {} narrower than the kerf by little (no warning)", count(gaps, "gap")),
             };
             let lengths = layer.lengths();
             let _ = writeln!(

@@ -183,6 +183,26 @@ fn on_coarse_grids_brute_force_agrees_with_the_certified_diagram() {
     check_owners(100..130, 250_000);
 }
 
+/// A step of the walk reaches hundreds of teeth here, of which the first to enter is the next.
+#[test]
+fn brute_force_agrees_along_an_edge_of_fine_teeth() {
+    let tooth = |i: i64| at(10_000, i, if i % 2 == 0 { 0 } else { -3 });
+    let ring = (0..=600).map(tooth).chain([at(10_000, 600, -100), at(10_000, 0, -100)]).rev();
+    let teeth = Shape::Polygon(Polygon::new(vec![ring.collect()]).expect("many corners"));
+    let disc =
+        |i: i64| Shape::Disc { center: at(10_000, 90 * i, 110 + 17 * (i % 3)), radius: Nm::from_um(300) };
+    let shapes = std::iter::once(teeth).chain((0..8).map(disc));
+    let feature = |shape: Shape| Feature { axis: Axis::Region, shape, attributes: 0, line: 0 };
+    let features = shapes.map(feature).collect();
+    let copper = Copper { side: Side::Front, features, attributes: vec![Attributes::default()] };
+    let nets = topology::recover(&copper, Method::Contact);
+    let diagram = diagram(&copper, &nets, Kind::Owners);
+    assert!(diagram.edges().len() > 290, "{} edges: most teeth have one", diagram.edges().len());
+    check("teeth", &copper, &nets, &diagram);
+    check_complete("teeth", &copper, &nets, &diagram, &mut Random(1));
+    check_euler("teeth", &nets, &diagram);
+}
+
 /// All edges of the free space end where others begin, and no circle holds copper.
 #[test]
 fn the_medial_axis_of_random_copper_is_certified() {
