@@ -36,8 +36,14 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     let key = |index: usize| candidates[index];
     order.sort_by(|&a, &b| key(a).cost.total_cmp(&key(b).cost).then(key(a).nodes.cmp(&key(b).nodes)));
-    let mut matching =
-        Matching { candidates, near: vec![Vec::new(); nodes], joined: vec![None; nodes], alone, looks: 0 };
+    let mut matching = Matching {
+        candidates,
+        near: vec![Vec::new(); nodes],
+        joined: vec![None; nodes],
+        closing: vec![None; nodes],
+        alone,
+        looks: 0,
+    };
     for index in order {
         let Candidate { nodes: (a, b), cost } = candidates[index];
         matching.near[a].push(Way { to: b, cost, candidate: index });
@@ -77,6 +83,8 @@ struct Matching<'a> {
     near: Vec<Vec<Way>>,
     /// The way by which a node is joined.
     joined: Vec<Option<Way>>,
+    /// The way by which a chain that comes to a node would come back, while one is sought.
+    closing: Vec<Option<Way>>,
     alone: f64,
     /// How many ways were looked at.
     looks: usize,
@@ -102,7 +110,10 @@ impl Matching<'_> {
             Search { chain: Few::default(), busy: Few::default(), first, budget: BUDGET, looks: 0 };
         search.busy.push(node);
         search.busy.push(loose);
+        let back = first.map_or(&[][..], |first| &self.near[first]);
+        back.iter().for_each(|&way| self.closing[way.to] = Some(way));
         let found = self.extend(loose, gain, &mut search);
+        back.iter().for_each(|way| self.closing[way.to] = None);
         self.looks += search.looks;
         if found { self.apply(first, search.chain.all()) } else { Vec::new() }
     }
@@ -124,8 +135,9 @@ impl Matching<'_> {
             search.chain.push(candidate);
             if let Some(Way { to: partner, cost: freed, .. }) = self.joined[next] {
                 let left = left + freed;
-                if let Some(close) = self.closing(partner, left - LEAST, search) {
-                    search.chain.push(close);
+                search.looks += 1;
+                if let Some(close) = self.closing[partner].filter(|close| close.cost < left - LEAST) {
+                    search.chain.push(close.candidate);
                     return true;
                 }
                 if left - rest - self.alone > LEAST {
@@ -145,14 +157,6 @@ impl Matching<'_> {
             search.chain.len -= 1;
         }
         false
-    }
-
-    /// The candidate that joins a node to the one for which the chain waits, for less than `bound`.
-    fn closing(&self, node: usize, bound: f64, search: &mut Search) -> Option<usize> {
-        let first = search.first?;
-        let cheap = self.near[node].iter().take_while(|way| way.cost < bound);
-        let mut cheap = cheap.inspect(|_| search.looks += 1);
-        cheap.find(|way| way.to == first).map(|way| way.candidate)
     }
 
     /// Takes apart whatever the chain's nodes were in, and joins them along it; all that were

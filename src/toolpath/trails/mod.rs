@@ -94,8 +94,8 @@ fn odd(nodes: usize, passes: &[Pass]) -> BitVec {
 fn joins(nodes: usize, links: &[Link], passes: &[Pass], retract: f64) -> (Vec<usize>, Vec<usize>) {
     let odd = odd(nodes, passes);
     let graph = Adjacency::new(nodes, links.iter().map(|link| link.ends));
-    let mut pairs: Vec<Pair> =
-        odd.iter_ones().flat_map(|from| near(from, &odd, &graph, links, retract)).collect();
+    let mut searches = Searches::new(&graph, links, &odd, retract);
+    let mut pairs: Vec<Pair> = odd.iter_ones().flat_map(|from| searches.near(from)).collect();
     // Both of two near nodes may have found the other; the way from the smaller is kept.
     pairs.sort_by_key(|pair| (pair.from.min(pair.to), pair.from.max(pair.to), pair.from));
     pairs.dedup_by_key(|pair| (pair.from.min(pair.to), pair.from.max(pair.to)));
@@ -194,49 +194,81 @@ struct Pair {
     way: Vec<usize>,
 }
 
-/// What a search knows of the nodes it reached: how far they are, and by which link from which
-/// node.
-type Reached = FxHashMap<usize, (f64, Option<(usize, usize)>)>;
-
 /// How many near odd nodes a search lists. Chosen, not measured against other numbers: in a ring of
 /// pads, or where traces point at a centre, hundreds lie within the time of a retract.
 const NEAREST: usize = 12;
 
-/// The nearest odd nodes within `retract` seconds of `from`, by Dijkstra's algorithm.
-fn near(from: usize, odd: &BitSlice, graph: &Adjacency, links: &[Link], retract: f64) -> Vec<Pair> {
-    let mut best = Reached::default();
-    let mut queue = BinaryHeap::from([Reverse((Ordered(0.0), from))]);
-    best.insert(from, (0.0, None));
-    let mut pairs = Vec::new();
-    while let Some(Reverse((Ordered(seconds), node))) = queue.pop() {
-        if best[&node].0 < seconds {
-            continue;
-        }
-        if odd[node] && node != from {
-            pairs.push(Pair { from, to: node, seconds, way: way_back(node, &best) });
-            if pairs.len() == NEAREST {
-                break;
-            }
-        }
-        for &(link, next) in graph.of(node) {
-            let longer = seconds + links[link].seconds.max(0.0);
-            if longer < retract && best.get(&next).is_none_or(|known| longer < known.0) {
-                best.insert(next, (longer, Some((link, node))));
-                queue.push(Reverse((Ordered(longer), next)));
-            }
-        }
-    }
-    pairs
+/// What a search knows of a node: how far it is, and by which link from which node; of an earlier
+/// search nothing counts.
+#[derive(Clone, Copy, Default)]
+struct Reached {
+    search: usize,
+    seconds: f64,
+    by: Option<(usize, usize)>,
 }
 
-/// The links from `node` back to where the search began.
-fn way_back(mut node: usize, best: &Reached) -> Vec<usize> {
-    let mut way = Vec::new();
-    while let Some((link, before)) = best[&node].1 {
-        way.push(link);
-        node = before;
+/// Searches for near odd nodes, one after the other, by Dijkstra's algorithm.
+struct Searches<'a> {
+    graph: &'a Adjacency,
+    links: &'a [Link],
+    odd: &'a BitSlice,
+    retract: f64,
+    reached: Vec<Reached>,
+    queue: BinaryHeap<Reverse<(Ordered, usize)>>,
+    count: usize,
+}
+
+impl<'a> Searches<'a> {
+    fn new(graph: &'a Adjacency, links: &'a [Link], odd: &'a BitSlice, retract: f64) -> Self {
+        let reached = vec![Reached::default(); odd.len()];
+        Self { graph, links, odd, retract, reached, queue: BinaryHeap::new(), count: 0 }
     }
-    way
+
+    /// The nearest odd nodes within `retract` seconds of `from`.
+    fn near(&mut self, from: usize) -> Vec<Pair> {
+        self.count += 1;
+        self.queue.clear();
+        self.reach(from, 0.0, None);
+        let mut pairs = Vec::new();
+        while let Some(Reverse((Ordered(seconds), node))) = self.queue.pop() {
+            if self.reached[node].seconds < seconds {
+                continue;
+            }
+            if self.odd[node] && node != from {
+                pairs.push(Pair { from, to: node, seconds, way: self.way_back(node) });
+                if pairs.len() == NEAREST {
+                    break;
+                }
+            }
+            let graph = self.graph;
+            for &(link, next) in graph.of(node) {
+                let longer = seconds + self.links[link].seconds.max(0.0);
+                if longer < self.retract {
+                    self.reach(next, longer, Some((link, node)));
+                }
+            }
+        }
+        pairs
+    }
+
+    /// Notes how far a node is, if that is nearer than is known.
+    fn reach(&mut self, node: usize, seconds: f64, by: Option<(usize, usize)>) {
+        let known = &mut self.reached[node];
+        if known.search < self.count || seconds < known.seconds {
+            *known = Reached { search: self.count, seconds, by };
+            self.queue.push(Reverse((Ordered(seconds), node)));
+        }
+    }
+
+    /// The links from `node` back to where the search began.
+    fn way_back(&self, mut node: usize) -> Vec<usize> {
+        let mut way = Vec::new();
+        while let Some((link, before)) = self.reached[node].by {
+            way.push(link);
+            node = before;
+        }
+        way
+    }
 }
 
 /// Which edges meet at which node, packed.
