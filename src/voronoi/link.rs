@@ -112,7 +112,7 @@ impl Segments {
         for (number, edge) in cut.filter(|(number, _)| keep(*number)) {
             for (i, (from, segment)) in edge.path.steps().enumerate() {
                 places.push((number, i));
-                let bound = Path { start: from, segments: vec![*segment] }.bounds();
+                let bound = segment.bounds(from);
                 bounds.push(spanned(bound.min().into(), bound.max().into()));
             }
         }

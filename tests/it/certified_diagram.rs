@@ -63,14 +63,19 @@ fn shape(random: &mut Random, grid: i64) -> Shape {
     }
 }
 
-fn scene(seed: u64, grid: i64) -> (Copper, Nets) {
-    let mut random = Random(seed);
-    let count = 3 + seed % 30;
-    let feature = |shape: Shape| Feature { axis: Axis::Region, shape, attributes: 0, line: 0 };
-    let features = (0..count).map(|_| feature(shape(&mut random, grid))).collect();
+/// Copper of these shapes, and which of them touch.
+fn layer(shapes: impl IntoIterator<Item = Shape>) -> (Copper, Nets) {
+    let feature = |shape| Feature { axis: Axis::Region, shape, attributes: 0, line: 0 };
+    let features = shapes.into_iter().map(feature).collect();
     let copper = Copper { side: Side::Front, features, attributes: vec![Attributes::default()] };
     let nets = topology::recover(&copper, Method::Contact);
     (copper, nets)
+}
+
+fn scene(seed: u64, grid: i64) -> (Copper, Nets) {
+    let mut random = Random(seed);
+    let count = 3 + seed % 30;
+    layer((0..count).map(|_| shape(&mut random, grid)))
 }
 
 fn diagram(copper: &Copper, nets: &Nets, kind: Kind) -> Diagram {
@@ -191,11 +196,7 @@ fn brute_force_agrees_along_an_edge_of_fine_teeth() {
     let teeth = Shape::Polygon(Polygon::new(vec![ring.collect()]).expect("many corners"));
     let disc =
         |i: i64| Shape::Disc { center: at(10_000, 90 * i, 110 + 17 * (i % 3)), radius: Nm::from_um(300) };
-    let shapes = std::iter::once(teeth).chain((0..8).map(disc));
-    let feature = |shape: Shape| Feature { axis: Axis::Region, shape, attributes: 0, line: 0 };
-    let features = shapes.map(feature).collect();
-    let copper = Copper { side: Side::Front, features, attributes: vec![Attributes::default()] };
-    let nets = topology::recover(&copper, Method::Contact);
+    let (copper, nets) = layer(std::iter::once(teeth).chain((0..8).map(disc)));
     let diagram = diagram(&copper, &nets, Kind::Owners);
     assert!(diagram.edges().len() > 290, "{} edges: most teeth have one", diagram.edges().len());
     check("teeth", &copper, &nets, &diagram);
@@ -247,11 +248,7 @@ fn rounded_tracks(seed: u64) -> (Copper, Nets) {
     let mut pour: Vec<Point> = chords.map(|chord| place(edge, turn * chord / steps, 0.0)).collect();
     pour.extend([place(edge, turn, 1e6), place(edge, 0.0, -2e6)]);
     shapes.extend(Polygon::hull(pour).map(Shape::Polygon));
-    let feature = |shape| Feature { axis: Axis::Region, shape, attributes: 0, line: 0 };
-    let features = shapes.into_iter().map(feature).collect();
-    let copper = Copper { side: Side::Front, features, attributes: vec![Attributes::default()] };
-    let nets = topology::recover(&copper, Method::Contact);
-    (copper, nets)
+    layer(shapes)
 }
 
 /// Where a line goes on as an arc, their ends lie fractions of a nanometre before or behind each

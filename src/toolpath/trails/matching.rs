@@ -101,13 +101,13 @@ impl Matching<'_> {
     /// Frees `node` and its partner and looks for a chain that gains; the nodes that are joined
     /// otherwise than before.
     fn improve(&mut self, node: usize) -> Vec<usize> {
-        let (loose, first, gain) = match self.joined[node] {
+        let (loose, first, gain, rest) = match self.joined[node] {
             // Alone: it is the loose end itself, and nothing waits for the chain to come back.
-            None => (node, None, self.alone),
-            Some(way) => (way.to, Some(node), way.cost),
+            None => (node, None, self.alone, 0.0),
+            Some(way) => (way.to, Some(node), way.cost, self.alone),
         };
         let mut search =
-            Search { chain: Few::default(), busy: Few::default(), first, budget: BUDGET, looks: 0 };
+            Search { chain: Few::default(), busy: Few::default(), rest, budget: BUDGET, looks: 0 };
         search.busy.push(node);
         search.busy.push(loose);
         let back = first.map_or(&[][..], |first| &self.near[first]);
@@ -120,7 +120,6 @@ impl Matching<'_> {
 
     /// Joins `loose` to a near node and either closes there or goes on from that node's partner.
     fn extend(&self, loose: usize, gain: f64, search: &mut Search) -> bool {
-        let rest = if search.first.is_some() { self.alone } else { 0.0 };
         for &Way { to: next, cost, candidate } in &self.near[loose] {
             let left = gain - cost;
             // A chain may yet end at a node that was alone.
@@ -140,7 +139,7 @@ impl Matching<'_> {
                     search.chain.push(close.candidate);
                     return true;
                 }
-                if left - rest - self.alone > LEAST {
+                if left - search.rest - self.alone > LEAST {
                     return true;
                 }
                 if search.chain.len < LONGEST {
@@ -151,7 +150,7 @@ impl Matching<'_> {
                     }
                     search.busy.len -= 2;
                 }
-            } else if left + self.alone - rest > LEAST {
+            } else if left + self.alone - search.rest > LEAST {
                 return true;
             }
             search.chain.len -= 1;
@@ -183,8 +182,8 @@ struct Search {
     chain: Few,
     /// The nodes that the chain uses.
     busy: Few,
-    /// The node to which the chain may come back.
-    first: Option<usize>,
+    /// What it costs if the chain does not come back to the node that waits for it.
+    rest: f64,
     budget: usize,
     /// How many ways it has looked at, those that would close the chain included.
     looks: usize,

@@ -27,8 +27,8 @@ use crate::voronoi::plane::Spot;
 const STRIDE: f64 = 2.0;
 const LEAST: f64 = 20_000.0;
 
-/// Where a step reaches more generators than this, the nearest are looked for first. Measured: see
-/// `benches/README.md`.
+/// Where a step reaches more generators than this, the nearest are looked for first. Chosen: more
+/// than a step reaches on most boards.
 const MANY: usize = 32;
 
 /// Who cannot step so far has come to where two generators touch, in nanometres. Chosen.
