@@ -8,8 +8,22 @@ use super::tree::BoxTree;
 /// Rectangles by place: a packed R-tree, filled once.
 #[derive(Debug)]
 pub(crate) struct RectIndex {
-    rects: Vec<Rect>,
+    /// Left, bottom, right, top.
+    rects: Vec<[i32; 4]>,
     tree: BoxTree,
+}
+
+/// A rectangle as the index knows it, in half the memory. What lies more than two metres off is
+/// drawn back to there: far beyond all coordinates, nothing touches less for it.
+fn packed(rect: Rect) -> [i32; 4] {
+    let (min, max) = (rect.min(), rect.max());
+    let clamped = |nm: i64| nm.clamp(i32::MIN.into(), i32::MAX.into());
+    [min.x, min.y, max.x, max.y].map(|nm| i32::try_from(clamped(nm.get())).expect("clamped"))
+}
+
+/// Whether two share a point.
+const fn touches([a, b, c, d]: [i32; 4], [left, bottom, right, top]: [i32; 4]) -> bool {
+    a <= right && c >= left && b <= top && d >= bottom
 }
 
 /// The box round two places.
@@ -20,11 +34,8 @@ pub(crate) fn spanned(a: (f64, f64), b: (f64, f64)) -> [f64; 4] {
 impl RectIndex {
     /// The index of `rects`, numbered as they come.
     pub(crate) fn new(rects: impl ExactSizeIterator<Item = Rect>) -> Self {
-        let rects: Vec<Rect> = rects.collect();
-        let tree = BoxTree::new(rects.iter().map(|rect| {
-            let ((left, bottom), (right, top)) = (rect.min().to_f64(), rect.max().to_f64());
-            [left, bottom, right, top]
-        }));
+        let rects: Vec<[i32; 4]> = rects.map(packed).collect();
+        let tree = BoxTree::new(rects.iter().map(|rect| rect.map(f64::from)));
         Self { rects, tree }
     }
 
@@ -55,10 +66,10 @@ impl RectIndex {
         stack: &mut Vec<usize>,
         mut visit: impl FnMut(usize) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        let ((left, bottom), (right, top)) = (window.min().to_f64(), window.max().to_f64());
-        let region = self.tree.window([left, bottom, right, top]);
+        let near = packed(window);
+        let region = self.tree.window(near.map(f64::from));
         self.tree.visit(&region, stack, |number| {
-            if self.rects[number].touches(window) { visit(number) } else { ControlFlow::Continue(()) }
+            if touches(self.rects[number], near) { visit(number) } else { ControlFlow::Continue(()) }
         })
     }
 }

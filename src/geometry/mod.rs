@@ -15,6 +15,7 @@
 //! rounded to the nanometre before they leave.
 
 mod arc;
+mod edges;
 mod index;
 mod length;
 mod nearest;
@@ -25,6 +26,7 @@ mod polygon;
 mod tree;
 
 pub use arc::{Arc, Circle, Turn};
+pub(crate) use edges::Edges;
 pub(crate) use index::{RectIndex, spanned};
 pub use length::ParseLengthError;
 pub(crate) use length::nanometres;

@@ -239,6 +239,12 @@ impl Rect {
         self.touches(other).then_some(Self { min, max })
     }
 
+    /// Left, bottom, right, top, in nanometres.
+    pub(crate) const fn to_f64(self) -> [f64; 4] {
+        let ((left, bottom), (right, top)) = (self.min.to_f64(), self.max.to_f64());
+        [left, bottom, right, top]
+    }
+
     /// The four corners, counter-clockwise from the lower left.
     #[must_use]
     pub fn corners(self) -> [Point; 4] {

@@ -8,6 +8,7 @@
 //! ```
 
 use std::array;
+use std::iter;
 use std::ops::ControlFlow;
 
 use static_aabb2d_index::StaticAABB2DIndexBuilder;
@@ -133,6 +134,13 @@ fn sorted(boxes: &[Bounds]) -> Vec<(Bounds, u32)> {
     numbers.map(entry).collect()
 }
 
+/// How many nodes a tree of `boxes` has.
+fn nodes_of(boxes: usize) -> usize {
+    let levels =
+        iter::successors(Some(boxes.div_ceil(WIDTH)), |&nodes| (nodes > 1).then(|| nodes.div_ceil(WIDTH)));
+    levels.sum()
+}
+
 impl BoxTree {
     /// The tree of boxes: left, bottom, right, top.
     pub(crate) fn new(boxes: impl ExactSizeIterator<Item = [f64; 4]> + Clone) -> Self {
@@ -144,6 +152,7 @@ impl BoxTree {
         let middle = (f64::midpoint(left, right), f64::midpoint(bottom, top));
         let mut tree = Self { bounds, middle, nodes: Vec::new(), leaves: 0 };
         let mut level = sorted(&boxes.map(|bounds| tree.single(bounds)).collect::<Vec<Bounds>>());
+        tree.nodes.reserve_exact(nodes_of(level.len()));
         while !level.is_empty() {
             let first = tree.nodes.len();
             tree.nodes.extend(level.chunks(WIDTH).map(Node::new));

@@ -1,5 +1,7 @@
 //! One side of a board: copper → nets → boundaries → what the machine does.
 
+use std::borrow::Cow;
+
 use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path};
@@ -8,7 +10,7 @@ use crate::report::stages::Stages;
 use crate::toolpath::strategy::{Isolation, Narrow, Role, fits, isolate, share};
 use crate::toolpath::{Order, Placement, Section};
 use crate::topology::{self, Extent, Gap, Method, NetId, Nets, Translucency};
-use crate::voronoi::{self, Boundaries, Boundary, Diagram, Frame, Loops, Owner, Regions, SiteKind};
+use crate::voronoi::{self, Boundaries, Boundary, Diagram, Frame, Loops, Owner, Regions, Share, SiteKind};
 
 use super::choice::{self, Sites};
 use super::plain::method;
@@ -147,28 +149,28 @@ impl Planned<'_> {
             )
             .map_err(error)?;
         let frame = needed_frame(&diagram, &boundaries);
-        let frame_cut = frame.as_ref().filter(|_| settings.asked.frame);
+        let frame_cut = frame.clone().filter(|_| settings.asked.frame);
         let (shares, passes) = stages.run(
             format!("{side}: passes"),
             || shares((copper, nets), &diagram, &boundaries, settings),
             |(shares, _)| [("edges", shares.iter().map(|(_, share)| share.edges.len()).sum())],
         );
-        let (sections, narrow) = stages.run(
-            format!("{side}: moves"),
-            || cut(side, nets, &shares, frame_cut, placement, settings),
-            |(sections, _)| [("moves", sections.iter().map(|section| section.moves.len()).sum())],
-        );
-        let mut warnings = diagram.warnings().to_vec();
-        warnings.extend(passes.into_iter().chain(narrow).map(|warning| warning.on(side)));
-        if frame.is_some() && frame_cut.is_none() {
-            warnings.push(planning::FRAME_NOT_CUT.warning(FRAME_NOT_CUT).on(side));
-        }
-        let frame_cut = frame_cut.cloned();
         let coupling = extents.map(|extents| {
             let couple = || coupling::strongest(nets, extents, (&diagram, &boundaries), settings);
             stages.run(format!("{side}: coupling"), couple, |found| [("pairs", found.pair_count)])
         });
-        let regions = diagram.regions();
+        let (mut warnings, regions) = (diagram.warnings().to_vec(), diagram.regions());
+        // Moves take as much memory.
+        drop(diagram);
+        let (sections, narrow) = stages.run(
+            format!("{side}: moves"),
+            || cut(side, nets, &shares, frame_cut.as_ref(), placement, settings),
+            |(sections, _)| [("moves", sections.iter().map(|section| section.moves.len()).sum())],
+        );
+        warnings.extend(passes.into_iter().chain(narrow).map(|warning| warning.on(side)));
+        if frame.is_some() && frame_cut.is_none() {
+            warnings.push(planning::FRAME_NOT_CUT.warning(FRAME_NOT_CUT).on(side));
+        }
         Ok(Plan { regions, boundaries, coupling, frame_cut, sections, warnings, stages })
     }
 }
@@ -245,25 +247,31 @@ fn rises(settings: &Settings) -> Option<[Nm; 2]> {
 
 /// What each tool cuts, with its kerf, the widest first: its share of the boundaries, and the
 /// passes beside them. With what is to be said of passes.
-fn shares(
+fn shares<'a>(
     copper: (&Copper, &Nets),
     diagram: &Diagram,
-    boundaries: &Boundaries,
+    boundaries: &'a Boundaries,
     settings: &Settings,
-) -> (Vec<(Nm, Boundaries)>, Vec<Warning>) {
+) -> (Vec<Share<'a>>, Vec<Warning>) {
     let kerfs: Vec<Nm> = settings.isolation.iter().map(Cutting::kerf).collect();
-    let mut cut: Vec<(Nm, Boundaries)> = Vec::with_capacity(kerfs.len());
+    let mut cut: Vec<Share<'_>> = Vec::with_capacity(kerfs.len());
     let clearing = settings.clearing.on(copper.0, copper.1, settings.finest_kerf());
     let mut warnings = Vec::new();
-    for (cutting, base) in settings.isolation.iter().zip(share(boundaries, &kerfs)) {
+    let parts = if kerfs.len() == 1 {
+        vec![Cow::Borrowed(boundaries)]
+    } else {
+        share(boundaries, &kerfs).into_iter().map(Cow::Owned).collect()
+    };
+    for (cutting, base) in settings.isolation.iter().zip(parts) {
         let all = match &cutting.widening {
             Some(widening) => {
                 let kerf = cutting.tool.least_width(cutting.heights.cut, settings.adaptive_depth);
+                let base = base.into_owned();
                 let (base, uncut) = if widening.skips { fitting(base, kerf) } else { (base, Vec::new()) };
                 let (mut all, found) = diagram.widened(copper, base, widening, &clearing, &cut);
                 all.edges.extend(uncut);
                 warnings.extend(found);
-                all
+                Cow::Owned(all)
             }
             None => base,
         };
@@ -285,7 +293,7 @@ fn fitting(mut boundaries: Boundaries, kerf: Nm) -> (Boundaries, Vec<Boundary>) 
 fn cut(
     side: Side,
     nets: &Nets,
-    shares: &[(Nm, Boundaries)],
+    shares: &[Share<'_>],
     frame: Option<&Path>,
     placement: &Placement,
     settings: &Settings,

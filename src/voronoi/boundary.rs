@@ -10,6 +10,7 @@
 //! ```
 
 use std::collections::BTreeMap;
+use std::sync::PoisonError;
 
 use rayon::prelude::*;
 
@@ -25,9 +26,26 @@ use super::sliver::close_slivers;
 use super::{BACKGROUND, Boundaries, Diagram, NOBODY, Settings};
 
 impl Diagram {
+    /// The boundaries before they are cut at the border; none where the diagram contradicts itself.
+    /// They take more memory than all else, and are not kept.
+    fn chains(&self) -> Option<Vec<exact::Chain>> {
+        let Settings { limit, enclosed, .. } = self.settings;
+        let known = self.limited.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let chains = match (known, limit) {
+            (Some(chains), _) => chains,
+            (None, Some(limit)) => self.certified.limited_chains(limit.to_f64(), NOBODY, enclosed)?,
+            (None, None) => self.certified.chains(),
+        };
+        let level = limit.map_or(f64::INFINITY, Nm::to_f64);
+        Some(match &self.band {
+            Some(band) => band.around(chains, |p| self.certified.owner_near(p, level, NOBODY)),
+            None => chains,
+        })
+    }
+
     /// The boundaries of the certified diagram, and where it contradicts itself.
     pub(super) fn certified_boundaries(&self) -> (Boundaries, Vec<Point>) {
-        let chains = self.chains.clone();
+        let chains = self.chains();
         let is_whole = chains.is_some();
         let level = self.settings.limit.map_or(f64::INFINITY, Nm::to_f64);
         let (mut pieces, mut torn) = self.on_board(&self.certified, chains.unwrap_or_default(), level);
@@ -39,7 +57,7 @@ impl Diagram {
         let half = self.settings.tolerance.to_f64() / 2.0;
         merge_stubs(&mut pieces, half);
         close_slivers(&mut pieces, half);
-        (self.fitted(&pieces), faults)
+        (self.fitted(pieces), faults)
     }
 
     /// What of chains lies on the board, and what contradicts the border.
@@ -59,15 +77,15 @@ impl Diagram {
     }
 
     /// Pieces fitted, with nodes in the order in which they are met.
-    pub(super) fn fitted(&self, pieces: &[Piece]) -> Boundaries {
+    pub(super) fn fitted(&self, pieces: Vec<Piece>) -> Boundaries {
         let Settings { tolerance, arcs, rises, .. } = self.settings;
         let how = Fit { tolerance, arcs, rises };
         // Two nodes that fall on the same nanometre are one, and nothing runs between them.
-        let fit = |piece: &Piece| {
+        let fit = |piece: Piece| {
             let fitted = fit::fit(&piece.samples, how)?;
             Some((fitted, (piece.left, piece.right), piece.ends.is_none()))
         };
-        Boundaries::of(pieces.par_iter().filter_map(fit).collect())
+        Boundaries::of(pieces.into_par_iter().filter_map(fit).collect())
     }
 }
 

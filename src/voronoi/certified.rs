@@ -18,9 +18,9 @@ const ATTEMPTS: u32 = 4;
 
 /// What distances are measured to, with its owners.
 pub(super) struct Owned<'a> {
-    shapes: Vec<(Cow<'a, Shape>, u32)>,
-    /// Whether what one owner has may lie in pieces.
-    is_loose: bool,
+    features: Vec<(&'a Feature, u32)>,
+    /// Whether it is their axes: what one owner has may lie in pieces then.
+    is_of_axes: bool,
     /// The smallest gap between owners, if there are two.
     gap: Option<Nm>,
 }
@@ -28,43 +28,34 @@ pub(super) struct Owned<'a> {
 impl<'a> Owned<'a> {
     /// The copper of the features that `keep` accepts.
     pub(super) fn copper(copper: &'a Copper, nets: &Nets, keep: impl Fn(usize) -> bool) -> Self {
-        let shape = |feature: &'a Feature| Cow::Borrowed(&feature.shape);
-        Self::new(copper, nets, keep, shape, false)
+        Self::new(copper, nets, keep, false)
     }
 
     /// Their core axes, or their copper where it does not hold its axis.
     pub(super) fn axes(copper: &'a Copper, nets: &Nets, keep: impl Fn(usize) -> bool) -> Self {
-        let radius = Nm::ZERO;
-        let shape = |feature: &'a Feature| match axis(feature) {
-            Some(Axis::Flash(center)) => Cow::Owned(Shape::Disc { center, radius }),
-            Some(Axis::Line(from, to)) => Cow::Owned(Shape::Stroke { from, to, radius }),
-            Some(Axis::Arc(arc)) => Cow::Owned(Shape::Arc { arc, radius }),
-            Some(Axis::Region) | None => Cow::Borrowed(&feature.shape),
-        };
-        Self::new(copper, nets, keep, shape, true)
+        Self::new(copper, nets, keep, true)
     }
 
-    /// The shapes of the features that `keep` accepts, each with the first of the nets that its own
-    /// one touches.
-    fn new(
-        copper: &'a Copper,
-        nets: &Nets,
-        keep: impl Fn(usize) -> bool,
-        shape: impl Fn(&'a Feature) -> Cow<'a, Shape>,
-        is_loose: bool,
-    ) -> Self {
+    /// The features that `keep` accepts, each with the first of the nets that its own one touches.
+    fn new(copper: &'a Copper, nets: &Nets, keep: impl Fn(usize) -> bool, is_of_axes: bool) -> Self {
         let gap = smallest_gap(copper, nets).map(|gap| gap.width);
         let is_touching = gap.is_some_and(|gap| gap <= topology::JOINED);
         let pieces = is_touching.then(|| pieces(copper, nets));
         let owner = |net: NetId| pieces.as_ref().map_or(net.0, |pieces| pieces[net.index()]);
         let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
-        let shapes = kept.map(|(number, feature)| (shape(feature), owner(nets.of(number)))).collect();
-        Self { shapes, is_loose, gap }
+        let features = kept.map(|(number, feature)| (feature, owner(nets.of(number)))).collect();
+        Self { features, is_of_axes, gap }
+    }
+
+    /// The shapes that distances are measured to, with their owners.
+    fn shapes(&self) -> impl Iterator<Item = (Cow<'a, Shape>, u32)> {
+        let shape = |feature| if self.is_of_axes { core(feature) } else { Cow::Borrowed(&feature.shape) };
+        self.features.iter().map(move |&(feature, owner)| (shape(feature), owner))
     }
 
     /// Whether one owner has all.
     pub(super) fn is_of_one(&self) -> bool {
-        self.shapes.windows(2).all(|pair| pair[0].1 == pair[1].1)
+        self.features.windows(2).all(|pair| pair[0].1 == pair[1].1)
     }
 
     /// The diagram of these edges of copper, which a wall may enclose, and what is `asked` of it;
@@ -81,14 +72,14 @@ impl<'a> Owned<'a> {
         let is_round = self.gap.is_none_or(|gap| gap >= ROUND);
         let attempt = |number: u32, rounds: bool| {
             let mut generators = Generators::shaken(number);
-            generators.weld(self.shapes.iter().flat_map(|(shape, _)| points(shape)).collect());
-            if self.is_loose {
+            generators.weld(self.shapes().flat_map(|(shape, _)| points(&shape)).collect());
+            if self.is_of_axes {
                 generators.loosen();
             }
             if rounds {
                 generators.round();
             }
-            self.shapes.iter().for_each(|(shape, owner)| generators.add(shape, *owner));
+            self.shapes().for_each(|(shape, owner)| generators.add(&shape, owner));
             if let Some(wall) = wall {
                 generators.wall(wall);
             }
@@ -102,6 +93,17 @@ impl<'a> Owned<'a> {
         }
         let mut others = (u32::from(!is_round)..=ATTEMPTS).map(|number| attempt(number, false));
         others.find(|(_, answer)| answer.is_some()).unwrap_or(first)
+    }
+}
+
+/// The axis of a feature as a shape without width, or its copper where that does not hold it.
+fn core(feature: &Feature) -> Cow<'_, Shape> {
+    let radius = Nm::ZERO;
+    match axis(feature) {
+        Some(Axis::Flash(center)) => Cow::Owned(Shape::Disc { center, radius }),
+        Some(Axis::Line(from, to)) => Cow::Owned(Shape::Stroke { from, to, radius }),
+        Some(Axis::Arc(arc)) => Cow::Owned(Shape::Arc { arc, radius }),
+        Some(Axis::Region) | None => Cow::Borrowed(&feature.shape),
     }
 }
 

@@ -48,6 +48,9 @@ mod site;
 mod sliver;
 mod spike;
 
+use std::borrow::Cow;
+use std::sync::Mutex;
+
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect};
@@ -162,6 +165,9 @@ pub struct Boundaries {
     pub links: Vec<Link>,
 }
 
+/// What one of several tools cuts, with its kerf.
+pub type Share<'a> = (Nm, Cow<'a, Boundaries>);
+
 /// What distances are measured to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -264,9 +270,8 @@ pub struct Diagram {
     mixed: Option<Box<Mixed>>,
     /// The certified diagram of the sites.
     certified: Box<exact::Diagram>,
-    /// The boundaries, before they are cut at the border; none where the diagram contradicts
-    /// itself.
-    chains: Option<Vec<exact::Chain>>,
+    /// Its chains with a limit, which had to be found to certify it, until they are asked for.
+    limited: Mutex<Option<Vec<exact::Chain>>>,
     /// What belongs to the copper's nets whatever core axes say.
     band: Option<Box<Band>>,
     /// Whether each net has anything on the board.
@@ -319,7 +324,7 @@ impl Diagram {
             SiteKind::Copper => Owned::copper(copper, nets, keep),
             SiteKind::Core => Owned::axes(copper, nets, keep),
         };
-        let (certified, mut chains) = match settings.limit {
+        let (certified, limited) = match settings.limit {
             Some(limit) => {
                 // Where copper is nearer than the limit, the wall is not.
                 let wall = bounds.inflate(limit.min(FARTHEST) * 3 + BEYOND);
@@ -332,7 +337,8 @@ impl Diagram {
             }
             None => {
                 let space = exact::Space::Window(border.bounds().unwrap_or(border.window));
-                owned.diagram(exact::Kind::Owners, space, None, |diagram| Some(diagram.chains()))
+                let (certified, _) = owned.diagram(exact::Kind::Owners, space, None, |_| Some(()));
+                (certified, None)
             }
         };
         let mut band = None;
@@ -346,10 +352,7 @@ impl Diagram {
             let edges = |diagram: &exact::Diagram| diagram.limited_chains(width.to_f64(), NOBODY, true);
             let (copper, edges) =
                 copper.diagram(exact::Kind::Above(floor), exact::Space::Within, wall, edges);
-            let level = settings.limit.map_or(f64::INFINITY, Nm::to_f64);
-            let round = Band::new(copper, width, edges.unwrap_or_default());
-            chains = chains.map(|chains| round.around(chains, |p| certified.owner_near(p, level, NOBODY)));
-            band = Some(Box::new(round));
+            band = Some(Box::new(Band::new(copper, width, edges.unwrap_or_default())));
         }
         Ok(Self {
             border,
@@ -360,7 +363,7 @@ impl Diagram {
             warnings: Vec::new(),
             mixed: None,
             certified: Box::new(certified),
-            chains,
+            limited: Mutex::new(limited),
             band,
             kept,
         })

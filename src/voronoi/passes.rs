@@ -27,7 +27,7 @@ use super::groove::Grooves;
 use super::link::Rules;
 use super::residual::Passes;
 use super::spike::Spikes;
-use super::{BEYOND, Boundaries, Boundary, Diagram, FLOOR, NOBODY, Owner, SiteKind};
+use super::{BEYOND, Boundaries, Boundary, Diagram, FLOOR, NOBODY, Owner, Share, SiteKind};
 
 /// Links are no longer. Chosen: there and back they cost as much as a retract.
 const LONGEST: Nm = Nm::from_mm(3);
@@ -95,7 +95,7 @@ impl Diagram {
         base: Boundaries,
         widening: &Widening,
         clearing: &Clearing,
-        before: &[(Nm, Boundaries)],
+        before: &[Share<'_>],
     ) -> (Boundaries, Vec<Warning>) {
         let first = widening.kerf / 2 + self.settings.tolerance;
         let most = self.farthest(widening.advance()) + widening.advance() * 2 + widening.kerf;
@@ -170,7 +170,7 @@ impl Diagram {
             for grooves in wider.iter().chain(grooves).chain(&passed).chain(loops) {
                 lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
             }
-            let mut passes = self.fitted(&lines);
+            let mut passes = self.fitted(lines);
             if level > first {
                 passes.edges.par_iter_mut().for_each(|pass| spikes.add(pass));
             }
@@ -184,7 +184,7 @@ impl Diagram {
         for grooves in wider.iter().chain(&grooves) {
             lines = lines.into_par_iter().flat_map_iter(|line| grooves.take_out(line)).collect();
         }
-        all.append(self.fitted(&lines));
+        all.append(self.fitted(lines));
         let heights = |levels: &[Nm]| -> Vec<f64> { levels.iter().map(|level| level.to_f64()).collect() };
         let levels = heights(&levels);
         let kerf = widening.floor.to_f64();
@@ -199,19 +199,19 @@ impl Diagram {
             let cuts = all.edges[..first_pass].iter().filter(|edge| !is_pass(edge));
             lines.extend(zone.beside(passes.strips(&edges, cuts, before)));
         }
-        all.append(self.fitted(&lines));
+        all.append(self.fitted(lines));
         if !further.is_empty() {
             let levels: Vec<f64> = levels.iter().copied().chain(heights(&further)).collect();
             let passes = Passes { levels: &levels, ..passes };
             let lines = zone.cleared(passes.residues(all.edges.iter(), before, is_open));
-            all.append(self.fitted(&lines));
+            all.append(self.fitted(lines));
         }
         let within = self.settings.overlap.to_f64();
         if self.border.frame.is_none() && passes.may_leave_edges(within) {
             let wanted = |at| zone.is_cleared(at, &room);
             let rims = zone.rims(&fence, &room);
             let lines = passes.beside_edge(&rims, within, wanted, all.edges.iter(), before);
-            all.append(self.fitted(&lines));
+            all.append(self.fitted(lines));
         }
         let longest =
             if further.is_empty() { widening.width.unwrap_or(LONGEST).min(LONGEST) } else { LONGEST };
@@ -259,7 +259,7 @@ impl Diagram {
 
 /// What wider tools have cleared of what one of `kerf` would clear, each: with a part of the kerf
 /// to spare, for a pass along the very edge of it would come and go.
-fn wider(before: &[(Nm, Boundaries)], kerf: Nm) -> Vec<Grooves> {
+fn wider(before: &[Share<'_>], kerf: Nm) -> Vec<Grooves> {
     let reach = |wide: Nm| (wide - kerf) / 2 + kerf / 8;
     before.iter().filter_map(|(wide, cuts)| Grooves::new(cuts.edges.iter(), reach(*wide))).collect()
 }

@@ -33,7 +33,7 @@ use super::groove::Grooves;
 use super::plane::Spot;
 use super::sample::{Sample, length};
 use super::seed::owner_of;
-use super::{Boundaries, Boundary};
+use super::{Boundary, Share};
 
 /// A residue begins so much deeper in what the next pass clears than the edge of that, in
 /// nanometres. Chosen: more than fitting moves either.
@@ -94,7 +94,7 @@ impl Passes<'_> {
 
     /// What lies so near to `cuts`, or to those of wider tools `before`, that nothing of it is
     /// left.
-    fn cleared<'b>(&self, cuts: impl Iterator<Item = &'b Boundary>, before: &[(Nm, Boundaries)]) -> Cleared {
+    fn cleared<'b>(&self, cuts: impl Iterator<Item = &'b Boundary>, before: &[Share<'_>]) -> Cleared {
         let reach = |kerf: f64| Nm::from_f64((kerf - self.shared()) / 2.0);
         let wider =
             before.iter().filter_map(|(kerf, cuts)| Grooves::new(cuts.edges.iter(), reach(kerf.to_f64())));
@@ -106,7 +106,7 @@ impl Passes<'_> {
     pub(super) fn residues<'b>(
         &self,
         cuts: impl Iterator<Item = &'b Boundary>,
-        before: &[(Nm, Boundaries)],
+        before: &[Share<'_>],
         wanted: impl Fn(u32, u32) -> bool,
     ) -> Vec<Piece> {
         let Some(&last) = self.levels.last() else { return Vec::new() };
@@ -171,7 +171,7 @@ impl Passes<'_> {
         &self,
         edges: &[Piece],
         cuts: impl Iterator<Item = &'b Boundary>,
-        before: &[(Nm, Boundaries)],
+        before: &[Share<'_>],
     ) -> Vec<Piece> {
         let cleared = self.cleared(cuts, before);
         let strips = edges.par_iter().flat_map_iter(|edge| {
@@ -198,7 +198,7 @@ impl Passes<'_> {
         within: f64,
         wanted: impl Fn(Spot) -> bool + Sync,
         cuts: impl Iterator<Item = &'b Boundary>,
-        before: &[(Nm, Boundaries)],
+        before: &[Share<'_>],
     ) -> Vec<Piece> {
         let cleared = self.cleared(cuts, before);
         let parts = rims.par_iter().flat_map_iter(|rim| {

@@ -92,7 +92,7 @@ pub fn isolate(
     if settings.direction.is_none() {
         ways.extend(boundaries.links.iter().map(|link| Way::link(link, settings)));
     }
-    ways.extend(frame_cuts.iter().map(|path| Way::frame_cut(path, settings)));
+    ways.extend(frame_cuts.iter().map(Way::frame_cut));
     (
         Section {
             tool: settings.tool.clone(),
@@ -103,9 +103,10 @@ pub fn isolate(
     )
 }
 
-/// A boundary on the machine.
+/// A boundary, a link or a cut round the frame.
 struct Way<'a> {
-    path: Path,
+    /// On the board.
+    path: &'a Path,
     clearance: Cow<'a, [Nm]>,
     link: Link,
     /// Whether copper lies on its left, or else on its right; none where it lies on both sides or
@@ -116,7 +117,7 @@ struct Way<'a> {
 impl<'a> Way<'a> {
     fn boundary(boundary: &'a Boundary, role: Role, settings: &Isolation<'_>) -> Self {
         Self {
-            path: settings.placement.path(&boundary.path),
+            path: &boundary.path,
             clearance: Cow::Borrowed(&boundary.clearance),
             link: Link {
                 ends: boundary.ends.map(|(from, to)| (from.0, to.0)),
@@ -131,9 +132,9 @@ impl<'a> Way<'a> {
         }
     }
 
-    fn link(link: &voronoi::Link, settings: &Isolation<'_>) -> Self {
+    fn link(link: &'a voronoi::Link, settings: &Isolation<'_>) -> Self {
         Self {
-            path: settings.placement.path(&link.path),
+            path: &link.path,
             clearance: Cow::Owned(vec![link.clearance; link.path.segments.len() + 1]),
             link: Link {
                 ends: Some((link.ends.0.0, link.ends.1.0)),
@@ -144,9 +145,9 @@ impl<'a> Way<'a> {
         }
     }
 
-    fn frame_cut(path: &Path, settings: &Isolation<'_>) -> Self {
+    fn frame_cut(path: &'a Path) -> Self {
         Self {
-            path: settings.placement.path(path),
+            path,
             clearance: Cow::Borrowed(&[]),
             link: Link { ends: None, seconds: 0.0, must: true },
             left: None,
@@ -199,21 +200,23 @@ fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move>
     let links: Vec<Link> = ways.iter().map(|way| way.link).collect();
     let trails =
         walk(nodes.len(), &links, WORTH * retract_seconds(settings.heights, settings.tool, settings.machine));
-    let mut lines: Vec<Line> = trails.iter().filter_map(|trail| Line::along(ways, trail)).collect();
-    let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
+    let lines = trails.iter().filter_map(|trail| Line::along(ways, trail, settings.placement));
+    let mut lines: Vec<Option<Line>> = lines.map(Some).collect();
+    let stretches: Vec<Stretch> = lines.iter().flatten().map(Line::stretch).collect();
     let mut head = Head::new(settings.heights, settings.tool.plunge);
     let mut before = None;
-    let length = lines.iter().map(|line| line.path.length()).sum();
+    let length = lines.iter().flatten().map(|line| line.path.length()).sum();
     for leg in arrange(&stretches, Point::default(), settings.order, length) {
-        let line = &mut lines[leg.stretch];
+        // Each is cut once, and let go then.
+        let Some(mut line) = lines[leg.stretch].take() else { continue };
         line.begin_at(leg.entry.unwrap_or(0));
         if line.reverses(settings).unwrap_or(leg.reversed) {
             line.reverse();
         }
-        if !before.is_some_and(|before| hops(before, line, settings)) {
+        if !before.is_some_and(|before| hops(before, &line, settings)) {
             head.over(line.path.start);
         }
-        cut_line(&mut head, line, settings);
+        cut_line(&mut head, &mut line, settings);
         before = line.clearance.last().copied().flatten().map(|clearance| (line.path.end(), clearance));
     }
     head.finish()
@@ -247,7 +250,7 @@ fn cut_line(head: &mut Head, line: &mut Line, settings: &Isolation<'_>) {
     }
 }
 
-/// A trail as one path, with the clearance at each vertex; none along a frame cut.
+/// A trail as one path on the machine, with the clearance at each vertex; none along a frame cut.
 struct Line {
     path: Path,
     clearance: Vec<Option<Nm>>,
@@ -263,13 +266,13 @@ impl Line {
         Some(settings.direction?.reverses(left, settings.placement.mirror.is_some()))
     }
 
-    fn along(ways: &[Way<'_>], steps: &[Step]) -> Option<Self> {
+    fn along(ways: &[Way<'_>], steps: &[Step], placement: &Placement) -> Option<Self> {
         let mut line: Option<Self> = None;
         for step in steps {
             let way = &ways[step.link];
             let mut clearance: Vec<Option<Nm>> = way.clearance.iter().copied().map(Some).collect();
             clearance.resize(way.path.segments.len() + 1, None);
-            let mut next = Self { path: way.path.clone(), clearance, left: way.left };
+            let mut next = Self { path: placement.path(way.path), clearance, left: way.left };
             if step.backwards {
                 next.reverse();
             }

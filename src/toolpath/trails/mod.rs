@@ -20,7 +20,7 @@ use std::collections::{BTreeMap, BinaryHeap};
 use bitvec::prelude::{BitSlice, BitVec, bitvec};
 use rustc_hash::FxHashMap;
 
-use crate::topology::DisjointSets;
+use crate::topology::{DisjointSets, Groups};
 
 use super::ordered::Ordered;
 
@@ -93,7 +93,7 @@ fn odd(nodes: usize, passes: &[Pass]) -> BitVec {
 /// closed is joined to others by links there and back ([`bridges`]).
 fn joins(nodes: usize, links: &[Link], passes: &[Pass], retract: f64) -> (Vec<usize>, Vec<usize>) {
     let odd = odd(nodes, passes);
-    let graph = Adjacency::new(nodes, links.iter().map(|link| link.ends));
+    let graph = adjacency(nodes, links.iter().map(|link| link.ends));
     let mut searches = Searches::new(&graph, links, &odd, retract);
     let mut pairs: Vec<Pair> = odd.iter_ones().flat_map(|from| searches.near(from)).collect();
     // Both of two near nodes may have found the other; the way from the smaller is kept.
@@ -202,9 +202,9 @@ const NEAREST: usize = 12;
 /// search nothing counts.
 #[derive(Clone, Copy, Default)]
 struct Reached {
-    search: usize,
+    search: u32,
     seconds: f64,
-    by: Option<(usize, usize)>,
+    by: Option<(u32, u32)>,
 }
 
 /// Searches for near odd nodes, one after the other, by Dijkstra's algorithm.
@@ -215,7 +215,7 @@ struct Searches<'a> {
     retract: f64,
     reached: Vec<Reached>,
     queue: BinaryHeap<Reverse<(Ordered, usize)>>,
-    count: usize,
+    count: u32,
 }
 
 impl<'a> Searches<'a> {
@@ -242,9 +242,9 @@ impl<'a> Searches<'a> {
             }
             let graph = self.graph;
             for &(link, next) in graph.of(node) {
-                let longer = seconds + self.links[link].seconds.max(0.0);
+                let longer = seconds + self.links[link as usize].seconds.max(0.0);
                 if longer < self.retract {
-                    self.reach(next, longer, Some((link, node)));
+                    self.reach(next as usize, longer, Some((link, number(node))));
                 }
             }
         }
@@ -252,7 +252,7 @@ impl<'a> Searches<'a> {
     }
 
     /// Notes how far a node is, if that is nearer than is known.
-    fn reach(&mut self, node: usize, seconds: f64, by: Option<(usize, usize)>) {
+    fn reach(&mut self, node: usize, seconds: f64, by: Option<(u32, u32)>) {
         let known = &mut self.reached[node];
         if known.search < self.count || seconds < known.seconds {
             *known = Reached { search: self.count, seconds, by };
@@ -264,35 +264,21 @@ impl<'a> Searches<'a> {
     fn way_back(&self, mut node: usize) -> Vec<usize> {
         let mut way = Vec::new();
         while let Some((link, before)) = self.reached[node].by {
-            way.push(link);
-            node = before;
+            way.push(link as usize);
+            node = before as usize;
         }
         way
     }
 }
 
-/// Which edges meet at which node, packed.
-struct Adjacency {
-    starts: Vec<usize>,
-    items: Vec<(usize, usize)>,
-}
+/// Which edges meet at which node, each with the node at its other end.
+type Adjacency = Groups<(u32, u32)>;
 
-impl Adjacency {
-    /// Of edges given by their ends, in order; those without ends are left out.
-    fn new(nodes: usize, edges: impl Iterator<Item = Option<(u32, u32)>> + Clone) -> Self {
-        let both = edges.enumerate().filter_map(|(index, ends)| {
-            ends.map(|(a, b)| [(a as usize, index, b as usize), (b as usize, index, a as usize)])
-        });
-        let mut all: Vec<_> = both.flatten().collect();
-        all.sort_unstable();
-        let starts = (0..=nodes).map(|node| all.partition_point(|entry| entry.0 < node)).collect();
-        Self { starts, items: all.into_iter().map(|(_, edge, to)| (edge, to)).collect() }
-    }
-
-    /// The edges at `node`, each with the node at its other end.
-    fn of(&self, node: usize) -> &[(usize, usize)] {
-        &self.items[self.starts[node]..self.starts[node + 1]]
-    }
+/// The adjacency of edges given by their ends, in order; those without ends are left out.
+fn adjacency(nodes: usize, edges: impl Iterator<Item = Option<(u32, u32)>> + Clone) -> Adjacency {
+    let both =
+        (0_u32..).zip(edges).filter_map(|(edge, ends)| ends.map(|(a, b)| [(a, (edge, b)), (b, (edge, a))]));
+    Groups::new(nodes, both.flatten())
 }
 
 /// Adds retracts between the odd nodes of each connected part, so that all nodes are even.
@@ -321,7 +307,7 @@ type Walked = (usize, bool);
 
 /// The closed walks that together take every pass once (Hierholzer), one for each connected part.
 fn circuits(nodes: usize, passes: &[Pass]) -> Vec<Vec<Walked>> {
-    let graph = Adjacency::new(nodes, passes.iter().map(|pass| Some(pass.ends)));
+    let graph = adjacency(nodes, passes.iter().map(|pass| Some(pass.ends)));
     let (mut taken, mut next) = (vec![false; passes.len()], vec![0; nodes]);
     let mut circuits = Vec::new();
     for start in 0..nodes {
@@ -329,12 +315,13 @@ fn circuits(nodes: usize, passes: &[Pass]) -> Vec<Vec<Walked>> {
         let mut stack: Vec<(usize, Option<Walked>)> = vec![(start, None)];
         while let Some(&(node, arrived)) = stack.last() {
             let edges = graph.of(node);
-            while next[node] < edges.len() && taken[edges[next[node]].0] {
+            while next[node] < edges.len() && taken[edges[next[node]].0 as usize] {
                 next[node] += 1;
             }
             if let Some(&(pass, to)) = edges.get(next[node]) {
+                let pass = pass as usize;
                 taken[pass] = true;
-                stack.push((to, Some((pass, passes[pass].ends.0 as usize != node))));
+                stack.push((to as usize, Some((pass, passes[pass].ends.0 as usize != node))));
             } else {
                 circuit.extend(arrived);
                 stack.pop();

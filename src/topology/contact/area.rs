@@ -1,27 +1,16 @@
 //! Contact with an area: does anything touch a polygon's inside or edge, decided in integers.
 
-use std::ops::ControlFlow;
-
-use crate::geometry::{Nm, Orientation, Point, Polygon, Rect, RectIndex, orientation};
+use crate::geometry::{Edges, Nm, Point, Polygon, Rect};
 
 use super::near;
 use super::nearest::{self, Way};
 
-/// From how many edges on they are indexed.
-///
-/// Chosen: a pad is asked about its few neighbours only, and looking at all of its edges takes no
-/// longer than filling an index; a plane is asked about everything in its clearings.
-const INDEX_FROM: usize = 256;
-
 /// A polygon with its edges by place.
 #[derive(Debug)]
 pub(in crate::topology) struct Area {
-    edges: Vec<(Point, Point)>,
+    edges: Edges,
     /// A point of each contour.
     contours: Vec<Point>,
-    bounds: Rect,
-    /// Of the edges; none where looking at all of them is as fast.
-    index: Option<RectIndex>,
 }
 
 /// Memory that questions about areas reuse.
@@ -33,18 +22,8 @@ pub(in crate::topology) struct Scratch {
 
 impl Area {
     pub(super) fn new(polygon: &Polygon) -> Self {
-        let mut edges = Vec::with_capacity(polygon.contours().iter().map(Vec::len).sum());
-        for ring in polygon.contours() {
-            let mut from = ring[ring.len() - 1];
-            for &to in ring {
-                edges.push((from, to));
-                from = to;
-            }
-        }
-        let index = (edges.len() >= INDEX_FROM)
-            .then(|| RectIndex::new(edges.iter().map(|&(from, to)| Rect::new(from, to))));
         let contours = polygon.contours().iter().map(|ring| ring[0]).collect();
-        Self { edges, contours, bounds: polygon.bounds(), index }
+        Self { edges: Edges::new(polygon), contours }
     }
 
     /// A point of each contour.
@@ -57,36 +36,14 @@ impl Area {
         &self,
         window: Rect,
         stack: &mut Vec<usize>,
-        mut found: impl FnMut((Point, Point)) -> bool,
+        found: impl FnMut((Point, Point)) -> bool,
     ) -> bool {
-        let Some(index) = &self.index else {
-            let mut near = self.edges.iter().filter(|(a, b)| Rect::new(*a, *b).touches(window));
-            return near.any(|&edge| found(edge));
-        };
-        let visit = |edge: usize| {
-            if found(self.edges[edge]) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        };
-        index.visit(window, stack, visit).is_break()
+        self.edges.any(window, stack, found)
     }
 
-    /// Whether `p` lies inside or on an edge, by the non-zero rule: counts the edges that a ray to
-    /// the right crosses.
+    /// Whether `p` lies inside or on an edge, by the non-zero rule.
     pub(in crate::topology) fn contains(&self, p: Point, scratch: &mut Scratch) -> bool {
-        if !self.bounds.contains(p) {
-            return false;
-        }
-        let ray = Rect::new(p, Point::new(self.bounds.max().x, p.y));
-        let mut winding = 0;
-        let on_edge = self.any_edge(ray, &mut scratch.edges, |(a, b)| {
-            let side = orientation(a, b, p);
-            if a.y <= p.y && b.y > p.y && side == Orientation::Left {
-                winding += 1;
-            } else if a.y > p.y && b.y <= p.y && side == Orientation::Right {
-                winding -= 1;
-            }
-            side == Orientation::Straight && Rect::new(a, b).contains(p)
-        });
-        on_edge || winding != 0
+        self.edges.winding(p, &mut scratch.edges) != Some(0)
     }
 
     /// Whether the two areas are no farther apart than `gap`: edges are, or a contour of one lies
@@ -94,7 +51,7 @@ impl Area {
     pub(super) fn is_within(&self, other: &Self, gap: Nm, scratch: &mut Scratch) -> bool {
         let (few, many) = if self.edges.len() < other.edges.len() { (self, other) } else { (other, self) };
         let Scratch { edges, facing } = scratch;
-        few.any_edge(many.bounds.inflate(gap), edges, |edge| {
+        few.any_edge(many.edges.bounds().inflate(gap), edges, |edge| {
             let near = Rect::new(edge.0, edge.1).inflate(gap);
             many.any_edge(near, facing, |other| near::segments(edge, other, gap.get()))
         }) || few.contours.iter().any(|&p| many.contains(p, scratch))

@@ -4,43 +4,18 @@ use super::form::{Form, Place};
 use super::generator::Generators;
 use super::index::Index;
 use super::tolerances::SLAB;
+use crate::topology::Groups;
 use crate::voronoi::plane::Spot;
 
 /// So far from a foot its normal is looked at, in nanometres. Chosen.
 const AHEAD: f64 = 1_000.0;
 
 /// The breaks of all generators, which only who walks along edges must know.
-#[derive(Default)]
-pub(super) struct Breaks {
-    /// Those of generator `i`: `places[starts[i]..starts[i + 1]]`.
-    places: Vec<Place>,
-    starts: Vec<u32>,
-}
+pub(super) type Breaks = Groups<Place>;
 
-impl Breaks {
-    /// The places where distances that differ by less than `tie` are equal.
-    pub(super) fn new(generators: &Generators, index: &Index, tie: f64) -> Self {
-        let found = touching_ends(generators, index, tie);
-        let mut starts = vec![0_u32; generators.len() + 1];
-        found.iter().for_each(|&(generator, _)| starts[generator as usize + 1] += 1);
-        for i in 0..generators.len() {
-            starts[i + 1] += starts[i];
-        }
-        let mut free = starts.clone();
-        let mut places = vec![Place::Along(0.0); found.len()];
-        for (generator, place) in found {
-            let next = &mut free[generator as usize];
-            places[*next as usize] = place;
-            *next += 1;
-        }
-        Self { places, starts }
-    }
-
-    /// Those of a generator.
-    pub(super) fn of(&self, generator: u32) -> &[Place] {
-        let i = generator as usize;
-        &self.places[self.starts[i] as usize..self.starts[i + 1] as usize]
-    }
+/// The places on each generator where distances that differ by less than `tie` are equal.
+pub(super) fn breaks(generators: &Generators, index: &Index, tie: f64) -> Breaks {
+    Groups::new(generators.len(), touching_ends(generators, index, tie).into_iter())
 }
 
 /// The places on generators where a line or an arc ends with the same foot and normal. A disc on

@@ -30,7 +30,8 @@ impl Diagram {
     /// The chains between different owners: first those between nodes, by their lower vertices,
     /// then the loops.
     pub(in crate::voronoi) fn chains(&self) -> Vec<Chain> {
-        self.rows().into_par_iter().map(|(row, is_loop)| self.chain(&row, is_loop)).collect()
+        let rows = self.rows().into_par_iter();
+        rows.map_init(Vec::new, |scratch, (row, is_loop)| self.chain(&row, is_loop, scratch)).collect()
     }
 
     /// The links of each chain, and whether it is a loop.
@@ -106,8 +107,9 @@ impl Diagram {
         }
     }
 
-    fn chain(&self, row: &[Link], is_loop: bool) -> Chain {
-        let mut samples: Vec<Sample> = Vec::new();
+    /// The chain of some links; `samples` is scratch memory.
+    fn chain(&self, row: &[Link], is_loop: bool, samples: &mut Vec<Sample>) -> Chain {
+        samples.clear();
         for &(number, reversed) in row {
             let from = samples.len();
             let skip = usize::from(from > 0);
@@ -121,7 +123,7 @@ impl Diagram {
         let (left, right) = self.sides(row[0]);
         let (first, last) = (row[0], row[row.len() - 1]);
         let ends = (!is_loop).then(|| [self.target((first.0, !first.1)), self.target(last)]);
-        Chain { left, right, samples, ends }
+        Chain { left, right, samples: samples.clone(), ends }
     }
 
     /// The owner of the copper nearest to `p`, or that `p` lies in; `nobody` where it is farther

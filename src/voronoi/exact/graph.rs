@@ -4,6 +4,7 @@
 //! each edge is walked once, and two ends that do not find each other are a fault with a place.
 
 use std::sync::OnceLock;
+use std::{iter, mem};
 
 use rustc_hash::FxHashMap;
 
@@ -12,7 +13,8 @@ use super::pair::Pair;
 use super::tolerances::{SNAP, resolution};
 use super::vertex::{Junction, Slot};
 use super::walk::Event;
-use super::{Diagram, Edge, Space, Vertex};
+use super::{Diagram, Edge, Link, Space, Vertex};
+use crate::topology::Groups;
 use crate::voronoi::plane::Spot;
 
 /// The graph as it grows.
@@ -21,8 +23,9 @@ pub(super) struct Growth {
     tie: f64,
     pub(super) junctions: Vec<Junction>,
     edges: Vec<Edge>,
-    /// The junctions of each cell of the plane.
-    by_place: FxHashMap<[i64; 2], Vec<u32>>,
+    /// The last junction of each cell of the plane, and of each junction the one before it there.
+    last: FxHashMap<[i64; 2], u32>,
+    before: Vec<Option<u32>>,
     /// Slots that nobody has followed yet.
     open: Vec<(u32, usize)>,
     faults: Vec<Spot>,
@@ -52,11 +55,14 @@ impl Growth {
         let reach = resolution(self.tie, clearance);
         let [low, high] = [cell(at - Spot::new(reach, reach)), cell(at + Spot::new(reach, reach))];
         let cells = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
-        let known = cells.filter_map(|cell| self.by_place.get(&cell)).flatten().copied();
+        let in_cell = |cell: [i64; 2]| {
+            iter::successors(self.last.get(&cell).copied(), |&number| self.before[number as usize])
+        };
         let off = |i: u32| (self.junctions[i as usize].at - at).length();
         let is_alike = |i: u32| self.junctions[i as usize].tied == junction.tied;
-        let one = known.filter(|&i| off(i) <= 2.0 * self.tie || (off(i) <= reach && is_alike(i)));
-        one.min_by(|&a, &b| off(a).total_cmp(&off(b)))
+        let is_one = |&i: &u32| off(i) <= 2.0 * self.tie || (off(i) <= reach && is_alike(i));
+        let known = cells.flat_map(in_cell).filter(is_one);
+        known.min_by(|&a, &b| off(a).total_cmp(&off(b)).then(a.cmp(&b)))
     }
 
     /// The number of a junction, which is new or known.
@@ -66,7 +72,7 @@ impl Growth {
             return known;
         }
         let number = u32::try_from(self.junctions.len()).expect("below 2³² vertices");
-        self.by_place.entry(cell(junction.at)).or_default().push(number);
+        self.before.push(self.last.insert(cell(junction.at), number));
         self.open.extend((0..junction.slots.len()).map(|slot| (number, slot)));
         self.junctions.push(junction);
         number
@@ -249,10 +255,11 @@ impl Diagram {
 
     /// Puts everything in an order of its own.
     fn finish(&mut self, growth: Growth) {
+        let Growth { mut junctions, edges: grown, faults, .. } = growth;
         let place = |junction: &Junction| (junction.at.x, junction.at.y);
-        let mut order: Vec<usize> = (0..growth.junctions.len()).collect();
+        let mut order: Vec<usize> = (0..junctions.len()).collect();
         order.sort_by(|&a, &b| {
-            let ((ax, ay), (bx, by)) = (place(&growth.junctions[a]), place(&growth.junctions[b]));
+            let ((ax, ay), (bx, by)) = (place(&junctions[a]), place(&junctions[b]));
             ax.total_cmp(&bx).then(ay.total_cmp(&by))
         });
         let mut numbers = vec![0_u32; order.len()];
@@ -263,22 +270,23 @@ impl Diagram {
             let turned = Edge { from: to, to: from, left: edge.right, right: edge.left };
             (edge.min(turned), turned < edge)
         };
-        let edges: Vec<(Edge, bool)> = growth.edges.iter().map(turned).collect();
+        let edges: Vec<(Edge, bool)> = grown.iter().map(turned).collect();
         let mut by_number: Vec<usize> = (0..edges.len()).collect();
         by_number.sort_by_key(|&old| edges[old]);
         let mut new_numbers = vec![0_u32; edges.len()];
         (0_u32..).zip(&by_number).for_each(|(number, &old)| new_numbers[old] = number);
         self.edges = by_number.iter().map(|&old| edges[old].0).collect();
         let leaving = |&old: &usize| {
-            let junction = &growth.junctions[old];
-            let mut slots: Vec<&Slot> = junction.slots.iter().filter(|slot| slot.edge.is_some()).collect();
+            let junction = &mut junctions[old];
+            let mut slots = mem::take(&mut junction.slots);
+            slots.retain(|slot| slot.edge.is_some());
             if junction.is_end {
                 let angle = |slot: &Slot| turn(Spot::new(1.0, 0.0), slot.way);
                 slots.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
             }
-            let link = |slot: &Slot| {
+            let link = |slot: Slot| {
                 let number = slot.edge.map_or(0, |edge| edge as usize);
-                let edge = &growth.edges[number];
+                let edge = &grown[number];
                 let begins = if edge.from == edge.to {
                     (slot.left, slot.right) == (edge.left, edge.right)
                 } else {
@@ -286,16 +294,16 @@ impl Diagram {
                 };
                 (new_numbers[number], edges[number].1 == begins)
             };
-            slots.into_iter().map(link).collect()
+            slots.into_iter().map(link).collect::<Vec<Link>>()
         };
-        self.leaving = order.iter().map(leaving).collect();
+        self.leaving = Groups::of_each(order.iter().map(leaving));
         self.stretches = self.edges.iter().map(|_| OnceLock::new()).collect();
         let vertex = |&old: &usize| {
-            let Junction { at, clearance, tied, .. } = &growth.junctions[old];
-            Vertex { at: (at.x, at.y), clearance: *clearance, tied: tied.clone() }
+            let Junction { at, clearance, ref mut tied, .. } = junctions[old];
+            Vertex { at: (at.x, at.y), clearance, tied: mem::take(tied) }
         };
         self.vertices = order.iter().map(vertex).collect();
-        self.faults = growth.faults.iter().map(|at| at.rounded()).collect();
+        self.faults = faults.iter().map(|at| at.rounded()).collect();
         self.faults.sort_unstable();
         self.faults.dedup();
     }

@@ -141,7 +141,7 @@ impl Diagram {
 
     /// The link that goes on along the face on the left.
     fn onward(&self, link: Link) -> Option<Link> {
-        let leaving = &self.leaving[self.target(link) as usize];
+        let leaving = self.leaving.of(self.target(link) as usize);
         let back = leaving.iter().position(|&other| other == (link.0, !link.1))?;
         Some(leaving[(back + leaving.len() - 1) % leaving.len()])
     }
@@ -355,12 +355,14 @@ impl Diagram {
                 found.push(joined(legs, self.forms()));
             }
         }
-        found.extend((0_u32..).zip(&self.leaving).filter(|(_, leaving)| leaving.is_empty()).filter_map(
-            |(vertex, _)| {
-                let is_above = self.sample_at(vertex).clearance > crossings.level && wanted(vertex);
-                is_above.then(|| self.rounds(vertex)).flatten()
-            },
-        ));
+        found.extend(
+            (0_u32..).zip(self.leaving.iter()).filter(|(_, leaving)| leaving.is_empty()).filter_map(
+                |(vertex, _)| {
+                    let is_above = self.sample_at(vertex).clearance > crossings.level && wanted(vertex);
+                    is_above.then(|| self.rounds(vertex)).flatten()
+                },
+            ),
+        );
         Some(found)
     }
 

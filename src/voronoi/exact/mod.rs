@@ -89,10 +89,11 @@ mod weld;
 use std::sync::OnceLock;
 
 use crate::geometry::{BoxTree, Nm, Point, Rect};
+use crate::topology::Groups;
 use crate::voronoi::plane::Spot;
 use crate::voronoi::sample::Sample;
 
-use breaks::Breaks;
+use breaks::{Breaks, breaks};
 use form::Form;
 use index::Index;
 use tolerances::WRONG;
@@ -176,7 +177,7 @@ pub struct Diagram {
     vertices: Vec<Vertex>,
     edges: Vec<Edge>,
     /// What leaves each vertex, counter-clockwise.
-    leaving: Vec<Vec<Link>>,
+    leaving: Groups<Link>,
     /// Of each edge that a level set was asked for, where its clearance turns.
     stretches: Vec<OnceLock<Vec<Sample>>>,
     faults: Vec<Point>,
@@ -194,7 +195,7 @@ impl Diagram {
             return diagram;
         }
         for tie in TIES {
-            diagram.breaks = Breaks::new(&diagram.generators, &diagram.index, tie);
+            diagram.breaks = breaks(&diagram.generators, &diagram.index, tie);
             diagram.tie = tie;
             diagram.walk_all(space);
             if diagram.faults.is_empty() {
@@ -234,7 +235,7 @@ impl Diagram {
             window,
             vertices: Vec::new(),
             edges: Vec::new(),
-            leaving: Vec::new(),
+            leaving: Groups::default(),
             stretches: Vec::new(),
             faults: Vec::new(),
         }

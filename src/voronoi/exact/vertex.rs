@@ -263,7 +263,8 @@ impl Diagram {
             return Vec::new();
         }
         let group = |g: usize| tied.iter().filter(move |entry| entry.group == g % groups);
-        let mut slots = Vec::new();
+        // Most are joints.
+        let mut slots = Vec::with_capacity(2);
         for g in 0..groups {
             let (Some(last), Some(first)) = (group(g).next_back(), group(g + 1).next()) else { continue };
             let way = super::form::unit(clockwise(first.toward - last.toward));

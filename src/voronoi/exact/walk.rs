@@ -157,7 +157,7 @@ impl Diagram {
             let (form, sense) = (&pair.forms[side], pair.sense(side));
             let from = form.place(here.at);
             let number = [pair.left, pair.right][side];
-            let breaks = if number == NOBODY { &[] } else { self.breaks.of(number) };
+            let breaks = if number == NOBODY { &[] } else { self.breaks.of(number as usize) };
             // Of its own two ends the one ahead.
             let own = form.ends().map(|[start, end]| if sense > 0.0 { end } else { start });
             let ends = own.into_iter().chain(breaks.iter().copied());
