@@ -145,11 +145,12 @@ impl Sites {
             if backwards {
                 points.reverse();
             }
-            let runs = coarse(&points, tolerance);
-            let ring = self.rings.push(points.into_iter());
+            let coarse = coarse(&points, tolerance);
+            let count = u32::try_from(coarse.len()).expect("below 2³² vertices");
+            let ring = self.rings.push(coarse.into_iter());
             first_ring.get_or_insert(ring);
-            for (first, count) in runs {
-                self.push(Form::Chain { ring, first, count }, 0.0, owner, flat);
+            for first in 0..count {
+                self.push(Form::Edge { ring, first }, 0.0, owner, flat);
             }
             let first_ring = first_ring.unwrap_or(ring);
             self.sites[inside].form = Form::Inside { first_ring, rings: ring - first_ring + 1 };
@@ -194,10 +195,10 @@ impl Sites {
                     offset,
                     limit,
                 },
-                Form::Chain { ring, first, count } if !site.flat || band > 0.0 => {
+                Form::Edge { ring, first } if !site.flat || band > 0.0 => {
                     let vertices = self.rings.ring(*ring);
-                    let (first, count) = (*first as usize, *count as usize);
-                    let (from, to) = (at(vertices[first]), at(vertices[(first + count) % vertices.len()]));
+                    let first = *first as usize;
+                    let (from, to) = (at(vertices[first]), at(vertices[(first + 1) % vertices.len()]));
                     Surface::Curtain { from, to, caps: Caps::Start, sides: Sides::Both, offset, limit }
                 }
                 Form::Inside { first_ring, rings } => {
@@ -205,7 +206,7 @@ impl Sites {
                     let contours = (*first_ring..first_ring + rings).map(ring).collect();
                     Surface::Polygon { contours, rule: FillRule::NonZero, depth: 0.0 }
                 }
-                Form::Chain { .. } | Form::Outside => continue,
+                Form::Edge { .. } | Form::Outside => continue,
             };
             scene.add(Label(label), surface);
         }
@@ -220,23 +221,22 @@ fn twice_area(ring: &[Point]) -> f64 {
     spots().zip(spots().cycle().skip(1)).map(|(a, b)| a.cross(b)).sum()
 }
 
-/// A ring as runs of edges, first vertex and count, each within `tolerance` of its chord.
-fn coarse(ring: &[Spot], tolerance: f64) -> Vec<(u32, u32)> {
+/// Those vertices of a ring whose chords all others are within `tolerance` of.
+fn coarse(ring: &[Spot], tolerance: f64) -> Vec<Spot> {
     let n = ring.len();
-    let mut runs = Vec::new();
+    let mut kept = Vec::new();
     let mut first = 0;
-    // Three runs at least: a chord must not stand for a whole ring.
+    // Three chords at least: a chord must not stand for a whole ring.
     let most = (n / 3).clamp(1, 64);
     while first < n {
         let mut count = 1;
         while count < most && first + count < n && is_chord(ring, first, count + 1, tolerance) {
             count += 1;
         }
-        runs.push((first, count));
+        kept.push(ring[first]);
         first += count;
     }
-    let number = |n: usize| u32::try_from(n).expect("below 2³² vertices");
-    runs.into_iter().map(|(first, count)| (number(first), number(count))).collect()
+    kept
 }
 
 /// Whether so many edges may be drawn as one: they stay within `tolerance` of it and bend all one

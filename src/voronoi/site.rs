@@ -13,8 +13,8 @@ pub(super) enum Form {
     Line(Spot, Spot),
     /// A circular arc: counter-clockwise from `from` to `to` round `center`, or the whole circle.
     Arc { center: Spot, from: Spot, to: Spot },
-    /// `count` edges of a ring, from vertex `first`: copper lies to the left.
-    Chain { ring: u32, first: u32, count: u32 },
+    /// The edge of a ring that begins at vertex `first`: copper lies to the left.
+    Edge { ring: u32, first: u32 },
     /// The inside of a polygon: the edges of `rings`.
     Inside { first_ring: u32, rings: u32 },
     /// What lies beyond the board's edge; its border is kept elsewhere.

@@ -5,9 +5,11 @@
 //! Distances to what they are the ends of then differ by less than anybody can tell, over areas as
 //! large as the board. No cut shows so little: the two are one.
 
+use std::collections::{BTreeSet, VecDeque};
+
 use rustc_hash::FxHashMap;
 
-use crate::geometry::Point;
+use crate::geometry::{Nm, Point};
 
 /// Points nearer to each other than this along both axes are one, in nanometres. Chosen: twice what
 /// five decimals of a millimetre leave, a hundredth of what a cut may be off.
@@ -17,18 +19,22 @@ const NEAR: i64 = 20;
 pub(super) fn welded(mut points: Vec<Point>) -> FxHashMap<Point, Point> {
     points.sort_unstable();
     points.dedup();
-    let cell = |p: Point| [p.x, p.y].map(|nm| nm.get().div_euclid(NEAR));
-    let mut firsts: FxHashMap<[i64; 2], Point> = FxHashMap::default();
+    // Those that stay where they are, as far as they may be near what comes: in order, and by y.
+    let mut firsts: VecDeque<Point> = VecDeque::new();
+    let mut by_y: BTreeSet<(Nm, Nm)> = BTreeSet::new();
     let mut moved = FxHashMap::default();
+    let near = Nm::new(NEAR - 1);
     for p in points {
-        let [x, y] = cell(p);
-        let near = (x - 1..=x + 1).flat_map(|x| (y - 1..=y + 1).map(move |y| [x, y]));
-        let near = near.filter_map(|cell| firsts.get(&cell).copied());
-        let is_near = |first: &Point| [first.x - p.x, first.y - p.y].iter().all(|off| off.abs().get() < NEAR);
-        // A cell holds one at most, for any two in it are near.
-        match near.filter(is_near).min() {
+        while let Some(first) = firsts.pop_front_if(|first| p.x - first.x > near) {
+            by_y.remove(&(first.y, first.x));
+        }
+        let beside = by_y.range((p.y - near, p.x - near)..=(p.y + near, p.x));
+        match beside.map(|&(y, x)| Point::new(x, y)).min() {
             Some(first) => drop(moved.insert(p, first)),
-            None => drop(firsts.insert([x, y], p)),
+            None => {
+                firsts.push_back(p);
+                by_y.insert((p.y, p.x));
+            }
         }
     }
     moved
@@ -37,7 +43,6 @@ pub(super) fn welded(mut points: Vec<Point>) -> FxHashMap<Point, Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::Nm;
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::new(x), Nm::new(y))
@@ -51,5 +56,25 @@ mod tests {
         assert_eq!(moved.get(&at(30, 0)), None, "30 nm from the first, whatever lies between");
         assert_eq!(moved.get(&at(1_000, 14)), Some(&at(1_000, 0)), "across cells");
         assert_eq!(moved.len(), 2, "the others stay: {moved:?}");
+    }
+
+    #[test]
+    fn each_is_moved_to_the_first_of_all_before_it_that_stay_and_are_near() {
+        let mut seed: i64 = 3;
+        let mut next = |below: i64| {
+            seed = (seed * 1_103_515_245 + 12_345) % (1 << 31);
+            seed / 65_536 % below
+        };
+        let mut points: Vec<Point> = (0..2000).map(|_| at(next(600), next(600))).collect();
+        let moved = welded(points.clone());
+        points.sort_unstable();
+        points.dedup();
+        let mut firsts: Vec<Point> = Vec::new();
+        for p in points {
+            let off = |first: &Point| (first.x - p.x).abs().max((first.y - p.y).abs());
+            let first = firsts.iter().filter(|first| off(first) < Nm::new(NEAR)).min().copied();
+            assert_eq!(moved.get(&p), first.as_ref(), "{p:?}");
+            firsts.extend(first.is_none().then_some(p));
+        }
     }
 }
