@@ -25,6 +25,11 @@ impl Head {
         Self { heights, plunge, at: None, moves: Vec::new() }
     }
 
+    /// Makes room for so many moves.
+    pub(super) fn reserve(&mut self, moves: usize) {
+        self.moves.reserve_exact(moves);
+    }
+
     /// To the safe height over `point`, by way of the safe height.
     pub(super) fn over(&mut self, point: Point) {
         self.retract();

@@ -195,6 +195,10 @@ fn vertex(path: &Path, index: usize) -> Point {
     index.checked_sub(1).and_then(|before| path.segments.get(before)).map_or(path.start, Segment::to)
 }
 
+/// How many moves a trail has beside its segments: up, over, down to the approach height, the
+/// plunge.
+const AROUND: usize = 4;
+
 /// The moves that cut all ways that must be cut.
 fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move> {
     let links: Vec<Link> = ways.iter().map(|way| way.link).collect();
@@ -204,6 +208,7 @@ fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move>
     let mut lines: Vec<Option<Line>> = lines.map(Some).collect();
     let stretches: Vec<Stretch> = lines.iter().flatten().map(Line::stretch).collect();
     let mut head = Head::new(settings.heights, settings.tool.plunge);
+    head.reserve(lines.iter().flatten().map(|line| line.path.segments.len() + AROUND).sum());
     let mut before = None;
     let length = lines.iter().flatten().map(|line| line.path.length()).sum();
     for leg in arrange(&stretches, Point::default(), settings.order, length) {

@@ -147,7 +147,10 @@ fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Arrival {
 impl Diagram {
     /// Finds all vertices and edges.
     pub(super) fn walk_all(&mut self, space: Space) {
-        let mut growth = Growth { tie: self.tie, ..Growth::default() };
+        // Room that nothing is written to takes no memory, and lists that grow are there twice.
+        let most = self.generators.len();
+        let (junctions, edges) = (Vec::with_capacity(most), Vec::with_capacity(most));
+        let mut growth = Growth { tie: self.tie, junctions, edges, ..Growth::default() };
         self.sow(&mut growth, space);
         self.finish(growth);
     }
