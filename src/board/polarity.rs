@@ -118,19 +118,12 @@ fn erase<'a>(feature: Feature, clear: impl ExactSizeIterator<Item = &'a Polygon>
     };
     let pieces = difference(&whole, clear);
     if let [piece] = pieces.as_slice()
-        && twice_area(piece) == twice_area(&whole)
+        && piece.twice_area() == whole.twice_area()
     {
         left.push(feature);
         return;
     }
     left.extend(pieces.into_iter().map(|piece| Feature { shape: Shape::Polygon(piece), ..feature.clone() }));
-}
-
-/// Twice the area, in nm²: exact, so it tells whether anything was erased.
-#[must_use]
-pub fn twice_area(polygon: &Polygon) -> i128 {
-    let origin = polygon.contours()[0][0];
-    polygon.edges().map(|(a, b)| i128::from((a - origin).cross(b - origin))).sum()
 }
 
 #[cfg(test)]

@@ -4,8 +4,9 @@ use std::ops::ControlFlow;
 
 use bitvec::prelude::BitVec;
 
+use super::polygon::winding_of;
 use super::tree::BoxTree;
-use super::{Orientation, Point, Polygon, Rect, orientation};
+use super::{Point, Polygon, Rect};
 
 /// From how many edges on they are indexed.
 ///
@@ -85,17 +86,12 @@ impl Edges {
             return Some(0);
         }
         let ray = Rect::new(p, Point::new(self.bounds.max().x, p.y));
-        let mut winding = 0;
-        let is_on_edge = self.any(ray, stack, |(a, b)| {
-            let side = orientation(a, b, p);
-            if a.y <= p.y && b.y > p.y && side == Orientation::Left {
-                winding += 1;
-            } else if a.y > p.y && b.y <= p.y && side == Orientation::Right {
-                winding -= 1;
-            }
-            side == Orientation::Straight && Rect::new(a, b).contains(p)
+        let mut winding = Some(0);
+        self.any(ray, stack, |edge| {
+            winding = winding.zip(winding_of(edge, p)).map(|(sum, one)| sum + one);
+            winding.is_none()
         });
-        (!is_on_edge).then_some(winding)
+        winding
     }
 }
 

@@ -23,6 +23,7 @@ mod nm;
 mod path;
 mod point;
 mod polygon;
+mod spans;
 mod tree;
 
 pub use arc::{Arc, Circle, Turn};
@@ -35,4 +36,6 @@ pub use nm::{Nm, RangeError};
 pub use path::{Path, Segment};
 pub use point::{Orientation, Point, Rect, Vector, orientation};
 pub use polygon::Polygon;
+pub(crate) use polygon::twice_area;
+pub(crate) use spans::merge;
 pub(crate) use tree::{BoxTree, Region};

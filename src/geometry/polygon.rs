@@ -72,27 +72,19 @@ impl Polygon {
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a display figure; the sum itself is exact")]
     pub fn area_mm2(&self) -> f64 {
-        let origin = self.contours[0][0];
-        let twice: i128 = self.edges().map(|(a, b)| i128::from((a - origin).cross(b - origin))).sum();
-        twice as f64 / 2e12
+        self.twice_area() as f64 / 2e12
+    }
+
+    /// Twice the signed area, in nm²: exact, so it tells whether anything was erased.
+    #[must_use]
+    pub fn twice_area(&self) -> i128 {
+        self.contours.iter().map(|ring| twice_area(ring)).sum()
     }
 
     /// How often the contours wind round `p`; none where `p` lies on an edge. Exact.
     #[must_use]
     pub fn winding(&self, p: Point) -> Option<i32> {
-        let mut winding = 0;
-        for (a, b) in self.edges() {
-            let side = orientation(a, b, p);
-            if side == Orientation::Straight && Rect::new(a, b).contains(p) {
-                return None;
-            }
-            if a.y <= p.y && b.y > p.y && side == Orientation::Left {
-                winding += 1;
-            } else if a.y > p.y && b.y <= p.y && side == Orientation::Right {
-                winding -= 1;
-            }
-        }
-        Some(winding)
+        self.edges().map(|edge| winding_of(edge, p)).sum()
     }
 
     /// Whether `p` lies inside or on an edge, by the non-zero rule. Exact.
@@ -171,6 +163,30 @@ impl Polygon {
         half(&mut points.iter().rev().copied());
         Self::new(vec![hull])
     }
+}
+
+/// Twice the area that a ring goes round counter-clockwise, in nm². Exact, of walls beyond the
+/// range of coordinates, too.
+pub(crate) fn twice_area(ring: &[Point]) -> i128 {
+    let Some(&origin) = ring.first() else { return 0 };
+    let way = |p: Point| [p.x - origin.x, p.y - origin.y].map(|nm| i128::from(nm.get()));
+    // The edges at the origin add nothing.
+    let pairs = ring.windows(2).map(|pair| (way(pair[0]), way(pair[1])));
+    pairs.map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum()
+}
+
+/// What an edge adds to how often contours wind round `p`: something where a ray to the right
+/// crosses it; none where `p` lies on it.
+pub(super) fn winding_of((a, b): (Point, Point), p: Point) -> Option<i32> {
+    let side = orientation(a, b, p);
+    if side == Orientation::Straight && Rect::new(a, b).contains(p) {
+        return None;
+    }
+    Some(match side {
+        Orientation::Left if a.y <= p.y && b.y > p.y => 1,
+        Orientation::Right if a.y > p.y && b.y <= p.y => -1,
+        _ => 0,
+    })
 }
 
 /// What of a ring lies within `rect`, side by side (Sutherland and Hodgman 1974).

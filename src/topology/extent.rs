@@ -4,7 +4,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashSet;
 
 use crate::board::{Copper, Shape, polarity};
-use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::geometry::{Nm, Point, Polygon, Rect, merge};
 
 use super::{Groups, Net, Nets};
 
@@ -129,13 +129,7 @@ fn along(pieces: &[Polygon], x: Nm) -> Vec<Span> {
     let edges = pieces.iter().flat_map(Polygon::edges).filter(|(from, to)| from.x == x && to.x == x);
     let mut spans: Vec<Span> = edges.map(|(from, to)| (from.y.min(to.y), from.y.max(to.y))).collect();
     spans.sort_unstable();
-    spans.dedup_by(|next, span| {
-        let goes_on = next.0 <= span.1;
-        if goes_on {
-            span.1 = span.1.max(next.1);
-        }
-        goes_on
-    });
+    merge(&mut spans);
     spans
 }
 
@@ -157,7 +151,7 @@ fn common(a: &[Span], b: &[Span]) -> Vec<Span> {
 mod tests {
     use super::*;
     use crate::board::{Attributes, Axis, Feature, Side};
-    use crate::topology::{Method, recover};
+    use crate::topology::{Method, recover, splitmix};
 
     #[test]
     fn overlapping_strokes_count_once() {
@@ -185,10 +179,10 @@ mod tests {
     #[test]
     fn strips_add_up_to_the_whole() {
         let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
-        let mut seed: i64 = 11;
+        let mut state = 0;
         let mut next = |below: i64| {
-            seed = (seed * 1_103_515_245 + 12_345) % (1 << 31);
-            seed / 65_536 % below
+            state += 1;
+            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
         };
         let mut shapes: Vec<Shape> = (0..4 * PART)
             .map(|_| {

@@ -18,15 +18,24 @@ impl<T> Default for Groups<T> {
 impl<T> Groups<T> {
     /// The values of each thing, one after the other.
     pub(crate) fn of_each<V: IntoIterator<Item = T>>(all: impl ExactSizeIterator<Item = V>) -> Self {
-        let mut starts = Vec::with_capacity(all.len() + 1);
-        let mut values = Vec::new();
-        for each in all {
-            starts.push(number(values.len()));
-            values.extend(each);
-        }
-        starts.push(number(values.len()));
-        values.shrink_to_fit();
-        Self { starts, values }
+        let mut groups = Self::default();
+        groups.starts.reserve_exact(all.len());
+        all.for_each(|each| _ = groups.push(each));
+        groups.values.shrink_to_fit();
+        groups
+    }
+
+    /// Adds a thing with its values: its number.
+    pub(crate) fn push(&mut self, values: impl IntoIterator<Item = T>) -> u32 {
+        let thing = number(self.len());
+        self.values.extend(values);
+        self.starts.push(number(self.values.len()));
+        thing
+    }
+
+    /// How many things there are.
+    pub(crate) const fn len(&self) -> usize {
+        self.starts.len() - 1
     }
 
     /// The values of the thing `i`, in order.
@@ -36,7 +45,7 @@ impl<T> Groups<T> {
 
     /// The values of each thing.
     pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = &[T]> {
-        (0..self.starts.len() - 1).map(|i| self.of(i))
+        (0..self.len()).map(|i| self.of(i))
     }
 }
 

@@ -8,7 +8,7 @@
 use rayon::prelude::*;
 use static_aabb2d_index::StaticAABB2DIndex;
 
-use crate::geometry::{Point, Polygon, off_segment, spanned};
+use crate::geometry::{Point, Polygon, merge, off_segment, spanned};
 use crate::topology::DisjointSets;
 use crate::verify::boxes::boxes;
 use crate::verify::edges::{Edges, length};
@@ -122,13 +122,7 @@ impl Sweeps {
             });
         }
         runs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        runs.dedup_by(|next, before| {
-            let meets = next.0 <= before.1;
-            if meets {
-                before.1 = before.1.max(next.1);
-            }
-            meets
-        });
+        merge(&mut runs);
         runs
     }
 }

@@ -122,7 +122,7 @@ fn bounds(samples: &[Sample]) -> [f64; 4] {
 
 impl Fence {
     pub(super) fn new(border: &Border) -> Self {
-        Self::of((0..border.ring_count).map(|number| border.rings.ring(number)))
+        Self::of(border.rings.iter())
     }
 
     /// The edges of areas, polygons as a boolean returns them.
@@ -240,7 +240,7 @@ pub(super) fn within(
         let mut on: Vec<(Crossing, Node)> =
             crossings.iter().filter(|(crossing, _)| edges.contains(&crossing.edge)).copied().collect();
         on.sort_by(|(a, _), (b, _)| a.edge.cmp(&b.edge).then(a.along.total_cmp(&b.along)));
-        let corners = border.rings.ring(u32::try_from(ring).expect("below 2³² rings"));
+        let corners = border.rings.of(ring);
         let clearance = border.clearance.to_f64();
         let lap = Lap { corners, first_edge: edges.start, clearance };
         if on.is_empty() {

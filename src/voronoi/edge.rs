@@ -7,9 +7,10 @@
 
 use crate::board::{Copper, FLATTEN, Outline, Shape, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon, Rect};
+use crate::topology::Groups;
 
 use super::Settings;
-use super::site::Rings;
+use super::plane::Spot;
 
 /// What is cut, and what is drawn, ends here.
 #[derive(Clone)]
@@ -19,8 +20,7 @@ pub(super) struct Border {
     /// The rectangle that a picture shows.
     pub(super) window: Rect,
     /// The rings of the border, for distances.
-    pub(super) rings: Rings,
-    pub(super) ring_count: u32,
+    pub(super) rings: Groups<Spot>,
     /// One lap round the frame, where no outline is known.
     pub(super) frame: Option<Path>,
     /// How far copper is from it where it is cut: along a frame, no nearer; along an outline nobody
@@ -52,13 +52,11 @@ impl Border {
     /// The border of what lies within `inside`, in a picture of `window`; where it is cut, copper
     /// is farther than `clearance`.
     pub(super) fn round(inside: Vec<Polygon>, window: Rect, frame: Option<Path>, clearance: Nm) -> Self {
-        let mut rings = Rings::default();
-        let mut ring_count = 0;
+        let mut rings = Groups::default();
         for contour in inside.iter().flat_map(Polygon::contours) {
-            rings.push(contour.iter().map(|&p| p.into()));
-            ring_count += 1;
+            rings.push(contour.iter().map(|&p| Spot::from(p)));
         }
-        Self { inside, window, rings, ring_count, frame, clearance }
+        Self { inside, window, rings, frame, clearance }
     }
 
     /// The rectangle round what lies within it; none where nothing does.

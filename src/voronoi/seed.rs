@@ -11,19 +11,19 @@ use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
 use crate::geometry::{Arc, Nm, Point, Polygon};
 use crate::grid::Grid;
 use crate::raster::{Caps, FillRule, Label, Scene, Sides, Spin, Surface};
-use crate::topology::{NetId, Nets};
+use crate::topology::{Groups, NetId, Nets};
 
 use super::certified::axis;
 use super::edge::Border;
 use super::plane::Spot;
-use super::site::{Form, Rings, Site};
+use super::site::{Form, Site};
 use super::{BACKGROUND, OUTSIDE, Owner, Settings, SiteKind};
 
 /// All sites of a layer. Label 0 is the background and 1 the outside; owners count the same way,
 /// nets from 2.
 pub(super) struct Sites {
     pub(super) sites: Vec<Site>,
-    pub(super) rings: Rings,
+    pub(super) rings: Groups<Spot>,
     /// How far flat copper is fattened.
     pub(super) band: Nm,
 }
@@ -60,7 +60,7 @@ impl Sites {
         let start = Spot::default();
         let mut sites = Self {
             sites: vec![nobody(Form::Point(start), BACKGROUND), nobody(Form::Outside, OUTSIDE)],
-            rings: Rings::default(),
+            rings: Groups::default(),
             band: settings.min_width.filter(|_| settings.sites == SiteKind::Core).unwrap_or(Nm::ZERO),
         };
         let tolerance = settings.pitch.to_f64() / 8.0;
@@ -147,7 +147,7 @@ impl Sites {
             }
             let coarse = coarse(&points, tolerance);
             let count = u32::try_from(coarse.len()).expect("below 2³² vertices");
-            let ring = self.rings.push(coarse.into_iter());
+            let ring = self.rings.push(coarse);
             first_ring.get_or_insert(ring);
             for first in 0..count {
                 self.push(Form::Edge { ring, first }, 0.0, owner, flat);
@@ -196,13 +196,13 @@ impl Sites {
                     limit,
                 },
                 Form::Edge { ring, first } if !site.flat || band > 0.0 => {
-                    let vertices = self.rings.ring(*ring);
+                    let vertices = self.rings.of(*ring as usize);
                     let first = *first as usize;
                     let (from, to) = (at(vertices[first]), at(vertices[(first + 1) % vertices.len()]));
                     Surface::Curtain { from, to, caps: Caps::Start, sides: Sides::Both, offset, limit }
                 }
                 Form::Inside { first_ring, rings } => {
-                    let ring = |ring: u32| self.rings.ring(ring).iter().map(|&p| at(p)).collect();
+                    let ring = |ring: u32| self.rings.of(ring as usize).iter().map(|&p| at(p)).collect();
                     let contours = (*first_ring..first_ring + rings).map(ring).collect();
                     Surface::Polygon { contours, rule: FillRule::NonZero, depth: 0.0 }
                 }

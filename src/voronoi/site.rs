@@ -44,27 +44,3 @@ impl Form {
         Self::Arc { center: arc.center.into(), from: from.into(), to: to.into() }
     }
 }
-
-/// The rings of all polygons, vertex by vertex.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Rings {
-    vertices: Vec<Spot>,
-    /// Where each ring begins in `vertices`; one more entry closes the last.
-    starts: Vec<u32>,
-}
-
-impl Rings {
-    pub(super) fn push(&mut self, ring: impl Iterator<Item = Spot>) -> u32 {
-        if self.starts.is_empty() {
-            self.starts.push(0);
-        }
-        self.vertices.extend(ring);
-        self.starts.push(u32::try_from(self.vertices.len()).expect("below 2³² vertices"));
-        u32::try_from(self.starts.len() - 2).expect("below 2³² rings")
-    }
-
-    pub(super) fn ring(&self, ring: u32) -> &[Spot] {
-        let at = ring as usize;
-        &self.vertices[self.starts[at] as usize..self.starts[at + 1] as usize]
-    }
-}

@@ -1,7 +1,7 @@
 //! What is cut out of a polygon: what touches neither its edge nor anything else that is cut is a
 //! hole as it is, and needs no boolean. Most antipads of a plane are such.
 
-use crate::geometry::{Edges, Point, Polygon, Rect, RectIndex};
+use crate::geometry::{Edges, Point, Polygon, Rect, RectIndex, twice_area};
 
 /// What is cut out of a polygon.
 pub(super) struct Cuts<'a> {
@@ -51,12 +51,6 @@ impl<'a> Cuts<'a> {
     }
 }
 
-/// Twice the area that a ring goes round counter-clockwise, in nm². Exact.
-fn twice_area(ring: &[Point]) -> i128 {
-    let pairs = ring.iter().zip(ring.iter().cycle().skip(1));
-    pairs.map(|(&a, &b)| i128::from((a - ring[0]).cross(b - ring[0]))).sum()
-}
-
 /// A ring, turned round where it is not clockwise.
 fn clockwise(ring: &[Point]) -> Vec<Point> {
     let mut ring = ring.to_vec();
@@ -74,6 +68,7 @@ mod tests {
     use super::super::{Operands, difference};
     use super::*;
     use crate::geometry::Nm;
+    use crate::topology::splitmix;
 
     /// The contours of `polygons`, each from its least point, in order.
     fn contours(polygons: &[Polygon]) -> Vec<Vec<Vec<Point>>> {
@@ -99,10 +94,10 @@ mod tests {
         let plane = Polygon::rectangle(Rect::new(at(0, 0), at(1000, 1000)));
         // Some on the edge, some beside the plane, some that touch each other, most alone; then two
         // slits, that leave three pieces.
-        let mut seed: i64 = 7;
+        let mut state = 0;
         let mut next = |below: i64| {
-            seed = (seed * 1_103_515_245 + 12_345) % (1 << 31);
-            seed / 65_536 % below
+            state += 1;
+            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
         };
         for slits in [0, 2] {
             let mut clips: Vec<Polygon> = (0..120)

@@ -15,7 +15,8 @@ pub(super) type Breaks = Groups<Place>;
 
 /// The places on each generator where distances that differ by less than `tie` are equal.
 pub(super) fn breaks(generators: &Generators, index: &Index, tie: f64) -> Breaks {
-    Groups::new(generators.len(), touching_ends(generators, index, tie).into_iter())
+    let found = touching_ends(generators, index, tie);
+    Groups::new(generators.len(), found.iter().copied())
 }
 
 /// The places on generators where a line or an arc ends with the same foot and normal. A disc on

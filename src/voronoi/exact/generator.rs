@@ -20,7 +20,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::board::{Copper, FLATTEN, Shape};
-use crate::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Segment, Turn, Vector};
+use crate::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Segment, Turn, Vector, twice_area};
 use crate::topology;
 use crate::voronoi::plane::Spot;
 
@@ -450,12 +450,6 @@ fn cross(a: Point, b: Point, c: Point) -> i128 {
 fn is_back(a: Point, b: Point, c: Point) -> bool {
     let (u, v) = (b - a, c - b);
     i128::from(u.x.get()) * i128::from(v.x.get()) + i128::from(u.y.get()) * i128::from(v.y.get()) < 0
-}
-
-/// Twice the signed area of a ring.
-fn twice_area(ring: &[Point]) -> i128 {
-    let Some(&origin) = ring.first() else { return 0 };
-    ring.windows(2).map(|pair| cross(origin, pair[0], pair[1])).sum()
 }
 
 /// A ring without repeated points and without those that say nothing: on straight edges, or off

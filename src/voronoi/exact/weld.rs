@@ -43,6 +43,7 @@ pub(super) fn welded(mut points: Vec<Point>) -> FxHashMap<Point, Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::topology::splitmix;
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::new(x), Nm::new(y))
@@ -60,10 +61,10 @@ mod tests {
 
     #[test]
     fn each_is_moved_to_the_first_of_all_before_it_that_stay_and_are_near() {
-        let mut seed: i64 = 3;
+        let mut state = 0;
         let mut next = |below: i64| {
-            seed = (seed * 1_103_515_245 + 12_345) % (1 << 31);
-            seed / 65_536 % below
+            state += 1;
+            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
         };
         let mut points: Vec<Point> = (0..2000).map(|_| at(next(600), next(600))).collect();
         let moved = welded(points.clone());

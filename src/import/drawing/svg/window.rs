@@ -58,7 +58,7 @@ impl Window {
     fn holds(&self, bounds: Rect) -> bool {
         let [only] = self.pieces.as_slice() else { return false };
         let rect = only.bounds();
-        polarity::twice_area(only) == polarity::twice_area(&Polygon::rectangle(rect))
+        only.twice_area() == Polygon::rectangle(rect).twice_area()
             && rect.contains(bounds.min())
             && rect.contains(bounds.max())
     }
@@ -87,5 +87,5 @@ fn vertices(polygon: &Polygon) -> u64 {
 }
 
 fn area(polygons: &[Polygon]) -> i128 {
-    polygons.iter().map(polarity::twice_area).sum()
+    polygons.iter().map(Polygon::twice_area).sum()
 }
