@@ -67,6 +67,7 @@ const LEAVE_LAYER: Words =
 pub(super) fn refuse(gathered: &Gathered, votes: &[Vote], selection: &Selection) -> Result<(), Error> {
     refuse_other_side(gathered, votes)?;
     let shared = shared_start(gathered);
+    let has_drill = gathered.files.iter().any(|file| file.kind == Kind::Excellon);
     for vote in votes {
         let file = &gathered.files[vote.file];
         let by_words = || layers::role_by_name(&file.name, shared);
@@ -85,7 +86,7 @@ pub(super) fn refuse(gathered: &Gathered, votes: &[Vote], selection: &Selection)
                 )
             }
             (Some(Role::Drill), Kind::Gerber, Some(Role::Other("drill drawing")))
-                if selection.drill.is_empty() =>
+                if selection.drill.is_empty() && !(has_drill && is_orcad_drawing(&file.name)) =>
             {
                 let what = "named like a drill file, but it is a Gerber file without a file function";
                 (what, LEAVE_DRILL.with([&name]))
@@ -101,6 +102,11 @@ pub(super) fn refuse(gathered: &Gathered, votes: &[Vote], selection: &Selection)
         return Err(Error::content(&file.shown, what, hint));
     }
     Ok(())
+}
+
+/// Whether a name ends as OrCAD's drill drawings do; EAGLE ends its drill files so.
+fn is_orcad_drawing(name: &str) -> bool {
+    name.rsplit_once('.').is_some_and(|(_, extension)| extension.eq_ignore_ascii_case("drd"))
 }
 
 /// A file named for one side that calls itself the other, where either says that it is copper.

@@ -7,7 +7,8 @@
 //! 2. the X2 attribute `.FileFunction` in the file itself (Gerber specification 2024.05 §5.6.3),
 //!    also where KiCad and Eagle hide it in comments;
 //! 3. the name: KiCad's `-F_Cu`, Altium's and Protel's `.GTL`, Eagle's `.cmp` and `copper_top`,
-//!    EasyEDA's `Gerber_TopLayer`, DipTrace's `_Top`, gEDA's `.front` and `group1`, OrCAD's `.top`.
+//!    EasyEDA's `Gerber_TopLayer`, DipTrace's `_Top`, gEDA's `.front` and `group1`, OrCAD's `.top`,
+//!    what people call sides in other languages; also with an extension more, `.GTL.gbr`.
 //!
 //! Words of a name count only where they differ between the files: the board `solder-station` has
 //! no back side for it.
@@ -211,11 +212,27 @@ const PARTS: &[(&str, Role)] = &[
     ("profile", Role::Outline),
     ("contour", Role::Outline),
     ("border", Role::Outline),
+    // pcb-rnd's.
+    ("boundary", Role::Outline),
     ("dimension", Role::Outline),
     ("cutout", Role::Outline),
     ("perimeter", Role::Outline),
     // Zuken's.
     ("boardfigure", Role::Outline),
+    // As people name files in German, French, Spanish and Italian.
+    ("stopp", Role::Other("solder mask")),
+    ("masque", Role::Other("solder mask")),
+    ("maschera", Role::Other("solder mask")),
+    ("bestuck", Role::Other("silkscreen")),
+    ("siebdruck", Role::Other("silkscreen")),
+    ("serigra", Role::Other("silkscreen")),
+    ("bohr", Role::Drill),
+    ("percage", Role::Drill),
+    ("taladro", Role::Drill),
+    ("foratura", Role::Drill),
+    ("umris", Role::Outline),
+    ("kontur", Role::Outline),
+    ("contorno", Role::Outline),
 ];
 
 /// Whole words that set a layer aside, whatever else its name says: `StopTop`, `PosiBot`,
@@ -230,18 +247,25 @@ const ASIDE: &[(&str, Role)] = &[
     ("plane", Role::Other("inner copper")),
 ];
 
-/// Whole words; where a name holds several, the last counts.
+/// Whole words for the side of a layer of any kind.
+const SIDE_WORDS: &[(Side, &[&str])] = &[
+    (Side::Front, &["top", "front", "toplayer", "oben", "oberseite", "dessus", "superior", "sopra"]),
+    (
+        Side::Back,
+        &["bottom", "bot", "back", "bottomlayer", "unten", "unterseite", "dessous", "inferior", "sotto"],
+    ),
+];
+
+/// The side that a word names.
+fn side_of(word: &str) -> Option<Side> {
+    SIDE_WORDS.iter().find(|(_, words)| words.contains(&word)).map(|&(side, _)| side)
+}
+
+/// Whole words; where a name holds several of these or of the sides, the last counts.
 const WORDS: &[(&str, Role)] = &[
-    ("top", Role::Copper(Side::Front)),
-    ("front", Role::Copper(Side::Front)),
     ("component", Role::Copper(Side::Front)),
     ("comp", Role::Copper(Side::Front)),
-    ("toplayer", Role::Copper(Side::Front)),
-    ("bottom", Role::Copper(Side::Back)),
-    ("bot", Role::Copper(Side::Back)),
-    ("back", Role::Copper(Side::Back)),
     ("solder", Role::Copper(Side::Back)),
-    ("bottomlayer", Role::Copper(Side::Back)),
     ("edge", Role::Outline),
     ("edges", Role::Outline),
     ("mechanical", Role::Outline),
@@ -270,6 +294,7 @@ pub(super) fn role_by_name(name: &str, shared: usize) -> Option<Role> {
         .or_else(|| looked_up(EXTENSIONS, |known| known == extension))
         .or_else(|| numbered(&extension, &["g", "gp", "l", "ly", "in"]).map(|_| Role::Other("inner copper")))
         .or_else(|| numbered(&extension, &["gm"]).map(|_| Role::Other("mechanical layer")))
+        .or_else(|| role_by_extension(stem).filter(|_| extension == "txt" || is_gerber_by_extension(name)))
         .or_else(|| role_by_words(&extension_words(name, stem.len())))
         .or_else(|| role_by_words(&words(stem.get(shared..).unwrap_or(stem), false)))
         .or_else(|| role_by_words(&words(stem.get(shared..).unwrap_or(stem), true)))
@@ -297,8 +322,7 @@ pub(super) fn role_by_sure_name(name: &str) -> Option<Role> {
 pub(super) fn kind_by_name(name: &str, shared: usize) -> Option<Role> {
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     let by_words = |words: Vec<String>| {
-        looked_up(PARTS, |part| words.iter().any(|word| word.contains(part)))
-            .or_else(|| looked_up(ASIDE, |known| words.iter().any(|word| word == known)))
+        role_by_parts(&words).or_else(|| looked_up(ASIDE, |known| words.iter().any(|word| word == known)))
     };
     role_by_sure_name(name)
         .or_else(|| by_words(words(stem.get(shared..).unwrap_or(stem), false)))
@@ -339,11 +363,7 @@ pub(super) fn side_by_name(name: &str, shared: usize) -> Option<Side> {
     }
     let by_extension =
         || SIDES.iter().find(|(_, all)| all.contains(&extension.as_str())).map(|&(side, _)| side);
-    let of_word = |word: &String| match word.trim_end_matches(|c: char| c.is_ascii_digit()) {
-        "top" | "front" | "toplayer" => Some(Side::Front),
-        "bottom" | "bot" | "back" | "bottomlayer" => Some(Side::Back),
-        _ => None,
-    };
+    let of_word = |word: &String| side_of(word.trim_end_matches(|c: char| c.is_ascii_digit()));
     let by_words = |words: Vec<String>| words.iter().rev().find_map(of_word);
     let rest = stem.get(shared..).unwrap_or(stem);
     by_extension()
@@ -365,11 +385,23 @@ fn extension_words(name: &str, stem: usize) -> Vec<String> {
     if extension.len() > 4 { words(extension, false) } else { Vec::new() }
 }
 
+/// The role that a part of a word tells, or two words that are one elsewhere: `BoardFigure`.
+fn role_by_parts(words: &[String]) -> Option<Role> {
+    let in_two =
+        |part: &str| words.windows(2).any(|pair| part.strip_prefix(pair[0].as_str()) == Some(&pair[1]));
+    looked_up(PARTS, |part| words.iter().any(|word| word.contains(part)) || in_two(part))
+}
+
+/// The role that a whole word names.
+fn role_of_word(word: &str) -> Option<Role> {
+    side_of(word).map(Role::Copper).or_else(|| looked_up(WORDS, |known| known == word))
+}
+
 fn role_by_words(words: &[String]) -> Option<Role> {
     let inner = || words.iter().any(|word| numbered(word, &["in", "inner", "mid"]).is_some());
-    looked_up(PARTS, |part| words.iter().any(|word| word.contains(part)))
+    role_by_parts(words)
         .or_else(|| looked_up(ASIDE, |known| words.iter().any(|word| word == known)))
-        .or_else(|| words.iter().rev().find_map(|word| looked_up(WORDS, |known| known == word)))
+        .or_else(|| words.iter().rev().find_map(|word| role_of_word(word)))
         .or_else(|| words.iter().rev().find_map(|word| side_with_number(word)))
         .or_else(|| inner().then_some(Role::Other("inner copper")))
         .or_else(|| counted(words).map(Role::Group))
@@ -378,7 +410,7 @@ fn role_by_words(words: &[String]) -> Option<Role> {
 /// The side that a word names with a number behind it: `top1`.
 fn side_with_number(word: &str) -> Option<Role> {
     let bare = word.trim_end_matches(|c: char| c.is_ascii_digit());
-    looked_up(WORDS, |known| known == bare).filter(|role| matches!(role, Role::Copper(_)))
+    role_of_word(bare).filter(|role| matches!(role, Role::Copper(_)))
 }
 
 /// The number of a counted layer, in one word with what is counted or behind it.
@@ -408,16 +440,32 @@ fn words(text: &str, in_capitals: bool) -> Vec<String> {
             'A'..='Z' => in_capitals && c.is_ascii_uppercase() && is_last(),
             _ => false,
         };
-        if !c.is_ascii_alphanumeric() || begins {
+        let plain = without_accent(c);
+        if !plain.is_ascii_alphanumeric() || begins {
             words.push(String::new());
         }
-        if c.is_ascii_alphanumeric() {
-            words.last_mut().expect("never empty").push(c.to_ascii_lowercase());
+        if plain.is_ascii_alphanumeric() {
+            words.last_mut().expect("never empty").push(plain.to_ascii_lowercase());
         }
         before = c;
     }
     words.retain(|word| !word.is_empty());
     words
+}
+
+/// A letter of western Europe without its accent.
+const fn without_accent(c: char) -> char {
+    match c {
+        'à'..='å' | 'À'..='Å' => 'a',
+        'ç' | 'Ç' => 'c',
+        'è'..='ë' | 'È'..='Ë' => 'e',
+        'ì'..='ï' | 'Ì'..='Ï' => 'i',
+        'ñ' | 'Ñ' => 'n',
+        'ò'..='ö' | 'Ò'..='Ö' => 'o',
+        'ù'..='ü' | 'Ù'..='Ü' => 'u',
+        'ß' => 's',
+        _ => c,
+    }
 }
 
 /// How many bytes at the start all `names` share, up to the last mark that parts words.
@@ -507,6 +555,20 @@ mod tests {
             ("amp-L4.gbr", Role::Group(4)),
             ("amp_copperTop.gtl", FRONT),
             ("amp_contour.gm1", Role::Outline),
+            ("amp.global.boundary.uroute.9.gbr", Role::Outline),
+            ("amp_BoardFigure.gbr", Role::Outline),
+            ("amp-pad_master.gbr", Role::Other("pad master")),
+            ("amp-drill_map.gbr", Role::Other("drill map")),
+            ("amp.GTL.gbr", FRONT),
+            ("amp-B_Cu.gbl.gbr", BACK),
+            ("amp.gts.txt", Role::Other("solder mask")),
+            ("amp_Kupfer oben.gbr", FRONT),
+            ("amp_Lötstopp unten.gbr", Role::Other("solder mask")),
+            ("Unterseite.gbr", BACK),
+            ("Bestückung_oben.gbr", Role::Other("silkscreen")),
+            ("dessous.gbr", BACK),
+            ("perçage.gbr", Role::Drill),
+            ("cara superior.gbr", FRONT),
         ];
         for (name, role) in cases {
             assert_eq!(role_by_name(name, 0), Some(role), "{name}");

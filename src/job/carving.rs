@@ -282,6 +282,13 @@ fn shape_warnings(
         );
         warnings.push(planning::NARROWER_THAN_TIP.warning(message));
     }
+    if how.max_depth.is_none() && axis.widest() > (tool.kind.width_at(BOTTOMLESS) / 2).to_f64() {
+        let wide = format!("a place is {:.0} mm wide", 2.0 * axis.widest() / 1e6);
+        let deep = format!("`{}` would go deeper than {:.0} mm", tool.kind, BOTTOMLESS.to_mm());
+        let problem = Words::of("{0}, where {1} if nothing said how deep it may go: see {unit}");
+        let problem = problem.with([&wide, &deep]).to_string();
+        return Err(Error::Value { key: "max-depth", problem });
+    }
     if let Some(most) = how.max_depth.filter(|_| how.flat.is_none()) {
         let reach = tool.kind.width_at(most - how.start()) / 2;
         let wide = areas.iter().flat_map(|area| offset(area, -reach, Nm::from_um(1)));

@@ -188,6 +188,7 @@ impl Settings {
             frame_margin: frame_margin(&options, &isolation)?,
             adaptive_depth: validate::adaptive_depth(&options, &isolation)?,
             limit: validate::limit(&options, &isolation)?,
+            tolerance: validate::tolerance(&options, &isolation)?,
             isolation,
             safe,
             tiles,
@@ -221,7 +222,6 @@ impl Settings {
             clearing: Clearing::of(&options),
             sites: sites(&options)?,
             pixel: pixel(&options)?,
-            tolerance: positive("tolerance", options.tolerance)?,
             machine: Machine {
                 travel: validate::machine_travel(&options)?.or(machine.travel),
                 spin_up: dialect.spin_up,

@@ -3,7 +3,7 @@
 use crate::geometry::Nm;
 use crate::toolpath::{Feed, ToolKind};
 
-use super::checked::{given, wrong};
+use super::checked::{given, positive, wrong};
 use super::options::Complete;
 use super::quantity::{Length, Triple};
 use super::{Cutting, Error, Options, Profile};
@@ -51,6 +51,23 @@ pub(super) fn adaptive_depth(options: &Complete, cuttings: &[Cutting]) -> Result
         ),
         Some(_) => Ok(Some(least)),
     }
+}
+
+/// How far a cut may be from its place: with more than a fifth of the narrowest it would go
+/// wherever lines and arcs are fewest.
+pub(super) fn tolerance(options: &Complete, cuttings: &[Cutting]) -> Result<Nm, Error> {
+    let tolerance = positive("tolerance", options.tolerance)?;
+    let finest = cuttings.iter().map(Cutting::kerf).min().unwrap_or(Nm::ZERO);
+    let most = (finest / 5).max(Options::defaults().tolerance.map_or(Nm::ZERO, Length::nm));
+    if tolerance > most {
+        let most = Length(most);
+        return wrong(
+            "tolerance",
+            tolerance,
+            &format!("it must be at most {most}, a fifth of the finest cut"),
+        );
+    }
+    Ok(tolerance)
 }
 
 /// How far regions reach, if they end before their neighbours': no nearer to copper than half of

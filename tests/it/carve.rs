@@ -352,6 +352,18 @@ fn a_layer_is_carved_and_what_makes_no_sense_is_refused() {
     );
 }
 
+#[test]
+fn nothing_is_carved_deeper_than_tools_are_long() {
+    let disc =
+        |radius: i64| Polygon::disc(Point::default(), Nm::from_mm(radius), Nm::from_um(1)).expect("a disc");
+    let art = |radius: i64| Art { name: "table".to_owned(), areas: vec![disc(radius)], ..Art::default() };
+    let with = |radius: i64, how: &Carving| carve(art(radius), &settings("vbit:0.1mm:60deg"), how);
+    let error = with(90, &HOW).expect_err("156 mm deep").to_string();
+    assert!(error.contains("a place is 180 mm wide") && error.contains("100 mm"), "{error}");
+    with(90, &Carving { max_depth: Some(Nm::from_mm(3)), ..HOW }).expect("three are deep enough");
+    assert!(with(5, &HOW).expect("a program").deepest > Nm::from_um(8_500), "to the middle");
+}
+
 /// Capitals and digits are where a ruler would find them.
 #[test]
 fn letters_are_as_high_as_asked_for() {

@@ -613,3 +613,13 @@ fn the_boards_of_this_repository_load_without_a_warning() {
         assert_eq!(loaded.board.name, name, "named as its files");
     }
 }
+
+#[test]
+fn a_drill_drawing_of_orcad_is_no_drill_file_where_there_is_one() {
+    let files = [("AMP.TOP", SQUARE), ("AMP.BOT", SQUARE), ("AMP.DRD", SQUARE), ("thruhole.tap", DRILL)];
+    let loaded = Folder::with(&files).load(&Selection::default()).expect("a board");
+    assert_eq!(files_of(&loaded, "drill"), ["thruhole.tap"]);
+    assert_eq!(files_of(&loaded, "ignored (drill drawing)"), ["AMP.DRD"]);
+    let error = Folder::with(&files[..3]).load(&Selection::default()).expect_err("holes that are drawn");
+    assert!(error.contains("named like a drill file, but it is a Gerber file"), "{error}");
+}

@@ -524,6 +524,7 @@ fn what_makes_no_sense_is_refused() {
             (&["--tool", "endmill:1mm", "--stepover", "60%"], "half the tool diameter"),
             (&["--tool", "endmill:1mm", "--stepover", "0mm"], "half the tool diameter"),
             (&["--tool", "endmill:1mm", "--stock", "0.6mm"], "half the tool diameter"),
+            (&["--tool", "endmill:1mm", "--tolerance", "0.3mm"], "at most 0.2mm, a fifth of the finest cut"),
             (&["--tool", "endmill:1mm", "--ramp", "0deg"], "above 0deg"),
             (&["--tool", "endmill:1mm", "--depth-pass", "0mm"], "above zero"),
             (&["--tool", "endmill:9.8mm"], "narrower than"),

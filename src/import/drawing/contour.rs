@@ -1,7 +1,8 @@
 //! A path in the making: places in nanometres, not rounded, become lines and arcs.
 //!
 //! Formats have cubic curves where a circle was drawn. A cubic that lies on a circle within what
-//! the usual approximation leaves becomes that arc; any other becomes chords.
+//! the usual approximation leaves becomes that arc, and what goes on round the same middle becomes
+//! one with it; any other becomes chords.
 
 use crate::board::FLATTEN;
 use crate::geometry::{Nm, Path, Point, Segment, Turn, between};
@@ -14,6 +15,14 @@ pub(in crate::import) type Place = (f64, f64);
 /// its radius off.
 const CIRCULAR: (f64, f64, f64) = (0.0003, 5_000.0, 30.0);
 
+/// Arcs go on round one middle where their own are no farther from each other, in nanometres, nor
+/// differ their radii more. Chosen: three places in 32-bit floats leave so much.
+const TOGETHER: f64 = 60.0;
+
+/// An arc turns by no more, in radians, or all the way. Chosen: of more its ends are too near to
+/// each other.
+const LONGEST: f64 = 5.95;
+
 /// The most chords of one curve. Chosen: finer than any tolerance asks for.
 const MOST_CHORDS: f64 = 65_536.0;
 
@@ -23,14 +32,52 @@ pub(in crate::import) struct Contour {
     path: Path,
     at: Place,
     first: Place,
+    /// The arc that it ends with, where that was a curve.
+    bow: Option<Bow>,
     is_beyond: bool,
+}
+
+/// An arc that curves stand for.
+#[derive(Clone, Copy, Debug)]
+struct Bow {
+    start: Place,
+    /// The middle of all curves' middles, and how many they are.
+    center: Place,
+    count: f64,
+    turn: Turn,
+    radius: f64,
+    /// How far it turns, in radians.
+    swept: f64,
+}
+
+impl Bow {
+    /// Round `center` by less than half a turn.
+    fn new(start: Place, center: Place, turn: Turn, to: Place) -> Self {
+        let (u, v) = ((start.0 - center.0, start.1 - center.1), (to.0 - center.0, to.1 - center.1));
+        let swept = libm::atan2((u.0 * v.1 - u.1 * v.0).abs(), u.0 * v.0 + u.1 * v.1);
+        Self { start, center, count: 1.0, turn, radius: libm::hypot(u.0, u.1), swept }
+    }
+
+    /// Both as one, where `next` goes on round the same middle to `to`; and whether that is all the
+    /// way round.
+    fn with(&self, next: &Self, to: Place) -> Option<(Self, bool)> {
+        let is_near = |a: Place, b: Place| libm::hypot(a.0 - b.0, a.1 - b.1) <= TOGETHER;
+        let goes_on = self.turn == next.turn
+            && is_near(self.center, next.center)
+            && (self.radius - next.radius).abs() <= TOGETHER;
+        let swept = self.swept + next.swept;
+        let is_whole = swept > LONGEST && is_near(self.start, to);
+        let count = self.count + 1.0;
+        let joined = Self { center: between(self.center, next.center, 1.0 / count), count, swept, ..*self };
+        (goes_on && (is_whole || swept <= LONGEST)).then_some((joined, is_whole))
+    }
 }
 
 impl Contour {
     /// One that begins at `start`.
     pub(in crate::import) fn new(start: Place) -> Self {
         let path = Path { start: Point::default(), segments: Vec::new() };
-        let mut contour = Self { path, at: start, first: start, is_beyond: false };
+        let mut contour = Self { path, at: start, first: start, bow: None, is_beyond: false };
         contour.path.start = contour.point(start);
         contour
     }
@@ -45,6 +92,7 @@ impl Contour {
         let end = self.point(to);
         self.at = to;
         if end != self.path.end() {
+            self.bow = None;
             self.path.segments.push(Segment::Line { to: end });
         }
     }
@@ -52,7 +100,7 @@ impl Contour {
     /// Round `center`, all the way where the end is the start.
     pub(in crate::import) fn arc(&mut self, center: Place, turn: Turn, to: Place) {
         let (end, center) = (self.point(to), self.point(center));
-        self.at = to;
+        (self.at, self.bow) = (to, None);
         self.path.segments.push(Segment::Arc { to: end, center, turn });
     }
 
@@ -71,7 +119,7 @@ impl Contour {
         }
         let ends = [self.at, a, b, to];
         if let Some((center, turn)) = circle(ends) {
-            self.arc(center, turn, to);
+            self.bend(center, turn, to);
             return;
         }
         // Wang's bound on the distance between a curve and its chords.
@@ -84,6 +132,19 @@ impl Contour {
             step += 1.0;
         }
         self.line(to);
+    }
+
+    /// Round `center` by less than half a turn, in one arc with what it goes on from.
+    fn bend(&mut self, center: Place, turn: Turn, to: Place) {
+        let next = Bow::new(self.at, center, turn, to);
+        let Some((joined, is_whole)) = self.bow.and_then(|bow| bow.with(&next, to)) else {
+            self.arc(center, turn, to);
+            self.bow = Some(next);
+            return;
+        };
+        self.path.segments.pop();
+        self.arc(joined.center, turn, if is_whole { joined.start } else { to });
+        self.bow = (!is_whole).then_some(joined);
     }
 
     /// Straight back to where it began.
@@ -153,7 +214,7 @@ mod tests {
     use crate::geometry::off_segment;
 
     #[test]
-    fn four_cubics_of_a_circle_are_its_arcs() {
+    fn four_cubics_of_a_circle_are_the_circle() {
         const K: f64 = 0.552_284_749_830_793_6;
         let r = 5e6;
         let mut contour = Contour::new((r, 0.0));
@@ -162,9 +223,30 @@ mod tests {
         contour.cubic((-r, -K * r), (-K * r, -r), (0.0, -r));
         contour.cubic((K * r, -r), (r, -K * r), (r, 0.0));
         let path = contour.finish().expect("in range");
-        assert_eq!(path.segments.len(), 4, "four arcs");
-        assert!(path.is_closed(), "round");
+        let to = path.start;
+        let circle = Segment::Arc { to, center: Point::default(), turn: Turn::CounterClockwise };
+        assert_eq!(path.segments, [circle], "one circle");
         assert!((path.length() - std::f64::consts::TAU * r).abs() < 20.0, "{}", path.length());
+    }
+
+    #[test]
+    fn curves_that_go_on_round_one_middle_are_one_arc() {
+        const K: f64 = 0.552_284_749_830_793_6;
+        let (r, turn) = (5e6, Turn::CounterClockwise);
+        // Off by what 32-bit floats leave.
+        let half = |second: f64| {
+            let mut contour = Contour::new((r, 0.0));
+            contour.cubic((r + 8.0, K * r), (K * r, r - 8.0), (0.0, r));
+            contour.cubic((-K * second, second), (-second, K * second), (-second, 0.0));
+            contour.line((-second, -r));
+            contour.finish().expect("in range").segments
+        };
+        let down = |x: f64| Segment::Line { to: Point::from_f64(x, -r) };
+        let [arc, line] = half(r)[..] else { panic!("one arc and a line") };
+        let Segment::Arc { to, center, turn: round } = arc else { panic!("an arc") };
+        assert_eq!((to, round, line), (Point::from_f64(-r, 0.0), turn, down(-r)));
+        assert!(center.distance(Point::default()) < 20.0, "round the middle of both: {center:?}");
+        assert_eq!(half(r + 1_000.0).len(), 3, "a micrometre smaller, the other is another");
     }
 
     #[test]

@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 use super::check;
 use super::cutter::Cutter;
-use super::edges::Edges;
+use super::edges::{Edges, Spot};
 use super::report::Finding;
 use super::surface::{self, Surface};
 use super::{Error, ReadError};
@@ -91,7 +91,7 @@ const MOST_LISTED: usize = 50;
 /// A place that is off: where, by how much (too deep above zero), and whether it lies in an area.
 #[derive(Clone, Copy, Debug)]
 struct Off {
-    at: (f64, f64),
+    at: Spot,
     by: f64,
     inside: bool,
 }
@@ -234,30 +234,51 @@ impl Limits {
 
     /// How deep a tool can mill beside the areas, at least: one that moves straight away from the
     /// nearest place of an edge, on its other side.
-    fn reachable_beside(&self, at: (f64, f64), distance: f64, foot: (f64, f64), edges: &Edges) -> f64 {
+    fn reachable_beside(
+        &self,
+        at: Spot,
+        (distance, foot): (f64, Spot),
+        edges: &Edges,
+        last: &mut Last,
+    ) -> f64 {
         let way = ((foot.0 - at.0) / distance, (foot.1 - at.1) / distance);
         let beyond = (foot.0 + way.0, foot.1 + way.1);
-        let farthest = edges.farthest(beyond, 1.0, foot, SAME);
+        let farthest = edges.farthest(beyond, 1.0, foot, SAME, &mut last.exact);
         let centers = [0.0, self.blunt.min(farthest), self.full().min(farthest), farthest];
         centers.map(|radius| self.at(radius, radius + distance)).into_iter().fold(0.0, f64::max)
     }
 
     /// How deep a tool can mill at a place, at least, and whether that is where it does not reach
     /// from wall to wall.
-    fn reachable(&self, at: (f64, f64), distance: f64, foot: (f64, f64), edges: &Edges) -> (f64, bool) {
-        let farthest = edges.farthest(at, distance, foot, SAME);
+    fn reachable(
+        &self,
+        at: Spot,
+        (distance, foot): (f64, Spot),
+        edges: &Edges,
+        last: &mut Last,
+    ) -> (f64, bool) {
+        let farthest = edges.farthest(at, distance, foot, SAME, &mut last.exact);
         let full = self.full();
         let centers = [farthest, full.clamp(distance, farthest), (distance + self.blunt).min(farthest)];
         let best = centers.map(|radius| self.at(radius, radius - distance));
         // Between the chords of a curve the way ends early; what is wide is so over all of them.
-        let is_wide = farthest > full || edges.farthest(at, distance, foot, BULGE) > full;
+        let is_wide = full.is_finite()
+            && (farthest > full || edges.farthest(at, distance, foot, BULGE, &mut last.bulging) > full);
         (best.into_iter().fold(f64::NEG_INFINITY, f64::max), is_wide)
     }
+}
+
+/// How far the way from the place before went, and what ended it.
+#[derive(Default)]
+struct Last {
+    exact: Option<(f64, Spot)>,
+    bulging: Option<(f64, Spot)>,
 }
 
 /// What was found in a row of places.
 #[derive(Default)]
 struct Row {
+    last: Last,
     places: usize,
     errors: Vec<f64>,
     off: Vec<Off>,
@@ -266,7 +287,7 @@ struct Row {
 
 impl Row {
     /// Looks at a place inside or outside the areas.
-    fn look(&mut self, at: (f64, f64), inside: bool, milled: &Surface, edges: &Edges, limits: &Limits) {
+    fn look(&mut self, at: Spot, inside: bool, milled: &Surface, edges: &Edges, limits: &Limits) {
         self.places += 1;
         let depth = milled.depth(at);
         if !inside {
@@ -277,7 +298,7 @@ impl Row {
         let most = (limits.start + distance / limits.flank).min(limits.most);
         let mut error = depth - most;
         if error < 0.0 {
-            let (least, is_wide) = limits.reachable(at, distance, foot, edges);
+            let (least, is_wide) = limits.reachable(at, (distance, foot), edges, &mut self.last);
             if is_wide && !limits.clears && depth < least {
                 self.left += 1;
                 return;
@@ -291,14 +312,14 @@ impl Row {
     }
 
     /// The same beside the areas, where it is milled so deep.
-    fn look_beside(&mut self, at: (f64, f64), depth: f64, edges: &Edges, limits: &Limits) {
+    fn look_beside(&mut self, at: Spot, depth: f64, edges: &Edges, limits: &Limits) {
         let mut error = depth;
         if limits.start > 0.0 {
             let (distance, foot) = edges.nearest(at);
             let most = (limits.start - distance / limits.flank).max(0.0);
             error = depth - most;
             if error < 0.0 {
-                let least = limits.reachable_beside(at, distance, foot, edges);
+                let least = limits.reachable_beside(at, (distance, foot), edges, &mut self.last);
                 error = (depth - least).min(0.0);
             }
             self.errors.push(error);
@@ -347,9 +368,9 @@ fn findings(off: &[Off]) -> Vec<Finding> {
     ];
     let mut findings = Vec::new();
     for (kind, is_one, what) in kinds {
-        let mut listed: Vec<(f64, f64)> = Vec::new();
+        let mut listed: Vec<Spot> = Vec::new();
         for found in off.iter().filter(|off| is_one(off)) {
-            let near = |&(x, y): &(f64, f64)| (x - found.at.0).abs().max((y - found.at.1).abs()) < APART;
+            let near = |&(x, y): &Spot| (x - found.at.0).abs().max((y - found.at.1).abs()) < APART;
             if listed.iter().any(near) {
                 continue;
             }

@@ -256,9 +256,9 @@ impl Painted {
                 usvg::FillRule::NonZero => FillRule::NonZero,
                 usvg::FillRule::EvenOdd => FillRule::EvenOdd,
             };
-            // A path of one line fills nothing.
+            // A path of one point fills nothing.
             let contours = shape.contours(path.data(), true)?;
-            let contours: Vec<_> = contours.into_iter().filter(|path| path.segments.len() > 1).collect();
+            let contours: Vec<_> = contours.into_iter().filter(geometry::Path::is_closed).collect();
             if !contours.is_empty() {
                 let drawn = Drawn::Area(Area { contours, rule });
                 figures.push(self.figure(drawn, fill.paint(), fill.opacity().get(), scope));
