@@ -130,7 +130,8 @@ fn erase<'a>(feature: Feature, clear: impl ExactSizeIterator<Item = &'a Polygon>
 mod tests {
     use super::super::Axis;
     use super::*;
-    use crate::geometry::{Nm, Point, Rect};
+    use crate::geometry::{Nm, Point, Rect, Vector, off_segment};
+    use crate::topology::splitmix;
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::from_um(x), Nm::from_um(y))
@@ -201,5 +202,44 @@ mod tests {
         let expected = 1.0 + 4.0 * 0.1 + std::f64::consts::PI * 0.01;
         assert!((grown[0].area_mm2() - expected).abs() < 1e-4, "area {}", grown[0].area_mm2());
         assert!(offset(&square(0, 1000), Nm::from_um(-500), Nm::new(100)).is_empty(), "nothing is left");
+    }
+
+    /// A cutter that goes round a board along it would cut into the board where it is nearer.
+    #[test]
+    fn what_is_grown_is_as_far_away_everywhere() {
+        let mut state = 0;
+        let mut random = |below: i64| {
+            state += 1;
+            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
+        };
+        for case in 0..4000 {
+            // Turned squares with a corner on each side that is all but straight.
+            let (x, y) = (Nm::new(1_000_000 + random(4_000_000)), Nm::new(random(4_000_000)));
+            let corners =
+                [(Nm::ZERO, Nm::ZERO), (x, y), (x - y, x + y), (-y, x)].map(|(x, y)| Point::new(x, y));
+            let part = 10 + random(80);
+            let ring: Vec<Point> = (0..4)
+                .flat_map(|i| {
+                    let way = corners[(i + 1) % 4] - corners[i];
+                    let mut step = |length: Nm| Nm::new(length.get() * part / 100 + random(3) - 1);
+                    [corners[i], corners[i] + Vector::new(step(way.x), step(way.y))]
+                })
+                .collect();
+            let by = Nm::new(50_000 + random(900_000));
+            let square = Polygon::new(vec![ring]).expect("a square");
+            let edges: Vec<_> = square.edges().map(|(a, b)| (a.to_f64(), b.to_f64())).collect();
+            for by in [by, -by] {
+                let wanted = by.abs().to_f64();
+                let grown = offset(&square, by, Nm::new(250));
+                for p in grown.iter().flat_map(Polygon::contours).flatten() {
+                    let off = edges.iter().map(|&(a, b)| {
+                        let (x, y) = off_segment(p.to_f64(), a, b);
+                        libm::hypot(x, y)
+                    });
+                    let off = off.fold(f64::INFINITY, f64::min);
+                    assert!((off - wanted).abs() < 400.0, "case {case}, {by:?}: {p:?} is {off} away");
+                }
+            }
+        }
     }
 }
