@@ -73,6 +73,8 @@ pub struct Engraving {
     pub start: Nm,
     /// Whether an end mill was to clear what is too wide.
     pub clears: bool,
+    /// Corners that turn by less were left out.
+    pub corner: Angle,
     /// A program for each tool, in the order in which they are run; the last has the V-bit.
     pub programs: Vec<OneTool>,
     /// How deep they go.
@@ -178,6 +180,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         max_depth: how.max_depth,
         start,
         clears: how.flat.is_some() || how.inlay.is_some(),
+        corner: how.corner,
         programs,
         deepest,
         warnings,
@@ -367,6 +370,7 @@ impl Engraving {
             clears,
             most: self.max_depth,
             start: self.start,
+            corner: libm::cos(self.corner.radians()),
             tolerance: TOLERATED,
             pitch,
         };

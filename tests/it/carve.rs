@@ -92,6 +92,24 @@ fn passes_end_at_the_same_surface_and_none_goes_deeper_than_it_may() {
 /// A letter is one axis: a program of it retracts no more often than the axis has parts and pairs
 /// of odd nodes that are too far apart.
 #[test]
+fn corners_that_were_left_out_are_asked_of_nobody() {
+    let how = Carving { corner: Angle::from_degrees(100), ..HOW };
+    let made = engraving("corners", letters("LEFT OUT"), "vbit:0.05mm:60deg", &how);
+    let judged = made.verify(PITCH).expect("a program that can be followed");
+    assert!(judged.findings.is_empty(), "{:?}", judged.findings);
+    let strict = Engraving { corner: Angle::ZERO, ..made.clone() };
+    let judged = strict.verify(PITCH).expect("a program that can be followed");
+    assert!(judged.findings.iter().all(|found| found.name == "carved-too-shallow"), "{:?}", judged.findings);
+    assert!(judged.findings.len() > 10, "they are missed by who asks for them: {:?}", judged.findings);
+    // What lies between corners is asked for all the same.
+    let text = made.programs[0].text.clone();
+    let (cut, rest) = text.split_at(text.find("Z-0.4").expect("deep somewhere"));
+    let raised = cut.to_owned() + &rest.replacen("Z-0.4", "Z-0.1", 1);
+    let judged = made.judge(&[("raised.ngc", &raised)], PITCH).expect("a program that can be followed");
+    assert!(!judged.findings.is_empty(), "a place that is too shallow");
+}
+
+#[test]
 fn an_axis_is_walked_with_few_retracts() {
     for (letter, most) in [("I", 3), ("O", 2), ("X", 4), ("E", 6)] {
         let made = engraving(

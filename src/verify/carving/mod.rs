@@ -37,6 +37,9 @@ pub struct Ideal<'a> {
     pub most: Option<Nm>,
     /// How deep the edges of the areas lie: above them the walls go on outwards, to the surface.
     pub start: Nm,
+    /// Corners at which the edge turns by an angle with a larger cosine are not entered; 1 for
+    /// none.
+    pub corner: f64,
     /// What is less off is right.
     pub tolerance: Nm,
     /// The distance of the places that are looked at.
@@ -204,6 +207,7 @@ struct Limits {
     start: f64,
     /// Whether a second tool clears what is wide.
     clears: bool,
+    corner: f64,
     tolerance: f64,
 }
 
@@ -216,6 +220,7 @@ impl Limits {
             most: ideal.most.map_or(f64::INFINITY, Nm::to_f64),
             start: ideal.start.to_f64(),
             clears: ideal.clears,
+            corner: ideal.corner,
             tolerance: ideal.tolerance.to_f64(),
         }
     }
@@ -259,6 +264,9 @@ impl Limits {
     ) -> (f64, bool) {
         let farthest = edges.farthest(at, distance, foot, SAME, &mut last.exact);
         let full = self.full();
+        if self.is_left_out((distance, farthest), at, foot, last) {
+            return (f64::NEG_INFINITY, false);
+        }
         let centers = [farthest, full.clamp(distance, farthest), (distance + self.blunt).min(farthest)];
         let best = centers.map(|radius| self.at(radius, radius - distance));
         // Between the chords of a curve the way ends early; what is wide is so over all of them.
@@ -266,7 +274,22 @@ impl Limits {
             && (farthest > full || edges.farthest(at, distance, foot, BULGE, &mut last.bulging) > full);
         (best.into_iter().fold(f64::NEG_INFINITY, f64::max), is_wide)
     }
+
+    /// Whether the way away from `foot` ends between two edges that meet in a corner which is not
+    /// entered: the normals of both, where the largest disc touches them, differ as much as they
+    /// turn there.
+    fn is_left_out(&self, (distance, farthest): (f64, f64), at: Spot, foot: Spot, last: &Last) -> bool {
+        let Some((_, other)) = last.exact.filter(|_| self.corner < 1.0) else { return false };
+        let part = farthest / distance;
+        let normal = ((at.0 - foot.0) * part, (at.1 - foot.1) * part);
+        let across = (foot.0 + normal.0 - other.0, foot.1 + normal.1 - other.1);
+        normal.0 * across.0 + normal.1 * across.1 > (self.corner - ALIKE) * farthest * farthest
+    }
 }
+
+/// How much larger than that of an edge the cosine at a corner that is left out may seem. Chosen: a
+/// disc that touches edges of some micrometres is known to a nanometre.
+const ALIKE: f64 = 1e-3;
 
 /// How far the way from the place before went, and what ended it.
 #[derive(Default)]
