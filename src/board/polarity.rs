@@ -131,7 +131,7 @@ mod tests {
     use super::super::Axis;
     use super::*;
     use crate::geometry::{Nm, Point, Rect, Vector, off_segment};
-    use crate::topology::splitmix;
+    use crate::topology::random;
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::from_um(x), Nm::from_um(y))
@@ -207,11 +207,7 @@ mod tests {
     /// A cutter that goes round a board along it would cut into the board where it is nearer.
     #[test]
     fn what_is_grown_is_as_far_away_everywhere() {
-        let mut state = 0;
-        let mut random = |below: i64| {
-            state += 1;
-            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
-        };
+        let mut random = random();
         for case in 0..4000 {
             // Turned squares with a corner on each side that is all but straight.
             let (x, y) = (Nm::new(1_000_000 + random(4_000_000)), Nm::new(random(4_000_000)));

@@ -72,15 +72,11 @@ impl Density {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topology::splitmix;
+    use crate::topology::random;
 
     #[test]
     fn no_more_are_counted_than_touch_a_window() {
-        let mut number = 0;
-        let mut chance = |most: i64| {
-            number += 1;
-            i64::try_from(splitmix(number) >> 33).expect("31 bits") % most
-        };
+        let mut chance = random();
         let mut rect = |room: i64, size: i64| {
             let (x, y) = (Nm::from_um(chance(room) - 3_000), Nm::from_um(chance(room) + 1_000));
             let (width, height) = (Nm::from_um(chance(size)), Nm::from_um(chance(size)));

@@ -51,6 +51,8 @@ pub use nets::{Net, NetId, Nets};
 pub use pattern::Pattern;
 pub use proximity::{Near, Proximity};
 pub use sets::DisjointSets;
+#[cfg(test)]
+pub(crate) use splitmix::random;
 pub(crate) use splitmix::splitmix;
 pub(crate) use surface::surface;
 pub use translucency::{Colour, Odds, Overlap, Sampling, Translucency, translucency};

@@ -11,6 +11,16 @@ pub(crate) const fn splitmix(number: u64) -> u64 {
     z ^ (z >> 31)
 }
 
+/// Draws whole numbers from zero to below what is asked for, for tests.
+#[cfg(test)]
+pub(crate) fn random() -> impl FnMut(i64) -> i64 {
+    let mut state = 0;
+    move |below| {
+        state += 1;
+        i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

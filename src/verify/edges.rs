@@ -169,16 +169,12 @@ mod tests {
     use super::*;
     use crate::board::polarity::union;
     use crate::geometry::{Nm, Point};
-    use crate::topology::splitmix;
+    use crate::topology::random;
 
     /// In areas of random discs, from places in a row, beside going on by halves among all edges.
     #[test]
     fn the_way_from_an_edge_is_as_long_as_halving_finds_it() {
-        let mut state = 0;
-        let mut random = |below: i64| {
-            state += 1;
-            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
-        };
+        let mut random = random();
         let mut looked_at = 0;
         for slack in [0.5, 5_000.0] {
             let disc = |random: &mut dyn FnMut(i64) -> i64| {

@@ -89,8 +89,6 @@ fn passes_end_at_the_same_surface_and_none_goes_deeper_than_it_may() {
     );
 }
 
-/// A letter is one axis: a program of it retracts no more often than the axis has parts and pairs
-/// of odd nodes that are too far apart.
 #[test]
 fn corners_that_were_left_out_are_asked_of_nobody() {
     let how = Carving { corner: Angle::from_degrees(100), ..HOW };
@@ -109,6 +107,8 @@ fn corners_that_were_left_out_are_asked_of_nobody() {
     assert!(!judged.findings.is_empty(), "a place that is too shallow");
 }
 
+/// A letter is one axis: a program of it retracts no more often than the axis has parts and pairs
+/// of odd nodes that are too far apart.
 #[test]
 fn an_axis_is_walked_with_few_retracts() {
     for (letter, most) in [("I", 3), ("O", 2), ("X", 4), ("E", 6)] {

@@ -68,7 +68,7 @@ mod tests {
     use super::super::{Operands, difference};
     use super::*;
     use crate::geometry::Nm;
-    use crate::topology::splitmix;
+    use crate::topology::random;
 
     /// The contours of `polygons`, each from its least point, in order.
     fn contours(polygons: &[Polygon]) -> Vec<Vec<Vec<Point>>> {
@@ -94,11 +94,7 @@ mod tests {
         let plane = Polygon::rectangle(Rect::new(at(0, 0), at(1000, 1000)));
         // Some on the edge, some beside the plane, some that touch each other, most alone; then two
         // slits, that leave three pieces.
-        let mut state = 0;
-        let mut next = |below: i64| {
-            state += 1;
-            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
-        };
+        let mut next = random();
         for slits in [0, 2] {
             let mut clips: Vec<Polygon> = (0..120)
                 .map(|_| (at(next(1200) - 100, next(1200) - 100), Nm::from_um(5 + next(30))))

@@ -447,16 +447,12 @@ fn maxima(areas: &[Polygon], levels: &[f64]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topology::splitmix;
+    use crate::topology::random;
 
     /// Discs of random sizes, some of which meet: pieces that fall apart at many levels.
     #[test]
     fn both_ways_of_counting_agree() {
-        let mut state = 0;
-        let mut random = |below: i64| {
-            state += 1;
-            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
-        };
+        let mut random = random();
         for _ in 0..20 {
             let discs: Vec<Polygon> = (0..12)
                 .filter_map(|_| {

@@ -43,7 +43,7 @@ pub(super) fn welded(mut points: Vec<Point>) -> FxHashMap<Point, Point> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::topology::splitmix;
+    use crate::topology::random;
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::new(x), Nm::new(y))
@@ -61,11 +61,7 @@ mod tests {
 
     #[test]
     fn each_is_moved_to_the_first_of_all_before_it_that_stay_and_are_near() {
-        let mut state = 0;
-        let mut next = |below: i64| {
-            state += 1;
-            i64::try_from(splitmix(state) >> 33).expect("31 bits") % below
-        };
+        let mut next = random();
         let mut points: Vec<Point> = (0..2000).map(|_| at(next(600), next(600))).collect();
         let moved = welded(points.clone());
         points.sort_unstable();
