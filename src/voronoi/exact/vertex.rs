@@ -10,6 +10,8 @@
 //!           ╱  │
 //! ```
 
+use std::iter::successors;
+
 use super::form::{clockwise, is_one_way, turn};
 use super::tolerances::{SAME, SLAB, SNAP, resolution};
 use super::{Diagram, Kind, apollonius};
@@ -19,6 +21,10 @@ use crate::voronoi::plane::Spot;
 /// find their ends. Chosen: rounding is a thousandth of the least, whole nanometres rarely come as
 /// close as the largest.
 pub(super) const TIES: [f64; 3] = [0.002, 0.02, 0.000_2];
+
+/// What is tied at a place that an event led to may differ by so many ties at the place that it
+/// defines. Chosen: three of many decide, and what all lie within a tie of may be off by some.
+const SPREAD: f64 = 4.0;
 
 /// A generator tied at a place.
 #[derive(Clone, Copy, Debug)]
@@ -94,36 +100,44 @@ impl Diagram {
             return None;
         }
         let numbers = || near.iter().map(|&(i, _)| i);
-        let at_first = self.tied(p, clearance, numbers(), SLAB, &[]);
-        let handed = self.hand_over(p, clearance, &self.tied(p, clearance, numbers(), SNAP, &[]));
+        let at_first = self.tied(p, clearance, numbers(), SLAB, self.tie, &[]);
+        let handed = self.hand_over(p, clearance, &self.tied(p, clearance, numbers(), SNAP, self.tie, &[]));
         let (mut at, mut joints) = handed.unwrap_or_else(|| (self.settled(p, &at_first, led), Vec::new()));
+        // The least and the largest distance of what is tied.
         let away = |at: Spot| {
             let all = at_first.iter().map(|tied| self.forms()[tied.generator as usize].distance(at));
-            all.fold(f64::INFINITY, f64::min).max(0.0)
+            all.fold((f64::INFINITY, 0.0), |(least, most): (f64, f64), d| (least.min(d), most.max(d)))
         };
-        // Where that lies beyond another vertex, within a nanometre, the place is the one found.
+        // Where that lies beyond another vertex, within a nanometre, the place is the one found; so
+        // it is where what is tied parts there.
         let is_moved = (at - p).length() > self.tie;
-        if is_moved && !self.within(at, away(at) - 4.0 * self.tie).is_empty() {
+        let (least, most) = away(at);
+        let parts = most - least > SPREAD * self.tie;
+        if parts || is_moved && !self.within(at, least - 4.0 * self.tie).is_empty() {
             (at, joints) = (p, Vec::new());
         }
-        let clearance = away(at);
-        let tied = self.tied(at, clearance, numbers(), SLAB, &joints);
+        let (least, most) = away(at);
+        let clearance = least.max(0.0);
+        let tie = (most - clearance).clamp(self.tie, SPREAD * self.tie);
+        let tied = self.tied(at, clearance, numbers(), SLAB, tie, &joints);
         let slots = self.slots(at, clearance, &tied);
         let mut generators: Vec<u32> = tied.iter().map(|tied| tied.generator).collect();
         generators.sort_unstable();
         generators.dedup();
-        let is_end = slots.is_empty();
+        let is_end = slots.is_empty() && (generators.len() > 1 || clearance < self.tie);
         Some(Junction { at, clearance, tied: generators, slots, is_end })
     }
 
-    /// The generators among some that are `clearance` far from `p`, by the direction of their feet,
-    /// in groups of one direction. Those with a joint there have the direction of its disc.
+    /// The generators among some that are `clearance` far from `p`, within `tie`, by the direction
+    /// of their feet, in groups of one direction. Those with a joint there have the direction of
+    /// its disc.
     fn tied(
         &self,
         p: Spot,
         clearance: f64,
         among: impl Iterator<Item = u32>,
         slab: f64,
+        tie: f64,
         joints: &[Joint],
     ) -> Vec<Tied> {
         let mut tied: Vec<Tied> = Vec::new();
@@ -132,7 +146,7 @@ impl Diagram {
             let form = &self.forms()[generator as usize];
             let joint = joints.iter().find(|joint| joint.generator == generator);
             let slab = if joint.is_some() { SNAP } else { slab };
-            if (form.distance(p) - clearance).abs() > self.tie
+            if (form.distance(p) - clearance).abs() > tie
                 || form.slack(p) < -slab
                 || form.distance(p) < -self.tie
             {
@@ -304,7 +318,8 @@ impl Diagram {
         let form = |tied: &Tied| &self.forms()[tied.generator as usize];
         let bend = group.clone().filter_map(|tied| form(tied).bend(at)).reduce(f64::min);
         // Off the centre of a hollow circle, too, about which all directions are one.
-        let probe = at + way * resolution(self.tie, bend.unwrap_or(clearance)).max(4.0 * SNAP);
+        let farthest = resolution(self.tie, bend.unwrap_or(clearance)).max(4.0 * SNAP);
+        let probe = at + way * farthest;
         let goes_on = |tied: &&Tied| {
             let form = form(tied);
             let Some(ends) = form.ends() else { return true };
@@ -320,6 +335,12 @@ impl Diagram {
                 slacks[end].abs() > tied.slab || way.dot(inward) >= -1e-9
             })
         };
+        let is_there = |tied: &Tied, probe: Spot| form(tied).slack(probe) >= -tied.slab;
+        // No farther than what is shorter than that goes on.
+        let halves = successors(Some(farthest), |far| Some(0.5 * far)).take_while(|&far| far >= 4.0 * SNAP);
+        let mut probes = halves.map(|far| at + way * far);
+        let all = |&probe: &Spot| group.clone().filter(goes_on).all(|tied| is_there(tied, probe));
+        let probe = probes.find(all).unwrap_or(probe);
         let rank = |i: u32| (self.forms()[i as usize].distance(probe), self.owner(i), i);
         let nearer = |a: (f64, u32, u32), b: (f64, u32, u32)| {
             let is_tie = (a.0 - b.0).abs() < 1e-6;
@@ -327,9 +348,8 @@ impl Diagram {
             if a_first { a } else { b }
         };
         let ranked = |tied: &Tied| rank(tied.generator);
-        let is_there = |tied: &&Tied| form(tied).slack(probe) >= -tied.slab;
         let going = group.clone().filter(goes_on);
-        let there = going.clone().filter(is_there).map(ranked).reduce(nearer);
+        let there = going.clone().filter(|tied| is_there(tied, probe)).map(ranked).reduce(nearer);
         let going = there.or_else(|| going.map(ranked).reduce(nearer));
         going.or_else(|| group.map(ranked).reduce(nearer)).map_or(u32::MAX, |found| found.2)
     }
