@@ -282,6 +282,49 @@ fn shaken_tracks_have_a_certified_diagram() {
     }
 }
 
+/// A ring of tracks, each an arc from one of these places to the next, with its middle as far from
+/// the place as a file says.
+fn ring_of_arcs(arcs: &[[i64; 4]]) -> impl Iterator<Item = Shape> {
+    let at = |x: i64, y: i64| Point::new(Nm::new(x), Nm::new(y));
+    arcs.iter().zip(arcs.iter().cycle().skip(1)).map(move |(&[x, y, i, j], next)| {
+        let (start, end, center) = (at(x, y), at(next[0], next[1]), at(x + i, y + j));
+        Shape::Arc { arc: Arc { start, end, center, turn: Turn::CounterClockwise }, radius: Nm::from_um(150) }
+    })
+}
+
+/// Within rings of arcs whose middles differ by some nanometres everything is all but equally far
+/// from everything, which a tie may not resolve: that is a fault. One walk did not end there.
+#[test]
+fn rings_of_arcs_round_middles_that_differ_end_or_have_a_fault() {
+    let one = [
+        [50_527_271, 12_806_943, -2_526_288, -806_666],
+        [47_194_308, 14_526_562, 806_672, -2_526_288],
+        [45_474_689, 11_193_599, 2_526_286, 806_677],
+        [48_807_652, 9_473_980, -806_671, 2_526_295],
+    ];
+    let other = [
+        [51_126_561, 31_371_948, -3_125_664, -1_371_667],
+        [46_629_242, 33_125_947, 1_371_670, -3_125_667],
+        [44_875_243, 28_628_628, 3_125_671, 1_371_655],
+        [49_372_562, 26_874_629, -1_371_659, 3_125_664],
+    ];
+    let (copper, nets) = layer(ring_of_arcs(&one).chain(ring_of_arcs(&other)));
+    assert_eq!(nets.nets().len(), 2, "two rings");
+    let wall = copper.bounds().expect("copper").inflate(Nm::from_mm(4));
+    for attempt in 0..=4 {
+        let mut generators = Generators::shaken(attempt);
+        generators
+            .weld(one.iter().chain(&other).map(|&[x, y, ..]| Point::new(Nm::new(x), Nm::new(y))).collect());
+        for (number, feature) in copper.features.iter().enumerate() {
+            generators.add(&feature.shape, nets.of(number).0);
+        }
+        generators.wall(wall);
+        let diagram = Diagram::new(generators, Kind::Above(Nm::from_um(25)), Space::Within);
+        let is_finite = diagram.vertices().iter().all(|vertex| vertex.clearance.is_finite());
+        assert!(is_finite, "attempt {attempt}: copper is somewhere");
+    }
+}
+
 /// All level curves close and are as far from copper as they should be, and whoever goes from
 /// nearer to farther crosses one.
 fn check_levels(name: &str, copper: &Copper, nets: &Nets, random: &mut Random) {

@@ -90,8 +90,8 @@ impl Diagram {
         found
     }
 
-    /// What is tied near `p`, which `third` generators at about `clearance` have led to; none where
-    /// something is nearer.
+    /// What is tied near `p`, which `led` generators at about `clearance` have led to; none where
+    /// something is nearer, or all is farther.
     pub(super) fn junction(&self, p: Spot, clearance: f64, led: [u32; 3]) -> Option<Junction> {
         let near = self.about(p, clearance + 8.0 * self.tie, SNAP);
         let counts = |&&(i, _): &&(u32, f64)| self.forms()[i as usize].counts(p, self.tie, SLAB);
@@ -101,6 +101,9 @@ impl Diagram {
         }
         let numbers = || near.iter().map(|&(i, _)| i);
         let at_first = self.tied(p, clearance, numbers(), SLAB, self.tie, &[]);
+        if at_first.is_empty() {
+            return None;
+        }
         let handed = self.hand_over(p, clearance, &self.tied(p, clearance, numbers(), SNAP, self.tie, &[]));
         let (mut at, mut joints) = handed.unwrap_or_else(|| (self.settled(p, &at_first, led), Vec::new()));
         // The least and the largest distance of what is tied.
