@@ -357,3 +357,32 @@ impl Diagram {
         going.or_else(|| group.map(ranked).reduce(nearer)).map_or(u32::MAX, |found| found.2)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Generators, Space, breaks::breaks};
+    use super::*;
+    use crate::geometry::{Nm, Point, Polygon};
+
+    /// From a place 3.3 mm away, as far from another corner, an edge of half a micrometre comes
+    /// before the corner at its other end. A larger tie does not resolve the edge.
+    #[test]
+    fn a_short_edge_seen_from_afar_comes_before_the_corner_at_its_end() {
+        let ring = |corners: &[(i64, i64)]| {
+            corners.iter().map(|&(x, y)| Point::new(Nm::new(x), Nm::new(y))).collect::<Vec<_>>()
+        };
+        let (left, right, low, high) = (35_000_000, 52_000_000, 48_000_000, 62_000_000);
+        let contours = vec![
+            ring(&[(left, low), (right, low), (right, high), (left, high)]),
+            ring(&[(41_697_900, 53_297_667), (41_698_333, 53_297_493), (41_690_000, 53_200_000)]),
+            ring(&[(46_272_519, 56_261_000), (46_400_000, 56_300_000), (46_400_000, 56_200_000)]),
+        ];
+        let area = Polygon::new(contours).expect("a rectangle with two holes");
+        let mut generators = Generators::new();
+        generators.inside(&area, |ring| u32::try_from(ring).expect("three"));
+        let mut diagram = Diagram::unwalked(generators, Kind::MedialAxis, Space::Within);
+        diagram.breaks = breaks(&diagram.generators, &diagram.index, TIES[0]);
+        diagram.walk_all(Space::Within);
+        assert_eq!(diagram.faults(), []);
+    }
+}
