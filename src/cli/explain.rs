@@ -29,7 +29,7 @@ Examples:
 impl Explain {
     pub(super) fn run(self) -> Result<(), Failure> {
         if self.options {
-            return super::print(&reference::page(super::whole()));
+            return super::print(&reference::page(&super::whole()));
         }
         let Some(code) = self.code else { return super::print(&explain::list()) };
         let code = code.trim_matches(['[', ']']);

@@ -71,13 +71,16 @@ impl Args for Given {
 /// An option of a job, by its key in a settings file, as it is written on the command line.
 pub(super) fn flag(key: &str) -> String {
     let given = Given::augment_args(Command::new("options"));
-    let long = given.get_arguments().find(|argument| key_of(argument) == key).and_then(Arg::get_long);
+    let long = given
+        .get_arguments()
+        .find(|argument| key_of(argument.get_id().as_str()) == key)
+        .and_then(Arg::get_long);
     format!("--{}", long.unwrap_or(key))
 }
 
-/// The key of an option in a settings file.
-pub(super) fn key_of(argument: &Arg) -> String {
-    argument.get_id().as_str().replace('_', "-")
+/// The key in a settings file of the option that clap knows by this name.
+pub(super) fn key_of(id: &str) -> String {
+    id.replace('_', "-")
 }
 
 /// Reads one of the words that an enumeration of the library has.

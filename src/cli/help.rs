@@ -42,7 +42,7 @@ const FIRST: &[(&str, &[&str])] = &[
 /// The option that shows every option.
 pub(super) fn with_all(command: Command) -> Command {
     let all = Arg::new("help_all").long("help-all").global(true).action(ArgAction::HelpLong);
-    command.arg(all.help("Print help with every option").help_heading("Output"))
+    command.arg(all.help("Print help with every option").display_order(super::LATE + 3))
 }
 
 /// The command, with what is used later left out of its help unless all of it was asked for.
@@ -56,6 +56,8 @@ pub(super) fn shortened(command: Command) -> Command {
         let is_later = |argument: &Arg| {
             !argument.is_positional()
                 && !argument.is_hide_set()
+                && !argument.is_global_set()
+                && !["help", "version"].contains(&argument.get_id().as_str())
                 && !first.contains(&argument.get_id().as_str())
         };
         let later = sub.get_arguments().filter(|argument| is_later(argument)).count();

@@ -79,6 +79,7 @@ Lengths carry units: nm, um, mm, cm, mil, in. `voromill mill --help` shows the o
 Exit codes: 0 done, 1 verification found something or programs differ, 2 failed.";
 
 #[derive(Subcommand)]
+#[command(defer = true)]
 enum Command {
     Mill(mill::Mill),
     Isolate(isolate::Isolate),
@@ -97,20 +98,23 @@ enum Command {
     Init(init::Init),
 }
 
+/// Where help shows what every subcommand takes: behind its own options, before --help.
+const LATE: usize = 900;
+
 /// What every subcommand takes.
 #[derive(Clone, Copy, Args)]
 struct Shared {
     /// Print errors alone
-    #[arg(long, short, global = true, help_heading = "Output")]
+    #[arg(long, short, global = true, display_order = LATE)]
     quiet: bool,
 
     /// Print all findings and warnings, not the first few of each kind; -vv: and how long each
     /// stage took
-    #[arg(long, short, global = true, conflicts_with = "quiet", action = clap::ArgAction::Count, help_heading = "Output")]
+    #[arg(long, short, global = true, conflicts_with = "quiet", action = clap::ArgAction::Count, display_order = LATE + 1)]
     verbose: u8,
 
     /// Number of threads; the output is the same for any [default: one for each processor]
-    #[arg(long = "jobs", short = 'j', global = true, value_name = "THREADS", value_parser = clap::value_parser!(u16).range(1..=1024), help_heading = "Output")]
+    #[arg(long = "jobs", short = 'j', global = true, value_name = "THREADS", value_parser = clap::value_parser!(u16).range(1..=1024), display_order = LATE + 2)]
     threads: Option<u16>,
 }
 
@@ -156,9 +160,9 @@ pub(crate) fn run() -> ExitCode {
     }
 }
 
-/// The command as it is read.
+/// The command as it is read: of the subcommands those options are there that one is asked for.
 fn arguments() -> clap::Command {
-    scope::renamed(help::with_all(Cli::command()))
+    help::with_all(Cli::command())
 }
 
 /// The command as its help shows it.
@@ -167,13 +171,15 @@ fn command() -> clap::Command {
 }
 
 /// The command with the default of each option that it takes, as the built-in settings have it, in
-/// its help.
+/// its help. All of it is there.
 fn whole() -> clap::Command {
     let defaults = Options::defaults().listed();
-    scope::hidden(arguments()).mut_subcommands(move |sub| {
+    let mut command = arguments();
+    command.build();
+    scope::hidden(command).mut_subcommands(move |sub| {
         let defaults = defaults.clone();
         sub.mut_args(move |argument| {
-            let key = given::key_of(&argument);
+            let key = given::key_of(argument.get_id().as_str());
             let default = defaults.iter().find(|(name, _)| *name == key).map(|(_, value)| value);
             let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
             // Another subcommand's option of the same name may have a default of its own.

@@ -25,6 +25,9 @@ use super::{Failure, Shared};
 /// with the shapes before anybody mills it: exit code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
+// The strategy of pockets has the name that that of isolation has elsewhere, which means nothing to
+// pockets: it is out of the way.
+#[command(mut_arg("strategy", |isolation| isolation.long("isolation-strategy").hide(true)))]
 pub(super) struct Pocket {
     #[command(flatten)]
     work: Work,

@@ -31,8 +31,7 @@ struct Row {
 }
 
 /// The page.
-pub(super) fn page(mut command: Command) -> String {
-    command.build();
+pub(super) fn page(command: &Command) -> String {
     let is_shown = |sub: &&Command| !sub.is_hide_set() && sub.get_name() != "help";
     let mut all: Vec<(Row, Vec<String>)> = Vec::new();
     for sub in command.get_subcommands().filter(is_shown) {

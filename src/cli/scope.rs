@@ -6,59 +6,54 @@
 //! something.
 
 use clap::parser::ValueSource;
-use clap::{Arg, ArgMatches, Args, Command};
+use clap::{ArgMatches, Command};
 use voromill::job::{Options, Reach};
 
 use super::Failure;
-use super::given::{Given, flag, key_of};
+use super::given::{flag, key_of};
 
 /// The command, with the options of a job left out of the help of the subcommands to which they
 /// mean nothing.
 pub(super) fn hidden(command: Command) -> Command {
-    command.mut_subcommands(move |sub| {
-        let without_effect = without_effect(sub.get_name());
-        sub.mut_args(move |argument| {
-            let has_none = without_effect.iter().any(|option| option.get_id() == argument.get_id());
-            if has_none { argument.hide(true) } else { argument }
+    command.mut_subcommands(|sub| {
+        let Some(reach) = reach(sub.get_name()) else { return sub };
+        sub.mut_args(|argument| {
+            let has_effect = means(reach, &key_of(argument.get_id().as_str()));
+            if has_effect { argument } else { argument.hide(true) }
         })
-    })
-}
-
-/// The command in which the strategy of pockets has the name that of isolation has elsewhere: that
-/// one, which means nothing to pockets, is out of the way.
-pub(super) fn renamed(command: Command) -> Command {
-    command.mut_subcommand("pocket", |pocket| {
-        pocket.mut_arg("strategy", |strategy| strategy.long("isolation-strategy").hide(true))
     })
 }
 
 /// Fails for the first option of a job that was given to a subcommand to which it means nothing.
 pub(super) fn check(matches: &ArgMatches) -> Result<(), Failure> {
     let Some((name, given)) = matches.subcommand() else { return Ok(()) };
-    let is_given =
-        |option: &Arg| given.value_source(option.get_id().as_str()) == Some(ValueSource::CommandLine);
-    match without_effect(name).iter().find(|option| is_given(option)) {
+    let Some(reach) = reach(name) else { return Ok(()) };
+    let is_given = |id: &&str| given.value_source(id) == Some(ValueSource::CommandLine);
+    let mut keys = given.ids().map(|id| id.as_str()).filter(is_given).map(key_of);
+    match keys.find(|key| !means(reach, key)) {
         None => Ok(()),
-        Some(option) => {
-            let flag = flag(&key_of(option));
-            let cause = format!("{flag} has no effect on what `voromill {name}` makes");
+        Some(key) => {
+            let cause = format!("{} has no effect on what `voromill {name}` makes", flag(&key));
             Err(Failure::new(cause, "leave it out; a settings file may have it"))
         }
     }
 }
 
-/// The options of a job that change nothing of what a subcommand makes.
-fn without_effect(subcommand: &str) -> Vec<Arg> {
-    let reach = match subcommand {
+/// What an option of a job must change to mean something to a subcommand; none where all do, or
+/// none is taken.
+fn reach(subcommand: &str) -> Option<Reach> {
+    Some(match subcommand {
         "isolate" => Reach::ISOLATION.and(Reach::TILING),
         "draw" => Reach::PICTURES,
         "probe" => Reach::PROBING.and(Reach::TILING),
         "carve" => Reach::CARVING,
         "pocket" => Reach::POCKETS,
         "inspect" => Reach::INSPECTION,
-        _ => return Vec::new(),
-    };
-    let options = Given::augment_args(Command::new("options"));
-    let idle = options.get_arguments().filter(|option| !Options::reach(&key_of(option)).meets(reach));
-    idle.cloned().collect()
+        _ => return None,
+    })
+}
+
+/// Whether the option of this key changes any of that, or is none of a job.
+fn means(reach: Reach, key: &str) -> bool {
+    Options::reach(key).is_none_or(|changes| changes.meets(reach))
 }

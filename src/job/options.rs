@@ -113,10 +113,10 @@ impl Options {
         names::of::<Self>().iter().copied().filter(|key| *key != "tools")
     }
 
-    /// What the option of this key changes.
+    /// What the option of this key changes, if there is one.
     #[must_use]
-    pub fn reach(key: &str) -> Reach {
-        Self::keys().zip(REACHES).find(|(known, _)| *known == key).map_or(Reach::NONE, |(_, &reach)| reach)
+    pub fn reach(key: &str) -> Option<Reach> {
+        Self::keys().zip(REACHES).find(|(known, _)| *known == key).map(|(_, &reach)| reach)
     }
 
     /// Every option that is set, by name, as it is written.
@@ -132,7 +132,10 @@ impl Options {
     /// The same of those that change any of this.
     #[must_use]
     pub fn listed_for(&self, reach: Reach) -> Vec<(String, String)> {
-        self.listed().into_iter().filter(|(key, _)| Self::reach(key).meets(reach)).collect()
+        self.listed()
+            .into_iter()
+            .filter(|(key, _)| Self::reach(key).is_some_and(|changes| changes.meets(reach)))
+            .collect()
     }
 
     /// These tools; what the options say for every tool, no table says.

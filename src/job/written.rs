@@ -53,7 +53,9 @@ impl Written {
         let mut options = settings.options().listed();
         // How the board is turned every program must say, so that it can be judged by itself.
         let turned = |option: &str, value: &str| option == "rotate" && value != "0deg";
-        options.retain(|(option, value)| Options::reach(option).meets(part.reach()) || turned(option, value));
+        options.retain(|(option, value)| {
+            Options::reach(option).is_some_and(|changes| changes.meets(part.reach())) || turned(option, value)
+        });
         let header = Header { settings: options, seconds: Some(statistics.seconds), ..header.clone() };
         let text = gcode::write(&whole, &settings.dialect, &header);
         let tile = tiling.map(|_| gcode::write(&wait(program.clone()), &settings.dialect, &header));
