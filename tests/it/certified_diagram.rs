@@ -285,9 +285,8 @@ fn shaken_tracks_have_a_certified_diagram() {
 /// A ring of tracks, each an arc from one of these places to the next, with its middle as far from
 /// the place as a file says.
 fn ring_of_arcs(arcs: &[[i64; 4]]) -> impl Iterator<Item = Shape> {
-    let at = |x: i64, y: i64| Point::new(Nm::new(x), Nm::new(y));
-    arcs.iter().zip(arcs.iter().cycle().skip(1)).map(move |(&[x, y, i, j], next)| {
-        let (start, end, center) = (at(x, y), at(next[0], next[1]), at(x + i, y + j));
+    arcs.iter().zip(arcs.iter().cycle().skip(1)).map(|(&[x, y, i, j], next)| {
+        let (start, end, center) = (at(1, x, y), at(1, next[0], next[1]), at(1, x + i, y + j));
         Shape::Arc { arc: Arc { start, end, center, turn: Turn::CounterClockwise }, radius: Nm::from_um(150) }
     })
 }
@@ -313,8 +312,7 @@ fn rings_of_arcs_round_middles_that_differ_end_or_have_a_fault() {
     let wall = copper.bounds().expect("copper").inflate(Nm::from_mm(4));
     for attempt in 0..=4 {
         let mut generators = Generators::shaken(attempt);
-        generators
-            .weld(one.iter().chain(&other).map(|&[x, y, ..]| Point::new(Nm::new(x), Nm::new(y))).collect());
+        generators.weld(one.iter().chain(&other).map(|&[x, y, ..]| at(1, x, y)).collect());
         for (number, feature) in copper.features.iter().enumerate() {
             generators.add(&feature.shape, nets.of(number).0);
         }

@@ -405,9 +405,30 @@ fn the_axis_of_a_circle_of_chords_ends_in_every_corner() {
     }
 }
 
-/// A regular polygon somewhere, its corners rounded to nanometres.
+/// Dots that a drawing has, and circles in very fine chords.
+#[test]
+fn an_area_whose_edges_are_all_shorter_than_any_cutter_has_an_axis() {
+    for (n, radius) in [(16, 300), (24, 700), (90, 2_000), (600, 15_000)] {
+        let ring = regular(&mut Random(1), n, radius);
+        let area = Polygon::new(vec![ring]).expect("a ring");
+        let mut generators = Generators::new();
+        generators.inside(&area, |_| 0);
+        let diagram = Diagram::new(generators, Kind::MedialAxis, Space::Within);
+        assert_eq!(diagram.faults(), [], "{n} chords round {radius} nm");
+        let deepest = diagram.vertices().iter().map(|vertex| vertex.clearance).fold(0.0, f64::max);
+        let off = (deepest - Nm::new(radius).to_f64()).abs();
+        assert!(off < 0.05 * Nm::new(radius).to_f64(), "{n} chords round {radius} nm: {deepest}");
+    }
+}
+
+/// A regular polygon somewhere.
 fn circle_of_chords(random: &mut Random) -> Vec<Point> {
     let (n, radius) = (8 + random.below(40), 200_000 + random.below(20_000_000));
+    regular(random, n, radius)
+}
+
+/// A regular polygon somewhere, of so many corners rounded to nanometres.
+fn regular(random: &mut Random, n: i64, radius: i64) -> Vec<Point> {
     let center = Point::new(Nm::new(random.below(200_000_000)), Nm::new(random.below(200_000_000)));
     let float = |whole: i64| Nm::new(whole).to_f64();
     let corner = |i: i64| {

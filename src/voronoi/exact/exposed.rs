@@ -18,7 +18,8 @@ use super::vertex::Junction;
 use crate::geometry::BoxTree;
 use crate::voronoi::plane::Spot;
 
-/// Shorter pieces of an edge are none, in nanometres. Chosen: no cutter fits what they enclose.
+/// Shorter pieces of an edge are none, unless they are all of it, in nanometres. Chosen: no cutter
+/// fits what they enclose.
 const SHORT: f64 = 200.0;
 
 /// Bodies by place.
@@ -211,6 +212,9 @@ impl Diagram {
         positions.retain(|at| (0.0..=end).contains(at));
         positions.sort_unstable_by(f64::total_cmp);
         positions.dedup_by(|b, a| (*b - *a) * scale < SHORT);
+        if positions.len() == 1 {
+            positions.push(end);
+        }
         positions
     }
 }

@@ -23,7 +23,7 @@ use super::walk::Event;
 use super::{Diagram, Kind, NOBODY, Space};
 use crate::voronoi::plane::Spot;
 
-/// Where a search begins, in nanometres; it doubles. Chosen.
+/// Where a search begins, in nanometres, if the window is so large; it doubles. Chosen.
 const FIRST_REACH: f64 = 100_000.0;
 
 /// Events along one side of the window at most. Chosen.
@@ -81,9 +81,8 @@ impl Diagram {
         (generator, foot, normal): (u32, Spot, Spot),
         bodies: Option<&Bodies<'_>>,
     ) {
-        let [left, bottom, right, top] = self.window;
-        let farthest = (right - left) + (top - bottom);
-        let mut reach = FIRST_REACH;
+        let farthest = self.farthest();
+        let mut reach = FIRST_REACH.min(farthest);
         let mut nearest: Option<(f64, u32)> = None;
         while reach < 2.0 * farthest {
             self.index.visit_round(foot + normal * reach, reach, |c| {
@@ -161,11 +160,17 @@ impl Diagram {
         self.ending(pair, at, self.follow(pair, at, &tied)).map(|arrival| arrival.junction)
     }
 
+    /// No two places of the window are so far apart, in nanometres.
+    fn farthest(&self) -> f64 {
+        let [left, bottom, right, top] = self.window;
+        (right - left) + (top - bottom)
+    }
+
     /// The generator nearest to a place outside all copper.
     fn nearest(&self, p: Spot) -> Option<(u32, f64)> {
-        let mut reach = FIRST_REACH;
-        let [left, bottom, right, top] = self.window;
-        while reach < 4.0 * ((right - left) + (top - bottom)) {
+        let farthest = self.farthest();
+        let mut reach = FIRST_REACH.min(farthest);
+        while reach < 4.0 * farthest {
             let near = self.within(p, reach);
             if let Some(&found) = near.iter().min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0))) {
                 return Some(found);
