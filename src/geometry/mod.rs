@@ -34,6 +34,7 @@ pub(crate) use length::nanometres;
 pub(crate) use nearest::{between, distance_to_segment, off_segment, part_nearest};
 pub use nm::{Nm, RangeError};
 pub use path::{Path, Segment};
+pub(crate) use point::cross;
 pub use point::{Orientation, Point, Rect, Vector, orientation};
 pub use polygon::Polygon;
 pub(crate) use polygon::twice_area;

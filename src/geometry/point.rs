@@ -151,6 +151,15 @@ pub fn orientation(a: Point, b: Point, c: Point) -> Orientation {
     }
 }
 
+/// Whether two segments cross between their ends; exact.
+pub(crate) fn cross(one: (Point, Point), other: (Point, Point)) -> bool {
+    let is_parted = |(a, b): (Point, Point), (c, d): (Point, Point)| {
+        let sides = (orientation(a, b, c), orientation(a, b, d));
+        matches!(sides, (Orientation::Left, Orientation::Right) | (Orientation::Right, Orientation::Left))
+    };
+    is_parted(one, other) && is_parted(other, one)
+}
+
 /// An upright rectangle, its edges included.
 ///
 /// # Guarantees

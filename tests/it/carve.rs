@@ -144,6 +144,37 @@ fn wide_places_become_flat() {
     }
 }
 
+/// What lines are off sideways, walls are off by eleven times as much in depth.
+#[test]
+fn steep_walls_are_within_a_coarse_tolerance() {
+    let options = Options {
+        tool: vec!["vbit:0.2mm:10deg".parse().expect("a tool")],
+        tolerance: Some("0.005mm".parse().expect("a length")),
+        ..Options::default()
+    };
+    let settings = Settings::resolve(options).expect("settings");
+    let art = Art { name: "B".to_owned(), areas: letters("B"), ..Art::default() };
+    let judged = carve(art, &settings, &HOW).expect("a program").verify(PITCH).expect("a program");
+    assert!(judged.over.max(judged.under) <= 6_000.0, "{:.0} and {:.0} nm", judged.over, judged.under);
+}
+
+/// What the end mill leaves in corners the V-bit clears, and stays down from line to line.
+#[test]
+fn wide_places_of_random_areas_become_flat() {
+    let flat = Some("endmill:1.2mm".parse().expect("a tool"));
+    let how = Carving { max_depth: Some(Nm::from_mm(1)), flat, ..HOW };
+    let usual = if cfg!(debug_assertions) { 2 } else { 40 };
+    for seed in seeds(0..usual) {
+        let areas = random_areas(seed, 1);
+        let made = engraving("flat", areas, "vbit:0.2mm:10deg", &how);
+        let judged = made.verify(PITCH).expect("programs");
+        assert_eq!(judged.findings, [], "seed {seed}");
+        for one in &made.programs {
+            println!("seed {seed}: {} retracts, {}", one.statistics.retracts, one.statistics.cut_length);
+        }
+    }
+}
+
 #[test]
 fn what_stands_is_as_sharp_as_what_is_sunk() {
     let how = Carving { raised: Some(Nm::from_mm(1)), max_depth: None, ..HOW };

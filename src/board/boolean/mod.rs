@@ -19,7 +19,7 @@ use i_overlay::mesh::int::arc::ArcOptions;
 use i_overlay::mesh::int::outline::offset::IntOutlineOffset;
 use i_overlay::mesh::int::style::{IntLineJoin, IntOutlineStyle};
 
-use crate::geometry::{Circle, Nm, Orientation, Point, Polygon, Rect, RectIndex, orientation};
+use crate::geometry::{Circle, Nm, Point, Polygon, Rect, RectIndex, cross};
 
 use cracks::without_cracks;
 use cuts::Cuts;
@@ -200,14 +200,6 @@ fn met(sample: &[Edge], ring: &[Point]) -> (usize, usize) {
 /// How many edges `contours` have.
 fn edges_of<'a>(contours: impl Iterator<Item = &'a Vec<Point>>) -> usize {
     contours.map(Vec::len).sum()
-}
-
-/// Whether two edges cross between their ends.
-fn cross((a, b): (Point, Point), (c, d): (Point, Point)) -> bool {
-    use Orientation::{Left, Right};
-    let is_parted =
-        |p, q, r, s| matches!((orientation(p, q, r), orientation(p, q, s)), (Left, Right) | (Right, Left));
-    is_parted(a, b, c, d) && is_parted(c, d, a, b)
 }
 
 /// What a boolean is of.

@@ -15,7 +15,7 @@
 //! roots, compared in floats that are wrong by less than 10⁻³ nm, in favour of contact. See
 //! [`arcs`].
 
-use crate::geometry::{Orientation, Point, Vector, orientation};
+use crate::geometry::{Point, Vector, cross};
 
 use super::sector::Sector;
 
@@ -74,19 +74,6 @@ pub(super) fn segments(s: (Point, Point), t: (Point, Point), reach: i64) -> bool
         || point_segment(t.0, s, reach)
         || point_segment(t.1, s, reach)
         || cross(s, t)
-}
-
-/// Whether two segments cross inside both.
-pub(super) fn cross(s: (Point, Point), t: (Point, Point)) -> bool {
-    apart(t, s) && apart(s, t)
-}
-
-/// Whether the ends of `s` lie strictly on different sides of the line through `t`.
-fn apart(s: (Point, Point), t: (Point, Point)) -> bool {
-    matches!(
-        (orientation(t.0, t.1, s.0), orientation(t.0, t.1, s.1)),
-        (Orientation::Left, Orientation::Right) | (Orientation::Right, Orientation::Left)
-    )
 }
 
 /// Whether a point and an arc are within `reach`.

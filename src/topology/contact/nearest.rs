@@ -1,7 +1,7 @@
 //! How near two cores come, and where, in floats: for people to read, never to decide what
 //! conducts.
 
-use crate::geometry::{Point, Vector};
+use crate::geometry::{Point, Vector, cross};
 
 use super::near::{self, ASIDE};
 use super::sector::Sector;
@@ -68,7 +68,7 @@ fn foot_of(a: Point, along: Vector, foot: i64, squared: i64) -> Place {
 
 /// Between two segments; of no length where they cross.
 pub(super) fn segments(s: (Point, Point), t: (Point, Point)) -> Way {
-    if near::cross(s, t) {
+    if cross(s, t) {
         let (along, across, way) = (s.1 - s.0, t.1 - t.0, t.0 - s.0);
         let place = foot_of(s.0, along, way.cross(across), along.cross(across));
         return Way::new(place, place);

@@ -55,6 +55,37 @@ pub struct Way {
     pub course: Vec<Place>,
 }
 
+impl Way {
+    /// The parts of it where the clearance is at least so many nanometres, in order.
+    #[must_use]
+    pub fn wide_parts(&self, least: f64) -> Vec<Vec<Place>> {
+        let mut parts: Vec<Vec<Place>> = Vec::new();
+        let mut before: Option<Place> = None;
+        for &place in &self.course {
+            let is_wide = place.clearance >= least;
+            let was_wide = before.is_some_and(|before| before.clearance >= least);
+            let edge = before.filter(|_| is_wide != was_wide).map(|before| before.toward(place, least));
+            if is_wide && !was_wide {
+                parts.push(edge.into_iter().collect());
+            }
+            if let Some(part) = parts.last_mut().filter(|_| is_wide || was_wide) {
+                part.push(if is_wide { place } else { edge.unwrap_or(place) });
+            }
+            before = Some(place);
+        }
+        parts
+    }
+}
+
+impl Place {
+    /// The place on the way to another that has this clearance, between those of both.
+    fn toward(self, other: Self, clearance: f64) -> Self {
+        let part = (clearance - self.clearance) / (other.clearance - self.clearance);
+        let mix = |a: f64, b: f64| a + (b - a) * part;
+        Self { at: (mix(self.at.0, other.at.0), mix(self.at.1, other.at.1)), clearance }
+    }
+}
+
 /// The medial axis of areas.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MedialAxis {

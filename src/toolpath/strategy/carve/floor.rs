@@ -9,7 +9,8 @@
 //! ```
 //!
 //! Loops are offsets of the areas by exact integer booleans. From one to the next the mill stays
-//! down: the way lies between them, and is as long as they are apart.
+//! down: the way lies between them, and is as long as they are apart. So does the V-bit where the
+//! way from one of its lines to the next leads over the floor.
 
 use crate::board::FLATTEN;
 use crate::board::polarity::{difference, offset, union};
@@ -18,6 +19,8 @@ use crate::toolpath::head::Head;
 use crate::toolpath::{Heights, Placement, Section, Tool, ToolKind};
 use crate::voronoi::fit_points;
 use crate::voronoi::medial::MedialAxis;
+
+use super::room::Room;
 
 /// What of the end mill's radius two loops are apart. Chosen: loops that turn by up to 130° leave
 /// nothing between them.
@@ -35,7 +38,7 @@ const REACH: f64 = 1.02;
 type Ring = Vec<Point>;
 
 /// What is done about wide places.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Floor {
     /// The loops of the end mill, the outermost level first.
     levels: Vec<Vec<Ring>>,
@@ -43,6 +46,8 @@ pub struct Floor {
     strokes: Vec<Path>,
     /// What the V-bit goes along at the full depth.
     pub(super) rims: Vec<Path>,
+    /// Where the V-bit may be at that depth, and a little beyond: as far as fitted lines may stray.
+    pub(super) room: Room,
     /// How far loops are apart, in nanometres.
     step: f64,
     tolerance: Nm,
@@ -50,7 +55,8 @@ pub struct Floor {
 
 impl Floor {
     /// What is to be done so that areas are flat at the depth of the V-bit's heights; the end mill
-    /// and the V-bit must be such, and the V-bit's tip above zero.
+    /// and the V-bit must be such, and the V-bit's tip above zero. The walls are within `tolerance`
+    /// of their depth.
     #[must_use]
     pub fn new(
         areas: &[Polygon],
@@ -63,6 +69,8 @@ impl Floor {
         let (ToolKind::VBit { tip, .. }, ToolKind::EndMill { diameter }) = (v_bit.kind, mill.kind) else {
             return Self::default();
         };
+        // Along a wall what is off sideways is off by more in depth.
+        let tolerance = Nm::from_f64(tolerance.to_f64() * v_bit.kind.flank().min(1.0));
         // Where the floor begins, and how far from the edges either tool goes.
         let edge = v_bit.width_at(depth) / 2 - tip / 2;
         let (radius, rim) = (diameter / 2, edge + tip / 2);
@@ -87,7 +95,8 @@ impl Floor {
         let fine = Nm::from_f64(tip.to_f64() * FINE_STEP);
         let mut rims = loops(&inner(rim), tolerance);
         rims.extend(fill(areas, axis, &rest, (rim + fine, fine, tip), tolerance));
-        Self { levels, strokes, rims, step: step.to_f64(), tolerance }
+        let room = Room::new(&inner(rim - tolerance));
+        Self { levels, strokes, rims, room, step: step.to_f64(), tolerance }
     }
 
     /// The end mill's part.
@@ -208,28 +217,16 @@ fn hull_of(path: &Path, radius: Nm) -> Option<Polygon> {
 
 /// The parts of the axis that an end mill follows where its loops leave something.
 fn strokes(axis: &MedialAxis, reach: Nm, rest: &[Polygon], tolerance: Nm) -> Vec<Path> {
-    let mut found = Vec::new();
-    for way in &axis.ways {
-        let mut points: Vec<Point> = Vec::new();
-        let mut is_needed = false;
-        let mut finish = |points: &mut Vec<Point>, is_needed: &mut bool| {
-            let run = std::mem::take(points);
-            if std::mem::take(is_needed) {
-                found.extend(fit_points(run, tolerance));
-            }
-        };
-        for (place, next) in way.course.iter().zip(way.course.iter().skip(1).chain(way.course.last())) {
-            let (at, to) = (Point::from_f64(place.at.0, place.at.1), Point::from_f64(next.at.0, next.at.1));
-            if place.clearance < reach.to_f64() {
-                finish(&mut points, &mut is_needed);
-                continue;
-            }
-            points.push(at);
-            is_needed |= rest.iter().any(|piece| meets(piece, at, to));
-        }
-        finish(&mut points, &mut is_needed);
-    }
-    found
+    let is_left = |pair: &[Point]| rest.iter().any(|piece| meets(piece, pair[0], pair[1]));
+    let parts = wide_parts(axis, reach.to_f64());
+    parts.filter(|part| part.windows(2).any(is_left)).filter_map(|part| fit_points(part, tolerance)).collect()
+}
+
+/// The parts of the axis that are at least so far from the edges.
+fn wide_parts(axis: &MedialAxis, least: f64) -> impl Iterator<Item = Vec<Point>> {
+    let parts = axis.ways.iter().flat_map(move |way| way.wide_parts(least));
+    let parts = parts.filter(|part| part.len() > 1);
+    parts.map(|part| part.iter().map(|place| Point::from_f64(place.at.0, place.at.1)).collect())
 }
 
 /// Whether a line enters a piece, as far as places along it show.
@@ -265,14 +262,8 @@ fn fill(
             break;
         }
     }
-    let least = (first - fine).to_f64();
-    for way in &axis.ways {
-        for part in way.course.split(|place| place.clearance < least).filter(|part| part.len() > 1) {
-            let points: Vec<Point> =
-                part.iter().map(|place| Point::from_f64(place.at.0, place.at.1)).collect();
-            found.extend(runs(&points, false, &near));
-        }
-    }
+    let along = wide_parts(axis, (first - fine).to_f64());
+    found.extend(along.flat_map(|part| runs(&part, false, &near)));
     found.into_iter().filter_map(|run| fit_points(run, tolerance)).collect()
 }
 

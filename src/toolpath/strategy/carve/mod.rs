@@ -15,12 +15,13 @@
 mod clip;
 mod fit;
 mod floor;
+mod room;
 
 use crate::geometry::{Nm, Path, Point};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::trails::{Link, Step, walk};
-use crate::toolpath::{Heights, Machine, Placement, Section, Tool, ToolKind};
+use crate::toolpath::{Heights, Machine, Placement, Position, Section, Tool, ToolKind};
 use crate::voronoi::medial::MedialAxis;
 
 use super::isolate::{WORTH, retract_seconds};
@@ -55,9 +56,11 @@ pub struct Carving<'a> {
 /// the axis and the rounding of coordinates.
 const SHARE: f64 = 0.7;
 
-/// Steeper flanks than this are not followed more closely, in units of width for one of depth.
-/// Chosen: below it a tenth of a micrometre sideways, the last digit of a program, is what counts.
+/// Along flanks steeper than this, in units of width for one of depth, lines and arcs follow the
+/// axis no more closely if they are within so many nanometres of it. Chosen: below that a tenth of
+/// a micrometre sideways, the last digit of a program, is what counts.
 const STEEP: f64 = 0.25;
+const CLOSE: f64 = 350.0;
 
 /// Follows the medial axis; no moves for a tool that is no V-bit.
 pub fn carve(label: impl Into<String>, axis: &MedialAxis, settings: &Carving<'_>) -> Section {
@@ -91,6 +94,8 @@ fn passes(axis: &MedialAxis, settings: &Carving<'_>) -> Vec<Pass> {
 struct Line {
     path: Path,
     depths: Vec<Nm>,
+    /// Whether it lies on the floor that is cleared.
+    on_floor: bool,
 }
 
 impl Line {
@@ -125,8 +130,9 @@ impl Line {
 
 /// What a pass mills, in as few trails as the axis allows.
 fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
-    let flank = pass.flank.clamp(STEEP, 1.0);
-    let fit = Fit { tolerance: settings.tolerance.to_f64() * SHARE * flank, flank: pass.flank };
+    let within = |flank: f64| settings.tolerance.to_f64() * SHARE * flank.min(1.0);
+    let tolerance = within(pass.flank).max(within(STEEP).min(CLOSE));
+    let fit = Fit { tolerance, flank: pass.flank };
     let mut nodes = axis.nodes.len();
     let (mut ways, mut links): (Vec<Line>, Vec<Link>) = (Vec::new(), Vec::new());
     for way in &axis.ways {
@@ -145,7 +151,7 @@ fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
             let ends = (!is_ring).then(|| (end(0), end(1)));
             let seconds = path.length() / settings.tool.feed.nm_per_second();
             links.push(Link { ends, seconds, must: true });
-            ways.push(Line { path: settings.placement.path(&path), depths });
+            ways.push(Line { path: settings.placement.path(&path), depths, on_floor: false });
         }
     }
     let retract = WORTH * retract_seconds(settings.heights, settings.tool, settings.machine);
@@ -156,13 +162,14 @@ fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
         let tip = Tip { at: place.at, depth: pass.depth(place.clearance).min(pass.high) };
         (tip.depth > pass.low && !pass.is_left(pass.depth(place.clearance))).then(|| {
             let start = settings.placement.point(Point::from_f64(tip.at.0, tip.at.1));
-            Line { path: Path { start, segments: Vec::new() }, depths: vec![Nm::from_f64(tip.depth)] }
+            let path = Path { start, segments: Vec::new() };
+            Line { path, depths: vec![Nm::from_f64(tip.depth)], on_floor: false }
         })
     }));
     lines.extend(settings.floor.iter().flat_map(|floor| &floor.rims).map(|rim| {
         let path = settings.placement.path(rim);
         let depths = vec![Nm::from_f64(pass.high); path.segments.len() + 1];
-        Line { path, depths }
+        Line { path, depths, on_floor: true }
     }));
     lines
 }
@@ -186,19 +193,33 @@ fn joined(ways: &[Line], trail: &[Step]) -> Option<Line> {
 fn mill(head: &mut Head, mut lines: Vec<Line>, start: Point, settings: &Carving<'_>) -> Point {
     let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
     let length = lines.iter().map(|line| line.path.length()).sum();
-    let mut at = start;
+    // Longer ways over the floor are not worth the retract that they save.
+    let retract = WORTH * retract_seconds(settings.heights, settings.tool, settings.machine);
+    let longest = retract * settings.tool.feed.nm_per_second();
+    let (mut at, mut was_on_floor) = (start, false);
     for leg in arrange(&stretches, start, settings.order, length) {
         let line = &mut lines[leg.stretch];
         line.begin_at(leg.entry.unwrap_or(0));
         if leg.reversed {
             line.reverse();
         }
-        head.over(line.path.start);
-        head.plunge(line.depths[0]);
+        let stays_down = was_on_floor
+            && line.on_floor
+            && at.distance(line.path.start) <= longest
+            && settings.floor.is_some_and(|floor| {
+                let [from, to] = [at, line.path.start].map(|p| settings.placement.undo(p));
+                floor.room.leads(from, to)
+            });
+        if stays_down {
+            head.feed_to(Position::over(line.path.start, -line.depths[0]), settings.tool.feed);
+        } else {
+            head.over(line.path.start);
+            head.plunge(line.depths[0]);
+        }
         for (segment, &depth) in line.path.segments.iter().zip(&line.depths[1..]) {
             head.cut(segment, depth, settings.tool.feed);
         }
-        at = line.path.end();
+        (at, was_on_floor) = (line.path.end(), line.on_floor);
     }
     at
 }
