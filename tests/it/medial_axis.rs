@@ -439,6 +439,44 @@ fn regular(random: &mut Random, n: i64, radius: i64) -> Vec<Point> {
     (0..n).map(corner).collect()
 }
 
+/// A boolean leaves such islands where edges of a drawing cross at a small angle.
+#[test]
+fn islands_without_a_width_are_none() {
+    let ring = |corners: &[(i64, i64)]| {
+        corners.iter().map(|&(x, y)| Point::new(Nm::new(x), Nm::new(y))).collect::<Vec<_>>()
+    };
+    let contours = vec![
+        ring(&[(5_109_523, 41_956_556), (5_109_523, 937_176), (47_167_451, 41_956_556)]),
+        ring(&[(9_600_957, 33_437_417), (9_627_687, 33_455_499), (9_643_016, 33_465_868)]),
+        ring(&[(9_643_016, 33_465_868), (9_662_256, 33_478_883), (9_652_890, 33_472_547)]),
+    ];
+    let area = Polygon::new(contours).expect("a triangle with two holes");
+    let axis = MedialAxis::new(&[area], &Pruning { loss: 0.0, corner: 1.0 });
+    assert_eq!(axis.faults, []);
+    assert_eq!((axis.nodes.len(), axis.ways.len()), (4, 3), "from the corners to the middle");
+}
+
+/// Rounding to nanometres turns fine chords back and forth. On the way to a corner of these the
+/// edge that ends there comes before it.
+#[test]
+fn an_edge_comes_before_the_corner_at_its_end() {
+    let ring = [
+        (3_922_183, 7_427_045),
+        (4_078_877, 5_879_037),
+        (5_613_087, 6_041_611),
+        (5_340_281, 7_577_315),
+        (4_683_671, 7_507_736),
+        (4_683_652, 7_507_734),
+        (4_683_600, 7_507_729),
+        (4_683_494, 7_507_718),
+    ];
+    let ring = ring.iter().map(|&(x, y)| Point::new(Nm::new(x), Nm::new(y))).collect();
+    let mut generators = Generators::new();
+    generators.inside(&Polygon::new(vec![ring]).expect("a ring"), |_| 0);
+    let diagram = Diagram::new(generators, Kind::MedialAxis, Space::Within);
+    assert_eq!(diagram.faults(), []);
+}
+
 /// Nothing but points joins it to the rest.
 #[test]
 fn what_islands_enclose_that_touch_each_other_has_an_axis_of_its_own() {

@@ -217,8 +217,9 @@ impl Generators {
     }
 
     fn rings(&mut self, polygon: &Polygon, owner: impl Fn(usize) -> u32, inwards: bool) {
-        // The inside of shapes is taken as it is: there every corner may have an axis.
-        let rounding = if inwards { EXACT } else { ROUNDING };
+        // The inside of shapes is taken as it is: there every corner may have an axis. Corners that
+        // rounding has left of fine chords are not shaken, though.
+        let rounding = if inwards && self.attempt == 0 { EXACT } else { ROUNDING };
         let simple = |ring: Vec<Point>| simple(ring, rounding);
         let points = |ring: &Vec<Point>| ring.iter().map(|&p| self.point(p)).collect::<Vec<_>>();
         let rings: Vec<Vec<Point>> = polygon.contours().iter().map(|ring| simple(points(ring))).collect();
@@ -226,7 +227,9 @@ impl Generators {
         let backwards = largest.is_some_and(|area| area < 0);
         let circles = Circles::new(if self.is_round && !inwards { polygon.circles() } else { &[] });
         let mut numbers = Vec::new();
-        for (i, mut ring) in rings.into_iter().enumerate().filter(|(_, ring)| ring.len() > 1) {
+        // Of islands that rounding has left without a width, no axis tells the two sides.
+        let is_ring = |ring: &[Point]| ring.len() > 1 && !(inwards && is_flat(ring));
+        for (i, mut ring) in rings.into_iter().enumerate().filter(|(_, ring)| is_ring(ring)) {
             if backwards != inwards {
                 ring.reverse();
             }
@@ -450,6 +453,12 @@ fn cross(a: Point, b: Point, c: Point) -> i128 {
 fn is_back(a: Point, b: Point, c: Point) -> bool {
     let (u, v) = (b - a, c - b);
     i128::from(u.x.get()) * i128::from(v.x.get()) + i128::from(u.y.get()) * i128::from(v.y.get()) < 0
+}
+
+/// Whether all of a ring lies on one line, but for rounding.
+fn is_flat(ring: &[Point]) -> bool {
+    let Some(&far) = ring.iter().max_by_key(|p| (**p - ring[0]).length_squared()) else { return true };
+    ring.iter().all(|&p| Spot::from(p).distance_to_chord(ring[0].into(), far.into()) <= ROUNDING)
 }
 
 /// A ring without repeated points and without those that say nothing: on straight edges, or off

@@ -26,6 +26,9 @@ pub(super) const TIES: [f64; 3] = [0.002, 0.02, 0.000_2];
 /// defines. Chosen: three of many decide, and what all lie within a tie of may be off by some.
 const SPREAD: f64 = 4.0;
 
+/// Feet that move by less for each unit of the way stay where they are. Chosen: rounding is less.
+const LEVEL: f64 = 1e-9;
+
 /// A generator tied at a place.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tied {
@@ -319,31 +322,26 @@ impl Diagram {
         group: impl Iterator<Item = &'a Tied> + Clone,
     ) -> u32 {
         let form = |tied: &Tied| &self.forms()[tied.generator as usize];
+        let mut members = group.clone();
+        if let (Some(one), None) = (members.next(), members.next()) {
+            return one.generator;
+        }
         let bend = group.clone().filter_map(|tied| form(tied).bend(at)).reduce(f64::min);
         // Off the centre of a hollow circle, too, about which all directions are one.
         let farthest = resolution(self.tie, bend.unwrap_or(clearance)).max(4.0 * SNAP);
         let probe = at + way * farthest;
-        let goes_on = |tied: &&Tied| {
-            let form = form(tied);
-            let Some(ends) = form.ends() else { return true };
-            if form.around(at).is_some() {
-                return form.slack(probe) >= 0.0;
-            }
-            let slacks = form.slacks(at);
-            (0..2).all(|end| {
-                let (_, normal) = form.foot(ends[end]);
-                // The direction in which feet move inwards from this end.
-                let onward = clockwise(normal) * if form.is_hollow() { 1.0 } else { -1.0 };
-                let inward = if end == 0 { onward } else { onward * -1.0 };
-                slacks[end].abs() > tied.slab || way.dot(inward) >= -1e-9
-            })
+        let going = group.clone().filter_map(|tied| Some((tied, self.goes_on(tied, at, way, probe)?)));
+        let going: Vec<(&Tied, bool)> = going.collect();
+        let hides = |&(tied, begins): &(&Tied, bool), disc: u32| {
+            begins && self.generators.ends_of(tied.generator).contains(&Some(disc))
         };
+        let is_seen = |tied: &&Tied| !going.iter().any(|other| hides(other, tied.generator));
+        let going: Vec<&Tied> = going.iter().map(|&(tied, _)| tied).filter(is_seen).collect();
         let is_there = |tied: &Tied, probe: Spot| form(tied).slack(probe) >= -tied.slab;
         // No farther than what is shorter than that goes on.
         let halves = successors(Some(farthest), |far| Some(0.5 * far)).take_while(|&far| far >= 4.0 * SNAP);
         let mut probes = halves.map(|far| at + way * far);
-        let all = |&probe: &Spot| group.clone().filter(goes_on).all(|tied| is_there(tied, probe));
-        let probe = probes.find(all).unwrap_or(probe);
+        let probe = probes.find(|&probe| going.iter().all(|tied| is_there(tied, probe))).unwrap_or(probe);
         let rank = |i: u32| (self.forms()[i as usize].distance(probe), self.owner(i), i);
         let nearer = |a: (f64, u32, u32), b: (f64, u32, u32)| {
             let is_tie = (a.0 - b.0).abs() < 1e-6;
@@ -351,10 +349,33 @@ impl Diagram {
             if a_first { a } else { b }
         };
         let ranked = |tied: &Tied| rank(tied.generator);
-        let going = group.clone().filter(goes_on);
-        let there = going.clone().filter(|tied| is_there(tied, probe)).map(ranked).reduce(nearer);
-        let going = there.or_else(|| going.map(ranked).reduce(nearer));
+        let there = going.iter().filter(|tied| is_there(tied, probe)).map(|tied| ranked(tied)).reduce(nearer);
+        let going = there.or_else(|| going.iter().map(|tied| ranked(tied)).reduce(nearer));
         going.or_else(|| group.map(ranked).reduce(nearer)).map_or(u32::MAX, |found| found.2)
+    }
+
+    /// Whether a tied generator is there a little ahead in a direction, too, and if so, whether it
+    /// begins here: then it is nearer than the disc at its end. From the centre of a hollow arc
+    /// `probe` shows it.
+    fn goes_on(&self, tied: &Tied, at: Spot, way: Spot, probe: Spot) -> Option<bool> {
+        let form = &self.forms()[tied.generator as usize];
+        let Some(ends) = form.ends() else { return Some(false) };
+        if form.around(at).is_some() {
+            return (form.slack(probe) >= 0.0).then_some(false);
+        }
+        let slacks = form.slacks(at);
+        let mut begins = false;
+        for end in (0..2).filter(|&end| slacks[end].abs() <= tied.slab) {
+            let (_, normal) = form.foot(ends[end]);
+            // The direction in which feet move inwards from this end.
+            let onward = clockwise(normal) * if form.is_hollow() { 1.0 } else { -1.0 };
+            let inward = way.dot(if end == 0 { onward } else { onward * -1.0 });
+            if inward < -LEVEL {
+                return None;
+            }
+            begins |= inward > LEVEL;
+        }
+        Some(begins)
     }
 }
 
