@@ -1,7 +1,7 @@
 //! The options of a job as arguments: what the library lists, read by clap.
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Arg, ArgMatches, Args, Command, FromArgMatches};
+use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Id};
 use serde::de::value::Error;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 use voromill::gcode::dialect::{Blend, ToolChange};
@@ -71,16 +71,14 @@ impl Args for Given {
 /// An option of a job, by its key in a settings file, as it is written on the command line.
 pub(super) fn flag(key: &str) -> String {
     let given = Given::augment_args(Command::new("options"));
-    let long = given
-        .get_arguments()
-        .find(|argument| key_of(argument.get_id().as_str()) == key)
-        .and_then(Arg::get_long);
+    let long =
+        given.get_arguments().find(|argument| key_of(argument.get_id()) == key).and_then(Arg::get_long);
     format!("--{}", long.unwrap_or(key))
 }
 
 /// The key in a settings file of the option that clap knows by this name.
-pub(super) fn key_of(id: &str) -> String {
-    id.replace('_', "-")
+pub(super) fn key_of(id: &Id) -> String {
+    id.as_str().replace('_', "-")
 }
 
 /// Reads one of the words that an enumeration of the library has.

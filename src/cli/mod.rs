@@ -179,7 +179,7 @@ fn whole() -> clap::Command {
     scope::hidden(command).mut_subcommands(move |sub| {
         let defaults = defaults.clone();
         sub.mut_args(move |argument| {
-            let key = given::key_of(argument.get_id().as_str());
+            let key = given::key_of(argument.get_id());
             let default = defaults.iter().find(|(name, _)| *name == key).map(|(_, value)| value);
             let help = argument.get_help().map(ToString::to_string).unwrap_or_default();
             // Another subcommand's option of the same name may have a default of its own.

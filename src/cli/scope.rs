@@ -6,7 +6,7 @@
 //! something.
 
 use clap::parser::ValueSource;
-use clap::{ArgMatches, Command};
+use clap::{ArgMatches, Command, Id};
 use voromill::job::{Options, Reach};
 
 use super::Failure;
@@ -18,7 +18,7 @@ pub(super) fn hidden(command: Command) -> Command {
     command.mut_subcommands(|sub| {
         let Some(reach) = reach(sub.get_name()) else { return sub };
         sub.mut_args(|argument| {
-            let has_effect = means(reach, &key_of(argument.get_id().as_str()));
+            let has_effect = means(reach, &key_of(argument.get_id()));
             if has_effect { argument } else { argument.hide(true) }
         })
     })
@@ -28,8 +28,8 @@ pub(super) fn hidden(command: Command) -> Command {
 pub(super) fn check(matches: &ArgMatches) -> Result<(), Failure> {
     let Some((name, given)) = matches.subcommand() else { return Ok(()) };
     let Some(reach) = reach(name) else { return Ok(()) };
-    let is_given = |id: &&str| given.value_source(id) == Some(ValueSource::CommandLine);
-    let mut keys = given.ids().map(|id| id.as_str()).filter(is_given).map(key_of);
+    let is_given = |id: &&Id| given.value_source(id.as_str()) == Some(ValueSource::CommandLine);
+    let mut keys = given.ids().filter(is_given).map(key_of);
     match keys.find(|key| !means(reach, key)) {
         None => Ok(()),
         Some(key) => {

@@ -11,7 +11,7 @@ use std::ops::ControlFlow;
 use super::edge::{self, Edge};
 use super::heal;
 use crate::board::FLATTEN;
-use crate::geometry::{Point, RectIndex};
+use crate::geometry::{Point, RectIndex, cross};
 
 /// How often chords are parted at most: bent ones may cross others. Chosen; three times do nearly
 /// always.
@@ -111,7 +111,7 @@ fn meet(chords: &[Edge], pair: [usize; 2], cuts: &mut [Vec<Point>]) -> usize {
 pub(super) fn places(a: Edge, b: Edge) -> Vec<Point> {
     let mut places: Vec<Point> = [b.from, b.to].into_iter().filter(|&p| lies_on(a, p)).collect();
     places.extend([a.from, a.to].into_iter().filter(|&p| lies_on(b, p)));
-    if places.is_empty() && do_cross(a, b) && do_cross(b, a) {
+    if places.is_empty() && cross((a.from, a.to), (b.from, b.to)) {
         places.extend(edge::line_and_line(&a, &b));
     }
     places
@@ -122,13 +122,6 @@ fn lies_on(chord: Edge, p: Point) -> bool {
     let (way, to) = (chord.to - chord.from, p - chord.from);
     let (along, off) = (way.dot(to), i128::from(way.cross(to)));
     along > 0 && along < way.length_squared() && 2 * off * off <= i128::from(way.length_squared())
-}
-
-/// Whether the ends of `b` lie on both sides of `a`.
-fn do_cross(a: Edge, b: Edge) -> bool {
-    let way = a.to - a.from;
-    let sides = [b.from, b.to].map(|end| way.cross(end - a.from).signum());
-    sides[0] * sides[1] < 0
 }
 
 /// A chord in parts.

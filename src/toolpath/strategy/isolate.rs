@@ -202,8 +202,7 @@ const AROUND: usize = 4;
 /// The moves that cut all ways that must be cut.
 fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move> {
     let links: Vec<Link> = ways.iter().map(|way| way.link).collect();
-    let trails =
-        walk(nodes.len(), &links, WORTH * retract_seconds(settings.heights, settings.tool, settings.machine));
+    let trails = walk(nodes.len(), &links, retract_worth(settings.heights, settings.tool, settings.machine));
     let lines = trails.iter().filter_map(|trail| Line::along(ways, trail, settings.placement));
     let mut lines: Vec<Option<Line>> = lines.map(Some).collect();
     let stretches: Vec<Stretch> = lines.iter().flatten().map(Line::stretch).collect();
@@ -337,15 +336,20 @@ impl Line {
 /// take the same time within half a percent; with less, less is cut twice and the tool lasts
 /// longer, and with 0.7 none of the nine boards in docs/millproject.md is cut longer than by
 /// pcb2gcode.
-pub(super) const WORTH: f64 = 0.7;
+const WORTH: f64 = 0.7;
 
 /// The way over which the next trail is expected, for what a retract costs. Chosen: the middle of
 /// what boards show.
 const EXPECTED_HOP: Nm = Nm::from_mm(5);
 
+/// What may be cut instead of a retract, in seconds.
+pub(super) fn retract_worth(heights: Heights, tool: &Tool, machine: &Machine) -> f64 {
+    WORTH * retract_seconds(heights, tool, machine)
+}
+
 /// What a retract costs: up, over, down to the approach height, the plunge, and each time from a
 /// standstill to a standstill.
-pub(super) fn retract_seconds(heights: Heights, tool: &Tool, machine: &Machine) -> f64 {
+fn retract_seconds(heights: Heights, tool: &Tool, machine: &Machine) -> f64 {
     let Heights { safe, approach, cut, .. } = heights;
     let (level, vertical) = (machine.level_acceleration(), machine.acceleration[2]);
     let stop = tool.feed.nm_per_second() / level.nm_per_s2();

@@ -22,7 +22,7 @@ mod pruning;
 use rayon::prelude::*;
 
 use super::exact::{Diagram, Generators, Kind, Space};
-use crate::geometry::{Point, Polygon};
+use crate::geometry::{Point, Polygon, between};
 
 use joining::join;
 use pruning::prune;
@@ -79,10 +79,9 @@ impl Way {
 
 impl Place {
     /// The place on the way to another that has this clearance, between those of both.
-    fn toward(self, other: Self, clearance: f64) -> Self {
+    pub(crate) fn toward(self, other: Self, clearance: f64) -> Self {
         let part = (clearance - self.clearance) / (other.clearance - self.clearance);
-        let mix = |a: f64, b: f64| a + (b - a) * part;
-        Self { at: (mix(self.at.0, other.at.0), mix(self.at.1, other.at.1)), clearance }
+        Self { at: between(self.at, other.at, part), clearance }
     }
 }
 

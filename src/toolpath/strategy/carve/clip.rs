@@ -8,6 +8,7 @@
 //!             ╲___╱        the axis
 //! ```
 
+use crate::geometry;
 use crate::voronoi::medial::Place;
 
 /// A place of the tip, in nanometres; the depth grows downwards.
@@ -106,8 +107,8 @@ impl Pass {
 
 /// The place a part of the way from one to another.
 pub(super) fn between(from: Tip, to: Tip, part: f64) -> Tip {
-    let mix = |a: f64, b: f64| a + (b - a) * part;
-    Tip { at: (mix(from.at.0, to.at.0), mix(from.at.1, to.at.1)), depth: mix(from.depth, to.depth) }
+    let depth = from.depth + (to.depth - from.depth) * part;
+    Tip { at: geometry::between(from.at, to.at, part), depth }
 }
 
 /// Turns a loop so that it begins where it is shallowest.

@@ -24,7 +24,7 @@ use crate::toolpath::trails::{Link, Step, walk};
 use crate::toolpath::{Heights, Machine, Placement, Position, Section, Tool, ToolKind};
 use crate::voronoi::medial::MedialAxis;
 
-use super::isolate::{WORTH, retract_seconds};
+use super::isolate::retract_worth;
 use clip::{Pass, Piece, Tip};
 use fit::Fit;
 
@@ -154,7 +154,7 @@ fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
             ways.push(Line { path: settings.placement.path(&path), depths, on_floor: false });
         }
     }
-    let retract = WORTH * retract_seconds(settings.heights, settings.tool, settings.machine);
+    let retract = retract_worth(settings.heights, settings.tool, settings.machine);
     let trails = walk(nodes, &links, retract);
     let mut lines: Vec<Line> = trails.iter().filter_map(|trail| joined(&ways, trail)).collect();
     lines.extend(axis.dots.iter().filter_map(|&dot| {
@@ -194,7 +194,7 @@ fn mill(head: &mut Head, mut lines: Vec<Line>, start: Point, settings: &Carving<
     let stretches: Vec<Stretch> = lines.iter().map(Line::stretch).collect();
     let length = lines.iter().map(|line| line.path.length()).sum();
     // Longer ways over the floor are not worth the retract that they save.
-    let retract = WORTH * retract_seconds(settings.heights, settings.tool, settings.machine);
+    let retract = retract_worth(settings.heights, settings.tool, settings.machine);
     let longest = retract * settings.tool.feed.nm_per_second();
     let (mut at, mut was_on_floor) = (start, false);
     for leg in arrange(&stretches, start, settings.order, length) {

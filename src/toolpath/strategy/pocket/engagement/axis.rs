@@ -118,11 +118,7 @@ impl Graph {
         for (i, &place) in course.iter().enumerate() {
             let before = i.checked_sub(1).map(|i| course[i]);
             let crossing = before.filter(|before| (before.clearance < 0.0) != (place.clearance < 0.0));
-            let crossing = crossing.map(|before| {
-                let part = before.clearance / (before.clearance - place.clearance);
-                Place { at: between(before.at, place.at, part), clearance: 0.0 }
-            });
-            if let Some(crossing) = crossing {
+            if let Some(crossing) = crossing.map(|before| before.toward(place, 0.0)) {
                 let node = self.node(crossing);
                 if place.clearance < 0.0 {
                     part.push(crossing);
