@@ -4,7 +4,7 @@
 use crate::board::Warning;
 use crate::board::polarity::difference;
 use crate::gcode::{self, Header, Input};
-use crate::geometry::{Nm, Polygon, Rect};
+use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::grid::Grid;
 use crate::report::relief::{Material, Relief};
 use crate::toolpath::{Placement, Program, Section, Statistics, ToolKind, measure};
@@ -49,6 +49,24 @@ pub(super) fn round(areas: &[Polygon], margin: Nm) -> Vec<Polygon> {
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
     let frame = bounds.map(|bounds| Polygon::rectangle(bounds.inflate(margin)));
     frame.map_or_else(Vec::new, |frame| difference(&frame, areas))
+}
+
+/// What is narrower than this, in the mean of its length, is a sliver. Chosen: no drawing means
+/// what is narrower than a micrometre, but rounding leaves such.
+const SLIVER: Nm = Nm::from_um(1);
+
+/// Areas without those that are slivers and without islands in them that are: what lies between
+/// the two edges of one is no wider than coordinates are apart, and no axis tells them.
+pub(super) fn without_slivers(areas: &[Polygon]) -> Vec<Polygon> {
+    let is_wide = |ring: &&Vec<Point>| {
+        let ring = Polygon::new(vec![(*ring).clone()]);
+        ring.is_some_and(|ring| 2e12 * ring.area_mm2().abs() >= ring.perimeter() * SLIVER.to_f64())
+    };
+    let kept = |area: &Polygon| {
+        let rings = area.contours().iter().filter(is_wide).cloned().collect();
+        Some(Polygon::new(rings)?.of_circles(area.circles().iter().copied()))
+    };
+    areas.iter().filter_map(kept).collect()
 }
 
 /// An area on the machine.

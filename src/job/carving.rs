@@ -9,7 +9,7 @@ use crate::toolpath::{Angle, Heights, Order, Placement, Section, Tool, ToolKind}
 use crate::verify::carving::{self, Carved, Ideal, Text};
 use crate::voronoi::medial::{MedialAxis, Pruning};
 
-use super::art::{self, Art, OneTool, placed, round, written};
+use super::art::{self, Art, OneTool, placed, round, without_slivers, written};
 use super::{Error, Reach, Settings};
 
 /// How it is carved.
@@ -117,6 +117,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         None => shapes,
         Some(margin) => round(&shapes, margin),
     };
+    let areas = without_slivers(&areas);
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
     let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to carve".to_owned()))?;
     let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);

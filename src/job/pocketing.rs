@@ -13,7 +13,7 @@ use crate::verify::carving::Text;
 use crate::verify::pocketing::{self, Floor, Pocketed};
 use crate::voronoi::medial::nest::Nest;
 
-use super::art::{self, Art, OneTool, placed, round, written};
+use super::art::{self, Art, OneTool, placed, round, without_slivers, written};
 use super::{Cutting, Error, Length, Overlap, Reach, Settings};
 
 /// How pockets are milled.
@@ -83,6 +83,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
         None => art.areas.clone(),
         Some(margin) => round(&art.areas, margin),
     };
+    let areas = without_slivers(&areas);
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
     let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to mill".to_owned()))?;
     let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);

@@ -64,6 +64,7 @@ mod runs;
 mod sheet;
 mod spans;
 mod surface;
+mod sweep;
 mod tiles;
 mod walls;
 mod width;

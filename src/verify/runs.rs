@@ -6,11 +6,10 @@
 //! ```
 
 use rayon::prelude::*;
-use static_aabb2d_index::StaticAABB2DIndex;
 
 use crate::geometry::{Point, Polygon, merge, off_segment, spanned};
 use crate::topology::DisjointSets;
-use crate::verify::boxes::boxes;
+use crate::verify::boxes::Tree;
 use crate::verify::edges::{Edges, length};
 
 /// A point in nanometres.
@@ -65,46 +64,66 @@ impl Sweep {
     }
 }
 
-/// Level motions by place.
+/// Level motions by depth, the deepest first, and by place.
 pub(super) struct Sweeps {
+    groups: Vec<Group>,
+}
+
+/// Motions about as deep as each other.
+struct Group {
     sweeps: Vec<Sweep>,
-    tree: Option<StaticAABB2DIndex<f64>>,
+    /// Each box knows the least number of a motion in it.
+    tree: Option<Tree<usize>>,
+    deepest: f64,
 }
 
 /// No place is so far away. In nanometres: ten metres. Chosen.
 const FAR: f64 = 1e10;
 
+/// So many motions of other depths are a group of their own, at least, and so many groups there
+/// are at most. Chosen: a mill has some ten layers, and ramps between them.
+const FEWEST: usize = 64;
+const MOST_GROUPS: usize = 64;
+
 impl Sweeps {
-    pub(super) fn new(sweeps: Vec<Sweep>) -> Self {
-        let reach = |sweep: &Sweep| {
-            let ([left, bottom, right, top], radius) = (spanned(sweep.from, sweep.to), sweep.radius);
-            [left - radius, bottom - radius, right + radius, top + radius]
-        };
-        let tree = boxes(sweeps.iter().map(reach));
-        Self { sweeps, tree }
+    pub(super) fn new(mut sweeps: Vec<Sweep>) -> Self {
+        sweeps.sort_by(|a, b| b.depth.total_cmp(&a.depth));
+        let fewest = FEWEST.max(sweeps.len() / MOST_GROUPS);
+        let mut groups: Vec<Vec<Sweep>> = Vec::new();
+        for level in sweeps.chunk_by(|a, b| a.depth.total_cmp(&b.depth).is_eq()) {
+            match groups.last_mut().filter(|group| group.len() < fewest) {
+                Some(group) => group.extend_from_slice(level),
+                None => groups.push(level.to_vec()),
+            }
+        }
+        Self { groups: groups.into_iter().map(Group::new).collect() }
+    }
+
+    /// Those of which some are no less deep than `least`.
+    fn deep(&self, least: f64) -> &[Group] {
+        &self.groups[..self.groups.partition_point(|group| group.deepest >= least)]
     }
 
     /// Whether a place was swept before a motion, no less deep than `least`.
     pub(super) fn clear(&self, p: Spot, least: f64, before: usize) -> bool {
-        let mut found = false;
-        if let Some(tree) = &self.tree {
-            tree.visit_query(p.0, p.1, p.0, p.1, &mut |i: usize| {
-                let sweep = &self.sweeps[i];
-                found |= sweep.order < before && sweep.depth >= least && sweep.holds(p);
-            });
-        }
-        found
+        let is_one = |sweep: &Sweep| sweep.depth >= least && sweep.holds(p);
+        // The layer above was swept as a whole.
+        let mut groups = self.deep(least).iter().rev();
+        groups.any(|group| group.visit([p.0, p.1, p.0, p.1], before, |sweep| !is_one(sweep)))
     }
 
     /// How deep a place was swept before a motion; zero where it was not.
     pub(super) fn deepest(&self, p: Spot, before: usize) -> f64 {
         let mut deepest = 0.0_f64;
-        if let Some(tree) = &self.tree {
-            tree.visit_query(p.0, p.1, p.0, p.1, &mut |i: usize| {
-                let sweep = &self.sweeps[i];
-                if sweep.order < before && sweep.depth > deepest && sweep.holds(p) {
+        for group in &self.groups {
+            if group.deepest <= deepest {
+                break;
+            }
+            group.visit([p.0, p.1, p.0, p.1], before, |sweep| {
+                if sweep.depth > deepest && sweep.holds(p) {
                     deepest = sweep.depth;
                 }
+                deepest < group.deepest
             });
         }
         deepest
@@ -113,17 +132,45 @@ impl Sweeps {
     /// The runs of a row that are swept no less deep than `least`, sorted; none meets another.
     fn row(&self, y: f64, least: f64) -> Vec<(f64, f64)> {
         let mut runs = Vec::new();
-        if let Some(tree) = &self.tree {
-            tree.visit_query(-FAR, y, FAR, y, &mut |i: usize| {
-                let sweep = &self.sweeps[i];
+        for group in self.deep(least) {
+            group.visit([-FAR, y, FAR, y], usize::MAX, |sweep| {
                 if sweep.depth >= least {
                     runs.extend(sweep.run(y));
                 }
+                true
             });
         }
         runs.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         merge(&mut runs);
         runs
+    }
+}
+
+impl Group {
+    /// Motions, the deepest first.
+    fn new(sweeps: Vec<Sweep>) -> Self {
+        let reach = |sweep: &Sweep| {
+            let ([left, bottom, right, top], radius) = (spanned(sweep.from, sweep.to), sweep.radius);
+            ([left - radius, bottom - radius, right + radius, top + radius], sweep.order)
+        };
+        let tree = Tree::new(sweeps.iter().map(reach), usize::min);
+        Self { deepest: sweeps[0].depth, sweeps, tree }
+    }
+
+    /// Shows motions before one that may touch a window (left, bottom, right, top), for as long as
+    /// `show` says to go on; whether it was stopped.
+    fn visit(&self, window: [f64; 4], before: usize, mut show: impl FnMut(&Sweep) -> bool) -> bool {
+        let Some(tree) = &self.tree else { return false };
+        let mut goes_on = true;
+        tree.visit(|[left, bottom, right, top], &first, number| {
+            let is_near = left <= window[2] && right >= window[0] && bottom <= window[3] && top >= window[1];
+            let may_be = goes_on && is_near && first < before;
+            if let Some(number) = number.filter(|_| may_be) {
+                goes_on = show(&self.sweeps[number]);
+            }
+            may_be
+        });
+        !goes_on
     }
 }
 

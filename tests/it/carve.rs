@@ -1,5 +1,6 @@
 //! Carving: what programs mill beside the ideal surface, and spoilt programs that are found out.
 
+use voromill::board::polarity::union;
 use voromill::geometry::{Nm, Point, Polygon, Rect};
 use voromill::import::text::text;
 use voromill::job::{Art, Carving, Engraving, Inlay, Options, Settings, carve};
@@ -145,6 +146,37 @@ fn wide_places_become_flat() {
 }
 
 /// What lines are off sideways, walls are off by eleven times as much in depth.
+/// The smaller disc is but little more than the tool reaches, and touches the larger from within:
+/// no way leads to its middle. Where its chords meet it is as wide as between.
+#[test]
+fn a_place_is_as_wide_where_chords_meet_as_between() {
+    let disc = |x: i64, radius: i64| {
+        let center = Point::new(Nm::new(x), Nm::ZERO);
+        Polygon::disc(center, Nm::new(radius), Nm::new(200)).expect("a disc")
+    };
+    let areas = union(&[disc(0, 863_200), disc(150_000, 1_012_700)]);
+    let how = Carving { max_depth: Some(Nm::from_um(860)), ..HOW };
+    let engraving = engraving("discs", areas, "vbit:0mm:90deg", &how);
+    let judged = engraving.verify(Some(Nm::from_um(10))).expect("a program");
+    assert_eq!(judged.findings, []);
+    assert!(judged.left_mm2 > 0.01, "{} mm² are wider than the tool reaches", judged.left_mm2);
+}
+
+/// Offsets of strokes leave such, and no axis is certain beside an island of some nanometres.
+#[test]
+fn slivers_are_no_islands() {
+    let at = |x: i64, y: i64| Point::new(Nm::new(x), Nm::new(y));
+    let plate = [at(0, 0), at(1_470_000, 0), at(1_470_000, 581_400), at(0, 581_400)];
+    let slivers = [
+        [at(260_916, 290_703), at(313_099, 290_707), at(313_099, 290_703)],
+        [at(1_156_000, 290_699), at(1_210_452, 290_695), at(1_156_000, 290_695)],
+    ];
+    let rings = [plate.to_vec()].into_iter().chain(slivers.map(|sliver| sliver.to_vec()));
+    let area = Polygon::new(rings.collect()).expect("a plate");
+    let engraving = engraving("plate", vec![area], "vbit:0.1mm:120deg", &HOW);
+    assert_eq!(engraving.verify(Some(Nm::from_um(10))).expect("a program").findings, []);
+}
+
 #[test]
 fn steep_walls_are_within_a_coarse_tolerance() {
     let options = Options {

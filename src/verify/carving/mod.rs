@@ -17,12 +17,12 @@ use rayon::prelude::*;
 
 use super::check;
 use super::cutter::Cutter;
-use super::edges::{Edges, Spot};
+use super::edges::{Edges, Spot, length};
 use super::report::Finding;
 use super::surface::{self, Surface};
 use super::{Error, ReadError};
 use crate::gcode::read::{self, Listing, Way};
-use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::geometry::{Nm, Point, Polygon, Rect, between};
 
 /// What should be carved, on the machine.
 #[derive(Clone, Debug)]
@@ -80,9 +80,8 @@ const APART: f64 = 500_000.0;
 /// Places nearer than this are the same, in nanometres. Chosen: the resolution of coordinates.
 const SAME: f64 = 0.5;
 
-/// How much nearer the next chord of a curve may be than the one whose curve it is, in nanometres.
-/// Chosen: for curves of some millimetres within a micrometre of their chords.
-const BULGE: f64 = 5_000.0;
+/// So often a disc is moved away from what is nearest to it until it fits. Chosen.
+const MOVES: u32 = 16;
 
 /// So far beside the areas every place is looked at; beyond, where the tip goes. Chosen: wider than
 /// tools are.
@@ -248,7 +247,7 @@ impl Limits {
     ) -> f64 {
         let way = ((foot.0 - at.0) / distance, (foot.1 - at.1) / distance);
         let beyond = (foot.0 + way.0, foot.1 + way.1);
-        let farthest = edges.farthest(beyond, 1.0, foot, SAME, &mut last.exact);
+        let farthest = edges.farthest(beyond, 1.0, foot, &mut last.way);
         let centers = [0.0, self.blunt.min(farthest), self.full().min(farthest), farthest];
         centers.map(|radius| self.at(radius, radius + distance)).into_iter().fold(0.0, f64::max)
     }
@@ -262,24 +261,41 @@ impl Limits {
         edges: &Edges,
         last: &mut Last,
     ) -> (f64, bool) {
-        let farthest = edges.farthest(at, distance, foot, SAME, &mut last.exact);
+        let farthest = edges.farthest(at, distance, foot, &mut last.way);
         let full = self.full();
         if self.is_left_out((distance, farthest), at, foot, last) {
             return (f64::NEG_INFINITY, false);
         }
         let centers = [farthest, full.clamp(distance, farthest), (distance + self.blunt).min(farthest)];
         let best = centers.map(|radius| self.at(radius, radius - distance));
-        // Between the chords of a curve the way ends early; what is wide is so over all of them.
-        let is_wide = full.is_finite()
-            && (farthest > full || edges.farthest(at, distance, foot, BULGE, &mut last.bulging) > full);
-        (best.into_iter().fold(f64::NEG_INFINITY, f64::max), is_wide)
+        (best.into_iter().fold(f64::NEG_INFINITY, f64::max), farthest > full)
+    }
+
+    /// Whether a disc as wide as the tool cuts where it is deepest fits the areas and leaves no
+    /// more between itself and the edge at `foot` than is tolerated: where two chords of a curve
+    /// meet, the way away from one of them ends early.
+    fn is_wide(&self, at: Spot, (distance, foot): (f64, Spot), edges: &Edges) -> bool {
+        let full = self.full();
+        if !full.is_finite() {
+            return false;
+        }
+        let mut center = between(foot, at, full / distance);
+        for _ in 0..MOVES {
+            let (clearance, near) = edges.nearest(center);
+            if clearance >= full {
+                let off = length((center.0 - at.0, center.1 - at.1));
+                return clearance - off >= distance - self.tolerance * self.flank;
+            }
+            center = between(near, center, (full + SAME) / clearance);
+        }
+        false
     }
 
     /// Whether the way away from `foot` ends between two edges that meet in a corner which is not
     /// entered: the normals of both, where the largest disc touches them, differ as much as they
     /// turn there.
     fn is_left_out(&self, (distance, farthest): (f64, f64), at: Spot, foot: Spot, last: &Last) -> bool {
-        let Some((_, other)) = last.exact.filter(|_| self.corner < 1.0) else { return false };
+        let Some((_, other)) = last.way.filter(|_| self.corner < 1.0) else { return false };
         let part = farthest / distance;
         let normal = ((at.0 - foot.0) * part, (at.1 - foot.1) * part);
         let across = (foot.0 + normal.0 - other.0, foot.1 + normal.1 - other.1);
@@ -291,11 +307,13 @@ impl Limits {
 /// disc that touches edges of some micrometres is known to a nanometre.
 const ALIKE: f64 = 1e-3;
 
-/// How far the way from the place before went, and what ended it.
+/// What was found at the place before, which is often found here.
 #[derive(Default)]
 struct Last {
-    exact: Option<(f64, Spot)>,
-    bulging: Option<(f64, Spot)>,
+    /// How far the way went, and what ended it.
+    way: Option<(f64, Spot)>,
+    /// Which motion milled it.
+    sweep: usize,
 }
 
 /// What was found in a row of places.
@@ -312,7 +330,7 @@ impl Row {
     /// Looks at a place inside or outside the areas.
     fn look(&mut self, at: Spot, inside: bool, milled: &Surface, edges: &Edges, limits: &Limits) {
         self.places += 1;
-        let depth = milled.depth(at);
+        let depth = milled.depth_after(at, &mut self.last.sweep);
         if !inside {
             self.look_beside(at, depth, edges, limits);
             return;
@@ -321,7 +339,10 @@ impl Row {
         let most = (limits.start + distance / limits.flank).min(limits.most);
         let mut error = depth - most;
         if error < 0.0 {
-            let (least, is_wide) = limits.reachable(at, (distance, foot), edges, &mut self.last);
+            let (least, mut is_wide) = limits.reachable(at, (distance, foot), edges, &mut self.last);
+            if !is_wide && depth < least - limits.tolerance {
+                is_wide = limits.is_wide(at, (distance, foot), edges);
+            }
             if is_wide && !limits.clears && depth < least {
                 self.left += 1;
                 return;
