@@ -420,6 +420,7 @@ impl Pocket {
             depth: self.depth,
             step: self.how.step,
             steepest: Some(libm::tan(self.how.ramp.radians())),
+            stock: self.how.stock,
             plunges: Some((levels, passes * usize::try_from(self.layers).unwrap_or(1))),
             engagement: self.how.engaging.map(|engaging| engaging.target.part()),
             tolerance: TOLERATED,

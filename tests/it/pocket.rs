@@ -257,6 +257,22 @@ fn arcs_along_the_axis_bear_no_more_than_they_may() {
     }
 }
 
+/// The stock tapers off in a corner, however few places the axis of a long one has: the loop along
+/// the wall meets as much there as along a straight edge.
+#[test]
+fn nothing_is_left_across_a_corner_for_the_loop_along_the_wall() {
+    let corner = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
+    for opposite in [3_000, 6_500, 10_000] {
+        let triangle = [corner(0, 0), corner(13_000, 2_000), corner(12_000, 2_000 + opposite)];
+        let triangle = vec![Polygon::new(vec![triangle.to_vec()]).expect("a triangle")];
+        for stock in [50, 130] {
+            let how = Pocketing { stock: Nm::from_um(stock), ..engaging("15%", false) };
+            let made = pocketed("corner", triangle.clone(), "endmill:1mm", &how);
+            check_engaged(&format!("{opposite} with {stock} µm"), &made, 0.15);
+        }
+    }
+}
+
 #[test]
 fn random_areas_are_cleared_in_arcs_without_residue() {
     let usual = if cfg!(debug_assertions) { 2 } else { 12 };
@@ -264,7 +280,9 @@ fn random_areas_are_cleared_in_arcs_without_residue() {
     let sharp = (!cfg!(debug_assertions)).then_some(1006);
     for seed in seeds(0..usual).chain(sharp) {
         let areas = random_areas(seed, if seed % 2 == 0 { 1 } else { 250_000 });
-        let made = pocketed("random", areas, "endmill:0.5mm", &engaging("15%", seed % 2 == 1));
+        let stock = Nm::from_um(if seed % 3 == 1 { 40 } else { 0 });
+        let how = Pocketing { stock, ..engaging("15%", seed % 2 == 1) };
+        let made = pocketed("random", areas, "endmill:0.5mm", &how);
         check_engaged(&format!("seed {seed}"), &made, 0.15);
     }
 }

@@ -47,6 +47,8 @@ pub struct Floor<'a> {
     /// How steeply the tool may go down into material, in units of depth for one of way, where
     /// there is room; none for any way.
     pub steepest: Option<f64>,
+    /// What is left for a loop along the wall, so that there is less room before that.
+    pub stock: Nm,
     /// How far from the edge loops of the first tool are, in nanometres and rising, and in how many
     /// passes they are milled: for how often the tool may come down. None for as often as it likes.
     pub plunges: Option<(&'a [f64], usize)>,
@@ -222,7 +224,7 @@ impl Judge<'_> {
     /// Motions that go too deep, take too much at once, or go down too steeply.
     fn depths(&mut self, steps: &[Step], sweeps: &Sweeps, edges: &Edges) {
         let tolerance = self.floor.tolerance.to_f64();
-        let depth = self.floor.depth.to_f64();
+        let (depth, stock) = (self.floor.depth.to_f64(), self.floor.stock.to_f64());
         let (mut deep, mut thick, mut steep) = (Vec::new(), Vec::new(), Vec::new());
         for step in steps {
             let bottom = step.depths[0].max(step.depths[1]);
@@ -240,7 +242,7 @@ impl Judge<'_> {
             if is_steep
                 && drop > tolerance
                 && !is_clear(step, bottom - tolerance, sweeps)
-                && edges.nearest(step.ends[1]).0 - step.radius >= step.radius * ROOM
+                && edges.nearest(step.ends[1]).0 - step.radius - stock >= step.radius * ROOM
             {
                 steep.push((slope, step));
             }

@@ -71,12 +71,14 @@ impl Graph {
             let room = place.clearance - wall;
             Place { at: place.at, clearance: room - stock.min(room.max(0.0) * most) }
         };
+        // Between places what is left changes evenly, but for these clearances.
+        let turns = if stock > 0.0 { vec![wall, wall + stock / most] } else { Vec::new() };
         let mut graph = Self::default();
         for place in &axis.nodes {
             graph.node(less(place));
         }
         for way in &axis.ways {
-            let course: Vec<Place> = way.course.iter().map(less).collect();
+            let course: Vec<Place> = with_places_at(&turns, &way.course).iter().map(less).collect();
             match way.ends {
                 Some(ends) => graph.add_clipped(ends.map(|end| end as usize), &course),
                 None => graph.add_loop(course),
@@ -226,6 +228,25 @@ impl Graph {
         found.reverse();
         found
     }
+}
+
+/// A course with places where it has one of some clearances, the least first.
+fn with_places_at(clearances: &[f64], course: &[Place]) -> Vec<Place> {
+    let Some(&first) = course.first() else { return Vec::new() };
+    let mut places = vec![first];
+    for pair in course.windows(2) {
+        let (low, high) =
+            (pair[0].clearance.min(pair[1].clearance), pair[0].clearance.max(pair[1].clearance));
+        let between = clearances.iter().filter(|&&clearance| low < clearance && clearance < high);
+        let found = between.map(|&clearance| pair[0].toward(pair[1], clearance));
+        let start = places.len();
+        places.extend(found);
+        if pair[0].clearance > pair[1].clearance {
+            places[start..].reverse();
+        }
+        places.push(pair[1]);
+    }
+    places
 }
 
 /// How a node is reached.

@@ -53,6 +53,10 @@ const NARROW: f64 = 0.05;
 /// Circles that are smaller are less than machines are precise, in nanometres. Chosen.
 const SMALLEST: f64 = 5_000.0;
 
+/// An arc begins so many steps of a twentieth of the radius earlier, at most, where the tool
+/// touches less than counts. Chosen: a tool's width.
+const MOST_STEPS_BACK: u32 = 40;
+
 /// Circles of one part of a pocket at most. Chosen: a minute of planning.
 const MOST_CIRCLES: usize = 200_000;
 
@@ -376,6 +380,7 @@ impl<'a> Clearer<'a> {
             }
             let number = |i: usize| step * f64::from(u32::try_from(gap + i).unwrap_or(0));
             let begin = self.edge_of(place, number(first) - step, number(first)) - way * lead;
+            let begin = self.untouched(place, begin, way * lead);
             let end = self.edge_of(place, number(i), number(i - 1)) + way * lead;
             match found.last_mut() {
                 Some(last) if ((begin - last.1) * way) < PI / 4.0 => last.1 = end,
@@ -392,6 +397,19 @@ impl<'a> Clearer<'a> {
             if self.meets(place, middle) { met = middle } else { clear = middle }
         }
         clear
+    }
+
+    /// The angle, so far back from one in steps, at which a tool touches nothing: of each arc that
+    /// begins too late a burr is left, and where many begin side by side they add up.
+    fn untouched(&mut self, place: Place, mut angle: f64, step: f64) -> f64 {
+        for _ in 0..MOST_STEPS_BACK {
+            let (at, heading) = on(place, angle, self.is_counter_clockwise);
+            if self.cleared.touch(at, heading) <= 0.0 {
+                break;
+            }
+            angle -= step;
+        }
+        angle
     }
 
     /// The direction of the tool from the middle of a circle.

@@ -16,6 +16,9 @@ use crate::toolpath::strategy::pocket::course::{Spot, distance};
 /// Chosen: above rounding, a tenth of what the wall's loop takes.
 const SLACK: f64 = 0.002;
 
+/// The same where burrs count, in nanometres. Chosen: of hundreds of arcs less than a tool is off.
+const ROUNDING: f64 = 1.0;
+
 /// Cells of the index in a row or column at most. Chosen: some megabytes.
 const MOST_CELLS: f64 = 2000.0;
 
@@ -93,16 +96,25 @@ impl Cleared {
         }
     }
 
-    /// Along how much of its leading half, in radians, a tool at `at` meets material when it goes
-    /// toward `heading`, a unit vector.
+    /// Along how much of its leading half, in radians, a tool at `at` meets material that is no
+    /// burr when it goes toward `heading`, a unit vector.
     pub(super) fn contact(&mut self, at: Spot, heading: Spot) -> f64 {
+        self.contact_beyond(self.radius * SLACK, at, heading)
+    }
+
+    /// Along how much of it that tool meets anything.
+    pub(super) fn touch(&mut self, at: Spot, heading: Spot) -> f64 {
+        self.contact_beyond(ROUNDING, at, heading)
+    }
+
+    /// The same of what is farther than `slack` from what is cleared.
+    fn contact_beyond(&mut self, slack: f64, at: Spot, heading: Spot) -> f64 {
         let (i, j) = (count((at.0 - self.corner.0) / self.cell), count((at.1 - self.corner.1) / self.cell));
         let Some(cell) = self.cells.get(j * self.columns + i).filter(|_| i < self.columns) else { return PI };
         if cell.is_free {
             return 0.0;
         }
         let tool = self.radius;
-        let slack = tool * SLACK;
         self.covered.clear();
         for &number in cell.near.iter().rev() {
             let disc = self.discs[number as usize];
