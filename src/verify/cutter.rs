@@ -22,6 +22,15 @@ pub struct Cutter {
     pub degrees: f64,
 }
 
+/// The part of a tool that mills: a cone on a flat tip, or a cylinder. In nanometres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cone {
+    /// Half the width of the tip.
+    pub(super) blunt: f64,
+    /// How much wider it is on either side for each unit of height; zero for a cylinder.
+    pub(super) flank: f64,
+}
+
 /// The angle at the point of a twist drill of steel that nobody said more of (DIN 1897, type N);
 /// drills of carbide have 130°.
 const POINT: f64 = 118.0;
@@ -70,19 +79,37 @@ impl Cutter {
         if is_usual && degrees > 0.0 && degrees < 180.0 { Self { degrees, ..self } } else { self }
     }
 
-    /// Half the width of its tip, in nanometres, and how much wider it is on one side for each unit
-    /// of height; that is zero for a cylinder.
-    pub(super) fn cone(&self) -> [f64; 2] {
+    /// What of it mills.
+    pub(super) fn cone(&self) -> Cone {
         let flank = match self.kind {
             CutterKind::VBit => self.slope(),
             CutterKind::EndMill | CutterKind::Drill => 0.0,
         };
-        [self.tip.to_f64() / 2.0, flank]
+        Cone { blunt: self.tip.to_f64() / 2.0, flank }
     }
 
     /// How much wider its cone is on one side for a depth of one.
     fn slope(&self) -> f64 {
         libm::tan(self.degrees / 360.0 * std::f64::consts::PI)
+    }
+}
+
+impl Cone {
+    /// One as wide as both.
+    pub(super) const fn and(self, other: Self) -> Self {
+        Self { blunt: self.blunt.max(other.blunt), flank: self.flank.max(other.flank) }
+    }
+
+    /// How deep a tool whose tip is at a depth mills so far off its axis.
+    pub(super) const fn below(&self, depth: f64, off: f64) -> f64 {
+        let beyond = (off - self.blunt).max(0.0);
+        if self.flank > 0.0 {
+            depth - beyond / self.flank
+        } else if beyond > 0.0 {
+            f64::NEG_INFINITY
+        } else {
+            depth
+        }
     }
 }
 

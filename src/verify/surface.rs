@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::cutter::Cutter;
 use super::edges::Spot;
 use super::machining::Machining;
-use super::sweep::{Cone, Sweep, Sweeps};
+use super::sweep::{Sweep, Sweeps};
 use super::{Error, Program, Settings};
 
 /// Arcs become chords within this of them where that is measured. Chosen: far below what is
@@ -145,7 +145,7 @@ const fn pixel(place: f64) -> u32 {
 
 /// The straight sweeps of a motion that reaches below the surface.
 fn swept(motion: &Motion, cutter: &Cutter, chord: Nm, sweeps: &mut Vec<Sweep>) {
-    let cone = Cone::of(cutter);
+    let cone = cutter.cone();
     let sweep = |(from, to, depths)| Sweep { from, to, depths, cone };
     sweeps.extend(stretches(motion, chord).into_iter().map(sweep));
 }

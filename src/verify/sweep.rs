@@ -4,17 +4,8 @@ use crate::geometry::{Point, spanned};
 
 use super::Placement;
 use super::boxes::Tree;
-use super::cutter::Cutter;
+use super::cutter::Cone;
 use super::edges::{Spot, length};
-
-/// The part of a tool that mills: a cone on a flat tip, or a cylinder. In nanometres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Cone {
-    /// Half the width of the tip.
-    pub(super) blunt: f64,
-    /// How much wider it is on either side for each unit of height; zero for a cylinder.
-    pub(super) flank: f64,
-}
 
 /// A straight motion of a tool below the surface, in nanometres.
 #[derive(Clone, Copy, Debug)]
@@ -36,7 +27,7 @@ pub(super) struct Sweeps {
 impl Sweeps {
     /// Sweeps, numbered as they come.
     pub(super) fn new(sweeps: Vec<Sweep>) -> Self {
-        let known = |sweep: &Sweep| (sweep.depths[0].max(sweep.depths[1]), sweep.cone);
+        let known = |sweep: &Sweep| (sweep.deepest(), sweep.cone);
         let boxes = sweeps.iter().map(|sweep| (spanned(sweep.from, sweep.to), known(sweep)));
         let tree = Tree::new(boxes, |a, b| (a.0.max(b.0), a.1.and(b.1)));
         Self { sweeps, tree }
@@ -68,30 +59,6 @@ impl Sweeps {
     }
 }
 
-impl Cone {
-    pub(super) fn of(cutter: &Cutter) -> Self {
-        let [blunt, flank] = cutter.cone();
-        Self { blunt, flank }
-    }
-
-    /// One as wide as both.
-    const fn and(self, other: Self) -> Self {
-        Self { blunt: self.blunt.max(other.blunt), flank: self.flank.max(other.flank) }
-    }
-
-    /// How deep a tool whose tip is at a depth mills so far off its axis.
-    const fn below(&self, depth: f64, off: f64) -> f64 {
-        let beyond = (off - self.blunt).max(0.0);
-        if self.flank > 0.0 {
-            depth - beyond / self.flank
-        } else if beyond > 0.0 {
-            f64::NEG_INFINITY
-        } else {
-            depth
-        }
-    }
-}
-
 impl Sweep {
     /// Takes it from the machine to the board.
     pub(super) fn lay(&mut self, placement: &Placement) {
@@ -99,10 +66,14 @@ impl Sweep {
         [self.from, self.to] = [self.from, self.to].map(undo);
     }
 
+    /// How deep the deeper of its ends is.
+    const fn deepest(&self) -> f64 {
+        self.depths[0].max(self.depths[1])
+    }
+
     /// Left, bottom, right, top of what it mills at the surface.
     pub(super) fn bounds(&self) -> [f64; 4] {
-        let deepest = self.depths[0].max(self.depths[1]).max(0.0);
-        let reach = self.cone.blunt + deepest * self.cone.flank;
+        let reach = self.cone.blunt + self.deepest().max(0.0) * self.cone.flank;
         [
             self.from.0.min(self.to.0) - reach,
             self.from.1.min(self.to.1) - reach,
@@ -121,8 +92,7 @@ impl Sweep {
         let whole = length(way);
         let off = (p.0 - self.from.0, p.1 - self.from.1);
         if whole <= 0.0 {
-            let deepest = self.depths[0].max(self.depths[1]);
-            return self.cone.below(deepest, length(off));
+            return self.cone.below(self.deepest(), length(off));
         }
         let along = (off.0 * way.0 + off.1 * way.1) / whole;
         let across = (off.0 * way.1 - off.1 * way.0).abs() / whole;

@@ -145,7 +145,6 @@ fn wide_places_become_flat() {
     }
 }
 
-/// What lines are off sideways, walls are off by eleven times as much in depth.
 /// The smaller disc is but little more than the tool reaches, and touches the larger from within:
 /// no way leads to its middle. Where its chords meet it is as wide as between.
 #[test]
@@ -177,6 +176,7 @@ fn slivers_are_no_islands() {
     assert_eq!(engraving.verify(Some(Nm::from_um(10))).expect("a program").findings, []);
 }
 
+/// What lines are off sideways, walls are off by eleven times as much in depth.
 #[test]
 fn steep_walls_are_within_a_coarse_tolerance() {
     let options = Options {

@@ -16,7 +16,7 @@ use crate::board::diagnostic::planning;
 use rayon::prelude::*;
 
 use super::check;
-use super::cutter::Cutter;
+use super::cutter::{Cone, Cutter};
 use super::edges::{Edges, Spot, length};
 use super::report::Finding;
 use super::surface::{self, Surface};
@@ -212,7 +212,7 @@ struct Limits {
 
 impl Limits {
     fn new(ideal: &Ideal<'_>) -> Self {
-        let [blunt, flank] = ideal.v_bit.cone();
+        let Cone { blunt, flank } = ideal.v_bit.cone();
         Self {
             blunt,
             flank,

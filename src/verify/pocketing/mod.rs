@@ -153,7 +153,7 @@ fn all_steps(listing: &Listing, cutter: &Cutter, program: usize, steps: &mut Vec
             steps.push(Step {
                 ends: [from, to],
                 depths,
-                radius: cutter.cone()[0],
+                radius: cutter.cone().blunt,
                 order: steps.len(),
                 line: motion.line,
                 program,
