@@ -258,7 +258,9 @@ impl Build {
             Axis::Line(..) | Axis::Arc(_) | Axis::Region => None,
         });
         let edge = self.board.outline.iter().map(Outline::bounds);
-        Context::new(pads, coppers().filter_map(Copper::bounds).chain(edge).reduce(Rect::union))
+        let bounds = coppers().filter_map(Copper::bounds).chain(edge).reduce(Rect::union);
+        let context = Context::new(pads, bounds);
+        if self.board.outline.is_some() { context.with_edge() } else { context }
     }
 
     /// Lists the layers that are recognised but not milled.

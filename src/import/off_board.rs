@@ -3,13 +3,10 @@
 use super::advice::NO_DRILL;
 use super::archive::Found;
 use super::error::Error;
+use super::excellon::FRAME;
 use crate::board::{Hole, Sentence, Warning, Words};
 use crate::geometry::{Nm, Rect};
 use crate::import::diagnostic;
-
-/// How far off a hole of a board's own frame may lie. Chosen: tooling holes lie in the 5 mm that
-/// panels have round them.
-const FRAME: Nm = Nm::from_mm(5);
 
 /// How far off no hole lies that anybody means. Chosen: beyond what small mills reach, and within
 /// what programs can be judged.

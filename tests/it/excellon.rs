@@ -92,6 +92,25 @@ fn what_a_file_declares_gives_way_to_the_copper_alone() {
 }
 
 #[test]
+fn holes_round_the_copper_are_the_boards_own() {
+    let copper = Rect::around([at(10_000, 10_000), at(40_000, 30_000)]);
+    let context = Context::new([], copper);
+    let codes_among = |text: &str, context: &Context| {
+        codes(&excellon::read("f.drl", text.as_bytes(), context).expect("it reads")).join(" ")
+    };
+    let mounting = "M48\nMETRIC\nT1C3.2\n%\nT1\nX2.0Y2.0\nX48.0Y2.0\nX48.0Y38.0\nX2.0Y38.0\nM30\n";
+    assert_eq!(codes_among(mounting, &context), "", "mounting holes with the copper between them");
+    assert_eq!(codes_among(mounting, &context.clone().with_edge()), "drill-off-board", "8 mm off the edge");
+    let tooling = "M48\nMETRIC\nT1C3.2\n%\nT1\nX6.0Y20.0\nX44.0Y20.0\nM30\n";
+    assert_eq!(codes_among(tooling, &context.clone().with_edge()), "", "tooling holes in a frame of 5 mm");
+    let one_corner = "M48\nMETRIC\nT1C3.2\n%\nT1\nX2.0Y2.0\nX3.0Y2.0\nM30\n";
+    assert_eq!(codes_among(one_corner, &context), "drill-off-board", "no copper between them");
+    // Of two readings neither of which puts a hole on the board, nobody knows which is meant.
+    let undeclared = "M48\nT1C3.2\n%\nT1\nX6000Y20000\nX44000Y20000\nM30\n";
+    assert!(codes_among(undeclared, &context.with_edge()).contains("drill-off-board"), "undeclared");
+}
+
+#[test]
 fn leading_zeros_are_counted_where_trailing_ones_are_left_out() {
     let drilling = fixture("altium.txt");
     let expected = [at(38_608, 11_557), at(38_608, 42_672), at(31_750, 42_672)];

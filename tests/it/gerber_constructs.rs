@@ -49,6 +49,7 @@ const CASES: &[Case] = &[
     ),
     ("rectangle_sweep", 13.0 + 6.0, 2, &[]),
     ("flat_rectangle_sweep", 6.0, 1, &[]),
+    ("holed_circle_draw", LINE + 2.0 * PI + DISC, 2, &[]),
     ("zero_length_draw", DISC + 2.0, 2, &[]),
     ("macro_circle", PI + DISC, 2, &[]),
     ("macro_vector_line", 8.0, 2, &[]),
@@ -189,6 +190,7 @@ fn round_apertures_stay_what_they_are() {
     assert_eq!(kinds("zero_length_draw"), ["drawn disc", "polygon"], "draws of no length");
     assert_eq!(kinds("aperture_obround"), ["flashed stroke", "polygon"], "obrounds, the second with a hole");
     assert_eq!(kinds("arc_full_circle"), ["arc"], "arcs");
+    assert_eq!(kinds("holed_circle_draw"), ["drawn stroke", "arc"], "draws of a circle with a hole");
     assert_eq!(kinds("clear_stroke"), ["polygon", "polygon"], "what clear polarity left");
 }
 

@@ -20,6 +20,8 @@ pub struct Context {
     pads: BTreeSet<(i64, i64)>,
     /// A rectangle that holds all copper, and the board if its edge is known.
     bounds: Option<Rect>,
+    /// Whether the board's edge is known, so that it does not go on beyond its copper.
+    has_edge: bool,
 }
 
 /// The cell that a pad fills: a hole in it or in one beside it counts as its hole, so within 0.1 mm
@@ -29,11 +31,21 @@ pub struct Context {
 /// pads.
 const NEAR: i64 = 100_000;
 
+/// How far off a hole of a board's own frame may lie. Chosen: tooling holes lie in the 5 mm that
+/// panels have round them.
+pub(in crate::import) const FRAME: Nm = Nm::from_mm(5);
+
 impl Context {
     /// A board with `pads` flashed within `bounds`.
     #[must_use]
     pub fn new(pads: impl IntoIterator<Item = Point>, bounds: Option<Rect>) -> Self {
-        Self { pads: pads.into_iter().map(cell).collect(), bounds }
+        Self { pads: pads.into_iter().map(cell).collect(), bounds, has_edge: false }
+    }
+
+    /// The same, of a board that ends where its bounds do.
+    #[must_use]
+    pub fn with_edge(self) -> Self {
+        Self { has_edge: true, ..self }
     }
 
     /// Whether there is nothing to judge by.
@@ -50,11 +62,26 @@ impl Context {
     /// How many of `holes` begin on a pad and within the copper.
     pub(super) fn judge(&self, holes: &[Hole]) -> Score {
         let starts = || holes.iter().map(|hole| hole.path.start);
+        let within = |bounds: Option<Rect>| {
+            starts().filter(|&at| bounds.is_some_and(|bounds| bounds.contains(at))).count()
+        };
         Score {
             on_pads: starts().filter(|&at| self.on_pad(at)).count(),
-            inside: starts().filter(|&at| self.bounds.is_some_and(|bounds| bounds.contains(at))).count(),
+            inside: within(self.bounds),
+            beside: if self.lies_among(holes) {
+                holes.len()
+            } else {
+                within(self.bounds.map(|bounds| bounds.inflate(FRAME)))
+            },
             holes: holes.len(),
         }
+    }
+
+    /// Whether all copper lies between `holes`, of a board that may go on beyond it.
+    fn lies_among(&self, holes: &[Hole]) -> bool {
+        let around = || Rect::around(holes.iter().map(|hole| hole.path.start));
+        let among = |bounds: Rect| around().is_some_and(|around| around.union(bounds) == around);
+        !self.has_edge && self.bounds.is_some_and(among)
     }
 }
 
@@ -67,6 +94,8 @@ fn cell(at: Point) -> (i64, i64) {
 pub(super) struct Score {
     pub(super) on_pads: usize,
     pub(super) inside: usize,
+    /// Within what a board may have round its copper, a frame of tooling holes for one.
+    pub(super) beside: usize,
     pub(super) holes: usize,
 }
 
@@ -77,9 +106,14 @@ impl Score {
         2 * self.on_pads + self.inside
     }
 
-    /// Whether most holes lie beside the board.
+    /// Whether most holes lie off the board.
     pub(super) const fn is_off(self) -> bool {
         2 * self.inside < self.holes
+    }
+
+    /// Whether they lie so far off that nothing of the board is there.
+    pub(super) const fn is_elsewhere(self) -> bool {
+        2 * self.beside < self.holes
     }
 }
 

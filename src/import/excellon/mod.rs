@@ -36,6 +36,7 @@ use guess::Score;
 use machine::{File, Run};
 
 pub use guess::Context;
+pub(in crate::import) use guess::FRAME;
 
 /// What a drill file holds.
 #[derive(Clone, Debug)]
@@ -279,7 +280,7 @@ impl Reading {
 
     /// Warns of what was guessed, and of holes that do not fit the copper.
     fn explain(&self, file: File<'_>, context: &Context, warnings: &mut Warnings<'_>) {
-        let Score { on_pads, inside, holes } = self.score;
+        let Score { on_pads, inside, holes, .. } = self.score;
         let place = || file.declared.units.as_ref().map_or(0..0, |(_, place)| place.clone());
         let read_as = format!("read as {} {}", self.format.units.name(), self.format);
         let undeclared = file.declared.units.is_none() || file.declared.zeros.is_none();
@@ -309,7 +310,9 @@ impl Reading {
             );
             warnings.add(&diagnostic::DRILL_FORMAT_GUESSED, place(), message);
         }
-        if !context.is_empty() && self.score.is_off() {
+        // What can be read in one way alone may lie round the board.
+        let is_off = if self.rivals == 0 { self.score.is_elsewhere() } else { self.score.is_off() };
+        if !context.is_empty() && is_off {
             let message = format!(
                 "only {inside} of {holes} holes lie on the board ({read_as}): the drill file may belong to another board"
             );

@@ -56,6 +56,8 @@ pub(super) enum Template {
 pub(super) enum Form {
     /// A circle round the origin; radius zero for an aperture of no size.
     Disc(Nm),
+    /// A circle with a hole: its pieces where it is flashed, the whole circle where it is drawn.
+    Holed { pieces: Vec<Polygon>, radius: Nm },
     /// A circle drawn from −`half` to `half`.
     Obround { half: Vector, radius: Nm },
     /// Anything else: its connected pieces, none for an aperture without area, and its convex hull.
@@ -69,6 +71,9 @@ impl Template {
         Some(match self {
             Self::Block(_) => return None,
             Self::Circle { diameter, hole: Hole::None } => Form::Disc(half(scaled(*diameter))),
+            Self::Circle { diameter, .. } => {
+                Form::Holed { pieces: area(&self.primitives(), linear), radius: half(scaled(*diameter)) }
+            }
             Self::Rectangle { width: Nm::ZERO, height: Nm::ZERO, hole: _ } => Form::Disc(Nm::ZERO),
             Self::Obround { width, height, hole: Hole::None } => {
                 let (thin, long) = ((*width).min(*height), *width - *height);
@@ -82,7 +87,7 @@ impl Template {
                     _ => Form::Obround { half: linear.vector(way), radius: half(scaled(thin)) },
                 }
             }
-            Self::Rectangle { .. } | Self::Circle { .. } | Self::Obround { .. } | Self::Polygon { .. } => {
+            Self::Rectangle { .. } | Self::Obround { .. } | Self::Polygon { .. } => {
                 Form::area(&self.primitives(), linear)
             }
             Self::Macro { primitives, .. } => match primitives.as_slice() {
@@ -207,7 +212,7 @@ impl Form {
             arc((x, y), radius.to_f64(), 0.0, 2.0 * PI).map(|(x, y)| Point::from_f64(x, y))
         };
         match *self {
-            Self::Disc(radius) => disc(Point::default(), radius).collect(),
+            Self::Disc(radius) | Self::Holed { radius, .. } => disc(Point::default(), radius).collect(),
             Self::Obround { half, radius } => {
                 let ends = [Point::default() - half, Point::default() + half];
                 ends.into_iter().flat_map(|end| disc(end, radius)).collect()

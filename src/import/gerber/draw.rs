@@ -11,7 +11,7 @@ pub(super) fn flash(form: &Form, at: Point) -> Vec<Shape> {
     match form {
         Form::Disc(radius) => vec![Shape::Disc { center: at, radius: *radius }],
         Form::Obround { half, radius } => vec![stroke(at - *half, at + *half, *radius)],
-        Form::Area { pieces, .. } => {
+        Form::Holed { pieces, .. } | Form::Area { pieces, .. } => {
             let way = at - Point::default();
             pieces.iter().map(|piece| Shape::Polygon(piece.translated(way))).collect()
         }
@@ -21,7 +21,7 @@ pub(super) fn flash(form: &Form, at: Point) -> Vec<Shape> {
 /// Checks that `form`, drawn along `axis`, stays in the range of coordinates.
 pub(super) fn check_reach(form: &Form, axis: Axis) -> Result<(), Refusal> {
     let own = match form {
-        Form::Disc(_) => return Ok(()),
+        Form::Disc(_) | Form::Holed { .. } => return Ok(()),
         Form::Obround { half, radius } => {
             Rect::new(Point::default() - *half, Point::default() + *half).inflate(*radius)
         }
@@ -45,7 +45,8 @@ pub(super) fn check_reach(form: &Form, axis: Axis) -> Result<(), Refusal> {
 pub(super) fn line(form: &Form, from: Point, to: Point) -> Vec<Shape> {
     match form {
         Form::Disc(radius) => vec![stroke(from, to, *radius)],
-        Form::Obround { .. } | Form::Area { .. } if from == to => flash(form, from),
+        _ if from == to => flash(form, from),
+        Form::Holed { radius, .. } => vec![stroke(from, to, *radius)],
         Form::Obround { .. } | Form::Area { .. } => {
             sweep(&form.hull(), from, to).map(Shape::Polygon).into_iter().collect()
         }
@@ -55,7 +56,7 @@ pub(super) fn line(form: &Form, from: Point, to: Point) -> Vec<Shape> {
 /// The copper of `form` drawn along an arc: exact for circles, a chain of lines for others.
 pub(super) fn along(form: &Form, arc: Arc) -> Vec<Shape> {
     match form {
-        Form::Disc(radius) => vec![Shape::Arc { arc, radius: *radius }],
+        Form::Disc(radius) | Form::Holed { radius, .. } => vec![Shape::Arc { arc, radius: *radius }],
         Form::Obround { .. } | Form::Area { .. } => {
             let (hull, mut from) = (form.hull(), arc.start);
             let steps = arc.flatten(FLATTEN).filter_map(|to| {
@@ -91,7 +92,7 @@ fn together(steps: &[Polygon]) -> Vec<Polygon> {
     reason = "`as` saturates, as it should here"
 )]
 pub(super) fn effort(form: &Form, arc: &Arc) -> u64 {
-    if matches!(form, Form::Disc(_)) {
+    if matches!(form, Form::Disc(_) | Form::Holed { .. }) {
         return 0;
     }
     let steps = u32::try_from(arc.chords(FLATTEN)).unwrap_or(u32::MAX);
