@@ -100,6 +100,21 @@ fn drawn(inner: &str) -> Drawing {
 }
 
 #[test]
+fn a_line_that_lies_in_a_gap_of_its_dashes_is_not_there() {
+    let line = |dashes: &str| {
+        format!("<path d='M5 5h2' stroke='#000' stroke-width='1' {dashes}/><rect width='3' height='2'/>")
+    };
+    let gap = drawn(&line("stroke-dasharray='4' stroke-dashoffset='5'"));
+    assert!((area(&gap, None) - 6.0).abs() < 1e-3, "the rectangle alone: {} mm²", area(&gap, None));
+    let text = format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>{}</svg>",
+        line("stroke-dasharray='0.000001'")
+    );
+    let error = drawing::read("x.svg", text.as_bytes(), &Options::default()).expect_err("too many");
+    assert!(error.to_string().contains("a million dashes"), "{error}");
+}
+
+#[test]
 fn clipping_paths_show_what_lies_in_them() {
     let plain = "<clipPath id='c'><rect x='2' y='2' width='10' height='10'/></clipPath>";
     let ring = "<clipPath id='c'><path clip-rule='evenodd' d='M0 0H10V10H0Z M2 2H8V8H2Z'/></clipPath>";

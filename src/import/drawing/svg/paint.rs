@@ -342,18 +342,23 @@ impl Shape<'_> {
         let pixel = self.scope.size.pixel.nanometres();
         let (x, y, is_similar) = scales(self.turn());
         let width = Nm::from_f64(f64::from(stroke.width().get()) * (x * y).sqrt() * pixel);
-        let dashed = stroke.dasharray().map(|_| stroke.to_tiny_skia());
         // A pixel to the stroker is 250 nm.
         #[expect(clippy::cast_possible_truncation, reason = "a scale")]
         let scale = (x.max(y) * pixel / 250.0) as f32;
-        let middle = match &dashed {
-            None => None,
-            Some(pen) => pen.dash.as_ref().and_then(|dash| self.path.data().dash(dash, scale)),
+        let mut pen = stroke.to_tiny_skia();
+        let dashes = stroke.dasharray().map(|lengths| dashes(self.path.data(), lengths));
+        let middle = match (dashes, pen.dash.take()) {
+            (Some(dashes), _) if dashes > MOST_DASHES => {
+                let what = "a line has more than a million dashes";
+                return Err(Error::content(self.scope.name, what, "draw it without dashes"));
+            }
+            (_, Some(dash)) => match self.path.data().dash(&dash, scale) {
+                Some(middle) => Some(middle),
+                // All of it is a gap.
+                None => return Ok(Vec::new()),
+            },
+            (_, None) => None,
         };
-        if dashed.is_some() && middle.is_none() {
-            let what = "a line has more than a million dashes";
-            return Err(Error::content(self.scope.name, what, "draw it without dashes"));
-        }
         let data = middle.as_ref().unwrap_or_else(|| self.path.data());
         let paths = self.contours(data, false)?;
         let is_round = stroke.linecap() == LineCap::Round && stroke.linejoin() == LineJoin::Round;
@@ -363,8 +368,6 @@ impl Shape<'_> {
                 .map(|path| Drawn::Line(Line { path, width, painted: None }))
                 .collect());
         }
-        let mut pen = stroke.to_tiny_skia();
-        pen.dash = None;
         // Each part by itself, so that a line and what it covers stay together.
         let mut drawn = Vec::new();
         for (part, path) in parts(data).into_iter().zip(paths) {
@@ -419,6 +422,33 @@ fn contours(
         let what = "a path lies more than 1073 mm from the corner of the page";
         Error::content(scope.name, what, Words::of("set its unit with {unit}, or move it to the page"))
     })
+}
+
+/// Dashes of a line. What `tiny-skia-path` makes at most.
+const MOST_DASHES: f64 = 1e6;
+
+/// How many dashes a path has at most, by the length of the lines between its control points.
+#[expect(clippy::cast_precision_loss, reason = "an estimate")]
+fn dashes(data: &tiny_skia_path::Path, lengths: &[f32]) -> f64 {
+    let far = |a: tiny_skia_path::Point, b: tiny_skia_path::Point| f64::from(a.distance(b));
+    let (mut first, mut last) = (tiny_skia_path::Point::zero(), tiny_skia_path::Point::zero());
+    let mut length = 0.0;
+    for segment in data.segments() {
+        let (way, end) = match segment {
+            PathSegment::MoveTo(p) => {
+                first = p;
+                (0.0, p)
+            }
+            PathSegment::LineTo(p) => (far(last, p), p),
+            PathSegment::QuadTo(a, p) => (far(last, a) + far(a, p), p),
+            PathSegment::CubicTo(a, b, p) => (far(last, a) + far(a, b) + far(b, p), p),
+            PathSegment::Close => (far(last, first), first),
+        };
+        length += way;
+        last = end;
+    }
+    let period: f64 = lengths.iter().copied().map(f64::from).sum();
+    length * lengths.len() as f64 / 2.0 / period
 }
 
 /// Each part of a path by itself, as many as it has moves.
