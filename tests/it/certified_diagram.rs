@@ -480,3 +480,21 @@ fn an_edge_between_two_discs_is_a_hyperbola_with_its_clearance() {
         }
     }
 }
+
+#[test]
+fn an_edge_may_leave_the_window_where_the_course_round_a_disc_begins_anew() {
+    let disc =
+        |x, y, radius| Shape::Disc { center: Point::new(Nm::new(x), Nm::new(y)), radius: Nm::new(radius) };
+    // Straight to the left of the first both are as far at x = -8 050 842 nm.
+    for left in (-8_051_100..=-8_049_600).step_by(20) {
+        let mut generators = Generators::new();
+        generators.add(&disc(7_600_000, 17_900_000, 75_000), 0);
+        generators.add(&disc(462_423, 4_856_566, 0), 1);
+        let corner = Point::new(Nm::new(left.into()), Nm::from_mm(-8));
+        let window = Rect::new(corner, Point::new(Nm::from_mm(30), Nm::from_mm(30)));
+        let diagram = Diagram::new(generators, Kind::Owners, Space::Window(window));
+        assert!(diagram.faults().is_empty(), "window from {left}: {:?}", diagram.faults());
+        let reached = diagram.vertices().iter().any(|vertex| vertex.at.0 <= f64::from(left));
+        assert!(reached, "window from {left}: an edge leaves it");
+    }
+}

@@ -71,6 +71,11 @@ impl Growth {
             self.meet(known, junction);
             return known;
         }
+        self.add(junction)
+    }
+
+    /// The number of a new junction.
+    fn add(&mut self, junction: Junction) -> u32 {
         let number = u32::try_from(self.junctions.len()).expect("below 2³² vertices");
         self.before.push(self.last.insert(cell(junction.at), number));
         self.open.extend((0..junction.slots.len()).map(|slot| (number, slot)));
@@ -170,7 +175,9 @@ impl Diagram {
             let Pair { left, right, .. } = pair;
             let leaving = &mut growth.junctions[from as usize].slots[slot];
             (leaving.left, leaving.right) = (left, right);
-            let to = growth.place(ending);
+            // Beyond the window it ends, however near to its beginning that is.
+            let is_apart = !self.holds(ending.at) && growth.known(&ending) == Some(from);
+            let to = if is_apart { growth.add(ending) } else { growth.place(ending) };
             let owners = |slot: &Slot| (self.owner(slot.left), self.owner(slot.right));
             let same = |slot: &Slot| owners(slot) == (self.owner(right), self.owner(left));
             match growth.back(to, left, right, way, same) {
