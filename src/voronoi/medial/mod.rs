@@ -15,6 +15,7 @@
 //! and simplifying 2D and 3D continuous skeletons*, CVIU 67 (1997): a branch counts as far as the
 //! disc at its root does not cover the discs along it.
 
+pub mod insets;
 mod joining;
 pub mod nest;
 mod pruning;

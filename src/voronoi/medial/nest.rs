@@ -202,14 +202,14 @@ impl Nest {
 }
 
 /// The loops of a level by exact booleans, with the edge on their left.
-fn offset_rings(area: &Polygon, height: f64) -> Vec<Vec<(f64, f64)>> {
+pub(super) fn offset_rings(area: &Polygon, height: f64) -> Vec<Vec<(f64, f64)>> {
     let inset = offset(area, -Nm::from_f64(height), FLATTEN);
     let rings = inset.iter().flat_map(Polygon::contours);
     rings.map(|ring| ring.iter().rev().copied().map(Point::to_f64).collect()).collect()
 }
 
 /// A course whose last place is its first, without places that are doubled.
-fn ring(mut course: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+pub(super) fn ring(mut course: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     course.dedup_by(|b, a| (b.0 - a.0).abs().max((b.1 - a.1).abs()) < 1.0);
     while course.len() > 1 && {
         let (first, last) = (course[0], course[course.len() - 1]);

@@ -8,7 +8,7 @@
 //!        ╵rim                   rim╵
 //! ```
 //!
-//! Loops are offsets of the areas by exact integer booleans. From one to the next the mill stays
+//! Loops are level sets of the distance from the areas' edges. From one to the next the mill stays
 //! down: the way lies between them, and is as long as they are apart. So does the V-bit where the
 //! way from one of its lines to the next leads over the floor.
 
@@ -19,6 +19,7 @@ use crate::toolpath::head::Head;
 use crate::toolpath::{Heights, Placement, Section, Tool, ToolKind};
 use crate::voronoi::fit_points;
 use crate::voronoi::medial::MedialAxis;
+use crate::voronoi::medial::insets::Insets;
 
 use super::room::Room;
 
@@ -75,27 +76,31 @@ impl Floor {
         let edge = v_bit.width_at(depth) / 2 - tip / 2;
         let (radius, rim) = (diameter / 2, edge + tip / 2);
         let step = Nm::from_f64(radius.to_f64() * STEP);
-        let inner = |by: Nm| inset(areas, by);
+        let insets = Insets::new(areas);
         let mut levels = Vec::new();
         let mut cleared: Vec<Polygon> = Vec::new();
         for count in 0.. {
-            let level = inner(edge + radius + step * count);
+            let inside = edge + radius + step * count;
+            let level = insets.at(inside);
             if level.is_empty() {
                 break;
             }
-            cleared.extend(level.iter().flat_map(|polygon| swept(polygon, radius)));
+            // What a mill clears along their edges.
+            let within = insets.at(inside + radius);
+            let grown = level.iter().flat_map(|polygon| offset(polygon, radius, FLATTEN));
+            cleared.extend(grown.flat_map(|outer| difference(&outer, &within)));
             levels.push(level.iter().flat_map(Polygon::contours).map(|ring| dense(ring)).collect());
         }
         let cleared = union(&cleared);
         let mut rest: Vec<Polygon> =
-            inner(edge).iter().flat_map(|floor| difference(floor, &cleared)).collect();
+            insets.at(edge).iter().flat_map(|floor| difference(floor, &cleared)).collect();
         let strokes = strokes(axis, edge + radius, &rest, tolerance);
         let along: Vec<Polygon> = strokes.iter().filter_map(|path| hull_of(path, radius)).collect();
         rest = rest.iter().flat_map(|piece| difference(piece, &along)).collect();
         let fine = Nm::from_f64(tip.to_f64() * FINE_STEP);
-        let mut rims = loops(&inner(rim), tolerance);
-        rims.extend(fill(areas, axis, &rest, (rim + fine, fine, tip), tolerance));
-        let room = Room::new(&inner(rim - tolerance));
+        let mut rims = loops(&insets.at(rim), tolerance);
+        rims.extend(fill(&insets, axis, &rest, (rim + fine, fine, tip), tolerance));
+        let room = Room::new(&insets.at(rim - tolerance));
         Self { levels, strokes, rims, room, step: step.to_f64(), tolerance }
     }
 
@@ -189,16 +194,6 @@ fn clear_row(head: &mut Head, row: &[Path], depth: Nm, mill: &Tool) {
     }
 }
 
-fn inset(areas: &[Polygon], by: Nm) -> Vec<Polygon> {
-    areas.iter().flat_map(|area| offset(area, -by, FLATTEN)).collect()
-}
-
-/// What a mill clears along the edges of a polygon.
-fn swept(polygon: &Polygon, radius: Nm) -> Vec<Polygon> {
-    let holes = offset(polygon, -radius, FLATTEN);
-    offset(polygon, radius, FLATTEN).iter().flat_map(|outer| difference(outer, &holes)).collect()
-}
-
 /// The contours of polygons as closed paths of lines and arcs.
 fn loops(polygons: &[Polygon], tolerance: Nm) -> Vec<Path> {
     let rings = polygons.iter().flat_map(Polygon::contours);
@@ -238,7 +233,7 @@ fn meets(piece: &Polygon, a: Point, b: Point) -> bool {
 /// Ways of the V-bit over what is left of the floor, as far as they come within half a `tip` of it:
 /// loops, `first` from the edges and then a `fine` step apart, and the axis between the last ones.
 fn fill(
-    areas: &[Polygon],
+    insets: &Insets<'_>,
     axis: &MedialAxis,
     rest: &[Polygon],
     (first, fine, tip): (Nm, Nm, Nm),
@@ -252,7 +247,7 @@ fn fill(
     let mut found: Vec<Vec<Point>> = Vec::new();
     let mut empty = 0;
     for count in 0..MOST_LOOPS {
-        let level = inset(areas, first + fine * count);
+        let level = insets.at(first + fine * count);
         let parts = level.iter().flat_map(Polygon::contours).flat_map(|ring| runs(ring, true, &near));
         let before = found.len();
         found.extend(parts);
