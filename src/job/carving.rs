@@ -7,6 +7,7 @@ use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::toolpath::strategy;
 use crate::toolpath::{Angle, Heights, Order, Placement, Section, Tool, ToolKind};
 use crate::verify::carving::{self, Carved, Ideal, Text};
+use crate::voronoi::medial::insets::Insets;
 use crate::voronoi::medial::{MedialAxis, Pruning};
 
 use super::art::{self, Art, OneTool, placed, round, without_slivers, written};
@@ -295,8 +296,9 @@ fn shape_warnings(
     }
     if let Some(most) = how.max_depth.filter(|_| how.flat.is_none()) {
         let reach = tool.kind.width_at(most - how.start()) / 2;
-        let wide = areas.iter().flat_map(|area| offset(area, -reach, Nm::from_um(1)));
-        let area: f64 = wide.map(|polygon| polygon.area_mm2()).sum();
+        let is_wide = axis.widest() > reach.to_f64();
+        let wide = if is_wide { Insets::new(areas).at(reach) } else { Vec::new() };
+        let area: f64 = wide.iter().map(Polygon::area_mm2).sum();
         if area > LEAST_WIDE && how.inlay.is_some() {
             let left = format!("{area:.2} mm² are farther from the edge than {reach:.3} mm");
             let problem = Words::of("{0}, and would stand in the way of the other half: {flat} clears them");

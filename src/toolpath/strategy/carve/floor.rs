@@ -14,7 +14,7 @@
 
 use crate::board::FLATTEN;
 use crate::board::polarity::{difference, offset, union};
-use crate::geometry::{Nm, Path, Point, Polygon};
+use crate::geometry::{Edges, Nm, Path, Point, Polygon};
 use crate::toolpath::head::Head;
 use crate::toolpath::{Heights, Placement, Section, Tool, ToolKind};
 use crate::voronoi::fit_points;
@@ -212,7 +212,8 @@ fn hull_of(path: &Path, radius: Nm) -> Option<Polygon> {
 
 /// The parts of the axis that an end mill follows where its loops leave something.
 fn strokes(axis: &MedialAxis, reach: Nm, rest: &[Polygon], tolerance: Nm) -> Vec<Path> {
-    let is_left = |pair: &[Point]| rest.iter().any(|piece| meets(piece, pair[0], pair[1]));
+    let pieces = Pieces::new(rest);
+    let is_left = |pair: &[Point]| dense_line(pair).into_iter().any(|p| pieces.hold(p));
     let parts = wide_parts(axis, reach.to_f64());
     parts.filter(|part| part.windows(2).any(is_left)).filter_map(|part| fit_points(part, tolerance)).collect()
 }
@@ -224,10 +225,18 @@ fn wide_parts(axis: &MedialAxis, least: f64) -> impl Iterator<Item = Vec<Point>>
     parts.map(|part| part.iter().map(|place| Point::from_f64(place.at.0, place.at.1)).collect())
 }
 
-/// Whether a line enters a piece, as far as places along it show.
-fn meets(piece: &Polygon, a: Point, b: Point) -> bool {
-    let bounds = piece.bounds();
-    dense_line(&[a, b]).into_iter().any(|p| bounds.contains(p) && piece.contains(p))
+/// Pieces to be asked what lies in them.
+struct Pieces(Vec<Edges>);
+
+impl Pieces {
+    fn new(pieces: &[Polygon]) -> Self {
+        Self(pieces.iter().map(Edges::new).collect())
+    }
+
+    fn hold(&self, p: Point) -> bool {
+        let mut stack = Vec::new();
+        self.0.iter().any(|piece| piece.winding(p, &mut stack) != Some(0))
+    }
 }
 
 /// Ways of the V-bit over what is left of the floor, as far as they come within half a `tip` of it:
@@ -244,6 +253,7 @@ fn fill(
     if near.is_empty() {
         return Vec::new();
     }
+    let near = Pieces::new(&near);
     let mut found: Vec<Vec<Point>> = Vec::new();
     let mut empty = 0;
     for count in 0..MOST_LOOPS {
@@ -271,12 +281,9 @@ const MOST_LOOPS: i64 = 400;
 const EMPTY: i64 = 40;
 
 /// The parts of a line or, closed, a ring that lie in pieces.
-fn runs(line: &[Point], closed: bool, pieces: &[Polygon]) -> Vec<Vec<Point>> {
-    let bounds: Vec<_> = pieces.iter().map(Polygon::bounds).collect();
-    let is_in =
-        |p: Point| pieces.iter().zip(&bounds).any(|(piece, bounds)| bounds.contains(p) && piece.contains(p));
+fn runs(line: &[Point], closed: bool, pieces: &Pieces) -> Vec<Vec<Point>> {
     let mut dense = if closed { dense(line) } else { dense_line(line) };
-    let inside: Vec<bool> = dense.iter().map(|&p| is_in(p)).collect();
+    let inside: Vec<bool> = dense.iter().map(|&p| pieces.hold(p)).collect();
     let mut start = 0;
     if closed {
         let Some(outside) = inside.iter().position(|inside| !inside) else {
