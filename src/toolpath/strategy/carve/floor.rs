@@ -12,6 +12,8 @@
 //! down: the way lies between them, and is as long as they are apart. So does the V-bit where the
 //! way from one of its lines to the next leads over the floor.
 
+use std::cmp::Ordering;
+
 use crate::board::FLATTEN;
 use crate::board::polarity::{difference, offset, union};
 use crate::geometry::{Edges, Nm, Path, Point, Polygon};
@@ -152,15 +154,21 @@ impl Floor {
         rows
     }
 
-    /// The loop of the next level outwards that `last` leads to, begun where they are nearest;
-    /// `last` is made to end there.
+    /// The loop of the next level outwards that `last` leads to, begun where it is reached; `last`
+    /// is made to end where it is left: where they are nearest, if it is the first of its row and
+    /// may begin anywhere, else as soon after its beginning as the next one is near enough.
     fn next(&self, last: &mut Ring, is_first: bool, outer: &mut [Option<Ring>]) -> Option<Ring> {
-        let candidates = outer.iter().enumerate();
-        let found = candidates.filter_map(|(i, ring)| Some((i, nearest(last, ring.as_ref()?))));
-        let (i, (from, to, far)) = found.min_by(|a, b| a.1.2.total_cmp(&b.1.2))?;
-        if far > REACH * self.step {
-            return None;
-        }
+        let most = REACH * self.step;
+        let leads = outer.iter().enumerate().filter_map(|(i, ring)| {
+            let ring = ring.as_ref()?;
+            let corners = if is_first { &last[..] } else { &last[..=first_near(last, ring, most)?] };
+            let (from, to, far) = nearest(corners, ring);
+            (far <= most).then_some((i, from, to, far))
+        });
+        let (i, from, to, _) = leads.min_by(|a, b| {
+            let soon = if is_first { Ordering::Equal } else { a.1.cmp(&b.1) };
+            soon.then(a.3.total_cmp(&b.3))
+        })?;
         if is_first {
             last.rotate_left(from);
         } else if from > 0 {
@@ -338,6 +346,11 @@ fn dense_line(line: &[Point]) -> Vec<Point> {
     dense
 }
 
+/// The first corner of a ring that is no farther than `most` from one of another.
+fn first_near(one: &[Point], other: &[Point], most: f64) -> Option<usize> {
+    one.iter().position(|&p| other.iter().any(|&q| p.distance(q) <= most))
+}
+
 /// Corners of two rings that are nearest to each other, and how far apart they are.
 fn nearest(one: &[Point], other: &[Point]) -> (usize, usize, f64) {
     let mut best = (0, 0, f64::INFINITY);
@@ -351,4 +364,29 @@ fn nearest(one: &[Point], other: &[Point]) -> (usize, usize, f64) {
         }
     }
     (best.0, best.1, best.2.sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::voronoi::medial::Pruning;
+
+    #[test]
+    fn the_end_mill_goes_round_each_loop_once() {
+        let at = |(x, y): (i64, i64)| Point::new(Nm::from_mm(x), Nm::from_mm(y));
+        let corners = [(0, 0), (41, 3), (37, 19), (16, 14), (11, 38), (2, 33)].map(at);
+        let areas = [Polygon::new(vec![corners.to_vec()]).expect("an area")];
+        let axis = MedialAxis::new(&areas, &Pruning { loss: 1.0, corner: 1.0 });
+        let [v_bit, mill]: [Tool; 2] =
+            ["vbit:0.2mm:60deg", "endmill:2mm"].map(|tool| tool.parse().expect("a tool"));
+        let floor = Floor::new(&areas, &axis, &v_bit, Nm::from_mm(1), &mill, Nm::from_um(2));
+        let around = |ring: &Ring| {
+            let next = ring.iter().cycle().skip(1);
+            ring.iter().zip(next).map(|(a, b)| a.distance(*b)).sum::<f64>()
+        };
+        let loops: f64 = floor.levels.iter().flatten().map(around).sum();
+        let milled: f64 = floor.rows().iter().flatten().map(Path::length).sum();
+        assert!(floor.levels.len() > 5, "{} levels", floor.levels.len());
+        assert!((0.99..1.05).contains(&(milled / loops)), "{milled} nm along loops of {loops} nm");
+    }
 }
