@@ -7,7 +7,7 @@
 use rayon::prelude::*;
 
 use super::flawless;
-use super::nest::{offset_rings, ring};
+use super::nest::rings;
 use crate::board::polarity::clean;
 use crate::geometry::{Nm, Point, Polygon};
 use crate::voronoi::exact::Diagram;
@@ -30,14 +30,10 @@ impl<'a> Insets<'a> {
     pub fn at(&self, by: Nm) -> Vec<Polygon> {
         let inset = |(area, diagram): &(&Polygon, Diagram)| {
             let height = by.to_f64();
-            let curves = diagram.faults().is_empty().then(|| diagram.level_set(height)).flatten();
-            let rings: Vec<Vec<(f64, f64)>> = curves.map_or_else(
-                || offset_rings(area, height),
-                |curves| curves.into_iter().map(|curve| ring(curve.course)).collect(),
-            );
-            let place = |&(x, y): &(f64, f64)| Point::from_f64(x, y);
-            let rings: Vec<Vec<Point>> = rings.iter().map(|ring| ring.iter().map(place).collect()).collect();
-            clean(&rings)
+            let known = diagram.faults().is_empty().then(|| diagram.level_set(height)).flatten();
+            let place = |(x, y): (f64, f64)| Point::from_f64(x, y);
+            let points = |ring: Vec<(f64, f64)>| ring.into_iter().map(place).collect();
+            clean(&rings(known, area, height).into_iter().map(points).collect::<Vec<_>>())
         };
         self.areas.par_iter().flat_map_iter(inset).collect()
     }

@@ -23,7 +23,7 @@ use super::{Place, flawless};
 use crate::board::FLATTEN;
 use crate::board::polarity::offset;
 use crate::geometry::{Nm, Point, Polygon};
-use crate::voronoi::exact::Diagram;
+use crate::voronoi::exact::{Diagram, LevelCurve};
 
 /// A closed curve along which the clearance is that of a level.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,10 +111,7 @@ impl Nest {
             let height = level(number);
             let known = if is_flawed { None } else { diagram.level_set(height) };
             is_flawed |= known.is_none();
-            let rings = known.map_or_else(
-                || offset_rings(area, height),
-                |curves| curves.into_iter().map(|curve| ring(curve.course)).collect(),
-            );
+            let rings = rings(known, area, height);
             let found = nest.add_level(number, height, rings);
             if found.is_empty() {
                 break;
@@ -201,15 +198,23 @@ impl Nest {
     }
 }
 
-/// The loops of a level by exact booleans, with the edge on their left.
-pub(super) fn offset_rings(area: &Polygon, height: f64) -> Vec<Vec<(f64, f64)>> {
+/// The loops of a level of an area, with the edge on their left: those that are known, or else by
+/// exact booleans.
+pub(super) fn rings(known: Option<Vec<LevelCurve>>, area: &Polygon, height: f64) -> Vec<Vec<(f64, f64)>> {
+    known.map_or_else(
+        || offset_rings(area, height),
+        |curves| curves.into_iter().map(|curve| ring(curve.course)).collect(),
+    )
+}
+
+fn offset_rings(area: &Polygon, height: f64) -> Vec<Vec<(f64, f64)>> {
     let inset = offset(area, -Nm::from_f64(height), FLATTEN);
     let rings = inset.iter().flat_map(Polygon::contours);
     rings.map(|ring| ring.iter().rev().copied().map(Point::to_f64).collect()).collect()
 }
 
 /// A course whose last place is its first, without places that are doubled.
-pub(super) fn ring(mut course: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+fn ring(mut course: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
     course.dedup_by(|b, a| (b.0 - a.0).abs().max((b.1 - a.1).abs()) < 1.0);
     while course.len() > 1 && {
         let (first, last) = (course[0], course[course.len() - 1]);
