@@ -93,10 +93,14 @@ fn a_drawing_without_a_unit_asks_and_white_erases() {
 
 /// A drawing of 40 by 40 mm.
 fn drawn(inner: &str) -> Drawing {
+    try_drawn(inner).unwrap_or_else(|e| panic!("{inner}: {e}"))
+}
+
+fn try_drawn(inner: &str) -> Result<Drawing, voromill::import::Error> {
     let text = format!(
         "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>{inner}</svg>"
     );
-    drawing::read("x.svg", text.as_bytes(), &Options::default()).unwrap_or_else(|e| panic!("{inner}: {e}"))
+    drawing::read("x.svg", text.as_bytes(), &Options::default())
 }
 
 #[test]
@@ -106,11 +110,7 @@ fn a_line_that_lies_in_a_gap_of_its_dashes_is_not_there() {
     };
     let gap = drawn(&line("stroke-dasharray='4' stroke-dashoffset='5'"));
     assert!((area(&gap, None) - 6.0).abs() < 1e-3, "the rectangle alone: {} mm²", area(&gap, None));
-    let text = format!(
-        "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>{}</svg>",
-        line("stroke-dasharray='0.000001'")
-    );
-    let error = drawing::read("x.svg", text.as_bytes(), &Options::default()).expect_err("too many");
+    let error = try_drawn(&line("stroke-dasharray='0.000001'")).expect_err("too many");
     assert!(error.to_string().contains("a million dashes"), "{error}");
 }
 

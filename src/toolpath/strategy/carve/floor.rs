@@ -12,7 +12,7 @@
 //! down: the way lies between them, and is as long as they are apart. So does the V-bit where the
 //! way from one of its lines to the next leads over the floor.
 
-use std::cmp::Ordering;
+use std::slice;
 
 use crate::board::FLATTEN;
 use crate::board::polarity::{difference, offset, union};
@@ -161,14 +161,11 @@ impl Floor {
         let most = REACH * self.step;
         let leads = outer.iter().enumerate().filter_map(|(i, ring)| {
             let ring = ring.as_ref()?;
-            let corners = if is_first { &last[..] } else { &last[..=first_near(last, ring, most)?] };
-            let (from, to, far) = nearest(corners, ring);
+            let (from, to, far) = if is_first { nearest(last, ring) } else { soonest(last, ring, most)? };
             (far <= most).then_some((i, from, to, far))
         });
-        let (i, from, to, _) = leads.min_by(|a, b| {
-            let soon = if is_first { Ordering::Equal } else { a.1.cmp(&b.1) };
-            soon.then(a.3.total_cmp(&b.3))
-        })?;
+        let late = |from: usize| if is_first { 0 } else { from };
+        let (i, from, to, _) = leads.min_by(|a, b| late(a.1).cmp(&late(b.1)).then(a.3.total_cmp(&b.3)))?;
         if is_first {
             last.rotate_left(from);
         } else if from > 0 {
@@ -346,9 +343,14 @@ fn dense_line(line: &[Point]) -> Vec<Point> {
     dense
 }
 
-/// The first corner of a ring that is no farther than `most` from one of another.
-fn first_near(one: &[Point], other: &[Point], most: f64) -> Option<usize> {
-    one.iter().position(|&p| other.iter().any(|&q| p.distance(q) <= most))
+/// The first corner of a ring that is no farther than `most` from another, with the corner of that
+/// which is nearest to it, and how far apart they are.
+fn soonest(one: &[Point], other: &[Point], most: f64) -> Option<(usize, usize, f64)> {
+    let mut leads = one.iter().enumerate().map(|(from, p)| {
+        let (_, to, far) = nearest(slice::from_ref(p), other);
+        (from, to, far)
+    });
+    leads.find(|&(_, _, far)| far <= most)
 }
 
 /// Corners of two rings that are nearest to each other, and how far apart they are.
