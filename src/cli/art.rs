@@ -13,6 +13,7 @@ use voromill::import::{self, Loaded, diagnostic, text::text};
 use voromill::job::{self, Art, Length, OneTool, Settings};
 use voromill::report;
 use voromill::report::document::{Figures, ProgramEntry, SCHEMA_VERSION, WarningEntry};
+use voromill::report::stages::{Stage, Stages};
 use voromill::report::verdict::FindingEntry;
 use voromill::verify::Finding;
 
@@ -20,6 +21,7 @@ use super::config::Config;
 use super::format::Format;
 use super::input::{Colour, Input, dpi};
 use super::output::Output;
+use super::progress::Progress;
 use super::{Failure, Shared};
 
 /// What both take.
@@ -83,6 +85,9 @@ pub(super) trait Milled {
     /// What a person must know.
     fn warnings(&self) -> &[Warning];
 
+    /// Where the time of planning them went.
+    fn stages(&self) -> &Stages;
+
     /// Judges its own programs, or others in their place, each with its name.
     fn judge(&self, others: Option<&[(&str, &str)]>) -> Result<Self::Judged, job::Error>;
 
@@ -116,6 +121,8 @@ struct Account<'a, F, V> {
     #[serde(skip_serializing_if = "Option::is_none")]
     verification: Option<Verification<V>>,
     warnings: &'a [WarningEntry],
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    stages: &'a [Stage],
 }
 
 /// What came of comparing the programs with the shapes.
@@ -135,25 +142,36 @@ impl Work {
     ) -> Result<ExitCode, Failure> {
         let input = self.input();
         let settings = self.config.settings(&input)?;
-        let art = self.shapes.art(&input, &settings)?;
+        let progress = Progress::start(shared);
+        let mut stages = Stages::default();
+        progress.say("reading");
+        let areas = |art: &Result<Art, _>| [("areas", art.as_ref().map_or(0, |art| art.areas.len()))];
+        let art = stages.run("reading", || self.shapes.art(&input, &settings), areas)?;
         let name = art.name.clone();
+        progress.say("planning");
         let made = plan(art, &settings, self)?;
-        let judged = match self.check.as_slice() {
-            [] if self.no_verify => None,
-            [] => Some(made.judge(None)?),
-            paths => Some(made.judge(Some(&borrowed(&programs(paths)?)))?),
-        };
+        stages.extend(made.stages());
+        progress.say("simulating");
+        let judge = || stages.run("simulating", || self.judge(&made), |_| []);
+        let judged = (!self.no_verify).then(judge).transpose()?;
+        let picture = self.picture.as_deref().map(|path| {
+            progress.say("drawing");
+            let png = stages.run("picture", || made.picture(WIDTH), |_| [])?;
+            Ok::<_, Failure>((path, png))
+        });
+        let picture = picture.transpose()?;
+        drop(progress);
         let warnings: Vec<WarningEntry> = made.warnings().iter().map(WarningEntry::from).collect();
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if let Some(output) = &self.output {
-            let picture = self.picture.as_deref();
-            let picture = picture.map(|path| Ok::<_, Failure>((path, made.picture(WIDTH)?))).transpose()?;
             write(output, picture, made.programs())?;
         }
+        shared.tell_stages(&stages);
         let findings = judged.as_ref().map_or(&[][..], M::findings);
         let to_stdout = self.output.as_deref() == Some(Path::new("-"));
         if (self.json || self.format == Format::Json) && !to_stdout {
-            super::print(&self.to_json(&name, &made, judged.as_ref(), &warnings))?;
+            let told = if shared.tells_stages() { stages.list() } else { &[] };
+            super::print(&self.to_json((&name, &made), judged.as_ref(), &warnings, told))?;
         } else {
             let mut summary = if self.output.is_some() { made.summary() } else { String::new() };
             summary.extend(judged.as_ref().map(|judged| made.verdict(judged)));
@@ -188,12 +206,20 @@ impl Work {
         self.margin.map(Length::nm)
     }
 
+    /// Judges the programs that were made, or those to be checked in their place.
+    fn judge<M: Milled>(&self, made: &M) -> Result<M::Judged, Failure> {
+        Ok(match self.check.as_slice() {
+            [] => made.judge(None)?,
+            paths => made.judge(Some(&borrowed(&programs(paths)?)))?,
+        })
+    }
+
     fn to_json<M: Milled>(
         &self,
-        name: &str,
-        made: &M,
+        (name, made): (&str, &M),
         judged: Option<&M::Judged>,
         warnings: &[WarningEntry],
+        stages: &[Stage],
     ) -> String {
         let verification = judged.map(|judged| Verification {
             figures: M::verification(judged),
@@ -207,6 +233,7 @@ impl Work {
             programs: programs.map(|(number, one)| self.entry(number, one)).collect(),
             verification,
             warnings,
+            stages,
         };
         serde_json::to_string_pretty(&account).expect("numbers and texts") + "\n"
     }

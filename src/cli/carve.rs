@@ -7,6 +7,7 @@ use serde::Serialize;
 use voromill::board::Warning;
 use voromill::geometry::Nm;
 use voromill::job::{self, Carving, Engraving, Inlay, Length, OneTool, ToolChoice, carve};
+use voromill::report::stages::Stages;
 use voromill::toolpath::{Angle, Tool};
 use voromill::verify::Finding;
 use voromill::verify::carving::Carved;
@@ -128,6 +129,10 @@ impl Milled for Engraving {
 
     fn warnings(&self) -> &[Warning] {
         &self.warnings
+    }
+
+    fn stages(&self) -> &Stages {
+        &self.stages
     }
 
     fn judge(&self, others: Option<&[(&str, &str)]>) -> Result<Carved, job::Error> {

@@ -7,6 +7,7 @@ use serde::Serialize;
 use voromill::board::Warning;
 use voromill::geometry::Nm;
 use voromill::job::{self, Length, OneTool, Overlap, Pocketing};
+use voromill::report::stages::Stages;
 use voromill::toolpath::Angle;
 use voromill::toolpath::strategy::{Engagement, Engaging, Sequence};
 use voromill::verify::Finding;
@@ -144,6 +145,10 @@ impl Milled for job::Pocket {
 
     fn warnings(&self) -> &[Warning] {
         &self.warnings
+    }
+
+    fn stages(&self) -> &Stages {
+        &self.stages
     }
 
     fn judge(&self, others: Option<&[(&str, &str)]>) -> Result<Pocketed, job::Error> {

@@ -4,11 +4,11 @@ use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
 use crate::board::{Warning, Words};
 use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::report::stages::Stages;
 use crate::toolpath::strategy;
 use crate::toolpath::{Angle, Heights, Order, Placement, Section, Tool, ToolKind};
 use crate::verify::carving::{self, Carved, Ideal, Text};
-use crate::voronoi::medial::insets::Insets;
-use crate::voronoi::medial::{MedialAxis, Pruning};
+use crate::voronoi::medial::{Interior, MedialAxis, Pruning, insets};
 
 use super::art::{self, Art, OneTool, placed, round, without_slivers, written};
 use super::{Error, Reach, Settings};
@@ -82,6 +82,8 @@ pub struct Engraving {
     pub deepest: Nm,
     /// What a person must know.
     pub warnings: Vec<Warning>,
+    /// Where the time went.
+    pub stages: Stages,
 }
 
 /// The narrowest tip that clears corners of a floor. Chosen: finer loops would take days.
@@ -127,7 +129,13 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         loss: settings.tolerance.to_f64() * SHARE * flank,
         corner: libm::cos(how.corner.radians()),
     };
-    let axis = MedialAxis::new(&areas, &pruning);
+    let interiors = Interior::all(&areas);
+    let mut stages = Stages::default();
+    let axis = stages.run(
+        "medial axis",
+        || MedialAxis::new(&interiors, &pruning),
+        |axis| [("areas", areas.len()), ("ways", axis.ways.len())],
+    );
     let heights = Heights {
         safe: settings.safe,
         approach: settings.isolation[0].heights.approach,
@@ -135,12 +143,14 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         step: how.step,
     };
     let mut warnings = art.warnings.clone();
-    warnings.extend(shape_warnings(&axis, &areas, tool, how)?);
+    warnings.extend(shape_warnings(&axis, &interiors, tool, how)?);
     let start = how.start();
     let flat = how.flat.as_ref().zip(how.max_depth);
     let floor = flat.map(|(mill, depth)| {
-        strategy::Floor::new(&areas, &axis, tool, depth - start, mill, settings.tolerance)
+        let plan = || strategy::Floor::new(&interiors, &axis, tool, depth - start, mill, settings.tolerance);
+        stages.run("floor", plan, |_| [])
     });
+    drop(interiors);
     let carving = strategy::Carving {
         tool,
         heights,
@@ -151,12 +161,15 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         start,
         floor: floor.as_ref(),
     };
+    let count = |section: &Section| [("moves", section.moves.len())];
     let mut sections: Vec<(&'static str, Section)> = Vec::new();
     if let (Some(floor), Some((mill, _))) = (&floor, flat) {
         let label = format!("clear the floor of {}", art.name);
-        sections.push(("flat", floor.clear(label, mill, heights, &placement)));
+        let clear = || floor.clear(label, mill, heights, &placement);
+        sections.push(("flat", stages.run("moves of the end mill", clear, count)));
     }
-    sections.push(("", strategy::carve(format!("carve {}", art.name), &axis, &carving)));
+    let carve = || strategy::carve(format!("carve {}", art.name), &axis, &carving);
+    sections.push(("", stages.run("moves of the V-bit", carve, count)));
     sections.retain(|(_, section)| !section.moves.is_empty());
     if let Some((mill, _)) = flat.filter(|_| sections.iter().all(|(tag, _)| tag.is_empty())) {
         let message = format!("`{}` fits nowhere: the V-bit clears the floor alone", mill.kind);
@@ -170,7 +183,8 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     let mut programs = Vec::new();
     for (number, (tag, section)) in (1..).zip(sections) {
         let what = if tag.is_empty() { "carving" } else { "floor" };
-        let (one, found) = written(&art, (tag, what, number), section, settings, declared(settings, how));
+        let write = || written(&art, (tag, what, number), section, settings, declared(settings, how));
+        let (one, found) = stages.run("writing programs", write, |(one, _)| [("bytes", one.text.len())]);
         programs.push(one);
         warnings.extend(found);
     }
@@ -186,6 +200,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         programs,
         deepest,
         warnings,
+        stages,
     })
 }
 
@@ -268,7 +283,7 @@ fn mirrored(areas: &[Polygon]) -> Vec<Polygon> {
 /// [`Error::Value`] where that is half of an inlay which would not go into the other.
 fn shape_warnings(
     axis: &MedialAxis,
-    areas: &[Polygon],
+    areas: &[Interior<'_>],
     tool: &Tool,
     how: &Carving,
 ) -> Result<Vec<Warning>, Error> {
@@ -279,7 +294,7 @@ fn shape_warnings(
             format!("the medial axis may lack a branch, here and at {} places in all", axis.faults.len());
         warnings.push(planning::AXIS_INCOMPLETE.warning(message).at(fault));
     }
-    let narrow = areas.iter().filter(|area| offset(area, -tip / 2, Nm::from_um(1)).is_empty()).count();
+    let narrow = areas.iter().filter(|area| offset(area.area(), -tip / 2, Nm::from_um(1)).is_empty()).count();
     if narrow > 0 && tip > Nm::ZERO {
         let message = format!(
             "{narrow} of {} areas are narrower than the tip of {tip:.3} mm: they are not carved",
@@ -297,7 +312,7 @@ fn shape_warnings(
     if let Some(most) = how.max_depth.filter(|_| how.flat.is_none()) {
         let reach = tool.kind.width_at(most - how.start()) / 2;
         let is_wide = axis.widest() > reach.to_f64();
-        let wide = if is_wide { Insets::new(areas).at(reach) } else { Vec::new() };
+        let wide = if is_wide { insets(areas, reach) } else { Vec::new() };
         let area: f64 = wide.iter().map(Polygon::area_mm2).sum();
         if area > LEAST_WIDE && how.inlay.is_some() {
             let left = format!("{area:.2} mm² are farther from the edge than {reach:.3} mm");

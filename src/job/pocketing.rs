@@ -7,10 +7,12 @@ use crate::board::Warning;
 use crate::board::diagnostic::planning;
 use crate::board::polarity::{difference, intersection, offset, union};
 use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::report::stages::Stages;
 use crate::toolpath::strategy::{self, Clearings, Engaging, Entries, Groove, Levels, Planned, Sequence};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Tool, ToolKind};
 use crate::verify::carving::Text;
 use crate::verify::pocketing::{self, Floor, Pocketed};
+use crate::voronoi::medial::Interior;
 use crate::voronoi::medial::nest::Nest;
 
 use super::art::{self, Art, OneTool, placed, round, without_slivers, written};
@@ -52,6 +54,8 @@ pub struct Pocket {
     pub entries: Entries,
     /// What a person must know.
     pub warnings: Vec<Warning>,
+    /// Where the time went.
+    pub stages: Stages,
     how: Pocketing,
     levels: Vec<f64>,
     /// In how many layers places that have no room for arcs are milled in each pass.
@@ -95,6 +99,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
         programs: Vec::new(),
         entries: Entries::default(),
         warnings: art.warnings.clone(),
+        stages: Stages::default(),
         how: how.clone(),
         levels: Vec::new(),
         layers: 1,
@@ -102,7 +107,10 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
     let mut before: Option<Nm> = None;
     for &(tool, heights) in &mills {
         let radius = tool.width_at(Nm::ZERO) / 2;
-        let left = before.map(|coarser| rest(&made.areas, coarser, radius));
+        let left = before.map(|coarser| {
+            let rest = || rest(&made.areas, coarser, radius);
+            made.stages.run(format!("{}: what is left", tool.kind), rest, |left| [("areas", left.len())])
+        });
         if made.mill(&art, left.as_deref(), (tool, heights), settings, mills.len() > 1)? {
             before = Some(radius);
         }
@@ -131,9 +139,13 @@ impl Pocket {
             None => self.areas.clone(),
             Some(left) => round_what_is_left(&self.areas, left, tool.width_at(Nm::ZERO)),
         };
-        let areas = areas.as_slice();
+        let areas = Interior::all(&areas);
         let levels = levels(tool, settings, &self.how)?;
-        let nest = Nest::new(areas, |level| levels.at(level));
+        let nest = self.stages.run(
+            format!("{}: loops", tool.kind),
+            || Nest::new(&areas, |level| levels.at(level)),
+            |nest| [("areas", areas.len()), ("loops", nest.loops.len())],
+        );
         if nest.flaws > 0 {
             let message = format!(
                 "the Voronoi diagram of {} areas is faulty: their loops are offset polygons instead",
@@ -152,15 +164,16 @@ impl Pocket {
             return Ok(false);
         }
         let clearings = self.how.engaging.filter(|_| left.is_none()).map(|engaging| {
-            Clearings::new(&Planned {
-                areas,
+            let planned = Planned {
+                areas: &areas,
                 nest: &nest,
                 tool,
                 levels,
                 direction: settings.asked.direction.unwrap_or(Direction::Climb),
                 tolerance: settings.tolerance,
                 engaging,
-            })
+            };
+            self.stages.run(format!("{}: arcs", tool.kind), || Clearings::new(&planned), |_| [])
         });
         if let Some(clearings) = &clearings {
             self.warnings.extend(clearings.grooves.iter().map(groove_warning));
@@ -187,11 +200,19 @@ impl Pocket {
         };
         let number = self.programs.len() + 1;
         let what = if number == 1 { "pocket" } else { "rest" };
-        let (section, entries) = strategy::pocket(format!("{what} {}", art.name), &nest, &plan);
+        let (section, entries) = self.stages.run(
+            format!("{}: moves", tool.kind),
+            || strategy::pocket(format!("{what} {}", art.name), &nest, &plan),
+            |(section, _)| [("moves", section.moves.len())],
+        );
         let tag = if is_one_of_several { number.to_string() } else { String::new() };
         let number = u32::try_from(number).unwrap_or(u32::MAX);
-        let (one, found) =
-            written(art, (&tag, what, number), section, settings, declared(settings, &self.how));
+        let said = declared(settings, &self.how);
+        let (one, found) = self.stages.run(
+            format!("{}: writing the program", tool.kind),
+            || written(art, (&tag, what, number), section, settings, said),
+            |(one, _)| [("bytes", one.text.len())],
+        );
         self.warnings.extend(found);
         if self.programs.is_empty() {
             let deepest = nest.loops.iter().map(|one| one.level).max().unwrap_or(0);

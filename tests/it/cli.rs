@@ -127,6 +127,33 @@ fn where_the_time_went_is_told_where_asked_and_never_in_a_file() {
 }
 
 #[test]
+fn where_the_time_of_carving_and_pockets_went_is_told_where_asked() {
+    let out = TempDir::new().expect("a folder");
+    let sign = r#"<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="20mm" viewBox="0 0 20 20">
+        <path d="M1 1H19V15L9 19Z"/></svg>"#;
+    fs::write(out.path().join("sign.svg"), sign).expect("written");
+    let carve = ["--tool", "vbit:0.2mm:60deg", "--max-depth", "1mm", "--flat", "endmill:2mm"];
+    let pocket = ["--tool", "endmill:2mm", "--tool", "endmill:1mm", "--depth", "1mm"];
+    let done = |command: &str, options: &[&str], told: &str| {
+        let common = [command, "sign.svg", "-o", "sign.ngc", "--format", "json", told];
+        voromill(out.path(), &[&common[..], options].concat())
+    };
+    let carved = &["reading", "medial axis", "floor", "moves of the V-bit", "simulating"][..];
+    let pocketed = &["reading", "endmill:2mm: loops", "endmill:1mm: what is left", "simulating"][..];
+    for (command, options, named) in [("carve", carve, carved), ("pocket", pocket, pocketed)] {
+        let told = done(command, &options, "-vv");
+        let report: serde_json::Value = serde_json::from_slice(&told.stdout).expect("JSON");
+        let stages: Vec<&str> =
+            report["stages"].as_array().expect("stages").iter().filter_map(|s| s["stage"].as_str()).collect();
+        for stage in named {
+            assert!(stages.contains(stage), "{stage} among {stages:?}");
+            assert!(stderr(&told).contains(&format!(" ms  {stage}")), "{stage}: {}", stderr(&told));
+        }
+        assert!(!stdout(&done(command, &options, "-v")).contains("\"stages\""), "none with one -v");
+    }
+}
+
+#[test]
 fn the_report_on_stdout_is_the_report_in_the_file() {
     let out = folder();
     let board = fixture("boards/blinker");

@@ -9,7 +9,7 @@ use voromill::geometry::{Nm, Point, Polygon};
 use voromill::import::drawing::{Options, Unit, read};
 use voromill::import::text::text;
 use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
-use voromill::voronoi::medial::{MedialAxis, Pruning};
+use voromill::voronoi::medial::{Interior, MedialAxis, Pruning};
 
 use crate::certified_diagram::Random;
 use crate::oracle::field::Spot;
@@ -378,11 +378,11 @@ fn what_is_worth_nothing_is_pruned() {
         Polygon::new(vec![vec![at(0, 0), at(9000, 0), at(9000, 4000), at(0, 4000)]]).expect("four");
     let disc = Polygon::disc(at(20_000, 0), Nm::from_mm(2), Nm::new(250)).expect("a circle");
     let pruning = Pruning { loss: 1_000.0, corner: 1.0 };
-    let axis = MedialAxis::new(&[rectangle.clone(), disc], &pruning);
+    let axis = MedialAxis::new(&Interior::all(&[rectangle.clone(), disc]), &pruning);
     assert_eq!((axis.nodes.len(), axis.ways.len(), axis.dots.len()), (7, 5, 1), "two areas");
     assert!((axis.widest() - 2e6).abs() < 300.0, "half as wide as the rectangle is high: {}", axis.widest());
     let blunt = Pruning { loss: 1_000.0, corner: -0.5 };
-    let axis = MedialAxis::new(&[rectangle], &blunt);
+    let axis = MedialAxis::new(&Interior::all(&[rectangle]), &blunt);
     assert_eq!((axis.nodes.len(), axis.ways.len()), (2, 1), "no right angle is left");
 }
 
@@ -451,7 +451,7 @@ fn islands_without_a_width_are_none() {
         ring(&[(9_643_016, 33_465_868), (9_662_256, 33_478_883), (9_652_890, 33_472_547)]),
     ];
     let area = Polygon::new(contours).expect("a triangle with two holes");
-    let axis = MedialAxis::new(&[area], &Pruning { loss: 0.0, corner: 1.0 });
+    let axis = MedialAxis::new(&Interior::all(&[area]), &Pruning { loss: 0.0, corner: 1.0 });
     assert_eq!(axis.faults, []);
     assert_eq!((axis.nodes.len(), axis.ways.len()), (4, 3), "from the corners to the middle");
 }
@@ -490,7 +490,7 @@ fn what_islands_enclose_that_touch_each_other_has_an_axis_of_its_own() {
         ring(&[(6400, 7100), (4000, 5000), (2500, 7500)]),
     ];
     let area = Polygon::new(contours).expect("a square with three holes");
-    let axis = MedialAxis::new(&[area], &Pruning { loss: 0.0, corner: 1.0 });
+    let axis = MedialAxis::new(&Interior::all(&[area]), &Pruning { loss: 0.0, corner: 1.0 });
     let widest = axis.nodes.iter().find(|node| (node.clearance - 842_814.0).abs() < 100.0);
     let at = widest.expect("the middle of the triangle between the islands").at;
     assert!((at.0 - 5_895_371.0).abs() < 100.0 && (at.1 - 5_538_545.0).abs() < 100.0, "{at:?}");

@@ -6,37 +6,24 @@
 
 use rayon::prelude::*;
 
-use super::flawless;
+use super::Interior;
 use super::nest::rings;
 use crate::board::polarity::clean;
 use crate::geometry::{Nm, Point, Polygon};
-use crate::voronoi::exact::Diagram;
 
-/// Areas to be made smaller.
-pub struct Insets<'a> {
-    areas: Vec<(&'a Polygon, Diagram)>,
-}
-
-impl<'a> Insets<'a> {
-    /// Of areas as a boolean returns them.
-    #[must_use]
-    pub fn new(areas: &'a [Polygon]) -> Self {
-        Self { areas: areas.par_iter().map(|area| (area, flawless(area))).collect() }
-    }
-
-    /// What is at least `by` from every edge, which must be more than nothing; polygons as a
-    /// boolean returns them. Of an area whose diagram has a flaw an exact boolean answers.
-    #[must_use]
-    pub fn at(&self, by: Nm) -> Vec<Polygon> {
-        let inset = |(area, diagram): &(&Polygon, Diagram)| {
-            let height = by.to_f64();
-            let known = diagram.faults().is_empty().then(|| diagram.level_set(height)).flatten();
-            let place = |(x, y): (f64, f64)| Point::from_f64(x, y);
-            let points = |ring: Vec<(f64, f64)>| ring.into_iter().map(place).collect();
-            clean(&rings(known, area, height).into_iter().map(points).collect::<Vec<_>>())
-        };
-        self.areas.par_iter().flat_map_iter(inset).collect()
-    }
+/// What of areas is at least `by` from every edge, which must be more than nothing; polygons as a
+/// boolean returns them. Of an area whose diagram has a flaw an exact boolean answers.
+#[must_use]
+pub fn insets(areas: &[Interior<'_>], by: Nm) -> Vec<Polygon> {
+    let height = by.to_f64();
+    let inset = |area: &Interior<'_>| {
+        let diagram = area.diagram();
+        let known = diagram.faults().is_empty().then(|| diagram.level_set(height)).flatten();
+        let place = |(x, y): (f64, f64)| Point::from_f64(x, y);
+        let points = |ring: Vec<(f64, f64)>| ring.into_iter().map(place).collect();
+        clean(&rings(known, area.area(), height).into_iter().map(points).collect::<Vec<_>>())
+    };
+    areas.par_iter().flat_map_iter(inset).collect()
 }
 
 #[cfg(test)]
@@ -58,9 +45,9 @@ mod tests {
                 Point::from_f64(far * cos, far * sin)
             };
             let areas = clean(&[(0..corners).map(&mut corner).collect()]);
-            let insets = Insets::new(&areas);
+            let interiors = Interior::all(&areas);
             for by in [1, 150, 600, 1_500, 9_000].map(Nm::from_um) {
-                let ours = insets.at(by);
+                let ours = insets(&interiors, by);
                 let theirs: Vec<Polygon> = areas.iter().flat_map(|area| offset(area, -by, FLATTEN)).collect();
                 let beyond = |one: &[Polygon], other: &[Polygon]| -> f64 {
                     one.iter().flat_map(|piece| difference(piece, other)).map(|piece| piece.area_mm2()).sum()

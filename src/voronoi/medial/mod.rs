@@ -15,15 +15,18 @@
 //! and simplifying 2D and 3D continuous skeletons*, CVIU 67 (1997): a branch counts as far as the
 //! disc at its root does not cover the discs along it.
 
-pub mod insets;
+mod insets;
+mod interior;
 mod joining;
 pub mod nest;
 mod pruning;
 
 use rayon::prelude::*;
 
-use super::exact::{Diagram, Generators, Kind, Space};
-use crate::geometry::{Point, Polygon, between};
+use crate::geometry::{Point, between};
+
+pub use insets::insets;
+pub use interior::Interior;
 
 use joining::join;
 use pruning::prune;
@@ -104,14 +107,10 @@ pub struct MedialAxis {
 /// off.
 const CHORD: f64 = 100.0;
 
-/// How often the corners of an area are moved by a nanometre or two where its diagram has a flaw.
-/// Chosen.
-const ATTEMPTS: u32 = 4;
-
 impl MedialAxis {
-    /// The medial axis of areas, each by itself; polygons as a boolean returns them.
+    /// The medial axis of areas, each by itself.
     #[must_use]
-    pub fn new(areas: &[Polygon], pruning: &Pruning) -> Self {
+    pub fn new(areas: &[Interior<'_>], pruning: &Pruning) -> Self {
         let parts: Vec<Self> = areas.par_iter().map(|area| Self::of_area(area, pruning)).collect();
         let mut whole = Self::default();
         for part in parts {
@@ -125,10 +124,9 @@ impl MedialAxis {
         whole
     }
 
-    fn of_area(area: &Polygon, pruning: &Pruning) -> Self {
-        let diagram = flawless(area);
-        let kept = prune(&diagram, pruning);
-        join(&diagram, &kept, CHORD)
+    fn of_area(area: &Interior<'_>, pruning: &Pruning) -> Self {
+        let diagram = area.diagram();
+        join(diagram, &prune(diagram, pruning), CHORD)
     }
 
     /// The largest clearance; zero for nothing.
@@ -137,29 +135,4 @@ impl MedialAxis {
         let along = self.ways.iter().flat_map(|way| &way.course);
         along.chain(&self.nodes).map(|place| place.clearance).fold(0.0, f64::max)
     }
-}
-
-/// The diagram of an area with the fewest faults: of the area as it is, unless that has any, else
-/// of one whose points that all but meet are one, shaken a little.
-fn flawless(area: &Polygon) -> Diagram {
-    let mut best = inside(area, 0);
-    for attempt in 1..=ATTEMPTS {
-        if best.faults().is_empty() {
-            break;
-        }
-        let other = inside(area, attempt);
-        if other.faults().len() < best.faults().len() {
-            best = other;
-        }
-    }
-    best
-}
-
-fn inside(area: &Polygon, attempt: u32) -> Diagram {
-    let mut generators = Generators::shaken(attempt);
-    if attempt > 0 {
-        generators.weld(area.contours().iter().flatten().copied().collect());
-    }
-    generators.inside(area, |ring| u32::try_from(ring).expect("below 2³² rings"));
-    Diagram::new(generators, Kind::MedialAxis, Space::Within)
 }

@@ -19,7 +19,7 @@
 
 use rayon::prelude::*;
 
-use super::{Place, flawless};
+use super::{Interior, Place};
 use crate::board::FLATTEN;
 use crate::board::polarity::offset;
 use crate::geometry::{Nm, Point, Polygon};
@@ -70,10 +70,10 @@ const SMALL: f64 = 4_000.0;
 const MOST_LEVELS: usize = 100_000;
 
 impl Nest {
-    /// The loops of areas, polygons as a boolean returns them, where the clearance is `level(0)`,
-    /// `level(1)` and so on, in nanometres and rising, as far as any area is wide.
+    /// The loops of areas where the clearance is `level(0)`, `level(1)` and so on, in nanometres
+    /// and rising, as far as any area is wide.
     #[must_use]
-    pub fn new(areas: &[Polygon], level: impl Fn(usize) -> f64 + Sync) -> Self {
+    pub fn new(areas: &[Interior<'_>], level: impl Fn(usize) -> f64 + Sync) -> Self {
         let parts: Vec<Self> = areas.par_iter().map(|area| Self::of_area(area, &level)).collect();
         let mut whole = Self::default();
         for part in parts {
@@ -97,13 +97,14 @@ impl Nest {
         self.roots.iter().position(|&root| root == region)
     }
 
-    fn of_area(area: &Polygon, level: &impl Fn(usize) -> f64) -> Self {
+    fn of_area(interior: &Interior<'_>, level: &impl Fn(usize) -> f64) -> Self {
+        let area = interior.area();
         let least = Nm::from_f64(2.0 * level(0)) - Nm::from_um(1);
         if area.bounds().width().min(area.bounds().height()) < least {
             return Self::default();
         }
         // Of a part of it that narrow places cut off no seed may be known, so all is walked.
-        let diagram = flawless(area);
+        let diagram = interior.diagram();
         let mut nest = Self::default();
         let mut before: Vec<usize> = Vec::new();
         let mut is_flawed = !diagram.faults().is_empty();
@@ -124,7 +125,7 @@ impl Nest {
             before = found;
         }
         nest.flaws = usize::from(is_flawed);
-        nest.find_summits(&diagram, level);
+        nest.find_summits(diagram, level);
         nest
     }
 
@@ -276,8 +277,9 @@ mod tests {
 
     #[test]
     fn a_region_falls_apart_where_it_is_narrow() {
-        let nest =
-            Nest::new(&dumbbell(), |i| [500_000.0, 900_000.0, 1_300_000.0, 1_700_000.0, 2_100_000.0][i]);
+        let nest = Nest::new(&Interior::all(&dumbbell()), |i| {
+            [500_000.0, 900_000.0, 1_300_000.0, 1_700_000.0, 2_100_000.0][i]
+        });
         assert_eq!((nest.roots.len(), nest.flaws), (1, 0), "one area");
         assert_eq!(nest.regions[nest.roots[0]].children.len(), 2, "two squares above the passage");
         let leaves = leaves(&nest);
@@ -293,7 +295,9 @@ mod tests {
     #[test]
     fn an_island_has_a_loop_of_its_own() {
         let ring = difference(&rectangle([0, 0, 9000, 9000]), &[rectangle([4000, 4000, 5000, 5000])]);
-        let nest = Nest::new(&ring, |i| if i < 4 { [500_000.0, 1e6, 1.5e6, 1.9e6][i] } else { f64::MAX });
+        let nest = Nest::new(&Interior::all(&ring), |i| {
+            if i < 4 { [500_000.0, 1e6, 1.5e6, 1.9e6][i] } else { f64::MAX }
+        });
         assert!(nest.regions.iter().take(1).all(|region| region.loops.len() == 2), "{:?}", nest.regions);
         let [outer, island] = [0, 1].map(|i| area(&nest.loops[nest.regions[0].loops[i]].ring));
         assert!(outer < 0.0 && island > 0.0, "the edge on the left of both: {outer} and {island}");
@@ -302,7 +306,7 @@ mod tests {
     #[test]
     fn what_is_as_wide_as_the_first_level_has_a_loop_still() {
         let slot = rectangle([0, 0, 5000, 1000]);
-        let nest = Nest::new(&[slot], |i| if i == 0 { 499_500.0 } else { f64::MAX });
+        let nest = Nest::new(&Interior::all(&[slot]), |i| if i == 0 { 499_500.0 } else { f64::MAX });
         assert_eq!((nest.loops.len(), nest.roots.len()), (1, 1), "{nest:?}");
     }
 }

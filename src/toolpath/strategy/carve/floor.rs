@@ -20,8 +20,7 @@ use crate::geometry::{Edges, Nm, Path, Point, Polygon};
 use crate::toolpath::head::Head;
 use crate::toolpath::{Heights, Placement, Section, Tool, ToolKind};
 use crate::voronoi::fit_points;
-use crate::voronoi::medial::MedialAxis;
-use crate::voronoi::medial::insets::Insets;
+use crate::voronoi::medial::{Interior, MedialAxis, insets};
 
 use super::room::Room;
 
@@ -62,7 +61,7 @@ impl Floor {
     /// of their depth.
     #[must_use]
     pub fn new(
-        areas: &[Polygon],
+        areas: &[Interior<'_>],
         axis: &MedialAxis,
         v_bit: &Tool,
         depth: Nm,
@@ -78,31 +77,30 @@ impl Floor {
         let edge = v_bit.width_at(depth) / 2 - tip / 2;
         let (radius, rim) = (diameter / 2, edge + tip / 2);
         let step = Nm::from_f64(radius.to_f64() * STEP);
-        let insets = Insets::new(areas);
         let mut levels = Vec::new();
         let mut cleared: Vec<Polygon> = Vec::new();
         for count in 0.. {
             let inside = edge + radius + step * count;
-            let level = insets.at(inside);
+            let level = insets(areas, inside);
             if level.is_empty() {
                 break;
             }
             // What a mill clears along their edges.
-            let within = insets.at(inside + radius);
+            let within = insets(areas, inside + radius);
             let grown = level.iter().flat_map(|polygon| offset(polygon, radius, FLATTEN));
             cleared.extend(grown.flat_map(|outer| difference(&outer, &within)));
             levels.push(level.iter().flat_map(Polygon::contours).map(|ring| dense(ring)).collect());
         }
         let cleared = union(&cleared);
         let mut rest: Vec<Polygon> =
-            insets.at(edge).iter().flat_map(|floor| difference(floor, &cleared)).collect();
+            insets(areas, edge).iter().flat_map(|floor| difference(floor, &cleared)).collect();
         let strokes = strokes(axis, edge + radius, &rest, tolerance);
         let along: Vec<Polygon> = strokes.iter().filter_map(|path| hull_of(path, radius)).collect();
         rest = rest.iter().flat_map(|piece| difference(piece, &along)).collect();
         let fine = Nm::from_f64(tip.to_f64() * FINE_STEP);
-        let mut rims = loops(&insets.at(rim), tolerance);
-        rims.extend(fill(&insets, axis, &rest, (rim + fine, fine, tip), tolerance));
-        let room = Room::new(&insets.at(rim - tolerance));
+        let mut rims = loops(&insets(areas, rim), tolerance);
+        rims.extend(fill(areas, axis, &rest, (rim + fine, fine, tip), tolerance));
+        let room = Room::new(&insets(areas, rim - tolerance));
         Self { levels, strokes, rims, room, step: step.to_f64(), tolerance }
     }
 
@@ -247,7 +245,7 @@ impl Pieces {
 /// Ways of the V-bit over what is left of the floor, as far as they come within half a `tip` of it:
 /// loops, `first` from the edges and then a `fine` step apart, and the axis between the last ones.
 fn fill(
-    insets: &Insets<'_>,
+    areas: &[Interior<'_>],
     axis: &MedialAxis,
     rest: &[Polygon],
     (first, fine, tip): (Nm, Nm, Nm),
@@ -262,7 +260,7 @@ fn fill(
     let mut found: Vec<Vec<Point>> = Vec::new();
     let mut empty = 0;
     for count in 0..MOST_LOOPS {
-        let level = insets.at(first + fine * count);
+        let level = insets(areas, first + fine * count);
         let parts = level.iter().flat_map(Polygon::contours).flat_map(|ring| runs(ring, true, &near));
         let before = found.len();
         found.extend(parts);
@@ -371,13 +369,14 @@ fn nearest(one: &[Point], other: &[Point]) -> (usize, usize, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::voronoi::medial::Pruning;
+    use crate::voronoi::medial::{Interior, Pruning};
 
     #[test]
     fn the_end_mill_goes_round_each_loop_once() {
         let at = |(x, y): (i64, i64)| Point::new(Nm::from_mm(x), Nm::from_mm(y));
         let corners = [(0, 0), (41, 3), (37, 19), (16, 14), (11, 38), (2, 33)].map(at);
-        let areas = [Polygon::new(vec![corners.to_vec()]).expect("an area")];
+        let area = [Polygon::new(vec![corners.to_vec()]).expect("an area")];
+        let areas = Interior::all(&area);
         let axis = MedialAxis::new(&areas, &Pruning { loss: 1.0, corner: 1.0 });
         let [v_bit, mill]: [Tool; 2] =
             ["vbit:0.2mm:60deg", "endmill:2mm"].map(|tool| tool.parse().expect("a tool"));

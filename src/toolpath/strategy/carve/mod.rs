@@ -229,7 +229,7 @@ mod tests {
     use super::*;
     use crate::geometry::{Polygon, Rect};
     use crate::toolpath::Move;
-    use crate::voronoi::medial::Pruning;
+    use crate::voronoi::medial::{Interior, Pruning};
 
     fn square(side: i64) -> Polygon {
         Polygon::rectangle(Rect::new(Point::default(), Point::new(Nm::from_um(side), Nm::from_um(side))))
@@ -237,7 +237,7 @@ mod tests {
 
     fn plan(step: Option<Nm>, most: Nm) -> Vec<Move> {
         let tool: Tool = "vbit:0.1mm:90deg".parse().expect("a tool");
-        let axis = MedialAxis::new(&[square(2_000)], &Pruning { loss: 1.0, corner: 1.0 });
+        let axis = MedialAxis::new(&Interior::all(&[square(2_000)]), &Pruning { loss: 1.0, corner: 1.0 });
         let (safe, approach) = (Nm::from_mm(2), Nm::from_um(200));
         let settings = Carving {
             tool: &tool,

@@ -26,12 +26,12 @@ mod wall;
 
 use rayon::prelude::*;
 
-use crate::geometry::{Nm, Point, Polygon, Segment, Turn, Vector};
+use crate::geometry::{Nm, Point, Segment, Turn, Vector};
 use crate::toolpath::head::Head;
 use crate::toolpath::{Angle, Direction, Position, Tool};
 use crate::voronoi::fit_points;
 use crate::voronoi::medial::nest::Nest;
-use crate::voronoi::medial::{MedialAxis, Pruning};
+use crate::voronoi::medial::{Interior, MedialAxis, Pruning};
 
 use super::course::{Course, Spot};
 use super::{Levels, halves};
@@ -94,10 +94,10 @@ const PLANNED: f64 = 0.95;
 const TAPER: f64 = 0.25;
 
 /// What clearings are planned for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy)]
 pub struct Planned<'a> {
     /// The pockets, and their loops along the wall.
-    pub areas: &'a [Polygon],
+    pub areas: &'a [Interior<'a>],
     /// The loops; only those of the first level are milled.
     pub nest: &'a Nest,
     /// The tool.
@@ -118,7 +118,7 @@ impl Clearings {
     pub fn new(planned: &Planned<'_>) -> Self {
         let radius = planned.tool.width_at(Nm::ZERO).to_f64() / 2.0;
         let contact = planned.engaging.target.contact();
-        let of_area = |area: &Polygon| parts(area, planned, radius);
+        let of_area = |area: &Interior<'_>| parts(area, planned, radius);
         let found: Vec<_> = planned.areas.par_iter().flat_map_iter(of_area).collect();
         let mut made = Self {
             parts: vec![None; planned.nest.roots.len()],
@@ -189,7 +189,7 @@ impl Clearings {
 }
 
 /// The parts of an area, each with the number of its root among those of the nest.
-fn parts(area: &Polygon, planned: &Planned<'_>, radius: f64) -> Vec<(usize, Clearing)> {
+fn parts(area: &Interior<'_>, planned: &Planned<'_>, radius: f64) -> Vec<(usize, Clearing)> {
     let axis = MedialAxis::new(std::slice::from_ref(area), &Pruning { loss: LOSS, corner: 1.0 });
     if !axis.faults.is_empty() {
         return Vec::new();
@@ -203,7 +203,7 @@ fn parts(area: &Polygon, planned: &Planned<'_>, radius: f64) -> Vec<(usize, Clea
         is_counter_clockwise: planned.direction == Direction::Climb,
         both_ways: planned.engaging.both_ways,
     };
-    let wall = Wall::new(area, planned.levels.wall);
+    let wall = Wall::new(area.area(), planned.levels.wall);
     let part = |node: usize| {
         let root = planned.nest.root_at(graph.nodes[node].at)?;
         let clearer = Clearer::run(&graph, &wall, node, bounds)?;
