@@ -12,17 +12,20 @@
 //! down: the way lies between them, and is as long as they are apart. So does the V-bit where the
 //! way from one of its lines to the next leads over the floor.
 
-use std::slice;
+use std::ops::ControlFlow;
+
+use rayon::prelude::*;
 
 use crate::board::FLATTEN;
 use crate::board::polarity::{difference, offset, union};
-use crate::geometry::{Edges, Nm, Path, Point, Polygon};
+use crate::geometry::{Edges, Nm, Path, Point, Polygon, Rect, RectIndex};
 use crate::toolpath::head::Head;
 use crate::toolpath::{Heights, Placement, Section, Tool, ToolKind};
 use crate::voronoi::fit_points;
 use crate::voronoi::medial::{Interior, MedialAxis, insets};
 
 use super::room::Room;
+use super::rows::{Ring, rows};
 
 /// What of the end mill's radius two loops are apart. Chosen: loops that turn by up to 130° leave
 /// nothing between them.
@@ -35,9 +38,6 @@ const FINE_STEP: f64 = 0.85;
 /// Links between loops are at most so many steps long: a longer one would leave what is wide
 /// enough. Chosen: one, and rounding.
 const REACH: f64 = 1.02;
-
-/// The corners of a closed loop, each once.
-type Ring = Vec<Point>;
 
 /// What is done about wide places.
 #[derive(Debug, Default)]
@@ -77,21 +77,21 @@ impl Floor {
         let edge = v_bit.width_at(depth) / 2 - tip / 2;
         let (radius, rim) = (diameter / 2, edge + tip / 2);
         let step = Nm::from_f64(radius.to_f64() * STEP);
-        let mut levels = Vec::new();
-        let mut cleared: Vec<Polygon> = Vec::new();
-        for count in 0.. {
+        let level = |count: i64| {
             let inside = edge + radius + step * count;
             let level = insets(areas, inside);
-            if level.is_empty() {
-                break;
-            }
             // What a mill clears along their edges.
             let within = insets(areas, inside + radius);
             let grown = level.iter().flat_map(|polygon| offset(polygon, radius, FLATTEN));
-            cleared.extend(grown.flat_map(|outer| difference(&outer, &within)));
-            levels.push(level.iter().flat_map(Polygon::contours).map(|ring| dense(ring)).collect());
-        }
-        let cleared = union(&cleared);
+            let cleared: Vec<Polygon> = grown.flat_map(|outer| difference(&outer, &within)).collect();
+            let rings: Vec<Ring> = level.iter().flat_map(Polygon::contours).map(|ring| dense(ring)).collect();
+            (rings, cleared)
+        };
+        let deepest = (Nm::from_f64(axis.widest()) - edge - radius).get() / step.get();
+        let found: Vec<(Vec<Ring>, Vec<Polygon>)> = (0..=deepest).into_par_iter().map(level).collect();
+        let (mut levels, cleared): (Vec<Vec<Ring>>, Vec<Vec<Polygon>>) = found.into_iter().unzip();
+        levels.truncate(levels.iter().position(Vec::is_empty).unwrap_or(levels.len()));
+        let cleared = union(&cleared.concat());
         let mut rest: Vec<Polygon> =
             insets(areas, edge).iter().flat_map(|floor| difference(floor, &cleared)).collect();
         let strokes = strokes(axis, edge + radius, &rest, tolerance);
@@ -131,49 +131,11 @@ impl Floor {
         Section { tool: mill.clone(), label: label.into(), moves: head.finish() }
     }
 
-    /// Loops that are milled without a retract: each begins where it is nearest to the one before.
+    /// Loops that are milled without a retract.
     fn rows(&self) -> Vec<Vec<Path>> {
-        let mut open: Vec<Vec<Option<Ring>>> =
-            self.levels.iter().map(|level| level.iter().cloned().map(Some).collect()).collect();
-        let mut rows = Vec::new();
-        for level in (0..open.len()).rev() {
-            for number in 0..open[level].len() {
-                let Some(first) = open[level][number].take() else { continue };
-                let mut row = vec![first];
-                for outer in open[..level].iter_mut().rev() {
-                    let is_first = row.len() == 1;
-                    let last = row.last_mut().expect("it has a loop");
-                    let Some(next) = self.next(last, is_first, outer) else { break };
-                    row.push(next);
-                }
-                rows.push(row.iter().filter_map(|ring| self.path(ring)).collect());
-            }
-        }
-        rows
-    }
-
-    /// The loop of the next level outwards that `last` leads to, begun where it is reached; `last`
-    /// is made to end where it is left: where they are nearest, if it is the first of its row and
-    /// may begin anywhere, else as soon after its beginning as the next one is near enough.
-    fn next(&self, last: &mut Ring, is_first: bool, outer: &mut [Option<Ring>]) -> Option<Ring> {
-        let most = REACH * self.step;
-        let leads = outer.iter().enumerate().filter_map(|(i, ring)| {
-            let ring = ring.as_ref()?;
-            let (from, to, far) = if is_first { nearest(last, ring) } else { soonest(last, ring, most)? };
-            (far <= most).then_some((i, from, to, far))
-        });
-        let late = |from: usize| if is_first { 0 } else { from };
-        let (i, from, to, _) = leads.min_by(|a, b| late(a.1).cmp(&late(b.1)).then(a.3.total_cmp(&b.3)))?;
-        if is_first {
-            last.rotate_left(from);
-        } else if from > 0 {
-            // It begins where it was reached: after a full turn it goes on to where it is left.
-            let tail: Vec<Point> = last[..=from].to_vec();
-            last.extend(tail);
-        }
-        let mut next = outer[i].take()?;
-        next.rotate_left(to);
-        Some(next)
+        let rows = rows(&self.levels, Nm::from_f64(REACH * self.step));
+        let paths = |row: &Vec<Ring>| row.iter().filter_map(|ring| self.path(ring)).collect();
+        rows.iter().map(paths).collect()
     }
 
     /// A ring, or one with a tail, as lines and arcs.
@@ -228,17 +190,25 @@ fn wide_parts(axis: &MedialAxis, least: f64) -> impl Iterator<Item = Vec<Point>>
     parts.map(|part| part.iter().map(|place| Point::from_f64(place.at.0, place.at.1)).collect())
 }
 
-/// Pieces to be asked what lies in them.
-struct Pieces(Vec<Edges>);
+/// Pieces to be asked what lies in them, by place.
+struct Pieces {
+    pieces: Vec<Edges>,
+    index: RectIndex,
+}
 
 impl Pieces {
     fn new(pieces: &[Polygon]) -> Self {
-        Self(pieces.iter().map(Edges::new).collect())
+        let index = RectIndex::new(pieces.iter().map(Polygon::bounds));
+        Self { pieces: pieces.iter().map(Edges::new).collect(), index }
     }
 
     fn hold(&self, p: Point) -> bool {
         let mut stack = Vec::new();
-        self.0.iter().any(|piece| piece.winding(p, &mut stack) != Some(0))
+        let holds = |piece: usize| match self.pieces[piece].winding(p, &mut stack) {
+            Some(0) => ControlFlow::Continue(()),
+            None | Some(_) => ControlFlow::Break(()),
+        };
+        self.index.visit(Rect::new(p, p), &mut Vec::new(), holds).is_break()
     }
 }
 
@@ -339,31 +309,6 @@ fn dense_line(line: &[Point]) -> Vec<Point> {
     }
     dense.extend(line.last());
     dense
-}
-
-/// The first corner of a ring that is no farther than `most` from another, with the corner of that
-/// which is nearest to it, and how far apart they are.
-fn soonest(one: &[Point], other: &[Point], most: f64) -> Option<(usize, usize, f64)> {
-    let mut leads = one.iter().enumerate().map(|(from, p)| {
-        let (_, to, far) = nearest(slice::from_ref(p), other);
-        (from, to, far)
-    });
-    leads.find(|&(_, _, far)| far <= most)
-}
-
-/// Corners of two rings that are nearest to each other, and how far apart they are.
-fn nearest(one: &[Point], other: &[Point]) -> (usize, usize, f64) {
-    let mut best = (0, 0, f64::INFINITY);
-    for (i, &p) in one.iter().enumerate() {
-        for (j, &q) in other.iter().enumerate() {
-            let far = (q - p).length_squared();
-            let far = Nm::new(far).to_f64();
-            if far < best.2 {
-                best = (i, j, far);
-            }
-        }
-    }
-    (best.0, best.1, best.2.sqrt())
 }
 
 #[cfg(test)]

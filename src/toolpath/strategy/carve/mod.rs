@@ -16,6 +16,7 @@ mod clip;
 mod fit;
 mod floor;
 mod room;
+mod rows;
 
 use crate::geometry::{Nm, Path, Point};
 use crate::toolpath::head::Head;
