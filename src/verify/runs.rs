@@ -131,11 +131,18 @@ impl Sweeps {
 
     /// The runs of a row that are swept no less deep than `least`, sorted; none meets another.
     fn row(&self, y: f64, least: f64) -> Vec<(f64, f64)> {
-        let mut runs = Vec::new();
+        let mut runs: Vec<(f64, f64)> = Vec::new();
+        // Motions come with those beside them, which sweep most of the same.
+        let mut add = |run: (f64, f64)| match runs.last_mut() {
+            Some(last) if run.0 <= last.1 && run.1 >= last.0 => {
+                *last = (last.0.min(run.0), last.1.max(run.1));
+            }
+            Some(_) | None => runs.push(run),
+        };
         for group in self.deep(least) {
             group.visit([-FAR, y, FAR, y], usize::MAX, |sweep| {
-                if sweep.depth >= least {
-                    runs.extend(sweep.run(y));
+                if let Some(run) = sweep.run(y).filter(|_| sweep.depth >= least) {
+                    add(run);
                 }
                 true
             });
