@@ -122,6 +122,11 @@ const COPPER: Nm = Nm::from_um(35);
 /// So much more passes share there. Chosen: less than any cut is off its place.
 const SURELY: Nm = Nm::from_um(6);
 
+/// So many passes run beside a net at most. Chosen.
+const MOST_PASSES: u32 = 1000;
+/// The least width of boards that are cleared, as far as passes are counted. Chosen.
+const EXTENT: Nm = Nm::from_mm(5);
+
 /// How wide the gap is to be, where the cutter clears `kerf`, and `floor` at the copper's bottom,
 /// from a width or a number of passes.
 fn widening(options: &Complete, kerf: Nm, floor: Nm) -> Result<Option<Widening>, Error> {
@@ -138,7 +143,21 @@ fn widening(options: &Complete, kerf: Nm, floor: Nm) -> Result<Option<Widening>,
         Some(overlap) => overlap.of(kerf),
     };
     let skips = options.narrow == Narrow::Skip;
-    checked::count("passes", options.passes, 1..=1000)?;
+    checked::count("passes", options.passes, 1..=MOST_PASSES)?;
+    let advance = kerf - overlap;
+    // Any board has room for more than these.
+    let widest = if options.clear == Some(true) { Some(EXTENT) } else { options.width.map(Length::nm) };
+    if let Some(width) = widest.filter(|&width| (width - kerf) / i64::from(MOST_PASSES) > advance) {
+        let problem = format!(
+            "with passes {} apart a gap of {} would take more than {MOST_PASSES}",
+            Length(advance),
+            Length(width)
+        );
+        return Err(Error::Value {
+            key: if options.overlap.is_some() { "overlap" } else { "tool" },
+            problem,
+        });
+    }
     let width = match (options.width, options.passes) {
         _ if options.clear == Some(true) => EVERYTHING,
         (Some(width), _) => positive("width", width)?,

@@ -98,6 +98,9 @@ pub enum ParseToolError {
     },
 }
 
+/// No end mill or drill is finer. Chosen: below the finest that are sold, a unit is mistaken.
+const FINEST: Nm = Nm::from_um(10);
+
 impl ToolKind {
     /// The width of the groove that it cuts at `depth` below the surface.
     #[must_use]
@@ -133,15 +136,16 @@ impl ToolKind {
     ///
     /// # Errors
     ///
-    /// For a diameter that is not positive, a negative tip, and an angle outside 0° to 180°.
+    /// For a diameter below a hundredth of a millimetre, a negative tip, and an angle outside 0° to
+    /// 180°.
     pub fn check(&self) -> Result<(), &'static str> {
         match *self {
             Self::VBit { tip, .. } if tip < Nm::ZERO => Err("expected a tip that is not negative"),
             Self::VBit { angle, .. } if angle <= Angle::ZERO || angle >= Angle::from_degrees(180) => {
                 Err("expected an angle between 0deg and 180deg")
             }
-            Self::EndMill { diameter } | Self::Drill { diameter } if diameter <= Nm::ZERO => {
-                Err("expected a diameter above zero")
+            Self::EndMill { diameter } | Self::Drill { diameter } if diameter < FINEST => {
+                Err("expected a diameter of 0.01 mm or more")
             }
             Self::VBit { .. } | Self::EndMill { .. } | Self::Drill { .. } => Ok(()),
         }

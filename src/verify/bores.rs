@@ -164,8 +164,8 @@ impl<'a> Wall<'a> {
         Some(self.seen(made, own, cuts))
     }
 
-    /// The hole where pieces for other holes make some of it, too: holes may overlap. None where
-    /// nothing of its own is cut, and the others leave some of it.
+    /// The hole where pieces for other holes make it whole: holes may overlap. Where they leave
+    /// some of it, it is as its own pieces make it; none where nothing of its own is cut.
     fn shared(&self, own: Option<Made<'a>>, near: &[usize], cuts: &[Cut<'a>]) -> Option<Made<'a>> {
         let first = *near.first()?;
         let (beyond, depth, end) = (0.0, Nm::MAX, Nm::MAX);
@@ -173,7 +173,7 @@ impl<'a> Wall<'a> {
         let made = self.seen(made, near, cuts);
         let short = made.short.max(0.0);
         match own {
-            Some(own) if own.short <= short => Some(own),
+            Some(own) if short > BOTH => Some(own),
             Some(own) => Some(Made { short, beyond: own.beyond.max(0.0), ..made }),
             None => (short <= BOTH).then_some(Made { short, beyond: short, ..made }),
         }

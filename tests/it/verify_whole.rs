@@ -251,6 +251,17 @@ fn milled_holes_and_slots_have_their_size() {
 }
 
 #[test]
+fn a_hole_that_is_drilled_too_thin_beside_a_slot_is_in_its_place() {
+    let mut board = board(hole((10_000, 10_000), None, 1500));
+    board.holes.push(hole((8_600, 8_600), Some((5_000, 8_600)), 1600));
+    // Rounding takes it away from the slot, so where most is left of it the slot takes some.
+    let text = "(tool 1: drill:0.5mm)\nG21 G90\nM3 S9000\nG0 X10.0001 Y10.0001 Z2\nG1 Z-2 F60\nG0 Z2\nM5\n\
+                T2 M6\n(tool 2: endmill:1.6mm)\nM3 S9000\nG0 X8.6 Y8.6 Z2\nG1 Z-1.8 F60\nX5 F90\nG0 Z2\n";
+    let findings = judge(&board, Some(Role::Drilling), text);
+    assert_eq!(names(&findings, Severity::Error), ["hole-size"], "{findings:?}");
+}
+
+#[test]
 fn the_point_of_a_drill_is_what_its_tool_says() {
     let board = board(hole((10_000, 10_000), None, 3000));
     // Points of 0.901 mm (118°) and 0.699 mm (130°).

@@ -10,16 +10,20 @@
 //! Weighted by height, a groove of the mill's full width in a layer that is so much thinner counts
 //! as what it is, and a helix, too: no place is left out for being narrow.
 //!
+//! Tile by tile: each has a field of its own, and follows what of the way comes near it.
+//!
 //! What counts for nothing: burrs, such as arcs leave along the wall; a load that lasts for less
 //! way than a fortieth of the radius; and what no mill of this radius reaches, or only as a strip
 //! of that width, by offsets of exact booleans. The field knows nothing of discs, circles or the
 //! medial axis.
 
-use std::collections::VecDeque;
+use std::collections::{BTreeMap, VecDeque};
+
+use rayon::prelude::*;
 
 use crate::board::FLATTEN;
 use crate::board::polarity::{offset, union};
-use crate::geometry::{Nm, Polygon, Rect};
+use crate::geometry::{Nm, Polygon, Rect, between, spanned};
 use crate::verify::edges::Edges;
 
 use crate::verify::runs::{Spot, Sweeps};
@@ -68,12 +72,19 @@ pub(super) struct Work<'a> {
     pub(super) sweeps: &'a Sweeps,
 }
 
-/// Cells across a radius, if memory allows. Chosen: half a cell is a part of the engagement that is
-/// well below what is tolerated.
-const ACROSS: f64 = 160.0;
+/// Cells across a radius, if there are not too many. Chosen: half a cell is a part of the
+/// engagement that is well below what is tolerated.
+const ACROSS: f64 = 120.0;
 
-/// Cells at most. Chosen: 64 MiB.
-const MOST_CELLS: f64 = 33_554_432.0;
+/// Cells at most, all tiles together. Chosen: looking at so many takes some seconds.
+const MOST_CELLS: f64 = 4e9;
+
+/// Radii across a tile. Chosen: some megabytes a thread.
+const TILE: f64 = 16.0;
+
+/// How far round a tile the mill feels, as a part of the radius: what it bears there is told by the
+/// next tile, but what it bears in this one depends on it.
+const LEAD: f64 = 0.25;
 
 /// Steps across a radius, and in all. Chosen.
 const STEPS: f64 = 40.0;
@@ -103,14 +114,18 @@ const BINS: usize = 10_000;
 
 /// Follows a mill along its way.
 pub(super) fn borne(stretches: &[Stretch], work: &Work<'_>) -> Borne {
-    let Some(field) = Field::new(work) else { return Borne::default() };
+    let Some(reached) = Reached::new(work) else { return Borne::default() };
     let length = stretches.iter().map(Stretch::length).sum::<f64>();
     let step = (work.radius.to_f64() / STEPS).max(length / MOST_STEPS);
-    let mut mill = Mill::new(field, work);
-    for stretch in stretches {
-        mill.follow(stretch, step);
-    }
-    mill.finish()
+    let walls = Edges::new(work.areas);
+    let tiles: Vec<(Tile, Vec<usize>)> = reached.tiles(stretches).into_iter().collect();
+    let load = |(tile, near): &(Tile, Vec<usize>)| {
+        let mut mill = Mill::new(&reached, *tile, &walls, work);
+        near.iter().for_each(|&number| mill.follow(&stretches[number], step));
+        mill.load
+    };
+    let loads: Vec<Load> = tiles.par_iter().map(load).collect();
+    loads.into_iter().fold(Load::default(), Load::and).borne()
 }
 
 impl Stretch {
@@ -121,7 +136,78 @@ impl Stretch {
     }
 }
 
-/// How deep each place is milled: rows of cells.
+/// A tile, by its row and column.
+type Tile = (i32, i32);
+
+/// What of areas the mill reaches, as far as it counts.
+struct Reached {
+    edges: Edges,
+    /// Where the first tile begins.
+    corner: Spot,
+    radius: f64,
+    /// How wide a cell is.
+    pitch: f64,
+}
+
+impl Reached {
+    fn new(work: &Work<'_>) -> Option<Self> {
+        let radius = work.radius;
+        let fits = work.areas.iter().flat_map(|area| offset(area, -radius + SLOT, FLATTEN));
+        let burr = Nm::from_f64(radius.to_f64() * BURR);
+        let reached = fits.flat_map(|fit| offset(&fit, radius - SLOT - burr, FLATTEN));
+        let reached = union(&reached.collect::<Vec<_>>());
+        let around = reached.iter().map(Polygon::bounds).reduce(Rect::union)?;
+        let (corner, radius) = (around.min().to_f64(), radius.to_f64());
+        let area = around.width().to_f64() * around.height().to_f64();
+        let pitch = (radius / ACROSS).max((area / MOST_CELLS).sqrt());
+        Some(Self { edges: Edges::new(&reached), corner, radius, pitch })
+    }
+
+    /// How wide a tile is.
+    fn side(&self) -> f64 {
+        self.radius * TILE
+    }
+
+    /// How far ahead of its middle a mill feels material.
+    fn ahead(&self) -> f64 {
+        self.radius + (self.radius * AHEAD).max(1.5 * self.pitch)
+    }
+
+    /// How far beyond a tile its field reaches: as far as a mill that leads into it feels.
+    fn margin(&self) -> f64 {
+        self.radius * LEAD + self.ahead() + self.pitch
+    }
+
+    /// The tiles that stretches come near, with the numbers of these.
+    fn tiles(&self, stretches: &[Stretch]) -> BTreeMap<Tile, Vec<usize>> {
+        let mut tiles: BTreeMap<Tile, Vec<usize>> = BTreeMap::new();
+        let reach = self.margin() + self.radius;
+        for (number, stretch) in stretches.iter().enumerate() {
+            let [a, b] = stretch.ends;
+            let place = |tile: i32| self.corner.1 + f64::from(tile) * self.side();
+            let tiles_of = |low: f64, high: f64, from: f64| {
+                let tile = |place: f64| tile(((place - from) / self.side()).floor());
+                tile(low - reach)..=tile(high + reach)
+            };
+            let [_, bottom, _, top] = spanned(a, b);
+            for row in tiles_of(bottom, top, self.corner.1) {
+                // What of it is as near to the row of tiles.
+                let at = |y: f64| {
+                    let part = if top > bottom { (y - a.1) / (b.1 - a.1) } else { 0.0 };
+                    between(a, b, part.clamp(0.0, 1.0))
+                };
+                let (low, high) = (at(place(row) - reach), at(place(row + 1) + reach));
+                let (low, high) = if top > bottom { (low, high) } else { (a, b) };
+                for column in tiles_of(low.0.min(high.0), low.0.max(high.0), self.corner.0) {
+                    tiles.entry((row, column)).or_default().push(number);
+                }
+            }
+        }
+        tiles
+    }
+}
+
+/// How deep each place of a tile is milled: rows of cells.
 struct Field {
     corner: Spot,
     pitch: f64,
@@ -133,28 +219,14 @@ struct Field {
 }
 
 impl Field {
-    fn new(work: &Work<'_>) -> Option<Self> {
-        let radius = work.radius;
-        let fits = work.areas.iter().flat_map(|area| offset(area, -radius + SLOT, FLATTEN));
-        let burr = Nm::from_f64(radius.to_f64() * BURR);
-        let reached = fits.flat_map(|fit| offset(&fit, radius - SLOT - burr, FLATTEN));
-        let reached = union(&reached.collect::<Vec<_>>());
-        let around = reached.iter().map(Polygon::bounds).reduce(Rect::union)?.inflate(radius / 4);
-        let (width, height) = (around.width().to_f64(), around.height().to_f64());
-        let pitch = (radius.to_f64() / ACROSS).max((width * height / MOST_CELLS).sqrt());
-        let (columns, rows) = (count(width / pitch) + 1, count(height / pitch) + 1);
-        let whole = quantum(PARTS);
-        let mut field = Self {
-            corner: around.min().to_f64(),
-            pitch,
-            columns,
-            rows,
-            depths: vec![whole; columns * rows],
-            part: work.depth.to_f64() / PARTS,
-        };
-        let edges = Edges::new(&reached);
-        for row in 0..rows {
-            let mut crossings = edges.crossings(field.height(row));
+    /// What is reached in a square.
+    fn new(reached: &Reached, corner: Spot, side: f64, part: f64) -> Self {
+        let pitch = reached.pitch;
+        let across = count(side / pitch) + 1;
+        let depths = vec![quantum(PARTS); across * across];
+        let mut field = Self { corner, pitch, columns: across, rows: across, depths, part };
+        for row in 0..across {
+            let mut crossings = reached.edges.crossings(field.height(row));
             crossings.sort_by(f64::total_cmp);
             let (inside, _) = crossings.as_chunks::<2>();
             for &[from, to] in inside {
@@ -162,7 +234,7 @@ impl Field {
                 field.depths[row * field.columns..][columns].fill(0);
             }
         }
-        Some(field)
+        field
     }
 
     /// The height of the middles of a row of cells.
@@ -172,7 +244,7 @@ impl Field {
 
     /// The cells of a row with their middles between two places.
     fn cells(&self, from: f64, to: f64) -> std::ops::Range<usize> {
-        let cell = |x: f64| count(((x - self.corner.0) / self.pitch - 0.5).ceil()).min(self.columns);
+        let cell = |x: f64| count((x - self.corner.0) / self.pitch + 0.5).min(self.columns);
         cell(from)..cell(to).max(cell(from))
     }
 
@@ -190,7 +262,7 @@ impl Field {
     fn lower(&mut self, center: Spot, radius: f64, depth: f64, before: Option<Spot>) -> usize {
         let mut lowered = 0;
         let depth = quantum(depth / self.part);
-        let row = |y: f64| count(((y - self.corner.1) / self.pitch - 0.5).ceil()).min(self.rows);
+        let row = |y: f64| count((y - self.corner.1) / self.pitch + 0.5).min(self.rows);
         for j in row(center.1 - radius)..row(center.1 + radius) {
             let y = self.height(j);
             let half = |at: Spot| (radius * radius - (y - at.1) * (y - at.1)).max(0.0).sqrt();
@@ -214,17 +286,30 @@ impl Field {
 /// rounding is less.
 const SLOT: Nm = Nm::from_um(1);
 
-/// A mill on its way.
+/// A mill on its way near a tile.
 struct Mill<'a> {
     field: Field,
     work: &'a Work<'a>,
-    walls: Edges,
+    walls: &'a Edges,
+    /// Where what it bears is told: left, bottom, right and top.
+    tile: [f64; 4],
+    /// How far ahead it feels, and how far beyond the tile it matters.
+    ahead: f64,
+    beyond: f64,
     /// The directions of the points of the half that leads, from straight on.
     points: Vec<Spot>,
     last: Option<(Spot, f64)>,
     /// What it bore on the last of its way, with how long each part was.
     lately: VecDeque<(f64, f64)>,
-    borne: Borne,
+    load: Load,
+}
+
+/// What a mill bears in a tile.
+struct Load {
+    most: f64,
+    at: Spot,
+    line: u32,
+    order: usize,
     /// How far it went with each engagement.
     bins: Vec<f64>,
     way: f64,
@@ -233,31 +318,80 @@ struct Mill<'a> {
     lifted: f64,
 }
 
+impl Default for Load {
+    fn default() -> Self {
+        let (at, order, bins) = ((0.0, 0.0), usize::MAX, vec![0.0; BINS + 1]);
+        Self { most: 0.0, at, line: 0, order, bins, way: 0.0, level: 0.0, air: 0.0, lifted: 0.0 }
+    }
+}
+
+impl Load {
+    /// Both together.
+    fn and(mut self, other: Self) -> Self {
+        self.bins.iter_mut().zip(&other.bins).for_each(|(bin, more)| *bin += more);
+        self.way += other.way;
+        self.level += other.level;
+        self.air += other.air;
+        self.lifted += other.lifted;
+        if other.most > self.most || (other.most >= self.most && other.order < self.order) {
+            let Self { most, at, line, order, .. } = other;
+            return Self { most, at, line, order, ..self };
+        }
+        self
+    }
+
+    fn borne(self) -> Borne {
+        let whole: f64 = self.bins.iter().sum();
+        let mut sum = 0.0;
+        let above = self.bins.iter().rposition(|&length| {
+            sum += length;
+            sum > whole * 0.01
+        });
+        let part = |length: f64, of: f64| if of > 0.0 { length / of } else { 0.0 };
+        Borne {
+            most: self.most,
+            at: self.at,
+            line: self.line,
+            p99: above.map_or(0.0, |bin| number_of(bin + 1) / number_of(BINS)).min(self.most),
+            air: part(self.air, self.level),
+            lifted: part(self.lifted, self.way),
+        }
+    }
+}
+
+/// Whether a box, grown by so much, holds a place; of two beside each other one does.
+fn holds([left, bottom, right, top]: [f64; 4], by: f64, (x, y): Spot) -> bool {
+    x >= left - by && x < right + by && y >= bottom - by && y < top + by
+}
+
 impl<'a> Mill<'a> {
-    fn new(field: Field, work: &'a Work<'a>) -> Self {
+    fn new(reached: &Reached, (row, column): Tile, walls: &'a Edges, work: &'a Work<'a>) -> Self {
         let point = |i: u32| {
             let angle = ((f64::from(i) + 0.5) / f64::from(POINTS) - 0.5) * std::f64::consts::PI;
             let (side, on) = libm::sincos(angle);
             (on, side)
         };
+        let (side, margin) = (reached.side(), reached.margin());
+        let (left, bottom) =
+            (reached.corner.0 + f64::from(column) * side, reached.corner.1 + f64::from(row) * side);
+        let corner = (left - margin, bottom - margin);
         Self {
-            field,
+            field: Field::new(reached, corner, side + 2.0 * margin, work.depth.to_f64() / PARTS),
             work,
-            walls: Edges::new(work.areas),
+            walls,
+            tile: [left, bottom, left + side, bottom + side],
+            ahead: reached.ahead(),
+            beyond: margin + reached.radius,
             points: (0..POINTS).map(point).collect(),
             last: None,
             lately: VecDeque::new(),
-            borne: Borne::default(),
-            bins: vec![0.0; BINS + 1],
-            way: 0.0,
-            level: 0.0,
-            air: 0.0,
-            lifted: 0.0,
+            load: Load::default(),
         }
     }
 
     fn follow(&mut self, stretch: &Stretch, step: f64) {
         let [from, to] = stretch.ends;
+        let radius = self.work.radius.to_f64();
         let length = stretch.length();
         let steps = (length / step).ceil().max(1.0);
         let heading =
@@ -265,20 +399,26 @@ impl<'a> Mill<'a> {
         let mut number = 1.0;
         while number <= steps {
             let part = number / steps;
+            number += 1.0;
             let at = (from.0 + (to.0 - from.0) * part, from.1 + (to.1 - from.1) * part);
+            if !holds(self.tile, self.beyond, at) {
+                self.last = None;
+                self.lately.clear();
+                continue;
+            }
             let depth = stretch.depths[0] + (stretch.depths[1] - stretch.depths[0]) * part;
             if depth > 0.0 {
                 let known = self.last.filter(|&(_, before)| before >= depth).map(|(at, _)| at);
-                let radius = self.work.radius.to_f64();
                 let lowered = number_of(self.field.lower(at, radius, depth, known));
                 let area = lowered * self.field.pitch * self.field.pitch;
-                if length > 0.0 {
+                if !holds(self.tile, radius * LEAD, at) {
+                    self.lately.clear();
+                } else if length > 0.0 {
                     let cuts = lowered > FEW && area > length / steps * radius * THINNEST;
                     self.feel(at, heading, (depth, length / steps), cuts, stretch);
                 }
             }
             self.last = Some((at, depth));
-            number += 1.0;
         }
     }
 
@@ -289,24 +429,27 @@ impl<'a> Mill<'a> {
         if engaged(angle) > self.work.allowed {
             angle = self.angle(at, heading, depth, Some(stretch.order));
         }
-        let part = engaged(angle);
-        let part = self.lasting(part, length);
-        if part > self.borne.most {
-            self.borne = Borne { most: part, at, line: stretch.line, ..self.borne };
+        let part = self.lasting(engaged(angle), length);
+        if !holds(self.tile, 0.0, at) {
+            return;
         }
-        self.way += length;
+        if part > self.load.most {
+            (self.load.most, self.load.at) = (part, at);
+            (self.load.line, self.load.order) = (stretch.line, stretch.order);
+        }
+        self.load.way += length;
         let pass = self.work.pass;
         let is_level = (stretch.depths[0] - stretch.depths[1]).abs() < LEVEL
             && (depth / pass - (depth / pass).round()).abs() * pass < LEVEL;
         if cuts {
-            self.bins[count(part * number_of(BINS)).min(BINS)] += length;
+            self.load.bins[count(part * number_of(BINS)).min(BINS)] += length;
         } else if !is_level {
-            self.lifted += length;
+            self.load.lifted += length;
         }
         let radius = self.work.radius.to_f64();
         if is_level && (cuts || self.walls.nearest(at).0 > radius * (1.0 + 2.0 * BURR)) {
-            self.level += length;
-            self.air += if cuts { 0.0 } else { length };
+            self.load.level += length;
+            self.load.air += if cuts { 0.0 } else { length };
         }
     }
 
@@ -328,7 +471,7 @@ impl<'a> Mill<'a> {
     /// high; with the number of the motion less what those before it have cleared.
     fn angle(&self, at: Spot, heading: Spot, depth: f64, order: Option<usize>) -> f64 {
         let radius = self.work.radius.to_f64();
-        let ahead = radius + (radius * AHEAD).max(1.5 * self.field.pitch);
+        let ahead = self.ahead;
         let next = radius - WITHIN;
         let mut sum = 0.0;
         for &(on, side) in &self.points {
@@ -347,22 +490,6 @@ impl<'a> Mill<'a> {
         }
         sum * std::f64::consts::PI / f64::from(POINTS)
     }
-
-    fn finish(self) -> Borne {
-        let whole: f64 = self.bins.iter().sum();
-        let mut sum = 0.0;
-        let above = self.bins.iter().rposition(|&length| {
-            sum += length;
-            sum > whole * 0.01
-        });
-        let part = |length: f64, of: f64| if of > 0.0 { length / of } else { 0.0 };
-        Borne {
-            p99: above.map_or(0.0, |bin| number_of(bin + 1) / number_of(BINS)).min(self.borne.most),
-            air: part(self.air, self.level),
-            lifted: part(self.lifted, self.way),
-            ..self.borne
-        }
-    }
 }
 
 /// The radial engagement that an angle of contact means.
@@ -380,6 +507,12 @@ const LEVEL: f64 = 1_500.0;
 
 /// A layer of less than this part of a pass is none. Chosen: rounding of depths.
 const THIN: f64 = 0.004;
+
+/// The number of a column or row of tiles.
+#[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
+const fn tile(number: f64) -> i32 {
+    number as i32
+}
 
 /// A number of cells; zero for less than one.
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]

@@ -85,8 +85,8 @@ pub struct Pocketed {
 /// A smaller piece left is none, in mm². Chosen: a square of 32 µm, less than a burr.
 const SPECK: f64 = 1e-3;
 
-/// Arcs become chords within this of them. Chosen: far below what is tolerated.
-const CHORD: Nm = Nm::new(100);
+/// Arcs become chords within this of them. Chosen: a tenth of what is tolerated.
+const CHORD: Nm = Nm::new(400);
 
 /// Heights that differ by less are one, in nanometres: the last digit of a program, and rounding.
 const LEVEL: f64 = 1_500.0;
