@@ -74,13 +74,13 @@ pub(super) struct Work<'a> {
 
 /// Cells across a radius, if there are not too many. Chosen: half a cell is a part of the
 /// engagement that is well below what is tolerated.
-const ACROSS: f64 = 120.0;
+const ACROSS: f64 = 80.0;
 
 /// Cells at most, all tiles together. Chosen: looking at so many takes some seconds.
 const MOST_CELLS: f64 = 4e9;
 
-/// Radii across a tile. Chosen: some megabytes a thread.
-const TILE: f64 = 16.0;
+/// Radii across a tile. Chosen: some ten megabytes a thread.
+const TILE: f64 = 24.0;
 
 /// How far round a tile the mill feels, as a part of the radius: what it bears there is told by the
 /// next tile, but what it bears in this one depends on it.
@@ -248,9 +248,14 @@ impl Field {
         cell(from)..cell(to).max(cell(from))
     }
 
+    /// A place in cells from the corner.
+    fn in_cells(&self, (x, y): Spot) -> Spot {
+        ((x - self.corner.0) / self.pitch, (y - self.corner.1) / self.pitch)
+    }
+
     /// How deep a place is milled; as deep as can be beside the field.
-    fn at(&self, (x, y): Spot) -> f64 {
-        let (x, y) = ((x - self.corner.0) / self.pitch, (y - self.corner.1) / self.pitch);
+    fn at(&self, at: Spot) -> f64 {
+        let (x, y) = self.in_cells(at);
         if x < 0.0 || y < 0.0 || count(x) >= self.columns || count(y) >= self.rows {
             return f64::INFINITY;
         }
@@ -262,19 +267,24 @@ impl Field {
     fn lower(&mut self, center: Spot, radius: f64, depth: f64, before: Option<Spot>) -> usize {
         let mut lowered = 0;
         let depth = quantum(depth / self.part);
-        let row = |y: f64| count((y - self.corner.1) / self.pitch + 0.5).min(self.rows);
+        // In cells from the corner.
+        let (center, before) = (self.in_cells(center), before.map(|at| self.in_cells(at)));
+        let radius = radius / self.pitch;
+        let run = |(x, y): Spot, row: f64| {
+            let half = (radius * radius - (row - y) * (row - y)).max(0.0).sqrt();
+            (x - half, x + half)
+        };
+        let row = |y: f64| count(y + 0.5).min(self.rows);
         for j in row(center.1 - radius)..row(center.1 + radius) {
-            let y = self.height(j);
-            let half = |at: Spot| (radius * radius - (y - at.1) * (y - at.1)).max(0.0).sqrt();
-            let (from, to) = (center.0 - half(center), center.0 + half(center));
-            let known = before.map_or((to, to), |at| (at.0 - half(at), at.0 + half(at)));
+            let y = number_of(j) + 0.5;
+            let (from, to) = run(center, y);
+            let known = before.map_or((to, to), |at| run(at, y));
+            let cells = &mut self.depths[j * self.columns..][..self.columns];
             for (from, to) in [(from, to.min(known.0)), (from.max(known.1), to)] {
-                if from < to {
-                    let cells = self.cells(from, to);
-                    for cell in &mut self.depths[j * self.columns..][cells] {
-                        lowered += usize::from(*cell < depth);
-                        *cell = (*cell).max(depth);
-                    }
+                let [from, to] = [from, to].map(|x| count(x + 0.5).min(self.columns));
+                for cell in cells.get_mut(from..to).unwrap_or_default() {
+                    lowered += usize::from(*cell < depth);
+                    *cell = (*cell).max(depth);
                 }
             }
         }
@@ -500,7 +510,7 @@ fn engaged(angle: f64) -> f64 {
 /// A mill cuts where it takes a strip wider than this part of its radius, and more cells than
 /// these. Chosen: above what cells along the edge of what is cleared already are off.
 const THINNEST: f64 = 0.01;
-const FEW: f64 = 3.0;
+const FEW: f64 = 2.0;
 
 /// Depths that differ by less are one, in nanometres: the last digit of a program.
 const LEVEL: f64 = 1_500.0;
