@@ -349,6 +349,7 @@ mod tests {
         for (table, expected) in [
             ("kind = \"vbit\"\ntip = \"0.1mm\"", "tip and angle"),
             ("kind = \"endmill\"\ntip = \"0.1mm\"", "only diameter"),
+            ("kind = \"endmill\"\ndiameter = \"0mm\"", "0.01 mm or more"),
             ("kind = \"endmill\"\ndiameter = \"0.005mm\"", "0.01 mm or more"),
             ("kind = \"endmill\"\ndiameter = \"1mm\"\nkerf = \"2mm\"", "at any depth"),
             ("kind = \"vbit\"\ntip = \"0.1mm\"\nangle = \"30deg\"\nkerf = \"0.05mm\"", "wider"),

@@ -191,14 +191,13 @@ impl Reached {
             };
             let [_, bottom, _, top] = spanned(a, b);
             for row in tiles_of(bottom, top, self.corner.1) {
-                // What of it is as near to the row of tiles.
-                let at = |y: f64| {
-                    let part = if top > bottom { (y - a.1) / (b.1 - a.1) } else { 0.0 };
-                    between(a, b, part.clamp(0.0, 1.0))
+                // What of it is as near to the row of tiles: of a level one all.
+                let at = |y: f64, level: f64| {
+                    let part = if top > bottom { (y - a.1) / (b.1 - a.1) } else { level };
+                    between(a, b, part.clamp(0.0, 1.0)).0
                 };
-                let (low, high) = (at(place(row) - reach), at(place(row + 1) + reach));
-                let (low, high) = if top > bottom { (low, high) } else { (a, b) };
-                for column in tiles_of(low.0.min(high.0), low.0.max(high.0), self.corner.0) {
+                let (low, high) = (at(place(row) - reach, 0.0), at(place(row + 1) + reach, 1.0));
+                for column in tiles_of(low.min(high), low.max(high), self.corner.0) {
                     tiles.entry((row, column)).or_default().push(number);
                 }
             }
@@ -211,8 +210,8 @@ impl Reached {
 struct Field {
     corner: Spot,
     pitch: f64,
-    columns: usize,
-    rows: usize,
+    /// How many cells there are in a row, and how many rows.
+    across: usize,
     /// In parts of the whole depth; all of it where nothing counts.
     depths: Vec<u16>,
     part: f64,
@@ -224,14 +223,14 @@ impl Field {
         let pitch = reached.pitch;
         let across = count(side / pitch) + 1;
         let depths = vec![quantum(PARTS); across * across];
-        let mut field = Self { corner, pitch, columns: across, rows: across, depths, part };
+        let mut field = Self { corner, pitch, across, depths, part };
         for row in 0..across {
             let mut crossings = reached.edges.crossings(field.height(row));
             crossings.sort_by(f64::total_cmp);
             let (inside, _) = crossings.as_chunks::<2>();
             for &[from, to] in inside {
-                let columns = field.cells(from, to);
-                field.depths[row * field.columns..][columns].fill(0);
+                let [from, to] = [from, to].map(|x| field.cell(field.in_cells((x, 0.0)).0));
+                field.depths[row * across..][from..to].fill(0);
             }
         }
         field
@@ -242,24 +241,23 @@ impl Field {
         self.corner.1 + (number_of(row) + 0.5) * self.pitch
     }
 
-    /// The cells of a row with their middles between two places.
-    fn cells(&self, from: f64, to: f64) -> std::ops::Range<usize> {
-        let cell = |x: f64| count((x - self.corner.0) / self.pitch + 0.5).min(self.columns);
-        cell(from)..cell(to).max(cell(from))
-    }
-
     /// A place in cells from the corner.
     fn in_cells(&self, (x, y): Spot) -> Spot {
         ((x - self.corner.0) / self.pitch, (y - self.corner.1) / self.pitch)
     }
 
+    /// The first cell whose middle lies beyond so many cells from the corner.
+    fn cell(&self, place: f64) -> usize {
+        count(place + 0.5).min(self.across)
+    }
+
     /// How deep a place is milled; as deep as can be beside the field.
     fn at(&self, at: Spot) -> f64 {
         let (x, y) = self.in_cells(at);
-        if x < 0.0 || y < 0.0 || count(x) >= self.columns || count(y) >= self.rows {
+        if x < 0.0 || y < 0.0 || count(x).max(count(y)) >= self.across {
             return f64::INFINITY;
         }
-        f64::from(self.depths[count(y) * self.columns + count(x)]) * self.part
+        f64::from(self.depths[count(y) * self.across + count(x)]) * self.part
     }
 
     /// Lowers a disc to a depth, but for what a disc round `before` has lowered already; how many
@@ -274,14 +272,13 @@ impl Field {
             let half = (radius * radius - (row - y) * (row - y)).max(0.0).sqrt();
             (x - half, x + half)
         };
-        let row = |y: f64| count(y + 0.5).min(self.rows);
-        for j in row(center.1 - radius)..row(center.1 + radius) {
+        for j in self.cell(center.1 - radius)..self.cell(center.1 + radius) {
             let y = number_of(j) + 0.5;
             let (from, to) = run(center, y);
             let known = before.map_or((to, to), |at| run(at, y));
-            let cells = &mut self.depths[j * self.columns..][..self.columns];
             for (from, to) in [(from, to.min(known.0)), (from.max(known.1), to)] {
-                let [from, to] = [from, to].map(|x| count(x + 0.5).min(self.columns));
+                let [from, to] = [from, to].map(|x| self.cell(x));
+                let cells = &mut self.depths[j * self.across..][..self.across];
                 for cell in cells.get_mut(from..to).unwrap_or_default() {
                     lowered += usize::from(*cell < depth);
                     *cell = (*cell).max(depth);
