@@ -147,6 +147,10 @@ fn what_is_just_as_wide_as_the_tool_is_milled() {
     check("hole", &hole);
     assert_eq!(hole.entries.straight, 1, "no room but to go straight down");
     assert_eq!(hole.warnings.iter().map(|found| found.code()).collect::<Vec<_>>(), ["plunge-straight-down"]);
+    let outside_in = Pocketing { sequence: Sequence::OutsideIn, ..how() };
+    let bore = pocketed("bore", vec![disc(65)], "endmill:0.1mm", &outside_in);
+    check("bore", &bore);
+    assert_eq!(bore.entries.straight, 0, "many turns round where a helix would fit");
 }
 
 #[test]

@@ -225,6 +225,8 @@ impl Judge<'_> {
     fn depths(&mut self, steps: &[Step], sweeps: &Sweeps, edges: &Edges) {
         let tolerance = self.floor.tolerance.to_f64();
         let (depth, stock) = (self.floor.depth.to_f64(), self.floor.stock.to_f64());
+        // What no more than the rim of the tool meets it may bear at any depth.
+        let inner = self.floor.engagement.map_or(WITHIN, |target| (1.0 - 2.0 * target).clamp(0.0, WITHIN));
         let (mut deep, mut thick, mut steep) = (Vec::new(), Vec::new(), Vec::new());
         for step in steps {
             let bottom = step.depths[0].max(step.depths[1]);
@@ -232,7 +234,7 @@ impl Judge<'_> {
                 deep.push((bottom - depth, step));
             }
             let most = self.floor.step.map_or(f64::INFINITY, Nm::to_f64) + tolerance;
-            if bottom > most && !is_clear(step, bottom - most, sweeps) {
+            if bottom > most && !is_clear(step, WITHIN, bottom - most, sweeps) {
                 thick.push((bottom, step));
             }
             let way = (step.ends[1].0 - step.ends[0].0, step.ends[1].1 - step.ends[0].1);
@@ -241,7 +243,7 @@ impl Judge<'_> {
             let is_steep = self.floor.steepest.is_some_and(|steepest| slope > steepest * STEEPER);
             if is_steep
                 && drop > tolerance
-                && !is_clear(step, bottom - tolerance, sweeps)
+                && !is_clear(step, inner, bottom - tolerance, sweeps)
                 && edges.nearest(step.ends[1]).0 - step.radius - stock >= step.radius * ROOM
             {
                 steep.push((slope, step));
@@ -348,10 +350,14 @@ impl Judge<'_> {
     }
 }
 
-/// Whether where a step ends all under the tool was swept before, no less deep than `least`.
-fn is_clear(step: &Step, least: f64, sweeps: &Sweeps) -> bool {
+/// The part of its radius within which the tool must be clear of material. Chosen: rounding.
+const WITHIN: f64 = 0.97;
+
+/// Whether where a step ends all under a part of the tool's radius was swept before, no less deep
+/// than `least`.
+fn is_clear(step: &Step, part: f64, least: f64, sweeps: &Sweeps) -> bool {
     let (x, y) = step.ends[1];
-    let off = step.radius * 0.97;
+    let off = step.radius * part;
     let slant = off * std::f64::consts::FRAC_1_SQRT_2;
     let round = [
         (0.0, 0.0),

@@ -113,7 +113,8 @@ const WIDEST: f64 = 0.8;
 /// turns than that are slow.
 const NARROWEST: f64 = 0.25;
 
-/// Turns of a ramp along a loop at most; where that is not enough there is no room. Chosen.
+/// Turns of a ramp along a loop that is shorter than the narrowest helix at most; where that is not
+/// enough there is no room. Chosen.
 const MOST_TURNS: f64 = 40.0;
 
 /// How much farther than twice a step loops across the axis may be apart, in nanometres: rounding.
@@ -399,7 +400,9 @@ impl Miller<'_> {
         self.head.over(Point::from_f64(x, y));
         self.entries.all += 1;
         let mut from = along;
-        if needed > whole * MOST_TURNS {
+        let radius = self.settings.tool.width_at(self.settings.heights.cut).to_f64() / 2.0;
+        let narrowest = std::f64::consts::TAU * radius * NARROWEST;
+        if whole < narrowest && needed > whole * MOST_TURNS {
             self.entries.straight += 1;
             self.head.plunge(depth);
         } else {
