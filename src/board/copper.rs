@@ -6,7 +6,7 @@ use std::fmt;
 
 use crate::geometry::Rect;
 
-use super::Feature;
+use super::{Feature, Shape};
 
 /// A side of the board.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, serde::Serialize, serde::Deserialize)]
@@ -57,6 +57,11 @@ pub struct Copper {
 }
 
 impl Copper {
+    /// The shapes of the features, in file order.
+    pub fn shapes(&self) -> impl Iterator<Item = &Shape> {
+        self.features.iter().map(|feature| &feature.shape)
+    }
+
     /// A rectangle that holds all features; none for an empty layer.
     #[must_use]
     pub fn bounds(&self) -> Option<Rect> {

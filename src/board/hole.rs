@@ -5,6 +5,8 @@
 
 use crate::geometry::{Nm, Path, Rect};
 
+use super::Shape;
+
 /// Whether a hole's wall is plated, and so joins the two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
 #[serde(rename_all = "kebab-case")]
@@ -37,6 +39,17 @@ impl Hole {
     #[must_use]
     pub fn is_slot(&self) -> bool {
         !self.path.segments.is_empty()
+    }
+
+    /// What the cutter takes away: a disc where it plunges, and a stroke or an arc for each move.
+    #[must_use]
+    pub fn shapes(&self) -> Vec<Shape> {
+        let (start, radius) = (self.path.start, self.diameter / 2);
+        let strokes = self.path.steps().map(|(from, segment)| match segment.arc(from) {
+            Some(arc) => Shape::Arc { arc, radius },
+            None => Shape::Stroke { from, to: segment.to(), radius },
+        });
+        std::iter::once(Shape::Disc { center: start, radius }).chain(strokes).collect()
     }
 
     /// A rectangle that holds it.

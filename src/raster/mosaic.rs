@@ -1,5 +1,7 @@
 //! Depth bounds of many cells at once: the hierarchical z-buffer of the engine.
 
+use std::ops::Range;
+
 use super::Scene;
 use super::bin::{Bin, Candidate, index};
 use super::canvas::{Field, LANES};
@@ -19,6 +21,9 @@ const NOWHERE: Across = [f32::INFINITY; ACROSS];
 /// Candidates beyond which a split looks at some of them first. Chosen: 64 bins of so many are 400
 /// KiB.
 const MANY: usize = 512;
+
+/// After so many candidates it is looked up how deep one sees in each row. Chosen.
+const OFTEN: usize = 32;
 
 /// Where a cell is cut: columns and rows of pieces, each with its first pixel and its length.
 /// Pieces may overlap.
@@ -86,8 +91,12 @@ pub(super) struct Mosaic {
     /// How far a sample lies from the middle of its piece at most, in pixels.
     radius: f32,
     weights: Weights,
+    /// The rows of pieces that the surface weighed last may be seen in.
+    rows: Range<usize>,
     /// The depth beyond which nothing is seen in each piece.
     hidden: [Across; ACROSS],
+    /// And beyond which nothing is seen in any piece of a row, as it was a while ago.
+    deepest: Across,
 }
 
 impl Mosaic {
@@ -98,7 +107,9 @@ impl Mosaic {
             ys: [0.0; ACROSS],
             radius: 0.0,
             weights: Weights::NOWHERE,
+            rows: 0..0,
             hidden: [NOWHERE; ACROSS],
+            deepest: NOWHERE,
         }
     }
 
@@ -123,19 +134,18 @@ impl Mosaic {
         bins.iter_mut().for_each(|bin| bin.clear(from));
         self.place(cuts);
         self.split_parts(scene, from, around, cuts, bins);
+        let shape = |candidate: &Candidate| &scene.primitives[index(candidate.primitive)].shape;
         if from.shapes.len() > MANY {
             for candidate in from.shapes.iter().step_by(from.shapes.len() / (MANY / 2)) {
-                self.weigh(
-                    &scene.primitives[index(candidate.primitive)].shape,
-                    around,
-                    cuts,
-                    from.sees_through,
-                );
+                self.weigh(shape(candidate), around, cuts, from.sees_through);
             }
         }
-        for candidate in &from.shapes {
-            self.weigh(&scene.primitives[index(candidate.primitive)].shape, around, cuts, from.sees_through);
-            self.hand_out(candidate.primitive, cuts, bins);
+        for some in from.shapes.chunks(OFTEN) {
+            self.look_up(cuts);
+            for candidate in some {
+                self.weigh(shape(candidate), around, cuts, from.sees_through);
+                self.hand_out(candidate.primitive, cuts, bins);
+            }
         }
         let hidden = self.hidden.iter().flat_map(|row| &row[..cuts.columns.len()]);
         for (bin, &hidden) in bins.iter_mut().zip(hidden) {
@@ -156,6 +166,27 @@ impl Mosaic {
         let radius = largest.radius() as f32;
         self.radius = radius;
         self.hidden = [NOWHERE; ACROSS];
+        self.deepest = NOWHERE;
+    }
+
+    /// Finds how deep one sees at most in each row.
+    fn look_up(&mut self, cuts: &Cuts) {
+        for (deepest, hidden) in self.deepest.iter_mut().zip(&self.hidden) {
+            *deepest = hidden[..cuts.columns.len()].iter().copied().fold(f32::NEG_INFINITY, f32::max);
+        }
+    }
+
+    /// The rows in which a surface may be seen.
+    fn rows_of(&self, shape: &Shape, cuts: &Cuts) -> Range<usize> {
+        let bounds = shape.bounds();
+        let rows = cuts.rows.iter().zip(&self.deepest);
+        let seen = |(&(first, count), &deepest): (&(i32, i32), &f32)| {
+            let nearest = bounds.nearest_in_rows(first, count);
+            nearest < f32::INFINITY && nearest <= deepest
+        };
+        let first = rows.clone().take_while(|&row| !seen(row)).count();
+        let below = rows.skip(first).rev().take_while(|&row| !seen(row)).count();
+        first..cuts.rows.len() - below
     }
 
     fn split_parts(&mut self, scene: &Scene, from: &Bin, around: Cell, cuts: &Cuts, bins: &mut [Bin]) {
@@ -169,13 +200,16 @@ impl Mosaic {
         }
     }
 
-    /// Finds how deep a surface lies in all pieces, and what it hides.
+    /// Finds how deep a surface lies in all pieces of the rows where it may be seen, and what it
+    /// hides.
     fn weigh(&mut self, shape: &Shape, around: Cell, cuts: &Cuts, sees_through: bool) {
-        if !shape.weigh(self, cuts.rows.len()) {
+        self.rows = self.rows_of(shape, cuts);
+        if !shape.weigh(self) {
             self.weigh_each(shape, around, cuts);
         }
         if !sees_through {
-            for (hidden, far) in self.hidden.iter_mut().zip(&self.weights.far[..cuts.rows.len()]) {
+            let rows = self.rows.clone();
+            for (hidden, far) in self.hidden[rows.clone()].iter_mut().zip(&self.weights.far[rows]) {
                 for (hidden, &far) in hidden.iter_mut().zip(far) {
                     let far = if far > 0.0 { far } else { 0.0 };
                     *hidden = if far < *hidden { far } else { *hidden };
@@ -190,7 +224,8 @@ impl Mosaic {
         if shape.reach(around).is_none() {
             return;
         }
-        for (row, &(y, height)) in cuts.rows.iter().enumerate() {
+        for row in self.rows.clone() {
+            let (y, height) = cuts.rows[row];
             for (column, &(x, width)) in cuts.columns.iter().enumerate() {
                 if let Some(reach) = shape.reach(Cell { x, y, width, height }) {
                     (self.weights.near[row][column], self.weights.far[row][column]) = single(reach);
@@ -202,7 +237,8 @@ impl Mosaic {
     /// Gives a primitive that has been weighed to all pieces where it may be seen.
     fn hand_out(&self, primitive: u32, cuts: &Cuts, bins: &mut [Bin]) {
         let Weights { near, far, way_x, way_y, curve } = &self.weights;
-        for (row, bins) in bins.chunks_exact_mut(cuts.columns.len()).enumerate() {
+        let bins = bins.chunks_exact_mut(cuts.columns.len()).enumerate();
+        for (row, bins) in bins.take(self.rows.end).skip(self.rows.start) {
             let seen = |near: f32, hidden: f32| (near <= hidden) & (near < f32::INFINITY) & (hidden >= 0.0);
             let seen = near[row].iter().zip(&self.hidden[row]).map(|(&near, &hidden)| seen(near, hidden));
             let mut bits =
@@ -222,11 +258,12 @@ impl Mosaic {
         }
     }
 
-    /// Samples a field in the middle of each piece of the first `rows` rows.
-    pub(super) fn sample(&mut self, field: &impl Field, offset: f32, size: f32, limit: f32, rows: usize) {
+    /// Samples a field in the middle of each piece of the rows where it may be seen.
+    pub(super) fn sample(&mut self, field: &impl Field, offset: f32, size: f32, limit: f32) {
         let size = size + 2.0 * offset.abs() + self.radius;
-        let Self { arch, xs, ys, radius, weights, .. } = self;
-        arch.dispatch(Sample { field, xs, ys: &ys[..rows], radius: *radius, size, limit, weights });
+        let Self { arch, xs, ys, radius, weights, rows, .. } = self;
+        let rows = rows.clone();
+        arch.dispatch(Sample { field, xs, ys, rows, radius: *radius, size, limit, weights });
     }
 }
 
@@ -248,7 +285,8 @@ fn single(reach: Reach) -> (f32, f32) {
 struct Sample<'a, F> {
     field: &'a F,
     xs: &'a Across,
-    ys: &'a [f32],
+    ys: &'a Across,
+    rows: Range<usize>,
     radius: f32,
     size: f32,
     limit: f32,
@@ -267,8 +305,8 @@ impl<F: Field> WithSimd for Sample<'_, F> {
         let zero = splat(0.0);
         let xs = S::as_simd_f32s(self.xs).0;
         let Weights { near, far, way_x, way_y, curve } = self.weights;
-        for (number, &y) in self.ys.iter().enumerate() {
-            let row = self.field.row(simd, y);
+        for number in self.rows {
+            let row = self.field.row(simd, self.ys[number]);
             let near = S::as_mut_simd_f32s(&mut near[number]).0.iter_mut();
             let far = S::as_mut_simd_f32s(&mut far[number]).0;
             let way_x = S::as_mut_simd_f32s(&mut way_x[number]).0;

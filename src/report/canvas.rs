@@ -1,28 +1,45 @@
 //! Board geometry on tiny-skia's pixmaps: the only file that speaks to the drawing library.
+//!
+//! Shapes and lines, of which there are thousands, are drawn by our own rasterizer, several times
+//! as fast; the library holds the pixels and writes letters.
 
 use std::ops::Range;
 
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Paint, Path as Outline, PathBuilder, Pixmap, PremultipliedColorU8,
-    Stroke, Transform,
+    Color, LineCap, LineJoin, Paint, PathBuilder, Pixmap, PremultipliedColorU8, Stroke, Transform,
 };
 
 use crate::board::Shape;
-use crate::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Segment};
+use crate::geometry::{Nm, Path, Point};
 use crate::grid::Grid;
+use crate::raster::Label;
 
 use super::Rgb;
-
-/// The thinnest line, in pixels. Measured: at one pixel and less the painter draws hairlines, with
-/// specks where they end and at the picture's rim.
-const THINNEST: f32 = 1.01;
+use super::coverage::Coverage;
 
 /// A picture being painted, in board coordinates.
 pub struct Canvas {
     grid: Grid,
     pixmap: Pixmap,
-    /// Whether edges are smoothed.
-    smooth: bool,
+}
+
+/// The colours of labels, from the last one down: of what lies in one place the rasterizer shows
+/// the least, and a painter what comes last.
+#[derive(Default)]
+struct Colours(Vec<Rgb>);
+
+impl Colours {
+    /// The label of what comes next; the same as the one before it where the colour is.
+    fn label(&mut self, colour: Rgb) -> Label {
+        if self.0.last() != Some(&colour) {
+            self.0.push(colour);
+        }
+        Label(u32::MAX - u32::try_from(self.0.len()).expect("below 2³² colours"))
+    }
+
+    fn of(&self, Label(label): Label) -> Rgb {
+        self.0[(u32::MAX - label) as usize - 1]
+    }
 }
 
 impl Canvas {
@@ -31,7 +48,7 @@ impl Canvas {
     pub fn new(grid: Grid, ground: Rgb) -> Self {
         let mut pixmap = Pixmap::new(grid.width(), grid.height()).expect("a grid has pixels");
         pixmap.fill(ground.paint(1.0));
-        Self { grid, pixmap, smooth: true }
+        Self { grid, pixmap }
     }
 
     /// Grey values, one byte a pixel, as a picture.
@@ -39,7 +56,7 @@ impl Canvas {
     pub fn grey(grid: Grid, values: &[u8]) -> Self {
         let mut canvas = Self::new(grid, Rgb(0, 0, 0));
         for (pixel, &value) in canvas.pixmap.pixels_mut().iter_mut().zip(values) {
-            *pixel = PremultipliedColorU8::from_rgba(value, value, value, u8::MAX).expect("opaque");
+            *pixel = opaque(Rgb(value, value, value));
         }
         canvas
     }
@@ -68,79 +85,37 @@ impl Canvas {
     }
 
     /// Sets the pixels of a row in some columns.
-    pub fn set_row(&mut self, row: u32, columns: Range<u32>, Rgb(r, g, b): Rgb) {
-        let colour = PremultipliedColorU8::from_rgba(r, g, b, u8::MAX).expect("opaque");
+    pub fn set_row(&mut self, row: u32, columns: Range<u32>, colour: Rgb) {
+        self.row(row, columns).fill(opaque(colour));
+    }
+
+    fn row(&mut self, row: u32, columns: Range<u32>) -> &mut [PremultipliedColorU8] {
         let row = &mut self.pixmap.pixels_mut()[row as usize * self.grid.width() as usize..];
-        row[columns.start as usize..columns.end as usize].fill(colour);
+        &mut row[columns.start as usize..columns.end as usize]
     }
 
-    /// Fills `shape`: all pixels whose centres it holds, and then smoothly up to its edge.
-    ///
-    /// Planes are often hatched with strokes that just touch. Smooth edges alone would let the
-    /// ground shine through where two of them share a pixel; the whole pixels close those seams.
-    pub fn fill(&mut self, shape: &Shape, colour: Rgb) {
-        if !self.shows(shape.bounds()) {
-            return;
-        }
-        let Some(area) = self.area(shape) else { return };
-        for smooth in [false, true] {
-            self.smooth = smooth;
-            self.fill_path(&area, colour, 1.0);
-        }
+    /// Fills shapes, each in its colour.
+    pub fn fill<'a>(&mut self, shapes: impl IntoIterator<Item = (&'a Shape, Rgb)>) {
+        let mut colours = Colours::default();
+        let labelled = shapes.into_iter().map(|(shape, colour)| (colours.label(colour), shape));
+        let coverage = Coverage::of_shapes(self.grid, labelled);
+        self.lay(&coverage, &colours, 1.0);
     }
 
-    /// Whether a pixel of it may lie within `rect`.
-    fn shows(&self, rect: Rect) -> bool {
-        rect.inflate(self.grid.pitch()).touches(self.grid.rect())
-    }
-
-    /// The outline of a shape.
-    fn area(&self, shape: &Shape) -> Option<Outline> {
-        match shape {
-            Shape::Disc { center, radius } => self.circle(*center, *radius),
-            Shape::Stroke { from, to, radius } => {
-                let line = Path { start: *from, segments: vec![Segment::Line { to: *to }] };
-                self.stroked(std::iter::once(&line), *radius * 2)
+    /// Lays colours on what is covered.
+    fn lay(&mut self, coverage: &Coverage, colours: &Colours, opacity: f32) {
+        coverage.each(|(row, columns, label, share)| {
+            let colour = colours.of(label);
+            #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
+            let way = (opacity * f32::from(share)) as u8;
+            if way == u8::MAX {
+                return self.set_row(row, columns, colour);
             }
-            Shape::Arc { arc, radius } => self.stroked(std::iter::once(&path_of(arc)), *radius * 2),
-            Shape::Polygon(polygon) => self.rings(polygon),
-        }
-    }
-
-    /// Fills a disc.
-    pub fn disc(&mut self, center: Point, radius: Nm, colour: Rgb, opacity: f32) {
-        if let Some(circle) = self.circle(center, radius) {
-            self.fill_path(&circle, colour, opacity);
-        }
-    }
-
-    fn circle(&self, center: Point, radius: Nm) -> Option<Outline> {
-        let (x, y) = self.place(center);
-        let mut outline = PathBuilder::new();
-        outline.push_circle(x, y, self.pixels(radius));
-        outline.finish()
-    }
-
-    /// Fills a polygon by the non-zero rule.
-    pub fn polygon(&mut self, polygon: &Polygon, colour: Rgb, opacity: f32) {
-        if let Some(rings) = self.rings(polygon) {
-            self.fill_path(&rings, colour, opacity);
-        }
-    }
-
-    /// The rings of a polygon that the picture shows.
-    fn rings(&self, polygon: &Polygon) -> Option<Outline> {
-        let mut outline = PathBuilder::new();
-        let bounds = |ring: &[Point]| Rect::around(ring.iter().copied());
-        let shown = |ring: &&Vec<Point>| bounds(ring).is_some_and(|bounds| self.shows(bounds));
-        for ring in polygon.contours().iter().filter(shown) {
-            for (i, &point) in ring.iter().enumerate() {
-                let (x, y) = self.place(point);
-                if i == 0 { outline.move_to(x, y) } else { outline.line_to(x, y) }
+            for pixel in self.row(row, columns) {
+                let under = Rgb(pixel.red(), pixel.green(), pixel.blue());
+                *pixel = opaque(under.towards(colour, way));
             }
-            outline.close();
-        }
-        outline.finish()
+        });
     }
 
     /// Strokes `path` with a round cutter of diameter `width`, never thinner than a pixel.
@@ -156,47 +131,20 @@ impl Canvas {
         colour: Rgb,
         opacity: f32,
     ) {
-        if let Some(outline) = self.stroked(paths, width) {
-            self.fill_path(&outline, colour, opacity);
-        }
+        self.coloured(paths.into_iter().map(|path| (path, colour)), width, opacity);
     }
 
-    /// The outline of strokes along paths.
-    fn stroked<'a>(&self, paths: impl IntoIterator<Item = &'a Path>, width: Nm) -> Option<Outline> {
-        let mut line = PathBuilder::new();
-        for path in paths {
-            self.trace(path, width / 2, &mut line);
-        }
-        line.finish()?.stroke(&round(self.pixels(width).max(THINNEST)), 1.0)
-    }
-
-    /// Adds those parts of a path to a line that come within `reach` of the picture.
-    fn trace(&self, path: &Path, reach: Nm, line: &mut PathBuilder) {
-        // A twentieth of a pixel cannot be seen, and small circles stay round.
-        let tolerance = (self.grid.pitch() / 20).max(Nm::new(1));
-        let (mut is_down, mut is_whole) = (false, true);
-        for (from, segment) in path.steps() {
-            if !self.shows(segment.bounds(from).inflate(reach)) {
-                (is_down, is_whole) = (false, false);
-                continue;
-            }
-            if !is_down {
-                let (x, y) = self.place(from);
-                line.move_to(x, y);
-                is_down = true;
-            }
-            let mut add = |point: Point| {
-                let (x, y) = self.place(point);
-                line.line_to(x, y);
-            };
-            match segment.arc(from) {
-                Some(arc) => arc.flatten(tolerance).for_each(add),
-                None => add(segment.to()),
-            }
-        }
-        if is_whole && path.is_closed() {
-            line.close();
-        }
+    /// The same, each path in its colour.
+    pub fn coloured<'a>(
+        &mut self,
+        paths: impl IntoIterator<Item = (&'a Path, Rgb)>,
+        width: Nm,
+        opacity: f32,
+    ) {
+        let mut colours = Colours::default();
+        let labelled = paths.into_iter().map(|(path, colour)| (colours.label(colour), path));
+        let coverage = Coverage::of_lines(self.grid, labelled, width);
+        self.lay(&coverage, &colours, opacity);
     }
 
     /// Strokes polylines given in pixels: lettering and rulers.
@@ -235,13 +183,7 @@ impl Canvas {
     fn paint(&self, colour: Rgb, opacity: f32) -> Paint<'static> {
         let mut paint = Paint::default();
         paint.set_color(colour.paint(opacity));
-        paint.anti_alias = self.smooth;
         paint
-    }
-
-    fn fill_path(&mut self, outline: &Outline, colour: Rgb, opacity: f32) {
-        let paint = self.paint(colour, opacity);
-        self.pixmap.fill_path(outline, &paint, FillRule::Winding, Transform::identity(), None);
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "the drawing library takes f32; this is a picture")]
@@ -250,10 +192,6 @@ impl Canvas {
         let pitch = self.grid.pitch().to_f64();
         ((from.x.to_f64() / pitch) as f32, (-from.y.to_f64() / pitch) as f32)
     }
-
-    fn pixels(&self, length: Nm) -> f32 {
-        self.grid.pixels(length)
-    }
 }
 
 /// A round pen of a width in pixels.
@@ -261,9 +199,8 @@ fn round(width: f32) -> Stroke {
     Stroke { width, line_cap: LineCap::Round, line_join: LineJoin::Round, ..Stroke::default() }
 }
 
-fn path_of(arc: &Arc) -> Path {
-    let segment = Segment::Arc { to: arc.end, center: arc.center, turn: arc.turn };
-    Path { start: arc.start, segments: vec![segment] }
+fn opaque(Rgb(r, g, b): Rgb) -> PremultipliedColorU8 {
+    PremultipliedColorU8::from_rgba(r, g, b, u8::MAX).expect("opaque")
 }
 
 impl Rgb {

@@ -5,6 +5,7 @@ mod canvas;
 pub mod colours;
 pub mod comparison;
 pub mod coupling;
+mod coverage;
 pub mod document;
 pub mod explain;
 pub mod figures;

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use crate::board::{Board, Copper, FLATTEN, Hole, Outline};
+use crate::board::{Board, Copper, FLATTEN, Hole, Outline, Shape};
 use crate::geometry::{Nm, Path, Point, Rect, Segment};
 use crate::grid::{Grid, GridError};
 use crate::raster::{self, Buffers, Label, Scene};
 use crate::toolpath::{Move, Placement, Section};
 use crate::topology::{self, Nets};
-use crate::voronoi::{Boundaries, Owner, Regions};
+use crate::voronoi::{Boundaries, Boundary, Owner, Regions};
 
 use super::palette::{COLD, COPPER, CUT, EDGE, GROUND, HOLE, HOT, INK, RAPID, SUBSTRATE, WARM, tints, vivid};
 use super::{Canvas, Lettering, Rgb, png};
@@ -52,9 +52,8 @@ pub fn copper(copper: &Copper, grid: &Grid) -> Vec<u8> {
 pub fn nets(board: &Board, copper: &Copper, nets: &Nets, grid: Grid) -> Canvas {
     let mut canvas = Canvas::new(grid, GROUND);
     substrate(&mut canvas, board.outline.as_ref());
-    for (index, feature) in copper.features.iter().enumerate() {
-        canvas.fill(&feature.shape, vivid(nets.of(index)));
-    }
+    let colour = |index| vivid(nets.of(index));
+    canvas.fill(copper.shapes().zip(0..).map(|(shape, index)| (shape, colour(index))));
     holes(&mut canvas, &board.holes);
     names(&mut canvas, copper, nets);
     canvas
@@ -77,9 +76,9 @@ pub fn boundaries(side: &Shown<'_>, grid: Grid) -> Canvas {
     let dot = grid.pitch() * 2;
     let mut canvas = dimmed(side, grid);
     canvas.strokes(side.boundaries.edges.iter().map(|edge| &edge.path), Nm::ZERO, CUT, 1.0);
-    for &node in &side.boundaries.nodes {
-        canvas.disc(node, dot, RAPID, 1.0);
-    }
+    let dots: Vec<Shape> =
+        side.boundaries.nodes.iter().map(|&center| Shape::Disc { center, radius: dot }).collect();
+    canvas.fill(dots.iter().map(|dot| (dot, RAPID)));
     canvas
 }
 
@@ -92,12 +91,16 @@ const FREE: Nm = Nm::from_mm(1);
 pub fn heat(side: &Shown<'_>, grid: Grid) -> Canvas {
     let width = grid.pitch() * 3;
     let mut canvas = dimmed(side, grid);
-    for edge in side.boundaries.edges.iter().filter(|edge| !edge.is_border()) {
-        for ((from, &segment), room) in edge.path.steps().zip(edge.clearance.windows(2)) {
-            let stretch = Path { start: from, segments: vec![segment] };
-            canvas.stroke(&stretch, width, clearance_colour(room[0].min(room[1])), 1.0);
-        }
-    }
+    let stretches = |edge: &'_ Boundary| {
+        let stretch = |((from, &segment), room): ((Point, &Segment), &[Nm])| {
+            let path = Path { start: from, segments: vec![segment] };
+            (path, clearance_colour(room[0].min(room[1])))
+        };
+        edge.path.steps().zip(edge.clearance.windows(2)).map(stretch).collect::<Vec<_>>()
+    };
+    let edges = side.boundaries.edges.iter().filter(|edge| !edge.is_border());
+    let stretches: Vec<(Path, Rgb)> = edges.flat_map(stretches).collect();
+    canvas.coloured(stretches.iter().map(|(path, colour)| (path, *colour)), width, 1.0);
     canvas
 }
 
@@ -112,9 +115,7 @@ fn clearance_colour(room: Nm) -> Rgb {
 fn dimmed(side: &Shown<'_>, grid: Grid) -> Canvas {
     let mut canvas = Canvas::new(grid, GROUND);
     substrate(&mut canvas, side.board.outline.as_ref());
-    for feature in &side.copper.features {
-        canvas.fill(&feature.shape, GROUND.towards(COPPER, 80));
-    }
+    canvas.fill(side.copper.shapes().map(|shape| (shape, GROUND.towards(COPPER, 80))));
     canvas
 }
 
@@ -233,27 +234,20 @@ impl<'a> Ground<'a> {
                 canvas.set_row(row, columns.clone(), *tint);
             }
         }
-        for feature in &self.side.copper.features {
-            canvas.fill(&feature.shape, COPPER);
-        }
+        canvas.fill(self.side.copper.shapes().map(|shape| (shape, COPPER)));
         canvas
     }
 }
 
 fn substrate(canvas: &mut Canvas, outline: Option<&Outline>) {
     if let Some(outline) = outline {
-        canvas.polygon(&outline.polygon(FLATTEN), SUBSTRATE, 1.0);
+        canvas.fill([(&Shape::Polygon(outline.polygon(FLATTEN)), SUBSTRATE)]);
     }
 }
 
 fn holes(canvas: &mut Canvas, holes: &[Hole]) {
-    for hole in holes {
-        if hole.is_slot() {
-            canvas.stroke(&hole.path, hole.diameter, HOLE, 1.0);
-        } else {
-            canvas.disc(hole.path.start, hole.diameter / 2, HOLE, 1.0);
-        }
-    }
+    let holes: Vec<Shape> = holes.iter().flat_map(Hole::shapes).collect();
+    canvas.fill(holes.iter().map(|hole| (hole, HOLE)));
 }
 
 /// The name of each named net, beside its largest feature, where that is large enough to read it

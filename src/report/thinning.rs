@@ -4,7 +4,7 @@
 //! right, lines run between the same pieces of copper. Drill dots are what anchors pads: a bare dot
 //! in a pad is left as a single pixel.
 
-use crate::board::{Axis, Copper, Feature, Hole, Shape};
+use crate::board::{Axis, Copper, Feature, Hole};
 use crate::grid::Grid;
 use crate::raster::{Bits, Faces, Node, Thinned, thin};
 
@@ -16,13 +16,9 @@ const NODES: [(Node, Rgb); 2] = [(Node::Three, Rgb(0x30, 0x60, 0xff)), (Node::Fo
 
 /// What the cutter takes away that makes a hole.
 fn drilled(hole: &Hole) -> Vec<Feature> {
-    let (start, radius) = (hole.path.start, hole.diameter / 2);
-    let strokes = hole.path.steps().map(|(from, segment)| match segment.arc(from) {
-        Some(arc) => Shape::Arc { arc, radius },
-        None => Shape::Stroke { from, to: segment.to(), radius },
-    });
-    let shapes = std::iter::once(Shape::Disc { center: start, radius }).chain(strokes);
-    shapes.map(|shape| Feature { shape, axis: Axis::Flash(start), attributes: 0, line: hole.line }).collect()
+    let feature =
+        |shape| Feature { shape, axis: Axis::Flash(hole.path.start), attributes: 0, line: hole.line };
+    hole.shapes().into_iter().map(feature).collect()
 }
 
 /// A side, thinned.

@@ -54,7 +54,7 @@ pub use sets::DisjointSets;
 #[cfg(test)]
 pub(crate) use splitmix::random;
 pub(crate) use splitmix::splitmix;
-pub(crate) use surface::surface;
+pub(crate) use surface::{grown, surface};
 pub use translucency::{Colour, Odds, Overlap, Sampling, Translucency, translucency};
 
 use crate::board::Copper;

@@ -21,9 +21,8 @@ use super::clip::{Node, Piece};
 use super::exact;
 use super::fit::{self, Fit};
 use super::plane::Spot;
-use super::seed::owner_of;
 use super::sliver::close_slivers;
-use super::{BACKGROUND, Boundaries, Diagram, NOBODY, Settings};
+use super::{BACKGROUND, Boundaries, Diagram, NOBODY, Owner, Settings};
 
 impl Diagram {
     /// The boundaries before they are cut at the border; none where the diagram contradicts itself.
@@ -72,7 +71,7 @@ impl Diagram {
         let owner = |p: Spot| in_band(p).or_else(|| diagram.owner_near(p, level, NOBODY));
         super::clip::within(&self.border, chains, owner, |net| match net {
             NOBODY => BACKGROUND,
-            net => owner_of(NetId(net)),
+            net => Owner::Net(NetId(net)).number(),
         })
     }
 

@@ -6,7 +6,7 @@
 //!       │                        │                         │
 //!       │                        │                  edge: where the board ends
 //!       │                        ╰── passes, residual, link ──▶ wide isolation
-//!       ╰─ seed ──▶ sites ── raster ──▶ pictures of the regions
+//!       ╰─ cones ── raster ──▶ pictures of the regions
 //! ```
 //!
 //! Everything that is cut comes from the certified diagram of [`exact`], which no pixel has a part
@@ -25,6 +25,7 @@ mod boundary;
 mod certified;
 mod clearing;
 mod clip;
+mod cones;
 mod edge;
 pub mod exact;
 mod farthest;
@@ -43,8 +44,6 @@ mod plane;
 mod regions;
 mod residual;
 mod sample;
-mod seed;
-mod site;
 mod sliver;
 mod spike;
 

@@ -8,8 +8,7 @@ use crate::raster::{self, Scene, TileContent};
 use crate::topology::Nets;
 
 use super::edge::Border;
-use super::seed::Sites;
-use super::{Owner, Settings};
+use super::{Owner, Settings, cones};
 
 /// Who owns each place of a board: what is left of a [`Diagram`](super::Diagram) for pictures.
 pub struct Regions {
@@ -68,11 +67,7 @@ impl Regions {
         grid: &Grid,
         paint: &mut dyn FnMut(u32, Range<u32>, Owner),
     ) {
-        let sites = self.sites(copper, nets);
-        let scene = self.scene(&sites, grid);
-        // A table of its own, because every pixel asks; and all that is left of the sites.
-        let owners = sites.owners();
-        drop(sites);
+        let scene = self.scene(copper, nets, grid);
         let work = |tile: raster::Tile<'_>| {
             let rows = tile.row0..tile.row0 + tile.height;
             let all = tile.column0..tile.column0 + tile.width;
@@ -80,7 +75,7 @@ impl Regions {
                 TileContent::Uniform(owner) => rows.map(|row| (row, all.clone(), *owner)).collect(),
                 TileContent::Pixels(pixels) => {
                     let labels = (0_i32..).map(|row| pixels.label_row(row));
-                    let stretches = |(row, labels)| stretches(&owners, row, all.start, labels);
+                    let stretches = |(row, labels)| stretches(row, all.start, labels);
                     rows.zip(labels).flat_map(stretches).collect()
                 }
             }
@@ -95,36 +90,25 @@ impl Regions {
     /// How far the centre of each pixel of a grid is from the sites, in pixels, row by row from the
     /// top; infinite where nothing is in reach.
     pub fn depths(&self, copper: &Copper, nets: &Nets) -> impl Fn(&Grid) -> Vec<f32> {
-        let sites = self.sites(copper, nets);
-        move |grid| {
+        |grid| {
             let mut buffers = raster::Buffers::default();
-            raster::render(&self.scene(&sites, grid), &mut buffers);
+            raster::render(&self.scene(copper, nets, grid), &mut buffers);
             buffers.depths().to_vec()
         }
     }
 
-    fn sites(&self, copper: &Copper, nets: &Nets) -> Sites {
-        Sites::new(copper, nets, &self.settings, |feature| self.kept[nets.of(feature).index()])
-    }
-
-    fn scene(&self, sites: &Sites, grid: &Grid) -> Scene {
-        sites.scene(grid, &self.border, self.settings.limit.map(|limit| grid.pixels(limit)))
+    fn scene(&self, copper: &Copper, nets: &Nets, grid: &Grid) -> Scene {
+        let keep = |feature: usize| self.kept[nets.of(feature).index()];
+        cones::scene(copper, nets, keep, (&self.settings, &self.border), grid)
     }
 }
 
 /// What each owner has of a row of labels, the first of which is that of `column`.
-fn stretches<'a>(
-    owners: &'a [u32],
-    row: u32,
-    column: u32,
-    labels: &'a [u32],
-) -> impl Iterator<Item = (u32, Range<u32>, u32)> + 'a {
-    let owner = |label: u32| owners[label as usize];
-    let same = labels.chunk_by(move |&a, &b| a == b || owner(a) == owner(b));
-    same.scan(column, move |column, same| {
+fn stretches(row: u32, column: u32, labels: &[u32]) -> impl Iterator<Item = (u32, Range<u32>, u32)> {
+    labels.chunk_by(|a, b| a == b).scan(column, move |column, same| {
         let from = *column;
         *column += u32::try_from(same.len()).expect("as wide as a tile");
-        Some((row, from..*column, owner(same[0])))
+        Some((row, from..*column, same[0]))
     })
 }
 

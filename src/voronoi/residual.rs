@@ -32,8 +32,7 @@ use super::exact::{self, OnAxis};
 use super::groove::Grooves;
 use super::plane::Spot;
 use super::sample::{Sample, length};
-use super::seed::owner_of;
-use super::{Boundary, Share};
+use super::{Boundary, Owner, Share};
 
 /// A residue begins so much deeper in what the next pass clears than the edge of that, in
 /// nanometres. Chosen: more than fitting moves either.
@@ -121,7 +120,7 @@ impl Passes<'_> {
         let residues = axes.par_iter().flat_map_iter(|axis| {
             let places: Vec<Option<Residue>> =
                 steps(&axis.places).map(|place| self.residue(&place, &cleared)).collect();
-            let [left, right] = axis.owners.map(|owner| owner_of(NetId(owner)));
+            let [left, right] = axis.owners.map(|owner| Owner::Net(NetId(owner)).number());
             let piece = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
             runs(&places).filter_map(|run| self.along(&run).map(piece)).collect::<Vec<_>>()
         });

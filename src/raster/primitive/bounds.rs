@@ -71,13 +71,25 @@ impl Bounds {
         let (x, y) = (column as f32 + 0.5, row as f32 + 0.5);
         let beside = |low: f32, at: f32, high: f32| (low - at).max(at - high).max(0.0);
         let (dx, dy) = (beside(self.low.0, x, self.high.0), beside(self.low.1, y, self.high.1));
-        let distance = (dx * dx + dy * dy).sqrt();
+        let nearest = self.depth((dx * dx + dy * dy).sqrt());
+        (nearest < f32::INFINITY).then_some(nearest)
+    }
+
+    /// A depth that no fragment in `count` rows of pixels from `first` on is nearer than; infinite
+    /// where there is none.
+    pub(in super::super) fn nearest_in_rows(&self, first: i32, count: i32) -> f32 {
+        #[expect(clippy::cast_precision_loss, reason = "below 2¹⁷, so exact")]
+        let (top, bottom) = (first as f32 + 0.5, (first + count) as f32 - 0.5);
+        self.depth((self.low.1 - bottom).max(top - self.high.1).max(0.0))
+    }
+
+    /// A depth that no fragment so far from the box is nearer than.
+    fn depth(&self, distance: f32) -> f32 {
         let slack = (distance + self.offset.abs()) * SLACK;
         let sloped =
             if self.limit >= 0.0 { (distance - slack - self.offset).max(0.0) } else { f32::INFINITY };
         let sloped = if sloped <= self.limit { sloped } else { f32::INFINITY };
         let flat = if distance > 0.0 { f32::INFINITY } else { self.flat };
-        let nearest = sloped.min(flat);
-        (nearest < f32::INFINITY).then_some(nearest)
+        sloped.min(flat)
     }
 }

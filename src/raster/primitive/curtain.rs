@@ -68,13 +68,13 @@ impl Curtain {
     }
 
     /// Has the mosaic sample it.
-    pub(super) fn weigh(&self, mosaic: &mut Mosaic, rows: usize) {
+    pub(super) fn weigh(&self, mosaic: &mut Mosaic) {
         let (offset, limit) = (self.stroke.offset, self.stroke.limit);
         let size = (self.way.0.abs() + self.way.1.abs()) / 256.0;
         if self.caps == Caps::Both && self.sides == Sides::Both {
-            mosaic.sample(self, offset, size, limit, rows);
+            mosaic.sample(self, offset, size, limit);
         } else {
-            mosaic.sample(&Hung(*self), offset, size, limit, rows);
+            mosaic.sample(&Hung(*self), offset, size, limit);
         }
     }
 }

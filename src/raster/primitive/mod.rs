@@ -83,13 +83,12 @@ impl Shape {
         }
     }
 
-    /// Has the mosaic sample it in `rows` rows of pieces; false where it has no formula for many
-    /// pieces at once.
-    pub(super) fn weigh(&self, mosaic: &mut Mosaic, rows: usize) -> bool {
+    /// Has the mosaic sample it; false where it has no formula for many pieces at once.
+    pub(super) fn weigh(&self, mosaic: &mut Mosaic) -> bool {
         match self {
-            Self::Cone(cone) => mosaic.sample(cone, cone.stroke.offset, 0.0, cone.stroke.limit, rows),
-            Self::Curtain(curtain) => curtain.weigh(mosaic, rows),
-            Self::Ring(ring) => ring.weigh(mosaic, rows),
+            Self::Cone(cone) => mosaic.sample(cone, cone.stroke.offset, 0.0, cone.stroke.limit),
+            Self::Curtain(curtain) => curtain.weigh(mosaic),
+            Self::Ring(ring) => ring.weigh(mosaic),
             Self::Triangle(_) | Self::Polygon(_) => return false,
         }
         true

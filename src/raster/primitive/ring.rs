@@ -86,8 +86,8 @@ impl Ring {
     }
 
     /// Has the mosaic sample it.
-    pub(super) fn weigh(&self, mosaic: &mut Mosaic, rows: usize) {
-        mosaic.sample(&Weighed(*self), self.stroke.offset, self.radius / 128.0, self.stroke.limit, rows);
+    pub(super) fn weigh(&self, mosaic: &mut Mosaic) {
+        mosaic.sample(&Weighed(*self), self.stroke.offset, self.radius / 128.0, self.stroke.limit);
     }
 
     /// Lays it on a block: its strip on the sector, its round ends on the rest.

@@ -8,7 +8,7 @@
 //!          ─────────────────────────╲──
 //! ```
 
-use crate::board::{Board, Copper, FLATTEN, Outline};
+use crate::board::{Board, Copper, FLATTEN, Hole, Outline, Shape};
 use crate::geometry::{Nm, Path, Polygon};
 use crate::grid::{Grid, GridError};
 use crate::raster::{Buffers, Caps, Label, Scene, Sides, Surface, render};
@@ -88,21 +88,16 @@ fn stock(board: &Board, copper: &Copper, grid: Grid) -> Vec<u8> {
     let mut canvas = Canvas::new(grid, Rgb(0, 0, 0));
     let whole = |outline: &Outline| outline.polygon(FLATTEN);
     let edge = board.outline.as_ref().map_or_else(|| Polygon::rectangle(super::area(board, copper)), whole);
-    canvas.polygon(&edge, Rgb(255, 255, 255), 1.0);
-    for hole in &board.holes {
-        if hole.is_slot() {
-            canvas.stroke(&hole.path, hole.diameter, Rgb(0, 0, 0), 1.0);
-        } else {
-            canvas.disc(hole.path.start, hole.diameter / 2, Rgb(0, 0, 0), 1.0);
-        }
-    }
+    canvas.fill([(&Shape::Polygon(edge), Rgb(255, 255, 255))]);
+    let holes: Vec<Shape> = board.holes.iter().flat_map(Hole::shapes).collect();
+    canvas.fill(holes.iter().map(|hole| (hole, Rgb(0, 0, 0))));
     red(canvas)
 }
 
 /// The depth of each pixel in millimetres where all but copper is etched away.
 fn etched(copper: &Copper, grid: Grid) -> Vec<f64> {
     let mut canvas = Canvas::new(grid, Rgb(0, 0, 0));
-    copper.features.iter().for_each(|feature| canvas.fill(&feature.shape, Rgb(255, 255, 255)));
+    canvas.fill(copper.shapes().map(|shape| (shape, Rgb(255, 255, 255))));
     red(canvas).into_iter().map(|part| 1.5 * COPPER * (1.0 - f64::from(part) / 255.0)).collect()
 }
 

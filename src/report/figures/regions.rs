@@ -1,7 +1,7 @@
 //! Figures 4 and 6: the layout in black; Voronoi regions of the core axes, each in a colour that
 //! its neighbours have not, as far as there is room or to a limit, with the paths between them.
 
-use crate::board::{Axis, Copper};
+use crate::board::{Axis, Copper, Shape};
 use crate::geometry::{Arc, Nm, Path, Point, Segment};
 use crate::grid::Grid;
 use crate::report::palette::colouring;
@@ -37,7 +37,7 @@ fn grid(copper: &Copper, margin: Nm, columns: u32) -> Result<Grid, FigureError> 
 /// The copper, black on white.
 pub(super) fn layout(copper: &Copper, margin: Nm, columns: u32) -> Result<Painting, FigureError> {
     let mut canvas = Canvas::new(grid(copper, margin, columns)?, WHITE);
-    copper.features.iter().for_each(|feature| canvas.fill(&feature.shape, BLACK));
+    canvas.fill(copper.shapes().map(|shape| (shape, BLACK)));
     Ok(Painting::of(canvas).smaller(FINER as usize))
 }
 
@@ -111,7 +111,7 @@ fn neighbours(owners: &[u32], width: usize, nets: usize) -> Vec<Vec<usize>> {
 pub(super) fn axes(canvas: &mut Canvas, copper: &Copper, width: Nm, colour: Rgb) {
     for feature in &copper.features {
         match feature.axis {
-            Axis::Flash(center) => canvas.disc(center, width, colour, 1.0),
+            Axis::Flash(center) => canvas.fill([(&Shape::Disc { center, radius: width }, colour)]),
             Axis::Line(from, to) => canvas.stroke(&line(from, to), width, colour, 1.0),
             Axis::Arc(arc) => canvas.stroke(&path_of(&arc), width, colour, 1.0),
             Axis::Region => {}

@@ -42,11 +42,7 @@ pub(super) fn shared_vertices(copper: &Copper, columns: u32) -> Result<Painting,
 fn pieces(copper: &Copper, grid: Grid, colour: impl Fn(usize) -> Rgb) -> Painting {
     let pitch = grid.pitch();
     let mut canvas = Canvas::new(grid, WHITE);
-    copper
-        .features
-        .iter()
-        .enumerate()
-        .for_each(|(index, feature)| canvas.fill(&feature.shape, colour(index)));
+    canvas.fill(copper.shapes().zip(0..).map(|(shape, index)| (shape, colour(index))));
     for feature in &copper.features {
         canvas.strokes(&edges(&feature.shape), pitch * 3, BLACK.towards(WHITE, 120), 1.0);
     }
@@ -54,8 +50,9 @@ fn pieces(copper: &Copper, grid: Grid, colour: impl Fn(usize) -> Rgb) -> Paintin
     let mut vertices: Vec<Point> = copper.features.iter().flat_map(ends).collect();
     vertices.sort_unstable();
     for run in vertices.chunk_by(|a, b| a == b) {
-        canvas.disc(run[0], pitch * 15, BLACK, 1.0);
-        canvas.disc(run[0], pitch * 11, if run.len() > 1 { SHARED } else { WHITE }, 1.0);
+        let disc = |radius| Shape::Disc { center: run[0], radius };
+        canvas.fill([(&disc(pitch * 15), BLACK)]);
+        canvas.fill([(&disc(pitch * 11), if run.len() > 1 { SHARED } else { WHITE })]);
     }
     Painting::of(canvas).smaller(FINER as usize)
 }
@@ -116,7 +113,8 @@ pub(super) fn offsets(copper: &Copper, distances: &[Nm], columns: u32) -> Result
         copper.features.iter().filter_map(|feature| feature.shape.polygon(Nm::from_um(2))).collect();
     let union = polarity::union(&polygons);
     let mut canvas = Canvas::new(grid, WHITE);
-    union.iter().for_each(|polygon| canvas.polygon(polygon, GREY, 1.0));
+    let areas: Vec<Shape> = union.iter().cloned().map(Shape::Polygon).collect();
+    canvas.fill(areas.iter().map(|area| (area, GREY)));
     for &distance in distances {
         for ring in union.iter().flat_map(Polygon::contours) {
             canvas.strokes(naive(ring, distance).iter(), pitch * 3, SHARED.towards(WHITE, 90), 1.0);

@@ -1,0 +1,153 @@
+//! What a picture of the regions is drawn from: cones and curtains, labelled by whose they are.
+//!
+//! A polygon's ring is drawn coarser than it is, by edges that stay within a sixteenth of a pixel
+//! of it. So a pad whose corners were flattened into a hundred edges costs a dozen.
+
+use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
+use crate::geometry::{Nm, Point, Polygon};
+use crate::grid::Grid;
+use crate::raster::{Caps, FillRule, Label, Scene, Sides, Surface};
+use crate::topology::{Nets, grown};
+
+use super::certified::axis;
+use super::edge::Border;
+use super::plane::Spot;
+use super::{OUTSIDE, Owner, Settings, SiteKind};
+
+/// The border lies above everything.
+const OUTSIDE_DEPTH: f32 = -1.0;
+
+/// How much the two radii of an arc may differ and still be one, in nanometres: what rounding three
+/// points leaves. Chosen.
+const ROUNDING: f64 = 1_000.0;
+
+/// How far a ring that is drawn may be off, as a part of a pixel. Chosen: it cannot be seen.
+const COARSE: f64 = 1.0 / 16.0;
+
+/// So many edges become one at most, so that looking does not take the square of them. Chosen.
+const LONGEST_RUN: usize = 64;
+
+/// The features whose net `keep` accepts as the rasterizer draws them on `grid`, within `border`.
+/// Labels are the numbers of owners.
+pub(super) fn scene(
+    copper: &Copper,
+    nets: &Nets,
+    keep: impl Fn(usize) -> bool,
+    (settings, border): (&Settings, &Border),
+    grid: &Grid,
+) -> Scene {
+    let band = settings.min_width.filter(|_| settings.sites == SiteKind::Core).unwrap_or(Nm::ZERO);
+    let mut cones = Cones {
+        scene: Scene::new(grid.width(), grid.height()),
+        grid,
+        band: grid.pixels(band),
+        limit: settings.limit.map(|limit| grid.pixels(limit)),
+    };
+    let ring = |ring: &Vec<Point>| ring.iter().map(|&p| grid.pixel(p)).collect();
+    let contours = border.outside().iter().map(ring).collect();
+    let outside = Surface::Polygon { contours, rule: FillRule::EvenOdd, depth: OUTSIDE_DEPTH };
+    cones.scene.add(Label(OUTSIDE), outside);
+    for (i, feature) in copper.features.iter().enumerate().filter(|(i, _)| keep(*i)) {
+        let owner = Label(Owner::Net(nets.of(i)).number());
+        match settings.sites {
+            SiteKind::Copper => cones.copper(&feature.shape, owner, false),
+            SiteKind::Core => cones.core(feature, owner, settings.min_width.is_some()),
+        }
+    }
+    cones.scene
+}
+
+struct Cones<'a> {
+    scene: Scene,
+    grid: &'a Grid,
+    /// How far flat copper is fattened, in pixels.
+    band: f32,
+    limit: Option<f32>,
+}
+
+impl Cones<'_> {
+    /// The true edge of a feature; depth 0 inside.
+    ///
+    /// A trace's own copper, drawn `flat` above its cones (the paper's minimum width, §III-D.2),
+    /// has a depth of its own as far as its band reaches; the cones begin where that ends.
+    fn copper(&mut self, shape: &Shape, owner: Label, flat: bool) {
+        let (before, limit) = self.reach(flat);
+        match shape {
+            Shape::Arc { arc, radius } if arc.drift() > ROUNDING => {
+                // Its ends lie at different distances from its centre, as in sloppy files.
+                let points: Vec<Point> = std::iter::once(arc.start).chain(arc.flatten(FLATTEN)).collect();
+                for pair in points.windows(2) {
+                    let chord = Shape::Stroke { from: pair[0], to: pair[1], radius: *radius };
+                    self.scene.add(owner, grown(&chord, self.grid, before, limit));
+                }
+            }
+            Shape::Polygon(polygon) => {
+                self.scene.add(owner, grown(shape, self.grid, before, limit));
+                if !flat || self.band > 0.0 {
+                    self.edges(polygon, owner, before, limit);
+                }
+            }
+            Shape::Disc { .. } | Shape::Stroke { .. } | Shape::Arc { .. } => {
+                self.scene.add(owner, grown(shape, self.grid, before, limit));
+            }
+        }
+    }
+
+    /// By how much what is drawn begins farther out than copper, and where it ends, in pixels.
+    fn reach(&self, flat: bool) -> (f32, Option<f32>) {
+        if flat { (0.0, Some(self.band)) } else { (-self.band, self.limit.map(|limit| limit + self.band)) }
+    }
+
+    /// The paper's approximate core medial axis (§III-D), its copper above it where asked
+    /// (§III-D.2).
+    fn core(&mut self, feature: &Feature, owner: Label, min_width: bool) {
+        let radius = Nm::ZERO;
+        let thin = axis(feature).and_then(|axis| match axis {
+            Axis::Flash(center) => Some(Shape::Disc { center, radius }),
+            Axis::Line(from, to) => Some(Shape::Stroke { from, to, radius }),
+            Axis::Arc(arc) => Some(Shape::Arc { arc, radius }),
+            Axis::Region => None,
+        });
+        self.copper(thin.as_ref().unwrap_or(&feature.shape), owner, false);
+        if min_width {
+            self.copper(&feature.shape, owner, true);
+        }
+    }
+
+    fn edges(&mut self, polygon: &Polygon, owner: Label, offset: f32, limit: Option<f32>) {
+        for ring in polygon.contours() {
+            let spots: Vec<Spot> = ring.iter().map(|&p| p.into()).collect();
+            let coarse = coarse(&spots, self.grid.pitch().to_f64() * COARSE);
+            let next = coarse.iter().cycle().skip(1);
+            for (&from, &to) in coarse.iter().zip(next) {
+                let [from, to] = [from, to].map(|i| self.grid.pixel(ring[i]));
+                let curtain =
+                    Surface::Curtain { from, to, caps: Caps::Start, sides: Sides::Both, offset, limit };
+                self.scene.add(owner, curtain);
+            }
+        }
+    }
+}
+
+/// Those vertices of a ring whose chords all others are within `tolerance` of.
+fn coarse(ring: &[Spot], tolerance: f64) -> Vec<usize> {
+    let n = ring.len();
+    // Three chords at least: a chord must not stand for a whole ring.
+    let most = (n / 3).clamp(1, LONGEST_RUN);
+    let vertex = |i: usize| ring[i % n];
+    let is_chord = |first: usize, count: usize| {
+        let (a, b) = (vertex(first), vertex(first + count));
+        (1..count).all(|i| vertex(first + i).distance_to_chord(a, b) <= tolerance)
+    };
+    let mut kept = Vec::new();
+    let mut first = 0;
+    while first < n {
+        let mut count = 1;
+        while count < most && first + count < n && is_chord(first, count + 1) {
+            count += 1;
+        }
+        kept.push(first);
+        first += count;
+    }
+    kept
+}
