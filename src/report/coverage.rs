@@ -17,6 +17,12 @@ use crate::topology;
 /// The thinnest line, in pixels: a thinner one would be paler. Chosen.
 const THINNEST: f32 = 1.0;
 
+/// Pixels along a side of a tile. Measured: lines are thin, and most of a larger tile is empty.
+const TILE: u32 = 32;
+
+/// So many pixels of a row are looked at together. Chosen: as many as a processor does.
+const TOGETHER: usize = 8;
+
 /// What covers pixels of a grid.
 pub(super) struct Coverage {
     grid: Grid,
@@ -111,7 +117,8 @@ impl Coverage {
     /// Shows `lay` what is covered, row by row of each tile.
     pub(super) fn each(&self, mut lay: impl FnMut(Run)) {
         // Within a shape the depth is 0 everywhere.
-        let options = raster::Options { levels: vec![f32::MIN_POSITIVE], ..raster::Options::default() };
+        let levels = vec![f32::MIN_POSITIVE];
+        let options = raster::Options { tile: TILE, levels, ..raster::Options::default() };
         raster::stream(
             &self.scene,
             &options,
@@ -136,22 +143,50 @@ impl Coverage {
         for (row, number) in rows.zip(0..) {
             let (labels, depths) = (pixels.label_row(number), pixels.depth_row(number));
             let first = runs.len();
-            for (column, (&label, &depth)) in all.clone().zip(labels.iter().zip(depths)) {
-                let share = self.share(depth);
-                if share == 0 {
-                    continue;
+            let mut add = |columns: Range<u32>, label: u32, share: u8| match runs[first..].last_mut() {
+                Some((_, before, known, same))
+                    if before.end == columns.start && known.0 == label && *same == share =>
+                {
+                    before.end = columns.end;
                 }
-                match runs[first..].last_mut() {
-                    Some((_, columns, known, same))
-                        if columns.end == column && known.0 == label && *same == share =>
-                    {
-                        columns.end += 1;
+                _ => runs.push((row, columns, Label(label), share)),
+            };
+            // Most pixels are beside others that are as they are.
+            let (label_lanes, last_labels) = labels.as_chunks::<TOGETHER>();
+            let (depth_lanes, last_depths) = depths.as_chunks::<TOGETHER>();
+            let mut column = all.start;
+            for (labels, depths) in label_lanes.iter().zip(depth_lanes) {
+                let end = column + u32::try_from(TOGETHER).expect("few");
+                let beyond = depths.iter().fold(true, |all, &depth| all & (depth >= self.ramp));
+                if !beyond {
+                    let within = depths.iter().fold(true, |all, &depth| all & (depth <= 0.0));
+                    if within && labels.iter().fold(true, |all, &label| all & (label == labels[0])) {
+                        add(column..end, labels[0], u8::MAX);
+                    } else {
+                        self.each_of(column, labels, depths, &mut add);
                     }
-                    _ => runs.push((row, column..column + 1, Label(label), share)),
                 }
+                column = end;
             }
+            self.each_of(column, last_labels, last_depths, &mut add);
         }
         runs
+    }
+
+    /// Gives `add` those of some pixels in a row that are covered.
+    fn each_of(
+        &self,
+        column: u32,
+        labels: &[u32],
+        depths: &[f32],
+        add: &mut impl FnMut(Range<u32>, u32, u8),
+    ) {
+        for (column, (&label, &depth)) in (column..).zip(labels.iter().zip(depths)) {
+            let share = self.share(depth);
+            if share > 0 {
+                add(column..column + 1, label, share);
+            }
+        }
     }
 
     /// How much of a pixel at some depth is covered.
