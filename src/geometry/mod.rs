@@ -15,6 +15,7 @@
 //! rounded to the nanometre before they leave.
 
 mod arc;
+mod coarse;
 mod edges;
 mod index;
 mod length;
@@ -27,6 +28,7 @@ mod spans;
 mod tree;
 
 pub use arc::{Arc, Circle, Turn};
+pub(crate) use coarse::coarse;
 pub(crate) use edges::Edges;
 pub(crate) use index::{RectIndex, spanned};
 pub use length::ParseLengthError;

@@ -4,14 +4,13 @@
 //! of it. So a pad whose corners were flattened into a hundred edges costs a dozen.
 
 use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
-use crate::geometry::{Nm, Point, Polygon};
+use crate::geometry::{Nm, Point, Polygon, coarse};
 use crate::grid::Grid;
 use crate::raster::{Caps, FillRule, Label, Scene, Sides, Surface};
 use crate::topology::{Nets, grown};
 
 use super::certified::axis;
 use super::edge::Border;
-use super::plane::Spot;
 use super::{OUTSIDE, Owner, Settings, SiteKind};
 
 /// The border lies above everything.
@@ -23,9 +22,6 @@ const ROUNDING: f64 = 1_000.0;
 
 /// How far a ring that is drawn may be off, as a part of a pixel. Chosen: it cannot be seen.
 const COARSE: f64 = 1.0 / 16.0;
-
-/// So many edges become one at most, so that looking does not take the square of them. Chosen.
-const LONGEST_RUN: usize = 64;
 
 /// The features whose net `keep` accepts as the rasterizer draws them on `grid`, within `border`.
 /// Labels are the numbers of owners.
@@ -116,8 +112,7 @@ impl Cones<'_> {
 
     fn edges(&mut self, polygon: &Polygon, owner: Label, offset: f32, limit: Option<f32>) {
         for ring in polygon.contours() {
-            let spots: Vec<Spot> = ring.iter().map(|&p| p.into()).collect();
-            let coarse = coarse(&spots, self.grid.pitch().to_f64() * COARSE);
+            let coarse = coarse(ring, self.grid.pitch().to_f64() * COARSE);
             let next = coarse.iter().cycle().skip(1);
             for (&from, &to) in coarse.iter().zip(next) {
                 let [from, to] = [from, to].map(|i| self.grid.pixel(ring[i]));
@@ -127,27 +122,4 @@ impl Cones<'_> {
             }
         }
     }
-}
-
-/// Those vertices of a ring whose chords all others are within `tolerance` of.
-fn coarse(ring: &[Spot], tolerance: f64) -> Vec<usize> {
-    let n = ring.len();
-    // Three chords at least: a chord must not stand for a whole ring.
-    let most = (n / 3).clamp(1, LONGEST_RUN);
-    let vertex = |i: usize| ring[i % n];
-    let is_chord = |first: usize, count: usize| {
-        let (a, b) = (vertex(first), vertex(first + count));
-        (1..count).all(|i| vertex(first + i).distance_to_chord(a, b) <= tolerance)
-    };
-    let mut kept = Vec::new();
-    let mut first = 0;
-    while first < n {
-        let mut count = 1;
-        while count < most && first + count < n && is_chord(first, count + 1) {
-            count += 1;
-        }
-        kept.push(first);
-        first += count;
-    }
-    kept
 }

@@ -5,7 +5,7 @@
 //! Copper, Nets ─ certified ─▶ Diagram ─ chain, level ─▶ chains ─ clip ─▶ pieces ─ fit ─▶ Boundaries
 //!       │                        │                         │
 //!       │                        │                  edge: where the board ends
-//!       │                        ╰── passes, residual, link ──▶ wide isolation
+//!       │                        ╰── wide ──▶ passes beside the cut, what they leave, links
 //!       ╰─ cones ── raster ──▶ pictures of the regions
 //! ```
 //!
@@ -23,29 +23,23 @@
 mod band;
 mod boundary;
 mod certified;
-mod clearing;
 mod clip;
 mod cones;
 mod edge;
 pub mod exact;
-mod farthest;
 mod fit;
 mod frame;
-mod groove;
 mod junction;
-mod link;
 mod measure;
 pub mod medial;
 mod mixed;
 pub mod paper;
 mod part;
-mod passes;
 mod plane;
 mod regions;
-mod residual;
 mod sample;
 mod sliver;
-mod spike;
+mod wide;
 
 use std::borrow::Cow;
 use std::sync::Mutex;
@@ -56,13 +50,11 @@ use crate::geometry::{Nm, Path, Point, Rect};
 use crate::grid::{Grid, GridError};
 use crate::topology::{NetId, Nets};
 
-pub use clearing::Clearing;
 pub use fit::fit_points;
 pub use frame::Frame;
-pub use link::Link;
 pub use mixed::Loops;
-pub use passes::Widening;
 pub use regions::Regions;
+pub use wide::{Clearing, Link, Widening};
 
 use band::Band;
 use certified::Owned;

@@ -26,13 +26,13 @@ use rayon::prelude::*;
 
 use crate::geometry::Nm;
 use crate::topology::NetId;
+use crate::voronoi::clip::{Fence, Node, Piece};
+use crate::voronoi::exact::{self, OnAxis};
+use crate::voronoi::plane::Spot;
+use crate::voronoi::sample::{Sample, length};
+use crate::voronoi::{Boundary, OUTSIDE, Owner, Share};
 
-use super::clip::{Fence, Node, Piece};
-use super::exact::{self, OnAxis};
 use super::groove::Grooves;
-use super::plane::Spot;
-use super::sample::{Sample, length};
-use super::{Boundary, Owner, Share};
 
 /// A residue begins so much deeper in what the next pass clears than the edge of that, in
 /// nanometres. Chosen: more than fitting moves either.
@@ -174,7 +174,7 @@ impl Passes<'_> {
     ) -> Vec<Piece> {
         let cleared = self.cleared(cuts, before);
         let strips = edges.par_iter().flat_map_iter(|edge| {
-            let right = if edge.left > super::OUTSIDE { self.thin() } else { -self.thin() };
+            let right = if edge.left > OUTSIDE { self.thin() } else { -self.thin() };
             stretches(edge, LONG, |at, along| {
                 let beyond = at + Spot::new(along.y, -along.x) * right;
                 cleared.holds(beyond) && !cleared.holds(at)

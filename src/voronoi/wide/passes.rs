@@ -18,16 +18,16 @@ use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
 use crate::geometry::{Nm, Point};
 use crate::topology::{NetId, Nets};
+use crate::voronoi::certified::Owned;
+use crate::voronoi::clip::{Fence, Piece};
+use crate::voronoi::exact;
+use crate::voronoi::{BEYOND, Boundaries, Boundary, Diagram, FLOOR, NOBODY, NodeId, Owner, Share, SiteKind};
 
-use super::certified::Owned;
 use super::clearing::{Clearing, Room, Zone};
-use super::clip::{Fence, Piece};
-use super::exact;
 use super::groove::Grooves;
 use super::link::Rules;
 use super::residual::Passes;
 use super::spike::Spikes;
-use super::{BEYOND, Boundaries, Boundary, Diagram, FLOOR, NOBODY, Owner, Share, SiteKind};
 
 /// Links are no longer. Chosen: there and back they cost as much as a retract.
 const LONGEST: Nm = Nm::from_mm(3);
@@ -270,7 +270,7 @@ impl Boundaries {
         let offset = u32::try_from(self.nodes.len()).expect("below 2³² nodes");
         self.nodes.extend(other.nodes);
         self.edges.extend(other.edges.into_iter().map(|mut edge| {
-            edge.ends = edge.ends.map(|(a, b)| (super::NodeId(a.0 + offset), super::NodeId(b.0 + offset)));
+            edge.ends = edge.ends.map(|(a, b)| (NodeId(a.0 + offset), NodeId(b.0 + offset)));
             edge
         }));
     }

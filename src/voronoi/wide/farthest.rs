@@ -5,9 +5,8 @@
 //! already it is done with, else its quarters are looked at.
 
 use crate::geometry::Nm;
-
-use super::Diagram;
-use super::plane::Spot;
+use crate::voronoi::Diagram;
+use crate::voronoi::plane::Spot;
 
 /// Squares are no longer parted where their places are farther than the farthest known by no more
 /// than this part of that. Chosen: a pass too many costs less than a closer look.

@@ -11,11 +11,10 @@
 //! is one corner.
 
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
-
-use super::clip::{Fence, Node, Piece};
-use super::plane::Spot;
-use super::sample::Sample;
-use super::{BACKGROUND, Boundary, Owner};
+use crate::voronoi::clip::{Fence, Node, Piece};
+use crate::voronoi::plane::Spot;
+use crate::voronoi::sample::Sample;
+use crate::voronoi::{BACKGROUND, Boundary, Owner};
 
 /// Ways that turn back on themselves have no tip: 2°. Chosen.
 const LEAST_SINE: f64 = 0.02;

@@ -13,11 +13,10 @@ use crate::board::FLATTEN;
 use crate::board::polarity::{offset, union};
 use crate::geometry::{Nm, Polygon};
 use crate::topology::NetId;
-
-use super::clip::{Fence, Node, Piece};
-use super::plane::Spot;
-use super::sample::Sample;
-use super::{BACKGROUND, Owner};
+use crate::voronoi::clip::{Fence, Node, Piece};
+use crate::voronoi::plane::Spot;
+use crate::voronoi::sample::Sample;
+use crate::voronoi::{BACKGROUND, Owner};
 
 /// What is cleared beside the gaps round nets, and what is not.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -17,10 +17,9 @@ use rustc_hash::FxHashMap;
 
 use crate::geometry::{BoxTree, Nm, Path, Point, Segment};
 use crate::topology::DisjointSets;
-
-use super::part::{Cut, foot_on, part, vertex};
-use super::plane::{Spot, spanned};
-use super::{Boundaries, NodeId};
+use crate::voronoi::part::{Cut, foot_on, part, vertex};
+use crate::voronoi::plane::{Spot, spanned};
+use crate::voronoi::{Boundaries, NodeId};
 
 /// A way between two nodes that may be cut, and need not be.
 #[derive(Clone, Debug, PartialEq, Eq)]

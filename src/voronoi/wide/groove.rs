@@ -12,11 +12,10 @@
 use std::sync::Arc;
 
 use crate::geometry::{BoxTree, Nm};
-
-use super::Boundary;
-use super::clip::{Node, Piece};
-use super::plane::{Spot, spanned};
-use super::sample::Sample;
+use crate::voronoi::Boundary;
+use crate::voronoi::clip::{Node, Piece};
+use crate::voronoi::plane::{Spot, spanned};
+use crate::voronoi::sample::Sample;
 
 /// A pass goes on until it is so much nearer to a cut than it need be, in nanometres, so that one
 /// along the very edge of what is cleared is one pass. Chosen.
