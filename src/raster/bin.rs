@@ -133,16 +133,15 @@ impl Bin {
         self.far = hidden;
     }
 
-    /// The one owner of every pixel of the cell, where that is certain, and certain that no pixel
+    /// The one label of every pixel of the cell, where that is certain, and certain that no pixel
     /// lies at a depth on the other side of one of `levels` than another.
-    pub(super) fn uniform(&self, scene: &Scene, levels: &[f32]) -> Option<u32> {
-        let mut candidates = self.primitives();
-        let Some(first) = candidates.next() else { return Some(scene.owner(Label::BACKGROUND)) };
-        let owner = scene.owner(scene.primitives[index(first)].label);
+    pub(super) fn uniform(&self, scene: &Scene, levels: &[f32]) -> Option<Label> {
+        let mut labels = self.primitives().map(|primitive| scene.primitives[index(primitive)].label);
+        let Some(label) = labels.next() else { return Some(Label::BACKGROUND) };
         let covered = self.far < f32::INFINITY;
-        let alone = candidates.all(|other| scene.owner(scene.primitives[index(other)].label) == owner);
+        let alone = labels.all(|other| other == label);
         let crossed = levels.iter().any(|&level| (self.near..=self.far).contains(&level));
-        (covered && alone && !crossed).then_some(owner)
+        (covered && alone && !crossed).then_some(label)
     }
 
     /// All that may be seen, in no particular order.

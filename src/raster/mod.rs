@@ -31,7 +31,7 @@
 //! ```
 //!
 //! [`render()`] draws a picture into [`Buffers`]; [`stream()`] hands out finished tiles in a fixed
-//! order, for pictures larger than memory, and can leave out those that one owner has to itself.
+//! order, for pictures larger than memory, and can leave out those that one label has to itself.
 //! [`Picker`] lists what lies at a pixel, [`blend`] makes pictures of layers, a [`Palette`] gives
 //! labels their colours, [`mesh`] tessellates the surfaces as the papers did, [`view`] looks at
 //! them from the side. `examples/engine` is a crate that has all of this and nothing else of this
@@ -131,7 +131,7 @@
 //! | ns a pixel | 13 | 4.9 | 2.4 | 1.5 | 1.1 |
 //!
 //! Here the segments are paid for first, and then the pixels. Streamed with tiles of 32 pixels, of
-//! which those of one owner are skipped (50 labels), the same picture at 2048², 4096², 8192² and
+//! which those of one label are skipped (50 labels), the same picture at 2048², 4096², 8192² and
 //! 16384² takes 9, 18, 35 and 68 ms: the length of the boundaries, not the area. At 16384² 20 000
 //! segments stream in 10 MiB, and in less time a pixel than 2000 at 4096².
 //!

@@ -9,7 +9,6 @@ pub struct Scene {
     width: u32,
     height: u32,
     pub(super) primitives: Vec<Primitive>,
-    owners: Vec<u32>,
 }
 
 impl Scene {
@@ -24,7 +23,7 @@ impl Scene {
     #[must_use]
     pub const fn new(width: u32, height: u32) -> Self {
         assert!(width <= Self::MAX_SIDE && height <= Self::MAX_SIDE, "a picture is too large");
-        Self { width, height, primitives: Vec::new(), owners: Vec::new() }
+        Self { width, height, primitives: Vec::new() }
     }
 
     /// Adds a primitive: `surface`, shown as `label`.
@@ -41,22 +40,6 @@ impl Scene {
     /// Makes room for so many more primitives at once.
     pub fn reserve(&mut self, primitives: usize) {
         self.primitives.reserve_exact(primitives);
-    }
-
-    /// Says which owner each label belongs to (the index is the label); a label beyond the list is
-    /// its own owner, and so are all before the first call.
-    ///
-    /// Labels may be finer than what the caller calls one region. A tile is uniform where it has
-    /// one owner.
-    pub fn set_owners(&mut self, owners: Vec<u32>) {
-        self.owners = owners;
-    }
-
-    /// Whose a label is.
-    #[must_use]
-    pub fn owner(&self, label: Label) -> u32 {
-        let own = usize::try_from(label.0).ok().and_then(|index| self.owners.get(index));
-        own.copied().unwrap_or(label.0)
     }
 
     /// Columns of the picture.

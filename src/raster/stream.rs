@@ -2,12 +2,12 @@
 
 use rayon::prelude::*;
 
-use super::Scene;
 use super::bin::{Bin, Painter};
 use super::cell::Cell;
 use super::mosaic::Cuts;
 use super::node::{Descent, Grid, Node, signed};
 use super::tile::{Tile, TileContent, TilePixels};
+use super::{Label, Scene};
 
 /// How a picture is streamed.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +40,7 @@ const SQUARE: u32 = 256;
 ///
 /// A row of squares of tiles is drawn while the one before is handed over; no more than two are
 /// held. A tile is uniform where it is certain, without drawing it, that all its pixels inside the
-/// picture, its apron's included, have one owner, and that none of [`Options::levels`] lies within
+/// picture, its apron's included, have one label, and that none of [`Options::levels`] lies within
 /// its range of depths.
 ///
 /// # Panics
@@ -151,14 +151,14 @@ impl Worker {
         bin: &Bin,
         cell: Cell,
         (column, row): (u32, u32),
-        uniform: Option<u32>,
+        uniform: Option<Label>,
         made: &mut impl FnMut(u32, Tile<'_>),
     ) {
         let Grid { tile, apron, width, height } = job.grid;
         let (column0, row0) = (column * tile, row * tile);
         let (width, height) = (tile.min(width - column0), tile.min(height - row0));
         let content = match uniform {
-            Some(owner) => TileContent::Uniform(owner),
+            Some(label) => TileContent::Uniform(label),
             None => {
                 let (x, y) = (signed(column0) - signed(apron), signed(row0) - signed(apron));
                 let (width, height) = (signed(width + 2 * apron), signed(height + 2 * apron));

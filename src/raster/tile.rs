@@ -21,8 +21,8 @@ pub struct Tile<'a> {
 /// What a tile shows.
 #[derive(Clone, Copy, Debug)]
 pub enum TileContent<'a> {
-    /// One owner everywhere, known without drawing.
-    Uniform(u32),
+    /// One label everywhere, known without drawing.
+    Uniform(Label),
     /// Its pixels.
     Pixels(TilePixels<'a>),
 }

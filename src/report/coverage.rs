@@ -11,7 +11,7 @@ use std::ops::Range;
 use crate::board::Shape;
 use crate::geometry::{Nm, Path, Point, Rect};
 use crate::grid::Grid;
-use crate::raster::{self, Caps, Label, Scene, Sides, Surface, Tile, TileContent};
+use crate::raster::{self, Label, Scene, Tile, TileContent};
 use crate::topology;
 
 /// The thinnest line, in pixels: a thinner one would be paler. Chosen.
@@ -45,7 +45,7 @@ impl Coverage {
     pub(super) fn of_shapes<'a>(grid: Grid, shapes: impl IntoIterator<Item = (Label, &'a Shape)>) -> Self {
         let mut coverage = Self::new(grid, 0.5);
         for (label, shape) in shapes {
-            if coverage.shows([shape.bounds().min(), shape.bounds().max()], Nm::ZERO) {
+            if coverage.shows(shape.bounds(), Nm::ZERO) {
                 coverage.shape(label, shape);
             }
         }
@@ -63,7 +63,7 @@ impl Coverage {
                 if to != ring[0] && from.distance(to) < near {
                     continue;
                 }
-                if self.shows([from, to], Nm::ZERO) {
+                if self.shows(Rect::new(from, to), Nm::ZERO) {
                     self.line(label, [from, to], 0.0);
                 }
                 from = to;
@@ -83,8 +83,7 @@ impl Coverage {
         let tolerance = (grid.pitch() / 20).max(Nm::new(1));
         for (label, path) in paths {
             for (from, segment) in path.steps() {
-                let bounds = segment.bounds(from);
-                if !coverage.shows([bounds.min(), bounds.max()], width) {
+                if !coverage.shows(segment.bounds(from), width) {
                     continue;
                 }
                 match segment.arc(from) {
@@ -102,16 +101,14 @@ impl Coverage {
         coverage
     }
 
-    fn line(&mut self, label: Label, ends: [Point; 2], offset: f32) {
-        let [from, to] = ends.map(|end| self.grid.pixel(end));
-        let limit = Some(self.ramp);
-        self.scene
-            .add(label, Surface::Curtain { from, to, caps: Caps::Both, sides: Sides::Both, offset, limit });
+    fn line(&mut self, label: Label, [from, to]: [Point; 2], offset: f32) {
+        let line = Shape::Stroke { from, to, radius: Nm::ZERO };
+        self.scene.add(label, topology::grown(&line, &self.grid, offset, Some(self.ramp)));
     }
 
-    /// Whether what lies within the box of two points, grown by `reach`, may cover a pixel.
-    fn shows(&self, ends: [Point; 2], reach: Nm) -> bool {
-        Rect::new(ends[0], ends[1]).inflate(reach + self.grid.pitch()).touches(self.grid.rect())
+    /// Whether what lies within a rectangle, grown by `reach`, may cover a pixel.
+    fn shows(&self, rect: Rect, reach: Nm) -> bool {
+        rect.inflate(reach + self.grid.pitch()).touches(self.grid.rect())
     }
 
     /// Shows `lay` what is covered, row by row of each tile.
@@ -133,9 +130,9 @@ impl Coverage {
         let all = tile.column0..tile.column0 + tile.width;
         let rows = tile.row0..tile.row0 + tile.height;
         let pixels = match &tile.content {
-            TileContent::Uniform(0) => return Vec::new(),
+            TileContent::Uniform(Label::BACKGROUND) => return Vec::new(),
             TileContent::Uniform(label) => {
-                return rows.map(|row| (row, all.clone(), Label(*label), u8::MAX)).collect();
+                return rows.map(|row| (row, all.clone(), *label, u8::MAX)).collect();
             }
             TileContent::Pixels(pixels) => pixels,
         };

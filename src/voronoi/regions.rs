@@ -72,7 +72,7 @@ impl Regions {
             let rows = tile.row0..tile.row0 + tile.height;
             let all = tile.column0..tile.column0 + tile.width;
             match &tile.content {
-                TileContent::Uniform(owner) => rows.map(|row| (row, all.clone(), *owner)).collect(),
+                TileContent::Uniform(owner) => rows.map(|row| (row, all.clone(), owner.0)).collect(),
                 TileContent::Pixels(pixels) => {
                     let labels = (0_i32..).map(|row| pixels.label_row(row));
                     let stretches = |(row, labels)| stretches(row, all.start, labels);

@@ -166,7 +166,7 @@ fn streamed_equals(scene: &Scene, options: &Options, dense: &Buffers) -> Result<
                     || x0 + x >= SIZE.0.cast_signed()
                     || y0 + y >= SIZE.1.cast_signed();
                 let same = match tile.content {
-                    TileContent::Uniform(owner) => beyond || wanted.0 == owner,
+                    TileContent::Uniform(label) => beyond || wanted.0 == label.0,
                     TileContent::Pixels(pixels) => {
                         (pixels.label(x, y).0, pixels.depth(x, y).to_bits()) == wanted
                     }

@@ -131,7 +131,7 @@ enum Rows {
 impl Packed {
     fn new(tile: Tile<'_>) -> Self {
         let rows = match &tile.content {
-            TileContent::Uniform(0) => Rows::Alike(u64::MAX),
+            TileContent::Uniform(Label::BACKGROUND) => Rows::Alike(u64::MAX),
             TileContent::Uniform(_) => Rows::Alike(0),
             TileContent::Pixels(pixels) => {
                 let rows = (0_i32..).take(tile.height as usize);
