@@ -3,7 +3,7 @@
 //! All three are one thing, a round cutter moved along a path, so that no later stage tells them
 //! apart by format.
 
-use crate::geometry::{Nm, Path, Rect};
+use crate::geometry::{Nm, Path, Rect, Segment};
 
 use super::Shape;
 
@@ -41,15 +41,19 @@ impl Hole {
         !self.path.segments.is_empty()
     }
 
-    /// What the cutter takes away: a disc where it plunges, and a stroke or an arc for each move.
+    /// What the cutter takes away, grown by `by` all round: a disc where it only plunges, else a
+    /// stroke or an arc for each move.
     #[must_use]
-    pub fn shapes(&self) -> Vec<Shape> {
-        let (start, radius) = (self.path.start, self.diameter / 2);
-        let strokes = self.path.steps().map(|(from, segment)| match segment.arc(from) {
+    pub fn shapes(&self, by: Nm) -> Vec<Shape> {
+        let radius = self.diameter / 2 + by;
+        if !self.is_slot() {
+            return vec![Shape::Disc { center: self.path.start, radius }];
+        }
+        let shape = |(from, segment): (_, &Segment)| match segment.arc(from) {
             Some(arc) => Shape::Arc { arc, radius },
             None => Shape::Stroke { from, to: segment.to(), radius },
-        });
-        std::iter::once(Shape::Disc { center: start, radius }).chain(strokes).collect()
+        };
+        self.path.steps().map(shape).collect()
     }
 
     /// A rectangle that holds it.

@@ -1,7 +1,7 @@
 //! Board geometry on tiny-skia's pixmaps: the only file that speaks to the drawing library.
 //!
-//! Shapes and lines, of which there are thousands, are drawn by our own rasterizer, several times
-//! as fast; the library holds the pixels and writes letters.
+//! Shapes and lines, of which there are thousands, are drawn by our own rasterizer, on all threads;
+//! the library holds the pixels and writes letters.
 
 use std::ops::Range;
 

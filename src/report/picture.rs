@@ -91,7 +91,7 @@ const FREE: Nm = Nm::from_mm(1);
 pub fn heat(side: &Shown<'_>, grid: Grid) -> Canvas {
     let width = grid.pitch() * 3;
     let mut canvas = dimmed(side, grid);
-    let stretches = |edge: &'_ Boundary| {
+    let stretches = |edge: &Boundary| {
         let stretch = |((from, &segment), room): ((Point, &Segment), &[Nm])| {
             let path = Path { start: from, segments: vec![segment] };
             (path, clearance_colour(room[0].min(room[1])))
@@ -246,7 +246,7 @@ fn substrate(canvas: &mut Canvas, outline: Option<&Outline>) {
 }
 
 fn holes(canvas: &mut Canvas, holes: &[Hole]) {
-    let holes: Vec<Shape> = holes.iter().flat_map(Hole::shapes).collect();
+    let holes: Vec<Shape> = holes.iter().flat_map(|hole| hole.shapes(Nm::ZERO)).collect();
     canvas.fill(holes.iter().map(|hole| (hole, HOLE)));
 }
 

@@ -5,6 +5,7 @@
 //! in a pad is left as a single pixel.
 
 use crate::board::{Axis, Copper, Feature, Hole};
+use crate::geometry::Nm;
 use crate::grid::Grid;
 use crate::raster::{Bits, Faces, Node, Thinned, thin};
 
@@ -18,7 +19,7 @@ const NODES: [(Node, Rgb); 2] = [(Node::Three, Rgb(0x30, 0x60, 0xff)), (Node::Fo
 fn drilled(hole: &Hole) -> Vec<Feature> {
     let feature =
         |shape| Feature { shape, axis: Axis::Flash(hole.path.start), attributes: 0, line: hole.line };
-    hole.shapes().into_iter().map(feature).collect()
+    hole.shapes(Nm::ZERO).into_iter().map(feature).collect()
 }
 
 /// A side, thinned.

@@ -4,8 +4,8 @@
 use std::ops::ControlFlow;
 
 use crate::board::diagnostic::planning;
-use crate::board::{Copper, Hole, Plating, Shape, Side, Warning};
-use crate::geometry::{Nm, Segment};
+use crate::board::{Copper, Hole, Plating, Side, Warning};
+use crate::geometry::Nm;
 
 use super::contact::{Bodies, Body, Scratch};
 use super::sets::DisjointSets;
@@ -90,7 +90,7 @@ pub fn electrical(
 fn islands_at<'a>(hole: &Hole, bodies: &'a Bodies, nets: &'a Nets) -> impl Iterator<Item = NetId> + use<'a> {
     let mut found = Vec::new();
     let (mut stack, mut scratch) = (Vec::new(), Scratch::default());
-    for wall in drilled(hole).iter().map(Body::new) {
+    for wall in hole.shapes(PLATING).iter().map(Body::new) {
         let _ = bodies.index.visit(wall.bounds(), &mut stack, |feature| {
             if wall.touches(&bodies.bodies[feature], &mut scratch) {
                 found.push(nets.of(feature));
@@ -99,19 +99,6 @@ fn islands_at<'a>(hole: &Hole, bodies: &'a Bodies, nets: &'a Nets) -> impl Itera
         });
     }
     found.into_iter()
-}
-
-/// What the drill takes away, plating included.
-fn drilled(hole: &Hole) -> Vec<Shape> {
-    let radius = hole.diameter / 2 + PLATING;
-    if hole.path.segments.is_empty() {
-        return vec![Shape::Disc { center: hole.path.start, radius }];
-    }
-    let step = |(from, segment): (_, &Segment)| match segment.arc(from) {
-        Some(arc) => Shape::Arc { arc, radius },
-        None => Shape::Stroke { from, to: segment.to(), radius },
-    };
-    hole.path.steps().map(step).collect()
 }
 
 /// The sets of islands as nets.

@@ -97,7 +97,7 @@ impl<'a> Owned<'a> {
 }
 
 /// The axis of a feature as a shape without width, or its copper where that does not hold it.
-fn core(feature: &Feature) -> Cow<'_, Shape> {
+pub(super) fn core(feature: &Feature) -> Cow<'_, Shape> {
     let radius = Nm::ZERO;
     match axis(feature) {
         Some(Axis::Flash(center)) => Cow::Owned(Shape::Disc { center, radius }),

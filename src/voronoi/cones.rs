@@ -3,13 +3,13 @@
 //! A polygon's ring is drawn coarser than it is, by edges that stay within a sixteenth of a pixel
 //! of it. So a pad whose corners were flattened into a hundred edges costs a dozen.
 
-use crate::board::{Axis, Copper, FLATTEN, Feature, Shape};
+use crate::board::{Copper, FLATTEN, Feature, Shape};
 use crate::geometry::{Nm, Point, Polygon, coarse};
 use crate::grid::Grid;
 use crate::raster::{Caps, FillRule, Label, Scene, Sides, Surface};
 use crate::topology::{Nets, grown};
 
-use super::certified::axis;
+use super::certified::core;
 use super::edge::Border;
 use super::{OUTSIDE, Owner, Settings, SiteKind};
 
@@ -97,14 +97,7 @@ impl Cones<'_> {
     /// The paper's approximate core medial axis (§III-D), its copper above it where asked
     /// (§III-D.2).
     fn core(&mut self, feature: &Feature, owner: Label, min_width: bool) {
-        let radius = Nm::ZERO;
-        let thin = axis(feature).and_then(|axis| match axis {
-            Axis::Flash(center) => Some(Shape::Disc { center, radius }),
-            Axis::Line(from, to) => Some(Shape::Stroke { from, to, radius }),
-            Axis::Arc(arc) => Some(Shape::Arc { arc, radius }),
-            Axis::Region => None,
-        });
-        self.copper(thin.as_ref().unwrap_or(&feature.shape), owner, false);
+        self.copper(&core(feature), owner, false);
         if min_width {
             self.copper(&feature.shape, owner, true);
         }

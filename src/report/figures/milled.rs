@@ -8,7 +8,7 @@
 //!          ─────────────────────────╲──
 //! ```
 
-use crate::board::{Board, Copper, FLATTEN, Hole, Outline, Shape};
+use crate::board::{Board, Copper, FLATTEN, Outline, Shape};
 use crate::geometry::{Nm, Path, Polygon};
 use crate::grid::{Grid, GridError};
 use crate::raster::{Buffers, Caps, Label, Scene, Sides, Surface, render};
@@ -89,7 +89,7 @@ fn stock(board: &Board, copper: &Copper, grid: Grid) -> Vec<u8> {
     let whole = |outline: &Outline| outline.polygon(FLATTEN);
     let edge = board.outline.as_ref().map_or_else(|| Polygon::rectangle(super::area(board, copper)), whole);
     canvas.fill([(&Shape::Polygon(edge), Rgb(255, 255, 255))]);
-    let holes: Vec<Shape> = board.holes.iter().flat_map(Hole::shapes).collect();
+    let holes: Vec<Shape> = board.holes.iter().flat_map(|hole| hole.shapes(Nm::ZERO)).collect();
     canvas.fill(holes.iter().map(|hole| (hole, Rgb(0, 0, 0))));
     red(canvas)
 }

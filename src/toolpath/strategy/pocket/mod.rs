@@ -323,6 +323,11 @@ impl Miller<'_> {
         self.at = Some((number, along));
     }
 
+    /// Half of how wide the tool cuts, in nanometres.
+    fn radius(&self) -> f64 {
+        self.settings.tool.width_at(self.settings.heights.cut).to_f64() / 2.0
+    }
+
     /// Whether loops are followed as they are, the edge on the left.
     const fn is_forward(&self, toward_wall: bool) -> bool {
         !self.settings.direction.reverses(toward_wall, false)
@@ -354,7 +359,7 @@ impl Miller<'_> {
         };
         let nearest = region.loops.iter().map(near).min_by(|a, b| a.2.total_cmp(&b.2));
         let Some((number, along, far)) = nearest else { return };
-        let radius = self.settings.tool.width_at(self.settings.heights.cut).to_f64() / 2.0;
+        let radius = self.radius();
         let room = (summit.clearance - self.settings.levels.wall).min(radius * WIDEST);
         if room < radius * NARROWEST {
             return self.enter_along(number, along, true);
@@ -400,7 +405,7 @@ impl Miller<'_> {
         self.head.over(Point::from_f64(x, y));
         self.entries.all += 1;
         let mut from = along;
-        let radius = self.settings.tool.width_at(self.settings.heights.cut).to_f64() / 2.0;
+        let radius = self.radius();
         let narrowest = std::f64::consts::TAU * radius * NARROWEST;
         if whole < narrowest && needed > whole * MOST_TURNS {
             self.entries.straight += 1;
