@@ -47,7 +47,10 @@ pub enum GridError {
     #[error("a pixel of {0:.6} mm is too fine: the smallest is 0.001 mm")]
     TooFine(Nm),
     /// The picture is too large.
-    #[error("{columns} × {rows} pixels are too many: at most 65536 each way; use larger pixels")]
+    #[error(
+        "{columns} × {rows} pixels are too many: at most 65536 each way, and 134 million in a picture; \
+         use larger pixels"
+    )]
     TooLarge {
         /// Pixels across.
         columns: i64,

@@ -88,7 +88,7 @@ pub(super) fn assign(
             roles.iter().filter(|vote| vote.role == Some(Role::Drill)).map(|vote| vote.file).collect();
     }
     take_the_only_one(&roles, gathered, &mut assigned);
-    set_aside(&roles, gathered, &mut assigned);
+    set_aside(&roles, gathered, selection, &mut assigned);
     assigned.name = naming::board_name(gathered, paths, selection, &job, &assigned);
     Ok(assigned)
 }
@@ -148,17 +148,22 @@ fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
 fn witness(gathered: &Gathered, job: &Job) -> Vec<Vote> {
     let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
     let shared = layers::shared_start(&names);
+    let has_drill = gathered.files.iter().any(|file| file.kind == Kind::Excellon);
     let vote = |(index, file): (usize, &Found)| {
         let by_job = job.function_of(&file.name).map(|function| (function, Witness::Job));
         let by_function = || Some((Function::read(&layers::function_of(&file.bytes)?)?, Witness::Function));
         let by_name = || {
-            let role = layers::role_by_name(&file.name, shared)?;
+            let inside = || layers::role_by_name(&layers::loaded_name(&file.bytes)?, 0);
+            let role = layers::role_by_name(&file.name, shared).or_else(inside)?;
             Some((Function { role, side: None }, Witness::Name))
         };
         let declared = by_job.or_else(by_function).or_else(by_name);
         let side = declared.and_then(|(function, _)| function.side);
-        let declared =
-            declared.map(|(Function { role, .. }, witness)| (by_content(role, witness, file.kind), witness));
+        let is_drawing =
+            |witness| witness == Witness::Name && (has_drill || !layers::draws_holes(&file.name));
+        let declared = declared.map(|(Function { role, .. }, witness)| {
+            (by_content(role, file.kind, is_drawing(witness)), witness)
+        });
         let declared =
             declared.or_else(|| (file.kind == Kind::Excellon).then_some((Role::Drill, Witness::Name)));
         let (role, witness) = declared.map_or((None, Witness::Name), |(role, witness)| (Some(role), witness));
@@ -168,11 +173,11 @@ fn witness(gathered: &Gathered, job: &Job) -> Vec<Vote> {
 }
 
 /// The role that content allows: Excellon is always a drill file, and a Gerber that only its name
-/// calls a drill file is a drawing of one.
-fn by_content(role: Role, witness: Witness, kind: Kind) -> Role {
+/// calls a drill file is a drawing of one (`is_drawing`).
+fn by_content(role: Role, kind: Kind, is_drawing: bool) -> Role {
     match (kind, role) {
         (Kind::Excellon, _) => Role::Drill,
-        (Kind::Gerber, Role::Drill) if witness == Witness::Name => Role::Other("drill drawing"),
+        (Kind::Gerber, Role::Drill) if is_drawing => Role::Other("drill drawing"),
         _ => role,
     }
 }
@@ -210,21 +215,32 @@ fn take_the_only_one(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigne
     }
 }
 
-fn set_aside(votes: &[Vote], gathered: &Gathered, assigned: &mut Assigned) {
+/// Lists what has no place, and says what may be missed.
+fn set_aside(votes: &[Vote], gathered: &Gathered, selection: &Selection, assigned: &mut Assigned) {
     let single = [assigned.front, assigned.back, assigned.outline];
+    let without_holes = assigned.drill.is_empty() && selection.drill.is_empty() && !selection.no_drill;
     for vote in votes {
         if single.contains(&Some(vote.file)) || assigned.drill.contains(&vote.file) {
             continue;
         }
+        let file = &gathered.files[vote.file];
+        let mut warn = |message| {
+            assigned.warnings.push(diagnostic::ROLE_UNKNOWN.warning(message).caused_by(file.first_line()));
+        };
         let what = match vote.role {
-            Some(Role::Other(what)) => what,
+            Some(Role::Other(what)) => {
+                // Words alone say so: an extension such as `.gd1` is that of drawings.
+                if what == "drill drawing" && without_holes && layers::role_by_extension(&file.name).is_none()
+                {
+                    let of =
+                        "is named like a drill file, but it is Gerber and taken for a picture of the holes";
+                    warn(format!("{} {of}: no holes are read", file.name));
+                }
+                what
+            }
             None => {
-                let file = &gathered.files[vote.file];
                 if !assigned.by_hand.contains(&vote.file) {
-                    let message = format!("the layer of {} is unknown; the file is ignored", file.name);
-                    assigned
-                        .warnings
-                        .push(diagnostic::ROLE_UNKNOWN.warning(message).caused_by(file.first_line()));
+                    warn(format!("the layer of {} is unknown; the file is ignored", file.name));
                 }
                 "unknown role"
             }

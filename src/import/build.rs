@@ -99,10 +99,15 @@ impl Build {
             }
         }
         let places = ["in another drill file, too", "there more than once"];
+        let number = |count| match count {
+            1 => ("hole", "is", "it is"),
+            _ => ("holes", "are", "they are"),
+        };
         for ((count, at, line), place) in
             doubles.into_iter().zip(places).filter_map(|(of, place)| Some((of?, place)))
         {
-            let message = format!("{count} holes of {} are {place}; they are drilled once", file.name);
+            let (holes, are, they_are) = number(count);
+            let message = format!("{count} {holes} of {} {are} {place}; {they_are} drilled once", file.name);
             let warning = diagnostic::DUPLICATE_HOLES.warning(message).at(at);
             warnings.push(warning.caused_by(file.at_line(line)));
         }

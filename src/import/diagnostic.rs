@@ -376,7 +376,7 @@ diagnostics! {
         "duplicate-holes",
         "The same holes twice",
         "each hole once, in one drill file",
-        "leave out the file that repeats the others ({drill} chooses those to read)";
+        "nothing, or take one of two out of the design; {drill} chooses the files to read";
 
     // Of the outline.
 

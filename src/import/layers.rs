@@ -6,9 +6,10 @@
 //! 1. a Gerber job file (`.gbrjob`), which lists the files and their functions;
 //! 2. the X2 attribute `.FileFunction` in the file itself (Gerber specification 2024.05 §5.6.3),
 //!    also where KiCad and Eagle hide it in comments;
-//! 3. the name: KiCad's `-F_Cu`, Altium's and Protel's `.GTL`, Eagle's `.cmp` and `copper_top`,
-//!    EasyEDA's `Gerber_TopLayer`, DipTrace's `_Top`, gEDA's `.front` and `group1`, OrCAD's `.top`,
-//!    what people call sides in other languages; also with an extension more, `.GTL.gbr`.
+//! 3. the name, and where it tells nothing the one inside (`LN`): KiCad's `-F_Cu`, Altium's and
+//!    Protel's `.GTL`, Eagle's `.cmp` and `copper_top`, EasyEDA's `Gerber_TopLayer`, DipTrace's
+//!    `_Top`, gEDA's `.front` and `group1`, OrCAD's `.top`, what people call sides in other
+//!    languages; also with an extension more, `.GTL.gbr`.
 //!
 //! Words of a name count only where they differ between the files: the board `solder-station` has
 //! no back side for it.
@@ -39,6 +40,23 @@ pub(super) fn function_of(bytes: &[u8]) -> Option<String> {
     let start = head.windows(NAME.len()).position(|window| window == NAME)? + NAME.len();
     let value = head[start..].split(|b| matches!(b, b'*' | b'%' | b'\r' | b'\n')).next()?;
     Some(value.iter().map(|&b| char::from(b)).collect::<String>().trim().to_owned())
+}
+
+/// The name that a Gerber file calls its layer by, if it does (`LN`, specification 2024.05 §8.1.5):
+/// `GLOBAL_BOUNDARY_UROUTE_7`.
+pub(super) fn loaded_name(bytes: &[u8]) -> Option<String> {
+    const NAME: &[u8] = b"%LN";
+    let head = &bytes[..bytes.len().min(4 * 1024)];
+    let start = head.windows(NAME.len()).position(|window| window == NAME)? + NAME.len();
+    let value = head[start..].split(|b| matches!(b, b'*' | b'%' | b'\r' | b'\n')).next()?;
+    Some(String::from_utf8_lossy(value).into_owned())
+}
+
+/// Whether a Gerber of this name draws the holes and no picture of them: pcb-rnd's
+/// `amp.global.virtual.pdrill.none.gbr` and `udrill`.
+pub(super) fn draws_holes(name: &str) -> bool {
+    let words = words(name, false);
+    words.windows(2).any(|pair| pair[0] == "virtual" && matches!(pair[1].as_str(), "pdrill" | "udrill"))
 }
 
 /// File functions of what is not milled (Gerber specification 2024.05 §5.6.3).
@@ -244,6 +262,7 @@ const ASIDE: &[(&str, Role)] = &[
     ("fab", Role::Other("documentation")),
     ("assy", Role::Other("documentation")),
     ("mid", Role::Other("inner copper")),
+    ("intern", Role::Other("inner copper")),
     ("plane", Role::Other("inner copper")),
 ];
 
@@ -468,12 +487,19 @@ const fn without_accent(c: char) -> char {
     }
 }
 
-/// How many bytes at the start all `names` share, up to the last mark that parts words.
+/// How many bytes at the start all `names` share, up to the last mark that parts words; all of one
+/// by which more than two begin, which is the board's name: `comp1.cmp`, `comp1.sol`, `comp1.drd`.
 pub(super) fn shared_start(names: &[&str]) -> usize {
+    /// A layer and its holes may have one name, `bottom.gbr` and `bottom.drl`. Chosen.
+    const MANY: usize = 3;
     let Some((first, rest)) = names.split_first().filter(|(_, rest)| !rest.is_empty()) else { return 0 };
     let shared = rest.iter().fold(first.len(), |shared, name| {
         first.bytes().zip(name.bytes()).take(shared).take_while(|(a, b)| a == b).count()
     });
+    let ends = |name: &&str| name.as_bytes().get(shared).is_none_or(|b| !b.is_ascii_alphanumeric());
+    if names.len() >= MANY && names.iter().all(ends) {
+        return shared;
+    }
     first.as_bytes()[..shared].iter().rposition(|b| !b.is_ascii_alphanumeric()).map_or(0, |i| i + 1)
 }
 
@@ -556,6 +582,9 @@ mod tests {
             ("amp_copperTop.gtl", FRONT),
             ("amp_contour.gm1", Role::Outline),
             ("amp.global.boundary.uroute.9.gbr", Role::Outline),
+            ("amp.intern.copper.none.5.gbr", Role::Other("inner copper")),
+            ("amp.global.virtual.udrill.none.gbr", Role::Drill),
+            ("GLOBAL_BOUNDARY_UROUTE_7", Role::Outline),
             ("amp_BoardFigure.gbr", Role::Outline),
             ("amp-pad_master.gbr", Role::Other("pad master")),
             ("amp-drill_map.gbr", Role::Other("drill map")),
@@ -582,6 +611,8 @@ mod tests {
         assert_eq!(shared_start(&names), "solder-".len(), "up to a mark");
         assert_eq!(role_by_name("solder-station.gbr", 7), None, "the board's name is no side");
         assert_eq!(shared_start(&["one.gbr"]), 0, "one file shares nothing");
+        let alike = ["comp1", "comp1", "comp1-extra"];
+        assert_eq!((shared_start(&alike), shared_start(&alike[..2])), (5, 0), "two may be of one layer");
     }
 
     #[test]

@@ -83,7 +83,9 @@ pub(super) fn load(mut gathered: Gathered, selection: &Selection, need: Need) ->
         build.sources.push(aside(layout.drill, "holes"));
     } else if !layout.holes.is_empty() {
         build.sources.push(Source { role: "drill".to_owned(), ..layout.drill });
-        build.board.holes = layout.holes;
+        let mut warnings = Vec::new();
+        build.add_holes(layout.holes, &file, &mut warnings);
+        build.warnings.append(&mut warnings);
     }
     gathered.refuse_unmet_skips()?;
     build.warn_of_size();

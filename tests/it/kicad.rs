@@ -264,6 +264,7 @@ fn texts_of_footprints_are_upright_and_say_what_they_refer_to() {
     assert_about(turned("0"), [12.9, -11.0, 14.1, -8.8], "beside the footprint, which is turned");
     assert_about(turned("180"), [12.9, -11.0, 14.1, -8.8], "never on its head");
     assert_about(turned("180 unlocked"), [11.9, -11.2, 13.1, -9.0], "but where it may");
+    assert_about(turned("unlocked"), turned("0").expect("letters"), "and where it may but is not turned");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
-use voromill::board::{Hole, Side};
+use voromill::board::{Hole, Plating, Side};
 use voromill::geometry::{Nm, Point};
 use voromill::import::{Loaded, Selection, load, load_copper, survey};
 
@@ -523,6 +523,18 @@ fn what_one_file_drills_twice_is_one_hole() {
 }
 
 #[test]
+fn what_a_kicad_board_drills_twice_is_one_hole() {
+    let via = "(via (at 5 5) (size 0.8) (drill 0.4) (layers F.Cu B.Cu) (net 0))";
+    let board = format!("(kicad_pcb (version 20211014) {via} {via} {})", via.replace("at 5 5", "at 9 5"));
+    let folder = Folder::with(&[("amp.kicad_pcb", &board)]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    assert_eq!(loaded.board.holes.len(), 2, "one, and that beside it");
+    let said = loaded.warnings.iter().find(|warning| warning.code() == "duplicate-holes").expect("a warning");
+    let expected = "1 hole of amp.kicad_pcb is there more than once; it is drilled once";
+    assert_eq!(said.message, expected);
+}
+
+#[test]
 fn a_gerber_drill_file_has_holes_and_slots() {
     let text = "%TF.FileFunction,Plated,1,2,PTH*%\n%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.8*%\n%ADD11O,2.0X1.0*%\nD10*\nX1000000Y1000000D03*\nX5000000Y5000000D02*\nX7000000Y5000000D01*\nD11*\nX9000000Y9000000D03*\nM02*\n";
     let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp-PTH-drl.gbr", text)]);
@@ -612,6 +624,44 @@ fn the_boards_of_this_repository_load_without_a_warning() {
         let name = path.file_name().expect("a name").to_str().expect("text");
         assert_eq!(loaded.board.name, name, "named as its files");
     }
+}
+
+/// pcb-rnd writes holes as a Gerber layer of its own, beside Excellon if asked.
+#[test]
+fn holes_in_gerber_are_read_where_there_is_no_drill_file() {
+    let names = ["amp.top.copper.none.3.gbr", "amp.global.virtual.pdrill.none.gbr", "amp.plated-drill.cnc"];
+    let files = [(names[0], SQUARE), (names[1], SQUARE), (names[2], DRILL)];
+    let alone = Folder::with(&files[..2]).load(&Selection::default()).expect("a board");
+    assert_eq!(files_of(&alone, "drill"), [names[1]]);
+    assert!(!alone.board.holes.is_empty(), "its lines are slots");
+    assert!(alone.board.holes.iter().all(|hole| hole.plating == Plating::Plated), "pdrill: plated");
+    let both = Folder::with(&files).load(&Selection::default()).expect("a board");
+    assert_eq!(files_of(&both, "drill"), [names[2]], "once");
+    // A picture of the holes is told from them by its name alone, so that is said.
+    let drawn = Folder::with(&[files[0], ("amp-drill.gbr", SQUARE)]);
+    let said = drawn.load(&Selection::default()).expect("a board").warnings;
+    let said: Vec<_> = said.iter().filter(|warning| warning.code() == "role-unknown").collect();
+    assert!(said.len() == 1 && said[0].message.ends_with("no holes are read"), "{said:?}");
+    let none = drawn.load(&Selection { no_drill: true, ..Selection::default() }).expect("a board");
+    assert!(none.warnings.iter().all(|warning| warning.code() != "role-unknown"), "as asked for");
+}
+
+#[test]
+fn a_drill_file_that_ends_at_once_has_no_holes() {
+    let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp-PTH.drl", DRILL), ("amp.cnc", "M30\r\n")]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    assert_eq!(files_of(&loaded, "drill"), ["amp-PTH.drl", "amp.cnc"]);
+    let said = loaded.warnings.iter().find(|warning| warning.code().starts_with("drill"));
+    assert!(said.is_none(), "pcb-rnd writes it: {said:?}");
+}
+
+#[test]
+fn a_layer_whose_file_name_tells_nothing_may_be_named_inside() {
+    let edge = SQUARE.replacen("%MO", "%LNGLOBAL_BOUNDARY_UROUTE_7*%\n%MO", 1);
+    assert!(edge.contains("%LN"), "{edge}");
+    let folder = Folder::with(&[("amp.top", SQUARE), ("amp.fab", &edge)]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    assert_eq!(files_of(&loaded, "outline"), ["amp.fab"]);
 }
 
 #[test]

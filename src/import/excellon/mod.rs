@@ -115,7 +115,8 @@ pub fn looks_like(bytes: &[u8]) -> bool {
         let neutral = upper == "%" || upper.starts_with('(') || upper.starts_with('/');
         let modal = ["G90", "G05", "M71", "M72", "G91", "ICI"].iter().any(|code| upper.starts_with(code))
             || machine::WITHOUT_EFFECT.contains(&upper.split(',').next().unwrap_or_default());
-        (!neutral && !modal).then(|| begins_as_drill(&upper))
+        // A program that ends at once: pcb-rnd's for a kind of hole that the board has none of.
+        (!neutral && !modal).then(|| upper == "M30" || begins_as_drill(&upper))
     });
     tells.into_iter().next().unwrap_or(false)
 }
@@ -174,15 +175,19 @@ fn refuse_others(name: &str, bytes: &[u8]) -> Result<(), Error> {
     Err(Error::content(name, what, hint))
 }
 
-/// What a file's name says of its holes: `board-NPTH.drl`, `plated-drill.cnc`.
+/// What a file's name says of its holes: `board-NPTH.drl`, `plated-drill.cnc`, `virtual.pdrill`.
 pub(super) fn plating_by_name(name: &str) -> Plating {
     let name = name.to_ascii_lowercase();
     let squeezed: String = name.chars().filter(char::is_ascii_alphanumeric).collect();
-    if ["npth", "nonplated", "unplated", "notplated"].iter().any(|word| squeezed.contains(word)) {
+    if ["npth", "nonplated", "unplated", "notplated", "udrill"].iter().any(|word| squeezed.contains(word)) {
         return Plating::NonPlated;
     }
     let mut words = name.split(|c: char| !c.is_ascii_alphanumeric());
-    if words.any(|word| matches!(word, "pth" | "plated")) { Plating::Plated } else { Plating::Unknown }
+    if words.any(|word| matches!(word, "pth" | "plated" | "pdrill")) {
+        Plating::Plated
+    } else {
+        Plating::Unknown
+    }
 }
 
 /// What an X2 file function says of the holes: `NonPlated,1,2,NPTH`.
@@ -281,6 +286,9 @@ impl Reading {
     /// Warns of what was guessed, and of holes that do not fit the copper.
     fn explain(&self, file: File<'_>, context: &Context, warnings: &mut Warnings<'_>) {
         let Score { on_pads, inside, holes, .. } = self.score;
+        if holes == 0 {
+            return;
+        }
         let place = || file.declared.units.as_ref().map_or(0..0, |(_, place)| place.clone());
         let read_as = format!("read as {} {}", self.format.units.name(), self.format);
         let undeclared = file.declared.units.is_none() || file.declared.zeros.is_none();

@@ -49,7 +49,10 @@ impl Setting {
     pub(super) fn of(reader: &Reader<'_>, node: Node<'_>, frame: &Frame) -> Result<Option<Self>, Error> {
         let Some(at) = node.find("at") else { return Ok(None) };
         let anchor = frame.place((reader.length(at, 0)?, reader.length(at, 1)?));
-        let mut degrees = if at.argument(2).is_some() { reader.number(at, 2)? } else { 0.0 };
+        // One that may stand on its head is `(at x y unlocked)` in version 6, with an angle or not.
+        let free_here = at.argument(2).is_some_and(|word| word.raw() == b"unlocked");
+        let is_turned = at.argument(2).is_some() && !free_here;
+        let mut degrees = if is_turned { reader.number(at, 2)? } else { 0.0 };
         let is_free = node.head() == b"gr_text"
             || node.says("unlocked")
             || [node, at].iter().any(|list| list.has_word("unlocked"));
