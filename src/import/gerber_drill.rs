@@ -1,8 +1,8 @@
 //! Drill files written in Gerber (X2 file function `Plated` or `NonPlated`): flashes are holes,
-//! strokes are slots.
+//! strokes are slots, and so are flashes of obrounds, as which KiCad writes slots that are turned.
 
-use crate::board::{Axis, Feature, Hole, Shape, Warning};
-use crate::geometry::{Nm, Path, Point, Segment};
+use crate::board::{Axis, FLATTEN, Feature, Hole, Shape, Warning};
+use crate::geometry::{Nm, Path, Point, Polygon, Segment, distance_to_segment};
 use crate::import::diagnostic;
 
 use super::archive::Found;
@@ -36,6 +36,13 @@ pub(super) fn holes(file: &Found, image: &Image) -> (Vec<Hole>, Option<Warning>)
     (holes, warning)
 }
 
+/// Whether all that `image` draws are flashes that are drilled: drawings of holes have lines and
+/// letters.
+pub(super) fn is_all_flashes(image: &Image) -> bool {
+    let is_hole = |feature: &Feature| matches!(feature.axis, Axis::Flash(_)) && cutter(feature).is_some();
+    image.features.iter().all(is_hole)
+}
+
 /// The way and the diameter of the round cutter that makes a feature; none where no such cutter
 /// does.
 fn cutter(feature: &Feature) -> Option<(Path, Nm)> {
@@ -48,7 +55,21 @@ fn cutter(feature: &Feature) -> Option<(Path, Nm)> {
             let segment = Segment::Arc { to: arc.end, center: arc.center, turn: arc.turn };
             (Path { start: arc.start, segments: vec![segment] }, *radius)
         }
-        (Shape::Polygon(_), Axis::Flash(_) | Axis::Line(..) | Axis::Arc(_) | Axis::Region) => return None,
+        (Shape::Polygon(polygon), Axis::Flash(_)) => obround(polygon)?,
+        (Shape::Polygon(_), Axis::Line(..) | Axis::Arc(_) | Axis::Region) => return None,
     };
     (radius > Nm::ZERO).then_some((path, radius * 2))
+}
+
+/// The middle and half the width of the obround that `polygon` is: a macro of two discs and what
+/// lies between.
+fn obround(polygon: &Polygon) -> Option<(Path, Nm)> {
+    // How far vertices may be off: where chords cross they lie within the arc.
+    let off = 2.0 * FLATTEN.to_f64();
+    let ([ring], &[from, to]) = (polygon.contours(), polygon.circles()) else { return None };
+    let ends = (from.center, to.center);
+    let is_on = |&p: &Point| (distance_to_segment(p, ends) - from.radius.to_f64()).abs() < off;
+    let segments = vec![Segment::Line { to: to.center }];
+    (from.radius == to.radius && ring.iter().all(is_on))
+        .then_some((Path { start: from.center, segments }, from.radius))
 }

@@ -14,7 +14,7 @@ use super::format::Kind;
 use super::gerber::{ApertureList, Image};
 use super::selection::{Need, Selection};
 use super::vote::Assigned;
-use super::{drawing_board, gerber_drill, kicad, off_board, outline, picture_board, whole_board};
+use super::{drawing_board, gerber_drill, kicad, layers, off_board, outline, picture_board, whole_board};
 use crate::board::{Axis, Copper, Diagnostic, Hole, Outline, Side, Source, Warning, Words};
 use crate::geometry::{Nm, Rect};
 use crate::import::diagnostic;
@@ -292,15 +292,19 @@ fn gerber_holes(
     by_hand: bool,
     warnings: &mut Vec<Warning>,
 ) -> Result<(Vec<Hole>, Source), Error> {
-    let image = gathered.read_gerber(file)?;
+    let mut image = gathered.read_gerber(file)?;
     let function = image.function.as_deref().unwrap_or_default();
     let says_drill = ["Plated", "NonPlated"].iter().any(|start| function.starts_with(start));
-    if by_hand && !says_drill {
-        let what =
-            "a Gerber file where a drill file was expected, and its file function is not Plated or NonPlated";
+    if by_hand && !says_drill && !layers::draws_holes(&file.name) && !gerber_drill::is_all_flashes(&image) {
+        let what = "a Gerber file where a drill file was expected, and neither is its file function Plated or NonPlated nor does it consist of round flashes";
         return Err(Error::content(&file.shown, what, Words::of("give an Excellon drill file with {drill}")));
     }
     let (holes, warning) = gerber_drill::holes(file, &image);
+    if image.features.is_empty() {
+        image.warnings.retain(|warning| !warning.is(&diagnostic::NOTHING_DRAWN));
+        let none = diagnostic::DRILL_WITHOUT_HOLES.warning("the drill file has no holes");
+        warnings.push(none.caused_by(file.first_line()));
+    }
     warnings.extend(image.warnings);
     warnings.extend(warning);
     let mut source = image.source;

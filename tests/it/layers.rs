@@ -544,6 +544,45 @@ fn a_gerber_drill_file_has_holes_and_slots() {
     assert_eq!(slots, expected, "a hole, a drawn slot, an obround");
 }
 
+/// KiCad's slots that are turned are macros of a line and a disc at each end of it.
+#[test]
+fn a_turned_slot_of_a_gerber_drill_file_is_drilled() {
+    let text = "%TF.FileFunction,Plated,1,2,PTH*%\n%FSLAX46Y46*%\n%MOMM*%\n%AMHorizOval*20,1,$1,$2,$3,$4,$5,0*1,1,$1,$2,$3*1,1,$1,$4,$5*%\n%ADD12HorizOval,1.020000X-0.156054X-0.480284X0.156054X0.480284X0*%\n%AMOther*20,1,$1,$2,$3,$4,$5,0*1,1,$1,$2,$3*%\n%ADD13Other,1.020000X-0.156054X-0.480284X0.156054X0.480284X0*%\nD12*\nX1000000Y1000000D03*\nD13*\nX5000000Y5000000D03*\nM02*\n";
+    let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("amp-PTH-drl.gbr", text)]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    let [slot] = loaded.board.holes.as_slice() else { panic!("one slot: {:?}", loaded.board.holes) };
+    let mut ends = [slot.path.start, slot.path.end()].map(|end| (end.x.get(), end.y.get()));
+    ends.sort_unstable();
+    assert_eq!((ends, slot.diameter), ([(843_946, 519_716), (1_156_054, 1_480_284)], Nm::from_um(1020)));
+    let said: Vec<_> = loaded.warnings.iter().filter(|warning| warning.code() == "not-a-hole").collect();
+    assert!(said.len() == 1 && said[0].message.starts_with("1 shapes"), "one end is square: {said:?}");
+}
+
+/// A kind of hole that a board does not have.
+#[test]
+fn an_empty_gerber_drill_file_is_no_matter() {
+    let head = "%TF.FileFunction,NonPlated,1,2,NPTH*%\n%FSLAX46Y46*%\n%MOMM*%\n";
+    let empty = format!("{head}M02*\n");
+    let codes = |files: &[(&str, &str)]| -> Vec<_> {
+        let loaded = Folder::with(files).load(&Selection::default()).expect("a board");
+        loaded.warnings.iter().map(|warning| warning.code()).collect()
+    };
+    let files = [("amp-F_Cu.gbr", SQUARE), ("amp-NPTH-drl.gbr", &empty), ("amp-PTH.drl", DRILL)];
+    assert_eq!(codes(&files), ["outline-missing"]);
+    assert_eq!(codes(&files[..2]), ["outline-missing", "drill-without-holes"], "none at all");
+}
+
+#[test]
+fn round_flashes_are_holes_where_a_person_says_so() {
+    let flashes =
+        "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.8*%\nD10*\nX1000000Y1000000D03*\nX5000000Y5000000D03*\nM02*\n";
+    let folder = Folder::with(&[("amp-F_Cu.gbr", SQUARE), ("holes.gbr", flashes), ("drawn.gbr", SQUARE)]);
+    let chosen = |name: &str| Selection { drill: vec![folder.path(name)], ..Selection::default() };
+    assert_eq!(folder.load(&chosen("holes.gbr")).expect("a board").board.holes.len(), 2);
+    let error = folder.load(&chosen("drawn.gbr")).expect_err("lines");
+    assert!(error.contains("nor does it consist of round flashes"), "{error}");
+}
+
 /// An archive of `files`.
 pub(crate) fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
     let mut zip = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
