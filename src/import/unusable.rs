@@ -90,7 +90,7 @@ impl Unusable {
         };
         match &self.form {
             Form::File(_) if is_program(head) || is_of_another_kind(head) => None,
-            Form::File(_) if is_text_by_name(&self.name) && !is_prose(head) => {
+            Form::File(_) if is_text_by_name(&self.name) && !is_document(head) => {
                 sure.or_else(|| meant(role()?))
             }
             Form::File(_) => sure,
@@ -106,7 +106,7 @@ impl Unusable {
         match &self.form {
             Form::File(head)
                 if is_text_by_name(&self.name)
-                    && !is_prose(head)
+                    && !is_document(head)
                     && !is_program(head)
                     && !is_binary_drill(head) =>
             {
@@ -161,7 +161,20 @@ fn is_text_by_name(name: &str) -> bool {
     extension.is_empty() || extension.eq_ignore_ascii_case("txt")
 }
 
-/// Whether a person reads it: mostly words.
+/// Whether a person reads it, or a machine that places parts.
+fn is_document(bytes: &[u8]) -> bool {
+    is_prose(bytes) || is_list_of_parts(bytes)
+}
+
+/// Whether it says at its beginning where parts are to be put, as Fritzing's and Altium's lists do.
+fn is_list_of_parts(bytes: &[u8]) -> bool {
+    const SAYS: [&[u8]; 6] =
+        [b"pick and place", b"pick & place", b"pick place", b"designator", b"refdes", b"centroid"];
+    let head = bytes[..bytes.len().min(4096)].to_ascii_lowercase();
+    SAYS.iter().any(|words| head.windows(words.len()).any(|window| window == *words))
+}
+
+/// Whether it is mostly words.
 fn is_prose(bytes: &[u8]) -> bool {
     /// Chosen: a sentence has as many; a header of a drill file has fewer.
     const WORDS: usize = 4;
@@ -233,6 +246,13 @@ mod tests {
         {
             assert!(!is_prose(bytes), "{bytes:?}");
         }
+    }
+
+    #[test]
+    fn a_list_of_parts_is_a_document() {
+        let list = b"*Pick And Place List\n*Origin 0/0\n*No;Value;X;Y\n1;10k;41.93;-42.01\n2;22;1.5;-11.5\n";
+        assert!(!is_prose(list) && is_document(list), "Fritzing's, mostly numbers");
+        assert!(!is_document(b"M48\nT1C0.8\n%\nT1\nX1Y1\n"), "a drill file");
     }
 
     #[test]

@@ -40,7 +40,7 @@ const CASES: &[Case] = &[
     ("aperture_rectangular_hole", 2.25 * PI - 0.5 + 5.5, 2, &[]),
     ("aperture_hole_too_large", 3.0 - 1.913_223, 2, &[]),
     ("aperture_zero", 0.0, 0, &[]),
-    ("aperture_defined_twice", PI + 4.0, 2, &["aperture-defined-twice"]),
+    ("aperture_defined_twice", PI + 4.0 + 1.0, 3, &["aperture-defined-twice"]),
     (
         "malformed_aperture",
         LINE,

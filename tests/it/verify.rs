@@ -7,6 +7,8 @@ use voromill::geometry::{Nm, Path as Contour, Point, Segment};
 use voromill::import::{self, Selection};
 use voromill::verify::{Finding, Program, Report, Role, Settings, Severity, verify};
 
+use crate::layers::Folder;
+
 fn fixture(path: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures").join(path)
 }
@@ -237,6 +239,35 @@ fn a_thin_strip_at_the_edge_is_a_sliver() {
     assert_eq!(judged("0.13"), Some(Nm::from_um(30)), "30 µm between the kerf and the edge");
     assert_eq!(judged("0.2"), None, "0.1 mm is no sliver");
     assert_eq!(judged("0.05"), None, "nothing is left");
+}
+
+/// Fritzing draws an edge of millimetres in steps of a mil: where a long cut crosses it, the steps
+/// on either side of the kerf are near to the cut, and nothing is thin.
+#[test]
+fn a_cut_that_crosses_an_edge_of_small_steps_leaves_no_sliver() {
+    const STEP: i64 = 25_400;
+    let (wide, high) = (200 * STEP, 400 * STEP);
+    let line = |from: (i64, i64), to: (i64, i64), steps: i64| {
+        (1..=steps)
+            .map(|i| (from.0 + (to.0 - from.0) * i / steps, from.1 + (to.1 - from.1) * i / steps))
+            .map(|(x, y)| format!("X{x}Y{y}D01*\n"))
+            .collect::<String>()
+    };
+    let sides = [((0, 0), (wide, 0), 200), ((wide, 0), (wide, high), 1), ((wide, high), (0, high), 1)];
+    let edge: String = sides.map(|(from, to, steps)| line(from, to, steps)).concat();
+    let head = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.2*%\nD10*\nX0Y0D02*\n";
+    let edge = format!("{head}{edge}X0Y0D01*\nM02*\n");
+    let copper = format!("{head}X1000000Y5000000D03*\nX4000000Y5000000D03*\nM02*\n");
+    let board = Folder::with(&[("b-F_Cu.gbr", &copper), ("b-Edge_Cuts.gbr", &edge)]);
+    let board = board.load(&Selection::default()).expect("a board").board;
+    let judged = |way: &str| {
+        let program = format!("G21 G90 G94 F100\nM3 S10000\nG0 Z2\n{way}\nG0 Z2\nM5\nM2\n");
+        let report = judge(&board, foreign("cut.nc", program, "endmill:0.15mm", FRONT));
+        report.findings.iter().find(|finding| finding.name == "sliver").and_then(|finding| finding.size)
+    };
+    assert_eq!(judged("G0 X2.54 Y9\nG1 Z-0.1\nG1 Y-0.1"), None, "across the edge");
+    let beside = judged("G0 X0.3 Y0.1\nG1 Z-0.1\nG1 X4.5");
+    assert_eq!(beside, Some(Nm::from_um(25)), "along it there is a strip between the kerf and the edge");
 }
 
 #[test]

@@ -105,7 +105,9 @@ impl<'a> Apertures<'a> {
         let number = definition.number;
         match unit.and_then(|unit| self.template(definition, unit, here)) {
             Ok(template) => {
-                if self.put(number, Aperture::new(template, function)) {
+                // Fritzing defines one anew before anything is drawn with it.
+                let before = self.put(number, Aperture::new(template, function));
+                if before.is_some_and(|before| before.flashes + before.draws > 0) {
                     let message =
                         format!("aperture D{number} is defined twice; what follows uses the later one");
                     here.warn(&diagnostic::APERTURE_DEFINED_TWICE, message);
@@ -148,10 +150,10 @@ impl<'a> Apertures<'a> {
         self.put(number, Aperture::new(Template::Block(objects), None));
     }
 
-    /// Whether there was one with this number.
-    fn put(&mut self, number: u32, aperture: Aperture) -> bool {
+    /// Gives back the one that had this number.
+    fn put(&mut self, number: u32, aperture: Aperture) -> Option<Aperture> {
         self.forget(number);
-        self.defined.insert(number, aperture).is_some()
+        self.defined.insert(number, aperture)
     }
 
     /// To be called when aperture `number` is defined anew.

@@ -17,13 +17,13 @@ use rayon::prelude::*;
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, along};
 use crate::board::Shape;
-use crate::geometry::{Nm, Point};
+use crate::geometry::{Nm, Point, Rect};
 use crate::verify::Settings;
 use crate::verify::hit::FAINT;
 use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
 use crate::verify::sheet::Sheet;
-use crate::verify::walls::Neck;
+use crate::verify::walls::{Neck, Wall};
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -38,24 +38,24 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Isolation(check) 
 
 const NAME: &str = "sliver";
 
-/// A place between two cuts.
+/// A cut beside which strips are thin.
 #[derive(Clone, Copy, Debug)]
 struct Thin {
-    /// The later of the two.
     cut: usize,
+    /// Where they are thinnest.
     neck: Neck,
-    /// Along how much of the later cut it is so, in nanometres.
+    /// Along how much of the cut there is one without a break, in nanometres.
     length: f64,
 }
 
 /// A shorter strip is held by its ends, in nanometres. Chosen.
 const LONG: f64 = 500_000.0;
-/// Places along a cut at which it is measured. Chosen.
-const PLACES: u32 = 16;
+/// In how many steps that length is measured, and in how many the longest way is. Chosen.
+const STEPS: (f64, u32) = (16.0, 4096);
 
 fn check(sheet: &Outcome<'_>, settings: &Settings) -> Vec<Finding> {
     let cuts = (0..sheet.cuts.len()).into_par_iter().filter(|cut| !sheet.crowded[*cut]);
-    let thin: Vec<Thin> = cuts.flat_map_iter(|cut| beside(sheet, cut, settings.sliver)).collect();
+    let thin: Vec<Thin> = cuts.filter_map(|cut| beside(sheet, cut, settings.sliver)).collect();
     let together = |a: &Thin, b: &Thin| {
         b.cut - a.cut <= 2 || a.neck.at.distance(b.neck.at) <= settings.sliver.to_f64() * 3.0
     };
@@ -64,8 +64,8 @@ fn check(sheet: &Outcome<'_>, settings: &Settings) -> Vec<Finding> {
     long.map(|strip| finding(sheet, strip)).collect()
 }
 
-/// The thin places between a cut and those before it, or the board's edge.
-fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
+/// What is thin between a cut and those before it, or the board's edge.
+fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Option<Thin> {
     // Of ways that follow one another one touches the other: what is between the first and the
     // third is no strip.
     let own = ends(&sheet.cuts[cut].swept.shape);
@@ -83,8 +83,12 @@ fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Vec<Thin> {
         let neck = if is_edge { at_edge(sheet, cut, other, neck, sliver)? } else { neck };
         Some((other, neck))
     };
-    let strips = apart.filter_map(edge).filter(|(_, neck)| is_clad(neck));
-    strips.map(|(other, neck)| Thin { cut, neck, length: length(sheet, cut, other, sliver) }).collect()
+    let mut strips: Vec<(usize, Neck)> = apart.filter_map(edge).filter(|(_, neck)| is_clad(neck)).collect();
+    strips.sort_unstable_by_key(|&(other, _)| other);
+    let (stretch, length) = longest(sheet, cut, &strips, sliver)?;
+    let there = strips.into_iter().map(|(_, neck)| neck).filter(|neck| stretch.contains(neck.at));
+    let neck = there.reduce(|a, b| if b.width < a.width { b } else { a })?;
+    Some(Thin { cut, neck, length })
 }
 
 /// Where a cut begins and ends.
@@ -108,11 +112,24 @@ fn at_edge(sheet: &Sheet<'_>, cut: usize, edge: usize, neck: Neck, sliver: Nm) -
     (length > 0.0).then_some(Neck { at, ..neck })
 }
 
-/// Along how much of a cut another is so near, in nanometres.
-fn length(sheet: &Sheet<'_>, cut: usize, other: usize, sliver: Nm) -> f64 {
+/// The longest stretch of a cut along which there is a wall of `strips` so near all the way: round
+/// what it lies, and its length in nanometres.
+fn longest(sheet: &Sheet<'_>, cut: usize, strips: &[(usize, Neck)], sliver: Nm) -> Option<(Rect, f64)> {
     let swept = sheet.cuts[cut].swept;
-    let is_near = |&(at, _): &(Point, f64)| sheet.walls.one(other, at, swept.floor + sliver).is_some();
-    along(&swept.shape, PLACES).iter().filter(|place| is_near(place)).map(|(_, length)| length).sum()
+    let total: f64 = along(&swept.shape, 1).iter().map(|(_, length)| length).sum();
+    let (steps, most) = STEPS;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
+    let count = (total * steps / LONG).ceil().clamp(steps, f64::from(most)) as u32;
+    let places = along(&swept.shape, count);
+    let is_strip = |wall: &Wall| strips.binary_search_by_key(&wall.index, |&(other, _)| other).is_ok();
+    let is_near = |at: Point| sheet.walls.any(at, swept.floor + sliver, usize::MAX, is_strip);
+    let judged: Vec<(Point, f64, bool)> = places.into_iter().map(|(at, l)| (at, l, is_near(at))).collect();
+    let runs = judged.chunk_by(|a, b| a.2 == b.2).filter(|run| run[0].2);
+    let stretch = |run: &[(Point, f64, bool)]| {
+        let bounds = Rect::around(run.iter().map(|&(at, ..)| at))?.inflate(swept.floor + sliver);
+        Some((bounds, run.iter().map(|&(_, length, _)| length).sum::<f64>()))
+    };
+    runs.filter_map(stretch).reduce(|a, b| if b.1 > a.1 { b } else { a })
 }
 
 fn finding(sheet: &Sheet<'_>, strip: &[Thin]) -> Finding {
