@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::advice::quoted;
 use super::archive::{Found, name_of, read_file};
 use super::build::{Build, Loaded};
 use super::drawing::{self, Drawing, Part, Parts, split};
@@ -78,7 +79,7 @@ pub(super) fn load(
         ignored = loaded.ignored;
     }
     for named in named {
-        add(&mut build, named, selection)?;
+        add(&mut build, named, selection, need)?;
     }
     finish(&mut build, &shown, need)?;
     Ok(Some(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored }))
@@ -112,7 +113,7 @@ fn refuse_pictures<'a>(paths: impl Iterator<Item = &'a PathBuf>) -> Result<(), E
 }
 
 /// Takes over what one drawing has.
-fn add(build: &mut Build, named: Named, selection: &Selection) -> Result<(), Error> {
+fn add(build: &mut Build, named: Named, selection: &Selection, need: Need) -> Result<(), Error> {
     let Named { file, drawing: Drawing { artwork, source, warnings }, layer, role } = named;
     build.warnings.extend(warnings);
     let artwork = match layer {
@@ -125,6 +126,13 @@ fn add(build: &mut Build, named: Named, selection: &Selection) -> Result<(), Err
         }
         None => Parts::of(artwork),
     };
+    if parts.stray > 0 && need == Need::Job {
+        let shapes =
+            if parts.stray == 1 { "1 shape is".to_owned() } else { format!("{} shapes are", parts.stray) };
+        let what = format!("{shapes} in no layer, beside layers of copper: what they belong to is unknown");
+        let hint = "put each into a layer; or choose what is milled with {front} {0}#LAYER and {back} {0}#LAYER, which leaves them out";
+        return Err(Error::content(&file.shown, what, Words::of(hint).with([&quoted(&file.shown)])));
+    }
     if let Some(guess) = parts.guess {
         let message = format!("no layer of {} has a known name: {guess}", file.name);
         build.warnings.push(diagnostic::DRAWING_GUESSED.warning(message));

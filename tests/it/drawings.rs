@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use voromill::artwork::Figure;
-use voromill::board::{Board, Shape};
+use voromill::board::{Board, Shape, Side};
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::drawing::{self, Drawing, Options, Unit};
 use voromill::import::{Loaded, Selection, load, svg};
@@ -259,6 +259,47 @@ fn layers_are_what_their_names_say() {
         let expected = if name.ends_with("svg") { "drawing-layers-aside" } else { "dxf-left-out" };
         assert_eq!(codes(&loaded), [expected], "{name}");
     }
+}
+
+/// As Fritzing groups: what goes through the board is in one side's copper within the other's, and
+/// parts have outlines of their own on the silkscreen.
+#[test]
+fn groups_within_groups_of_a_known_name_do_not_leave_it() {
+    let at = |x: u32| format!("<rect x='{x}' y='4' width='1' height='1'/>");
+    let group = |id: &str, inner: &str| format!("<g id='{id}'>{inner}</g>");
+    let layer = |label: &str, inner: &str| {
+        format!("<g inkscape:groupmode='layer' inkscape:label='{label}'>{inner}</g>")
+    };
+    let edge = "<rect width='20' height='10' fill='none' stroke='#000' stroke-width='.1'/>";
+    let groups = [
+        group("board", &group("boardoutline", edge)),
+        group("copper0", &group("copper1", &at(2))),
+        group("copper1", &[at(6), group("outline", &at(9))].concat()),
+        group("silkscreen", &group("outline", &at(12))),
+        layer("F.Mask", &layer("B.Cu", &at(15))),
+    ];
+    let text = |groups: &str| {
+        format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='20mm' height='10mm' viewBox='0 0 20 10' \
+             xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape'>{groups}</svg>"
+        )
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("amp.svg");
+    let read = |text: &str| {
+        std::fs::write(&path, text).expect("written");
+        load(&[path.clone()], &Selection::default())
+    };
+    let board = read(&text(&groups.concat())).expect("a board").board;
+    let places = |side| -> Vec<i64> {
+        let lefts = board.copper(side).expect("copper").features.iter();
+        lefts.map(|feature| feature.shape.bounds().min().x.get() / 1_000_000).collect()
+    };
+    assert_eq!(places(Side::Front), [2, 6, 9], "through the board, and with an outline of its own");
+    assert_eq!(places(Side::Back), [2, 15], "a layer within a layer is one by itself");
+    assert_eq!(board.outline.expect("an edge").contours().len(), 1, "none of the silkscreen's");
+    let stray = read(&text(&[groups.concat(), at(17)].concat())).expect_err("whose is it?").to_string();
+    assert!(stray.contains("1 shape is in no layer, beside layers of copper"), "{stray}");
 }
 
 #[test]

@@ -25,6 +25,8 @@ pub(in crate::import) struct Parts {
     pub(in crate::import) aside: Vec<(String, Option<&'static str>)>,
     /// What was guessed, in words; none where the names decided.
     pub(in crate::import) guess: Option<&'static str>,
+    /// How many figures that cover something are in no layer, where there is one of copper.
+    pub(in crate::import) stray: usize,
 }
 
 impl Parts {
@@ -37,7 +39,11 @@ impl Parts {
             return Self::guessed(artwork);
         }
         let mut parts = Self::default();
+        let has_copper = roles.iter().any(|role| matches!(role, Some(Role::Copper(_))));
         for (layer, role) in artwork.layers.into_iter().zip(roles) {
+            if has_copper && layer.name.is_empty() {
+                parts.stray = layer.figures.iter().filter(|figure| covers(figure)).count();
+            }
             match role {
                 Some(Role::Other(what)) => parts.aside.push((layer.name, Some(what))),
                 None | Some(Role::Group(_)) => parts.aside.push((layer.name, None)),

@@ -37,10 +37,19 @@ pub(super) enum Rank {
     None,
     /// Any id.
     Id,
-    /// A layer of Inkscape.
+    /// A layer of Inkscape, or a board.
     Layer,
-    /// A name that says what the layer is for.
+    /// A group whose name says what it is for: what it holds is that, whatever it is called.
     Role,
+    /// A layer of Inkscape whose name says what it is for.
+    RoleLayer,
+}
+
+impl Rank {
+    /// Whether what is in a group of this rank belongs to it and not to the one above.
+    pub(super) fn counts_in(self, above: Self) -> bool {
+        self > above || (self == above && matches!(self, Self::Layer | Self::RoleLayer))
+    }
 }
 
 /// A drawing's text and what is known of it before it is resolved.
@@ -142,10 +151,13 @@ impl Document {
         let label = node.attribute((INKSCAPE, "label"));
         let is_layer = node.attribute((INKSCAPE, "groupmode")) == Some("layer");
         let Some(called) = label.filter(|_| is_layer).or(id).or(label) else { return };
-        let rank = match (role_of(called), is_layer) {
-            (Some(_), _) => Rank::Role,
-            (None, true) => Rank::Layer,
-            (None, false) => Rank::Id,
+        // Fritzing's `board` holds the edge, and may hold all else.
+        let is_board = called.eq_ignore_ascii_case("board");
+        let rank = match (role_of(called).is_some() && !is_board, is_layer || is_board) {
+            (true, true) => Rank::RoleLayer,
+            (true, false) => Rank::Role,
+            (false, true) => Rank::Layer,
+            (false, false) => Rank::Id,
         };
         let key = match id {
             Some(id) => id.to_owned(),

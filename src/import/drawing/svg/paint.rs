@@ -58,6 +58,7 @@ pub(super) fn painted(name: &str, tree: &Tree, document: &Document, size: &Size)
         document,
         size,
         layer: String::new(),
+        also: None,
         rank: Rank::None,
         opacity: 1.0,
         ink: Ink::Copper,
@@ -76,6 +77,12 @@ pub(super) fn painted(name: &str, tree: &Tree, document: &Document, size: &Size)
     Ok(painted)
 }
 
+/// Whether these are Fritzing's groups of copper, one for each side.
+fn are_both_sides(a: &str, b: &str) -> bool {
+    let is = |name: &str, side: &str| name.eq_ignore_ascii_case(side);
+    (is(a, "copper0") && is(b, "copper1")) || (is(a, "copper1") && is(b, "copper0"))
+}
+
 /// Where a figure stands.
 #[derive(Clone)]
 struct Scope<'a> {
@@ -84,6 +91,9 @@ struct Scope<'a> {
     size: &'a Size,
     layer: String,
     rank: Rank,
+    /// The copper of the other side: Fritzing has what goes through the board in one side's group
+    /// within the other's.
+    also: Option<String>,
     opacity: f32,
     ink: Ink,
     /// From the page of a clipping path or a mask to that of the drawing.
@@ -138,9 +148,12 @@ impl Painted {
         let mut scope = above.clone();
         if above.ink == Ink::Copper
             && let Some((name, rank)) = above.document.group(group.id())
-            && (rank > above.rank || (rank == above.rank && rank > Rank::Id))
         {
-            (scope.layer, scope.rank) = (name.to_owned(), rank);
+            if rank.counts_in(above.rank) {
+                (scope.layer, scope.rank, scope.also) = (name.to_owned(), rank, None);
+            } else if are_both_sides(name, &above.layer) {
+                scope.also = Some(name.to_owned());
+            }
         }
         scope.opacity *= group.opacity().get();
         if !group.filters().is_empty() {
@@ -290,6 +303,9 @@ impl Painted {
                 }
             };
             self.clipped += u64::from(seen.is_none());
+            if let Some(also) = &scope.also {
+                self.layers.of(also).extend(seen.clone());
+            }
             self.layers.of(&scope.layer).extend(seen);
         }
         Ok(())
