@@ -25,10 +25,20 @@ use crate::import::diagnostic;
 ///
 /// # Errors
 ///
-/// A path that cannot be read, two files for one role, a copper layer whose side nothing tells,
-/// neither copper nor outline nor holes, or what the readers say of a file.
+/// A path that cannot be read, two files for one role, a copper layer whose side nothing tells, one
+/// that was chosen and draws nothing, neither copper nor outline nor holes, or what the readers say
+/// of a file.
 pub fn load(paths: &[PathBuf], selection: &Selection) -> Result<Loaded, Error> {
-    put_together(paths, selection, Need::Job)
+    let loaded = put_together(paths, selection, Need::Job)?;
+    let chosen = [(Side::Front, &selection.front), (Side::Back, &selection.back)];
+    for (side, path) in chosen.into_iter().filter_map(|(side, path)| Some((side, path.as_ref()?))) {
+        if loaded.board.copper(side).is_none() {
+            let what = format!("chosen as the copper of the {side}, but it draws none");
+            let hint = "copper is areas, and lines of a width: export the layer again as Gerber or SVG";
+            return Err(Error::content(&path.display().to_string(), what, hint));
+        }
+    }
+    Ok(loaded)
 }
 
 /// As [`load()`], to be looked at: copper that draws nothing, or of which only a guess tells the

@@ -250,7 +250,7 @@ mod tests {
 
     #[test]
     fn a_list_of_parts_is_a_document() {
-        let list = b"*Pick And Place List\n*Origin 0/0\n*No;Value;X;Y\n1;10k;41.93;-42.01\n2;22;1.5;-11.5\n";
+        let list = b"*Pick And Place List\n1;10;41.93;-42.01\n2;22;1.5;-11.5\n3;47;34.53;-26.77\n";
         assert!(!is_prose(list) && is_document(list), "Fritzing's, mostly numbers");
         assert!(!is_document(b"M48\nT1C0.8\n%\nT1\nX1Y1\n"), "a drill file");
     }

@@ -303,6 +303,26 @@ fn groups_within_groups_of_a_known_name_do_not_leave_it() {
 }
 
 #[test]
+fn a_text_that_nobody_sees_is_not_missed() {
+    let said = |opacity: &str| {
+        let square = "<rect width='10' height='10'/>";
+        let drawing = drawn(&format!("{square}<text y='5' {opacity}>R1</text>"));
+        drawing.warnings.iter().any(|warning| warning.code() == "svg-left-out")
+    };
+    assert!(said("") && said("opacity='0.5'"), "one without a font");
+    assert!(!said("opacity='0'"), "KiCad's, beside the strokes of its letters");
+}
+
+#[test]
+fn a_layer_that_is_chosen_must_draw_copper() {
+    let edge = Some(fixture("loose.dxf"));
+    let drawing = in_millimetres();
+    let selection = Selection { front: edge.clone(), outline: edge, drawing, ..Selection::default() };
+    let error = load(&[], &selection).expect_err("bare lines").to_string();
+    assert!(error.contains("loose.dxf: chosen as the copper of the front, but it draws none"), "{error}");
+}
+
+#[test]
 fn a_person_says_what_a_layer_is_for() {
     let layer = |name: &str| Some(PathBuf::from(format!("{}#{name}", fixture("layers.svg").display())));
     let selection = Selection { back: layer("F.Cu"), outline: layer("edge.cuts"), ..Selection::default() };

@@ -136,7 +136,9 @@ impl Document {
                 *self.counts.entry(tag.to_owned()).or_insert(0) += 1;
                 self.hidden += u64::from(here.1 && !here.2 && (is_shape || tag == "text"));
                 let shows = u64::from(!here.1 && !here.2);
-                self.texts += if tag == "text" { shows } else { 0 };
+                // KiCad puts a text that nobody sees beside the strokes of its letters.
+                let is_clear = node.attribute("opacity").is_some_and(|opacity| opacity.parse() == Ok(0.0));
+                self.texts += if tag == "text" && !is_clear { shows } else { 0 };
                 self.images += if matches!(tag, "image" | "foreignObject") { shows } else { 0 };
             }
             if tag == "g" {
