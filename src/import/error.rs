@@ -235,7 +235,10 @@ impl<'a> Warnings<'a> {
             self.found.into_iter().map(|((_, message), found)| (message, found)).collect();
         found.sort_by_key(|(_, found)| found.place.start);
         for (message, Found { count, .. }) in found.iter_mut().filter(|(_, found)| found.count > 1) {
-            *message += &format!(" (and {} more times)", *count - 1);
+            *message += &match *count {
+                2 => " (and once more)".to_owned(),
+                count => format!(" (and {} more times)", count - 1),
+            };
         }
         let more = self.kinds.into_values().filter(|kind| kind.count > KEPT_OF_A_KIND);
         found.extend(more.map(|kind| (format!("{} more of this kind", kind.count - KEPT_OF_A_KIND), kind)));

@@ -168,6 +168,8 @@ const EXTENSIONS: &[(&str, Role)] = &[
     ("gbo", Role::Other("silkscreen")),
     ("plc", Role::Other("silkscreen")),
     ("pls", Role::Other("silkscreen")),
+    ("ast", Role::Other("documentation")),
+    ("asb", Role::Other("documentation")),
     ("sst", Role::Other("silkscreen")),
     ("ssb", Role::Other("silkscreen")),
     ("gpt", Role::Other("pad master")),

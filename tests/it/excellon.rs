@@ -218,6 +218,14 @@ fn a_tool_that_cannot_be_read_matters_where_it_drills() {
 }
 
 #[test]
+fn a_tool_that_is_numbered_nought_drills() {
+    let holes =
+        read("M48\nINCH\nT0C0.02\nT1C0.03\n%\nT0\nX1.0Y1.0\nT1\nX2.0Y1.0\nM30\n").expect("two tools").holes;
+    let diameters: Vec<i64> = holes.iter().map(|hole| hole.diameter.get()).collect();
+    assert_eq!(diameters, [508_000, 762_000]);
+}
+
+#[test]
 fn what_cannot_be_drilled_for_certain_is_an_error_with_its_place() {
     let cases = [
         ("M48\nMETRIC\nT1C-0.8\n%\nT1\nX1.0Y1.0\nM30\n", "f.drl:3:3: a drill cannot have this diameter"),

@@ -60,7 +60,8 @@ impl Machine<'_, '_, '_> {
     /// Takes up another tool.
     pub(super) fn change_to(&mut self, number: u32) -> Result<(), Error> {
         self.raise()?;
-        self.tool = (number != 0).then_some(number);
+        // T0 puts the tool back, unless there is one of that number.
+        self.tool = (number != 0 || self.tools.contains_key(&0)).then_some(number);
         Ok(())
     }
 
