@@ -51,8 +51,13 @@ pub(super) fn without_decoration(mut contours: Vec<Path>, notes: &mut Notes<'_>)
     contours.into_iter().zip(kept).filter_map(|(contour, keep)| keep.then_some(contour)).collect()
 }
 
+/// The widest line as whose two sides an edge is drawn. Chosen: wider than programs draw edges, and
+/// no board is a ring so narrow.
+const WIDEST_LINE: f64 = 0.5e6;
+
 /// The contours without those that come nearer than `gap` to one around them: an edge drawn twice,
-/// each time rounded otherwise, or a line within the board that touches its edge.
+/// each time rounded otherwise, or a line within the board that touches its edge. Nor are there
+/// those that follow one around them all along: the inner side of a line, as KiCad's DXF has it.
 pub(super) fn without_doubles(contours: Vec<Path>, gap: Nm, notes: &mut Notes<'_>) -> Vec<Path> {
     if contours.len() < 2 || contours.len() > MOST {
         return contours;
@@ -67,19 +72,26 @@ pub(super) fn without_doubles(contours: Vec<Path>, gap: Nm, notes: &mut Notes<'_
         let is_double = |&outer: &usize| {
             rings[outer].as_ref().zip(rings[i].as_ref()).is_some_and(|(outer, inner)| {
                 outer.contains(contours[i].start)
-                    && come_near(&outer.contours()[0], &inner.contours()[0], gap)
+                    && (come_near(&outer.contours()[0], &inner.contours()[0], gap)
+                        || strip(outer, inner) < WIDEST_LINE)
             })
         };
         if kept.iter().any(is_double) { dropped.push(i) } else { kept.push(i) }
     }
     if let Some(&first) = dropped.first() {
         let message = format!(
-            "lines come nearer than {gap:.3} mm to the outline around them; only the outer ones are used"
+            "lines come nearer than {gap:.3} mm to the outline around them, or are the inner side of it; only the outer ones are used"
         );
         notes.add(&diagnostic::OUTLINE_PARTED, message, notes.place(contours[first].start));
     }
     kept.sort_unstable();
     kept.into_iter().map(|i| contours[i].clone()).collect()
+}
+
+/// How wide what lies between a ring and one inside it is on average, in nanometres.
+fn strip(outer: &Polygon, inner: &Polygon) -> f64 {
+    let between = 1e12 * (outer.area_mm2().abs() - inner.area_mm2().abs());
+    between / f64::midpoint(outer.perimeter(), inner.perimeter())
 }
 
 /// Whether two rings that do not cross come nearer to each other than `gap`: where they do, a
