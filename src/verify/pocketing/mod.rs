@@ -376,12 +376,16 @@ fn is_clear(step: &Step, part: f64, least: f64, sweeps: &Sweeps) -> bool {
 /// A piece that is smaller is none, in nanometres. Chosen: above rounding.
 const SMALL: Nm = Nm::from_um(4);
 
+/// How far chords of arcs lie from them where maxima are counted. Chosen: it adds up to a part of
+/// [`SMALL`] over a hundred levels.
+const FINE: Nm = Nm::new(30);
+
 /// The same as [`maxima`], each level from the pieces of the one before, which have fewer corners
 /// that lie behind each other. Rings are thinned, so a level is off by as much for each before it.
 fn maxima_by_steps(areas: &[Polygon], levels: &[f64]) -> usize {
     let Some(&first) = levels.first() else { return 0 };
     let inwards = |pieces: &[Polygon], by: Nm| -> Vec<Vec<Polygon>> {
-        let inner = |piece: &Polygon| offset(piece, -by, FLATTEN).iter().filter_map(thinned).collect();
+        let inner = |piece: &Polygon| offset(piece, -by, FINE).iter().filter_map(thinned).collect();
         pieces.par_iter().map(inner).collect()
     };
     let mut pieces = inwards(areas, Nm::from_f64(first)).concat();
@@ -400,9 +404,9 @@ fn maxima_by_steps(areas: &[Polygon], levels: &[f64]) -> usize {
     count + pieces.len()
 }
 
-/// Corners of rings that are nearer than this to the line between those that stay go. Chosen: it
-/// adds up to micrometres over dozens of levels.
-const THIN: f64 = 100.0;
+/// Corners of rings that are nearer than this to the line between those that stay go, in
+/// nanometres. Chosen: as [`FINE`].
+const THIN: f64 = 30.0;
 
 /// A polygon with fewer corners; none where none are left.
 fn thinned(polygon: &Polygon) -> Option<Polygon> {
@@ -430,15 +434,19 @@ const MOST_GONE: usize = 16;
 
 /// How many pieces of areas, offset inwards to rising levels, have none of the next level in them.
 fn maxima(areas: &[Polygon], levels: &[f64]) -> usize {
+    let pieces_of = |area: &Polygon, number: usize, level: f64| {
+        let mut pieces = offset(area, -Nm::from_f64(level), FINE);
+        pieces.retain(|piece| {
+            let bounds = piece.bounds();
+            number == 0 || bounds.width().max(bounds.height()) >= SMALL
+        });
+        pieces
+    };
     let mut count = 0;
     for area in areas {
         let mut before: Vec<Polygon> = Vec::new();
-        for (number, &level) in levels.iter().enumerate() {
-            let mut pieces = offset(area, -Nm::from_f64(level), FLATTEN);
-            pieces.retain(|piece| {
-                let bounds = piece.bounds();
-                number == 0 || bounds.width().max(bounds.height()) >= SMALL
-            });
+        let inner = levels.par_iter().enumerate().map(|(number, &level)| pieces_of(area, number, level));
+        for pieces in inner.collect::<Vec<_>>() {
             let holds = |outer: &Polygon| pieces.iter().any(|piece| outer.contains(piece.contours()[0][0]));
             count += before.iter().filter(|outer| !holds(outer)).count();
             if pieces.is_empty() {
