@@ -288,7 +288,7 @@ fn groups_within_groups_of_a_known_name_do_not_leave_it() {
     let path = folder.path().join("amp.svg");
     let read = |text: &str| {
         std::fs::write(&path, text).expect("written");
-        load(&[path.clone()], &Selection::default())
+        load(std::slice::from_ref(&path), &Selection::default())
     };
     let board = read(&text(&groups.concat())).expect("a board").board;
     let places = |side| -> Vec<i64> {
