@@ -28,7 +28,7 @@ use super::WALL;
 use super::form::{Form, clockwise, is_one_way, unit};
 use super::rounding::Circles;
 use super::slit::without_slits;
-use super::weld::welded;
+use super::weld::{NEAR, welded};
 
 /// No generator.
 const NONE: u32 = u32::MAX;
@@ -122,7 +122,13 @@ impl Generators {
     /// Says that those of `points`, of shapes to come, that all but meet are one: the first of them
     /// in the order of x and y.
     pub fn weld(&mut self, points: Vec<Point>) {
-        self.welded = welded(points);
+        self.weld_within(points, NEAR);
+    }
+
+    /// As [`Self::weld`], of points that lie nearer to each other than `near` nanometres along both
+    /// axes.
+    pub fn weld_within(&mut self, points: Vec<Point>, near: i64) {
+        self.welded = welded(points, near);
     }
 
     /// The point that a point of a shape is.

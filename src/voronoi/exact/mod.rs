@@ -105,6 +105,7 @@ pub use level::LevelCurve;
 
 pub(super) use axis::OnAxis;
 pub(super) use chain::Chain;
+pub(super) use weld::NEAR;
 
 /// The number of no generator.
 const NOBODY: u32 = u32::MAX;

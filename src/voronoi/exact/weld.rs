@@ -13,17 +13,18 @@ use crate::geometry::{Nm, Point};
 
 /// Points nearer to each other than this along both axes are one, in nanometres. Chosen: twice what
 /// five decimals of a millimetre leave, a hundredth of what a cut may be off.
-const NEAR: i64 = 20;
+pub(in crate::voronoi) const NEAR: i64 = 20;
 
-/// Where points that lie near another are moved to: the first of these, in the order of x and y.
-pub(super) fn welded(mut points: Vec<Point>) -> FxHashMap<Point, Point> {
+/// Where points that lie nearer to another than `near` nanometres along both axes are moved to: the
+/// first of these, in the order of x and y.
+pub(super) fn welded(mut points: Vec<Point>, near: i64) -> FxHashMap<Point, Point> {
     points.sort_unstable();
     points.dedup();
     // Those that stay where they are, as far as they may be near what comes: in order, and by y.
     let mut firsts: VecDeque<Point> = VecDeque::new();
     let mut by_y: BTreeSet<(Nm, Nm)> = BTreeSet::new();
     let mut moved = FxHashMap::default();
-    let near = Nm::new(NEAR - 1);
+    let near = Nm::new(near - 1);
     for p in points {
         while let Some(first) = firsts.pop_front_if(|first| p.x - first.x > near) {
             by_y.remove(&(first.y, first.x));
@@ -52,7 +53,7 @@ mod tests {
     #[test]
     fn what_all_but_meets_is_one_and_nothing_moves_far() {
         let points = vec![at(15, 0), at(0, 0), at(30, 0), at(1_000, 0), at(1_000, 14), at(1_000, 35)];
-        let moved = welded(points);
+        let moved = welded(points, NEAR);
         assert_eq!(moved.get(&at(15, 0)), Some(&at(0, 0)), "to the first");
         assert_eq!(moved.get(&at(30, 0)), None, "30 nm from the first, whatever lies between");
         assert_eq!(moved.get(&at(1_000, 14)), Some(&at(1_000, 0)), "across cells");
@@ -63,7 +64,7 @@ mod tests {
     fn each_is_moved_to_the_first_of_all_before_it_that_stay_and_are_near() {
         let mut next = random();
         let mut points: Vec<Point> = (0..2000).map(|_| at(next(600), next(600))).collect();
-        let moved = welded(points.clone());
+        let moved = welded(points.clone(), NEAR);
         points.sort_unstable();
         points.dedup();
         let mut firsts: Vec<Point> = Vec::new();
