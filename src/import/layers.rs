@@ -35,9 +35,12 @@ pub(super) enum Role {
 
 /// The value of `.FileFunction`, wherever in the head of a file it stands.
 pub(super) fn function_of(bytes: &[u8]) -> Option<String> {
-    const NAME: &[u8] = b"TF.FileFunction,";
-    let head = &bytes[..bytes.len().min(64 * 1024)];
-    let start = head.windows(NAME.len()).position(|window| window == NAME)? + NAME.len();
+    value_of(&bytes[..bytes.len().min(64 * 1024)], b"TF.FileFunction,")
+}
+
+/// What stands behind the first `name` in `head`, up to the end of the command or line.
+fn value_of(head: &[u8], name: &[u8]) -> Option<String> {
+    let start = head.windows(name.len()).position(|window| window == name)? + name.len();
     let value = head[start..].split(|b| matches!(b, b'*' | b'%' | b'\r' | b'\n')).next()?;
     Some(value.iter().map(|&b| char::from(b)).collect::<String>().trim().to_owned())
 }
@@ -45,11 +48,7 @@ pub(super) fn function_of(bytes: &[u8]) -> Option<String> {
 /// The name that a Gerber file calls its layer by, if it does (`LN`, specification 2024.05 §8.1.5):
 /// `GLOBAL_BOUNDARY_UROUTE_7`.
 pub(super) fn loaded_name(bytes: &[u8]) -> Option<String> {
-    const NAME: &[u8] = b"%LN";
-    let head = &bytes[..bytes.len().min(4 * 1024)];
-    let start = head.windows(NAME.len()).position(|window| window == NAME)? + NAME.len();
-    let value = head[start..].split(|b| matches!(b, b'*' | b'%' | b'\r' | b'\n')).next()?;
-    Some(String::from_utf8_lossy(value).into_owned())
+    value_of(&bytes[..bytes.len().min(4 * 1024)], b"%LN")
 }
 
 /// Whether a Gerber of this name draws the holes and no picture of them: pcb-rnd's

@@ -34,12 +34,12 @@ impl<'a> Interior<'a> {
     /// whose points that all but meet are one, shaken a little.
     pub(super) fn diagram(&self) -> &Diagram {
         self.diagram.get_or_init(|| {
-            let mut best = inside(self.area, 0, None);
-            for (attempt, near) in (1..).zip(WELDED) {
+            let mut best = inside(self.area, 0);
+            for attempt in 1..=WELDED.len() {
                 if best.faults().is_empty() {
                     break;
                 }
-                let other = inside(self.area, attempt, Some(near));
+                let other = inside(self.area, attempt);
                 if other.faults().len() < best.faults().len() {
                     best = other;
                 }
@@ -49,9 +49,9 @@ impl<'a> Interior<'a> {
     }
 }
 
-fn inside(area: &Polygon, attempt: u32, welded: Option<i64>) -> Diagram {
-    let mut generators = Generators::shaken(attempt);
-    if let Some(near) = welded {
+fn inside(area: &Polygon, attempt: usize) -> Diagram {
+    let mut generators = Generators::shaken(u32::try_from(attempt).expect("few"));
+    if let Some(near) = attempt.checked_sub(1).map(|further| WELDED[further]) {
         generators.weld_within(area.contours().iter().flatten().copied().collect(), near);
     }
     generators.inside(area, |ring| u32::try_from(ring).expect("below 2³² rings"));
@@ -82,8 +82,7 @@ mod tests {
             ring.extend([(40 * APART, 0), (40 * APART, 30_000_000)]);
             let ring = ring.into_iter().map(|(x, y)| Point::new(Nm::new(x), Nm::new(y))).collect();
             let area = [Polygon::new(vec![ring]).expect("an area")];
-            let is_flawed =
-                |attempt: u32| !inside(&area[0], attempt, (attempt > 0).then_some(NEAR)).faults().is_empty();
+            let is_flawed = |attempt| !inside(&area[0], attempt).faults().is_empty();
             hard += usize::from((0..=4).all(is_flawed));
             assert_eq!(Interior::all(&area)[0].diagram().faults(), []);
         }
