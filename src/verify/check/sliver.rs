@@ -84,6 +84,9 @@ fn beside(sheet: &Sheet<'_>, cut: usize, sliver: Nm) -> Option<Thin> {
         Some((other, neck))
     };
     let mut strips: Vec<(usize, Neck)> = apart.filter_map(edge).filter(|(_, neck)| is_clad(neck)).collect();
+    if strips.is_empty() {
+        return None;
+    }
     strips.sort_unstable_by_key(|&(other, _)| other);
     let (stretch, length) = longest(sheet, cut, &strips, sliver)?;
     let there = strips.into_iter().map(|(_, neck)| neck).filter(|neck| stretch.contains(neck.at));
