@@ -77,6 +77,8 @@
 //! # }
 //! ```
 
+#![forbid(unsafe_code)]
+
 #[cfg(feature = "mill")]
 pub mod artwork;
 #[cfg(feature = "mill")]

@@ -19,6 +19,7 @@ mod leftovers;
 mod level;
 mod machine;
 mod mask;
+mod memory;
 mod mill;
 mod output;
 mod pocket;
@@ -120,6 +121,7 @@ struct Shared {
 
 /// Reads the arguments, does what they say, prints errors.
 pub(crate) fn run() -> ExitCode {
+    memory::give_back_large_blocks();
     let print_panic = std::panic::take_hook();
     std::panic::set_hook(Box::new(move |panic| {
         // What a broken picture does to its decoder is told as an error.

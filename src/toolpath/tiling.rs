@@ -58,6 +58,7 @@ impl Program {
             };
             let z = z.max(self.safe);
             if let Some(last) = section.moves.iter().rev().find_map(Move::to) {
+                section.moves.reserve_exact(2);
                 section.moves.push(Move::Rapid { to: Position { z, ..last } });
                 section.moves.extend(place.map(|place| Move::Rapid { to: Position::over(place, z) }));
             }

@@ -126,6 +126,15 @@ fn a_slot_has_two_ends() {
     let expected = [(at(96_901, -65_701), at(96_901, -67_700)), (at(102_599, -63_701), at(100_601, -63_701))];
     assert_eq!(ends, expected, "both slots");
     assert!(drilling.holes.iter().all(Hole::is_slot), "and neither is a plain hole");
+
+    let slots = "X1.0Y1.0\nX5.0Y1.0\nG85X5.0Y3.0\nG85X7.0Y3.0\nT2\nG85X8.0Y3.0";
+    let drilling = read(&format!("M48\nMETRIC\nT1C1.0\nT2C2.0\n%\nT1\n{slots}\nM30\n")).expect("readable");
+    let ends: Vec<_> = drilling.holes.iter().map(|hole| (hole.path.start, hole.path.end())).collect();
+    let hole = (at(1_000, 1_000), at(1_000, 1_000));
+    let corners = [at(5_000, 1_000), at(5_000, 3_000), at(7_000, 3_000), at(8_000, 3_000)];
+    let expected: Vec<_> =
+        [hole].into_iter().chain(corners.windows(2).map(|pair| (pair[0], pair[1]))).collect();
+    assert_eq!(ends, expected, "a line that begins with G85 goes on from the hole or slot before it");
 }
 
 #[test]

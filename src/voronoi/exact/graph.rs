@@ -307,7 +307,7 @@ impl Diagram {
             slots.into_iter().map(link).collect::<Vec<Link>>()
         };
         self.leaving = Groups::of_each(order.iter().map(leaving));
-        self.stretches = self.edges.iter().map(|_| OnceLock::new()).collect();
+        self.stretches = OnceLock::new();
         let vertex = |&old: &usize| {
             let Junction { at, clearance, ref mut tied, .. } = junctions[old];
             Vertex { at: (at.x, at.y), clearance, tied: mem::take(tied) }

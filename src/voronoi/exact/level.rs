@@ -14,6 +14,8 @@
 //! M. Held, *On the Computational Geometry of Pocket Machining*, LNCS 500, Springer 1991, ch. 4
 //! (offset curves from the diagram).
 
+use std::sync::OnceLock;
+
 use super::chain::Chain;
 use super::form::{Form, Place, halfway, turn};
 use super::{Diagram, Edge, Kind, Link, NOBODY};
@@ -164,7 +166,8 @@ impl Diagram {
         if low - 2.0 * reach > found.level || high + 2.0 * reach < found.level {
             return;
         }
-        for pair in self.stretches[number as usize].get_or_init(|| self.stretches_of(edge)).windows(2) {
+        let stretches = self.stretches.get_or_init(|| vec![OnceLock::new(); self.edges.len()]);
+        for pair in stretches[number as usize].get_or_init(|| self.stretches_of(edge)).windows(2) {
             let [a, b] = [pair[0], pair[1]];
             let rises = b.clearance > found.level;
             if (a.clearance > found.level) != rises {

@@ -180,7 +180,7 @@ pub struct Diagram {
     /// What leaves each vertex, counter-clockwise.
     leaving: Groups<Link>,
     /// Of each edge that a level set was asked for, where its clearance turns.
-    stretches: Vec<OnceLock<Vec<Sample>>>,
+    stretches: OnceLock<Vec<OnceLock<Vec<Sample>>>>,
     faults: Vec<Point>,
 }
 
@@ -237,7 +237,7 @@ impl Diagram {
             vertices: Vec::new(),
             edges: Vec::new(),
             leaving: Groups::default(),
-            stretches: Vec::new(),
+            stretches: OnceLock::new(),
             faults: Vec::new(),
         }
     }

@@ -72,7 +72,16 @@ impl Machine<'_, '_, '_> {
         let (x, y) = block.beyond.unwrap_or_default();
         self.at = self.target(from, x, y)?;
         let segments = if self.at == from { vec![] } else { vec![Segment::Line { to: self.at }] };
-        self.cut(Path { start: from, segments }, line)
+        let slot = self.hole(Path { start: from, segments }, line)?;
+        // Where a line begins with G85, as tscircuit's do, the hole before it is the slot's first.
+        let goes_on = block.x.is_none() && block.y.is_none();
+        match self.holes.last_mut() {
+            Some(hole) if goes_on && !hole.is_slot() && hole.path.start == from && hole.tool == slot.tool => {
+                *hole = slot;
+                Ok(())
+            }
+            _ => self.push(slot, &line.place),
+        }
     }
 
     /// Takes a corner of `package`; the second one drills it.
