@@ -146,9 +146,7 @@ fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {
 
 /// What job file, function and name say of each file.
 fn witness(gathered: &Gathered, job: &Job) -> Vec<Vote> {
-    let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
-    let shared = layers::shared_start(&names);
-    let has_drill = gathered.files.iter().any(|file| file.kind == Kind::Excellon);
+    let (shared, has_drill) = (gathered.shared_start(), gathered.has_drill_file());
     let vote = |(index, file): (usize, &Found)| {
         let by_job = job.function_of(&file.name).map(|function| (function, Witness::Job));
         let by_function = || Some((Function::read(&layers::function_of(&file.bytes)?)?, Witness::Function));

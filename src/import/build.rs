@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use super::archive::Found;
 use super::error::Error;
 use super::gerber::Image;
+use crate::board::diagnostic::count;
 use crate::board::{Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
 use crate::geometry::{Nm, Point};
 use crate::import::diagnostic;
@@ -42,7 +43,8 @@ impl Build {
         let mut features = image.features;
         let bare: Vec<Feature> = features.extract_if(.., |feature| !has_area(feature)).collect();
         if let Some(first) = bare.first() {
-            let message = format!("{} objects of {name} have no width and draw no copper", bare.len());
+            let message =
+                format!("no copper is drawn by {} of {name} without width", count(bare.len(), "object"));
             let warning = diagnostic::ZERO_WIDTH_COPPER.warning(message).at(first.shape.anchor());
             warnings.push(warning.caused_by(file.at_line(first.line)));
         }

@@ -24,6 +24,17 @@ const fn is_chosen(meant: Meant, selection: &Selection) -> bool {
 }
 
 impl Gathered {
+    /// How many characters of all files' names are the board's.
+    pub(super) fn shared_start(&self) -> usize {
+        let names: Vec<&str> = self.files.iter().map(|file| naming::stem(&file.name)).collect();
+        layers::shared_start(&names)
+    }
+
+    /// Whether one of the files is a drill file by its content.
+    pub(super) fn has_drill_file(&self) -> bool {
+        self.files.iter().any(|file| file.kind == Kind::Excellon)
+    }
+
     /// Fails for what is meant as a layer and cannot be read as one; returns what is doubtful.
     pub(super) fn refuse_unusable(&self, job: &Job, selection: &Selection) -> Result<Vec<Warning>, Error> {
         let names: Vec<&str> = self.files.iter().map(|file| naming::stem(&file.name)).collect();

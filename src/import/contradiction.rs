@@ -9,16 +9,10 @@ use super::archive::{Found, Gathered};
 use super::error::{Error, find, locate};
 use super::format::Kind;
 use super::layers::{self, Role};
-use super::naming;
 use super::selection::Selection;
 use super::vote::{Vote, Witness};
 use crate::board::{Side, Warning, Words};
 use crate::import::diagnostic;
-
-fn shared_start(gathered: &Gathered) -> usize {
-    let names: Vec<&str> = gathered.files.iter().map(|file| naming::stem(&file.name)).collect();
-    layers::shared_start(&names)
-}
 
 /// What a name says: what kind of layer it is, and on which side.
 fn named(file: &Found, shared: usize) -> Option<(Option<Role>, Option<Side>)> {
@@ -66,8 +60,8 @@ const LEAVE_LAYER: Words =
 /// thing.
 pub(super) fn refuse(gathered: &Gathered, votes: &[Vote], selection: &Selection) -> Result<(), Error> {
     refuse_other_side(gathered, votes)?;
-    let shared = shared_start(gathered);
-    let has_drill = gathered.files.iter().any(|file| file.kind == Kind::Excellon);
+    let shared = gathered.shared_start();
+    let has_drill = gathered.has_drill_file();
     for vote in votes {
         let file = &gathered.files[vote.file];
         let by_words = || layers::role_by_name(&file.name, shared);
@@ -111,7 +105,7 @@ fn is_orcad_drawing(name: &str) -> bool {
 
 /// A file named for one side that calls itself the other, where either says that it is copper.
 fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
-    let shared = shared_start(gathered);
+    let shared = gathered.shared_start();
     for vote in votes.iter().filter(|vote| vote.witness > Witness::Name) {
         let file = &gathered.files[vote.file];
         let (Some(declared), Some(side)) = (vote.role, vote.side) else { continue };
@@ -136,7 +130,7 @@ fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
 /// Layers of which the name says one thing and the file or the job file another, and either is
 /// milled: the name is not believed, and that is said.
 pub(super) fn disputed(gathered: &Gathered, votes: &[Vote]) -> Vec<Warning> {
-    let shared = shared_start(gathered);
+    let shared = gathered.shared_start();
     let mut warnings = Vec::new();
     for vote in votes.iter().filter(|vote| vote.witness > Witness::Name) {
         let file = &gathered.files[vote.file];

@@ -13,6 +13,7 @@ use super::layers::Role;
 use super::selection::{Need, Selection};
 use super::{naming, outline, picture};
 use crate::artwork::{self, Figure, Layer};
+use crate::board::diagnostic::count;
 use crate::board::{Attributes, Axis, Feature, Hole, Shape, Side, Source, Words};
 use crate::geometry::{Nm, Path as Course};
 use crate::import::diagnostic;
@@ -271,8 +272,8 @@ fn holes(build: &mut Build, (file, source): (&Found, &Source), figures: &[Figure
     let mut warnings = Vec::new();
     if let Some(first) = left_out.first() {
         let message = format!(
-            "{} shapes among the holes of {} are neither round nor obround and are not drilled",
-            left_out.len(),
+            "neither round nor obround, and so not drilled: {} among the holes of {}",
+            count(left_out.len(), "shape"),
             file.name
         );
         let warning = diagnostic::NOT_A_HOLE.warning(message);

@@ -1,6 +1,7 @@
 //! Drill files written in Gerber (X2 file function `Plated` or `NonPlated`): flashes are holes,
 //! strokes are slots, and so are flashes of obrounds, as which KiCad writes slots that are turned.
 
+use crate::board::diagnostic::count;
 use crate::board::{Axis, FLATTEN, Feature, Hole, Shape, Warning};
 use crate::geometry::{Nm, Path, Point, Polygon, Segment, distance_to_segment};
 use crate::import::diagnostic;
@@ -16,19 +17,20 @@ pub(super) fn holes(file: &Found, image: &Image) -> (Vec<Hole>, Option<Warning>)
     sizes.sort();
     sizes.dedup();
     let mut holes = Vec::new();
-    let mut left_out = None::<(u32, Point, u32)>;
+    let mut left_out = None::<(usize, Point, u32)>;
     for feature in &image.features {
         let Some((path, diameter)) = cutter(feature) else {
-            let (count, at, line) = left_out.unwrap_or((0, feature.shape.bounds().min(), feature.line));
-            left_out = Some((count + 1, at, line));
+            let (shapes, at, line) = left_out.unwrap_or((0, feature.shape.bounds().min(), feature.line));
+            left_out = Some((shapes + 1, at, line));
             continue;
         };
         let tool = sizes.binary_search(&diameter).ok().and_then(|i| u32::try_from(i + 1).ok()).unwrap_or(0);
         holes.push(Hole { path, diameter, plating, tool, line: feature.line });
     }
-    let warning = left_out.map(|(count, at, line)| {
+    let warning = left_out.map(|(shapes, at, line)| {
         let message = format!(
-            "{count} shapes of the drill file {} are neither round nor obround and are not drilled",
+            "neither round nor obround, and so not drilled: {} of the drill file {}",
+            count(shapes, "shape"),
             file.name
         );
         diagnostic::NOT_A_HOLE.warning(message).at(at).caused_by(file.at_line(line))

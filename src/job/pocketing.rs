@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use crate::board::FLATTEN;
 use crate::board::Warning;
+use crate::board::diagnostic::count;
 use crate::board::diagnostic::planning;
 use crate::board::polarity::{difference, intersection, offset, union};
 use crate::geometry::{Nm, Point, Polygon, Rect};
@@ -463,9 +464,7 @@ impl Pocket {
     /// What it is, for a person.
     #[must_use]
     pub fn summary(&self) -> String {
-        let [areas, entries] = [self.areas.len(), self.entries.all];
-        let areas = if areas == 1 { "1 area".to_owned() } else { format!("{areas} areas") };
-        let entries = if entries == 1 { "1 plunge".to_owned() } else { format!("{entries} plunges") };
+        let (areas, entries) = (count(self.areas.len(), "area"), count(self.entries.all, "plunge"));
         format!("{}: {areas} milled {:.3} mm deep, {entries}\n", self.name, self.depth)
             + &art::lines(&self.programs)
     }

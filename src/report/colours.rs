@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::topology::{Odds, Translucency};
 
 use super::quantity::Millimetres;
-use super::quantity::count;
+use crate::board::diagnostic::count;
 
 /// What the paper's translucent picture was and how far it is to be trusted (§III-A.2).
 #[derive(Clone, Debug, Serialize)]

@@ -86,7 +86,7 @@ impl Compared {
             return format!("{}: the same copper\n", self.file);
         }
         let Self { more_cut: more, less_cut: less, .. } = self;
-        let places = |amount: &Amount| super::quantity::count(amount.places, "place");
+        let places = |amount: &Amount| crate::board::diagnostic::count(amount.places, "place");
         let mut text = format!(
             "{}: {:.4} mm² more cut away in {}, {:.4} mm² less in {}\n",
             self.file,

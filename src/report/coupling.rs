@@ -10,7 +10,7 @@ use crate::geometry::Nm;
 use crate::topology::{NetId, Nets};
 
 use super::quantity::Millimetres;
-use super::quantity::count;
+use crate::board::diagnostic::count;
 
 /// The neighbours of a layer.
 #[derive(Clone, Debug, Serialize)]

@@ -13,8 +13,8 @@ use super::neighbours::NeighboursEntry;
 use super::paper::PaperEntry;
 use super::prediction::PredictionEntry;
 use super::quantity::Millimetres;
-use super::quantity::count;
 use super::summary::warnings;
+use crate::board::diagnostic::count;
 
 /// What `voromill inspect` says.
 #[derive(Clone, Debug, Serialize)]
@@ -110,9 +110,16 @@ impl Inspection {
     }
 }
 
+/// One of what a count is of: a hole of holes, a flash of flashes.
+fn one_of(many: &str) -> &str {
+    let end = if many.ends_with("shes") { "es" } else { "s" };
+    many.strip_suffix(end).unwrap_or(many)
+}
+
 fn file(source: &Source, verbose: bool) -> String {
+    let some = source.counts.iter().filter(|(_, n)| **n > 0);
     let counts: Vec<String> =
-        source.counts.iter().filter(|(_, n)| **n > 0).map(|(what, n)| format!("{n} {what}")).collect();
+        some.map(|(what, &n)| format!("{n} {}", if n == 1 { one_of(what) } else { what })).collect();
     let details = [source.format.as_str(), &source.units, &source.number_format];
     let details: Vec<&str> = details.into_iter().filter(|detail| !detail.is_empty()).collect();
     let mut text = format!("\n{}: {}\n", source.file, source.role);

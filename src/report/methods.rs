@@ -9,7 +9,7 @@ use crate::topology::{Differences, Method, Missed, Reason};
 
 use super::colours::ColoursEntry;
 use super::quantity::Place;
-use super::quantity::count;
+use crate::board::diagnostic::count;
 
 /// All three methods on one layer.
 #[derive(Clone, Debug, Serialize)]

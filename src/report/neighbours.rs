@@ -14,8 +14,9 @@ use crate::raster::{self, Buffers, Label, Scene};
 use crate::topology::{self, DisjointSets, NetId, Nets};
 use crate::voronoi::{Boundaries, Boundary, Owner};
 
-use super::quantity::{Millimetres, Place, count};
+use super::quantity::{Millimetres, Place};
 use super::thinning::Thinning;
+use crate::board::diagnostic::count;
 
 /// The neighbours of a layer by both ways.
 #[derive(Clone, Debug, Serialize)]

@@ -40,8 +40,3 @@ pub(super) fn json(value: &impl Serialize) -> String {
     text.push('\n');
     text
 }
-
-/// A number of things.
-pub(super) fn count(number: usize, what: &str) -> String {
-    if number == 1 { format!("1 {what}") } else { format!("{number} {what}s") }
-}

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use super::document::{Document, Figures, LayerEntry, ToolChanges, WarningEntry};
-use super::quantity::count;
+use crate::board::diagnostic::count;
 use crate::board::{self, Diagnostic, Severity};
 use crate::toolpath::duration;
 

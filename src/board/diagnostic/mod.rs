@@ -14,4 +14,5 @@ mod words;
 pub(crate) use kind::diagnostics;
 pub use kind::{Diagnostic, Stage};
 pub use severity::Severity;
+pub(crate) use words::count;
 pub use words::{Sentence, Words};

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::bore;
+use crate::board::diagnostic::count;
 use crate::board::diagnostic::planning;
 use crate::board::{Hole, Warning};
 use crate::geometry::{Nm, Path, Point, RectIndex, Segment, Vector};
@@ -144,12 +145,7 @@ fn section(tool: Tool, holes: &[&Hole], settings: &Drilling<'_>) -> Section {
             plunge(&mut head, point, heights, settings.dwell);
         }
     }
-    let count = holes.len();
-    let label = format!(
-        "drill {:.3} mm, {count} {}",
-        tool.width_at(Nm::ZERO),
-        if count == 1 { "hole" } else { "holes" }
-    );
+    let label = format!("drill {:.3} mm, {}", tool.width_at(Nm::ZERO), count(holes.len(), "hole"));
     Section { tool, label, moves: head.finish() }
 }
 

@@ -16,6 +16,7 @@
 //! what falls out of a small one needs none.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
+use crate::board::diagnostic::count;
 use crate::board::{Board, Shape};
 use crate::geometry::{Nm, Point, Rect};
 use crate::grid::Grid;
@@ -96,8 +97,7 @@ fn uneven(contours: &Contours<'_>, ring: &Ring, settings: &Settings) -> Option<(
     let tabs = ways.len();
     ways.sort_by(|a, b| b.length.total_cmp(&a.length));
     let is_uneven = ways.get(1).is_none_or(|next| ways[0].length > next.length * UNEVEN);
-    let held = if tabs == 1 { "one tab".to_owned() } else { format!("{tabs} tabs") };
-    let message = format!("the waste inside a cut-out is held by {held}: one is missing");
+    let message = format!("the waste inside a cut-out is held by {}: one is missing", count(tabs, "tab"));
     is_uneven.then(|| (ways[0].at, message))
 }
 

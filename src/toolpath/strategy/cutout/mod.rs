@@ -10,6 +10,7 @@ mod boards;
 mod ring;
 mod tabs;
 
+use crate::board::diagnostic::count;
 use crate::board::diagnostic::planning;
 use crate::board::{FLATTEN, Outline, Warning, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon};
@@ -75,13 +76,12 @@ pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning
         .partition(|ring| ring.area_mm2() > 0.0);
     let stretches = boards::stretches(&outer, &edges, radius);
     warn([&inner, &outer], &stretches, [&edges, &holes], radius, &mut warnings);
-    let count = inner.len() + outer.len();
     let held = hold(&inner, &outer, &stretches, settings, &mut warnings);
     let mut head = Head::new(settings.heights, settings.tool.plunge);
     let (inner_held, outer_held) = held.split_at(inner.len());
     cut_all(&mut head, &inner, inner_held, settings);
     cut_all(&mut head, &outer, outer_held, settings);
-    let label = format!("cut out along {count} {}", if count == 1 { "contour" } else { "contours" });
+    let label = format!("cut out along {}", count(inner.len() + outer.len(), "contour"));
     (Section { tool: settings.tool.clone(), label, moves: head.finish() }, warnings)
 }
 
