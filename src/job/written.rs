@@ -36,7 +36,7 @@ impl Written {
     #[must_use]
     pub fn new(
         (part, side, tag): (Part, Side, String),
-        program: Program,
+        mut program: Program,
         header: &Header,
         tiling: Option<Tiling>,
         settings: &Settings,
@@ -47,19 +47,27 @@ impl Written {
         };
         let end = place(settings.asked.park);
         let change = settings.asked.tool_change_at.map_or(end, place);
-        let wait = |program: Program| program.parking(change, end);
-        let whole = wait(tiling.map_or_else(|| program.clone(), |tiling| program.clone().tiled(tiling)));
-        let statistics = measure(&whole, &settings.machine);
         let mut options = settings.options().listed();
         // How the board is turned every program must say, so that it can be judged by itself.
         let turned = |option: &str, value: &str| option == "rotate" && value != "0deg";
         options.retain(|(option, value)| {
             Options::reach(option).is_some_and(|changes| changes.meets(part.reach())) || turned(option, value)
         });
-        let header = Header { settings: options, seconds: Some(statistics.seconds), ..header.clone() };
-        let text = gcode::write(&whole, &settings.dialect, &header);
-        let tile = tiling.map(|_| gcode::write(&wait(program.clone()), &settings.dialect, &header));
-        let warning = whole.check_travel(&settings.machine);
+        let write = |program: &Program, seconds: f64| {
+            let header = Header { settings: options.clone(), seconds: Some(seconds), ..header.clone() };
+            gcode::write(program, &settings.dialect, &header)
+        };
+        let make = |whole: &Program| {
+            let statistics = measure(whole, &settings.machine);
+            let text = write(whole, statistics.seconds);
+            (statistics, text, whole.check_travel(&settings.machine))
+        };
+        let (statistics, text, warning) = match tiling {
+            None => program.while_parking(change, end, make),
+            Some(tiling) => program.clone().tiled(tiling).while_parking(change, end, make),
+        };
+        let of_tile = |tile: &Program| write(tile, statistics.seconds);
+        let tile = tiling.map(|_| program.while_parking(change, end, of_tile));
         Self { part, side, tag, program, statistics, text, tile, warning }
     }
 

@@ -44,11 +44,26 @@ impl Program {
         self
     }
 
-    /// The program with the tool going up to a height, or the safe height if that is higher, and
-    /// over a place if there is one: to `change` wherever another tool is fitted, to `end` in the
-    /// end.
-    #[must_use]
-    pub fn parking(mut self, change: (Option<Point>, Nm), end: (Option<Point>, Nm)) -> Self {
+    /// What `look` finds in the program with the tool going up to a height, or the safe height if
+    /// that is higher, and over a place if there is one: to `change` wherever another tool is
+    /// fitted, to `end` in the end. Afterwards the program is as before: a copy would take as much
+    /// memory.
+    pub fn while_parking<T>(
+        &mut self,
+        change: (Option<Point>, Nm),
+        end: (Option<Point>, Nm),
+        look: impl FnOnce(&Self) -> T,
+    ) -> T {
+        let lengths: Vec<usize> = self.sections.iter().map(|section| section.moves.len()).collect();
+        self.park(change, end);
+        let found = look(self);
+        for (section, length) in self.sections.iter_mut().zip(lengths) {
+            section.moves.truncate(length);
+        }
+        found
+    }
+
+    fn park(&mut self, change: (Option<Point>, Nm), end: (Option<Point>, Nm)) {
         let tools: Vec<Tool> = self.sections.iter().map(|section| section.tool.clone()).collect();
         for (index, section) in self.sections.iter_mut().enumerate() {
             let (place, z) = match tools.get(index + 1) {
@@ -63,7 +78,6 @@ impl Program {
                 section.moves.extend(place.map(|place| Move::Rapid { to: Position::over(place, z) }));
             }
         }
-        self
     }
 
     /// The rectangle that holds the ends of all moves; none for a program without any.
