@@ -6,8 +6,8 @@ use super::archive::Found;
 use super::error::Error;
 use super::gerber::Image;
 use crate::board::diagnostic::count;
-use crate::board::{Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
-use crate::geometry::{Nm, Point};
+use crate::board::{Board, Copper, FLATTEN, Feature, Hole, Shape, Side, Source, Warning};
+use crate::geometry::{Nm, Point, RectIndex};
 use crate::import::diagnostic;
 
 /// A board with what is known of where it came from.
@@ -113,6 +113,26 @@ impl Build {
             let warning = diagnostic::DUPLICATE_HOLES.warning(message).at(at);
             warnings.push(warning.caused_by(file.at_line(line)));
         }
+    }
+
+    /// Leaves cut-outs that are holes, too, to the drill: programs write round ones as both
+    /// (tscircuit).
+    pub(super) fn leave_to_the_drill(&mut self) {
+        /// How far such a cut-out may reach beyond its hole. Derived: as far as the same holes may
+        /// differ (`same_hole`).
+        const BEYOND: Nm = Nm::from_um(50);
+        let holes = &self.board.holes;
+        let Some(outline) = &mut self.board.outline else { return };
+        let index = RectIndex::new(holes.iter().map(Hole::bounds));
+        let taken = outline.take_cut_outs(|contour| {
+            let corners = contour.flatten(FLATTEN);
+            let near = index.touching(contour.bounds()).into_iter();
+            near.into_iter().any(|hole| holes[hole].reaches_all(&corners, BEYOND))
+        });
+        let Some(first) = taken.last() else { return };
+        let cut_outs = count(taken.len(), "cut-out");
+        let message = format!("left to the drill, since there are such holes: {cut_outs} of the outline");
+        self.warnings.push(diagnostic::DUPLICATE_HOLES.warning(message).at(first.start));
     }
 
     /// A board as wide as a table is a unit taken for another.
