@@ -38,12 +38,12 @@ impl Outline {
     }
 
     /// Takes out those cut-outs that something else makes, as `is_made` says.
-    pub(crate) fn take_cut_outs(&mut self, is_made: impl Fn(&Path) -> bool) -> Vec<Path> {
-        let rings = self.rings(FLATTEN);
-        let is_taken = |&(number, _, is_cut_out): &_| is_cut_out && is_made(&self.contours[number]);
-        let taken: Vec<usize> =
-            rings.iter().filter(|ring| is_taken(ring)).map(|&(number, ..)| number).collect();
-        taken.into_iter().rev().map(|number| self.contours.remove(number)).collect()
+    pub(crate) fn drop_cut_outs(&mut self, is_made: impl Fn(&Path) -> bool) {
+        for (number, _, is_cut_out) in self.rings(FLATTEN).into_iter().rev() {
+            if is_cut_out && is_made(&self.contours[number]) {
+                self.contours.remove(number);
+            }
+        }
     }
 
     /// The contours flattened within `tolerance`, each turned so that the non-zero rule fills the

@@ -115,8 +115,8 @@ impl Build {
         }
     }
 
-    /// Leaves cut-outs that are holes, too, to the drill: programs write round ones as both
-    /// (tscircuit).
+    /// Leaves cut-outs that are holes, too, to the drill: EAGLE and tscircuit write round ones as
+    /// both, and nothing is to be said of what they always do.
     pub(super) fn leave_to_the_drill(&mut self) {
         /// How far such a cut-out may reach beyond its hole. Derived: as far as the same holes may
         /// differ (`same_hole`).
@@ -124,15 +124,11 @@ impl Build {
         let holes = &self.board.holes;
         let Some(outline) = &mut self.board.outline else { return };
         let index = RectIndex::new(holes.iter().map(Hole::bounds));
-        let taken = outline.take_cut_outs(|contour| {
+        outline.drop_cut_outs(|contour| {
             let corners = contour.flatten(FLATTEN);
             let near = index.touching(contour.bounds()).into_iter();
             near.into_iter().any(|hole| holes[hole].reaches_all(&corners, BEYOND))
         });
-        let Some(first) = taken.last() else { return };
-        let cut_outs = count(taken.len(), "cut-out");
-        let message = format!("left to the drill, since there are such holes: {cut_outs} of the outline");
-        self.warnings.push(diagnostic::DUPLICATE_HOLES.warning(message).at(first.start));
     }
 
     /// A board as wide as a table is a unit taken for another.
