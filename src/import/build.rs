@@ -6,8 +6,8 @@ use super::archive::Found;
 use super::error::Error;
 use super::gerber::Image;
 use crate::board::diagnostic::count;
-use crate::board::{Board, Copper, FLATTEN, Feature, Hole, Shape, Side, Source, Warning};
-use crate::geometry::{Nm, Point, RectIndex};
+use crate::board::{Board, Copper, Feature, Hole, Shape, Side, Source, Warning};
+use crate::geometry::{Nm, Point};
 use crate::import::diagnostic;
 
 /// A board with what is known of where it came from.
@@ -113,22 +113,6 @@ impl Build {
             let warning = diagnostic::DUPLICATE_HOLES.warning(message).at(at);
             warnings.push(warning.caused_by(file.at_line(line)));
         }
-    }
-
-    /// Leaves cut-outs that are holes, too, to the drill: EAGLE and tscircuit write round ones as
-    /// both, and nothing is to be said of what they always do.
-    pub(super) fn leave_to_the_drill(&mut self) {
-        /// How far such a cut-out may reach beyond its hole. Derived: as far as the same holes may
-        /// differ (`same_hole`).
-        const BEYOND: Nm = Nm::from_um(50);
-        let holes = &self.board.holes;
-        let Some(outline) = &mut self.board.outline else { return };
-        let index = RectIndex::new(holes.iter().map(Hole::bounds));
-        outline.drop_cut_outs(|contour| {
-            let corners = contour.flatten(FLATTEN);
-            let near = index.touching(contour.bounds()).into_iter();
-            near.into_iter().any(|hole| holes[hole].reaches_all(&corners, BEYOND))
-        });
     }
 
     /// A board as wide as a table is a unit taken for another.

@@ -297,7 +297,6 @@ fn finish(build: &mut Build, shown: &str, need: Need) -> Result<(), Error> {
         let message = "there is no outline among the files, so the edge of the board is unknown";
         build.warnings.push(diagnostic::OUTLINE_MISSING.warning(message));
     }
-    build.leave_to_the_drill();
     build.warn_of_size();
     if need == Need::Job {
         build.refuse_size(shown)?;

@@ -80,7 +80,6 @@ fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Load
     build.coppers(&gathered, &assigned, need)?;
     build.outline(&gathered, &assigned, selection.outline_gap.unwrap_or(outline::GAP))?;
     build.drills(&gathered, &assigned, need)?;
-    build.leave_to_the_drill();
     build.warn_of_size();
     if need == Need::Job {
         build.refuse_size(&assigned.place)?;

@@ -88,7 +88,6 @@ pub(super) fn load(mut gathered: Gathered, selection: &Selection, need: Need) ->
         build.warnings.append(&mut warnings);
     }
     gathered.refuse_unmet_skips()?;
-    build.leave_to_the_drill();
     build.warn_of_size();
     if need == Need::Job {
         build.require_copper(&[&file])?;

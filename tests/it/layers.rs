@@ -545,31 +545,6 @@ fn a_gerber_drill_file_has_holes_and_slots() {
 }
 
 /// KiCad's slots that are turned are macros of a line and a disc at each end of it.
-/// EAGLE and tscircuit draw a round cut-out as a contour of the edge, and drill it.
-#[test]
-fn a_cut_out_that_is_a_hole_is_left_to_the_drill() {
-    let circle = |x: i64, y: i64, radius: i64| {
-        let right = x + radius;
-        format!("X{right}Y{y}D02*\nG03*\nX{right}Y{y}I-{radius}J0D01*\nG01*\n")
-    };
-    let square = "X0Y0D02*\nX20000Y0D01*\nX20000Y20000D01*\nX0Y20000D01*\nX0Y0D01*\n";
-    // A hole of 3.0 mm, one in the middle of a larger cut-out, and a slot round the board.
-    let circles = circle(5_000, 5_000, 1_500) + &circle(15_000, 15_000, 2_000);
-    let edge = format!("%FSLAX43Y43*%\n%MOMM*%\nG75*\n%ADD10C,0.05*%\nD10*\n{square}{circles}M02*\n");
-    let drill = "M48\nMETRIC\nT1C3.010\nT2C1.0\n%\nT1\nX5.0Y5.01\nX15.0Y15.0\nT2\nG00X0.0Y0.0\nM15\nG01X20.0\nG01Y20.0\nG01X0.0\nG01Y0.0\nM16\nM30\n";
-    let load = |drill: &str| {
-        let folder =
-            Folder::with(&[("a-F_Cu.gbr", SQUARE), ("a-Edge_Cuts.gbr", &edge), ("a-PTH.drl", drill)]);
-        folder.load(&Selection::default()).expect("a board")
-    };
-    let sizes = |loaded: &Loaded| -> Vec<i64> {
-        let outline = loaded.board.outline.as_ref().expect("an edge");
-        outline.contours().iter().map(|contour| contour.bounds().width().get() / 1_000).collect()
-    };
-    assert_eq!(sizes(&load(drill)), [20_000, 4_000], "the other two are milled");
-    assert_eq!(sizes(&load(&drill.replace("3.010", "2.8"))).len(), 3, "a smaller hole is another");
-}
-
 #[test]
 fn a_turned_slot_of_a_gerber_drill_file_is_drilled() {
     let text = "%TF.FileFunction,Plated,1,2,PTH*%\n%FSLAX46Y46*%\n%MOMM*%\n%AMHorizOval*20,1,$1,$2,$3,$4,$5,0*1,1,$1,$2,$3*1,1,$1,$4,$5*%\n%ADD12HorizOval,1.020000X-0.156054X-0.480284X0.156054X0.480284X0*%\n%AMOther*20,1,$1,$2,$3,$4,$5,0*1,1,$1,$2,$3*%\n%ADD13Other,1.020000X-0.156054X-0.480284X0.156054X0.480284X0*%\nD12*\nX1000000Y1000000D03*\nD13*\nX5000000Y5000000D03*\nM02*\n";
