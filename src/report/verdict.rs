@@ -7,6 +7,7 @@ use serde::Serialize;
 use serde_json::json;
 
 use crate::board::Side;
+use crate::board::diagnostic::count;
 use crate::verify::{Finding, Report, Severity, check};
 
 use super::quantity::{Millimetres, Place, SCHEMA_VERSION, json as to_json};
@@ -148,12 +149,11 @@ impl Verdict {
     pub fn line(&self) -> String {
         let programs: usize = self.judged.iter().map(|judged| judged.programs.len()).sum();
         let pixels = self.judged.iter().filter_map(|judged| judged.pixel_mm).map(|pixel| pixel.0.get()).max();
-        let programs = crate::board::diagnostic::count(programs, "program");
+        let programs = count(programs, "program");
         let pixels = pixels.map_or(String::new(), |nm| format!(", pixels of {} µm", nm.div_euclid(1000)));
         let found = match (self.errors, self.warnings) {
             (0, 0) => "nothing found".to_owned(),
             (errors, warnings) => {
-                let count = crate::board::diagnostic::count;
                 format!("{}, {}", count(errors, "error"), count(warnings, "warning"))
             }
         };
@@ -163,7 +163,6 @@ impl Verdict {
     /// Whether the board is fit to be milled so, and what to change first where it is not.
     #[must_use]
     pub fn fitness(&self) -> String {
-        let count = crate::board::diagnostic::count;
         let first = |severity: Severity| {
             let worst = self.findings.iter().find(|finding| finding.severity == severity);
             let check = worst.and_then(|finding| check::of(finding.code));

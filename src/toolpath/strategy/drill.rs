@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::bore;
-use crate::board::diagnostic::count;
-use crate::board::diagnostic::planning;
+use crate::board::diagnostic::{count, planning};
 use crate::board::{Hole, Warning};
 use crate::geometry::{Nm, Path, Point, RectIndex, Segment, Vector};
 use crate::toolpath::head::Head;

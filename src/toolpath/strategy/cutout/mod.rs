@@ -10,8 +10,7 @@ mod boards;
 mod ring;
 mod tabs;
 
-use crate::board::diagnostic::count;
-use crate::board::diagnostic::planning;
+use crate::board::diagnostic::{count, planning};
 use crate::board::{FLATTEN, Outline, Warning, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon};
 use crate::toolpath::head::Head;
