@@ -3,9 +3,9 @@
 //! All three are one thing, a round cutter moved along a path, so that no later stage tells them
 //! apart by format.
 
-use crate::geometry::{Nm, Path, Rect, Segment};
+use crate::geometry::{Nm, Path, Point, Rect, Segment, distance_to_segment};
 
-use super::Shape;
+use super::{FLATTEN, Shape};
 
 /// Whether a hole's wall is plated, and so joins the two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, serde::Serialize)]
@@ -54,6 +54,17 @@ impl Hole {
             None => Shape::Stroke { from, to: segment.to(), radius },
         };
         self.path.steps().map(shape).collect()
+    }
+
+    /// Whether the cutter, were it wider by `beyond` all round, would reach all of these points.
+    #[must_use]
+    pub(crate) fn reaches_all(&self, points: &[Point], beyond: Nm) -> bool {
+        let way = self.path.flatten(FLATTEN);
+        let steps = || way.windows(2).map(|pair| (pair[0], pair[1]));
+        let reach = (self.diameter / 2 + beyond).to_f64();
+        points.iter().all(|&p| {
+            p.distance(self.path.start) <= reach || steps().any(|step| distance_to_segment(p, step) <= reach)
+        })
     }
 
     /// A rectangle that holds it.

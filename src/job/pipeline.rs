@@ -3,13 +3,13 @@
 use rayon::prelude::*;
 
 use crate::board::diagnostic::planning;
-use crate::board::{Board, Side, Source, Warning, Words};
+use crate::board::{Board, Hole, Side, Source, Warning, Words};
 use crate::gcode::dialect::ToolChange;
 use crate::gcode::{Header, Input};
 use crate::geometry::Nm;
 use crate::import::{Loaded, diagnostic};
 use crate::report::stages::Stages;
-use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill};
+use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill, drilled};
 use crate::toolpath::{Order, Placement, Program, Section};
 use crate::topology::{self, Electrical};
 
@@ -91,7 +91,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let placement = stock.placement(side);
         let (sections, found) = stages.run(
             "drilling",
-            || drill_holes(&board, &placement, settings),
+            || drill(&board.holes, &drilling_settings(&placement, settings)),
             |_| [("holes", board.holes.len())],
         );
         let drilling = turned(whole("drill", &board, sections, settings), &placement);
@@ -105,7 +105,10 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let placement = stock.placement(side);
         let (section, found) = stages.run(
             "cutout",
-            || cutout(outline, &cutout_settings(&placement, settings)),
+            || {
+                let drilled = drilled(&board.holes, &drilling_settings(&placement, settings));
+                cutout(outline, &cutout_settings(&placement, &drilled, settings))
+            },
             |(section, _)| [("moves", section.moves.len())],
         );
         let program = turned(whole("cutout", &board, vec![section], settings), &placement);
@@ -238,8 +241,8 @@ fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings)
     }
 }
 
-fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Vec<Section>, Vec<Warning>) {
-    let drilling = Drilling {
+fn drilling_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Drilling<'a> {
+    Drilling {
         drills: &settings.drills,
         tolerance: settings.drill_tolerance,
         mill: settings.drill_bore.then_some(&settings.drill_bore_tool),
@@ -252,11 +255,10 @@ fn drill_holes(board: &Board, placement: &Placement, settings: &Settings) -> (Ve
         dwell: settings.drill_dwell,
         speeds: settings.drill_speeds,
         point: settings.drill_tip_angle,
-    };
-    drill(&board.holes, &drilling)
+    }
 }
 
-fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cutout<'a> {
+fn cutout_settings<'a>(placement: &'a Placement, drilled: &'a [Hole], settings: &'a Settings) -> Cutout<'a> {
     Cutout {
         tool: &settings.cutout_tool,
         heights: settings.cutout,
@@ -264,6 +266,7 @@ fn cutout_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Cuto
         tabs: Tabs { places: settings.tabs.places(), width: settings.tab_width, height: settings.tab_height },
         ramp: settings.cutout_ramp,
         direction: settings.asked.direction,
+        drilled,
     }
 }
 

@@ -55,8 +55,7 @@ const BOTH: f64 = 20_000.0;
 impl<'a> Bores<'a> {
     /// What `programs` make of the holes of `board`.
     pub(super) fn new(programs: &[&'a Machining], board: &'a Board) -> Self {
-        let of = |program: &'a Machining| program.swept.iter().map(move |swept| Cut { program, swept });
-        let cuts: Vec<Cut<'a>> = programs.iter().flat_map(|&program| of(program)).collect();
+        let cuts: Vec<Cut<'a>> = Cut::all(programs).collect();
         let walls: Vec<Wall<'a>> = board.holes.iter().map(Wall::new).collect();
         let by_place = RectIndex::new(board.holes.iter().map(Hole::bounds));
         let owners: Vec<Option<usize>> =

@@ -122,11 +122,16 @@ const IDLE: Nm = Nm::from_um(500);
 const FIT: f64 = 3_000.0;
 
 impl<'a> Contours<'a> {
-    /// What `programs` make of the outline of `board`; none where it has none.
-    pub(super) fn new(programs: &[&'a Machining], board: &Board, settings: &Settings) -> Option<Self> {
+    /// What `programs` make of the outline of `board`, and of its cut-outs those that drill; none
+    /// where it has none.
+    pub(super) fn new(
+        programs: &[&'a Machining],
+        drilling: &[&Machining],
+        board: &Board,
+        settings: &Settings,
+    ) -> Option<Self> {
         let outline = board.outline.as_ref()?.polygon(FLATTEN);
-        let of = |program: &'a Machining| program.swept.iter().map(move |swept| Cut { program, swept });
-        let cuts: Vec<Cut<'a>> = programs.iter().flat_map(|&program| of(program)).collect();
+        let cuts: Vec<Cut<'a>> = Cut::all(programs).collect();
         let half = cuts.iter().map(|cut| cut.swept.half()).min().unwrap_or(IDLE);
         let edges: Vec<Shape> = outline
             .edges()
@@ -136,19 +141,18 @@ impl<'a> Contours<'a> {
             })
             .collect();
         let edge = Proximity::of(&edges);
-        let through: Vec<&Cut<'_>> = cuts.iter().filter(|cut| cut.swept.full >= settings.board).collect();
-        let shapes = |cuts: &mut dyn Iterator<Item = &Cut<'_>>| -> Vec<Shape> {
-            cuts.map(|cut| cut.swept.shape.clone()).collect()
+        let milled = Look::new(&cuts, &edge, half, settings);
+        // Cut-outs may be drilled. Holes at the edge of a board are no part of the way round it.
+        let drilled = (!drilling.is_empty()).then(|| {
+            let cuts: Vec<Cut<'_>> = cuts.iter().copied().chain(Cut::all(drilling)).collect();
+            Look::new(&cuts, &edge, half, settings)
+        });
+        let ring = |points: &Vec<Point>| {
+            let is_board = area(points) > 0;
+            let look = drilled.as_ref().filter(|_| !is_board).unwrap_or(&milled);
+            Ring { is_board, stretches: look.stretches(points) }
         };
-        let look = Look {
-            edge: &edge,
-            through: Proximity::of(&shapes(&mut through.iter().copied())),
-            any: Proximity::of(&shapes(&mut cuts.iter())),
-            depths: cuts.iter().map(|cut| cut.swept.full).collect(),
-            half,
-            tolerance: settings.edge,
-        };
-        let rings = outline.contours().iter().map(|ring| look.ring(ring)).collect();
+        let rings = outline.contours().iter().map(ring).collect();
         let taken = taken(&cuts, &outline, &edge, &board.holes, settings);
         Some(Self { programs: programs.to_vec(), outline, rings, taken, half })
     }
@@ -240,12 +244,28 @@ struct Look<'a> {
     tolerance: Nm,
 }
 
-impl Look<'_> {
-    fn ring(&self, points: &[Point]) -> Ring {
+impl<'a> Look<'a> {
+    fn new(cuts: &[Cut<'_>], edge: &'a Proximity, half: Nm, settings: &Settings) -> Self {
+        let through = |cut: &&Cut<'_>| cut.swept.full >= settings.board;
+        let shapes = |cuts: &mut dyn Iterator<Item = &Cut<'_>>| -> Vec<Shape> {
+            cuts.map(|cut| cut.swept.shape.clone()).collect()
+        };
+        Self {
+            edge,
+            through: Proximity::of(&shapes(&mut cuts.iter().filter(through))),
+            any: Proximity::of(&shapes(&mut cuts.iter())),
+            depths: cuts.iter().map(|cut| cut.swept.full).collect(),
+            half,
+            tolerance: settings.edge,
+        }
+    }
+
+    /// A contour in stretches.
+    fn stretches(&self, points: &[Point]) -> Vec<Stretch> {
         let step = (self.half.to_f64() / 4.0).clamp(50_000.0, 250_000.0);
         let spots = spots(points, step);
         let seen: Vec<Seen> = spots.par_iter().map(|spot| self.see(spot)).collect();
-        Ring { is_board: area(points) > 0, stretches: stretches(&spots, &seen) }
+        stretches(&spots, &seen)
     }
 
     fn see(&self, spot: &Spot) -> Seen {

@@ -338,10 +338,7 @@ pub fn verify(
     findings.extend(check::whole(&roles, board, settings));
     let judged: Vec<(Judged, Vec<Finding>)> = roles
         .into_par_iter()
-        .map(|role| {
-            let programs: Vec<&Machining> = read.iter().filter(|machining| machining.role == role).collect();
-            judge(role, &programs, board, known, settings)
-        })
+        .map(|role| judge(role, &read, board, known, settings))
         .collect::<Result<_, _>>()?;
     let mut report = Report::default();
     for (judged, found) in judged {
@@ -367,11 +364,14 @@ fn on_machine(finding: &Finding, read: &[Machining]) -> Option<Point> {
 
 fn judge(
     role: Role,
-    programs: &[&Machining],
+    read: &[Machining],
     board: &Board,
     known: &[Known<'_>],
     settings: &Settings,
 ) -> Result<(Judged, Vec<Finding>), Error> {
+    let of =
+        |role: Role| -> Vec<&Machining> { read.iter().filter(|machining| machining.role == role).collect() };
+    let programs = of(role);
     let mut findings = Vec::new();
     let mut resolution = None;
     match role {
@@ -380,16 +380,16 @@ fn judge(
             let copper =
                 board.copper(side).filter(|copper| !copper.features.is_empty()).ok_or_else(missing)?;
             let nets = known.iter().find(|known| known.side == side).map(|known| known.nets);
-            let milled = Outcome::new(Sheet::new(copper, nets, board, programs, settings)?, settings);
+            let milled = Outcome::new(Sheet::new(copper, nets, board, &programs, settings)?, settings);
             resolution = Some(milled.pitch());
             findings.extend(check::isolation(&milled, settings));
         }
-        Role::Drilling => findings.extend(check::drilling(&Bores::new(programs, board), board, settings)),
+        Role::Drilling => findings.extend(check::drilling(&Bores::new(&programs, board), board, settings)),
         Role::Cutout => {
-            let contours = Contours::new(programs, board, settings);
+            let contours = Contours::new(&programs, &of(Role::Drilling), board, settings);
             findings.extend(contours.iter().flat_map(|contours| check::cutout(contours, board, settings)));
         }
-        Role::Alignment => findings.extend(check::alignment(programs, board, settings)),
+        Role::Alignment => findings.extend(check::alignment(&programs, board, settings)),
     }
     let programs = programs.iter().map(|program| program.file.clone()).collect();
     Ok((Judged { programs, role, resolution }, findings))

@@ -78,8 +78,7 @@ impl<'a> Sheet<'a> {
         settings: &Settings,
     ) -> Result<Self, Error> {
         let nets = nets.map_or_else(|| Cow::Owned(recover(copper, Method::default())), Cow::Borrowed);
-        let of = |program: &'a Machining| program.swept.iter().map(move |swept| Cut { program, swept });
-        let cuts: Vec<Cut<'a>> = programs.iter().flat_map(|&program| of(program)).collect();
+        let cuts: Vec<Cut<'a>> = Cut::all(programs).collect();
         let outline = board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
         let half = cuts.iter().map(|cut| cut.swept.half()).min().unwrap_or(Nm::from_um(100));
         let floor = cuts.iter().map(|cut| cut.swept.floor).min().unwrap_or(half);

@@ -186,7 +186,15 @@ fn outline() -> Outline {
 
 fn cutting<'a>(tool: &'a Tool, placement: &'a Placement, count: u32) -> Cutout<'a> {
     let tabs = Tabs { places: TabPlaces::Count(count), width: Nm::from_mm(2), height: Nm::from_um(600) };
-    Cutout { tool, heights: heights(1700, Some(600)), placement, tabs, ramp: None, direction: None }
+    Cutout {
+        tool,
+        heights: heights(1700, Some(600)),
+        placement,
+        tabs,
+        ramp: None,
+        direction: None,
+        drilled: &[],
+    }
 }
 
 #[test]

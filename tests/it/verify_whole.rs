@@ -5,8 +5,8 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use voromill::board::{Board, Hole, Outline, Plating};
-use voromill::geometry::{Nm, Path as Way, Point, Segment};
-use voromill::import::{self, Selection};
+use voromill::geometry::{Nm, Path as Way, Point, Segment, Turn};
+use voromill::import::{self, Loaded, Selection};
 use voromill::job::{self, Job, Options, Part};
 use voromill::verify::{Finding, Program, Role, Settings, Severity, verify};
 
@@ -248,6 +248,78 @@ fn milled_holes_and_slots_have_their_size() {
         let findings = judge(board, Some(Role::Drilling), &text);
         assert_eq!(names(&findings, Severity::Error), expected, "{text}: {findings:?}");
     }
+}
+
+/// EAGLE and others draw mounting holes as contours of the edge, and drill them.
+#[test]
+fn a_cut_out_that_is_drilled_is_not_milled_again() {
+    let at = |(x, y): (i64, i64)| Point::new(Nm::from_um(x), Nm::from_um(y));
+    let circle = |(x, y): (i64, i64), radius: i64| {
+        let start = at((x + radius, y));
+        let round = Segment::Arc { to: start, center: at((x, y)), turn: Turn::CounterClockwise };
+        Way { start, segments: vec![round] }
+    };
+    let slot = {
+        let half = |to, center| Segment::Arc { to: at(to), center: at(center), turn: Turn::CounterClockwise };
+        let (across, left) = (Segment::Line { to: at((10_000, 14_400)) }, (5_000, 15_600));
+        let back = Segment::Line { to: at(left) };
+        let (right, left) =
+            (half((10_000, 15_600), (10_000, 15_000)), half((5_000, 14_400), (5_000, 15_000)));
+        Way { start: at((5_000, 14_400)), segments: vec![across, right, back, left] }
+    };
+    let mut plate = board(hole((5_000, 5_010), None, 3000));
+    plate.holes.extend([
+        hole((10_000, 5_000), None, 800),
+        hole((5_000, 15_000), Some((10_000, 15_000)), 1200),
+        hole((16_000, 10_000), None, 1000),
+        hole((24_000, 5_000), None, 2800),
+    ]);
+    let drilled = [circle((5_000, 5_000), 1_505), circle((10_000, 5_000), 400), slot];
+    // A hole in the middle of one, and a hole that is narrower.
+    let milled = [circle((16_000, 10_000), 2_000), circle((24_000, 5_000), 1_500)];
+    let edge = plate.outline.iter().flat_map(Outline::contours).cloned();
+    plate.outline = Outline::new(edge.chain(drilled).chain(milled).collect());
+    let made = |plate: &Board, options: &str| {
+        let options =
+            Options::from_toml("settings", &format!("dialect = \"linuxcnc\"\n{options}")).expect("options");
+        let loaded = Loaded { board: plate.clone(), sources: vec![], warnings: vec![], ignored: vec![] };
+        job::mill(loaded, &job::Settings::resolve(options).expect("settings")).expect("a job")
+    };
+    let program = |job: &Job, part: Part| {
+        job.programs.iter().find(|written| written.part == part).expect("a program").text.clone()
+    };
+    let is_narrow =
+        |job: &Job| job.warnings.iter().any(|warning| warning.code() == "cut-out-narrower-than-tool");
+    let job = made(&plate, "");
+    let [drill, cutout] = [Part::Drill, Part::Cutout].map(|part| program(&job, part));
+    assert!(
+        cutout.contains("cut out along 3 contours"),
+        "the plate, and what the drill does not make: {cutout}"
+    );
+    assert!(!is_narrow(&job), "the drill makes what is too narrow");
+    let judged = |drill: &str| {
+        let [drill, cutout] = [(drill, Role::Drilling), (&cutout, Role::Cutout)].map(|(text, role)| {
+            Program { file: role.to_string(), text: text.to_owned(), role: Some(role), ..Program::default() }
+        });
+        let settings = Settings { tabs: Some(4), tab_width: Some(Nm::from_mm(2)), ..Settings::default() };
+        verify(&[drill, cutout], &plate, &[], &settings).expect("it can be judged").findings
+    };
+    assert_eq!(judged(&drill), [], "nothing is wrong with them");
+    let lines: Vec<&str> = drill.lines().collect();
+    let first = lines.iter().position(|line| line.starts_with("G0 X")).expect("a hole");
+    let left_out = judged(&[&lines[..first], &lines[first + 4..]].concat().join("\n"));
+    assert_eq!(names(&left_out, Severity::Warning), ["board-left", "hole-missing"], "{left_out:?}");
+    // Holes that are only marked are no cut-outs.
+    let job = made(&plate, "one-drill = true");
+    assert!(program(&job, Part::Cutout).contains("cut out along 4 contours"), "the first, too");
+    assert!(is_narrow(&job), "the second does not fit");
+    // A board within a board: the slot between them is routed, and both edges are milled.
+    let mut ring = board(Hole { path: circle((15_000, 10_000), 2_300), ..hole((0, 0), None, 1400) });
+    let edge = ring.outline.iter().flat_map(Outline::contours).cloned();
+    let parted = [3_000, 1_600].map(|radius| circle((15_000, 10_000), radius));
+    ring.outline = Outline::new(edge.chain(parted).collect());
+    let cutout = program(&made(&ring, ""), Part::Cutout);
+    assert!(cutout.contains("cut out along 3 contours"), "{cutout}");
 }
 
 #[test]

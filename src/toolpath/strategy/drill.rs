@@ -55,34 +55,62 @@ const THICKEST: Nm = Nm::from_um(3200);
 pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warning>) {
     let mut jobs: BTreeMap<(Nm, u32), (Tool, Vec<&Hole>)> = BTreeMap::new();
     let (mut bored, mut warnings) = (Vec::new(), Vec::new());
-    let is_wide = |hole: &Hole| settings.bored_from.is_some_and(|from| hole.diameter >= from);
-    let is_milled = |hole: &Hole| {
-        let fits = settings.mill.is_some_and(|mill| bore::fits(hole, mill, settings.tolerance));
-        fits && (hole.is_slot() || is_wide(hole))
-    };
-    let drilled = holes.iter().filter(|hole| settings.one && !is_milled(hole));
-    let thinnest = drilled.filter_map(|hole| bit(hole, settings)).min_by_key(|tool| tool.width_at(Nm::ZERO));
+    let bits = holes.iter().filter(|_| settings.one).filter_map(|hole| match way(hole, settings)? {
+        Way::Drilled(tool) => Some(tool),
+        Way::Bored => None,
+    });
+    let thinnest = bits.min_by_key(|tool| tool.width_at(Nm::ZERO));
     for hole in holes {
-        let milled = settings.mill.filter(|mill| bore::fits(hole, mill, settings.tolerance));
-        match bit(hole, settings) {
-            _ if is_milled(hole) => bored.push(hole),
-            Some(tool) => {
+        match way(hole, settings) {
+            Some(Way::Drilled(tool)) => {
                 let tool = thinnest.clone().unwrap_or(tool);
                 let key = (tool.width_at(Nm::ZERO), tool.number);
                 jobs.entry(key).or_insert_with(|| (tool, Vec::new())).1.push(hole);
             }
-            None if milled.is_some() => bored.push(hole),
+            Some(Way::Bored) => bored.push(hole),
             None => warnings.push(missing(hole)),
         }
     }
-    let drilled = jobs.values().flat_map(|(_, holes)| holes.iter().copied());
-    warnings.extend(overlaps(&drilled.filter(|hole| !hole.is_slot()).collect::<Vec<_>>()));
+    let plunged = jobs.values().flat_map(|(_, holes)| holes.iter().copied());
+    warnings.extend(overlaps(&plunged.filter(|hole| !hole.is_slot()).collect::<Vec<_>>()));
     let mut sections: Vec<Section> = Vec::with_capacity(jobs.len() + 1);
     sections.extend(jobs.into_values().map(|(tool, holes)| section(tool, &holes, settings)));
     if let Some(mill) = settings.mill.filter(|_| !bored.is_empty()) {
         sections.push(bore::bore(&bored, mill, settings.heights, settings.placement, settings.order));
     }
     (sections, warnings)
+}
+
+/// The holes as wide as [`drill`] makes them; without those that a thinner drill only marks, and
+/// those that it leaves out.
+pub fn drilled(holes: &[Hole], settings: &Drilling<'_>) -> Vec<Hole> {
+    let made = |hole: &Hole| {
+        let diameter = match way(hole, settings)? {
+            Way::Bored => hole.diameter,
+            Way::Drilled(_) if settings.one => return None,
+            Way::Drilled(tool) => tool.width_at(Nm::ZERO),
+        };
+        Some(Hole { diameter, ..hole.clone() })
+    };
+    holes.iter().filter_map(made).collect()
+}
+
+/// How a hole is made.
+enum Way {
+    /// By a drill.
+    Drilled(Tool),
+    /// By the end mill.
+    Bored,
+}
+
+/// How a hole is made; none where neither a drill nor the mill fits.
+fn way(hole: &Hole, settings: &Drilling<'_>) -> Option<Way> {
+    let fits = settings.mill.is_some_and(|mill| bore::fits(hole, mill, settings.tolerance));
+    let is_wide = settings.bored_from.is_some_and(|from| hole.diameter >= from);
+    if fits && (hole.is_slot() || is_wide) {
+        return Some(Way::Bored);
+    }
+    bit(hole, settings).map(Way::Drilled).or(fits.then_some(Way::Bored))
 }
 
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.

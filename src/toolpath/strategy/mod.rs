@@ -10,7 +10,7 @@ mod share;
 
 pub use carve::{Carving, Floor, carve};
 pub use cutout::{Cutout, TabPlaces, Tabs, cutout};
-pub use drill::{Drilling, drill};
+pub use drill::{Drilling, drill, drilled};
 pub use isolate::{Isolation, Narrow, Role, isolate};
 pub use pocket::{
     Clearings, Engagement, Engaging, Entries, Groove, Levels, ParseEngagementError, Planned, Pocketing,

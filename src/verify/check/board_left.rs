@@ -1,8 +1,8 @@
 //! # What it checks
 //!
 //! Along every contour of the outline the board ends where it should: it is cut through just beyond
-//! the edge, all the way round but for tabs. Stretches that are not cut, or cut too far out, are
-//! told with their length and how much is left.
+//! the edge, all the way round but for tabs; cut-outs may be drilled instead. Stretches that are
+//! not cut, or cut too far out, are told with their length and how much is left.
 //!
 //! # Why
 //!

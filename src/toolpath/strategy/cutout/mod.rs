@@ -11,8 +11,8 @@ mod ring;
 mod tabs;
 
 use crate::board::diagnostic::{count, planning};
-use crate::board::{FLATTEN, Outline, Warning, polarity};
-use crate::geometry::{Nm, Path, Point, Polygon};
+use crate::board::{FLATTEN, Hole, Outline, Warning, polarity};
+use crate::geometry::{Nm, Path, Point, Polygon, RectIndex};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Position, Section, Tool};
@@ -38,6 +38,8 @@ pub struct Cutout<'a> {
     pub ramp: Option<Angle>,
     /// Which way round; none for either.
     pub direction: Option<Direction>,
+    /// The holes that are drilled: cut-outs that are such holes, too, are left to the drill.
+    pub drilled: &'a [Hole],
 }
 
 /// How far the cutter's way may leave the offset curve: a fifth of what mills of this kind repeat
@@ -45,7 +47,7 @@ pub struct Cutout<'a> {
 const TOLERANCE: Nm = Nm::from_um(4);
 
 /// Cuts along every contour of `outline`, half the cutter's width outside the board; cut-outs
-/// first.
+/// first. Cut-outs that are drilled are left out.
 ///
 /// Warned about: `cut-out-narrower-than-tool` where the cutter does not fit into a cut-out or round
 /// a board, `boards-closer-than-tool` where it does not fit between two, `no-place-for-tabs` where
@@ -53,7 +55,7 @@ const TOLERANCE: Nm = Nm::from_um(4);
 /// from any contour.
 pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning>) {
     let radius = settings.tool.width_at(settings.heights.cut) / 2;
-    let board = outline.polygon(FLATTEN);
+    let board = without_drilled(&outline.polygon(FLATTEN), settings.drilled);
     let mut warnings = Vec::new();
     let (mut inner, mut outer) = (Vec::new(), Vec::new());
     // Contours of a polygon have it on their left, those of its holes too.
@@ -82,6 +84,23 @@ pub fn cutout(outline: &Outline, settings: &Cutout<'_>) -> (Section, Vec<Warning
     cut_all(&mut head, &outer, outer_held, settings);
     let label = format!("cut out along {}", count(inner.len() + outer.len(), "contour"));
     (Section { tool: settings.tool.clone(), label, moves: head.finish() }, warnings)
+}
+
+/// A board without the cut-outs that `holes` reach all round: EAGLE and others draw mounting holes
+/// as both. One that another board lies in is milled along all the same.
+fn without_drilled(board: &Polygon, holes: &[Hole]) -> Polygon {
+    /// What the drill may leave of such a cut-out. Chosen: what cheap machines repeat to.
+    const RIM: Nm = Nm::from_um(20);
+    let index = RectIndex::new(holes.iter().map(Hole::bounds));
+    let is_drilled = |contour: &&Vec<Point>| {
+        let ring = Polygon::new(vec![(*contour).clone()]).filter(|ring| ring.area_mm2() < 0.0);
+        let Some(ring) = ring else { return false };
+        let reaches = |hole: usize| holes[hole].reaches_all(contour, RIM);
+        let holds = |other: &Vec<Point>| !std::ptr::eq(other, *contour) && ring.contains(other[0]);
+        index.touching(ring.bounds()).into_iter().any(reaches) && !board.contours().iter().any(holds)
+    };
+    let kept = board.contours().iter().filter(|contour| !is_drilled(contour));
+    Polygon::new(kept.cloned().collect()).unwrap_or_else(|| board.clone())
 }
 
 /// Tells where the cutter does not fit round `edges` of boards, between them, or into `holes`.
