@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use super::archive::{Found, Gathered, name_of, read_file};
-use super::describe::describe;
+use super::describe::{describe, hint};
 use super::error::{self, Error, find, locate};
 use super::format::Kind;
 use super::jobfile::Job;
@@ -103,11 +103,7 @@ fn refuse_unknown(gathered: &Gathered, selection: &Selection) -> Result<(), Erro
         gathered.files.iter().find(|file| file.named && file.kind == Kind::Unknown && !chosen(file));
     let Some(file) = unknown else { return Ok(()) };
     let what = format!("{}, neither Gerber nor Excellon", describe(&file.bytes));
-    Err(Error::content(
-        &file.shown,
-        what,
-        "give Gerber layers and Excellon drill files, their folder or a zip of them, or a KiCad board",
-    ))
+    Err(Error::content(&file.shown, what, hint(&file.bytes)))
 }
 
 fn read_job(gathered: &Gathered, warnings: &mut Vec<Warning>) -> Job {

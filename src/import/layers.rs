@@ -176,6 +176,7 @@ const EXTENSIONS: &[(&str, Role)] = &[
     ("gd1", Role::Other("drill drawing")),
     ("gg1", Role::Other("drill guide")),
     ("ipc", Role::Other("netlist")),
+    ("apr_lib", Role::Other("aperture macros")),
 ];
 
 /// How KiCad's names end, old and new, with `.` and `-` written as `_`.

@@ -14,14 +14,11 @@
 //! What says nothing of the kind (a README, a list of parts, G-code) is listed as no layer. In
 //! between are texts that are no prose, and folders named like a layer: they are warned of.
 
-use super::describe::describe;
+use super::describe::{HEAD, describe, is_program};
 use super::jobfile::Job;
 use super::layers::{self, Role, function_of, role_by_function};
 use crate::board::{Side, Warning};
 use crate::import::diagnostic;
-
-/// How much of a file is looked at. Chosen: enough to see what a text is.
-const HEAD: usize = 1 << 16;
 
 /// Something among the files of a board that is no layer by its content.
 #[derive(Clone, Debug)]
@@ -195,17 +192,6 @@ fn is_prose(bytes: &[u8]) -> bool {
 /// components is a `.cmp`.
 fn is_of_another_kind(bytes: &[u8]) -> bool {
     bytes.starts_with(b"Cmp-Mod")
-}
-
-/// Whether it is G-code: it goes to a height, which neither a layer nor a drill file does.
-fn is_program(bytes: &[u8]) -> bool {
-    let text: String = bytes.iter().map(|&b| char::from(b)).collect();
-    let mut lines = text.lines().map(|line| line.split(['(', ';']).next().unwrap_or_default().trim());
-    let is_word = |word: &str, letter: char| {
-        let number = word.strip_prefix(letter).or_else(|| word.strip_prefix(letter.to_ascii_lowercase()));
-        number.is_some_and(|number| number.parse::<f64>().is_ok())
-    };
-    !bytes.contains(&b'*') && lines.any(|line| line.split_whitespace().any(|word| is_word(word, 'Z')))
 }
 
 /// Whether every byte has an odd number of bits: the paper tape's code (EIA RS-244), which Altium

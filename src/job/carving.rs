@@ -108,7 +108,7 @@ const MOST_PLACES: f64 = 4e5;
 /// # Errors
 ///
 /// [`Error::Value`] for a tool that is no V-bit and lengths that make no sense, and for areas that
-/// are all narrower than the tip.
+/// are all narrower than the tip; [`Error::NoArea`] where there is none.
 pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, Error> {
     let tool = v_bit(settings)?;
     judge(how, tool)?;
@@ -122,7 +122,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     };
     let areas = without_slivers(&areas);
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
-    let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to carve".to_owned()))?;
+    let bounds = bounds.ok_or(Error::NoArea("carve"))?;
     let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);
     let flank = tool.kind.flank().min(1.0);
     let pruning = Pruning {

@@ -36,6 +36,9 @@ pub enum Error {
     /// Nothing to isolate.
     #[error("there is no copper {0}")]
     NoCopper(String),
+    /// Nothing to carve or to pocket.
+    #[error("nothing in it has an area: there is nothing to {0}")]
+    NoArea(&'static str),
     /// A file that was cut off: what it lost would be milled away, or left to join nets.
     #[error("{0}")]
     Truncated(String),
@@ -75,6 +78,9 @@ impl Error {
             Self::Verify(_) => "with {no-verify} the programs are written without verification",
             Self::NoCopper(_) => {
                 "`voromill inspect` shows what was found; {front} and {back} choose the copper files"
+            }
+            Self::NoArea(_) => {
+                "fill shapes, close their lines, or give lines a width; `voromill inspect` shows what was found"
             }
             Self::Narrow(_) => {
                 "use a narrower {tool} or less {depth}, raise a V-bit in narrow gaps with {adaptive-depth}, or allow it with {narrow} centre"

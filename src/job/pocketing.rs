@@ -80,7 +80,7 @@ const MOST_ROWS: i64 = 10_000;
 /// # Errors
 ///
 /// [`Error::Value`] for a tool that is no end mill and lengths that make no sense, and for areas
-/// that are all narrower than the tool.
+/// that are all narrower than the tool; [`Error::NoArea`] where there is none.
 pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, Error> {
     let mills = end_mills(settings)?;
     judge(how)?;
@@ -90,7 +90,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
     };
     let areas = without_slivers(&areas);
     let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
-    let bounds = bounds.ok_or_else(|| Error::NoCopper("in it: nothing to mill".to_owned()))?;
+    let bounds = bounds.ok_or(Error::NoArea("mill"))?;
     let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);
     let areas: Vec<Polygon> = areas.iter().map(|area| placed(area, &placement)).collect();
     let mut made = Pocket {

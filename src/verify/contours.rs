@@ -39,6 +39,8 @@ pub(super) struct Ring {
     pub(super) is_board: bool,
     /// Stretches of spots of one state, all the way round.
     pub(super) stretches: Vec<Stretch>,
+    /// All spots, the first stretch's first.
+    spots: Vec<Spot>,
 }
 
 /// How the edge is cut.
@@ -73,6 +75,9 @@ pub(super) struct Stretch {
     pub(super) mean: f64,
     /// How deep it is cut where that is least.
     pub(super) depth: Nm,
+    /// Its spots, of all those of the contour.
+    first: usize,
+    spots: usize,
 }
 
 /// The way from a tab to the next.
@@ -80,10 +85,8 @@ pub(super) struct Stretch {
 pub(super) struct Way {
     /// How long, in nanometres.
     pub(super) length: f64,
-    /// How long the longest stretch of it is.
-    longest: f64,
-    /// The middle of that stretch.
-    pub(super) at: Point,
+    /// The longest stretch of it.
+    pub(super) longest: Stretch,
 }
 
 /// A piece of a cut that reaches into the board.
@@ -150,7 +153,7 @@ impl<'a> Contours<'a> {
         let ring = |points: &Vec<Point>| {
             let is_board = area(points) > 0;
             let look = drilled.as_ref().filter(|_| !is_board).unwrap_or(&milled);
-            Ring { is_board, stretches: look.stretches(points) }
+            look.ring(points, is_board)
         };
         let rings = outline.contours().iter().map(ring).collect();
         let taken = taken(&cuts, &outline, &edge, &board.holes, settings);
@@ -198,11 +201,11 @@ impl<'a> Contours<'a> {
         let mut ways: Vec<Way> = Vec::new();
         for stretch in after.iter().chain(before) {
             if is_tab(stretch) {
-                ways.push(Way { length: 0.0, longest: 0.0, at: stretch.middle });
+                ways.push(Way { length: 0.0, longest: Stretch { length: 0.0, ..*stretch } });
             } else if let Some(way) = ways.last_mut() {
                 way.length += stretch.length;
-                if stretch.length > way.longest {
-                    (way.longest, way.at) = (stretch.length, stretch.middle);
+                if stretch.length > way.longest.length {
+                    way.longest = *stretch;
                 }
             }
         }
@@ -230,6 +233,28 @@ impl Ring {
     /// How long it is, in nanometres.
     pub(super) fn length(&self) -> f64 {
         self.stretches.iter().map(|stretch| stretch.length).sum()
+    }
+
+    /// Whether somewhere in the middle third of `stretch` the edge is straight for so long, as it
+    /// should be at a tab.
+    pub(super) fn is_straight_in(&self, stretch: &Stretch, long: f64) -> bool {
+        /// In radians, some 30°. Chosen: more than tabs are put on where there is a choice.
+        const STRAIGHT: f64 = 0.5;
+        let third = stretch.spots / 3;
+        let middle = &self.spots[stretch.first + third..stretch.first + stretch.spots - third];
+        let is_straight = |from: usize| {
+            let (mut gone, mut turned) = (0.0, 0.0);
+            for pair in middle[from..].windows(2) {
+                let [(ax, ay), (bx, by)] = [pair[0].out, pair[1].out];
+                gone += pair[0].length;
+                turned += libm::atan2(ax * by - ay * bx, ax * bx + ay * by).abs();
+                if gone >= long || turned > STRAIGHT {
+                    break;
+                }
+            }
+            gone >= long && turned <= STRAIGHT
+        };
+        (0..middle.len()).any(is_straight)
     }
 }
 
@@ -260,12 +285,15 @@ impl<'a> Look<'a> {
         }
     }
 
-    /// A contour in stretches.
-    fn stretches(&self, points: &[Point]) -> Vec<Stretch> {
+    fn ring(&self, points: &[Point], is_board: bool) -> Ring {
         let step = (self.half.to_f64() / 4.0).clamp(50_000.0, 250_000.0);
-        let spots = spots(points, step);
-        let seen: Vec<Seen> = spots.par_iter().map(|spot| self.see(spot)).collect();
-        stretches(&spots, &seen)
+        let mut spots = spots(points, step);
+        let mut seen: Vec<Seen> = spots.par_iter().map(|spot| self.see(spot)).collect();
+        // It may begin in the middle of a stretch.
+        let first = (1..seen.len()).find(|&i| seen[i].state != seen[i - 1].state).unwrap_or(0);
+        spots.rotate_left(first);
+        seen.rotate_left(first);
+        Ring { is_board, stretches: stretches(&spots, &seen), spots }
     }
 
     fn see(&self, spot: &Spot) -> Seen {
@@ -330,14 +358,10 @@ fn spots(points: &[Point], step: f64) -> Vec<Spot> {
     spots
 }
 
-/// Neighbouring spots of one state together, round the contour.
+/// Neighbouring spots of one state together.
 fn stretches(spots: &[Spot], seen: &[Seen]) -> Vec<Stretch> {
-    // It may begin in the middle of one.
-    let first = (1..seen.len()).find(|&i| seen[i].state != seen[i - 1].state).unwrap_or(0);
     let mut found: Vec<Stretch> = Vec::new();
-    let mut begun = 0;
-    for (step, i) in (first..seen.len()).chain(0..first).enumerate() {
-        let (Spot { at, length, .. }, &Seen { state, left, depth }) = (&spots[i], &seen[i]);
+    for (i, (Spot { at, length, .. }, &Seen { state, left, depth })) in spots.iter().zip(seen).enumerate() {
         let off = if left > NOTABLE.to_f64() { *length } else { 0.0 };
         match found.last_mut().filter(|last| last.state == state) {
             Some(last) => {
@@ -350,12 +374,13 @@ fn stretches(spots: &[Spot], seen: &[Seen]) -> Vec<Stretch> {
                     (last.at, last.left) = (*at, left);
                 }
                 last.depth = last.depth.min(depth);
-                last.middle = spots[(first + usize::midpoint(begun, step)) % spots.len()].at;
+                last.spots += 1;
+                last.middle = spots[last.first + (last.spots - 1) / 2].at;
             }
             None => {
-                begun = step;
-                let (at, middle) = (*at, *at);
-                found.push(Stretch { state, length: *length, at, middle, left, off, mean: left, depth });
+                let (at, middle, length) = (*at, *at, *length);
+                let (first, spots) = (i, 1);
+                found.push(Stretch { state, length, at, middle, left, off, mean: left, depth, first, spots });
             }
         }
     }

@@ -28,9 +28,9 @@ const DIP: f64 = 2_000.0;
 /// Where the tool rises, clearance may differ so much from what lies evenly between vertices, in
 /// nanometres. Chosen: a quarter of what sampling leaves.
 const EVEN: f64 = 250.0;
-/// Arcs outside these radii are left to lines: smaller ones are noise, larger ones straight.
-/// Chosen.
-const RADII: std::ops::Range<f64> = 5_000.0..2e8;
+/// Arcs outside these radii are left to lines: smaller ones are noise, of larger ones the centre
+/// takes more digits than single precision holds (TinyG's). Chosen.
+const RADII: std::ops::Range<f64> = 5_000.0..9.9e8;
 /// Shorter arcs are left to lines, in nanometres. Chosen: a few of the last digits of any dialect,
 /// so that none begins and ends on the same and goes all the way round.
 const SHORTEST: f64 = 5_000.0;
@@ -241,6 +241,16 @@ mod tests {
         assert_eq!(clearance.len(), 2, "one at each vertex");
         let (lines, _) = fit(&points, Fit { arcs: false, ..FIT }).expect("a path");
         assert!(lines.segments.len() > 10, "{} lines", lines.segments.len());
+    }
+
+    #[test]
+    fn points_of_a_wide_circle_become_one_arc() {
+        // 60 mm of an edge with a radius of 380 mm, in chords that leave it by a quarter of a
+        // micrometre.
+        let points = (0..=70_u32).map(|i| libm::sincos(f64::from(i) * 0.0023));
+        let points = points.map(|(sin, cos)| Point::from_f64(3.8e8 * cos, 3.8e8 * sin));
+        let path = fit_points(points, Nm::from_um(4)).expect("a path");
+        assert!(matches!(path.segments[..], [Segment::Arc { .. }]), "{path:?}");
     }
 
     #[test]

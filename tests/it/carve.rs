@@ -434,6 +434,20 @@ fn a_layer_is_carved_and_what_makes_no_sense_is_refused() {
 }
 
 #[test]
+fn open_lines_have_no_area() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawing = folder.path().join("open.dxf").display().to_string();
+    let line = "0\nLINE\n8\n0\n10\n0\n20\n0\n11\n5\n21\n5\n";
+    std::fs::write(&drawing, format!("0\nSECTION\n2\nENTITIES\n{line}0\nENDSEC\n0\nEOF\n"))
+        .expect("a drawing");
+    for (command, tool) in [("carve", "vbit:0.1mm:60deg"), ("pocket", "endmill:1mm")] {
+        let refused = voromill(&[command, &drawing, "-o", "-", "--unit", "mm", "--tool", tool]);
+        let said = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(said.contains("nothing in it has an area") && !said.contains("copper"), "{command}: {said}");
+    }
+}
+
+#[test]
 fn nothing_is_carved_deeper_than_tools_are_long() {
     let disc =
         |radius: i64| Polygon::disc(Point::default(), Nm::from_mm(radius), Nm::from_um(1)).expect("a disc");

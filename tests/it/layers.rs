@@ -468,6 +468,12 @@ fn what_a_person_must_know_is_an_error_in_a_sentence() {
         ("empty.gbr", ""),
         ("picture.gbr", "\u{89}PNG\r\n"),
         ("prose.gbr", "this is no layer\n"),
+        (
+            "eagle.brd",
+            "<?xml version=\"1.0\"?>\n<!DOCTYPE eagle SYSTEM \"eagle.dtd\">\n<eagle version=\"9\">\n",
+        ),
+        ("old.brd", "PCBNEW-BOARD Version 1 date Mon Jun  4\n"),
+        ("cuts.gcode", "(front)\nG21 G90\nG0 X1 Y2 Z3\nM2\n"),
         ("holes.drl", DRILL),
         ("mask.gbr", &mask),
         ("nothing_top.gbr", "%FSLAX46Y46*%\n%MOMM*%\nM02*\n"),
@@ -480,6 +486,9 @@ fn what_a_person_must_know_is_an_error_in_a_sentence() {
         ("empty.gbr", "an empty file"),
         ("picture.gbr", "the picture cannot be read"),
         ("prose.gbr", "neither Gerber nor Excellon"),
+        ("eagle.brd", "an EAGLE board or schematic, neither Gerber nor Excellon"),
+        ("old.brd", "a board of a KiCad before 4"),
+        ("cuts.gcode", "a G-code program, neither Gerber nor Excellon"),
         ("mask.gbr", "no copper layer found among mask.gbr (solder mask)"),
         ("nothing_top.gbr", "no copper"),
     ];
@@ -542,6 +551,16 @@ fn a_gerber_drill_file_has_holes_and_slots() {
     let slots: Vec<_> = loaded.board.holes.iter().map(|hole| (hole.is_slot(), hole.diameter)).collect();
     let expected = [(false, Nm::from_um(800)), (true, Nm::from_um(800)), (true, Nm::from_um(1000))];
     assert_eq!(slots, expected, "a hole, a drawn slot, an obround");
+}
+
+/// Altium writes the macros of its apertures beside the layers.
+#[test]
+fn a_library_of_apertures_is_no_layer_that_is_missed() {
+    let macros = "G04:AMPARAMS|DCode=60*\n%AMROUNDEDRECTD60*\n21,1,1.8,1.1,0,0,90.0*\n%\n";
+    let folder = Folder::with(&[("amp.GTL", SQUARE), ("amp-macro.APR_LIB", macros)]);
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    let codes: Vec<_> = loaded.warnings.iter().map(|warning| warning.code()).collect();
+    assert!(!codes.contains(&"role-unknown"), "{codes:?}");
 }
 
 /// KiCad's slots that are turned are macros of a line and a disc at each end of it.

@@ -243,6 +243,10 @@ fn a_region_is_an_edge_and_a_flash_is_none() {
     assert_eq!((areas(&region), codes(&region)), (vec![10_000], vec![]), "its contour");
     let flash = joined("X0Y0D03*");
     assert_eq!(codes(&flash), ["outline-flashes", "outline-empty"], "a flash");
+    let twice = joined(&format!("X0Y0D02*\nX0Y0D01*\n{}", lines(&SQUARE)));
+    assert_eq!((areas(&twice), codes(&twice)), (vec![10_000], vec![]), "a corner that is there twice");
+    let dot = joined(&format!("X5000Y5000D02*\nX5000Y5000D01*\n{}", lines(&SQUARE)));
+    assert_eq!(codes(&dot), ["outline-flashes"], "a dot beside the lines is perhaps a hole");
     assert!(flash.outline.is_none(), "and nothing else");
 }
 

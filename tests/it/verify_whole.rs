@@ -136,6 +136,29 @@ fn a_tab_of_an_inner_cut_out_that_is_cut_through_is_told() {
     }
 }
 
+/// On three of its four sides such a cut-out has straight places for tabs.
+#[test]
+fn a_cut_out_that_is_held_where_it_is_straight_lacks_no_tab() {
+    let at = |x: i64, y: i64| Point::new(Nm::from_mm(x), Nm::from_mm(y));
+    let line = |to| Segment::Line { to };
+    let segments = vec![
+        line(at(8, 4)),
+        line(at(20, 4)),
+        line(at(20, 12)),
+        Segment::Arc { to: at(16, 16), center: at(20, 16), turn: Turn::Clockwise },
+        Segment::Arc { to: at(8, 16), center: at(12, 12), turn: Turn::CounterClockwise },
+    ];
+    let mut plate = board(hole((3_000, 3_000), None, 1000));
+    let edge = plate.outline.iter().flat_map(Outline::contours).cloned();
+    plate.outline = Outline::new(edge.chain([Way { start: at(8, 16), segments }]).collect());
+    let loaded = Loaded { board: plate.clone(), sources: vec![], warnings: vec![], ignored: vec![] };
+    let options = Options::from_toml("settings", "dialect = \"linuxcnc\"").expect("options");
+    let job = job::mill(loaded, &job::Settings::resolve(options).expect("settings")).expect("a job");
+    let cutout = job.programs.iter().find(|written| written.part == Part::Cutout).expect("a program");
+    let findings = judge(&plate, Some(Role::Cutout), &cutout.text);
+    assert_eq!(findings, [], "the three tabs it has room for are all there");
+}
+
 #[test]
 fn a_cutout_a_little_off_is_no_error() {
     let whole = text(Part::Cutout);

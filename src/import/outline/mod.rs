@@ -126,6 +126,11 @@ impl Notes<'_> {
         self.lines.dedup_by_key(|(p, _)| *p);
     }
 
+    /// Whether `at` is such a point.
+    fn has_drawn(&self, at: Point) -> bool {
+        self.lines.binary_search_by_key(&at, |(p, _)| *p).is_ok()
+    }
+
     /// `at`, with the line that drew it; a point that crossing lines made is on the line of one
     /// beside it.
     fn place(&self, at: Point) -> Option<(Point, u32)> {
@@ -140,7 +145,8 @@ fn collect(
     features: impl IntoIterator<Item = impl Borrow<Feature>>,
     notes: &mut Notes<'_>,
 ) -> (Vec<Edge>, Vec<Path>) {
-    let (mut edges, mut contours, mut flashes) = (Vec::new(), Vec::new(), Vec::new());
+    let (mut edges, mut contours) = (Vec::new(), Vec::new());
+    let (mut flashes, mut dots) = (Vec::new(), Vec::new());
     let mut drawn: Vec<(Point, u32)> = Vec::new();
     for feature in features {
         let feature: &Feature = feature.borrow();
@@ -158,13 +164,14 @@ fn collect(
                     contours.extend(Path::polyline(ring.iter().copied().chain(ring.first().copied())));
                 }
             }
-            (Axis::Line(..) | Axis::Flash(_) | Axis::Region, _) => {
-                flashes.push((feature.shape.anchor(), line))
-            }
+            (Axis::Line(at, _), _) => dots.push((*at, line)),
+            (Axis::Flash(_) | Axis::Region, _) => flashes.push((feature.shape.anchor(), line)),
         }
     }
     drawn.extend(edges.iter().flat_map(|edge| [(edge.from, edge.line), (edge.to, edge.line)]));
     notes.drawn(drawn);
+    // A corner that is there twice draws a line of no length.
+    flashes.extend(dots.into_iter().filter(|&(at, _)| !notes.has_drawn(at)));
     if let Some(&first) = flashes.first() {
         let message = format!("{} flashes on the outline layer are ignored", flashes.len());
         notes.add(&diagnostic::OUTLINE_FLASHES, message, Some(first));
