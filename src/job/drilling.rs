@@ -1,7 +1,7 @@
 //! How holes are drilled, and those on whose pins the board is flipped: what the options say of it.
 
 use crate::geometry::Nm;
-use crate::toolpath::{Angle, DrillSpeeds, Tool, ToolKind};
+use crate::toolpath::{Angle, DrillSpeeds, ParseToolError, Tool, ToolKind};
 
 use super::Error;
 use super::checked::{given, positive, wrong};
@@ -53,7 +53,8 @@ pub(super) fn drills(choices: Option<&Drills>, workshop: &Workshop<'_>) -> Resul
             Ok(workshop.fetch("drills", &ToolChoice::Kind(ToolKind::Drill { diameter }))?.tool)
         }
         DrillChoice::Named(name) => {
-            let tool = workshop.fetch("drills", &ToolChoice::Named(name.clone()))?.tool;
+            let refused = |error: ParseToolError| Error::Value { key: "drills", problem: error.to_string() };
+            let tool = workshop.fetch("drills", &name.parse().map_err(refused)?)?.tool;
             if matches!(tool.kind, ToolKind::Drill { .. }) {
                 return Ok(tool);
             }

@@ -239,12 +239,12 @@ impl fmt::Display for Tiles {
     }
 }
 
-/// A drill at hand: by its diameter, or by the name of its table.
+/// A drill at hand: by its diameter, or as a tool.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DrillChoice {
     /// Such as `0.8mm`.
     Diameter(Length),
-    /// Such as `carbide-08`.
+    /// Such as `carbide-08`, the name of a table, or `drill:0.8mm`.
     Named(String),
 }
 

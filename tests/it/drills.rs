@@ -73,6 +73,18 @@ fn a_drill_of_ones_own_has_its_own_tip() {
 }
 
 #[test]
+fn a_drill_is_at_hand_as_a_tool_too() {
+    let tool = |drills: &str| {
+        let settings = format!("drills = \"{drills}\"\ndrill-tolerance = \"5mm\"");
+        sections(&job("blinker", &settings).0, Part::Drill)[0].tool.clone()
+    };
+    assert_eq!(tool("drill:1mm"), tool("1mm"));
+    let options = Options::from_toml("settings", "drills = \"endmill:1mm\"").expect("options");
+    let error = Settings::resolve(options).expect_err("no drill").to_string();
+    assert!(error.contains("`endmill:1mm` is not a drill"), "{error}");
+}
+
+#[test]
 fn drills_run_as_their_diameter_the_board_and_the_machine_ask() {
     let (usual, _) = job("blinker", "");
     let drilled = sections(&usual, Part::Drill);
