@@ -37,11 +37,8 @@ const KNOWN: &[(&[u8], &str, &str)] = &[
 ];
 
 /// What is near the beginning of XML files, in lower case.
-const XML: &[(&[u8], &str, &str)] = &[
-    (b"<eagle", "an EAGLE board or schematic", EXPORT),
-    (b"<ipc-2581", "an IPC-2581 file", EXPORT),
-    (b"", "an XML file", GIVE),
-];
+const XML: &[(&[u8], &str, &str)] =
+    &[(b"<eagle", "an EAGLE board or schematic", EXPORT), (b"<ipc-2581", "an IPC-2581 file", EXPORT)];
 
 /// What a file is that is no layer, in a few words.
 pub(super) fn describe(bytes: &[u8]) -> &'static str {
@@ -61,13 +58,12 @@ fn known(bytes: &[u8]) -> (&'static str, &'static str) {
     }
     let beginning = bytes[..bytes.len().min(BEGINNING)].to_ascii_lowercase();
     let text = |b: &u8| b.is_ascii_graphic() || b.is_ascii_whitespace() || *b >= 0xa0;
-    let holds = |words: &[u8]| words.is_empty() || beginning.windows(words.len()).any(|part| part == words);
-    let found = if beginning.starts_with(b"<?xml") {
-        XML.iter().find(|(words, ..)| holds(words))
-    } else {
-        KNOWN.iter().find(|(start, ..)| beginning.starts_with(start))
-    };
-    match found {
+    if beginning.starts_with(b"<?xml") {
+        let holds = |words: &[u8]| beginning.windows(words.len()).any(|part| part == words);
+        let found = XML.iter().find(|(words, ..)| holds(words));
+        return found.map_or(("an XML file", GIVE), |&(_, what, hint)| (what, hint));
+    }
+    match KNOWN.iter().find(|(start, ..)| beginning.starts_with(start)) {
         Some(&(_, what, hint)) => (what, hint),
         None if is_program(&bytes[..bytes.len().min(HEAD)]) => ("a G-code program", JUDGE),
         None if beginning.iter().all(text) => ("a text file of unknown type", GIVE),

@@ -85,8 +85,8 @@ pub(super) struct Stretch {
 pub(super) struct Way {
     /// How long, in nanometres.
     pub(super) length: f64,
-    /// The longest stretch of it.
-    pub(super) longest: Stretch,
+    /// The longest of its stretches.
+    pub(super) stretch: Stretch,
 }
 
 /// A piece of a cut that reaches into the board.
@@ -146,7 +146,8 @@ impl<'a> Contours<'a> {
         let edge = Proximity::of(&edges);
         let milled = Look::new(&cuts, &edge, half, settings);
         // Cut-outs may be drilled. Holes at the edge of a board are no part of the way round it.
-        let drilled = (!drilling.is_empty()).then(|| {
+        let has_cut_outs = outline.contours().iter().any(|points| area(points) <= 0);
+        let drilled = (has_cut_outs && !drilling.is_empty()).then(|| {
             let cuts: Vec<Cut<'_>> = cuts.iter().copied().chain(Cut::all(drilling)).collect();
             Look::new(&cuts, &edge, half, settings)
         });
@@ -201,11 +202,11 @@ impl<'a> Contours<'a> {
         let mut ways: Vec<Way> = Vec::new();
         for stretch in after.iter().chain(before) {
             if is_tab(stretch) {
-                ways.push(Way { length: 0.0, longest: Stretch { length: 0.0, ..*stretch } });
+                ways.push(Way { length: 0.0, stretch: Stretch { length: 0.0, ..*stretch } });
             } else if let Some(way) = ways.last_mut() {
                 way.length += stretch.length;
-                if stretch.length > way.longest.length {
-                    way.longest = *stretch;
+                if stretch.length > way.stretch.length {
+                    way.stretch = *stretch;
                 }
             }
         }

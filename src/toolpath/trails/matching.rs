@@ -42,10 +42,8 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
         near: vec![Vec::new(); nodes],
         joined: vec![None; nodes],
         closing: vec![None; nodes],
-        reached: vec![Reached::default(); nodes],
         alone,
         looks: 0,
-        searches: 0,
     };
     for index in order {
         let Candidate { nodes: (a, b), cost } = candidates[index];
@@ -55,13 +53,14 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
             matching.join(index);
         }
     }
+    let mut search = Search::of(nodes);
     let mut changed = Changed::all(nodes);
     while changed.any {
         changed.any = false;
         for node in 0..nodes {
             let is_due = std::mem::take(&mut changed.about[node]) && !matching.near[node].is_empty();
             if is_due && matching.looks < EACH * nodes {
-                let touched = matching.improve(node);
+                let touched = matching.improve(node, &mut search);
                 matching.looks += changed.mark(&touched, &matching);
             }
         }
@@ -80,25 +79,6 @@ struct Way {
     candidate: usize,
 }
 
-/// With how much gain a search has gone on from a loose node, after so many pairs or fewer.
-#[derive(Clone, Copy, Default)]
-struct Reached {
-    search: usize,
-    gain: [f64; LONGEST],
-}
-
-impl Reached {
-    /// Whether `gain` after `pairs` is more than before in this `search`; then it is kept.
-    fn is_more(&mut self, search: usize, pairs: usize, gain: f64) -> bool {
-        if self.search != search {
-            *self = Self { search, gain: [f64::NEG_INFINITY; LONGEST] };
-        }
-        let is_more = gain > self.gain[pairs];
-        self.gain[pairs..].iter_mut().for_each(|most| *most = most.max(gain));
-        is_more
-    }
-}
-
 struct Matching<'a> {
     candidates: &'a [Candidate],
     /// The candidates of each node, cheapest first.
@@ -107,13 +87,9 @@ struct Matching<'a> {
     joined: Vec<Option<Way>>,
     /// The way by which a chain that comes to a node would come back, while one is sought.
     closing: Vec<Option<Way>>,
-    /// What the search under way has already gone on from.
-    reached: Vec<Reached>,
     alone: f64,
     /// How many ways were looked at.
     looks: usize,
-    /// How many chains were sought.
-    searches: usize,
 }
 
 impl Matching<'_> {
@@ -126,35 +102,26 @@ impl Matching<'_> {
 
     /// Frees `node` and its partner and looks for a chain that gains; the nodes that are joined
     /// otherwise than before.
-    fn improve(&mut self, node: usize) -> Vec<usize> {
+    fn improve(&mut self, node: usize, search: &mut Search) -> Vec<usize> {
         let (loose, first, gain, rest) = match self.joined[node] {
             // Alone: it is the loose end itself, and nothing waits for the chain to come back.
             None => (node, None, self.alone, 0.0),
             Some(way) => (way.to, Some(node), way.cost, self.alone),
         };
-        self.searches += 1;
-        let mut search = Search {
-            number: self.searches,
-            chain: Few::default(),
-            busy: Few::default(),
-            rest,
-            budget: BUDGET,
-            looks: 0,
-        };
+        search.begin(rest);
         search.busy.push(node);
         search.busy.push(loose);
-        let back = first.map_or_else(Vec::new, |first| self.near[first].clone());
+        let back = first.map_or(&[][..], |first| &self.near[first]);
         back.iter().for_each(|&way| self.closing[way.to] = Some(way));
-        let found = self.extend(loose, gain, &mut search);
+        let found = self.extend(loose, gain, search);
         back.iter().for_each(|way| self.closing[way.to] = None);
         self.looks += search.looks;
         if found { self.apply(first, search.chain.all()) } else { Vec::new() }
     }
 
     /// Joins `loose` to a near node and either closes there or goes on from that node's partner.
-    fn extend(&mut self, loose: usize, gain: f64, search: &mut Search) -> bool {
-        for index in 0..self.near[loose].len() {
-            let Way { to: next, cost, candidate } = self.near[loose][index];
+    fn extend(&self, loose: usize, gain: f64, search: &mut Search) -> bool {
+        for &Way { to: next, cost, candidate } in &self.near[loose] {
             let left = gain - cost;
             // A chain may yet end at a node that was alone.
             if left + self.alone <= LEAST || search.budget == 0 {
@@ -178,7 +145,7 @@ impl Matching<'_> {
                 }
                 // What has come here with more, and after no more pairs, has gone on from here.
                 let pairs = search.chain.len;
-                if pairs < LONGEST && self.reached[partner].is_more(search.number, pairs, left) {
+                if pairs < LONGEST && search.reached[partner].is_more(search.number, pairs, left) {
                     search.busy.push(next);
                     search.busy.push(partner);
                     if self.extend(partner, left, search) {
@@ -213,9 +180,13 @@ impl Matching<'_> {
     }
 }
 
-/// What one search for a chain has joined so far, and how many ways it may yet look at.
+/// What a search for a chain has joined so far, and how many ways it may yet look at; one search
+/// after the other.
 struct Search {
+    /// Which search it is, from 1.
     number: usize,
+    /// How it has gone on from each node.
+    reached: Vec<Reached>,
     chain: Few,
     /// The nodes that the chain uses.
     busy: Few,
@@ -224,6 +195,40 @@ struct Search {
     budget: usize,
     /// How many ways it has looked at, those that would close the chain included.
     looks: usize,
+}
+
+impl Search {
+    fn of(nodes: usize) -> Self {
+        let reached = vec![Reached::default(); nodes];
+        let (chain, busy) = (Few::default(), Few::default());
+        Self { number: 0, reached, chain, busy, rest: 0.0, budget: 0, looks: 0 }
+    }
+
+    /// Begins another.
+    fn begin(&mut self, rest: f64) {
+        self.number += 1;
+        (self.chain.len, self.busy.len) = (0, 0);
+        (self.rest, self.budget, self.looks) = (rest, BUDGET, 0);
+    }
+}
+
+/// With how much gain a search has gone on from a loose node, after so many pairs or fewer.
+#[derive(Clone, Copy, Default)]
+struct Reached {
+    search: usize,
+    gain: [f64; LONGEST],
+}
+
+impl Reached {
+    /// Whether `gain` after `pairs` is more than before in this `search`; then it is kept.
+    fn is_more(&mut self, search: usize, pairs: usize, gain: f64) -> bool {
+        if self.search != search {
+            *self = Self { search, gain: [f64::NEG_INFINITY; LONGEST] };
+        }
+        let is_more = gain > self.gain[pairs];
+        self.gain[pairs..].iter_mut().for_each(|most| *most = most.max(gain));
+        is_more
+    }
 }
 
 /// A list no longer than what a chain needs.

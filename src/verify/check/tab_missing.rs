@@ -100,9 +100,9 @@ fn uneven(contours: &Contours<'_>, ring: &Ring, settings: &Settings) -> Option<(
     let is_uneven = next.is_none_or(|next| longest.length > next.length * UNEVEN);
     // Tabs are kept off corners and curves where there is a choice.
     let tab = settings.tab_width.unwrap_or_default() + contours.half * 2;
-    let is_missing = is_uneven && ring.is_straight_in(&longest.longest, tab.to_f64());
+    let is_missing = is_uneven && ring.is_straight_in(&longest.stretch, tab.to_f64());
     let message = format!("the waste inside a cut-out is held by {}: one is missing", count(tabs, "tab"));
-    is_missing.then_some((longest.longest.middle, message))
+    is_missing.then_some((longest.stretch.middle, message))
 }
 
 /// In mm², what is a board and not a negligible residue. Chosen.

@@ -75,7 +75,7 @@ fn one_sided(contours: &Contours<'_>, ring: &Ring, settings: &Settings) -> Optio
     let message = format!("{way:.1} mm of the {around:.1} mm round the board have no tab: {held}");
     let (program, line) = contours.last();
     Some(Finding {
-        at: Some(longest.longest.middle),
+        at: Some(longest.stretch.middle),
         size: Some(way),
         program,
         line,
