@@ -415,8 +415,26 @@ impl<'a> Writer<'a> {
 
     /// A rounded length in millimetres, without zeros that say nothing.
     fn number(&self, value: i64) -> String {
-        let text = format!("{:.*}", self.dialect.decimals, Nm::new(value * self.unit));
-        if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+        let mut left = value.unsigned_abs();
+        let mut decimals = self.dialect.decimals.min(6);
+        while decimals > 0 && left.is_multiple_of(10) {
+            (left, decimals) = (left / 10, decimals - 1);
+        }
+        // The last digit first.
+        let mut text = Vec::with_capacity(16);
+        for place in 0.. {
+            if place == decimals && place > 0 {
+                text.push(b'.');
+            }
+            text.push(b'0' + u8::try_from(left % 10).expect("below ten"));
+            left /= 10;
+            if left == 0 && place >= decimals {
+                break;
+            }
+        }
+        text.extend((value < 0).then_some(b'-'));
+        text.reverse();
+        String::from_utf8(text).expect("ASCII")
     }
 
     /// A comment that the operator sees, where the controller shows any.

@@ -113,11 +113,25 @@ impl Arc {
     /// rounded.
     #[must_use]
     pub fn at(&self, fraction: f64) -> (f64, f64) {
+        self.course()(fraction)
+    }
+
+    /// The ends of so many equal parts of the way round: [`Arc::at`] of 1/count, 2/count, …, 1.
+    pub(crate) fn divided(&self, count: u32) -> impl Iterator<Item = (f64, f64)> + use<> {
+        let at = self.course();
+        (1..=count).map(move |i| at(f64::from(i) / f64::from(count)))
+    }
+
+    /// [`Arc::at`], for many places.
+    fn course(&self) -> impl Fn(f64) -> (f64, f64) + use<> {
         let (from, to) = (self.radius(), self.center.distance(self.end));
-        let radius = from + (to - from) * fraction;
-        let (sin, cos) = libm::sincos(self.start_angle() + self.sweep() * fraction);
+        let (start, sweep) = (self.start_angle(), self.sweep());
         let (x, y) = self.center.to_f64();
-        (x + radius * cos, y + radius * sin)
+        move |fraction| {
+            let radius = from + (to - from) * fraction;
+            let (sin, cos) = libm::sincos(start + sweep * fraction);
+            (x + radius * cos, y + radius * sin)
+        }
     }
 
     /// The same arc walked from its end.
@@ -142,16 +156,10 @@ impl Arc {
 
     /// The end points of chords within `tolerance` of the arc, without the start and with the exact
     /// end.
-    #[expect(clippy::cast_precision_loss, reason = "at most 2¹⁶ chords")]
     pub fn flatten(&self, tolerance: Nm) -> impl Iterator<Item = Point> + use<> {
-        let (arc, count) = (*self, self.chords(tolerance));
-        (1..=count).map(move |i| {
-            if i == count {
-                return arc.end;
-            }
-            let (x, y) = arc.at(i as f64 / count as f64);
-            Point::from_f64(x, y)
-        })
+        let count = u32::try_from(self.chords(tolerance)).expect("at most 2¹⁶ chords");
+        let within = self.divided(count).take(count as usize - 1);
+        within.map(|(x, y)| Point::from_f64(x, y)).chain([self.end])
     }
 
     /// A rectangle that holds the arc; whole nanometres, rounded outwards.

@@ -250,6 +250,11 @@ impl BoxTree {
         });
     }
 
+    /// Whether a box meets a rectangle: left, bottom, right, top.
+    pub(crate) fn meets(&self, within: [f64; 4]) -> bool {
+        self.visit(&self.window(within), &mut Vec::new(), ControlFlow::Break).is_break()
+    }
+
     /// The boxes that meet a rectangle, in their order.
     pub(crate) fn within(&self, within: [f64; 4]) -> Vec<usize> {
         let mut found = Vec::new();
@@ -393,6 +398,7 @@ mod tests {
                     a <= window[2] && c >= window[0] && b <= window[3] && d >= window[1]
                 };
                 assert!((0..count).all(|i| !meets(boxes[i]) || within.contains(&i)));
+                assert_eq!(tree.meets(window), !within.is_empty());
             }
         }
     }

@@ -96,9 +96,8 @@ impl<'a> Planner<'a> {
         let half_chord = (ARC_TOLERANCE * (2.0 * radius - ARC_TOLERANCE)).sqrt();
         let count = (0.5 * arc.sweep().abs() * radius / half_chord).floor().max(1.0) as u32;
         let mut at = [arc.start.x.to_f64(), arc.start.y.to_f64(), from.to_f64()];
-        for index in 1..=count {
+        for (index, (x, y)) in (1..).zip(arc.divided(count)) {
             let part = f64::from(index) / f64::from(count);
-            let (x, y) = arc.at(part);
             let end = [x, y, from.to_f64() + climb * part];
             self.line(at, end, Some(speed));
             at = end;

@@ -8,6 +8,7 @@
 //! ```
 
 use std::cmp::Ordering;
+use std::ops::Range;
 
 use rayon::prelude::*;
 
@@ -177,31 +178,48 @@ impl Fence {
     }
 
     /// Where a line crosses the border, in its order; the owners are those on its left and right.
-    fn crossings(&self, samples: &[Sample], (left, right): (u32, u32)) -> Vec<Crossing> {
+    fn crossings(&self, samples: &[Sample], owners: (u32, u32)) -> Vec<Crossing> {
         let mut crossings = Vec::new();
-        if self.tree.within(bounds(samples)).is_empty() {
-            return crossings;
-        }
-        for (sample, pair) in samples.windows(2).enumerate() {
-            let (p, q) = (pair[0].at, pair[1].at);
-            let from = crossings.len();
-            for edge in self.tree.within(bounds(pair)) {
-                let [a, b] = self.edges[edge];
-                let leaves = is_left(a, b, p);
-                if leaves == is_left(a, b, q) || is_left(p, q, a) == is_left(p, q, b) {
-                    continue;
-                }
-                let (way, side) = (q - p, b - a);
-                let part = (side.cross(a - p) / side.cross(way)).clamp(0.0, 1.0);
-                let at = p + way * part;
-                let clearance = pair[0].clearance + (pair[1].clearance - pair[0].clearance) * part;
-                let (ahead, behind) = if leaves { (left, right) } else { (right, left) };
-                let (along, at) = ((at - a).length(), Sample { at, clearance });
-                crossings.push(Crossing { sample, part, edge, along, leaves, at, ahead, behind });
-            }
-            crossings[from..].sort_by(|a, b| a.part.total_cmp(&b.part).then(a.edge.cmp(&b.edge)));
-        }
+        self.add_crossings(samples, 0..samples.len() - 1, owners, &mut crossings);
         crossings
+    }
+
+    /// Adds those between the samples of some steps of the line. Steps none of which comes near the
+    /// border are passed over together.
+    fn add_crossings(
+        &self,
+        samples: &[Sample],
+        steps: Range<usize>,
+        (left, right): (u32, u32),
+        crossings: &mut Vec<Crossing>,
+    ) {
+        if !self.tree.meets(bounds(&samples[steps.start..=steps.end])) {
+            return;
+        }
+        if steps.len() > 1 {
+            let middle = steps.start.midpoint(steps.end);
+            self.add_crossings(samples, steps.start..middle, (left, right), crossings);
+            self.add_crossings(samples, middle..steps.end, (left, right), crossings);
+            return;
+        }
+        let (sample, pair) = (steps.start, [samples[steps.start], samples[steps.end]]);
+        let [p, q] = pair.map(|sample| sample.at);
+        let from = crossings.len();
+        for edge in self.tree.within(bounds(&pair)) {
+            let [a, b] = self.edges[edge];
+            let leaves = is_left(a, b, p);
+            if leaves == is_left(a, b, q) || is_left(p, q, a) == is_left(p, q, b) {
+                continue;
+            }
+            let (way, side) = (q - p, b - a);
+            let part = (side.cross(a - p) / side.cross(way)).clamp(0.0, 1.0);
+            let at = p + way * part;
+            let clearance = pair[0].clearance + (pair[1].clearance - pair[0].clearance) * part;
+            let (ahead, behind) = if leaves { (left, right) } else { (right, left) };
+            let (along, at) = ((at - a).length(), Sample { at, clearance });
+            crossings.push(Crossing { sample, part, edge, along, leaves, at, ahead, behind });
+        }
+        crossings[from..].sort_by(|a, b| a.part.total_cmp(&b.part).then(a.edge.cmp(&b.edge)));
     }
 }
 

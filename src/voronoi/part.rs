@@ -6,9 +6,9 @@
 //!   ╰──────────╯        ╰──●───────╯
 //! ```
 
-use crate::geometry::{Arc, Path, Point, Segment, Turn};
+use crate::geometry::{Path, Point, Segment};
 
-use super::plane::{Spot, nearest_on_chord};
+use super::plane::{Span, Spot};
 use super::{Boundary, NodeId};
 
 /// A place on a boundary where it is to be parted.
@@ -51,10 +51,7 @@ const SAME: f64 = 1_000.0;
 /// The point nearest to `p` of the segment of `path` with this index.
 pub(super) fn foot_on(path: &Path, index: usize, p: Spot) -> Spot {
     let (from, segment) = (vertex(path, index), &path.segments[index]);
-    let foot = match segment.arc(from) {
-        Some(arc) => foot_on_arc(p, &arc),
-        None => nearest_on_chord(p, from.into(), segment.to().into()),
-    };
+    let foot = Span::new(from, segment).foot(p);
     let ends = [from, segment.to()].map(Spot::from);
     ends.into_iter().find(|&end| (end - foot).length() < SAME).unwrap_or(foot)
 }
@@ -132,32 +129,10 @@ fn begin_at(edge: &mut Boundary, first: usize) {
     edge.clearance.push(edge.clearance[0]);
 }
 
-/// The point of `arc` nearest to `p`.
-fn foot_on_arc(p: Spot, arc: &Arc) -> Spot {
-    // Counter-clockwise.
-    let (from, to) = match arc.turn {
-        Turn::CounterClockwise => (Spot::from(arc.start), Spot::from(arc.end)),
-        Turn::Clockwise => (Spot::from(arc.end), Spot::from(arc.start)),
-    };
-    let center = Spot::from(arc.center);
-    let (way, a, b) = (p - center, from - center, to - center);
-    let wide = a.cross(b) < 0.0 || (a.cross(b) <= 0.0 && a.dot(b) < 0.0 && a.cross(way) < 0.0);
-    let within = if wide {
-        !(b.cross(way) > 0.0 && way.cross(a) > 0.0)
-    } else {
-        a.cross(way) >= 0.0 && way.cross(b) >= 0.0
-    };
-    if (from == to || within) && way.length() > 0.0 {
-        return center + way * (arc.radius() / way.length());
-    }
-    let (to_from, to_to) = (p - from, p - to);
-    if to_from.dot(to_from) <= to_to.dot(to_to) { from } else { to }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Nm, Vector};
+    use crate::geometry::{Nm, Turn, Vector};
     use crate::voronoi::Owner;
 
     /// Two links met an arc a nanometre apart, and between them the cutter went all the way round.

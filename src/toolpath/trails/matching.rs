@@ -43,6 +43,7 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
         joined: vec![None; nodes],
         closing: vec![None; nodes],
         alone,
+        promise: vec![[f64::NEG_INFINITY; LONGEST]; nodes],
         looks: 0,
     };
     for index in order {
@@ -53,6 +54,9 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
             matching.join(index);
         }
     }
+    for pairs in 0..LONGEST {
+        (0..nodes).for_each(|node| matching.promise[node][pairs] = matching.most(node, pairs));
+    }
     let mut search = Search::of(nodes);
     let mut changed = Changed::all(nodes);
     while changed.any {
@@ -61,10 +65,11 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
             let is_due = std::mem::take(&mut changed.about[node]) && !matching.near[node].is_empty();
             if is_due && matching.looks < EACH * nodes {
                 let touched = matching.improve(node, &mut search);
-                matching.looks += changed.mark(&touched, &matching);
+                matching.looks += changed.mark(&touched, &mut matching);
             }
         }
     }
+    debug_assert!(matching.promises_are_kept(), "a promise is out of date");
     let mut chosen: Vec<usize> = matching.joined.into_iter().flatten().map(|way| way.candidate).collect();
     chosen.sort_unstable();
     chosen.dedup();
@@ -88,6 +93,9 @@ struct Matching<'a> {
     /// The way by which a chain that comes to a node would come back, while one is sought.
     closing: Vec<Option<Way>>,
     alone: f64,
+    /// By how much a chain can gain at most from a node that is loose, after one more pair at most,
+    /// after two, and so on; more than it can where it would come by a node twice.
+    promise: Vec<[f64; LONGEST]>,
     /// How many ways were looked at.
     looks: usize,
 }
@@ -100,6 +108,27 @@ impl Matching<'_> {
         self.joined[b] = Some(Way { to: a, cost, candidate });
     }
 
+    /// What a loose node promises if so many pairs may follow the next one.
+    fn most(&self, node: usize, pairs: usize) -> f64 {
+        let mate = self.joined[node].map(|way| way.to);
+        let ways = self.near[node].iter().filter(|way| Some(way.to) != mate);
+        let gains = ways.map(|way| match self.joined[way.to] {
+            None => 2.0 * self.alone - way.cost,
+            Some(Way { to: partner, cost: freed, .. }) => {
+                let further = pairs.checked_sub(1).map_or(0.0, |pairs| self.promise[partner][pairs]);
+                freed - way.cost + further.max(0.0)
+            }
+        });
+        gains.fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    /// Whether all that is promised is what it would be if it were worked out now.
+    fn promises_are_kept(&self) -> bool {
+        let all = self.promise.iter().enumerate();
+        let mut each = all.flat_map(|(node, promise)| promise.iter().enumerate().map(move |of| (node, of)));
+        each.all(|(node, (pairs, promise))| promise.total_cmp(&self.most(node, pairs)).is_eq())
+    }
+
     /// Frees `node` and its partner and looks for a chain that gains; the nodes that are joined
     /// otherwise than before.
     fn improve(&mut self, node: usize, search: &mut Search) -> Vec<usize> {
@@ -108,10 +137,11 @@ impl Matching<'_> {
             None => (node, None, self.alone, 0.0),
             Some(way) => (way.to, Some(node), way.cost, self.alone),
         };
-        search.begin(rest);
+        let back = first.map_or(&[][..], |first| &self.near[first]);
+        let home = back.iter().map(|way| way.cost).fold(rest + self.alone, f64::min);
+        search.begin(rest, home);
         search.busy.push(node);
         search.busy.push(loose);
-        let back = first.map_or(&[][..], |first| &self.near[first]);
         back.iter().for_each(|&way| self.closing[way.to] = Some(way));
         let found = self.extend(loose, gain, search);
         back.iter().for_each(|way| self.closing[way.to] = None);
@@ -121,6 +151,7 @@ impl Matching<'_> {
 
     /// Joins `loose` to a near node and either closes there or goes on from that node's partner.
     fn extend(&self, loose: usize, gain: f64, search: &mut Search) -> bool {
+        let pairs = search.chain.len + 1;
         for &Way { to: next, cost, candidate } in &self.near[loose] {
             let left = gain - cost;
             // A chain may yet end at a node that was alone.
@@ -129,33 +160,37 @@ impl Matching<'_> {
             }
             search.budget -= 1;
             search.looks += 1;
-            if search.busy.all().contains(&next) {
+            let Some(Way { to: partner, cost: freed, .. }) = self.joined[next] else {
+                if left + self.alone - search.rest > LEAST && !search.busy.all().contains(&next) {
+                    search.chain.push(candidate);
+                    return true;
+                }
+                continue;
+            };
+            let left = left + freed;
+            let close = self.closing[partner].filter(|close| close.cost < left - LEAST);
+            let ends = left - search.rest - self.alone > LEAST;
+            // What has come here with more, and after no more pairs, has gone on from here.
+            let goes_on = pairs < LONGEST
+                && left + self.promise[partner][LONGEST - 1 - pairs] > search.home + LEAST
+                && search.reached[partner].is_less(search.number, pairs, left);
+            if !(close.is_some() || ends || goes_on) || search.busy.all().contains(&next) {
                 continue;
             }
             search.chain.push(candidate);
-            if let Some(Way { to: partner, cost: freed, .. }) = self.joined[next] {
-                let left = left + freed;
-                search.looks += 1;
-                if let Some(close) = self.closing[partner].filter(|close| close.cost < left - LEAST) {
-                    search.chain.push(close.candidate);
-                    return true;
-                }
-                if left - search.rest - self.alone > LEAST {
-                    return true;
-                }
-                // What has come here with more, and after no more pairs, has gone on from here.
-                let pairs = search.chain.len;
-                if pairs < LONGEST && search.reached[partner].is_more(search.number, pairs, left) {
-                    search.busy.push(next);
-                    search.busy.push(partner);
-                    if self.extend(partner, left, search) {
-                        return true;
-                    }
-                    search.busy.len -= 2;
-                }
-            } else if left + self.alone - search.rest > LEAST {
+            if let Some(close) = close {
+                search.chain.push(close.candidate);
+            }
+            if close.is_some() || ends {
                 return true;
             }
+            search.reached[partner].note(search.number, pairs, left);
+            search.busy.push(next);
+            search.busy.push(partner);
+            if self.extend(partner, left, search) {
+                return true;
+            }
+            search.busy.len -= 2;
             search.chain.len -= 1;
         }
         false
@@ -192,6 +227,8 @@ struct Search {
     busy: Few,
     /// What it costs if the chain does not come back to the node that waits for it.
     rest: f64,
+    /// The least that a chain must have gained to end, one way or the other.
+    home: f64,
     budget: usize,
     /// How many ways it has looked at, those that would close the chain included.
     looks: usize,
@@ -201,14 +238,14 @@ impl Search {
     fn of(nodes: usize) -> Self {
         let reached = vec![Reached::default(); nodes];
         let (chain, busy) = (Few::default(), Few::default());
-        Self { number: 0, reached, chain, busy, rest: 0.0, budget: 0, looks: 0 }
+        Self { number: 0, reached, chain, busy, rest: 0.0, home: 0.0, budget: 0, looks: 0 }
     }
 
     /// Begins another.
-    fn begin(&mut self, rest: f64) {
+    fn begin(&mut self, rest: f64, home: f64) {
         self.number += 1;
         (self.chain.len, self.busy.len) = (0, 0);
-        (self.rest, self.budget, self.looks) = (rest, BUDGET, 0);
+        (self.rest, self.home, self.budget, self.looks) = (rest, home, BUDGET, 0);
     }
 }
 
@@ -220,14 +257,18 @@ struct Reached {
 }
 
 impl Reached {
-    /// Whether `gain` after `pairs` is more than before in this `search`; then it is kept.
-    fn is_more(&mut self, search: usize, pairs: usize, gain: f64) -> bool {
+    /// Whether it has gone on in this `search` with less than `gain` after so many `pairs`, if at
+    /// all.
+    fn is_less(&self, search: usize, pairs: usize, gain: f64) -> bool {
+        self.search != search || self.gain[pairs] < gain
+    }
+
+    /// It goes on with more than before.
+    fn note(&mut self, search: usize, pairs: usize, gain: f64) {
         if self.search != search {
             *self = Self { search, gain: [f64::NEG_INFINITY; LONGEST] };
         }
-        let is_more = gain > self.gain[pairs];
         self.gain[pairs..].iter_mut().for_each(|most| *most = most.max(gain));
-        is_more
     }
 }
 
@@ -263,24 +304,30 @@ impl Changed {
         Self { about: vec![true; nodes], any: nodes > 0, seen: vec![0; nodes], marks: 0 }
     }
 
-    /// Marks all nodes from which a chain can come by one of those `touched`; gives how many ways
-    /// it looked at.
+    /// Marks all nodes from which a chain can come by one of those `touched`, and makes good what
+    /// is promised there; gives how many ways it looked at.
     ///
     /// A chain comes by a node from a loose one near it, and that is the partner of the node before
     /// it, or of the one from which the chain is sought.
-    fn mark(&mut self, touched: &[usize], matching: &Matching<'_>) -> usize {
+    fn mark(&mut self, touched: &[usize], matching: &mut Matching<'_>) -> usize {
         let mut looks = 0;
         self.marks += 1;
         self.any |= !touched.is_empty();
         touched.iter().for_each(|&node| self.about[node] = true);
-        let mut by = touched.to_vec();
-        for _ in 0..LONGEST {
+        let (mut by, mut all) = (touched.to_vec(), touched.to_vec());
+        touched.iter().for_each(|&node| self.seen[node] = self.marks);
+        for pairs in 0..LONGEST {
             let mut loose: Vec<usize> =
                 by.iter().flat_map(|&node| matching.near[node].iter().map(|way| way.to)).collect();
             looks += loose.len();
             loose.retain(|&node| std::mem::replace(&mut self.seen[node], self.marks) != self.marks);
             by = loose.iter().map(|&node| matching.joined[node].map_or(node, |way| way.to)).collect();
             by.iter().for_each(|&node| self.about[node] = true);
+            all.extend(loose);
+            for &node in &all {
+                looks += matching.near[node].len();
+                matching.promise[node][pairs] = matching.most(node, pairs);
+            }
         }
         looks
     }

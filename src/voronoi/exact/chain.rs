@@ -129,13 +129,18 @@ impl Diagram {
     /// The owner of the copper nearest to `p`, or that `p` lies in; `nobody` where it is farther
     /// than `level` nanometres from all.
     pub(in crate::voronoi) fn owner_near(&self, p: Spot, level: f64, nobody: u32) -> Option<u32> {
-        let (off, owner) = self.nearest_edge(p)?;
+        let (off, owner) = self.nearest_edge(p, f64::INFINITY)?;
         Some(if off <= level || self.is_copper(p) { owner } else { nobody })
     }
 
     /// How far the nearest edge of copper is, from whichever side, in nanometres.
     pub(in crate::voronoi) fn distance(&self, p: Spot) -> f64 {
-        self.nearest_edge(p).map_or(f64::INFINITY, |(off, _)| off)
+        self.distance_within(p, f64::INFINITY)
+    }
+
+    /// [`Diagram::distance`], where that is no more than `reach` nanometres.
+    pub(in crate::voronoi) fn distance_within(&self, p: Spot, reach: f64) -> f64 {
+        self.nearest_edge(p, reach).map_or(f64::INFINITY, |(off, _)| off)
     }
 
     /// How far copper is, in nanometres; within it zero.
@@ -143,15 +148,16 @@ impl Diagram {
         if self.is_copper(p) { 0.0 } else { self.distance(p) }
     }
 
-    /// How far the nearest edge is, from whichever side, and its owner.
-    fn nearest_edge(&self, p: Spot) -> Option<(f64, u32)> {
+    /// How far the nearest edge is, from whichever side, and its owner, if it is no farther than
+    /// `reach` nanometres.
+    fn nearest_edge(&self, p: Spot, reach: f64) -> Option<(f64, u32)> {
         let mut nearest: Option<(f64, u32)> = None;
-        self.index.visit_nearest(p, f64::INFINITY, |i| {
+        self.index.visit_nearest(p, reach, |i| {
             let found = (self.forms()[i as usize].off(p), i);
             if self.owner(i) != WALL && nearest.is_none_or(|nearest| found < nearest) {
                 nearest = Some(found);
             }
-            nearest.map_or(f64::INFINITY, |(off, _)| off)
+            nearest.map_or(reach, |(off, _)| off)
         });
         nearest.map(|(off, generator)| (off, self.owner(generator)))
     }

@@ -582,16 +582,30 @@ fn swept(sense: f64, u: Spot, v: Spot) -> f64 {
 /// Shows places along an arc behind its first, so dense that chords follow it.
 fn arc(center: Spot, radius: f64, [u, v]: [Spot; 2], sense: f64, closed: bool, add: &mut impl FnMut(Spot)) {
     let swept = swept(sense, u, v);
-    if closed || (1e-9..4.0 - 1e-9).contains(&swept) {
+    if closed || (1.0..4.0 - 1e-9).contains(&swept) {
         let middle = if closed { u * -1.0 } else { halfway(u, v, sense) };
-        // The height of the arc over its chord.
-        let straight = u.dot(v);
-        let height = radius * (1.0 - ((1.0 + straight.clamp(-1.0, 1.0)) / 2.0).sqrt());
-        if closed || swept >= 1.0 || height > CHORD {
-            arc(center, radius, [u, middle], sense, false, add);
-            arc(center, radius, [middle, v], sense, false, add);
-            return;
+        arc(center, radius, [u, middle], sense, false, add);
+        arc(center, radius, [middle, v], sense, false, add);
+        return;
+    }
+    let mut halvings = 0;
+    if (1e-9..1.0).contains(&swept) {
+        // The height of the arc over its chord, over half of it, and so on.
+        let half = |cos: f64| ((1.0 + cos.clamp(-1.0, 1.0)) / 2.0).sqrt();
+        let mut cos = half(u.dot(v));
+        while radius * (1.0 - cos) > CHORD {
+            (cos, halvings) = (half(cos), halvings + 1);
         }
     }
-    add(center + v * radius);
+    halved([u, v], sense, halvings, &mut |v| add(center + v * radius));
+}
+
+/// Shows the directions between two and the second, halved so often.
+fn halved([u, v]: [Spot; 2], sense: f64, halvings: u32, add: &mut impl FnMut(Spot)) {
+    if halvings == 0 {
+        return add(v);
+    }
+    let middle = halfway(u, v, sense);
+    halved([u, middle], sense, halvings - 1, add);
+    halved([middle, v], sense, halvings - 1, add);
 }

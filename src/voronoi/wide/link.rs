@@ -34,8 +34,8 @@ pub struct Link {
 
 /// What links must keep to.
 pub(super) struct Rules<'a> {
-    /// How far a place is from copper, in nanometres.
-    pub(super) clearance: &'a (dyn Fn(Spot) -> f64 + Sync),
+    /// How far a place is from copper that is no farther than so many nanometres.
+    pub(super) clearance: &'a (dyn Fn(Spot, f64) -> f64 + Sync),
     /// How near to copper a cut may come.
     pub(super) nearest: f64,
     /// How far passes lie apart, in nanometres: where links are looked for first.
@@ -52,6 +52,9 @@ const CHOICES: usize = 3;
 
 /// Ways shorter than this are not halved to find copper beside them, in nanometres. Chosen.
 const FINE: f64 = 500.0;
+
+/// What is looked for beyond where it must be, in nanometres: more than rounding.
+const ROUNDING: f64 = 1.0;
 
 /// A link that would part a segment so near to its end goes to the end, in nanometres. Chosen:
 /// pieces as short are more words than work.
@@ -72,26 +75,43 @@ impl Rules<'_> {
     /// where it is too near.
     fn keeps_off(&self, a: Spot, b: Spot) -> Option<f64> {
         // Most ways that are refused are so in their middle, which says so of the whole.
+        let middle = self.place(a.midpoint(b), f64::INFINITY);
         let is_long = (b - a).length() >= FINE;
-        if is_long && (self.clearance)(a.midpoint(b)) < self.nearest {
+        if is_long && middle.1 < self.nearest {
             return None;
         }
-        self.between((a, (self.clearance)(a)), (b, (self.clearance)(b)))
+        let [a, b] = [a, b].map(|end| self.beside(middle, end));
+        self.at_once(a, b).or_else(|| self.halved(a, middle, b))
     }
 
-    fn between(&self, (a, at_a): (Spot, f64), (b, at_b): (Spot, f64)) -> Option<f64> {
+    /// Copper is no nearer to the way between two places that are so far from it, if that follows
+    /// from how far they are.
+    fn at_once(&self, (a, at_a): (Spot, f64), (b, at_b): (Spot, f64)) -> Option<f64> {
+        // Copper comes no faster than the way goes.
         let length = (b - a).length();
-        if at_a.min(at_b) < self.nearest {
+        let least = f64::midpoint(at_a, at_b) - length / 2.0;
+        let is_off = at_a.min(at_b) >= self.nearest && (least >= self.nearest || length < FINE);
+        is_off.then_some(least.max(self.nearest))
+    }
+
+    fn halved(&self, a: (Spot, f64), middle: (Spot, f64), b: (Spot, f64)) -> Option<f64> {
+        if a.1.min(b.1).min(middle.1) < self.nearest {
             return None;
         }
-        // Copper comes no faster than the way goes.
-        let least = f64::midpoint(at_a, at_b) - length / 2.0;
-        if least >= self.nearest || length < FINE {
-            return Some(least.max(self.nearest));
-        }
-        let middle = a.midpoint(b);
-        let there = (middle, (self.clearance)(middle));
-        Some(self.between((a, at_a), there)?.min(self.between(there, (b, at_b))?))
+        let half = |a: (Spot, f64), b: (Spot, f64)| {
+            self.at_once(a, b).or_else(|| self.halved(a, self.beside(a, a.0.midpoint(b.0)), b))
+        };
+        Some(half(a, middle)?.min(half(middle, b)?))
+    }
+
+    /// A place, and how far it is from copper, which is no farther than `reach`.
+    fn place(&self, at: Spot, reach: f64) -> (Spot, f64) {
+        (at, (self.clearance)(at, reach))
+    }
+
+    /// A place beside one that is so far from copper.
+    fn beside(&self, (known, clearance): (Spot, f64), at: Spot) -> (Spot, f64) {
+        self.place(at, clearance + (at - known).length() + ROUNDING)
     }
 }
 

@@ -216,7 +216,7 @@ impl Diagram {
         let longest =
             if further.is_empty() { widening.width.unwrap_or(LONGEST).min(LONGEST) } else { LONGEST };
         let rules = Rules {
-            clearance: &|at| diagram.distance(at),
+            clearance: &|at, reach| diagram.distance_within(at, reach),
             nearest: (widening.kerf / 2).to_f64(),
             step: step.to_f64(),
             short: (widening.kerf * 3 / 2).to_f64(),
