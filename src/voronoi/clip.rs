@@ -193,13 +193,12 @@ impl Fence {
         (left, right): (u32, u32),
         crossings: &mut Vec<Crossing>,
     ) {
-        if !self.tree.meets(bounds(&samples[steps.start..=steps.end])) {
-            return;
-        }
         if steps.len() > 1 {
-            let middle = steps.start.midpoint(steps.end);
-            self.add_crossings(samples, steps.start..middle, (left, right), crossings);
-            self.add_crossings(samples, middle..steps.end, (left, right), crossings);
+            if self.tree.meets(bounds(&samples[steps.start..=steps.end])) {
+                let middle = steps.start.midpoint(steps.end);
+                self.add_crossings(samples, steps.start..middle, (left, right), crossings);
+                self.add_crossings(samples, middle..steps.end, (left, right), crossings);
+            }
             return;
         }
         let (sample, pair) = (steps.start, [samples[steps.start], samples[steps.end]]);

@@ -74,7 +74,7 @@ pub fn isolate(
     // A tool that may rise takes no more copper than at its least depth.
     let kerf = settings.tool.least_width(settings.heights.cut, settings.adaptive);
     let mut warnings = Vec::new();
-    let mut ways = Vec::new();
+    let mut ways = Vec::with_capacity(boundaries.edges.len() + boundaries.links.len() + frame_cuts.len());
     for boundary in &boundaries.edges {
         let role = role(boundary);
         if role == Role::Leave {

@@ -7,6 +7,10 @@
 //! (J. Edmonds, *Paths, trees, and flowers*, Canadian Journal of Mathematics 17, 1965) would be
 //! several hundred lines for the last percent.
 
+use crate::topology::Groups;
+
+use super::number;
+
 /// Two nodes that may be joined, the smaller first, and what joining them costs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Candidate {
@@ -37,9 +41,13 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
     let mut order: Vec<usize> = (0..candidates.len()).collect();
     let key = |index: usize| candidates[index];
     order.sort_by(|&a, &b| key(a).cost.total_cmp(&key(b).cost).then(key(a).nodes.cmp(&key(b).nodes)));
+    let ways = order.iter().flat_map(|&candidate| {
+        let Candidate { nodes: (a, b), cost } = key(candidate);
+        [(a, b), (b, a)].map(|(from, to)| (number(from), Way { to, cost, candidate }))
+    });
     let mut matching = Matching {
         candidates,
-        near: vec![Vec::new(); nodes],
+        near: Groups::new(nodes, ways),
         joined: vec![None; nodes],
         closing: vec![None; nodes],
         alone,
@@ -47,10 +55,9 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
         looks: 0,
     };
     for index in order {
-        let Candidate { nodes: (a, b), cost } = candidates[index];
-        matching.near[a].push(Way { to: b, cost, candidate: index });
-        matching.near[b].push(Way { to: a, cost, candidate: index });
-        if cost < 2.0 * alone && matching.joined[a].is_none() && matching.joined[b].is_none() {
+        let Candidate { nodes: (a, b), cost } = key(index);
+        let is_alone = |node: usize| matching.joined[node].is_none();
+        if cost < 2.0 * alone && is_alone(a) && is_alone(b) {
             matching.join(index);
         }
     }
@@ -62,7 +69,7 @@ fn joined(nodes: usize, candidates: &[Candidate], alone: f64) -> (Vec<usize>, us
     while changed.any {
         changed.any = false;
         for node in 0..nodes {
-            let is_due = std::mem::take(&mut changed.about[node]) && !matching.near[node].is_empty();
+            let is_due = std::mem::take(&mut changed.about[node]) && !matching.near.of(node).is_empty();
             if is_due && matching.looks < EACH * nodes {
                 let touched = matching.improve(node, &mut search);
                 matching.looks += changed.mark(&touched, &mut matching);
@@ -87,7 +94,7 @@ struct Way {
 struct Matching<'a> {
     candidates: &'a [Candidate],
     /// The candidates of each node, cheapest first.
-    near: Vec<Vec<Way>>,
+    near: Groups<Way>,
     /// The way by which a node is joined.
     joined: Vec<Option<Way>>,
     /// The way by which a chain that comes to a node would come back, while one is sought.
@@ -111,7 +118,7 @@ impl Matching<'_> {
     /// What a loose node promises if so many pairs may follow the next one.
     fn most(&self, node: usize, pairs: usize) -> f64 {
         let mate = self.joined[node].map(|way| way.to);
-        let ways = self.near[node].iter().filter(|way| Some(way.to) != mate);
+        let ways = self.near.of(node).iter().filter(|way| Some(way.to) != mate);
         let gains = ways.map(|way| match self.joined[way.to] {
             None => 2.0 * self.alone - way.cost,
             Some(Way { to: partner, cost: freed, .. }) => {
@@ -137,7 +144,7 @@ impl Matching<'_> {
             None => (node, None, self.alone, 0.0),
             Some(way) => (way.to, Some(node), way.cost, self.alone),
         };
-        let back = first.map_or(&[][..], |first| &self.near[first]);
+        let back = first.map_or(&[][..], |first| self.near.of(first));
         let home = back.iter().map(|way| way.cost).fold(rest + self.alone, f64::min);
         search.begin(rest, home);
         search.busy.push(node);
@@ -152,7 +159,7 @@ impl Matching<'_> {
     /// Joins `loose` to a near node and either closes there or goes on from that node's partner.
     fn extend(&self, loose: usize, gain: f64, search: &mut Search) -> bool {
         let pairs = search.chain.len + 1;
-        for &Way { to: next, cost, candidate } in &self.near[loose] {
+        for &Way { to: next, cost, candidate } in self.near.of(loose) {
             let left = gain - cost;
             // A chain may yet end at a node that was alone.
             if left + self.alone <= LEAST || search.budget == 0 {
@@ -318,14 +325,14 @@ impl Changed {
         touched.iter().for_each(|&node| self.seen[node] = self.marks);
         for pairs in 0..LONGEST {
             let mut loose: Vec<usize> =
-                by.iter().flat_map(|&node| matching.near[node].iter().map(|way| way.to)).collect();
+                by.iter().flat_map(|&node| matching.near.of(node).iter().map(|way| way.to)).collect();
             looks += loose.len();
             loose.retain(|&node| std::mem::replace(&mut self.seen[node], self.marks) != self.marks);
             by = loose.iter().map(|&node| matching.joined[node].map_or(node, |way| way.to)).collect();
             by.iter().for_each(|&node| self.about[node] = true);
             all.extend(loose);
             for &node in &all {
-                looks += matching.near[node].len();
+                looks += matching.near.of(node).len();
                 matching.promise[node][pairs] = matching.most(node, pairs);
             }
         }

@@ -93,26 +93,40 @@ fn odd(nodes: usize, passes: &[Pass]) -> BitVec {
 /// closed is joined to others by links there and back ([`bridges`]).
 fn joins(nodes: usize, links: &[Link], passes: &[Pass], retract: f64) -> (Vec<usize>, Vec<usize>) {
     let odd = odd(nodes, passes);
+    let mut rank = vec![0; nodes];
+    (0..).zip(odd.iter_ones()).for_each(|(number, node)| rank[node] = number);
     let graph = adjacency(nodes, links.iter().map(|link| link.ends));
     let mut searches = Searches::new(&graph, links, &odd, retract);
-    let mut pairs: Vec<Pair> = odd.iter_ones().flat_map(|from| searches.near(from)).collect();
-    // Both of two near nodes may have found the other; the way from the smaller is kept.
-    pairs.sort_by_key(|pair| (pair.from.min(pair.to), pair.from.max(pair.to), pair.from));
-    pairs.dedup_by_key(|pair| (pair.from.min(pair.to), pair.from.max(pair.to)));
-    let candidate = |pair: &Pair| Candidate {
-        nodes: (pair.from.min(pair.to), pair.from.max(pair.to)),
-        cost: pair.seconds,
+    // By the rank of the node they were found from.
+    let mut found: Groups<Pair> = Groups::default();
+    for from in odd.iter_ones() {
+        let known = |to: usize| {
+            let of_other = if to < from { found.of(rank[to]) } else { &[] };
+            of_other.iter().any(|pair| pair.nodes.1 as usize == from)
+        };
+        let near = searches.near(from, known);
+        found.push(near);
+    }
+    let ways = searches.into_ways();
+    let mut pairs: Vec<Pair> = found.iter().flatten().copied().collect();
+    drop(found);
+    pairs.sort_by_key(|pair| pair.nodes);
+    let candidate = |&Pair { nodes: (a, b), seconds, .. }: &Pair| Candidate {
+        nodes: (rank[a as usize], rank[b as usize]),
+        cost: seconds,
     };
     let candidates: Vec<Candidate> = pairs.iter().map(candidate).collect();
     let mut again = vec![false; links.len()];
-    let chosen: Vec<&Pair> =
-        matching::join(nodes, &candidates, retract / 2.0).into_iter().map(|index| &pairs[index]).collect();
-    for pair in &chosen {
-        pair.way.iter().for_each(|&link| again[link] ^= true);
+    let joined = matching::join(odd.count_ones(), &candidates, retract / 2.0);
+    let chosen: Vec<(Pair, &[u32])> =
+        joined.into_iter().map(|index| (pairs[index], ways.of(pairs[index].way as usize))).collect();
+    for (_, way) in &chosen {
+        way.iter().for_each(|&link| again[link as usize] ^= true);
     }
     let mut alone = odd;
-    chosen.iter().flat_map(|pair| [pair.from, pair.to]).for_each(|node| alone.set(node, false));
-    let mut part = DisjointSets::new(nodes);
+    let nodes = chosen.iter().flat_map(|(pair, _)| [pair.nodes.0, pair.nodes.1]);
+    nodes.for_each(|node| alone.set(node as usize, false));
+    let mut part = DisjointSets::new(alone.len());
     for (link, _) in links.iter().zip(&again).filter(|(link, again)| link.must || **again) {
         if let Some((a, b)) = link.ends {
             part.union(a, b);
@@ -163,35 +177,44 @@ fn bridges(
 /// it is still one trail.
 ///
 /// A way over links that must be cut anyway can be taken back without the part falling apart.
-fn spare(links: &[Link], alone: &BitSlice, chosen: &[&Pair], part: &mut DisjointSets, again: &mut [bool]) {
+fn spare(
+    links: &[Link],
+    alone: &BitSlice,
+    chosen: &[(Pair, &[u32])],
+    part: &mut DisjointSets,
+    again: &mut [bool],
+) {
     let mut is_open = vec![false; alone.len()];
     for node in alone.iter_ones().map(number) {
         is_open[part.find(node) as usize] = true;
     }
-    let mut dearest: BTreeMap<u32, (f64, &Pair)> = BTreeMap::new();
-    for pair in chosen.iter().filter(|pair| pair.way.iter().all(|&link| links[link].must)) {
+    let mut dearest: BTreeMap<u32, (f64, &[u32])> = BTreeMap::new();
+    for (pair, way) in chosen.iter().filter(|(_, way)| way.iter().all(|&link| links[link as usize].must)) {
         // What ways share is passed neither time, and would have to be again.
-        let saved =
-            pair.way.iter().map(|&link| if again[link] { links[link].seconds } else { -links[link].seconds });
-        let (saved, part) = (saved.sum::<f64>(), part.find(number(pair.from)));
+        let saved = way.iter().map(|&link| {
+            let seconds = links[link as usize].seconds;
+            if again[link as usize] { seconds } else { -seconds }
+        });
+        let (saved, part) = (saved.sum::<f64>(), part.find(pair.nodes.0));
         if !is_open[part as usize]
             && saved > 0.0
             && dearest.get(&part).is_none_or(|&(before, _)| saved > before)
         {
-            dearest.insert(part, (saved, pair));
+            dearest.insert(part, (saved, way));
         }
     }
-    for (_, pair) in dearest.values() {
-        pair.way.iter().for_each(|&link| again[link] ^= true);
+    for (_, way) in dearest.values() {
+        way.iter().for_each(|&link| again[link as usize] ^= true);
     }
 }
 
-/// Two odd nodes and the shortest way between them.
+/// Two odd nodes, the smaller first, and the shortest way between them.
+#[derive(Clone, Copy)]
 struct Pair {
-    from: usize,
-    to: usize,
+    nodes: (u32, u32),
     seconds: f64,
-    way: Vec<usize>,
+    /// The number of the way.
+    way: u32,
 }
 
 /// How many near odd nodes a search lists. Chosen, not measured against other numbers: in a ring of
@@ -216,27 +239,36 @@ struct Searches<'a> {
     reached: Vec<Reached>,
     queue: BinaryHeap<Reverse<(Ordered, usize)>>,
     count: u32,
+    /// The links of the ways that were found.
+    ways: Groups<u32>,
 }
 
 impl<'a> Searches<'a> {
     fn new(graph: &'a Adjacency, links: &'a [Link], odd: &'a BitSlice, retract: f64) -> Self {
         let reached = vec![Reached::default(); odd.len()];
-        Self { graph, links, odd, retract, reached, queue: BinaryHeap::new(), count: 0 }
+        let (queue, ways) = (BinaryHeap::new(), Groups::default());
+        Self { graph, links, odd, retract, reached, queue, count: 0, ways }
     }
 
-    /// The nearest odd nodes within `retract` seconds of `from`.
-    fn near(&mut self, from: usize) -> Vec<Pair> {
+    /// `from` with the nearest odd nodes within `retract` seconds, but for those with which it is
+    /// `known` to be a pair: both of two near nodes may find the other.
+    fn near(&mut self, from: usize, known: impl Fn(usize) -> bool) -> Vec<Pair> {
         self.count += 1;
         self.queue.clear();
         self.reach(from, 0.0, None);
-        let mut pairs = Vec::new();
+        let (mut pairs, mut count) = (Vec::new(), 0);
         while let Some(Reverse((Ordered(seconds), node))) = self.queue.pop() {
             if self.reached[node].seconds < seconds {
                 continue;
             }
             if self.odd[node] && node != from {
-                pairs.push(Pair { from, to: node, seconds, way: self.way_back(node) });
-                if pairs.len() == NEAREST {
+                if !known(node) {
+                    let (nodes, way) =
+                        ((number(from.min(node)), number(from.max(node))), self.way_back(node));
+                    pairs.push(Pair { nodes, seconds, way: self.ways.push(way) });
+                }
+                count += 1;
+                if count == NEAREST {
                     break;
                 }
             }
@@ -251,6 +283,11 @@ impl<'a> Searches<'a> {
         pairs
     }
 
+    /// The links of the ways that were found.
+    fn into_ways(self) -> Groups<u32> {
+        self.ways
+    }
+
     /// Notes how far a node is, if that is nearer than is known.
     fn reach(&mut self, node: usize, seconds: f64, by: Option<(u32, u32)>) {
         let known = &mut self.reached[node];
@@ -261,10 +298,10 @@ impl<'a> Searches<'a> {
     }
 
     /// The links from `node` back to where the search began.
-    fn way_back(&self, mut node: usize) -> Vec<usize> {
+    fn way_back(&self, mut node: usize) -> Vec<u32> {
         let mut way = Vec::new();
         while let Some((link, before)) = self.reached[node].by {
-            way.push(link as usize);
+            way.push(link);
             node = before as usize;
         }
         way
