@@ -9,8 +9,8 @@ use crate::gcode::{Header, Input};
 use crate::geometry::Nm;
 use crate::import::{Loaded, diagnostic};
 use crate::report::stages::Stages;
-use crate::toolpath::strategy::{Cutout, Drilling, Tabs, cutout, drill, drilled};
-use crate::toolpath::{Order, Placement, Program, Section};
+use crate::toolpath::strategy::{Cutout, Tabs, cutout, drill, drilled};
+use crate::toolpath::{Placement, Program, Section};
 use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
@@ -91,7 +91,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let placement = stock.placement(side);
         let (sections, found) = stages.run(
             "drilling",
-            || drill(&board.holes, &drilling_settings(&placement, settings)),
+            || drill(&board.holes, &settings.drilling_at(&placement)),
             |_| [("holes", board.holes.len())],
         );
         let drilling = turned(whole("drill", &board, sections, settings), &placement);
@@ -106,7 +106,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let (section, found) = stages.run(
             "cutout",
             || {
-                let drilled = drilled(&board.holes, &drilling_settings(&placement, settings));
+                let drilled = drilled(&board.holes, &settings.drilling_at(&placement));
                 cutout(outline, &cutout_settings(&placement, &drilled, settings))
             },
             |(section, _)| [("moves", section.moves.len())],
@@ -238,23 +238,6 @@ fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings)
         notes: vec![zero(settings)],
         safe: settings.safe,
         sections,
-    }
-}
-
-fn drilling_settings<'a>(placement: &'a Placement, settings: &'a Settings) -> Drilling<'a> {
-    Drilling {
-        drills: &settings.drills,
-        tolerance: settings.drill_tolerance,
-        mill: settings.drill_bore.then_some(&settings.drill_bore_tool),
-        bored_from: settings.drill_bore_from,
-        heights: settings.drilling,
-        tips: settings.drill_tips,
-        one: settings.one_drill,
-        placement,
-        order: Order::default(),
-        dwell: settings.drill_dwell,
-        speeds: settings.drill_speeds,
-        point: settings.drill_tip_angle,
     }
 }
 

@@ -6,7 +6,8 @@
 use crate::board::Side;
 use crate::gcode::Dialect;
 use crate::geometry::{Nm, Vector};
-use crate::toolpath::{self, Angle, DrillSpeeds, Heights, Machine, Tool};
+use crate::toolpath::strategy::Drilling;
+use crate::toolpath::{self, Angle, DrillSpeeds, Heights, Machine, Order, Placement, Tool};
 
 use super::Error;
 use super::Options;
@@ -253,6 +254,24 @@ impl Settings {
     #[must_use]
     pub const fn options(&self) -> &Options {
         &self.options
+    }
+
+    /// How holes are drilled on a board that lies so.
+    pub(super) fn drilling_at<'a>(&'a self, placement: &'a Placement) -> Drilling<'a> {
+        Drilling {
+            drills: &self.drills,
+            tolerance: self.drill_tolerance,
+            mill: self.drill_bore.then_some(&self.drill_bore_tool),
+            bored_from: self.drill_bore_from,
+            heights: self.drilling,
+            tips: self.drill_tips,
+            one: self.one_drill,
+            placement,
+            order: Order::default(),
+            dwell: self.drill_dwell,
+            speeds: self.drill_speeds,
+            point: self.drill_tip_angle,
+        }
     }
 
     /// The width of the widest isolation cut at the surface.

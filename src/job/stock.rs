@@ -10,7 +10,7 @@
 use crate::board::{Board, Hole, Plating, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect, Vector};
 use crate::toolpath::strategy::{Drilling, drill};
-use crate::toolpath::{Heights, Order, Origin, Placement, Program, Tiling, alignment_holes};
+use crate::toolpath::{Heights, Origin, Placement, Program, Tiling, alignment_holes};
 
 use super::{Settings, Tiles};
 
@@ -86,18 +86,13 @@ impl Stock {
         });
         let placement = Placement::default();
         let drilling = Drilling {
-            drills: &settings.drills,
-            tolerance: settings.drill_tolerance,
             mill: Some(&settings.drill_bore_tool),
             bored_from: None,
             heights: Heights { cut: settings.alignment_depth, ..settings.drilling },
             tips: true,
             one: false,
-            placement: &placement,
-            order: Order::default(),
             dwell: 0,
-            speeds: settings.drill_speeds,
-            point: settings.drill_tip_angle,
+            ..settings.drilling_at(&placement)
         };
         let (sections, warnings) = drill(&holes, &drilling);
         let note =

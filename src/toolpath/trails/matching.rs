@@ -3,9 +3,10 @@
 //!
 //! Nearest pairs first, then alternating chains: a pair is taken apart, one of the two joins a near
 //! node, whose partner is loose in turn, and so on a few steps; whatever makes the sum smaller is
-//! kept. A search goes on from a node again only with more gain than before. The exact algorithm
-//! (J. Edmonds, *Paths, trees, and flowers*, Canadian Journal of Mathematics 17, 1965) would be
-//! several hundred lines for the last percent.
+//! kept. A search goes on from a node only where the most that can be gained from there would do,
+//! and again only with more gain than before. The exact algorithm (J. Edmonds, *Paths, trees, and
+//! flowers*, Canadian Journal of Mathematics 17, 1965) would be several hundred lines for the last
+//! percent.
 
 use crate::topology::Groups;
 
