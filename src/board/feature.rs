@@ -65,10 +65,7 @@ impl Shape {
     #[must_use]
     pub fn at(&self, fraction: f64) -> Point {
         match self {
-            Self::Stroke { from, to, .. } => {
-                let ((x, y), way) = (from.to_f64(), *to - *from);
-                Point::from_f64(x + way.x.to_f64() * fraction, y + way.y.to_f64() * fraction)
-            }
+            Self::Stroke { from, to, .. } => from.toward(*to, fraction),
             Self::Arc { arc, .. } => Point::from_f64(arc.at(fraction).0, arc.at(fraction).1),
             Self::Disc { .. } | Self::Polygon(_) => self.anchor(),
         }

@@ -362,11 +362,8 @@ impl<'a> Writer<'a> {
     /// In parts of less than half a turn, where the radius is unambiguous.
     fn by_radius(&mut self, arc: &Arc, from: Nm, to: Position, feed: Feed) {
         let parts = if arc.sweep().abs() > 1.5 { if arc.sweep().abs() > 3.0 { 4 } else { 2 } } else { 1 };
-        for part in 1..=parts {
-            let last = part == parts;
-            let (x, y) = arc.at(f64::from(part) / f64::from(parts));
-            let point = if last { to.point() } else { Point::from_f64(x, y) };
-            let z = if last {
+        for (part, point) in (1..).zip(arc.parts(parts)) {
+            let z = if part == parts {
                 to.z
             } else {
                 from + Nm::new((to.z - from).get() * i64::from(part) / i64::from(parts))

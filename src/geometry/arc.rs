@@ -122,6 +122,12 @@ impl Arc {
         (1..=count).map(move |i| at(f64::from(i) / f64::from(count)))
     }
 
+    /// The same, rounded, but for the last, which is its end; of one part at least.
+    pub(crate) fn parts(&self, count: u32) -> impl Iterator<Item = Point> + use<> {
+        let within = self.divided(count).take(count.saturating_sub(1) as usize);
+        within.map(|(x, y)| Point::from_f64(x, y)).chain([self.end])
+    }
+
     /// [`Arc::at`], for many places.
     fn course(&self) -> impl Fn(f64) -> (f64, f64) + use<> {
         let (from, to) = (self.radius(), self.center.distance(self.end));
@@ -157,9 +163,7 @@ impl Arc {
     /// The end points of chords within `tolerance` of the arc, without the start and with the exact
     /// end.
     pub fn flatten(&self, tolerance: Nm) -> impl Iterator<Item = Point> + use<> {
-        let count = u32::try_from(self.chords(tolerance)).expect("at most 2¹⁶ chords");
-        let within = self.divided(count).take(count as usize - 1);
-        within.map(|(x, y)| Point::from_f64(x, y)).chain([self.end])
+        self.parts(u32::try_from(self.chords(tolerance)).expect("at most 2¹⁶ chords"))
     }
 
     /// A rectangle that holds the arc; whole nanometres, rounded outwards.

@@ -48,6 +48,23 @@ impl Segment {
         }
     }
 
+    /// The point at a share of the way when begun at `from`, 0 there and 1 at its end, rounded.
+    #[must_use]
+    pub fn at(&self, from: Point, share: f64) -> Point {
+        let Some(arc) = self.arc(from) else { return from.toward(self.to(), share) };
+        let (x, y) = arc.at(share);
+        Point::from_f64(x, y)
+    }
+
+    /// The same with another end.
+    #[must_use]
+    pub const fn ending(self, to: Point) -> Self {
+        match self {
+            Self::Line { .. } => Self::Line { to },
+            Self::Arc { center, turn, .. } => Self::Arc { to, center, turn },
+        }
+    }
+
     /// A rectangle that holds it when begun at `from`.
     #[must_use]
     pub fn bounds(&self, from: Point) -> Rect {

@@ -47,6 +47,12 @@ impl Point {
         (other - self).length()
     }
 
+    /// The point at a share of the way to `other`, 0 here and 1 there, rounded.
+    #[must_use]
+    pub fn toward(self, other: Self, share: f64) -> Self {
+        self + (other - self).scaled(share)
+    }
+
     /// The point halfway to `other`, rounded towards this one.
     #[must_use]
     pub fn midpoint(self, other: Self) -> Self {
@@ -60,6 +66,12 @@ impl Vector {
     #[must_use]
     pub const fn new(x: Nm, y: Nm) -> Self {
         Self { x, y }
+    }
+
+    /// So many times as long, rounded.
+    #[must_use]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self::new(Nm::from_f64(self.x.to_f64() * factor), Nm::from_f64(self.y.to_f64() * factor))
     }
 
     /// The dot product in nm²; exact for differences of coordinates in range.

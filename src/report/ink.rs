@@ -135,9 +135,7 @@ impl Ink {
         let radius = self.units(Nm::from_f64(arc.radius())).max(1);
         let sweep = i64::from(arc.turn == Turn::CounterClockwise);
         let halves = if arc.sweep().abs() > 3.0 { 2 } else { 1 };
-        for half in 1..=halves {
-            let (x, y) = arc.at(f64::from(half) / f64::from(halves));
-            let end = if half == halves { arc.end } else { Point::from_f64(x, y) };
+        for end in arc.parts(halves) {
             let place = self.place(end);
             let [dx, dy] = self.to(place);
             self.put('a', &[radius, radius, 0, 0, sweep, dx, dy]);

@@ -242,11 +242,7 @@ fn stops(shape: &Shape) -> Vec<Point> {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small count")]
 fn middles(a: Point, b: Point, step: f64) -> impl Iterator<Item = Point> {
     let count = ((a.distance(b) / step.max(1.0)).ceil() as u32).clamp(1, 10_000);
-    let ((x, y), way) = (a.to_f64(), b - a);
-    (0..count).map(move |i| {
-        let share = (f64::from(i) + 0.5) / f64::from(count);
-        Point::from_f64(x + way.x.to_f64() * share, y + way.y.to_f64() * share)
-    })
+    (0..count).map(move |i| a.toward(b, (f64::from(i) + 0.5) / f64::from(count)))
 }
 
 /// How far a point is from the way of a cutter's middle, in nanometres.

@@ -165,7 +165,7 @@ pub(super) fn stretches(motion: &Motion, chord: Nm) -> Vec<(Spot, Spot, [f64; 2]
         Way::Arc { center, turn } => {
             let arc = Arc { start: from, end: to, center, turn };
             let count = u32::try_from(arc.chords(chord)).unwrap_or(u32::MAX).max(1);
-            places.extend((1..=count).map(|i| arc.at(f64::from(i) / f64::from(count))));
+            places.extend(arc.divided(count));
         }
     }
     let parts = u32::try_from(places.len() - 1).unwrap_or(u32::MAX);

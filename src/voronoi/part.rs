@@ -24,7 +24,7 @@ impl Cut {
     /// The place `at` on the segment of `path` with this index, where `node` stands.
     pub(super) fn new(path: &Path, segment: usize, at: Point, node: NodeId) -> Self {
         let from = vertex(path, segment);
-        let along = if at == from { 0.0 } else { with_end(path.segments[segment], at).length(from) };
+        let along = if at == from { 0.0 } else { path.segments[segment].ending(at).length(from) };
         Self { segment, along, node }
     }
 }
@@ -54,14 +54,6 @@ pub(super) fn foot_on(path: &Path, index: usize, p: Spot) -> Spot {
     let foot = Span::new(from, segment).foot(p);
     let ends = [from, segment.to()].map(Spot::from);
     ends.into_iter().find(|&end| (end - foot).length() < SAME).unwrap_or(foot)
-}
-
-/// A segment that ends earlier.
-const fn with_end(segment: Segment, to: Point) -> Segment {
-    match segment {
-        Segment::Line { .. } => Segment::Line { to },
-        Segment::Arc { center, turn, .. } => Segment::Arc { to, center, turn },
-    }
 }
 
 /// Parts `edge` at its cuts into edges from node to node; one without a node is parted into a loop
@@ -105,7 +97,7 @@ fn mark(edge: &mut Boundary, cuts: &[Cut], nodes: &[Point]) -> Vec<(usize, NodeI
         } else if at == segment.to() {
             marks.push((index + 1, cut.node));
         } else {
-            let first = if is_short { Segment::Line { to: at } } else { with_end(segment, at) };
+            let first = if is_short { Segment::Line { to: at } } else { segment.ending(at) };
             edge.path.segments.insert(index, first);
             edge.clearance.insert(index + 1, edge.clearance[index].min(edge.clearance[index + 1]));
             marks.push((index + 1, cut.node));

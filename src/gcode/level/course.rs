@@ -1,6 +1,6 @@
 //! Where a cut must be split to follow a surface.
 
-use crate::geometry::{Arc, Nm, Point, Rect};
+use crate::geometry::{self, Arc, Nm, Point, Rect};
 
 use super::height_map::HeightMap;
 
@@ -30,10 +30,7 @@ impl Course {
     /// The place at `fraction` of the way.
     pub(super) fn at(&self, fraction: f64) -> (f64, f64) {
         match self {
-            Self::Line { from, to } => {
-                let ((x, y), way) = (from.to_f64(), *to - *from);
-                (x + way.x.to_f64() * fraction, y + way.y.to_f64() * fraction)
-            }
+            Self::Line { from, to } => geometry::between(from.to_f64(), to.to_f64(), fraction),
             Self::Arc(arc) => arc.at(fraction),
         }
     }

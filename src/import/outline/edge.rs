@@ -129,9 +129,7 @@ pub(super) fn line_and_line(one: &Edge, other: &Edge) -> Vec<Point> {
 
 /// The point at `share` of the way along a line; none outside it, or where lines are parallel.
 fn along(line: &Edge, share: f64) -> Option<Point> {
-    let ((x, y), way) = (line.from.to_f64(), line.to - line.from);
-    (share > 0.0 && share < 1.0)
-        .then(|| Point::from_f64(x + way.x.to_f64() * share, y + way.y.to_f64() * share))
+    (share > 0.0 && share < 1.0).then(|| line.from.toward(line.to, share))
 }
 
 /// Solves |from + share · way − center| = radius.

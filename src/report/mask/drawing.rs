@@ -71,9 +71,7 @@ impl Pen {
         // A turn is seen with y up, the page's y points down: both look the same.
         let sweep = u8::from(arc.turn == Turn::Clockwise);
         let halves = if arc.sweep().abs() > 3.0 { 2 } else { 1 };
-        for half in 1..=halves {
-            let (x, y) = arc.at(f64::from(half) / f64::from(halves));
-            let end = if half == halves { arc.end } else { Point::from_f64(x, y) };
+        for end in arc.parts(halves) {
             _ = write!(self.text, "A{radius} {radius} 0 0 {sweep} ");
             let (x, y) = (end.x - self.page.min().x, self.page.max().y - end.y);
             _ = write!(self.text, "{} {}", millimetres(x), millimetres(y));

@@ -35,8 +35,7 @@ fn circle(center: Point, start: Point) -> Path {
 /// All points within `radius` of a line.
 fn capsule(from: Point, to: Point, radius: Nm) -> Path {
     let way = to - from;
-    let share = radius.to_f64() / way.length();
-    let left = Vector::new(Nm::from_f64(-way.y.to_f64() * share), Nm::from_f64(way.x.to_f64() * share));
+    let left = Vector::new(-way.y, way.x).scaled(radius.to_f64() / way.length());
     let cap = |to, center| Segment::Arc { to, center, turn: Turn::CounterClockwise };
     let segments = vec![
         Segment::Line { to: to - left },
@@ -55,8 +54,7 @@ fn swept(arc: &Arc, radius: Nm) -> Option<Vec<Path>> {
     }
     let out = |p: Point| {
         let way = p - arc.center;
-        let share = radius.to_f64() / way.length();
-        Vector::new(Nm::from_f64(way.x.to_f64() * share), Nm::from_f64(way.y.to_f64() * share))
+        way.scaled(radius.to_f64() / way.length())
     };
     let (first, last) = (out(arc.start), out(arc.end));
     if arc.start == arc.end {

@@ -87,8 +87,7 @@ fn mill_out(head: &mut Head, a: Point, b: Point, reach: Nm, turns: u32, mill: &T
 
 /// A vector of this length a quarter turn clockwise of `way`.
 fn across(way: Vector, length: Nm) -> Vector {
-    let scale = length.to_f64() / way.length();
-    Vector::new(Nm::from_f64(way.y.to_f64() * scale), Nm::from_f64(-way.x.to_f64() * scale))
+    Vector::new(way.y, -way.x).scaled(length.to_f64() / way.length())
 }
 
 /// The way round from `a + aside` along to b and back against the clock.

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::bore;
 use crate::board::diagnostic::{count, planning};
 use crate::board::{Hole, Warning};
-use crate::geometry::{Nm, Path, Point, RectIndex, Segment, Vector};
+use crate::geometry::{Nm, Path, Point, RectIndex, Segment};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Angle, DrillSpeeds, Heights, Placement, Section, Tool, ToolKind};
@@ -235,23 +235,7 @@ const SCALLOP: Nm = Nm::new(12_700);
 )]
 fn spaced(from: Point, segment: &Segment, pitch: f64) -> Vec<Point> {
     let count = ((segment.length(from) / pitch.max(1.0)).ceil() as usize).max(1);
-    let at = |i: usize| {
-        let fraction = i as f64 / count as f64;
-        match segment.arc(from) {
-            _ if i == count => segment.to(),
-            Some(arc) => {
-                let (x, y) = arc.at(fraction);
-                Point::from_f64(x, y)
-            }
-            None => {
-                let way = segment.to() - from;
-                from + Vector::new(
-                    Nm::from_f64(way.x.to_f64() * fraction),
-                    Nm::from_f64(way.y.to_f64() * fraction),
-                )
-            }
-        }
-    };
+    let at = |i: usize| if i == count { segment.to() } else { segment.at(from, i as f64 / count as f64) };
     (1..=count).map(at).collect()
 }
 

@@ -41,7 +41,7 @@ pub(super) use rapid_in_material::KIND as RAPID_IN_MATERIAL;
 use crate::board::diagnostic::Stage;
 use crate::board::{Board, Diagnostic, Shape, Words};
 use crate::gcode::read::Motion;
-use crate::geometry::{Nm, Point};
+use crate::geometry::{self, Nm, Point};
 
 use super::bores::{Bore, Bores, Made};
 use super::contours::Contours;
@@ -249,8 +249,7 @@ pub(super) fn along(way: &Shape, count: u32) -> Vec<(Point, f64)> {
     };
     match way {
         Shape::Stroke { from, to, .. } => {
-            let ((x, y), way) = (from.to_f64(), *to - *from);
-            spread(way.length(), &|f| (x + way.x.to_f64() * f, y + way.y.to_f64() * f))
+            spread(from.distance(*to), &|f| geometry::between(from.to_f64(), to.to_f64(), f))
         }
         Shape::Arc { arc, .. } => spread(arc.radius() * arc.sweep().abs(), &|f| arc.at(f)),
         Shape::Disc { .. } | Shape::Polygon(_) => Vec::new(),

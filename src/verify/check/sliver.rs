@@ -109,10 +109,8 @@ fn ends(way: &Shape) -> [Point; 2] {
 fn at_edge(sheet: &Sheet<'_>, cut: usize, edge: usize, neck: Neck, sliver: Nm) -> Option<Neck> {
     let reach = sheet.cuts[cut].swept.floor + sliver;
     let foot = sheet.walls.one(edge, neck.at, reach)?.foot;
-    let ((x, y), way, length) = (foot.to_f64(), neck.at - foot, neck.at.distance(foot));
-    let part = neck.width / 2.0 / length;
-    let at = Point::from_f64(x + way.x.to_f64() * part, y + way.y.to_f64() * part);
-    (length > 0.0).then_some(Neck { at, ..neck })
+    let length = neck.at.distance(foot);
+    (length > 0.0).then(|| Neck { at: foot.toward(neck.at, neck.width / 2.0 / length), ..neck })
 }
 
 /// The longest stretch of a cut along which there is a wall of `strips` so near all the way: round

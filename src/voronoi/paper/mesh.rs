@@ -237,19 +237,11 @@ fn stroke(from: Point, to: Point, radius: Nm) -> Vec<Vec<Vec<Spot>>> {
 }
 
 /// An arc as strokes of 1.4°, their ends on whole nanometres.
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
 fn chords(arc: &Arc) -> Vec<(Point, Point)> {
-    let steps = (arc.sweep().abs() / ARC_STEP).ceil().max(1.0);
-    let at = |step: f64| {
-        let (x, y) = arc.at(step / steps);
-        Point::from_f64(x, y)
-    };
-    let mut chords = Vec::new();
-    let (mut step, mut from) = (1.0, arc.start);
-    while step <= steps {
-        let to = if step < steps { at(step) } else { arc.end };
-        chords.push((from, to));
-        (from, step) = (to, step + 1.0);
-    }
+    let steps = (arc.sweep().abs() / ARC_STEP).ceil().max(1.0) as u32;
+    let step = |from: &mut Point, to: Point| Some((std::mem::replace(from, to), to));
+    let mut chords: Vec<(Point, Point)> = arc.parts(steps).scan(arc.start, step).collect();
     chords.retain(|(from, to)| from != to);
     chords
 }

@@ -1,6 +1,6 @@
 //! A closed path by the distance along it: where tabs begin and end.
 
-use crate::geometry::{Nm, Path, Point, Segment, Vector};
+use crate::geometry::{Path, Point, Segment};
 
 /// Less of a segment, in nanometres, is nothing where both its ends are one point. Chosen: below
 /// what programs write.
@@ -79,11 +79,8 @@ impl Ring {
     pub(super) fn at(&self, distance: f64) -> Point {
         let i = self.segment_at(distance);
         let (from, segment) = self.path.steps().nth(i).expect("a segment of the ring");
-        along(
-            from,
-            segment,
-            (distance - self.distances[i]) / (self.distances[i + 1] - self.distances[i]).max(1.0),
-        )
+        let length = self.distances[i + 1] - self.distances[i];
+        segment.at(from, (distance - self.distances[i]) / length.max(1.0))
     }
 
     fn segment_at(&self, distance: f64) -> usize {
@@ -97,7 +94,7 @@ impl Ring {
         let mut segments = self.path.segments[first..=last].to_vec();
         let end = if to >= self.length() { self.path.start } else { self.at(to) };
         if let Some(segment) = segments.last_mut() {
-            *segment = ending(segment, end);
+            *segment = segment.ending(end);
         }
         let mut way = Path { start, segments };
         // What is left of a segment may be nothing.
@@ -135,24 +132,6 @@ impl Ring {
     }
 }
 
-/// The same segment with another end.
-const fn ending(segment: &Segment, to: Point) -> Segment {
-    match *segment {
-        Segment::Line { .. } => Segment::Line { to },
-        Segment::Arc { center, turn, .. } => Segment::Arc { to, center, turn },
-    }
-}
-
-/// The point at `share` of a segment.
-fn along(from: Point, segment: &Segment, share: f64) -> Point {
-    if let Some(arc) = segment.arc(from) {
-        let (x, y) = arc.at(share);
-        return Point::from_f64(x, y);
-    }
-    let way = segment.to() - from;
-    from + Vector::new(Nm::from_f64(way.x.to_f64() * share), Nm::from_f64(way.y.to_f64() * share))
-}
-
 /// The directions in which a segment begins and ends.
 fn headings(from: Point, segment: &Segment) -> [(f64, f64); 2] {
     let Some(arc) = segment.arc(from) else {
@@ -176,7 +155,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
     use super::*;
-    use crate::geometry::Turn;
+    use crate::geometry::{Nm, Turn};
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::from_mm(x), Nm::from_mm(y))
