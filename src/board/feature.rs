@@ -66,7 +66,7 @@ impl Shape {
     pub fn at(&self, fraction: f64) -> Point {
         match self {
             Self::Stroke { from, to, .. } => from.toward(*to, fraction),
-            Self::Arc { arc, .. } => Point::from_f64(arc.at(fraction).0, arc.at(fraction).1),
+            Self::Arc { arc, .. } => arc.point(fraction),
             Self::Disc { .. } | Self::Polygon(_) => self.anchor(),
         }
     }

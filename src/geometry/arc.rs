@@ -116,6 +116,12 @@ impl Arc {
         self.course()(fraction)
     }
 
+    /// The same, rounded.
+    pub(crate) fn point(&self, fraction: f64) -> Point {
+        let (x, y) = self.at(fraction);
+        Point::from_f64(x, y)
+    }
+
     /// The ends of so many equal parts of the way round: [`Arc::at`] of 1/count, 2/count, …, 1.
     pub(crate) fn divided(&self, count: u32) -> impl Iterator<Item = (f64, f64)> + use<> {
         let at = self.course();

@@ -51,9 +51,7 @@ impl Segment {
     /// The point at a share of the way when begun at `from`, 0 there and 1 at its end, rounded.
     #[must_use]
     pub fn at(&self, from: Point, share: f64) -> Point {
-        let Some(arc) = self.arc(from) else { return from.toward(self.to(), share) };
-        let (x, y) = arc.at(share);
-        Point::from_f64(x, y)
+        self.arc(from).map_or_else(|| from.toward(self.to(), share), |arc| arc.point(share))
     }
 
     /// The same with another end.

@@ -126,7 +126,7 @@ pub(super) fn axis(feature: &Feature) -> Option<Axis> {
     let probe = match feature.axis {
         Axis::Flash(p) => p,
         Axis::Line(a, b) => a.midpoint(b),
-        Axis::Arc(arc) => Point::from_f64(arc.at(0.5).0, arc.at(0.5).1),
+        Axis::Arc(arc) => arc.point(0.5),
         Axis::Region => return None,
     };
     match &feature.shape {

@@ -4,7 +4,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use crate::geometry;
-use crate::geometry::{Point, Segment, Turn};
+use crate::geometry::{Point, Rect, Segment, Turn};
 
 /// A position or direction in the plane, in nanometres.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,6 +47,11 @@ impl Spot {
 /// The box round two places: left, bottom, right, top.
 pub(super) fn spanned(a: Spot, b: Spot) -> [f64; 4] {
     geometry::spanned((a.x, a.y), (b.x, b.y))
+}
+
+/// The box of a rectangle.
+pub(super) fn sides(rect: Rect) -> [f64; 4] {
+    spanned(rect.min().into(), rect.max().into())
 }
 
 /// The point of the chord from `a` to `b` nearest to `p`.

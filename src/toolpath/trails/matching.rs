@@ -153,7 +153,7 @@ impl Matching<'_> {
         back.iter().for_each(|&way| self.closing[way.to] = Some(way));
         let found = self.extend(loose, gain, search);
         back.iter().for_each(|way| self.closing[way.to] = None);
-        self.looks += search.looks;
+        self.looks += BUDGET - search.budget;
         if found { self.apply(first, search.chain.all()) } else { Vec::new() }
     }
 
@@ -167,7 +167,6 @@ impl Matching<'_> {
                 return false;
             }
             search.budget -= 1;
-            search.looks += 1;
             let Some(Way { to: partner, cost: freed, .. }) = self.joined[next] else {
                 if left + self.alone - search.rest > LEAST && !search.busy.all().contains(&next) {
                     search.chain.push(candidate);
@@ -238,22 +237,20 @@ struct Search {
     /// The least that a chain must have gained to end, one way or the other.
     home: f64,
     budget: usize,
-    /// How many ways it has looked at, those that would close the chain included.
-    looks: usize,
 }
 
 impl Search {
     fn of(nodes: usize) -> Self {
         let reached = vec![Reached::default(); nodes];
         let (chain, busy) = (Few::default(), Few::default());
-        Self { number: 0, reached, chain, busy, rest: 0.0, home: 0.0, budget: 0, looks: 0 }
+        Self { number: 0, reached, chain, busy, rest: 0.0, home: 0.0, budget: 0 }
     }
 
     /// Begins another.
     fn begin(&mut self, rest: f64, home: f64) {
         self.number += 1;
         (self.chain.len, self.busy.len) = (0, 0);
-        (self.rest, self.home, self.budget, self.looks) = (rest, home, BUDGET, 0);
+        (self.rest, self.home, self.budget) = (rest, home, BUDGET);
     }
 }
 

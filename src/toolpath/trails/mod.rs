@@ -96,21 +96,7 @@ fn joins(nodes: usize, links: &[Link], passes: &[Pass], retract: f64) -> (Vec<us
     let mut rank = vec![0; nodes];
     (0..).zip(odd.iter_ones()).for_each(|(number, node)| rank[node] = number);
     let graph = adjacency(nodes, links.iter().map(|link| link.ends));
-    let mut searches = Searches::new(&graph, links, &odd, retract);
-    // By the rank of the node they were found from.
-    let mut found: Groups<Pair> = Groups::default();
-    for from in odd.iter_ones() {
-        let known = |to: usize| {
-            let of_other = if to < from { found.of(rank[to]) } else { &[] };
-            of_other.iter().any(|pair| pair.nodes.1 as usize == from)
-        };
-        let near = searches.near(from, known);
-        found.push(near);
-    }
-    let ways = searches.into_ways();
-    let mut pairs: Vec<Pair> = found.iter().flatten().copied().collect();
-    drop(found);
-    pairs.sort_by_key(|pair| pair.nodes);
+    let (pairs, ways) = Searches::new(&graph, links, &odd, retract).pairs(&rank);
     let candidate = |&Pair { nodes: (a, b), seconds, .. }: &Pair| Candidate {
         nodes: (rank[a as usize], rank[b as usize]),
         cost: seconds,
@@ -250,6 +236,23 @@ impl<'a> Searches<'a> {
         Self { graph, links, odd, retract, reached, queue, count: 0, ways }
     }
 
+    /// Near odd nodes by two, each two once, in their order; and the links of the ways between.
+    fn pairs(mut self, rank: &[usize]) -> (Vec<Pair>, Groups<u32>) {
+        // By the rank of the node they were found from.
+        let mut found: Groups<Pair> = Groups::default();
+        for from in self.odd.iter_ones() {
+            let known = |to: usize| {
+                let of_other = if to < from { found.of(rank[to]) } else { &[] };
+                of_other.iter().any(|pair| pair.nodes.1 as usize == from)
+            };
+            let near = self.near(from, known);
+            found.push(near);
+        }
+        let mut pairs: Vec<Pair> = found.iter().flatten().copied().collect();
+        pairs.sort_by_key(|pair| pair.nodes);
+        (pairs, self.ways)
+    }
+
     /// `from` with the nearest odd nodes within `retract` seconds, but for those with which it is
     /// `known` to be a pair: both of two near nodes may find the other.
     fn near(&mut self, from: usize, known: impl Fn(usize) -> bool) -> Vec<Pair> {
@@ -281,11 +284,6 @@ impl<'a> Searches<'a> {
             }
         }
         pairs
-    }
-
-    /// The links of the ways that were found.
-    fn into_ways(self) -> Groups<u32> {
-        self.ways
     }
 
     /// Notes how far a node is, if that is nearer than is known.

@@ -240,10 +240,8 @@ fn stroke(from: Point, to: Point, radius: Nm) -> Vec<Vec<Vec<Spot>>> {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a small positive number")]
 fn chords(arc: &Arc) -> Vec<(Point, Point)> {
     let steps = (arc.sweep().abs() / ARC_STEP).ceil().max(1.0) as u32;
-    let step = |from: &mut Point, to: Point| Some((std::mem::replace(from, to), to));
-    let mut chords: Vec<(Point, Point)> = arc.parts(steps).scan(arc.start, step).collect();
-    chords.retain(|(from, to)| from != to);
-    chords
+    let ends: Vec<Point> = std::iter::once(arc.start).chain(arc.parts(steps)).collect();
+    ends.windows(2).map(|pair| (pair[0], pair[1])).filter(|(from, to)| from != to).collect()
 }
 
 /// The edges of a polygon, or none.

@@ -15,7 +15,7 @@ use std::sync::Arc;
 use crate::geometry::{BoxTree, Nm};
 use crate::voronoi::Boundary;
 use crate::voronoi::clip::{Node, Piece};
-use crate::voronoi::plane::{Span, Spot, spanned};
+use crate::voronoi::plane::{Span, Spot, sides};
 use crate::voronoi::sample::Sample;
 
 /// A pass goes on until it is so much nearer to a cut than it need be, in nanometres, so that one
@@ -50,8 +50,7 @@ impl Grooves {
         let (mut spans, mut bounds) = (Vec::new(), Vec::new());
         for (from, segment) in cuts.filter(|edge| !edge.is_border()).flat_map(|edge| edge.path.steps()) {
             spans.push(Span::new(from, segment));
-            let bound = segment.bounds(from);
-            bounds.push(spanned(bound.min().into(), bound.max().into()));
+            bounds.push(sides(segment.bounds(from)));
         }
         let tree = BoxTree::new(bounds.into_iter());
         let is_any = !spans.is_empty();

@@ -18,7 +18,7 @@ use rustc_hash::FxHashMap;
 use crate::geometry::{BoxTree, Nm, Path, Point, Segment};
 use crate::topology::DisjointSets;
 use crate::voronoi::part::{Cut, foot_on, part, vertex};
-use crate::voronoi::plane::{Spot, spanned};
+use crate::voronoi::plane::{Spot, sides};
 use crate::voronoi::{Boundaries, NodeId};
 
 /// A way between two nodes that may be cut, and need not be.
@@ -131,8 +131,7 @@ impl Segments {
         for (number, edge) in cut.filter(|(number, _)| keep(*number)) {
             for (i, (from, segment)) in edge.path.steps().enumerate() {
                 places.push((number, i));
-                let bound = segment.bounds(from);
-                bounds.push(spanned(bound.min().into(), bound.max().into()));
+                bounds.push(sides(segment.bounds(from)));
             }
         }
         let is_any = !places.is_empty();
