@@ -198,10 +198,13 @@ fn whole() -> clap::Command {
 
 impl Shared {
     fn start_threads(self) -> Result<(), Failure> {
-        let Some(threads) = self.threads else { return Ok(()) };
-        rayon::ThreadPoolBuilder::new().num_threads(usize::from(threads)).build_global().map_err(|error| {
-            Failure::new(format!("cannot start {threads} threads: {error}"), "try fewer with -j")
-        })
+        // One for each processor where none are asked for. This thread is one of them.
+        let threads = self.threads.map_or(0, usize::from);
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .use_current_thread()
+            .build_global()
+            .map_err(|error| Failure::new(format!("cannot start threads: {error}"), "try fewer with -j"))
     }
 
     /// Whether everything is told, not the first few of each.

@@ -1,4 +1,4 @@
-//! The edges of a polygon by place.
+//! The edges of a polygon, or of a chain, by place.
 
 use std::ops::ControlFlow;
 
@@ -14,7 +14,7 @@ use super::{Point, Polygon, Rect};
 /// longer than filling an index; a plane is asked about everything in its clearings.
 const INDEX_FROM: usize = 256;
 
-/// The edges of a polygon by place.
+/// The edges of a polygon by place, or those of a chain of points.
 #[derive(Debug)]
 pub(crate) struct Edges {
     /// Ring after ring, each with its first point once more at its end.
@@ -35,11 +35,22 @@ impl Edges {
             points.extend(ring.iter().chain(ring.first()));
             lasts.set(points.len() - 1, true);
         }
-        let mut edges = Self { points, lasts, bounds: polygon.bounds(), tree: None };
-        edges.tree = (count >= INDEX_FROM).then(|| {
-            BoxTree::new((0..count).map(|at| edges.edge(at)).map(|(from, to)| Rect::new(from, to).to_f64()))
-        });
-        edges
+        Self { points, lasts, bounds: polygon.bounds(), tree: None }.by_place()
+    }
+
+    /// The edges from each of some points to the next.
+    pub(crate) fn chain(points: Vec<Point>) -> Self {
+        let mut lasts = BitVec::repeat(false, points.len());
+        lasts.set(points.len() - 1, true);
+        let bounds = Rect::around(points.iter().copied()).expect("a point");
+        Self { points, lasts, bounds, tree: None }.by_place()
+    }
+
+    fn by_place(mut self) -> Self {
+        let bounds = |at: usize| self.edge(at);
+        let boxes = (0..self.len()).map(bounds).map(|(from, to)| Rect::new(from, to).to_f64());
+        self.tree = (self.len() >= INDEX_FROM).then(|| BoxTree::new(boxes));
+        self
     }
 
     fn edge(&self, at: usize) -> (Point, Point) {
@@ -59,14 +70,7 @@ impl Edges {
 
     /// Whether `found` is true of any edge whose rectangle shares a point with `window`; it may be
     /// shown one of no length where a ring begins.
-    ///
-    /// `stack` is scratch memory.
-    pub(crate) fn any(
-        &self,
-        window: Rect,
-        stack: &mut Vec<usize>,
-        mut found: impl FnMut((Point, Point)) -> bool,
-    ) -> bool {
+    pub(crate) fn any(&self, window: Rect, mut found: impl FnMut((Point, Point)) -> bool) -> bool {
         let mut is_found = |(a, b)| Rect::new(a, b).touches(window) && found((a, b));
         let Some(tree) = &self.tree else {
             return (0..self.len()).any(|at| is_found(self.edge(at)));
@@ -74,20 +78,18 @@ impl Edges {
         let visit = |at: usize| {
             if is_found(self.edge(at)) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         };
-        tree.visit(&tree.window(window.to_f64()), stack, visit).is_break()
+        tree.visit(&tree.window(window.to_f64()), visit).is_break()
     }
 
     /// How often the contours wind round `p`; none where `p` lies on an edge. Exact: counts the
     /// edges that a ray to the right crosses.
-    ///
-    /// `stack` is scratch memory.
-    pub(crate) fn winding(&self, p: Point, stack: &mut Vec<usize>) -> Option<i32> {
+    pub(crate) fn winding(&self, p: Point) -> Option<i32> {
         if !self.bounds.contains(p) {
             return Some(0);
         }
         let ray = Rect::new(p, Point::new(self.bounds.max().x, p.y));
         let mut winding = Some(0);
-        self.any(ray, stack, |edge| {
+        self.any(ray, |edge| {
             winding = winding.zip(winding_of(edge, p)).map(|(sum, one)| sum + one);
             winding.is_none()
         });
@@ -106,11 +108,11 @@ mod tests {
         // A star of three hundred points that winds round its middle many times.
         let star: Vec<Point> = (0..300_i64).map(|i| at(i * 7919 % 101, i * i * 31 % 97)).collect();
         let star = Polygon::new(vec![star]).expect("many points");
-        let (edges, mut stack) = (Edges::new(&star), Vec::new());
+        let edges = Edges::new(&star);
         assert!(edges.tree.is_some(), "enough for a tree");
         let mut seen = [0; 2];
         for (x, y) in (-3..104).flat_map(|x| (-3..100).map(move |y| (x, y))) {
-            let winding = edges.winding(at(x, y), &mut stack);
+            let winding = edges.winding(at(x, y));
             assert_eq!(winding, star.winding(at(x, y)), "at {x}, {y}");
             seen[usize::from(winding.is_none())] += 1;
         }

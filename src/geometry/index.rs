@@ -48,7 +48,7 @@ impl RectIndex {
     /// The numbers of all rectangles that share a point with `window`, in order.
     pub(crate) fn touching(&self, window: Rect) -> Vec<usize> {
         let mut found = Vec::new();
-        let _ = self.visit(window, &mut Vec::new(), |number| {
+        let _ = self.visit(window, |number| {
             found.push(number);
             ControlFlow::Continue(())
         });
@@ -57,18 +57,15 @@ impl RectIndex {
     }
 
     /// Calls `visit` with the number of every rectangle that shares a point with `window`, until it
-    /// breaks.
-    ///
-    /// `stack` is scratch memory. The order depends on the rectangles alone.
+    /// breaks. The order depends on the rectangles alone.
     pub(crate) fn visit(
         &self,
         window: Rect,
-        stack: &mut Vec<usize>,
         mut visit: impl FnMut(usize) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let near = packed(window);
         let region = self.tree.window(near.map(f64::from));
-        self.tree.visit(&region, stack, |number| {
+        self.tree.visit(&region, |number| {
             if touches(self.rects[number], near) { visit(number) } else { ControlFlow::Continue(()) }
         })
     }

@@ -220,23 +220,29 @@ impl BoxTree {
     pub(crate) fn visit<B>(
         &self,
         region: &impl Region,
-        open: &mut Vec<usize>,
         mut show: impl FnMut(usize) -> ControlFlow<B>,
     ) -> ControlFlow<B> {
-        open.clear();
-        open.extend(self.nodes.len().checked_sub(1));
-        while let Some(number) = open.pop() {
-            let node = &self.nodes[number];
-            // A byte of each box.
-            let mut met = node.meeting(region);
-            while met != 0 {
-                let below = node.below[met.trailing_zeros() as usize / 8] as usize;
-                met &= met - 1;
-                if number >= self.leaves {
-                    open.push(below);
-                } else {
-                    show(below)?;
-                }
+        let root = self.nodes.len().checked_sub(1);
+        root.map_or(ControlFlow::Continue(()), |root| self.visit_below(root, region, &mut show))
+    }
+
+    /// The same of the boxes below a node.
+    fn visit_below<B>(
+        &self,
+        number: usize,
+        region: &impl Region,
+        show: &mut impl FnMut(usize) -> ControlFlow<B>,
+    ) -> ControlFlow<B> {
+        let node = &self.nodes[number];
+        // A byte of each box.
+        let mut met = node.meeting(region);
+        while met != 0 {
+            let below = node.below[met.trailing_zeros() as usize / 8] as usize;
+            met &= met - 1;
+            if number < self.leaves {
+                show(below)?;
+            } else {
+                self.visit_below(below, region, show)?;
             }
         }
         ControlFlow::Continue(())
@@ -244,7 +250,7 @@ impl BoxTree {
 
     /// Shows the boxes that meet a rectangle: left, bottom, right, top.
     pub(crate) fn visit_window(&self, within: [f64; 4], mut show: impl FnMut(usize)) {
-        let _: ControlFlow<()> = self.visit(&self.window(within), &mut Vec::with_capacity(64), |number| {
+        let _: ControlFlow<()> = self.visit(&self.window(within), |number| {
             show(number);
             ControlFlow::Continue(())
         });
@@ -252,7 +258,7 @@ impl BoxTree {
 
     /// Whether a box meets a rectangle: left, bottom, right, top.
     pub(crate) fn meets(&self, within: [f64; 4]) -> bool {
-        self.visit(&self.window(within), &mut Vec::new(), ControlFlow::Break).is_break()
+        self.visit(&self.window(within), ControlFlow::Break).is_break()
     }
 
     /// The boxes that meet a rectangle, in their order.
@@ -362,7 +368,7 @@ mod tests {
 
     fn found(tree: &BoxTree, region: &impl Region) -> Vec<usize> {
         let mut found = Vec::new();
-        let _: ControlFlow<()> = tree.visit(region, &mut Vec::new(), |number| {
+        let _: ControlFlow<()> = tree.visit(region, |number| {
             found.push(number);
             ControlFlow::Continue(())
         });

@@ -16,7 +16,7 @@ use rustc_hash::FxHashMap;
 use crate::board::{Axis, Copper, Feature, Shape};
 use crate::geometry::Point;
 
-use super::contact::{Body, Scratch};
+use super::contact::Body;
 use super::sets::DisjointSets;
 
 /// The sets of features that share vertices.
@@ -53,6 +53,6 @@ fn has_copper_at(feature: &Feature, vertex: Point) -> bool {
         Shape::Arc { arc, .. } if [arc.start, arc.end].contains(&vertex) => true,
         Shape::Polygon(polygon) => polygon.contains(vertex),
         // An obround flashed: the vertex is the middle of a stroke.
-        other => Body::new(other).holds(vertex, &mut Scratch::default()),
+        other => Body::new(other).holds(vertex),
     }
 }

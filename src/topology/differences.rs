@@ -6,7 +6,7 @@ use crate::board::Copper;
 use crate::geometry::{Nm, Point};
 use crate::grid::{Grid, GridError};
 
-use super::contact::{Bodies, JOINED, Scratch};
+use super::contact::{Bodies, JOINED};
 use super::sets::DisjointSets;
 use super::{Method, NetId, Nets, Sampling, Translucency, coincidence, translucency};
 
@@ -63,7 +63,7 @@ pub fn differences(copper: &Copper, sampling: Sampling) -> Result<Differences, G
     let contact = Nets::from_sets(copper, bodies.join(&sets));
     let coincidence = Nets::from_sets(copper, sets);
     let translucency = translucency(copper, &coincidence, sampling)?;
-    let mut search = Search { bodies: &bodies, scratch: Scratch::default() };
+    let search = Search { bodies: &bodies };
     let mut missed = search.missed(Method::Coincidence, &coincidence, &contact, None);
     if let Some(bounds) = copper.bounds() {
         let grid = Grid::covering(bounds, sampling.pitch)?;
@@ -75,13 +75,12 @@ pub fn differences(copper: &Copper, sampling: Sampling) -> Result<Differences, G
 /// The search for touching features.
 struct Search<'a> {
     bodies: &'a Bodies,
-    scratch: Scratch,
 }
 
 impl Search<'_> {
     /// What `fine` has apart and `contact` together. With a grid, overlaps that a pixel shows come
     /// first.
-    fn missed(&mut self, by: Method, fine: &Nets, contact: &Nets, grid: Option<&Grid>) -> Vec<Missed> {
+    fn missed(&self, by: Method, fine: &Nets, contact: &Nets, grid: Option<&Grid>) -> Vec<Missed> {
         let mut joined = DisjointSets::new(fine.nets().len());
         let mut missed = Vec::new();
         let mut found: Vec<_> = self.touching(fine, contact);
@@ -90,7 +89,7 @@ impl Search<'_> {
             let nets = (fine.of(a as usize), fine.of(b as usize));
             if joined.union(nets.0.0, nets.1.0) {
                 let (one, other) = (&self.bodies.bodies[a as usize], &self.bodies.bodies[b as usize]);
-                let at = one.meeting(other, &mut self.scratch);
+                let at = one.meeting(other);
                 let reason = match grid {
                     None => Reason::NoCommonVertex,
                     Some(grid) if self.shows((a, b), grid) => Reason::ColourCollision,
@@ -103,19 +102,18 @@ impl Search<'_> {
     }
 
     /// The pairs of features that touch and that `fine` has apart.
-    fn touching(&mut self, fine: &Nets, contact: &Nets) -> Vec<(u32, u32)> {
+    fn touching(&self, fine: &Nets, contact: &Nets) -> Vec<(u32, u32)> {
         let split = contact.nets().iter().filter(|net| {
             net.features.iter().any(|&feature| fine.of(feature as usize) != fine.of(net.features[0] as usize))
         });
         let mut found = Vec::new();
-        let mut stack = Vec::new();
         for &feature in split.flat_map(|net| &net.features) {
             let body = &self.bodies.bodies[feature as usize];
-            let _ = self.bodies.index.visit(body.bounds().inflate(JOINED), &mut stack, |other| {
+            let _ = self.bodies.index.visit(body.bounds().inflate(JOINED), |other| {
                 let number = u32::try_from(other).expect("fewer than 2³² features");
                 if number > feature
                     && fine.of(feature as usize) != fine.of(other)
-                    && body.is_within(&self.bodies.bodies[other], JOINED, &mut self.scratch)
+                    && body.is_within(&self.bodies.bodies[other], JOINED)
                 {
                     found.push((feature, number));
                 }
@@ -127,7 +125,7 @@ impl Search<'_> {
     }
 
     /// Whether the centre of any pixel lies in both features.
-    fn shows(&mut self, (a, b): (u32, u32), grid: &Grid) -> bool {
+    fn shows(&self, (a, b): (u32, u32), grid: &Grid) -> bool {
         let (a, b) = (&self.bodies.bodies[a as usize], &self.bodies.bodies[b as usize]);
         let Some(common) = a.bounds().common(b.bounds()) else { return false };
         let (left, top, pitch) = (grid.rect().min().x, grid.rect().max().y, grid.pitch().get());
@@ -135,7 +133,7 @@ impl Search<'_> {
         (count(top - common.max().y)..=count(top - common.min().y)).any(|row| {
             (count(common.min().x - left)..=count(common.max().x - left)).any(|column| {
                 let center = grid.center(column, row);
-                a.holds(center, &mut self.scratch) && b.holds(center, &mut self.scratch)
+                a.holds(center) && b.holds(center)
             })
         })
     }

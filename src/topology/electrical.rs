@@ -7,7 +7,7 @@ use crate::board::diagnostic::planning;
 use crate::board::{Copper, Hole, Plating, Side, Warning};
 use crate::geometry::Nm;
 
-use super::contact::{Bodies, Body, Scratch};
+use super::contact::{Bodies, Body};
 use super::sets::DisjointSets;
 use super::{NetId, Nets};
 
@@ -89,10 +89,9 @@ pub fn electrical(
 /// The islands that the wall of `hole` touches.
 fn islands_at<'a>(hole: &Hole, bodies: &'a Bodies, nets: &'a Nets) -> impl Iterator<Item = NetId> + use<'a> {
     let mut found = Vec::new();
-    let (mut stack, mut scratch) = (Vec::new(), Scratch::default());
     for wall in hole.shapes(PLATING).iter().map(Body::new) {
-        let _ = bodies.index.visit(wall.bounds(), &mut stack, |feature| {
-            if wall.touches(&bodies.bodies[feature], &mut scratch) {
+        let _ = bodies.index.visit(wall.bounds(), |feature| {
+            if wall.touches(&bodies.bodies[feature]) {
                 found.push(nets.of(feature));
             }
             ControlFlow::Continue(())

@@ -5,21 +5,11 @@ use std::ops::ControlFlow;
 use rayon::prelude::*;
 
 use crate::board::Copper;
-use crate::geometry::{Nm, Point};
+use crate::geometry::Nm;
 
-use super::contact::{Bodies, Narrowest, Scratch};
-use super::{NetId, Nets};
-
-/// The narrowest place between two nets of a layer.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Gap {
-    /// The nets on both sides, the smaller number first.
-    pub between: (NetId, NetId),
-    /// The middle of the gap.
-    pub at: Point,
-    /// Its width to the nanometre; zero only where the nets touch after all.
-    pub width: Nm,
-}
+use super::Nets;
+use super::contact::{Bodies, Narrowest};
+use super::nets::Gap;
 
 /// How many features one worker takes at least. Chosen as for contact.
 const SHARE: usize = 1024;
@@ -30,9 +20,13 @@ const FIRST_LIMIT: Nm = Nm::from_um(250);
 /// The narrowest gap between two nets of `copper`; none with fewer than two nets.
 ///
 /// Looks within a small distance of every feature, then within twice that, until it finds a gap:
-/// near-linear time.
+/// near-linear time. Who asks again is told at once.
 #[must_use]
 pub fn smallest_gap(copper: &Copper, nets: &Nets) -> Option<Gap> {
+    *nets.gap.get_or_init(|| search(copper, nets))
+}
+
+fn search(copper: &Copper, nets: &Nets) -> Option<Gap> {
     if nets.nets().len() < 2 {
         return None;
     }
@@ -67,24 +61,23 @@ impl Found {
 }
 
 fn narrowest_within(bodies: &Bodies, nets: &Nets, limit: Nm) -> Option<Found> {
-    let worker = || (None, Vec::new(), Scratch::default());
     let found = bodies.index.order().into_par_iter().with_min_len(SHARE).fold(
-        worker,
-        |(mut best, mut stack, mut scratch): (Option<Found>, _, _), feature| {
+        || None,
+        |mut best: Option<Found>, feature| {
             let window = bodies.bodies[feature].bounds().inflate(reach(best, limit));
-            let _ = bodies.index.visit(window, &mut stack, |other| {
+            let _ = bodies.index.visit(window, |other| {
                 if other > feature && nets.of(feature) != nets.of(other) {
                     let (a, b) = (&bodies.bodies[feature], &bodies.bodies[other]);
-                    let place = a.narrowest(b, reach(best, limit), &mut scratch);
+                    let place = a.narrowest(b, reach(best, limit));
                     let found = place.map(|place| Found { place, features: (feature, other) });
                     best = [best, found].into_iter().flatten().reduce(Found::narrower);
                 }
                 ControlFlow::Continue(())
             });
-            (best, stack, scratch)
+            best
         },
     );
-    found.filter_map(|worker| worker.0).reduce_with(Found::narrower)
+    found.filter_map(|best| best).reduce_with(Found::narrower)
 }
 
 /// How far to look for something no wider than `best`.

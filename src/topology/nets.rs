@@ -1,6 +1,9 @@
 //! Nets of one layer: a partition of its features into islands of copper.
 
+use std::sync::OnceLock;
+
 use crate::board::Copper;
+use crate::geometry::{Nm, Point};
 
 use super::sets::DisjointSets;
 
@@ -25,6 +28,17 @@ pub struct Net {
     pub features: Vec<u32>,
 }
 
+/// The narrowest place between two nets of a layer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Gap {
+    /// The nets on both sides, the smaller number first.
+    pub between: (NetId, NetId),
+    /// The middle of the gap.
+    pub at: Point,
+    /// Its width to the nanometre; zero only where the nets touch after all.
+    pub width: Nm,
+}
+
 /// A partition of the features of a layer: two features are in one net exactly if they conduct to
 /// each other.
 ///
@@ -32,11 +46,21 @@ pub struct Net {
 ///
 /// Every feature is in exactly one net. Nets are numbered by their first feature, so the numbering
 /// does not depend on how they were found.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default)]
 pub struct Nets {
     of: Vec<NetId>,
     nets: Vec<Net>,
+    /// The narrowest gap between two, once it was asked for.
+    pub(super) gap: OnceLock<Option<Gap>>,
 }
+
+impl PartialEq for Nets {
+    fn eq(&self, other: &Self) -> bool {
+        (&self.of, &self.nets) == (&other.of, &other.nets)
+    }
+}
+
+impl Eq for Nets {}
 
 impl Nets {
     /// The nets of `copper` where `joined` gives pairs of features that conduct to each other.
@@ -55,7 +79,7 @@ impl Nets {
 
     /// The nets of `copper`, one for each of `sets`.
     pub(super) fn from_sets(copper: &Copper, mut sets: DisjointSets) -> Self {
-        let mut found = Self { of: Vec::with_capacity(copper.features.len()), nets: Vec::new() };
+        let mut found = Self { of: Vec::with_capacity(copper.features.len()), ..Self::default() };
         for (feature, index) in copper.features.iter().zip(0_u32..) {
             // The representative of a set is its smallest member, so it has been numbered before
             // the others come.

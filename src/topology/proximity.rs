@@ -7,7 +7,7 @@ use rayon::prelude::*;
 use crate::board::{Copper, Shape};
 use crate::geometry::{Nm, Point, Rect, RectIndex};
 
-use super::contact::{Bodies, Body, Scratch};
+use super::contact::{Bodies, Body};
 use super::density::Density;
 use super::stretches::stretches;
 
@@ -65,15 +65,15 @@ impl Proximity {
     pub fn near_of(&self, shape: &Shape, reach: Nm, wanted: impl Fn(usize) -> bool) -> Vec<Near> {
         let body = Body::new(shape);
         let bounds = body.bounds();
-        let (mut found, mut scratch) = (Vec::new(), Scratch::default());
+        let mut found = Vec::new();
         let mut look = |feature: usize| {
-            let place = body.narrowest(&self.bodies.bodies[feature], reach, &mut scratch);
+            let place = body.narrowest(&self.bodies.bodies[feature], reach);
             found.extend(place.map(|place| Near { feature, width: place.width, at: place.at }));
         };
         let long = stretches(shape);
         let rects = long.as_deref().unwrap_or(std::slice::from_ref(&bounds));
         if long.is_none() && self.close.is_none() {
-            let _ = self.bodies.index.visit(bounds.inflate(reach), &mut Vec::new(), |feature| {
+            let _ = self.bodies.index.visit(bounds.inflate(reach), |feature| {
                 if wanted(feature) {
                     look(feature);
                 }
@@ -97,14 +97,13 @@ impl Proximity {
         wanted: impl Fn(&Near) -> bool,
     ) -> bool {
         let body = Body::new(shape);
-        let mut scratch = Scratch::default();
         let (index, owners) = self.index();
-        let visited = index.visit(body.bounds().inflate(reach), &mut Vec::new(), |number| {
+        let visited = index.visit(body.bounds().inflate(reach), |number| {
             let feature = owners.map_or(number, |owners| owners[number]);
             if !asked(feature) {
                 return ControlFlow::Continue(());
             }
-            let place = body.narrowest(&self.bodies.bodies[feature], reach, &mut scratch);
+            let place = body.narrowest(&self.bodies.bodies[feature], reach);
             match place.map(|place| Near { feature, width: place.width, at: place.at }) {
                 Some(near) if wanted(&near) => ControlFlow::Break(()),
                 _ => ControlFlow::Continue(()),
@@ -116,8 +115,7 @@ impl Proximity {
     /// One of the features, where it is within `reach` of `shape`.
     #[must_use]
     pub fn near_one(&self, shape: &Shape, reach: Nm, feature: usize) -> Option<Near> {
-        let place =
-            Body::new(shape).narrowest(&self.bodies.bodies[feature], reach, &mut Scratch::default())?;
+        let place = Body::new(shape).narrowest(&self.bodies.bodies[feature], reach)?;
         Some(Near { feature, width: place.width, at: place.at })
     }
 
@@ -132,11 +130,10 @@ impl Proximity {
 
     /// The features that may be within `reach` of what these rectangles hold, in order.
     fn candidates(&self, rects: &[Rect], reach: Nm) -> Vec<usize> {
-        let mut stack = Vec::new();
         let mut candidates = Vec::new();
         for rect in rects {
             let (index, owner) = self.index();
-            let _ = index.visit(rect.inflate(reach), &mut stack, |number| {
+            let _ = index.visit(rect.inflate(reach), |number| {
                 candidates.push(owner.map_or(number, |owners| owners[number]));
                 ControlFlow::Continue(())
             });
@@ -163,7 +160,7 @@ impl Proximity {
     /// further than `most`.
     #[must_use]
     pub fn count(&self, shape: &Shape, reach: Nm, most: usize) -> usize {
-        let (mut stack, mut count) = (Vec::new(), 0);
+        let mut count = 0;
         let index = self.index().0;
         let density = self.close.as_ref().and_then(|close| close.density.as_ref());
         let long = stretches(shape);
@@ -172,7 +169,7 @@ impl Proximity {
             if density.is_some_and(|density| density.least(rect.inflate(reach)) >= most) {
                 return most;
             }
-            let _ = index.visit(rect.inflate(reach), &mut stack, |_| {
+            let _ = index.visit(rect.inflate(reach), |_| {
                 count += 1;
                 if count < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
             });

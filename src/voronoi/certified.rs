@@ -21,8 +21,8 @@ pub(super) struct Owned<'a> {
     features: Vec<(&'a Feature, u32)>,
     /// Whether it is their axes: what one owner has may lie in pieces then.
     is_of_axes: bool,
-    /// The smallest gap between owners, if there are two.
-    gap: Option<Nm>,
+    /// Whether gaps are wide enough for arcs where flattening made chords.
+    is_round: bool,
 }
 
 impl<'a> Owned<'a> {
@@ -44,7 +44,7 @@ impl<'a> Owned<'a> {
         let owner = |net: NetId| pieces.as_ref().map_or(net.0, |pieces| pieces[net.index()]);
         let kept = copper.features.iter().enumerate().filter(|(feature, _)| keep(*feature));
         let features = kept.map(|(number, feature)| (feature, owner(nets.of(number)))).collect();
-        Self { features, is_of_axes, gap }
+        Self { features, is_of_axes, is_round: gap.is_none_or(|gap| gap >= ROUND) }
     }
 
     /// The shapes that distances are measured to, with their owners.
@@ -69,7 +69,6 @@ impl<'a> Owned<'a> {
         wall: Option<Rect>,
         asked: impl Fn(&Diagram) -> Option<T>,
     ) -> (Diagram, Option<T>) {
-        let is_round = self.gap.is_none_or(|gap| gap >= ROUND);
         let attempt = |number: u32, rounds: bool| {
             let mut generators = Generators::shaken(number);
             generators.weld(self.shapes().flat_map(|(shape, _)| points(&shape)).collect());
@@ -87,11 +86,11 @@ impl<'a> Owned<'a> {
             let answer = if diagram.faults().is_empty() { asked(&diagram) } else { None };
             (diagram, answer)
         };
-        let first = attempt(0, is_round);
+        let first = attempt(0, self.is_round);
         if first.1.is_some() {
             return first;
         }
-        let mut others = (u32::from(!is_round)..=ATTEMPTS).map(|number| attempt(number, false));
+        let mut others = (u32::from(!self.is_round)..=ATTEMPTS).map(|number| attempt(number, false));
         others.find(|(_, answer)| answer.is_some()).unwrap_or(first)
     }
 }

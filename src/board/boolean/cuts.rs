@@ -17,13 +17,13 @@ impl<'a> Cuts<'a> {
     pub(super) fn of(subject: &Polygon, clips: impl IntoIterator<Item = &'a Polygon>) -> Self {
         let clips: Vec<(&Polygon, Rect)> = clips.into_iter().map(|clip| (clip, clip.bounds())).collect();
         let near = RectIndex::new(clips.iter().map(|&(_, bounds)| bounds));
-        let (edges, mut stack) = (Edges::new(subject), Vec::new());
+        let edges = Edges::new(subject);
         let is_whole = subject.contours().iter().filter(|ring| twice_area(ring) > 0).count() == 1;
         let mut cuts = Self { holes: Vec::new(), others: Vec::new() };
         for (clip, bounds) in clips {
-            if edges.any(bounds, &mut stack, |_| true) {
+            if edges.any(bounds, |_| true) {
                 cuts.others.push(clip);
-            } else if edges.winding(bounds.min(), &mut stack) != Some(0) {
+            } else if edges.winding(bounds.min()) != Some(0) {
                 let is_alone = is_whole && clip.contours().len() == 1 && near.touching(bounds).len() == 1;
                 if is_alone { cuts.holes.push(clip) } else { cuts.others.push(clip) }
             }
@@ -38,12 +38,11 @@ impl<'a> Cuts<'a> {
         }
         let places: Vec<Edges> = pieces.iter().map(Edges::new).collect();
         let near = RectIndex::new(places.iter().map(Edges::bounds));
-        let mut stack = Vec::new();
         let mut rings: Vec<Vec<Vec<Point>>> = pieces.iter().map(|piece| piece.contours().to_vec()).collect();
         for hole in &self.holes {
             let ring = &hole.contours()[0];
             let mut around = near.touching(Rect::new(ring[0], ring[0])).into_iter();
-            if let Some(piece) = around.find(|&i| places[i].winding(ring[0], &mut stack) != Some(0)) {
+            if let Some(piece) = around.find(|&i| places[i].winding(ring[0]) != Some(0)) {
                 rings[piece].push(clockwise(ring));
             }
         }

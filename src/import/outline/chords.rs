@@ -78,9 +78,9 @@ fn flattened(edge: &Edge) -> Vec<Edge> {
 fn cuts(chords: &[Edge]) -> Option<Vec<Vec<Point>>> {
     let index = (chords.len() <= MOST).then(|| RectIndex::new(chords.iter().map(Edge::bounds)))?;
     let mut cuts = vec![Vec::new(); chords.len()];
-    let (mut found, mut stack) = (0, Vec::new());
+    let mut found = 0;
     for (i, chord) in chords.iter().enumerate() {
-        let visited = index.visit(chord.bounds(), &mut stack, |j| {
+        let visited = index.visit(chord.bounds(), |j| {
             if i < j {
                 found += meet(chords, [i, j], &mut cuts);
             }

@@ -5,25 +5,25 @@ use crate::geometry::{Edges, Nm, Point, Polygon, Rect};
 use super::near;
 use super::nearest::{self, Way};
 
-/// A polygon with its edges by place.
+/// A polygon with its edges by place, or a chain of edges, which has no inside.
 #[derive(Debug)]
 pub(in crate::topology) struct Area {
     edges: Edges,
     /// A point of each contour.
     contours: Vec<Point>,
-}
-
-/// Memory that questions about areas reuse.
-#[derive(Debug, Default)]
-pub(in crate::topology) struct Scratch {
-    pub(super) edges: Vec<usize>,
-    pub(super) facing: Vec<usize>,
+    is_chain: bool,
 }
 
 impl Area {
     pub(super) fn new(polygon: &Polygon) -> Self {
         let contours = polygon.contours().iter().map(|ring| ring[0]).collect();
-        Self { edges: Edges::new(polygon), contours }
+        Self { edges: Edges::new(polygon), contours, is_chain: false }
+    }
+
+    /// The edges from each of some points to the next.
+    pub(super) fn chain(points: Vec<Point>) -> Self {
+        let contours = points[..1].to_vec();
+        Self { edges: Edges::chain(points), contours, is_chain: true }
     }
 
     /// A point of each contour.
@@ -35,33 +35,37 @@ impl Area {
     pub(in crate::topology) fn any_edge(
         &self,
         window: Rect,
-        stack: &mut Vec<usize>,
         found: impl FnMut((Point, Point)) -> bool,
     ) -> bool {
-        self.edges.any(window, stack, found)
+        self.edges.any(window, found)
     }
 
     /// Whether `p` lies inside or on an edge, by the non-zero rule.
-    pub(in crate::topology) fn contains(&self, p: Point, scratch: &mut Scratch) -> bool {
-        self.edges.winding(p, &mut scratch.edges) != Some(0)
+    pub(in crate::topology) fn contains(&self, p: Point) -> bool {
+        !self.is_chain && self.edges.winding(p) != Some(0)
+    }
+
+    /// The same of a place within `radius` of an edge, too.
+    pub(super) fn holds(&self, p: Point, radius: Nm) -> bool {
+        let near = |edge| near::point_segment(p, edge, radius.get());
+        self.contains(p) || radius > Nm::ZERO && self.any_edge(Rect::new(p, p).inflate(radius), near)
     }
 
     /// Whether the two areas are no farther apart than `gap`: edges are, or a contour of one lies
     /// in the other.
-    pub(super) fn is_within(&self, other: &Self, gap: Nm, scratch: &mut Scratch) -> bool {
+    pub(super) fn is_within(&self, other: &Self, gap: Nm) -> bool {
         let (few, many) = if self.edges.len() < other.edges.len() { (self, other) } else { (other, self) };
-        let Scratch { edges, facing } = scratch;
-        few.any_edge(many.edges.bounds().inflate(gap), edges, |edge| {
+        few.any_edge(many.edges.bounds().inflate(gap), |edge| {
             let near = Rect::new(edge.0, edge.1).inflate(gap);
-            many.any_edge(near, facing, |other| near::segments(edge, other, gap.get()))
-        }) || few.contours.iter().any(|&p| many.contains(p, scratch))
-            || many.contours.iter().any(|&p| few.contains(p, scratch))
+            many.any_edge(near, |other| near::segments(edge, other, gap.get()))
+        }) || few.contours.iter().any(|&p| many.contains(p))
+            || many.contours.iter().any(|&p| few.contains(p))
     }
 
     /// The shortest way from a segment to the edges that reach into `window`.
-    pub(super) fn way_from(&self, from: (Point, Point), window: Rect, stack: &mut Vec<usize>) -> Option<Way> {
+    pub(super) fn way_from(&self, from: (Point, Point), window: Rect) -> Option<Way> {
         let mut best: Option<Way> = None;
-        self.any_edge(window, stack, |edge| {
+        self.any_edge(window, |edge| {
             let way = nearest::segments(from, edge);
             best = Some(best.map_or(way, |best| nearest::shortest(best, [way])));
             is_least(best)

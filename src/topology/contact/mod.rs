@@ -21,7 +21,6 @@ use crate::board::{Copper, FLATTEN, Shape};
 use super::sets::DisjointSets;
 use crate::geometry::{Nm, RectIndex};
 
-pub(super) use area::Scratch;
 pub(super) use body::{Body, Narrowest};
 
 /// Copper so near to other copper is one with it. Derived: curves are flattened within so much, and
@@ -57,30 +56,26 @@ impl Bodies {
     /// Each worker joins on its own and the partitions are merged; how the work is shared cannot
     /// change the result, which is the finest partition that has all touching pairs together.
     pub(super) fn join(&self, sets: &DisjointSets) -> DisjointSets {
-        let worker = || (sets.clone(), Vec::new(), Scratch::default());
         let shares = self.index.order().into_par_iter().with_min_len(SHARE);
-        let joined = shares.fold(worker, |(mut sets, mut stack, mut scratch), feature| {
-            self.join_one(feature, &mut sets, &mut stack, &mut scratch);
-            (sets, stack, scratch)
-        });
-        joined.map(|worker| worker.0).reduce_with(DisjointSets::merged).unwrap_or_else(|| sets.clone())
+        let joined = shares.fold(
+            || sets.clone(),
+            |mut sets, feature| {
+                self.join_one(feature, &mut sets);
+                sets
+            },
+        );
+        joined.reduce_with(DisjointSets::merged).unwrap_or_else(|| sets.clone())
     }
 
     /// Joins a feature to all that come after it and touch it.
-    fn join_one(
-        &self,
-        feature: usize,
-        sets: &mut DisjointSets,
-        stack: &mut Vec<usize>,
-        scratch: &mut Scratch,
-    ) {
+    fn join_one(&self, feature: usize, sets: &mut DisjointSets) {
         let body = &self.bodies[feature];
         let number = |index: usize| u32::try_from(index).expect("fewer than 2³² features");
         let own = number(feature);
-        let _ = self.index.visit(body.bounds().inflate(JOINED), stack, |other| {
+        let _ = self.index.visit(body.bounds().inflate(JOINED), |other| {
             if other > feature
                 && sets.find(own) != sets.find(number(other))
-                && body.is_within(&self.bodies[other], JOINED, scratch)
+                && body.is_within(&self.bodies[other], JOINED)
             {
                 sets.union(own, number(other));
             }

@@ -30,7 +30,7 @@ use crate::grid::{Grid, GridError};
 use crate::raster::blend::{Window, mix, render_translucent};
 use crate::raster::{Label, Scene};
 
-use super::contact::{Bodies, Scratch};
+use super::contact::Bodies;
 use super::sets::DisjointSets;
 use super::{NetId, Nets, surface};
 
@@ -168,7 +168,6 @@ struct Scan<'a> {
     merged: DisjointSets,
     overlaps: Vec<Overlap>,
     deepest: usize,
-    scratch: Scratch,
 }
 
 impl<'a> Scan<'a> {
@@ -184,7 +183,6 @@ impl<'a> Scan<'a> {
             merged: DisjointSets::new(traces.nets().len()),
             overlaps: Vec::new(),
             deepest: 0,
-            scratch: Scratch::default(),
         }
     }
 
@@ -226,10 +224,10 @@ impl<'a> Scan<'a> {
 
     /// The traces whose exact copper holds a point, merged ones by their first.
     fn traces_at(&mut self, at: Point) -> BTreeSet<u32> {
-        let Self { bodies, traces, merged, scratch, .. } = self;
+        let Self { bodies, traces, merged, .. } = self;
         let mut found = BTreeSet::new();
-        let _ = bodies.index.visit(Rect::new(at, at), &mut Vec::new(), |feature| {
-            if bodies.bodies[feature].holds(at, scratch) {
+        let _ = bodies.index.visit(Rect::new(at, at), |feature| {
+            if bodies.bodies[feature].holds(at) {
                 found.insert(merged.find(traces.of(feature).0));
             }
             ControlFlow::Continue(())

@@ -34,11 +34,17 @@ impl Diagram {
 
     /// The same, with how far chords may leave the place and the distance.
     pub(super) fn samples_within(&self, edge: &Edge, tolerances: [f64; 2]) -> Vec<Sample> {
-        let (from, to) = (self.sample_at(edge.from), self.sample_at(edge.to));
-        let mut samples = vec![from];
-        self.halve(edge, (from, to), tolerances, 16, &mut samples);
-        samples.push(to);
+        let mut samples = Vec::new();
+        self.add_samples(edge, tolerances, &mut samples);
         samples
+    }
+
+    /// Adds the same to others.
+    pub(super) fn add_samples(&self, edge: &Edge, tolerances: [f64; 2], samples: &mut Vec<Sample>) {
+        let (from, to) = (self.sample_at(edge.from), self.sample_at(edge.to));
+        samples.push(from);
+        self.halve(edge, (from, to), tolerances, 16, samples);
+        samples.push(to);
     }
 
     /// A vertex as a place on its edges.

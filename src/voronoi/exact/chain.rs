@@ -11,7 +11,7 @@ use rayon::prelude::*;
 
 use super::{Diagram, Edge, Link, WALL};
 use crate::voronoi::plane::Spot;
-use crate::voronoi::sample::{CHORD, Sample};
+use crate::voronoi::sample::{CHORD, CLEARANCE_CHORD, Sample};
 
 /// Edges in a row between the same two owners.
 #[derive(Clone, Debug, PartialEq)]
@@ -111,13 +111,12 @@ impl Diagram {
     fn chain(&self, row: &[Link], is_loop: bool, samples: &mut Vec<Sample>) -> Chain {
         samples.clear();
         for &(number, reversed) in row {
+            // Where the last one ended this one begins.
+            samples.pop();
             let from = samples.len();
-            let skip = usize::from(from > 0);
-            let course = self.samples(&self.edges[number as usize], CHORD);
+            self.add_samples(&self.edges[number as usize], [CHORD, CLEARANCE_CHORD], samples);
             if reversed {
-                samples.extend(course.into_iter().rev().skip(skip));
-            } else {
-                samples.extend(course.into_iter().skip(skip));
+                samples[from..].reverse();
             }
         }
         let (left, right) = self.sides(row[0]);

@@ -182,7 +182,9 @@ impl Diagram {
                 let slack = (to - from) * 1e-6;
                 let is_known = |&at: &f64| at > from - slack && at < to + slack;
                 if !feet[number as usize].iter().any(is_known) && !bodies.cover(foot, normal) {
-                    self.shoot(growth, (number, foot, normal), Some(&bodies));
+                    if let Some(seed) = self.shoot((number, foot, normal), Some(&bodies)) {
+                        growth.place(seed);
+                    }
                     self.grow(growth);
                 }
             }

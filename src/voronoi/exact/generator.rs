@@ -17,6 +17,7 @@
 //! What is the same from two features is one generator. Buried edges need not be found: from
 //! outside all copper they are never nearest.
 
+use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::board::{Copper, FLATTEN, Shape};
@@ -232,22 +233,20 @@ impl Generators {
         let largest = rings.iter().map(|ring| twice_area(ring)).max_by_key(|area| area.unsigned_abs());
         let backwards = largest.is_some_and(|area| area < 0);
         let circles = Circles::new(if self.is_round && !inwards { polygon.circles() } else { &[] });
-        let mut numbers = Vec::new();
         // Of islands that rounding has left without a width, no axis tells the two sides.
         let is_ring = |ring: &[Point]| ring.len() > 1 && !(inwards && is_flat(ring));
-        for (i, mut ring) in rings.into_iter().enumerate().filter(|(_, ring)| is_ring(ring)) {
+        let paths = |(i, mut ring): (usize, Vec<Point>)| {
             if backwards != inwards {
                 ring.reverse();
             }
             let rings = if inwards { vec![ring] } else { without_slits(vec![ring]) };
-            for ring in rings {
-                let ring = simple(ring);
-                let path = circles.rounded(ring);
-                let path = path.map(|path| self.shake(path));
-                numbers.extend(path.map(|path| self.ring(&path, owner(i))));
-            }
-        }
-        self.bodies.push(Body::Rings { rings: numbers.into(), open: inwards });
+            let paths = rings.into_iter().filter_map(|ring| circles.rounded(simple(ring)));
+            paths.map(|path| (i, self.shake(path))).collect::<Vec<_>>()
+        };
+        let rings = rings.into_par_iter().enumerate().filter(|(_, ring)| is_ring(ring));
+        let paths: Vec<(usize, Path)> = rings.flat_map_iter(paths).collect();
+        let numbers = paths.iter().map(|(i, path)| self.ring(path, owner(*i))).collect();
+        self.bodies.push(Body::Rings { rings: numbers, open: inwards });
     }
 
     /// A ring with each point where it is moved to. Slits and what rounding leaves are gone by

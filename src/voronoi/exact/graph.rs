@@ -6,6 +6,7 @@
 use std::sync::OnceLock;
 use std::{iter, mem};
 
+use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::form::turn;
@@ -21,6 +22,8 @@ use crate::voronoi::plane::Spot;
 #[derive(Default)]
 pub(super) struct Growth {
     tie: f64,
+    /// So many slots are followed at a time, the same for any number of threads.
+    at_once: usize,
     pub(super) junctions: Vec<Junction>,
     edges: Vec<Edge>,
     /// The last junction of each cell of the plane, and of each junction the one before it there.
@@ -98,6 +101,24 @@ impl Growth {
         }
     }
 
+    /// Whether nobody has followed a slot yet.
+    fn is_open(&self, junction: u32, slot: usize) -> bool {
+        self.junctions[junction as usize].slots[slot].edge.is_none()
+    }
+
+    /// The open slots that are followed next.
+    fn batch(&mut self) -> Vec<(u32, usize)> {
+        let mut batch = Vec::with_capacity(self.at_once);
+        while batch.len() < self.at_once
+            && let Some((junction, slot)) = self.open.pop()
+        {
+            if self.is_open(junction, slot) {
+                batch.push((junction, slot));
+            }
+        }
+        batch
+    }
+
     pub(super) const fn is_faulty(&self) -> bool {
         !self.faults.is_empty()
     }
@@ -141,6 +162,10 @@ pub(super) struct Arrival {
     pub(super) way: Spot,
 }
 
+/// The pair that an edge is between, the junction at which it ends, and the direction in which it
+/// arrives.
+type Reached = (Pair, Junction, Spot);
+
 /// Where one edge ends alone.
 fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Arrival {
     let slot = Slot { left: pair.right, right: pair.left, way: way * -1.0, edge: None };
@@ -150,52 +175,64 @@ fn dead_end(pair: &Pair, at: Spot, clearance: f64, way: Spot) -> Arrival {
 }
 
 impl Diagram {
-    /// Finds all vertices and edges.
-    pub(super) fn walk_all(&mut self, space: Space) {
+    /// Finds all vertices and edges, following so many `at_once`.
+    pub(super) fn walk_all(&mut self, space: Space, at_once: usize) {
         // Room that nothing is written to takes no memory, and lists that grow are there twice.
         let most = self.generators.len();
         let (junctions, edges) = (Vec::with_capacity(most), Vec::with_capacity(most));
-        let mut growth = Growth { tie: self.tie, junctions, edges, ..Growth::default() };
-        self.sow(&mut growth, space);
+        let mut growth = Growth { tie: self.tie, at_once, junctions, edges, ..Growth::default() };
+        // Who comes from another thread than those that follow edges waits once, not for each batch.
+        rayon::scope(|_| self.sow(&mut growth, space));
         self.finish(growth);
     }
 
     /// Follows all open slots, and what they lead to.
     pub(super) fn grow(&self, growth: &mut Growth) {
-        while growth.faults.is_empty()
-            && let Some((from, slot)) = growth.open.pop()
-        {
-            let Slot { left, right, edge: None, .. } = growth.junctions[from as usize].slots[slot] else {
-                continue;
+        while growth.faults.is_empty() && !growth.open.is_empty() {
+            let batch = growth.batch();
+            let known = &*growth;
+            let follow = |&(from, slot): &(u32, usize)| {
+                let Slot { left, right, .. } = known.junctions[from as usize].slots[slot];
+                self.next(known, from, self.pair(left, right))
             };
-            let Some((pair, ending, way)) = self.next(growth, from, self.pair(left, right)) else {
-                growth.fault(growth.junctions[from as usize].at);
-                continue;
-            };
-            let Pair { left, right, .. } = pair;
-            let leaving = &mut growth.junctions[from as usize].slots[slot];
-            (leaving.left, leaving.right) = (left, right);
-            // Beyond the window it ends, however near to its beginning that is.
-            let is_apart = !self.holds(ending.at) && growth.known(&ending) == Some(from);
-            let to = if is_apart { growth.add(ending) } else { growth.place(ending) };
-            let owners = |slot: &Slot| (self.owner(slot.left), self.owner(slot.right));
-            let same = |slot: &Slot| owners(slot) == (self.owner(right), self.owner(left));
-            match growth.back(to, left, right, way, same) {
-                Some(back) => growth.connect((from, slot), to, back),
-                None if growth.junctions[to as usize].is_end => {
-                    let slots = &mut growth.junctions[to as usize].slots;
-                    slots.push(Slot { left: right, right: left, way: way * -1.0, edge: None });
-                    let back = slots.len() - 1;
-                    growth.connect((from, slot), to, back);
+            let found: Vec<Option<Reached>> = batch.par_iter().map(follow).collect();
+            for (&(from, slot), reached) in batch.iter().zip(found) {
+                // Whoever came along it from its other end was quicker.
+                if growth.is_open(from, slot) {
+                    match reached {
+                        Some(reached) => self.join(growth, (from, slot), reached),
+                        None => growth.fault(growth.junctions[from as usize].at),
+                    }
                 }
-                None => growth.fault(growth.junctions[to as usize].at),
             }
+        }
+    }
+
+    /// Notes an edge that was followed.
+    fn join(&self, growth: &mut Growth, (from, slot): (u32, usize), (pair, ending, way): Reached) {
+        let Pair { left, right, .. } = pair;
+        let leaving = &mut growth.junctions[from as usize].slots[slot];
+        (leaving.left, leaving.right) = (left, right);
+        // Beyond the window it ends, however near to its beginning that is.
+        let is_apart = !self.holds(ending.at) && growth.known(&ending) == Some(from);
+        let to = if is_apart { growth.add(ending) } else { growth.place(ending) };
+        let owners = |slot: &Slot| (self.owner(slot.left), self.owner(slot.right));
+        let same = |slot: &Slot| owners(slot) == (self.owner(right), self.owner(left));
+        match growth.back(to, left, right, way, same) {
+            Some(back) => growth.connect((from, slot), to, back),
+            None if growth.junctions[to as usize].is_end => {
+                let slots = &mut growth.junctions[to as usize].slots;
+                slots.push(Slot { left: right, right: left, way: way * -1.0, edge: None });
+                let back = slots.len() - 1;
+                growth.connect((from, slot), to, back);
+            }
+            None => growth.fault(growth.junctions[to as usize].at),
         }
     }
 
     /// The pair that an edge from a junction is between, the junction at which it ends, and the
     /// direction in which it arrives.
-    fn next(&self, growth: &Growth, from: u32, mut pair: Pair) -> Option<(Pair, Junction, Spot)> {
+    fn next(&self, growth: &Growth, from: u32, mut pair: Pair) -> Option<Reached> {
         let home = &growth.junctions[from as usize];
         let near = resolution(self.tie, home.clearance) + SNAP;
         let mut start = home.at;

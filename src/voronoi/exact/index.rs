@@ -3,6 +3,7 @@
 use std::ops::ControlFlow;
 
 use bitvec::vec::BitVec;
+use rayon::prelude::*;
 
 use super::form::Form;
 use super::generator::Generators;
@@ -55,7 +56,7 @@ impl Index {
             });
             is_hidden
         };
-        generators.forms.iter().enumerate().map(is_hidden).collect()
+        generators.forms.par_iter().enumerate().map(is_hidden).collect::<Vec<bool>>().into_iter().collect()
     }
 
     /// Shows the generators of which a box meets a box, left, bottom, right, top, some more than
@@ -92,7 +93,7 @@ impl Index {
         region: &impl Region,
         mut show: impl FnMut(u32) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
-        self.tree.visit(region, &mut Vec::with_capacity(64), |number| {
+        self.tree.visit(region, |number| {
             let generator = self.items[number];
             if self.hidden[generator as usize] { ControlFlow::Continue(()) } else { show(generator) }
         })

@@ -21,8 +21,9 @@
 //! 4. At an event all generators within a [tie](vertex) of the circle are sorted by the direction
 //!    of their feet; an edge leaves between each two neighbours with different owners. Four and
 //!    more, the rule on a grid, are nothing special.
-//! 5. The [graph] grows until nothing is open. An edge must arrive where one leaves; if not, the
-//!    place is one of [`Diagram::faults`].
+//! 5. The [graph] grows until nothing is open, by batches that are followed on all threads, the same
+//!    however many there are. An edge must arrive where one leaves; if not, the place is one of
+//!    [`Diagram::faults`].
 //! 6. [`Diagram::certify`] asks all generators anew whether each circle is empty, at vertices and
 //!    along edges; where one is not, the place is a fault, too.
 //!
@@ -32,10 +33,10 @@
 //! generators whatever the walk came from, and sorted by place at the end. Only `+ − × ÷ √` are
 //! used. With [`Kind::Owners`] the graph is complete if every owner's copper is connected.
 //! Distances that differ by less than a *tie* are equal; where one tie leaves an end loose, all is
-//! walked anew with another, and what no tie resolves is a fault, for which
-//! [`Diagram`](super::Diagram) leaves chords what they are, or shakes the copper by some
-//! nanometres, and walks again. None of the 47 layers of real boards needs that, at six levels each
-//! and in both kinds of level sets.
+//! walked anew, one edge after the other, then with another tie, and what no tie resolves is a
+//! fault, for which [`Diagram`](super::Diagram) leaves chords what they are, or shakes the copper
+//! by some nanometres, and walks again. None of the 47 layers of real boards needs that, at six
+//! levels each and in both kinds of level sets.
 //!
 //! Polygons come with slits and with corners that are only rounding: rings that lead in to a hole
 //! and out again along themselves (`slit`), and points within a nanometre and a half of the chord
@@ -192,23 +193,28 @@ impl Diagram {
     #[must_use]
     pub fn new(generators: Generators, kind: Kind, space: Space) -> Self {
         let mut diagram = Self::unwalked(generators, kind, space);
-        if diagram.generators.is_empty() {
+        if !diagram.has_edges() {
             return diagram;
         }
         for tie in TIES {
             diagram.breaks = breaks(&diagram.generators, &diagram.index, tie);
             diagram.tie = tie;
-            diagram.walk_all(space);
-            if diagram.faults.is_empty() {
-                let wrong = diagram.certify(CLOSE).into_iter().filter(|found| found.by > WRONG);
-                diagram.faults = wrong.map(|found| found.at).collect();
-            }
-            if diagram.faults.is_empty() {
+            if AT_ONCE.into_iter().any(|at_once| diagram.is_walked(space, at_once)) {
                 break;
             }
         }
         diagram.breaks = Breaks::default();
         diagram
+    }
+
+    /// Walks it, and says whether it has no fault.
+    fn is_walked(&mut self, space: Space, at_once: usize) -> bool {
+        self.walk_all(space, at_once);
+        if self.faults.is_empty() {
+            let wrong = self.certify(CLOSE).into_iter().filter(|found| found.by > WRONG);
+            self.faults = wrong.map(|found| found.at).collect();
+        }
+        self.faults.is_empty()
     }
 
     /// The diagram before any edge is known.
@@ -240,6 +246,12 @@ impl Diagram {
             stretches: OnceLock::new(),
             faults: Vec::new(),
         }
+    }
+
+    /// Whether it can have edges: nothing parts one owner from itself.
+    fn has_edges(&self) -> bool {
+        let owners = &self.generators.owners;
+        !owners.is_empty() && (self.kind != Kind::Owners || owners.iter().any(|&owner| owner != owners[0]))
     }
 
     /// The vertices, by place.
@@ -280,6 +292,12 @@ impl Diagram {
 
 /// At places so close together edges are asked, in nanometres. Chosen: narrower pads are rare.
 const CLOSE: f64 = 250_000.0;
+
+/// So many edges are followed at a time: where distances are all but equal, both ends of one may
+/// lead to different places, which does not show when they are followed one after the other. Of
+/// 3000 scenes of tracks whose lines and arcs end fractions of a nanometre apart 36 have a fault
+/// with the first, and 6 with the second.
+const AT_ONCE: [usize; 2] = [64, 1];
 
 /// Edges end so far beyond the window that its sides can be walked, in nanometres. Chosen.
 const BEYOND: f64 = 1_000.0;

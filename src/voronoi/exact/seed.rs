@@ -13,6 +13,8 @@
 
 use std::collections::BTreeMap;
 
+use rayon::prelude::*;
+
 use super::exposed::Bodies;
 use super::form::{Form, Place};
 use super::graph::Growth;
@@ -37,11 +39,14 @@ impl Diagram {
         let is_covered = space == Space::Within || self.generators.is_loose;
         let bodies = is_covered.then(|| Bodies::new(self));
         let right = Spot::new(1.0, 0.0);
-        for (generator, foot) in self.rightmost() {
-            if bodies.as_ref().is_none_or(|bodies| !bodies.cover(foot, right)) {
-                self.shoot(growth, (generator, foot, right), bodies.as_ref());
-            }
-        }
+        let seed = |&(generator, foot): &(u32, Spot)| {
+            let is_open = bodies.as_ref().is_none_or(|bodies| !bodies.cover(foot, right));
+            is_open.then(|| self.shoot((generator, foot, right), bodies.as_ref())).flatten()
+        };
+        let seeds: Vec<Option<Junction>> = self.rightmost().par_iter().map(seed).collect();
+        seeds.into_iter().flatten().for_each(|seed| {
+            growth.place(seed);
+        });
         self.grow(growth);
         if space != Space::Within {
             self.sow_window(growth);
@@ -73,14 +78,13 @@ impl Diagram {
         found.into_values().map(|(_, i, foot)| (i, foot)).collect()
     }
 
-    /// Follows the normal of a generator to where another is equally near, and plants what begins
-    /// there, unless `bodies` hold it.
+    /// What begins where the normal of a generator leads to a place that is as near to another,
+    /// unless `bodies` hold it.
     pub(super) fn shoot(
         &self,
-        growth: &mut Growth,
         (generator, foot, normal): (u32, Spot, Spot),
         bodies: Option<&Bodies<'_>>,
-    ) {
+    ) -> Option<Junction> {
         let farthest = self.farthest();
         let mut reach = FIRST_REACH.min(farthest);
         let mut nearest: Option<(f64, u32)> = None;
@@ -107,14 +111,12 @@ impl Diagram {
             Form::Circle { radius, hollow: true, .. } => Some((radius, generator)),
             Form::Circle { .. } | Form::Line { .. } => None,
         };
-        let Some((s, other)) = nearest.into_iter().chain(own).min_by(|a, b| a.0.total_cmp(&b.0)) else {
-            return;
-        };
+        let (s, other) = nearest.into_iter().chain(own).min_by(|a, b| a.0.total_cmp(&b.0))?;
         let at = foot + normal * s;
         // A ray from what is not the rightmost of its owner, or one along an edge, may lead through
         // copper.
         if bodies.is_some_and(|bodies| bodies.hold(at, true)) {
-            return;
+            return None;
         }
         let is_low = match self.kind {
             Kind::Above(floor) | Kind::Between(floor) => {
@@ -122,15 +124,13 @@ impl Diagram {
             }
             Kind::Owners | Kind::MedialAxis => false,
         };
-        if self.holds(at) && !is_low {
-            self.plant(growth, at, s, [generator, other]);
-        }
+        if self.holds(at) && !is_low { self.seed(at, s, [generator, other]) } else { None }
     }
 
-    /// Begins at a place where two generators are equally near: there, if it is a vertex, else at
-    /// the next one.
-    fn plant(&self, growth: &mut Growth, at: Spot, clearance: f64, [a, b]: [u32; 2]) {
-        let Some(junction) = self.junction(at, clearance, [a, b, b]) else { return };
+    /// What begins at a place where two generators are equally near: there, if it is a vertex, else
+    /// at the next one.
+    fn seed(&self, at: Spot, clearance: f64, [a, b]: [u32; 2]) -> Option<Junction> {
+        let junction = self.junction(at, clearance, [a, b, b])?;
         let passing = match junction.slots[..] {
             // A boundary passes here, also where others touch the circle and do not enter: whether
             // it is a vertex shows who comes along it.
@@ -142,7 +142,7 @@ impl Diagram {
             }
             _ => None,
         };
-        growth.place(passing.unwrap_or(junction));
+        Some(passing.unwrap_or(junction))
     }
 
     fn plant_pair(&self, growth: &mut Growth, pair: &Pair, at: Spot) {

@@ -66,16 +66,23 @@ impl Edges {
     fn near(&self, p: Point) -> impl Iterator<Item = usize> {
         let at = Spot::from(p);
         let mut found = self.tree.within([at.x, at.y, at.x, at.y]);
-        found.retain(|&i| {
-            let [a, b] = self.ends[i].map(Spot::from);
-            at.distance_to_chord(a, b) <= WIDE
-        });
+        found.retain(|&i| self.is_near(i, at));
         found.into_iter()
+    }
+
+    fn is_near(&self, edge: usize, at: Spot) -> bool {
+        let [a, b] = self.ends[edge].map(Spot::from);
+        at.distance_to_chord(a, b) <= WIDE
     }
 
     /// Whether the edge comes near itself anywhere but at its corners.
     fn any_meet(&self) -> bool {
-        self.ends.iter().any(|&[p, _]| self.near(p).nth(2).is_some())
+        let is_met = |&[p, _]: &[Point; 2]| {
+            let (at, mut near) = (Spot::from(p), 0);
+            self.tree.visit_window([at.x, at.y, at.x, at.y], |i| near += u32::from(self.is_near(i, at)));
+            near > 2
+        };
+        self.ends.iter().any(is_met)
     }
 
     /// The edges between vertices that are apart, parted where they run through others.

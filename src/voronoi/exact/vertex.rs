@@ -80,7 +80,8 @@ impl Diagram {
 
     /// Those, and others whose ends are at most `slab` behind.
     pub(super) fn about(&self, p: Spot, reach: f64, slab: f64) -> Vec<(u32, f64)> {
-        let mut found = Vec::new();
+        // Rarely more: lists that grow make threads wait for each other.
+        let mut found = Vec::with_capacity(16);
         self.index.visit_round(p, reach + self.tie, |i| {
             let form = &self.forms()[i as usize];
             let distance = form.distance(p);
@@ -403,7 +404,7 @@ mod tests {
         generators.inside(&area, |ring| u32::try_from(ring).expect("three"));
         let mut diagram = Diagram::unwalked(generators, Kind::MedialAxis, Space::Within);
         diagram.breaks = breaks(&diagram.generators, &diagram.index, TIES[0]);
-        diagram.walk_all(Space::Within);
+        diagram.walk_all(Space::Within, 1);
         assert_eq!(diagram.faults(), []);
     }
 }

@@ -315,7 +315,8 @@ impl Diagram {
     /// What may enter between two places, in the order of how much farther than copper it is at the
     /// second; none if that is more than so many.
     fn reached(&self, step: &Step<'_>, sweep: &Sweep, most: usize) -> Option<Vec<(f64, u32)>> {
-        let mut reached = Vec::new();
+        // Rarely more: lists that grow make threads wait for each other.
+        let mut reached = Vec::with_capacity(MANY + 1);
         let (chord, reach) = sweep.swath(step.form);
         let shown = self.index.visit_along(chord, reach, |c| {
             if !sweep.misses(&self.forms()[c as usize]) && !self.is_own(step.pair, c) {

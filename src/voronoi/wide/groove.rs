@@ -66,7 +66,7 @@ impl Grooves {
     pub(super) fn holds(&self, p: Spot) -> bool {
         let Cuts { spans, tree } = &*self.cuts;
         let region = tree.round((p.x, p.y), self.reach);
-        let near = tree.visit(&region, &mut Vec::with_capacity(64), |i| {
+        let near = tree.visit(&region, |i| {
             if spans[i].distance(p) < self.reach { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });
         near.is_break()

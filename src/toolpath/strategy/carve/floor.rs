@@ -203,12 +203,11 @@ impl Pieces {
     }
 
     fn hold(&self, p: Point) -> bool {
-        let mut stack = Vec::new();
-        let holds = |piece: usize| match self.pieces[piece].winding(p, &mut stack) {
+        let holds = |piece: usize| match self.pieces[piece].winding(p) {
             Some(0) => ControlFlow::Continue(()),
             None | Some(_) => ControlFlow::Break(()),
         };
-        self.index.visit(Rect::new(p, p), &mut Vec::new(), holds).is_break()
+        self.index.visit(Rect::new(p, p), holds).is_break()
     }
 }
 

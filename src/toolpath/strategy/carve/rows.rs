@@ -66,8 +66,7 @@ impl Level {
     /// Takes the loop that `last` leads to, begun where it is reached; `last` is made to end where
     /// it is left.
     fn next(&mut self, last: &mut Ring, is_first: bool, most: Nm) -> Option<Ring> {
-        let mut stack = Vec::new();
-        let mut leads = last.iter().enumerate().filter_map(|(from, &p)| self.lead(from, p, most, &mut stack));
+        let mut leads = last.iter().enumerate().filter_map(|(from, &p)| self.lead(from, p, most));
         let (_, ring, from, to) = if is_first { leads.min() } else { leads.next() }?;
         if is_first {
             last.rotate_left(from);
@@ -81,9 +80,9 @@ impl Level {
     }
 
     /// The way from the corner of a loop to the nearest one here.
-    fn lead(&self, from: usize, p: Point, most: Nm, stack: &mut Vec<usize>) -> Option<Lead> {
+    fn lead(&self, from: usize, p: Point, most: Nm) -> Option<Lead> {
         let mut best: Option<Lead> = None;
-        let _ = self.index.visit(Rect::new(p, p).inflate(most), stack, |number| {
+        let _ = self.index.visit(Rect::new(p, p).inflate(most), |number| {
             let (ring, to) = self.corners[number];
             if let Some(corners) = &self.rings[ring] {
                 let lead = ((corners[to] - p).length_squared(), ring, from, to);

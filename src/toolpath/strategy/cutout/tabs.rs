@@ -88,11 +88,8 @@ fn evenest(ring: &Ring, own: &[f64], places: &[f64], count: u32, opening: f64) -
         for index in 0..count {
             let even = share * (f64::from(index) + (f64::from(phase) + 0.5) / f64::from(PHASES));
             let Some(even) = at(ring, own, even) else { continue };
-            let free =
-                |place: &&f64| found.iter().all(|other| apart(**place, *other, length) >= 2.0 * opening);
-            let nearest = |a: &&f64, b: &&f64| apart(**a, even, length).total_cmp(&apart(**b, even, length));
-            let in_reach = places.iter().filter(|place| apart(**place, even, length) <= share);
-            if let Some(&place) = in_reach.filter(free).min_by(nearest) {
+            let free = |place: f64| found.iter().all(|other| apart(place, *other, length) >= 2.0 * opening);
+            if let Some(place) = nearest(places, even, length, share, free) {
                 moved += apart(place, even, length) * apart(place, even, length);
                 found.push(place);
             }
@@ -102,6 +99,28 @@ fn evenest(ring: &Ring, own: &[f64], places: &[f64], count: u32, opening: f64) -
         }
     }
     best.0
+}
+
+/// Of `places` along a ring of a `length`, in order, the nearest to one, no farther than `reach`,
+/// that is free; of equals the first.
+fn nearest(places: &[f64], from: f64, length: f64, reach: f64, free: impl Fn(f64) -> bool) -> Option<f64> {
+    let next = places.partition_point(|&place| place < from);
+    let (before, after) = places.split_at(next);
+    let mut ahead = after.iter().chain(before).copied().peekable();
+    let mut behind = before.iter().rev().chain(after.iter().rev()).copied().peekable();
+    let by_distance =
+        |a: &f64, b: &f64| apart(*a, from, length).total_cmp(&apart(*b, from, length)).then(a.total_cmp(b));
+    for _ in places {
+        let is_ahead = by_distance(ahead.peek()?, behind.peek()?).is_le();
+        let place = if is_ahead { ahead.next() } else { behind.next() }?;
+        if apart(place, from, length) > reach {
+            return None;
+        }
+        if free(place) {
+            return Some(place);
+        }
+    }
+    None
 }
 
 /// The distance along the ring of what is so far along its places `own`.
@@ -115,4 +134,29 @@ fn at(ring: &Ring, own: &[f64], along: f64) -> Option<f64> {
 pub(super) fn apart(a: f64, b: f64, length: f64) -> f64 {
     let direct = (a - b).abs();
     direct.min(length - direct)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::topology::random;
+
+    #[test]
+    fn the_nearest_free_place_is_that_of_all() {
+        let mut next = random();
+        for _ in 0..500 {
+            let mut number = |below: i64| f64::from(u32::try_from(next(below)).expect("small"));
+            let (length, reach) = (1000.0, number(600));
+            let count = number(8);
+            let mut places: Vec<f64> =
+                (0..12).map(f64::from).take_while(|&i| i < count).map(|_| number(1000)).collect();
+            places.sort_by(f64::total_cmp);
+            let (from, taken) = (number(1000), number(1000));
+            let free = |place: f64| apart(place, taken, length) > 100.0;
+            let off = |place: &f64| apart(*place, from, length);
+            let near = places.iter().copied().filter(|place| off(place) <= reach && free(*place));
+            let least = near.min_by(|a, b| off(a).total_cmp(&off(b)));
+            assert_eq!(nearest(&places, from, length, reach, free), least, "of {places:?} from {from}");
+        }
+    }
 }
