@@ -181,7 +181,7 @@ impl Diagram {
         let most = self.generators.len();
         let (junctions, edges) = (Vec::with_capacity(most), Vec::with_capacity(most));
         let mut growth = Growth { tie: self.tie, at_once, junctions, edges, ..Growth::default() };
-        // Who comes from another thread than those that follow edges waits once, not for each batch.
+        // Who comes from another thread than those that follow edges waits once.
         rayon::scope(|_| self.sow(&mut growth, space));
         self.finish(growth);
     }

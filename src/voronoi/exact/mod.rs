@@ -21,9 +21,9 @@
 //! 4. At an event all generators within a [tie](vertex) of the circle are sorted by the direction
 //!    of their feet; an edge leaves between each two neighbours with different owners. Four and
 //!    more, the rule on a grid, are nothing special.
-//! 5. The [graph] grows until nothing is open, by batches that are followed on all threads, the same
-//!    however many there are. An edge must arrive where one leaves; if not, the place is one of
-//!    [`Diagram::faults`].
+//! 5. The [graph] grows until nothing is open, by batches that are followed on all threads, the
+//!    same however many there are. An edge must arrive where one leaves; if not, the place is one
+//!    of [`Diagram::faults`].
 //! 6. [`Diagram::certify`] asks all generators anew whether each circle is empty, at vertices and
 //!    along edges; where one is not, the place is a fault, too.
 //!
