@@ -207,6 +207,21 @@ fn wide_places_of_random_areas_become_flat() {
     }
 }
 
+/// Where the end mill has room to a nanometre there is no loop for it, and the V-bit clears.
+#[test]
+fn a_square_as_wide_as_the_end_mill_becomes_flat() {
+    let flat = Some("endmill:1.2mm".parse().expect("a tool"));
+    let how = Carving { max_depth: Some(Nm::from_mm(1)), flat, ..HOW };
+    // From the edge the flank of the V-bit takes tan 5° of the depth, then the mill its radius.
+    for more in [-10, 0, 1, 2, 3, 5, 20, 300, 2_000, 5_000] {
+        let half = Nm::new(87_489 + 600_000 + more);
+        let square = Rect::new(Point::new(-half, -half), Point::new(half, half));
+        let made = engraving("flat", vec![Polygon::rectangle(square)], "vbit:0.2mm:10deg", &how);
+        let judged = made.verify(PITCH).expect("programs");
+        assert_eq!(judged.findings, [], "{more} nm wider");
+    }
+}
+
 #[test]
 fn what_stands_is_as_sharp_as_what_is_sunk() {
     let how = Carving { raised: Some(Nm::from_mm(1)), max_depth: None, ..HOW };

@@ -13,6 +13,7 @@
 //! way from one of its lines to the next leads over the floor.
 
 use std::ops::ControlFlow;
+use std::slice;
 
 use rayon::prelude::*;
 
@@ -77,9 +78,12 @@ impl Floor {
         let edge = v_bit.width_at(depth) / 2 - tip / 2;
         let (radius, rim) = (diameter / 2, edge + tip / 2);
         let step = Nm::from_f64(radius.to_f64() * STEP);
+        // A loop of some nanometres is no way, and clears nothing.
+        let is_milled =
+            |area: &Polygon| loops(slice::from_ref(area), tolerance).len() == area.contours().len();
         let level = |count: i64| {
             let inside = edge + radius + step * count;
-            let level = insets(areas, inside);
+            let level: Vec<Polygon> = insets(areas, inside).into_iter().filter(is_milled).collect();
             // What a mill clears along their edges.
             let within = insets(areas, inside + radius);
             let grown = level.iter().flat_map(|polygon| offset(polygon, radius, FLATTEN));
