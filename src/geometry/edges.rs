@@ -47,8 +47,8 @@ impl Edges {
     }
 
     fn by_place(mut self) -> Self {
-        let bounds = |at: usize| self.edge(at);
-        let boxes = (0..self.len()).map(bounds).map(|(from, to)| Rect::new(from, to).to_f64());
+        let ends = (0..self.len()).map(|at| self.edge(at));
+        let boxes = ends.map(|(from, to)| Rect::new(from, to).to_f64());
         self.tree = (self.len() >= INDEX_FROM).then(|| BoxTree::new(boxes));
         self
     }

@@ -199,7 +199,7 @@ impl Diagram {
         for tie in TIES {
             diagram.breaks = breaks(&diagram.generators, &diagram.index, tie);
             diagram.tie = tie;
-            if AT_ONCE.into_iter().any(|at_once| diagram.is_walked(space, at_once)) {
+            if AT_ONCE.into_iter().any(|at_once| diagram.walk_certified(space, at_once)) {
                 break;
             }
         }
@@ -208,7 +208,7 @@ impl Diagram {
     }
 
     /// Walks it, and says whether it has no fault.
-    fn is_walked(&mut self, space: Space, at_once: usize) -> bool {
+    fn walk_certified(&mut self, space: Space, at_once: usize) -> bool {
         self.walk_all(space, at_once);
         if self.faults.is_empty() {
             let wrong = self.certify(CLOSE).into_iter().filter(|found| found.by > WRONG);
