@@ -23,13 +23,8 @@ impl Diagram {
     /// within `tolerance` nanometres of it, but none is shorter than a nanometre.
     #[must_use]
     pub fn course(&self, edge: &Edge, tolerance: f64) -> Vec<((f64, f64), f64)> {
-        let samples = self.samples(edge, tolerance).into_iter();
+        let samples = self.samples_within(edge, [tolerance, CLEARANCE_CHORD]).into_iter();
         samples.map(|Sample { at, clearance }| ((at.x, at.y), clearance)).collect()
-    }
-
-    /// The same; the distance to copper, too, follows its chords.
-    pub(super) fn samples(&self, edge: &Edge, tolerance: f64) -> Vec<Sample> {
-        self.samples_within(edge, [tolerance, CLEARANCE_CHORD])
     }
 
     /// The same, with how far chords may leave the place and the distance.

@@ -44,9 +44,9 @@ impl Diagram {
             is_open.then(|| self.shoot((generator, foot, right), bodies.as_ref())).flatten()
         };
         let seeds: Vec<Option<Junction>> = self.rightmost().par_iter().map(seed).collect();
-        seeds.into_iter().flatten().for_each(|seed| {
+        for seed in seeds.into_iter().flatten() {
             growth.place(seed);
-        });
+        }
         self.grow(growth);
         if space != Space::Within {
             self.sow_window(growth);
