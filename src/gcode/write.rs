@@ -150,14 +150,16 @@ impl<'a> Writer<'a> {
         let (top, reach) = (self.round(plate.height), self.round(SHORTER));
         self.comment(TOUCH_OFF_BEGINS);
         self.message("the tool touches the plate - the probe is on both");
-        let mut over = format!("G0 X{} Y{}", self.number(x), self.number(y));
-        self.rapid_feed(&mut over);
-        self.line(&over);
+        self.begin_line("G0");
+        self.word('X', x);
+        self.word('Y', y);
+        self.rapid_feed(false);
+        self.end_line();
         self.line("G91");
         self.line(&format!("G38.2 Z{} F{FAST}", self.number(top - reach - from)));
-        let mut off = "G0 Z1".to_owned();
-        self.rapid_feed(&mut off);
-        self.line(&off);
+        self.begin_line("G0 Z1");
+        self.rapid_feed(true);
+        self.end_line();
         self.line(&format!("G38.2 Z-2 F{SLOW}"));
         self.line("G90");
         self.line(&format!("{sets} Z{}", self.number(top)));
@@ -198,9 +200,10 @@ impl<'a> Writer<'a> {
     /// Up to the safe height, whatever the height is: after a tool change nobody knows.
     pub(super) fn retract(&mut self, safe: Nm) {
         let z = self.round(safe);
-        let mut line = format!("G0 Z{}", self.number(z));
-        self.rapid_feed(&mut line);
-        self.line(&line);
+        self.begin_line("G0");
+        self.word('Z', z);
+        self.rapid_feed(true);
+        self.end_line();
         self.height = Some(z);
         self.at = self.at.map(|at| Rounded { z, ..at });
         self.planned = self.planned.map(|at| Position { z: safe, ..at });
@@ -257,26 +260,26 @@ impl<'a> Writer<'a> {
             let height = Nm::new(self.height.unwrap_or_default() * self.unit);
             self.straight(word, Position { z: height, ..to }, None);
         }
-        let mut line = word.to_owned();
+        self.begin_line(word);
         let at = self.at;
-        self.coordinate(&mut line, 'X', rounded.x, at.map(|at| at.x));
-        self.coordinate(&mut line, 'Y', rounded.y, at.map(|at| at.y));
+        self.coordinate('X', rounded.x, at.map(|at| at.x));
+        self.coordinate('Y', rounded.y, at.map(|at| at.y));
         // Before the first level rapid only z is known, and it is the safe height.
         if at.is_some() || feed.is_some() {
-            self.coordinate(&mut line, 'Z', rounded.z, at.map(|at| at.z));
+            self.coordinate('Z', rounded.z, at.map(|at| at.z));
         }
         match feed {
-            Some(feed) => self.feed_word(&mut line, feed),
-            None => self.rapid_feed(&mut line),
+            Some(feed) => self.feed_word(feed),
+            None => self.rapid_feed(at.is_some_and(|at| (at.x, at.y) == (rounded.x, rounded.y))),
         }
+        self.end_line();
         self.at = Some(rounded);
         self.height = Some(rounded.z);
-        self.line(&line);
     }
 
     /// The speed of a rapid, where it must be said; the cut that follows it then says its own
     /// again.
-    fn rapid_feed(&mut self, line: &mut String) {
+    fn rapid_feed(&mut self, is_vertical: bool) {
         let says = match self.dialect.rapids {
             Rapids::Unfed => false,
             Rapids::FirstFed => !self.fed,
@@ -289,8 +292,8 @@ impl<'a> Writer<'a> {
             self.fed = true;
             let [level, vertical] = self.dialect.rapid;
             // A feed that is for all rapids is the fast one: each axis goes no faster than it can.
-            let straight = self.dialect.rapids == Rapids::Fed && !line.contains(['X', 'Y']);
-            _ = write!(line, " F{}", if straight { vertical } else { level }.number());
+            let straight = self.dialect.rapids == Rapids::Fed && is_vertical;
+            _ = write!(self.text, " F{}", if straight { vertical } else { level }.number());
         }
     }
 
@@ -347,16 +350,12 @@ impl<'a> Writer<'a> {
         let at = self.at.expect("an arc follows a move");
         let rounded = self.position(to);
         let (i, j) = (self.round(center.x) - at.x, self.round(center.y) - at.y);
-        let mut line = word(turn).to_owned();
-        let (x, y) = (self.number(rounded.x), self.number(rounded.y));
-        _ = write!(line, " X{x} Y{y}");
-        self.coordinate(&mut line, 'Z', rounded.z, Some(at.z));
-        _ = write!(line, " I{} J{}", self.number(i), self.number(j));
-        self.feed_word(&mut line, feed);
-        self.at = Some(rounded);
-        self.height = Some(rounded.z);
+        self.begin_arc(turn, at, rounded);
+        self.word('I', i);
+        self.word('J', j);
+        self.feed_word(feed);
+        self.end_line();
         self.planned = Some(to);
-        self.line(&line);
     }
 
     /// In parts of less than half a turn, where the radius is unambiguous.
@@ -369,22 +368,31 @@ impl<'a> Writer<'a> {
                 from + Nm::new((to.z - from).get() * i64::from(part) / i64::from(parts))
             };
             let rounded = self.position(Position::over(point, z));
-            let mut line = word(arc.turn).to_owned();
             let at = self.at.expect("an arc follows a move");
-            _ = write!(line, " X{} Y{}", self.number(rounded.x), self.number(rounded.y));
-            self.coordinate(&mut line, 'Z', rounded.z, Some(at.z));
-            _ = write!(line, " R{}", self.number(self.round(Nm::from_f64(arc.radius()))));
-            self.feed_word(&mut line, feed);
-            self.at = Some(rounded);
-            self.height = Some(rounded.z);
-            self.line(&line);
+            self.begin_arc(arc.turn, at, rounded);
+            self.word('R', self.round(Nm::from_f64(arc.radius())));
+            self.feed_word(feed);
+            self.end_line();
         }
         self.planned = Some(to);
     }
 
-    fn coordinate(&self, line: &mut String, letter: char, value: i64, before: Option<i64>) {
+    /// Begins the line of an arc, which is said to end at a place.
+    fn begin_arc(&mut self, turn: Turn, from: Rounded, to: Rounded) {
+        self.begin_line(match turn {
+            Turn::Clockwise => "G2",
+            Turn::CounterClockwise => "G3",
+        });
+        self.word('X', to.x);
+        self.word('Y', to.y);
+        self.coordinate('Z', to.z, Some(from.z));
+        self.at = Some(to);
+        self.height = Some(to.z);
+    }
+
+    fn coordinate(&mut self, letter: char, value: i64, before: Option<i64>) {
         if before != Some(value) {
-            _ = write!(line, " {letter}{}", self.number(value));
+            self.word(letter, value);
         }
     }
 
@@ -393,10 +401,10 @@ impl<'a> Writer<'a> {
         self.number(self.round(length))
     }
 
-    fn feed_word(&mut self, line: &mut String, feed: Feed) {
+    fn feed_word(&mut self, feed: Feed) {
         if self.feed != Some(feed) {
             self.feed = Some(feed);
-            _ = write!(line, " F{}", feed.number());
+            _ = write!(self.text, " F{}", feed.number());
         }
     }
 
@@ -410,28 +418,18 @@ impl<'a> Writer<'a> {
         (length.get() + half) / self.unit
     }
 
-    /// A rounded length in millimetres, without zeros that say nothing.
+    /// A rounded length in millimetres.
     fn number(&self, value: i64) -> String {
-        let mut left = value.unsigned_abs();
-        let mut decimals = self.dialect.decimals.min(6);
-        while decimals > 0 && left.is_multiple_of(10) {
-            (left, decimals) = (left / 10, decimals - 1);
-        }
-        // The last digit first.
-        let mut text = Vec::with_capacity(16);
-        for place in 0.. {
-            if place == decimals && place > 0 {
-                text.push(b'.');
-            }
-            text.push(b'0' + u8::try_from(left % 10).expect("below ten"));
-            left /= 10;
-            if left == 0 && place >= decimals {
-                break;
-            }
-        }
-        text.extend((value < 0).then_some(b'-'));
-        text.reverse();
-        String::from_utf8(text).expect("ASCII")
+        let mut text = String::new();
+        add_number(&mut text, value, self.dialect.decimals);
+        text
+    }
+
+    /// Adds a rounded length to the line that is being written.
+    fn word(&mut self, letter: char, value: i64) {
+        self.text.push(' ');
+        self.text.push(letter);
+        add_number(&mut self.text, value, self.dialect.decimals);
     }
 
     /// A comment that the operator sees, where the controller shows any.
@@ -456,12 +454,46 @@ impl<'a> Writer<'a> {
     }
 
     pub(super) fn line(&mut self, text: &str) {
+        self.begin_line(text);
+        self.end_line();
+    }
+
+    /// Begins a line, to which words are added until it ends.
+    fn begin_line(&mut self, text: &str) {
         if self.dialect.line_numbers == LineNumbers::ByTens {
             self.line += 10;
             _ = write!(self.text, "N{} ", self.line);
         }
         self.text.push_str(text);
+    }
+
+    fn end_line(&mut self) {
         self.text.push('\n');
+    }
+}
+
+/// Adds a length in units of the last digit, in millimetres and without zeros that say nothing.
+fn add_number(text: &mut String, value: i64, decimals: usize) {
+    let mut left = value.unsigned_abs();
+    let mut decimals = decimals.min(6);
+    while decimals > 0 && left.is_multiple_of(10) {
+        (left, decimals) = (left / 10, decimals - 1);
+    }
+    // The last digit first.
+    let mut digits = [b'0'; 20];
+    let mut count = 0;
+    while left > 0 || count <= decimals {
+        digits[count] = b'0' + u8::try_from(left % 10).expect("below ten");
+        (left, count) = (left / 10, count + 1);
+    }
+    if value < 0 {
+        text.push('-');
+    }
+    for place in (0..count).rev() {
+        text.push(char::from(digits[place]));
+        if place == decimals && place > 0 {
+            text.push('.');
+        }
     }
 }
 
@@ -493,13 +525,6 @@ const RADIUS_ERROR: Nm = Nm::new(1200);
 /// The part of the radius by which they may differ where that is asked too: half of the thousandth
 /// that is refused.
 const RELATIVE: f64 = 2_000.0;
-
-fn word(turn: Turn) -> &'static str {
-    match turn {
-        Turn::Clockwise => "G2",
-        Turn::CounterClockwise => "G3",
-    }
-}
 
 /// Text that every controller bears in a comment: printable ASCII, without what ends a comment or
 /// acts at once.

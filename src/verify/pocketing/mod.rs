@@ -291,11 +291,7 @@ impl Judge<'_> {
         self.pocketed.plunges = listings.iter().map(|(listing, _)| count(listing)).sum();
         let Some((levels, passes)) = self.floor.plunges else { return };
         let first = listings.first().map_or(0, |(listing, _)| count(listing));
-        // Two ways of counting that agree with the program are enough; else the exact one decides.
-        let mut maxima = maxima_by_steps(self.floor.areas, levels) * passes;
-        if maxima != first {
-            maxima = self::maxima(self.floor.areas, levels) * passes;
-        }
+        let maxima = needed(self.floor.areas, levels, first / passes.max(1)) * passes;
         self.pocketed.maxima = Some(maxima);
         if first > maxima {
             let message = format!(
@@ -432,6 +428,26 @@ fn thinned(polygon: &Polygon) -> Option<Polygon> {
 /// So many corners one after the other may go. Chosen: each is looked at again with the next.
 const MOST_GONE: usize = 16;
 
+/// A place that is so near to a level, in nanometres, is on either side of it. Chosen: chords and
+/// rounding leave the first, and a piece of [`SMALL`] size is no higher than the second.
+const BOTH_SIDES: [f64; 2] = [30.0, 300.0];
+
+/// How often the tool need come down, which did so `made` times in a pass.
+fn needed(areas: &[Polygon], levels: &[f64], made: usize) -> usize {
+    // Two ways of counting that agree with the program are enough; else the exact one decides.
+    if maxima_by_steps(areas, levels) == made {
+        return made;
+    }
+    // Unless where a neck is as wide as a loop, or an area hardly wider, decides.
+    let about = |by: f64| maxima(areas, &levels.iter().map(|level| level + by).collect::<Vec<f64>>());
+    let exact = about(0.0);
+    let (mut least, mut most) = (exact, exact);
+    for count in BOTH_SIDES.into_iter().flat_map(|by| [-by, by]).map(about) {
+        (least, most) = (least.min(count), most.max(count));
+    }
+    if (least..=most).contains(&made) { made } else { exact }
+}
+
 /// How many pieces of areas, offset inwards to rising levels, have none of the next level in them.
 fn maxima(areas: &[Polygon], levels: &[f64]) -> usize {
     let pieces_of = |area: &Polygon, number: usize, level: f64| {
@@ -463,7 +479,30 @@ fn maxima(areas: &[Polygon], levels: &[f64]) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Rect;
     use crate::topology::random;
+
+    /// A square and a smaller one that no farther loop fits into, with a passage between them that
+    /// is as wide as a loop is from its walls.
+    #[test]
+    fn a_neck_as_wide_as_a_loop_is_passed_or_not() {
+        let block = |[left, right, height]: [i64; 3]| {
+            let at = |x: i64, y: i64| Point::new(Nm::new(x), Nm::new(y));
+            Polygon::rectangle(Rect::new(at(left, -height / 2), at(right, height / 2)))
+        };
+        let necked = |width: i64| {
+            let neck = block([5_999_999, 8_000_001, width]);
+            let blocks = [block([0, 6_000_000, 6_000_000]), block([8_000_000, 9_200_000, 1_200_000]), neck];
+            crate::board::polarity::union(&blocks)
+        };
+        let levels = [250_000.0, 500_000.0, 750_000.0];
+        for (width, wanted) in
+            [(998_000, [2, 2]), (999_900, [1, 2]), (1_000_100, [1, 2]), (1_002_000, [1, 1])]
+        {
+            let found = [1, 2].map(|made| needed(&necked(width), &levels, made));
+            assert_eq!(found, wanted, "of a neck {width} nm wide");
+        }
+    }
 
     /// Discs of random sizes, some of which meet: pieces that fall apart at many levels.
     #[test]

@@ -2,9 +2,10 @@
 
 use rustc_hash::FxHashMap;
 
+use super::course::COURSE;
 use super::{Diagram, Edge, WALL};
 use crate::voronoi::plane::Spot;
-use crate::voronoi::sample::{CHORD, CLEARANCE_CHORD, Sample};
+use crate::voronoi::sample::Sample;
 
 /// A place on the medial axis.
 #[derive(Clone, Copy, Debug)]
@@ -44,13 +45,19 @@ impl Diagram {
         ranges: &[[f64; 2]],
         wanted: impl Fn(u32, u32) -> bool,
     ) -> Vec<Axis> {
-        let mut parts = Vec::new();
+        let (mut parts, mut samples) = (Vec::new(), Vec::new());
         for (number, edge) in (0_u32..).zip(&self.edges) {
             let [left, right] = [edge.left, edge.right].map(|generator| self.owner(generator));
             if left != WALL && right != WALL && wanted(left, right) && self.may_reach(edge, ranges) {
-                let samples = self.samples_within(edge, [CHORD, CLEARANCE_CHORD]).into_iter();
-                let on_edge = |sample| OnAxis { sample, edge: number };
-                cut(&samples.map(on_edge).collect::<Vec<_>>(), ranges, [edge.from, edge.to], &mut parts);
+                samples.clear();
+                self.add_samples(edge, COURSE, &mut samples);
+                let on_edge = |&sample| OnAxis { sample, edge: number };
+                cut(
+                    &samples.iter().map(on_edge).collect::<Vec<_>>(),
+                    ranges,
+                    [edge.from, edge.to],
+                    &mut parts,
+                );
             }
         }
         self.joined(&parts)

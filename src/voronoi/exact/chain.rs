@@ -9,9 +9,11 @@
 
 use rayon::prelude::*;
 
+use super::course::COURSE;
 use super::{Diagram, Edge, Link, WALL};
+use crate::topology::Groups;
 use crate::voronoi::plane::Spot;
-use crate::voronoi::sample::{CHORD, CLEARANCE_CHORD, Sample};
+use crate::voronoi::sample::Sample;
 
 /// Edges in a row between the same two owners.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,11 +39,11 @@ impl Diagram {
     /// The links of each chain, and whether it is a loop.
     pub(super) fn rows(&self) -> Vec<(Vec<Link>, bool)> {
         let ends = self.ends_by_vertex();
-        let joint = |vertex: u32| self.is_joint(&ends[vertex as usize]);
+        let joint = |vertex: u32| self.is_joint(ends.of(vertex as usize));
         let mut seen = vec![false; self.edges.len()];
         let mut rows: Vec<(Vec<Link>, bool)> = Vec::new();
         let nodes = (0_u32..).take(ends.len()).filter(|&vertex| !joint(vertex));
-        for link in nodes.flat_map(|vertex| ends[vertex as usize].iter().copied()) {
+        for link in nodes.flat_map(|vertex| ends.of(vertex as usize).iter().copied()) {
             if !seen[link.0 as usize] {
                 rows.push((self.row(link, &ends, &mut seen), false));
             }
@@ -59,13 +61,11 @@ impl Diagram {
     }
 
     /// The boundary edges that leave each vertex.
-    fn ends_by_vertex(&self) -> Vec<Vec<Link>> {
-        let mut ends = vec![Vec::new(); self.vertices.len()];
-        for (number, edge) in (0_u32..).zip(&self.edges).filter(|(_, edge)| self.is_boundary(edge)) {
-            ends[edge.from as usize].push((number, false));
-            ends[edge.to as usize].push((number, true));
-        }
-        ends
+    fn ends_by_vertex(&self) -> Groups<Link> {
+        let boundary = (0_u32..).zip(&self.edges).filter(|(_, edge)| self.is_boundary(edge));
+        let ends =
+            boundary.flat_map(|(number, edge)| [(edge.from, (number, false)), (edge.to, (number, true))]);
+        Groups::new(self.vertices.len(), ends)
     }
 
     /// The vertex that a link leads to.
@@ -89,12 +89,12 @@ impl Diagram {
     }
 
     /// The links from `first` to the next node, or round.
-    fn row(&self, first: Link, ends: &[Vec<Link>], seen: &mut [bool]) -> Vec<Link> {
+    fn row(&self, first: Link, ends: &Groups<Link>, seen: &mut [bool]) -> Vec<Link> {
         let mut row = vec![first];
         seen[first.0 as usize] = true;
         let mut link = first;
         loop {
-            let leaving = &ends[self.target(link) as usize];
+            let leaving = ends.of(self.target(link) as usize);
             let next = leaving.iter().find(|next| next.0 != link.0 && !seen[next.0 as usize]);
             match next {
                 Some(&next) if self.is_joint(leaving) => {
@@ -114,7 +114,7 @@ impl Diagram {
             // Where the last one ended this one begins.
             samples.pop();
             let from = samples.len();
-            self.add_samples(&self.edges[number as usize], [CHORD, CLEARANCE_CHORD], samples);
+            self.add_samples(&self.edges[number as usize], COURSE, samples);
             if reversed {
                 samples[from..].reverse();
             }

@@ -250,6 +250,20 @@ impl Form {
         reaches.then_some(s)
     }
 
+    /// What is so many nanometres away from it on the free side, wherever the foot lies.
+    pub(super) fn parallel(&self, level: f64) -> Option<Self> {
+        match *self {
+            Self::Line { from, along, length } => {
+                Some(Self::Line { from: from + clockwise(along) * level, along, length })
+            }
+            Self::Circle { radius, hollow: true, .. } if radius <= level => None,
+            Self::Circle { center, radius, hollow, sector } => {
+                let radius = if hollow { radius - level } else { radius + level };
+                Some(Self::Circle { center, radius, hollow, sector })
+            }
+        }
+    }
+
     /// Where the whole line or circle crosses that of another form: there the bisector of both
     /// ends, and another branch of it may begin.
     pub(super) fn crossings(&self, other: &Self) -> [Option<Spot>; 2] {

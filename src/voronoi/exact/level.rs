@@ -17,17 +17,15 @@
 use std::sync::OnceLock;
 
 use super::chain::Chain;
+use super::course::COURSE;
 use super::form::{Form, Place, halfway, turn};
 use super::{Diagram, Edge, Kind, Link, NOBODY};
 use crate::voronoi::plane::Spot;
-use crate::voronoi::sample::{CHORD, CLEARANCE_CHORD, Sample};
+use crate::voronoi::sample::{CHORD, Sample};
 
 /// A level lies above its number by this much, in nanometres, so that what is exactly so wide on a
 /// grid is on one side of it. Chosen: more than rounding, less than the grid.
 const ABOVE: f64 = 0.3;
-
-/// What chords may leave of an edge's place and clearance.
-const COURSE: [f64; 2] = [CHORD, CLEARANCE_CHORD];
 
 /// Directions are one if their cosine is no less. Chosen: a hundredth of a degree.
 const SAME: f64 = 1.0 - 1e-8;
@@ -36,13 +34,6 @@ const SAME: f64 = 1.0 - 1e-8;
 /// where a level all but touches an edge, it crosses anywhere near.
 /// Chosen: more than rounding leaves; no net is open by so little.
 const BACK: f64 = 2_000.0;
-
-/// An edge is looked at in so many halvings for where its clearance turns. Derived: a conic's turns
-/// at most twice in a turn round it, and generators end there.
-const HALVINGS: u32 = 2;
-
-/// Places are found to so many nanometres. Chosen: a nanometre is rounded away in the end.
-const EXACT: f64 = 1e-4;
 
 /// Where a level set crosses an edge.
 #[derive(Clone, Copy, Debug)]
@@ -167,72 +158,15 @@ impl Diagram {
             return;
         }
         let stretches = self.stretches.get_or_init(|| vec![OnceLock::new(); self.edges.len()]);
-        for pair in stretches[number as usize].get_or_init(|| self.stretches_of(edge)).windows(2) {
-            let [a, b] = [pair[0], pair[1]];
+        let pair = self.pair_of(edge);
+        for ends in stretches[number as usize].get_or_init(|| pair.stretches(from, to)).windows(2) {
+            let [a, b] = [ends[0], ends[1]];
             let rises = b.clearance > found.level;
             if (a.clearance > found.level) != rises {
-                let at = self.crossing_between(edge, a, b, found.level);
+                let at = pair.crossing(a, b, found.level);
                 found.all.push(Crossing { edge: number, at, rises });
             }
         }
-    }
-
-    /// The places between which the clearance along an edge only rises or only falls.
-    fn stretches_of(&self, edge: &Edge) -> Vec<Sample> {
-        let (from, to) = (self.sample_at(edge.from), self.sample_at(edge.to));
-        let mut places = vec![from];
-        self.halve_course(edge, from, to, HALVINGS, &mut places);
-        let mut stretches = vec![from];
-        for pair in places.windows(2) {
-            stretches.extend(self.turning(edge, pair[0], pair[1]));
-            stretches.push(pair[1]);
-        }
-        stretches
-    }
-
-    fn halve_course(&self, edge: &Edge, a: Sample, b: Sample, left: u32, places: &mut Vec<Sample>) {
-        if left > 0
-            && let Some(middle) = self.midway(edge, a.at, b.at)
-        {
-            self.halve_course(edge, a, middle, left - 1, places);
-            self.halve_course(edge, middle, b, left - 1, places);
-        } else {
-            places.push(b);
-        }
-    }
-
-    /// How the clearance changes along an edge, at a place on it.
-    fn slope(&self, edge: &Edge, at: Spot) -> f64 {
-        let pair = self.pair(edge.left, edge.right);
-        pair.way(at).dot(pair.forms[0].away(at))
-    }
-
-    /// Where between two places the clearance is least or greatest, if it is.
-    fn turning(&self, edge: &Edge, mut a: Sample, mut b: Sample) -> Option<Sample> {
-        let (first, last) = (self.slope(edge, a.at), self.slope(edge, b.at));
-        if (first > 0.0) == (last > 0.0) {
-            return None;
-        }
-        for _ in 0..60 {
-            if (b.at - a.at).length() < EXACT {
-                break;
-            }
-            let Some(middle) = self.midway(edge, a.at, b.at) else { break };
-            if (self.slope(edge, middle.at) > 0.0) == (first > 0.0) { a = middle } else { b = middle }
-        }
-        Some(a)
-    }
-
-    fn crossing_between(&self, edge: &Edge, mut a: Sample, mut b: Sample, level: f64) -> Spot {
-        let rises = b.clearance > level;
-        for _ in 0..60 {
-            if (b.at - a.at).length() < EXACT {
-                break;
-            }
-            let Some(middle) = self.midway(edge, a.at, b.at) else { break };
-            if (middle.clearance > level) == rises { b = middle } else { a = middle }
-        }
-        a.at
     }
 
     /// The legs of the level set from a crossing to the next.
@@ -475,13 +409,13 @@ impl Diagram {
 
     /// Adds the places along a link behind the first of two up to the second.
     fn extend(&self, link: Link, (from, to): (Sample, Sample), samples: &mut Vec<Sample>) {
-        let edge = &self.edges[link.0 as usize];
+        let pair = self.pair_of(&self.edges[link.0 as usize]);
         if link.1 {
             let mut between = Vec::new();
-            self.halve(edge, (to, from), COURSE, 16, &mut between);
+            pair.halve((to, from), COURSE, 16, &mut between);
             samples.extend(between.into_iter().rev());
         } else {
-            self.halve(edge, (from, to), COURSE, 16, samples);
+            pair.halve((from, to), COURSE, 16, samples);
         }
         samples.push(to);
     }
