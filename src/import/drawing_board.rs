@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use super::advice::quoted;
-use super::archive::{Found, name_of, read_file};
+use super::archive::{Found, name_of, read_file, read_head};
 use super::build::{Build, Loaded};
 use super::drawing::{self, Drawing, Part, Parts, split};
 use super::error::Error;
@@ -93,10 +93,10 @@ fn named_as(path: &Path, role: Option<Role>, selection: &Selection) -> Result<Op
         return Ok(None);
     }
     let shown = file.display().to_string();
-    let bytes = read_file(&file, &shown)?;
-    if !drawing::looks_like(&bytes) {
+    if !drawing::looks_like(&read_head(&file, &shown)?) {
         return Ok(None);
     }
+    let bytes = read_file(&file, &shown)?;
     let drawing = drawing::read(&name_of(&file), &bytes, &selection.drawing)?;
     let file = Found { name: name_of(&file), shown, bytes, kind: Kind::Unknown, named: true };
     Ok(Some(Named { file, drawing, layer, role }))
@@ -105,7 +105,7 @@ fn named_as(path: &Path, role: Option<Role>, selection: &Selection) -> Result<Op
 fn refuse_pictures<'a>(paths: impl Iterator<Item = &'a PathBuf>) -> Result<(), Error> {
     for path in paths.filter(|path| path.is_file()) {
         let shown = path.display().to_string();
-        if picture::is_picture(path, &read_file(path, &shown)?) {
+        if picture::is_picture(path, &read_head(path, &shown)?) {
             let what = "a picture and a drawing cannot be combined: their alignment is unknown";
             return Err(Error::content(&shown, what, "give the picture alone"));
         }

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::archive::{name_of, read_file};
+use super::archive::{name_of, read_file, read_head};
 use super::build::Loaded;
 use super::diagnostic;
 use super::error::Error;
@@ -18,7 +18,7 @@ pub(super) fn load(paths: &[PathBuf], selection: &Selection) -> Result<Option<Lo
         paths.iter().chain(&selection.front).chain(&selection.back).filter(is_file).collect();
     let mut pictures: Vec<&PathBuf> = Vec::new();
     for path in &named {
-        if !pictures.contains(path) && is_picture(path, &read_file(path, &path.display().to_string())?) {
+        if !pictures.contains(path) && is_picture(path, &read_head(path, &path.display().to_string())?) {
             pictures.push(path);
         }
     }

@@ -52,8 +52,8 @@ fn every_format_of_files_is_a_folder_and_an_entry() {
     let of_layers =
         import::FORMATS.iter().map(|format| format.name.split('-').next().expect("a name").to_owned());
     let mut expected: BTreeSet<String> = of_layers.collect();
-    // Those of drawings, pictures, what edges are joined by, and what files lie in.
-    expected.extend(["drawing", "picture", "outline", "archive"].map(ToOwned::to_owned));
+    // Those of drawings, pictures, what edges are joined by, what files lie in and are for.
+    expected.extend(["drawing", "picture", "outline", "archive", "layers"].map(ToOwned::to_owned));
     assert_eq!(folders("import"), expected, "layers and boards");
     let drawings: BTreeSet<String> = drawing::FORMATS.iter().map(|format| format.name.to_owned()).collect();
     assert_eq!(folders("import/drawing"), drawings, "drawings");

@@ -22,6 +22,10 @@ use crate::board::{SourceSpan, Words};
 /// Chosen: a Gerber of a 600 mm panel has some 50 MB; ten times that.
 const MOST_BYTES: u64 = 512 << 20;
 
+/// So many bytes of a file are its head: twice what any reader looks at, as letters may be two
+/// bytes each.
+const HEAD: u64 = 8192;
+
 /// A file that may belong to the board.
 #[derive(Clone, Debug)]
 pub(super) struct Found {
@@ -270,20 +274,35 @@ fn decoded(bytes: Vec<u8>) -> Vec<u8> {
 
 /// Reads a file of at most [`MOST_BYTES`].
 pub(super) fn read_file(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
+    let bytes = read_first(path, shown, MOST_BYTES + 1)?;
+    if bytes.len() as u64 > MOST_BYTES {
+        let what = format!("the file has more than {} MiB", MOST_BYTES >> 20);
+        return Err(Error::content(shown, what, "no board layer is that large"));
+    }
+    Ok(decoded(bytes))
+}
+
+/// Reads how a file begins, by which pictures and drawings are told from all others.
+pub(super) fn read_head(path: &Path, shown: &str) -> Result<Vec<u8>, Error> {
+    read_first(path, shown, HEAD).map(decoded)
+}
+
+/// Reads so many bytes of a file, or all.
+fn read_first(path: &Path, shown: &str, most: u64) -> Result<Vec<u8>, Error> {
     // Opening a pipe waits for somebody to write into it.
     if !path.is_dir()
         && let Some(what) = special(path).filter(|_| path.exists())
     {
         return Err(Error::content(shown, what, "save its output to a file, and give that file"));
     }
-    let file = File::open(path).map_err(|error| unreadable(shown, &error))?;
-    let mut bytes = Vec::new();
-    file.take(MOST_BYTES + 1).read_to_end(&mut bytes).map_err(|error| unreadable(shown, &error))?;
-    if bytes.len() as u64 > MOST_BYTES {
-        let what = format!("the file has more than {} MiB", MOST_BYTES >> 20);
-        return Err(Error::content(shown, what, "no board layer is that large"));
-    }
-    Ok(decoded(bytes))
+    let read = || {
+        let file = File::open(path)?;
+        let size = file.metadata()?.len().min(most);
+        let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or_default());
+        file.take(most).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    read().map_err(|error| unreadable(shown, &error))
 }
 
 fn unreadable(shown: &str, error: &io::Error) -> Error {

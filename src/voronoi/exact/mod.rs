@@ -78,6 +78,7 @@ mod graph;
 mod index;
 mod level;
 mod pair;
+mod parallel;
 mod rounding;
 mod seed;
 mod slit;
