@@ -89,6 +89,13 @@ impl Path {
         Some(Self { start, segments: points.map(|to| Segment::Line { to }).collect() })
     }
 
+    /// A whole circle, from its rightmost point.
+    #[must_use]
+    pub fn circle(center: Point, radius: Nm, turn: Turn) -> Self {
+        let start = center + Vector::new(radius, Nm::ZERO);
+        Self { start, segments: vec![Segment::Arc { to: start, center, turn }] }
+    }
+
     /// Where it ends.
     #[must_use]
     pub fn end(&self) -> Point {

@@ -91,7 +91,7 @@ fn encode(grid: &Grid, colour: ColorType, paint: impl FnOnce(&mut dyn FnMut(&[u8
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geometry::{Nm, Path, Point, Rect, Segment, Turn, Vector};
+    use crate::geometry::{Nm, Path, Point, Rect, Turn};
     use crate::report::Rgb;
 
     #[test]
@@ -102,8 +102,7 @@ mod tests {
         // Rings that end near the first seam, each a tenth of a pixel lower than the one before.
         let ring = |offset: i64| {
             let center = Point::new(um(100 + offset * 20), um(3_000 - 2_340 - offset));
-            let start = center + Vector::new(um(50), Nm::ZERO);
-            Path { start, segments: vec![Segment::Arc { to: start, center, turn: Turn::CounterClockwise }] }
+            Path::circle(center, um(50), Turn::CounterClockwise)
         };
         let rings: Vec<Path> = (0..20).map(ring).collect();
         let draw = |grid: Grid| {

@@ -2,7 +2,7 @@
 //! random colour.
 
 use crate::board::Copper;
-use crate::geometry::{Nm, Path, Point, Segment, Turn, Vector};
+use crate::geometry::{Nm, Path, Turn};
 use crate::grid::{Grid, GridError};
 use crate::topology::{self, Method, Nets, Sampling, Translucency};
 
@@ -29,7 +29,11 @@ impl<'a> Translucent<'a> {
     pub fn new(copper: &'a Copper, pitch: Nm) -> Result<Self, GridError> {
         let traces = topology::recover(copper, Method::Coincidence);
         let found = topology::translucency(copper, &traces, Sampling { pitch, ..Sampling::default() })?;
-        let rings = found.overlaps.iter().map(|overlap| ring(overlap.at, pitch * RING)).collect();
+        let rings = found
+            .overlaps
+            .iter()
+            .map(|overlap| Path::circle(overlap.at, pitch * RING, Turn::CounterClockwise))
+            .collect();
         Ok(Self { copper, traces, found, rings })
     }
 
@@ -46,10 +50,4 @@ impl<'a> Translucent<'a> {
         canvas.strokes(&self.rings, Nm::ZERO, Rgb(255, 255, 255), 0.9);
         canvas
     }
-}
-
-/// A circle.
-fn ring(center: Point, radius: Nm) -> Path {
-    let start = center + Vector::new(radius, Nm::ZERO);
-    Path { start, segments: vec![Segment::Arc { to: start, center, turn: Turn::CounterClockwise }] }
 }

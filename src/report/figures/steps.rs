@@ -1,7 +1,7 @@
 //! Figures 2 and 3: how traces are put together, and curves at a distance.
 
 use crate::board::{Axis, Copper, Feature, Shape, polarity};
-use crate::geometry::{Nm, Path, Point, Polygon, Rect, Segment, Turn, Vector};
+use crate::geometry::{Nm, Path, Point, Polygon, Rect, Turn};
 use crate::grid::Grid;
 use crate::report::translucent::Translucent;
 use crate::report::{Canvas, Rgb};
@@ -89,18 +89,17 @@ pub(super) fn overlaps(copper: &Copper, columns: u32) -> Result<Painting, Figure
     let found = topology::by_translucency(copper);
     let mut seen = Translucent::new(copper, grid.pitch() * i64::from(FINER))?.draw(grid);
     for overlap in &found.overlaps {
-        seen.strokes(&[ring(overlap.at, grid.pitch() * 24)], grid.pitch() * 5, WHITE, 1.0);
+        seen.strokes(
+            &[Path::circle(overlap.at, grid.pitch() * 24, Turn::CounterClockwise)],
+            grid.pitch() * 5,
+            WHITE,
+            1.0,
+        );
     }
     let seen = Painting::of(seen).smaller(FINER as usize);
     let nets = found.nets;
     let together = pieces(copper, grid, |index| colour(&nets, index));
     Ok(Painting::beside(&[apart, seen, together], 24))
-}
-
-/// A circle.
-fn ring(center: Point, radius: Nm) -> Path {
-    let start = center + Vector::new(radius, Nm::ZERO);
-    Path { start, segments: vec![Segment::Arc { to: start, center, turn: Turn::CounterClockwise }] }
 }
 
 /// Figure 3, right: the edge of copper and curves at `distances` from it, with what a curve would

@@ -21,12 +21,12 @@ use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
 use crate::board::{Diagnostic, FLATTEN, Severity};
 use crate::gcode::read::{Listing, Motion};
-use crate::geometry::{Nm, Point, Polygon, off_segment};
+use crate::geometry::{Nm, Point, Polygon, coarse};
 
 use super::Error;
 use super::carving::{Text, followed, harm};
 use super::cutter::Cutter;
-use super::edges::{Edges, length};
+use super::edges::Edges;
 use super::report::Finding;
 use super::surface::stretches;
 
@@ -406,27 +406,9 @@ const THIN: f64 = 30.0;
 
 /// A polygon with fewer corners; none where none are left.
 fn thinned(polygon: &Polygon) -> Option<Polygon> {
-    let thin = |ring: &Vec<Point>| {
-        let mut kept: Vec<Point> = ring.first().copied().into_iter().collect();
-        let mut gone: Vec<Point> = Vec::new();
-        for pair in ring.windows(2).skip(1) {
-            let (corner, next) = (pair[0], pair[1]);
-            gone.push(corner);
-            let from = kept[kept.len() - 1].to_f64();
-            let near = |p: &Point| length(off_segment(p.to_f64(), from, next.to_f64())) < THIN;
-            if gone.len() > MOST_GONE || !gone.iter().all(near) {
-                kept.push(corner);
-                gone.clear();
-            }
-        }
-        kept.extend(ring.iter().skip(1).last());
-        kept
-    };
+    let thin = |ring: &Vec<Point>| coarse(ring, THIN).into_iter().map(|corner| ring[corner]).collect();
     Polygon::new(polygon.contours().iter().map(thin).collect())
 }
-
-/// So many corners one after the other may go. Chosen: each is looked at again with the next.
-const MOST_GONE: usize = 16;
 
 /// A place that is so near to a level, in nanometres, is on either side of it. Chosen: chords and
 /// rounding leave the first, and a piece of [`SMALL`] size is no higher than the second.

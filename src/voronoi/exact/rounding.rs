@@ -102,8 +102,7 @@ impl<'a> Circles<'a> {
     /// A ring that is a circle.
     fn whole(&self, number: usize, is_left: bool) -> Path {
         let Circle { center, radius } = self.all[number];
-        let start = Point::new(center.x + radius, center.y);
-        Path { start, segments: vec![Segment::Arc { to: start, center, turn: turn(is_left) }] }
+        Path::circle(center, radius, turn(is_left))
     }
 
     /// The segments of edges one after the other that are chords of one circle, or of none.
@@ -146,9 +145,7 @@ mod tests {
             ring.rotate_left(third);
             ring.reverse();
             let path = Circles::new(disc.circles()).rounded(ring).expect("a ring");
-            let start = Point::new(center.x + radius, center.y);
-            let circle = Segment::Arc { to: start, center, turn: Turn::Clockwise };
-            assert_eq!((path.start, path.segments), (start, vec![circle]), "radius {radius:?}");
+            assert_eq!(path, Path::circle(center, radius, Turn::Clockwise), "radius {radius:?}");
         }
     }
 
