@@ -255,7 +255,8 @@ impl Work {
 /// Where the shapes come from.
 #[derive(Args)]
 struct Shapes {
-    /// The file with the shapes
+    /// The file with the shapes: a picture, a drawing (SVG, DXF) or FILE#LAYER for one layer of it,
+    /// copper of a board
     #[arg(required_unless_present = "text", conflicts_with = "text", value_name = "PATH")]
     path: Option<PathBuf>,
 
@@ -418,7 +419,12 @@ fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure
     // What is said of boards and their outlines is of no use here; and what a solder mask calls
     // negative, what it draws, are its openings. Letters may be slanted.
     let is_of_use = |kind: &Diagnostic| {
-        let of_boards = [diagnostic::NEGATIVE_FILE, diagnostic::COPPER_MISSING, diagnostic::PICTURE_SKEWED];
+        let of_boards = [
+            diagnostic::NEGATIVE_FILE,
+            diagnostic::COPPER_MISSING,
+            diagnostic::PICTURE_SKEWED,
+            diagnostic::DRAWING_GUESSED,
+        ];
         !kind.is_of_the_outline() && !of_boards.contains(kind)
     };
     let warnings = loaded.warnings.into_iter().filter(|warning| is_of_use(warning.kind));

@@ -70,7 +70,7 @@ diagnostics! {
         "drawing-layers-aside",
         "Layers of a drawing with unknown names, beside known ones",
         "layers named as in KiCad: F.Cu, Edge.Cuts, drill",
-        "choose them with {front} FILE#LAYER, {outline} FILE#LAYER or {drill} FILE#LAYER";
+        "name one layer behind the file, FILE#LAYER; what it is of a board say {front}, {outline} or {drill}";
 
     DXF_LEFT_OUT: Warning =
         "dxf-left-out",

@@ -74,3 +74,19 @@ pub(crate) fn is_refused(command: &str, cases: &[(&[&str], &str)]) {
         assert!(refused.status.code() == Some(2) && said.contains(expected), "{arguments:?}: {said}");
     }
 }
+
+/// The touch of a tool on its plate is no cut; and what layers of a drawing are is no matter where
+/// all that is drawn is milled.
+#[test]
+fn a_tool_may_touch_its_plate_before_it_cuts() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = folder.path().join("made.ngc").display().to_string();
+    for (command, tool) in [("carve", "vbit:0.1mm:60deg"), ("pocket", "endmill:0.5mm")] {
+        let plate = ["--tool-probe", "50mm,0mm,0.5mm", "--tool", tool, "-o", &program];
+        let made = voromill(&[&[command, "fixtures/drawings/strokes.svg"][..], &plate].concat());
+        assert!(made.status.success(), "{}{}", stdout(&made), stderr(&made));
+        assert_eq!(stderr(&made), "", "{command}: nothing is said against it");
+        let text = std::fs::read_to_string(&program).expect("a program");
+        assert!(text.contains("G38.2"), "{command}: it touches");
+    }
+}

@@ -143,8 +143,8 @@ pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
     };
     for motion in &listing.motions {
         // At the surface a trail begins and ends: a rapid there is one that was not lifted.
-        let low = |z: Option<Nm>| z.is_some_and(|z| z <= Nm::ZERO);
-        if !low(motion.from.z) && !low(motion.to.z) {
+        let reaches = |fits: fn(&Nm) -> bool| [motion.from.z, motion.to.z].iter().flatten().any(fits);
+        if !reaches(|&z| z <= Nm::ZERO) {
             continue;
         }
         let at = motion.to.point();
@@ -152,10 +152,12 @@ pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
         if motion.way == Way::Rapid && !lifts {
             say(&check::RAPID_IN_MATERIAL, "a rapid goes through what is to be carved", motion.line, at);
         }
-        if motion.way != Way::Rapid && motion.feed.is_none() {
+        // There the tool touches a plate, too, and does not turn.
+        let cuts = reaches(|&z| z < Nm::ZERO);
+        if cuts && motion.way != Way::Rapid && motion.feed.is_none() {
             say(&check::FEED_MISSING, "it cuts before any feed is given", motion.line, at);
         }
-        if !motion.spindle.turns() {
+        if cuts && !motion.spindle.turns() {
             say(&check::PLUNGE_SPINDLE_OFF, "it cuts with the spindle off", motion.line, at);
         }
     }
