@@ -69,10 +69,34 @@ pub(super) fn without_slivers(areas: &[Polygon]) -> Vec<Polygon> {
     areas.iter().filter_map(kept).collect()
 }
 
-/// An area on the machine.
-pub(super) fn placed(area: &Polygon, placement: &Placement) -> Polygon {
-    let rings = area.contours().iter().map(|ring| ring.iter().map(|&p| placement.point(p)).collect());
-    Polygon::new(rings.collect()).expect("as many corners as before")
+/// Shapes lie no farther from zero than this, in their file and on the machine. Derived: what is
+/// worked out round them stays in the range of [`Nm`].
+const FARTHEST: Nm = Nm::from_mm(1050);
+
+/// Areas on the machine, and how they are placed there.
+///
+/// # Errors
+///
+/// [`Error::NoArea`] where there is none to `mill`, [`Error::Beyond`] for what lies too far out.
+pub(super) fn on_machine(
+    areas: &[Polygon],
+    settings: &Settings,
+    mill: &'static str,
+) -> Result<(Vec<Polygon>, Placement), Error> {
+    let around = |areas: &[Polygon]| areas.iter().map(Polygon::bounds).reduce(Rect::union);
+    let bounds = around(areas).ok_or(Error::NoArea(mill))?;
+    let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);
+    let placed = |area: &Polygon| {
+        let rings = area.contours().iter().map(|ring| ring.iter().map(|&p| placement.point(p)).collect());
+        Polygon::new(rings.collect()).expect("as many corners as before")
+    };
+    let areas: Vec<Polygon> = areas.iter().map(placed).collect();
+    let farthest = |bounds: Rect| {
+        let (least, most) = (bounds.min(), bounds.max());
+        [least.x, least.y, most.x, most.y].into_iter().map(Nm::abs).max().unwrap_or_default()
+    };
+    let reach = around(&areas).into_iter().chain([bounds]).map(farthest).max().unwrap_or_default();
+    if reach > FARTHEST { Err(Error::Beyond { reach, most: FARTHEST }) } else { Ok((areas, placement)) }
 }
 
 /// A section as a program of its own: what its file's name ends in, what it does, the number of its

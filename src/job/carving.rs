@@ -6,11 +6,11 @@ use crate::board::{Warning, Words};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy;
-use crate::toolpath::{Angle, Heights, Order, Placement, Section, Tool, ToolKind};
+use crate::toolpath::{Angle, Heights, Order, Section, Tool, ToolKind};
 use crate::verify::carving::{self, Carved, Ideal, Text};
 use crate::voronoi::medial::{Interior, MedialAxis, Pruning, insets};
 
-use super::art::{self, Art, OneTool, placed, round, without_slivers, written};
+use super::art::{self, Art, OneTool, on_machine, round, without_slivers, written};
 use super::{Error, Reach, Settings};
 
 /// How it is carved.
@@ -121,9 +121,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         Some(margin) => round(&shapes, margin),
     };
     let areas = without_slivers(&areas);
-    let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
-    let bounds = bounds.ok_or(Error::NoArea("carve"))?;
-    let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);
+    let (placed, placement) = on_machine(&areas, settings, "carve")?;
     let flank = tool.kind.flank().min(1.0);
     let pruning = Pruning {
         loss: settings.tolerance.to_f64() * SHARE * flank,
@@ -179,7 +177,6 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         let problem = format!("everything is narrower than the tip of `{}`: nothing is carved", tool.kind);
         return Err(Error::Value { key: "tool", problem });
     }
-    let areas: Vec<Polygon> = areas.iter().map(|area| placed(area, &placement)).collect();
     let mut programs = Vec::new();
     for (number, (tag, section)) in (1..).zip(sections) {
         let what = if tag.is_empty() { "carving" } else { "floor" };
@@ -192,7 +189,7 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     let deepest = -moves.filter_map(|step| step.to()).map(|to| to.z).min().unwrap_or(Nm::ZERO);
     Ok(Engraving {
         name: art.name,
-        areas,
+        areas: placed,
         max_depth: how.max_depth,
         start,
         clears: how.flat.is_some() || how.inlay.is_some(),

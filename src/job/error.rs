@@ -1,6 +1,7 @@
 //! Why a job could not be done.
 
 use crate::board::{Side, Words};
+use crate::geometry::Nm;
 use crate::grid::GridError;
 use crate::import;
 use crate::verify;
@@ -39,6 +40,14 @@ pub enum Error {
     /// Nothing to carve or to pocket.
     #[error("nothing in it has an area: there is nothing to {0}")]
     NoArea(&'static str),
+    /// Shapes so far from zero that they cannot be handled exactly.
+    #[error("the shapes reach {reach:.1} mm from zero: expected at most {most:.1} mm")]
+    Beyond {
+        /// How far.
+        reach: Nm,
+        /// How far they may.
+        most: Nm,
+    },
     /// A file that was cut off: what it lost would be milled away, or left to join nets.
     #[error("{0}")]
     Truncated(String),
@@ -81,6 +90,9 @@ impl Error {
             }
             Self::NoArea(_) => {
                 "fill shapes, close their lines, or give lines a width; `voromill inspect` shows what was found"
+            }
+            Self::Beyond { .. } => {
+                "give the unit of the file with {unit} if it is wrong; with {origin} center half as much lies to either side"
             }
             Self::Narrow(_) => {
                 "use a narrower {tool} or less {depth}, raise a V-bit in narrow gaps with {adaptive-depth}, or allow it with {narrow} centre"

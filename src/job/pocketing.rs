@@ -10,13 +10,13 @@ use crate::board::polarity::{difference, intersection, offset, union};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{self, Clearings, Engaging, Entries, Groove, Levels, Planned, Sequence};
-use crate::toolpath::{Angle, Direction, Heights, Placement, Tool, ToolKind};
+use crate::toolpath::{Angle, Direction, Heights, Tool, ToolKind};
 use crate::verify::carving::Text;
 use crate::verify::pocketing::{self, Floor, Pocketed};
 use crate::voronoi::medial::Interior;
 use crate::voronoi::medial::nest::Nest;
 
-use super::art::{self, Art, OneTool, placed, round, without_slivers, written};
+use super::art::{self, Art, OneTool, on_machine, round, without_slivers, written};
 use super::{Cutting, Error, Length, Overlap, Reach, Settings};
 
 /// How pockets are milled.
@@ -89,10 +89,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
         Some(margin) => round(&art.areas, margin),
     };
     let areas = without_slivers(&areas);
-    let bounds = areas.iter().map(Polygon::bounds).reduce(Rect::union);
-    let bounds = bounds.ok_or(Error::NoArea("mill"))?;
-    let placement = Placement::front(settings.origin, bounds, settings.asked.rotate, settings.offset);
-    let areas: Vec<Polygon> = areas.iter().map(|area| placed(area, &placement)).collect();
+    let (areas, _) = on_machine(&areas, settings, "mill")?;
     let mut made = Pocket {
         name: art.name.clone(),
         areas,

@@ -443,6 +443,7 @@ fn a_layer_is_carved_and_what_makes_no_sense_is_refused() {
             (&["--max-depth", "0.1mm", "--inlay", "male", "--flat", "endmill:1mm"], "less than the depth"),
             (&["--max-depth", "0.1mm", "--inlay", "female"], "in the way of the other half: --flat"),
             (&["--depth", "1mm"], "has no effect"),
+            (&["--offset", "0mm,-1060mm"], "from zero: expected at most 1050.0 mm"),
             (&["--tool", "vbit:9.8mm:60deg"], "narrower than the tip"),
         ],
     );

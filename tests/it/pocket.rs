@@ -550,6 +550,7 @@ fn what_makes_no_sense_is_refused() {
             (&["--tool", "endmill:1mm", "--ramp", "0deg"], "above 0deg"),
             (&["--tool", "endmill:1mm", "--depth-pass", "0mm"], "above zero"),
             (&["--tool", "endmill:9.8mm"], "narrower than"),
+            (&["--tool", "endmill:1mm", "--offset", "1045mm,0mm"], "from zero: expected at most 1050.0 mm"),
             (&["--tool", "endmill:1mm", "--engagement", "15%"], "--engagement has no effect"),
             (&["--tool", "endmill:1mm", "--both-ways"], "--both-ways has no effect"),
             (&["--tool", "endmill:1mm", "--strategy", "engagement", "--engagement", "0%"], "1% to 50%"),
