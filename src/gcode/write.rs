@@ -174,7 +174,9 @@ impl<'a> Writer<'a> {
         if let Some((on, _)) = &self.dialect.coolant {
             self.line(on);
         }
-        self.dwell(self.dialect.spin_up);
+        if self.dialect.spin_up > 0 {
+            self.dwell(self.dialect.spin_up);
+        }
     }
 
     /// The last retract, the spindle off, and the end lines.

@@ -204,6 +204,15 @@ fn a_spindle_without_a_speed_turns() {
     );
 }
 
+/// Marlin's dwell has its seconds in S; with P, as LinuxCNC reads it, S is a speed there, too.
+#[test]
+fn the_seconds_of_a_dwell_are_no_speed() {
+    let text = "G21 G90 M3 S900\nG4 S0\nG0 X0 Y0 Z1\nG4 P1 S800\nG1 Z-1 F9\n";
+    let listing = read(text).expect("followed");
+    let spindles: Vec<Spindle> = listing.motions.iter().map(|m| m.spindle).collect();
+    assert_eq!((spindles, listing.dwell), (vec![Spindle::At(900), Spindle::At(800)], 1000));
+}
+
 #[test]
 fn what_does_not_move_anything_is_noted_and_followed() {
     let checksum = |line: &str| format!("{line}*{}", line.bytes().fold(0, |sum, byte| sum ^ byte));

@@ -311,6 +311,8 @@ fn ignored_nets_are_not_isolated() {
 
 #[test]
 fn spindle_and_drills_are_given_the_time_that_is_asked_for() {
+    let (unhurried, _) = job("regulator", "spin-up = \"0s\"\ndialect = \"marlin\"");
+    assert!(unhurried.programs.iter().all(|program| !program.text.contains("G4")), "nothing is waited for");
     let (job, settings) =
         job("regulator", "spin-up = \"4s\"\ndrill-dwell = \"250ms\"\ndialect = \"linuxcnc\"");
     let drill = job.programs.iter().find(|program| program.part == Part::Drill).expect("holes");

@@ -51,13 +51,9 @@ impl Diagram {
             if left != WALL && right != WALL && wanted(left, right) && self.may_reach(edge, ranges) {
                 samples.clear();
                 self.add_samples(edge, COURSE, &mut samples);
-                let on_edge = |&sample| OnAxis { sample, edge: number };
-                cut(
-                    &samples.iter().map(on_edge).collect::<Vec<_>>(),
-                    ranges,
-                    [edge.from, edge.to],
-                    &mut parts,
-                );
+                let on_edge = |&sample: &Sample| OnAxis { sample, edge: number };
+                let places: Vec<OnAxis> = samples.iter().map(on_edge).collect();
+                cut(&places, ranges, [edge.from, edge.to], &mut parts);
             }
         }
         self.joined(&parts)

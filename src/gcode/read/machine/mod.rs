@@ -134,7 +134,7 @@ impl Machine {
         let run = Run { pointer, block };
         self.remarks(run);
         let orders = self.orders(run)?;
-        self.settings(run)?;
+        self.settings(run, orders.dwell)?;
         if orders.change_tool {
             self.tool = self.selected;
         }

@@ -11,9 +11,10 @@ use super::{Machine, Run};
 const LARGEST: f64 = 1e12;
 
 impl Machine {
-    /// F, S and T.
-    pub(super) fn settings(&mut self, run: Run<'_>) -> Result<(), ReadError> {
-        if let Some(word) = run.block.get('S') {
+    /// F, S and T; of a dwell without P the time may be S.
+    pub(super) fn settings(&mut self, run: Run<'_>, dwells: bool) -> Result<(), ReadError> {
+        let is_time = dwells && run.block.get('P').is_none();
+        if let Some(word) = run.block.get('S').filter(|_| !is_time) {
             self.modal.speed = Some(speed(run, word)?);
         }
         self.inverse = None;
