@@ -118,7 +118,7 @@ pub(super) fn frame_margin(options: &Complete, cuttings: &[Cutting]) -> Result<N
 const EVERYTHING: Nm = Nm::from_mm(1000);
 
 /// How thick copper is that passes clear. Chosen: one ounce, as `verify` has it unasked.
-const COPPER: Nm = Nm::from_um(35);
+pub(super) const COPPER: Nm = Nm::from_um(35);
 /// So much more passes share there. Chosen: less than any cut is off its place.
 const SURELY: Nm = Nm::from_um(6);
 

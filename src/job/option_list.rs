@@ -183,7 +183,7 @@ macro_rules! job_options {
     pub narrow: Option<Narrow> = usual,
 
     /// Raise a V-bit where a gap is narrow, so that it cuts narrower there, to no less than this
-    /// depth; keep it deeper than the copper is thick
+    /// depth; 35um at least, as thick as copper is
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[changes(ISOLATION, PICTURES)]
@@ -552,7 +552,7 @@ macro_rules! job_options {
     #[changes(CUTOUT, PICTURES)]
     pub tab_width: Option<Length> = usual,
 
-    /// Height of a tab above the back of the board: less is easier to break
+    /// Height of a tab above the bottom of the cut: less is easier to break
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[needs(Tabs)]

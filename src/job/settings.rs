@@ -162,13 +162,8 @@ impl Settings {
         let tiles = cutting_out::tiles(&options, &cutout_tool)?;
         let dialect = controller::dialect(&options, options.dialect.0.clone())?;
         output_name::check(&options.output_name)?;
-        if tabs != Holding::Count(0) && tab_height >= cutout_depth {
-            let problem = format!(
-                "tabs of {} in a cut of {} would leave it uncut",
-                Length(tab_height),
-                Length(cutout_depth)
-            );
-            return Err(Error::Value { key: "tab-height", problem });
+        if tabs != Holding::Count(0) {
+            validate::tabs(tab_height, cutout_depth, thickness)?;
         }
         let machine = profile.map_or_else(Machine::default, |profile| profile.machine());
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
@@ -390,6 +385,8 @@ mod tests {
             ("thickness = \"0mm\"", "thickness"),
             ("cutout-tool = \"vbit:0.1mm:30deg\"", "cutout-tool"),
             ("tab-height = \"2mm\"", "tab-height"),
+            ("thickness = \"0.8mm\"\ncutout-depth = \"1.6mm\"", "tab-height"),
+            ("adaptive-depth = \"0.03mm\"", "adaptive-depth"),
             ("pixel = \"10nm\"", "pixel"),
             ("limit = \"-1mm\"", "limit"),
             ("limit = \"0.07mm\"", "limit"),

@@ -4,6 +4,7 @@ use crate::geometry::Nm;
 use crate::toolpath::{Feed, ToolKind};
 
 use super::checked::{given, positive, wrong};
+use super::cutting::COPPER;
 use super::options::Complete;
 use super::quantity::{Length, Triple};
 use super::{Cutting, Error, Options, Profile};
@@ -49,8 +50,27 @@ pub(super) fn adaptive_depth(options: &Complete, cuttings: &[Cutting]) -> Result
             least,
             &format!("it must be less than the {} of the cut", Length(deepest)),
         ),
+        // As thick as `verify` has it unasked.
+        Some(_) if least < COPPER => wrong(
+            "adaptive-depth",
+            least,
+            &format!("it must be {} at least, as thick as copper is", Length(COPPER)),
+        ),
         Some(_) => Ok(Some(least)),
     }
+}
+
+/// Tabs so high above the bottom of a cut must leave it a cut, and must reach into the board.
+pub(super) fn tabs(height: Nm, cut: Nm, board: Nm) -> Result<(), Error> {
+    let [tabs, depth, thickness] = [height, cut, board].map(Length);
+    let problem = if height >= cut {
+        format!("tabs of {tabs} in a cut of {depth} would leave it uncut")
+    } else if cut - height >= board {
+        format!("tabs of {tabs} in a cut of {depth} lie below a board of {thickness}: nothing would hold it")
+    } else {
+        return Ok(());
+    };
+    Err(Error::Value { key: "tab-height", problem })
 }
 
 /// How far a cut may be from its place: with more than a fifth of the narrowest it would go

@@ -195,7 +195,7 @@ fn every_option_is_done_as_was_planned() {
     for settings in [
         "tool = [\"endmill:0.6mm\", \"vbit:0.1mm:20deg\"]\nwidth = \"0.4mm\"\nrotate = \"17deg\"",
         "strategy = \"outline\"\ncutout-ramp = \"4deg\"\ndrill-bore = true\ntab-spacing = \"25mm\"\ndrills = \"0.6mm\"",
-        "adaptive-depth = \"0.03mm\"\ndrill-peck = \"0.5mm\"\ntabs = 0\nalignment-holes = \"3mm\"\norigin = \"keep\"",
+        "adaptive-depth = \"0.04mm\"\ndrill-peck = \"0.5mm\"\ntabs = 0\nalignment-holes = \"3mm\"\norigin = \"keep\"",
     ] {
         assert_all_dialects_do_as_planned(folder, settings);
     }
