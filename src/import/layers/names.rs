@@ -21,15 +21,26 @@ fn looked_up(table: &[(&str, Role)], mut fits: impl FnMut(&str) -> bool) -> Opti
     table.iter().find(|(text, _)| fits(text)).map(|&(_, role)| role)
 }
 
+/// A name without its extension as it is compared with KiCad's endings.
+fn normal(stem: &str) -> String {
+    stem.to_ascii_lowercase().replace(['.', '-', ' '], "_")
+}
+
+/// The ending of KiCad's that a name has.
+fn kicad_ending(normal: &str) -> Option<&'static (&'static str, Role)> {
+    KICAD.iter().find(|(end, _)| normal == *end || normal.ends_with(&format!("_{end}")))
+}
+
 /// The role that a file's name tells; `shared` bytes at its start are the same for all files and
 /// tell nothing.
 pub(in crate::import) fn role_by_name(name: &str, shared: usize) -> Option<Role> {
     let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
     let extension = extension.to_ascii_lowercase();
-    let normal = stem.to_ascii_lowercase().replace(['.', '-', ' '], "_");
+    let normal = normal(stem);
     let inner =
         |text: &str| text.rsplit('_').nth(1).is_some_and(|word| numbered(word, &["in", "inner"]).is_some());
-    looked_up(KICAD, |end| normal == end || normal.ends_with(&format!("_{end}")))
+    kicad_ending(&normal)
+        .map(|&(_, role)| role)
         .or_else(|| (normal.ends_with("_cu") && inner(&normal)).then_some(Role::Other("inner copper")))
         .or_else(|| looked_up(EXTENSIONS, |known| known == extension))
         .or_else(|| numbered(&extension, &["g", "gp", "l", "ly", "in"]).map(|_| Role::Other("inner copper")))
@@ -49,9 +60,9 @@ pub(in crate::import) fn role_by_extension(name: &str) -> Option<Role> {
 /// The role that a name tells for sure: KiCad's endings, and extensions that say it all or speak.
 pub(in crate::import) fn role_by_sure_name(name: &str) -> Option<Role> {
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
-    let normal = stem.to_ascii_lowercase().replace(['.', '-', ' '], "_");
-    let by_ending = looked_up(KICAD, |end| normal == end || normal.ends_with(&format!("_{end}")));
+    let by_ending = kicad_ending(&normal(stem));
     by_ending
+        .map(|&(_, role)| role)
         .filter(|_| is_gerber_by_extension(name))
         .or_else(|| role_by_extension(name))
         .or_else(|| role_by_words(&extension_words(name, stem.len())).filter(|_| stem.len() < name.len()))
@@ -73,10 +84,8 @@ pub(in crate::import) fn kind_by_name(name: &str, shared: usize) -> Option<Role>
 /// last word that is a side.
 pub(in crate::import) fn side_by_name(name: &str, shared: usize) -> Option<Side> {
     let (stem, extension) = name.rsplit_once('.').unwrap_or((name, ""));
-    let (extension, normal) = (extension.to_ascii_lowercase(), stem.to_ascii_lowercase());
-    let normal = normal.replace(['.', '-', ' '], "_");
-    let ending = KICAD.iter().find(|(end, _)| normal == *end || normal.ends_with(&format!("_{end}")));
-    if let Some((ending, _)) = ending {
+    let extension = extension.to_ascii_lowercase();
+    if let Some((ending, _)) = kicad_ending(&normal(stem)) {
         return match ending.get(..2) {
             Some("f_") => Some(Side::Front),
             Some("b_") => Some(Side::Back),

@@ -412,7 +412,7 @@ fn thinned(polygon: &Polygon) -> Option<Polygon> {
 
 /// A place that is so near to a level, in nanometres, is on either side of it. Chosen: chords and
 /// rounding leave the first, and a piece of [`SMALL`] size is no higher than the second.
-const BOTH_SIDES: [f64; 2] = [30.0, 300.0];
+const BESIDE_LEVEL: [f64; 2] = [30.0, 300.0];
 
 /// How often the tool need come down, which did so `made` times in a pass.
 fn needed(areas: &[Polygon], levels: &[f64], made: usize) -> usize {
@@ -420,14 +420,20 @@ fn needed(areas: &[Polygon], levels: &[f64], made: usize) -> usize {
     if maxima_by_steps(areas, levels) == made {
         return made;
     }
-    // Unless where a neck is as wide as a loop, or an area hardly wider, decides.
-    let about = |by: f64| maxima(areas, &levels.iter().map(|level| level + by).collect::<Vec<f64>>());
-    let exact = about(0.0);
-    let (mut least, mut most) = (exact, exact);
-    for count in BOTH_SIDES.into_iter().flat_map(|by| [-by, by]).map(about) {
-        (least, most) = (least.min(count), most.max(count));
+    let exact = maxima(areas, levels);
+    if exact == made {
+        return made;
     }
-    if (least..=most).contains(&made) { made } else { exact }
+    // Unless where a neck is as wide as a loop, or an area hardly wider, decides.
+    let (mut least, mut most) = (exact, exact);
+    for by in BESIDE_LEVEL.into_iter().flat_map(|by| [-by, by]) {
+        let count = maxima(areas, &levels.iter().map(|level| level + by).collect::<Vec<f64>>());
+        (least, most) = (least.min(count), most.max(count));
+        if (least..=most).contains(&made) {
+            return made;
+        }
+    }
+    exact
 }
 
 /// How many pieces of areas, offset inwards to rising levels, have none of the next level in them.

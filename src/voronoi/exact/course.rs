@@ -2,8 +2,9 @@
 //! passes a level.
 //!
 //! ```text
-//!     a ●───────●───────● b      Between two places of an edge there is a third one: that whose foot on one of the two generators
-//!              mid               lies midway. Halved again and again, the edge is as dense as wanted, whatever conic it is.
+//!     a ●───────●───────● b      Between two places of an edge there is a third one: that whose
+//!              mid               foot on one of the two generators lies midway. Halved again and
+//!                                again it is as dense as wanted, whatever conic it is.
 //! ```
 
 use super::form::{Form, Place};
@@ -140,36 +141,30 @@ impl Pair {
     }
 
     /// Where between two places the clearance is least or greatest, if it is.
-    fn turning(&self, mut a: Sample, mut b: Sample) -> Option<Sample> {
-        let (first, last) = (self.slope(a.at), self.slope(b.at));
-        if (first > 0.0) == (last > 0.0) {
-            return None;
-        }
+    fn turning(&self, a: Sample, b: Sample) -> Option<Sample> {
+        let rises = |place: &Sample| self.slope(place.at) > 0.0;
+        let first = rises(&a);
+        (rises(&b) != first).then(|| self.last(a, b, |place| rises(place) == first))
+    }
+
+    /// The last place from one to another, which is not, that is as the first.
+    fn last(&self, mut a: Sample, mut b: Sample, is_as_first: impl Fn(&Sample) -> bool) -> Sample {
         for _ in 0..60 {
             if (b.at - a.at).length() < EXACT {
                 break;
             }
             let Some(middle) = self.midway(a.at, b.at) else { break };
-            if (self.slope(middle.at) > 0.0) == (first > 0.0) { a = middle } else { b = middle }
+            if is_as_first(&middle) { a = middle } else { b = middle }
         }
-        Some(a)
+        a
     }
 
     /// Where the clearance passes a level, between two places on different sides of it: where the
     /// parallels of both generators cross, if rounding leaves that between them.
-    pub(super) fn crossing(&self, mut a: Sample, mut b: Sample, level: f64) -> Spot {
-        if let Some(at) = self.parallels_cross(a.at, b.at, level) {
-            return at;
-        }
+    pub(super) fn crossing(&self, a: Sample, b: Sample, level: f64) -> Spot {
         let rises = b.clearance > level;
-        for _ in 0..60 {
-            if (b.at - a.at).length() < EXACT {
-                break;
-            }
-            let Some(middle) = self.midway(a.at, b.at) else { break };
-            if (middle.clearance > level) == rises { b = middle } else { a = middle }
-        }
-        a.at
+        let halved = || self.last(a, b, |place| (place.clearance > level) != rises).at;
+        self.parallels_cross(a.at, b.at, level).unwrap_or_else(halved)
     }
 
     /// The one place between two of the bisector at which both generators are `level` nanometres
