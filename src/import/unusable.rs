@@ -14,10 +14,10 @@
 //! What says nothing of the kind (a README, a list of parts, G-code) is listed as no layer. In
 //! between are texts that are no prose, and folders named like a layer: they are warned of.
 
-use super::describe::{HEAD, describe, is_program};
+use super::describe::{HEAD, describe, is_program, is_project};
 use super::jobfile::Job;
 use super::layers::{self, Role, function_of, role_by_function};
-use crate::board::{Side, Warning};
+use crate::board::{Side, Warning, Words};
 use crate::import::diagnostic;
 
 /// Something among the files of a board that is no layer by its content.
@@ -107,9 +107,14 @@ impl Unusable {
                     && !is_program(head)
                     && !is_binary_drill(head) =>
             {
-                let message =
-                    format!("the type of {} is unknown ({}); it is ignored", self.name, describe(head));
-                Some(diagnostic::FILE_NOT_UNDERSTOOD.warning(message))
+                let name = &self.name;
+                let warning = |message: String| diagnostic::FILE_NOT_UNDERSTOOD.warning(message);
+                Some(if is_project(head) {
+                    warning(format!("{name} holds the options of pcb2gcode"))
+                        .so(Words::of("it is ignored; {millproject} takes them over"))
+                } else {
+                    warning(format!("the type of {name} is unknown ({}); it is ignored", describe(head)))
+                })
             }
             Form::Folder => role().map(|meant| {
                 let message = format!("the folder {}, named like {}, is not read", self.name, meant);

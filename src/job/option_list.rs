@@ -552,7 +552,8 @@ macro_rules! job_options {
     #[changes(CUTOUT, PICTURES)]
     pub tab_width: Option<Length> = usual,
 
-    /// Height of a tab above the bottom of the cut: less is easier to break
+    /// Height of a tab above the back of the board, or above the bottom of a cut that does not
+    /// reach it: less is easier to break
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[needs(Tabs)]

@@ -246,7 +246,7 @@ fn cutout_settings<'a>(placement: &'a Placement, drilled: &'a [Hole], settings: 
         tool: &settings.cutout_tool,
         heights: settings.cutout,
         placement,
-        tabs: Tabs { places: settings.tabs.places(), width: settings.tab_width, height: settings.tab_height },
+        tabs: Tabs { places: settings.tabs.places(), width: settings.tab_width, top: settings.tab_top },
         ramp: settings.cutout_ramp,
         direction: settings.asked.direction,
         drilled,

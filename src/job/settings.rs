@@ -110,8 +110,8 @@ pub struct Settings {
     pub tabs: Holding,
     /// How wide each is.
     pub tab_width: Nm,
-    /// How thick each is.
-    pub tab_height: Nm,
+    /// How far below the surface their tops lie.
+    pub tab_top: Nm,
     /// Whether the report says how strongly neighbours are coupled.
     pub couplings: bool,
 }
@@ -157,13 +157,14 @@ impl Settings {
         let heights = |cut: Nm, step: Option<Nm>| Heights { safe, approach: APPROACH.min(safe), cut, step };
         let below = Length(thickness + BELOW);
         let cutout_depth = positive("cutout-depth", options.cutout_depth.unwrap_or(below))?;
-        let tab_height = positive("tab-height", options.tab_height)?;
         let tabs = holding(&options)?;
+        let tab_height = positive("tab-height", options.tab_height)?;
+        let tab_top = cutout_depth.min(thickness) - tab_height;
         let tiles = cutting_out::tiles(&options, &cutout_tool)?;
         let dialect = controller::dialect(&options, options.dialect.0.clone())?;
         output_name::check(&options.output_name)?;
-        if tabs != Holding::Count(0) {
-            validate::tabs(tab_height, cutout_depth, thickness)?;
+        if tabs != Holding::Count(0) && tab_top <= Nm::ZERO {
+            return Err(validate::no_cut_at_tabs(tab_height, cutout_depth, thickness));
         }
         let machine = profile.map_or_else(Machine::default, |profile| profile.machine());
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
@@ -232,7 +233,7 @@ impl Settings {
             cutout_ramp: cutting_out::ramp(options.cutout_ramp)?,
             tabs,
             tab_width: positive("tab-width", options.tab_width)?,
-            tab_height,
+            tab_top,
             couplings: false,
             // Said though nobody gave them, so that programs tell how deep the cutout is and
             // where all tiles lie.
@@ -385,7 +386,7 @@ mod tests {
             ("thickness = \"0mm\"", "thickness"),
             ("cutout-tool = \"vbit:0.1mm:30deg\"", "cutout-tool"),
             ("tab-height = \"2mm\"", "tab-height"),
-            ("thickness = \"0.8mm\"\ncutout-depth = \"1.6mm\"", "tab-height"),
+            ("thickness = \"0.6mm\"\ncutout-depth = \"1.6mm\"", "tab-height"),
             ("adaptive-depth = \"0.03mm\"", "adaptive-depth"),
             ("pixel = \"10nm\"", "pixel"),
             ("limit = \"-1mm\"", "limit"),

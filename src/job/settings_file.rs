@@ -43,17 +43,28 @@ fn problem(message: &str) -> String {
     let Some(key) = message.strip_prefix("unknown field `").and_then(|rest| rest.split('`').next()) else {
         return message.lines().collect::<Vec<_>>().join(" ");
     };
+    let advice = match place_of(key) {
+        Some(place) => format!("it belongs {place};"),
+        None => nearest(key).map_or_else(String::new, |nearest| format!("did you mean `{nearest}`?")),
+    };
+    format!("unknown key `{key}`: {advice} `voromill init` writes a file with all keys")
+}
+
+/// Where a key belongs that stands where it is not known.
+fn place_of(key: &str) -> Option<&'static str> {
+    if Options::keys().any(|known| known == key) {
+        Some("above all tables")
+    } else if machine::KEYS.contains(&key) {
+        Some("under [machine]")
+    } else {
+        TABLE_KEYS.contains(&key).then_some("under a tool, such as [tools.mine]")
+    }
+}
+
+/// The key that is most like it.
+fn nearest(key: &str) -> Option<&'static str> {
     let of_tables = TABLE_KEYS.iter().chain(machine::KEYS).copied();
-    let keys = Options::keys().chain(of_tables);
-    let nearest = keys.min_by_key(|known| distance(key, known));
-    nearest.map_or_else(
-        || format!("unknown key `{key}`"),
-        |nearest| {
-            format!(
-                "unknown key `{key}`: did you mean `{nearest}`? `voromill init` writes a file with all keys"
-            )
-        },
-    )
+    Options::keys().chain(of_tables).min_by_key(|known| distance(key, known))
 }
 
 /// How many letters to insert, drop, or change to turn `a` into `b` (Levenshtein).
@@ -85,6 +96,19 @@ mod tests {
         let error = refused("tool = \"endmill:1mm\"\n\nsafez = \"2mm\"\n");
         assert!(error.contains("voromill.toml:3:1"), "{error}");
         assert!(error.contains("`safez`: did you mean `safe-z`"), "{error}");
+    }
+
+    #[test]
+    fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
+        let cases = [
+            ("[machine]\nkerf = \"0.2mm\"\n", "`kerf`: it belongs above all tables"),
+            ("base = \"3018\"\n", "`base`: it belongs under [machine]"),
+            ("tip = \"0.1mm\"\n", "`tip`: it belongs under a tool"),
+        ];
+        for (text, expected) in cases {
+            let error = refused(text);
+            assert!(error.contains(expected), "{error}");
+        }
     }
 
     #[test]

@@ -60,17 +60,12 @@ pub(super) fn adaptive_depth(options: &Complete, cuttings: &[Cutting]) -> Result
     }
 }
 
-/// Tabs so high above the bottom of a cut must leave it a cut, and must reach into the board.
-pub(super) fn tabs(height: Nm, cut: Nm, board: Nm) -> Result<(), Error> {
-    let [tabs, depth, thickness] = [height, cut, board].map(Length);
-    let problem = if height >= cut {
-        format!("tabs of {tabs} in a cut of {depth} would leave it uncut")
-    } else if cut - height >= board {
-        format!("tabs of {tabs} in a cut of {depth} lie below a board of {thickness}: nothing would hold it")
-    } else {
-        return Ok(());
-    };
-    Err(Error::Value { key: "tab-height", problem })
+/// Why tabs as high as a board, or as a cut that does not go through it, cannot be.
+pub(super) fn no_cut_at_tabs(height: Nm, cut: Nm, board: Nm) -> Error {
+    let (what, deep) = if cut < board { ("a cut", cut) } else { ("a board", board) };
+    let [tabs, deep] = [height, deep].map(Length);
+    let problem = format!("tabs of {tabs} in {what} of {deep} would leave it uncut");
+    Error::Value { key: "tab-height", problem }
 }
 
 /// How far a cut may be from its place: with more than a fifth of the narrowest it would go

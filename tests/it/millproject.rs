@@ -90,8 +90,8 @@ fn every_option_with_a_counterpart_is_taken_over() {
     );
     assert_eq!((settings.cutout.cut, settings.cutout.step), (um(1700), Some(um(400))), "zcut and cut-infeed");
     assert_eq!(
-        (settings.tabs, settings.tab_width, settings.tab_height),
-        (Holding::Count(3), um(2500), um(600)),
+        (settings.tabs, settings.tab_width, settings.tab_top),
+        (Holding::Count(3), um(2500), um(1100)),
         "bridges"
     );
     assert_eq!(
@@ -365,7 +365,7 @@ fn bridges_are_as_thick_as_they_can_be() {
     assert!(told(&shallow).contains("`zbridges` is not taken over"), "{}", told(&shallow));
     assert_eq!(settings(shallow).tabs, Holding::Count(0), "nothing is cut through");
     let made = settings(construct("bridges-to-the-surface").expect("a project"));
-    assert_eq!((made.tabs, made.tab_height), (Holding::Count(2), um(1450)), "the cutter is lifted out");
+    assert_eq!((made.tabs, made.tab_top), (Holding::Count(2), um(50)), "the cutter is lifted out");
 }
 
 #[test]

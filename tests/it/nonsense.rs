@@ -24,13 +24,14 @@ fn said(name: &str, bytes: &[u8]) -> String {
 
 #[test]
 fn what_is_no_board_is_told_what_it_is() {
-    let cases: [(&str, &[u8], &str); 8] = [
+    let cases: [(&str, &[u8], &str); 9] = [
         ("board.zip", b"<html><body>404 not found</body></html>", "a web page"),
         ("board.gbr", b"<!DOCTYPE html>\n<html>", "a web page"),
         ("notes.txt", b"Dear manufacturer,\n", "a text file of unknown type"),
         ("noise.gbr", b"\x01\x02\xfe\x03\x00\x7f\x80", "a file of unknown type"),
         ("board.kicad_sch", b"(kicad_sch (version 20221018))", "a KiCad schematic, not its board"),
         ("front.nc", b"G21\nG90\nG0 Z5\n", "a G-code program"),
+        ("millproject", b"metric=true\nzwork=-0.05\n", "the options of pcb2gcode"),
         ("cut.zip", b"PK\x03\x04\x14\x00\x00\x00\x08\x00", "damaged or truncated"),
         ("empty.gbr", b"", "an empty file"),
     ];

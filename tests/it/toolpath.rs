@@ -185,7 +185,7 @@ fn outline() -> Outline {
 }
 
 fn cutting<'a>(tool: &'a Tool, placement: &'a Placement, count: u32) -> Cutout<'a> {
-    let tabs = Tabs { places: TabPlaces::Count(count), width: Nm::from_mm(2), height: Nm::from_um(600) };
+    let tabs = Tabs { places: TabPlaces::Count(count), width: Nm::from_mm(2), top: Nm::from_um(1100) };
     Cutout {
         tool,
         heights: heights(1700, Some(600)),
@@ -228,7 +228,7 @@ fn tabs_are_really_there() {
     let (tool, placement) = (tool("endmill:1mm"), Placement::default());
     let settings = cutting(&tool, &placement, 3);
     let (section, _) = cutout(&outline(), &settings);
-    let top = settings.heights.cut - settings.tabs.height;
+    let top = settings.tabs.top;
     let bridges = bridges(&section, top);
     let below = settings.heights.passes().filter(|&depth| depth > top).count();
     assert_eq!(bridges.len(), 2 * 3 * below, "three on each contour, in each pass below their top");
@@ -269,7 +269,7 @@ fn boards_that_the_cutter_does_not_fit_between_have_tabs_of_their_own() {
         line(&corners.map(|(x, y)| at(x, y)))
     };
     let settings = cutting(&tool, &placement, 3);
-    let top = settings.heights.cut - settings.tabs.height;
+    let top = settings.tabs.top;
     let below = settings.heights.passes().filter(|&depth| depth > top).count();
     for (gap, codes) in [(1_100, vec![]), (600, vec!["boards-closer-than-tool"])] {
         let outline = Outline::new(vec![square(0), square(20_000 + gap)]).expect("two boards");

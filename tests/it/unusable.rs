@@ -132,6 +132,15 @@ fn a_person_who_named_the_layer_needs_no_other() {
 }
 
 #[test]
+fn options_of_pcb2gcode_beside_a_board_are_told_of() {
+    let folder = board();
+    fs::write(folder.path("millproject"), "metric = true\nzwork = -0.05\n").expect("written");
+    let loaded = folder.load(&Selection::default()).expect("a board");
+    assert_eq!(codes(&loaded), ["file-not-understood"], "told: {:?}", loaded.warnings);
+    assert!(loaded.warnings[0].text().contains("options of pcb2gcode"), "what it is: {:?}", loaded.warnings);
+}
+
+#[test]
 fn odd_extras_are_notes() {
     let folder = board();
     for name in ["README", "parts.pdf", "amp-front.png", "amp-F_Mask.gbr", "amp.kicad_pro", "amp-top.pos"] {

@@ -98,16 +98,16 @@ fn a_spoilt_cutout_is_found_out() {
                 .join("\n"),
             &["board-left"],
         ),
-        ("all tabs cut through", whole.replace("Z-1.1", "Z-1.7"), &["tab-missing"]),
+        ("all tabs cut through", whole.replace("Z-1\n", "Z-1.7\n"), &["tab-missing"]),
     ] {
         let findings = find(&text);
         for name in expected {
             assert!(names(&findings, Severity::Error).contains(name), "{what}: {findings:?}");
         }
     }
-    let one_tab = find(&whole.replacen("Z-1.1", "Z-1.7", 1));
+    let one_tab = find(&whole.replacen("Z-1\n", "Z-1.7\n", 1));
     assert!(names(&one_tab, Severity::Warning).contains(&"tab-missing"), "a tab of four: {one_tab:?}");
-    let weak = find(&whole.replace("Z-1.1", "Z-1.45"));
+    let weak = find(&whole.replace("Z-1\n", "Z-1.45\n"));
     assert_eq!(names(&weak, Severity::Warning), ["tab-thin"], "tabs of 0.15 mm: {weak:?}");
 }
 
@@ -121,11 +121,11 @@ fn a_tab_of_an_inner_cut_out_that_is_cut_through_is_told() {
     let find = |text: &str| judge(&job.board, Some(Role::Cutout), text);
     assert_eq!(find(whole), [], "nothing is wrong with it");
     // The inner cut-out comes first: two tabs in two passes, the last of which goes through.
-    let climbs: Vec<usize> = whole.match_indices("Z-1.1\n").map(|(at, _)| at).collect();
+    let climbs: Vec<usize> = whole.match_indices("Z-1\n").map(|(at, _)| at).collect();
     assert_eq!(climbs.len(), 12, "two tabs in the cut-out, four outside, in two passes each");
     for climb in [2, 3] {
         let mut spoilt = whole.clone();
-        spoilt.replace_range(climbs[climb]..climbs[climb] + 5, "Z-1.7");
+        spoilt.replace_range(climbs[climb]..climbs[climb] + 3, "Z-1.7");
         let found = find(&spoilt);
         assert_eq!(
             names(&found, Severity::Warning),

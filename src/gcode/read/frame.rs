@@ -53,6 +53,7 @@ pub(super) struct Axis {
     machine: Option<Nm>,
     /// G92 and G52.
     shift: Nm,
+    /// What they were last set to, for G92.3.
     kept: Nm,
     /// Whether a coordinate has been told in any system.
     anchored: bool,
@@ -104,7 +105,7 @@ impl Axis {
                 self.zeros[system] = Zero::Board(at - value - self.shift);
                 let _ = origin;
             }
-            (Some(at), Some(origin)) => self.shift = self.shift + at - value - origin,
+            (Some(at), Some(origin)) => self.set_shift(self.shift + at - value - origin),
             (Some(at), None) => self.zeros[system] = Zero::Board(at - value - self.shift),
             (None, _) => self.zeros[system] = Zero::Unknown,
         }
@@ -121,14 +122,19 @@ impl Axis {
     /// Moves all systems by so much from where they are without.
     pub(super) fn set_shift(&mut self, shift: Nm) {
         self.shift = shift;
+        self.kept = shift;
     }
 
-    /// Takes the shift away.
+    /// Takes the shift away, for good or until it is restored.
     pub(super) fn drop_shift(&mut self, keep: bool) {
-        self.kept = if keep { self.shift } else { Nm::ZERO };
         self.shift = Nm::ZERO;
+        if !keep {
+            self.kept = Nm::ZERO;
+        }
     }
 
+    /// Takes the shift that was last set, even where none was taken away (LinuxCNC: from parameters
+    /// 5211 to 5219).
     pub(super) fn restore_shift(&mut self) {
         self.shift = self.kept;
     }
@@ -163,6 +169,9 @@ mod tests {
         let mut axis = Axis { at: Some(mm(10)), ..Axis::default() };
         axis.here(0, mm(2), false);
         assert_eq!((axis.at, axis.origin(0)), (Some(mm(10)), Some(mm(8))), "2 is at 10");
+        axis.restore_shift();
+        assert_eq!(axis.origin(0), Some(mm(8)), "restored, though none was taken away");
+        axis.drop_shift(true);
         axis.drop_shift(true);
         assert_eq!(axis.origin(0), Some(mm(0)), "without");
         axis.restore_shift();

@@ -125,7 +125,8 @@ pub fn looks_like(bytes: &[u8]) -> bool {
 /// has Z.
 fn begins_as_drill(line: &str) -> bool {
     if ["M48", "INCH", "METRIC"].iter().any(|head| line.starts_with(head)) {
-        return true;
+        // pcb2gcode's options have `metric = true`.
+        return !line.contains('=');
     }
     let mut rest = line;
     let mut words = 0;

@@ -190,13 +190,18 @@ impl Draft<'_> {
         let Some(depth) = depth else { return };
         // Where it is not said, the cutter is lifted out of the board.
         let top = self.cutting.zbridges.map_or(Nm::ZERO, |(top, _)| top);
-        if top <= -depth {
+        let back = Options::defaults().thickness.map_or(depth, |thickness| depth.min(thickness.nm()));
+        let problem = if top <= -depth {
             options.tabs = Some(0);
-            if let Some((_, entry)) = self.cutting.zbridges {
-                self.leave(&entry, "bridges below the cut hold nothing");
-            }
+            "bridges below the cut hold nothing".to_owned()
+        } else if top <= -back {
+            format!("bridges below a board of {} hold nothing: they are as high as unasked", Length(back))
         } else {
-            options.tab_height = Some(Length((top + depth).min(depth - SCRATCH).max(Nm::new(1))));
+            options.tab_height = Some(Length((top + back).min(back - SCRATCH).max(Nm::new(1))));
+            return;
+        };
+        if let Some((_, entry)) = self.cutting.zbridges {
+            self.leave(&entry, problem);
         }
     }
 

@@ -305,7 +305,7 @@ impl<'a> Pass<'a> {
 
     /// The first `length` of it, no deeper than the top of a tab where there is one.
     fn cut(&self, head: &mut Head, length: f64, middles: &[f64], settings: &Cutout<'_>) {
-        let top = settings.heights.cut - settings.tabs.height;
+        let top = settings.tabs.top;
         let half = opening(settings) / 2.0;
         let spans: Vec<(f64, f64)> = middles.iter().map(|middle| (middle - half, middle + half)).collect();
         let tabs = spans.iter().filter(|_| self.to > top).flat_map(|span| [span.0, span.1]);

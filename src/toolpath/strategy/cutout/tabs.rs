@@ -11,8 +11,8 @@ pub struct Tabs<'a> {
     pub places: TabPlaces<'a>,
     /// How wide each stays.
     pub width: Nm,
-    /// How thick each stays, from the bottom of the cut upwards.
-    pub height: Nm,
+    /// How far below the surface their tops lie.
+    pub top: Nm,
 }
 
 /// Where tabs are.
