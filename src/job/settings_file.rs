@@ -41,7 +41,11 @@ impl Options {
 /// What the reader says, in our words where a person can be helped more.
 fn problem(message: &str) -> String {
     let Some(key) = message.strip_prefix("unknown field `").and_then(|rest| rest.split('`').next()) else {
-        return message.lines().collect::<Vec<_>>().join(" ");
+        let message = message.lines().collect::<Vec<_>>().join(" ");
+        return match message.strip_suffix("expected u32") {
+            Some(what) => format!("{what}expected a whole number"),
+            None => message.replace("unknown variant", "it does not take"),
+        };
     };
     let advice = match place_of(key) {
         Some(place) => format!("it belongs {place};"),
@@ -115,6 +119,12 @@ mod tests {
     fn a_bare_number_is_refused_with_the_hint_of_the_command_line() {
         let error = refused("depth = 0.1\n");
         assert!(error.contains("voromill.toml:1:9") && error.contains("0.1mm"), "{error}");
+    }
+
+    #[test]
+    fn types_and_variants_are_in_our_words() {
+        assert!(refused("passes = \"3 mm\"\n").ends_with("expected a whole number"), "not u32");
+        assert!(refused("material = \"tin\"\n").ends_with("it does not take `tin`, expected `fr4` or `fr1`"));
     }
 
     #[test]

@@ -6,18 +6,22 @@ use serde::de::{Deserializer, Error, Visitor};
 
 /// A text that is no number of turns.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("`{0}` is not a spindle speed: expected revolutions per minute, such as `12000` or `12000rpm`")]
+#[error(
+    "`{0}` is not a spindle speed: expected revolutions per minute, such as `12000` or `12000rpm`; of a \
+     spindle that is set by hand, those that it is set to"
+)]
 pub struct ParseTurnsError(String);
 
 /// Turns per minute from a number, with its unit or without.
 ///
 /// # Errors
 ///
-/// For what is neither.
+/// For what is neither, and for none at all: a spindle that stands cuts nothing.
 pub fn parse(text: &str) -> Result<u32, ParseTurnsError> {
     let trimmed = text.trim();
     let number = ["rpm", "RPM"].iter().find_map(|unit| trimmed.strip_suffix(unit)).unwrap_or(trimmed);
-    number.trim().parse().map_err(|_| ParseTurnsError(text.to_owned()))
+    let turns = number.trim().parse().ok().filter(|&turns| turns > 0);
+    turns.ok_or_else(|| ParseTurnsError(text.to_owned()))
 }
 
 /// For serde: a number, or a text with the unit.
@@ -57,7 +61,7 @@ mod tests {
         for text in ["30000", "30000rpm", "30000 rpm", " 30000 RPM"] {
             assert_eq!(parse(text), Ok(30_000), "{text}");
         }
-        for text in ["", "rpm", "-1", "1.5", "30000hz", "4294967296"] {
+        for text in ["", "rpm", "-1", "0", "0rpm", "1.5", "30000hz", "4294967296"] {
             assert!(parse(text).is_err(), "{text}");
         }
         for text in

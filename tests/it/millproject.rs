@@ -223,6 +223,14 @@ fn told(project: &MillProject) -> String {
 }
 
 #[test]
+fn a_spindle_that_is_switched_by_hand_turns_as_usual() {
+    let made = project("metric = true\nmill-speed = 0\ncut-speed = 0\ndrill-speed = 0\n");
+    assert_eq!(told(&made).matches("a spindle that stands cuts nothing").count(), 3, "{}", told(&made));
+    let made = settings(made);
+    assert!(made.cutout_tool.spindle > 0 && made.isolation[0].tool.spindle > 0, "the usual");
+}
+
+#[test]
 fn every_unit_of_pcb2gcode_is_read() {
     let made = settings(construct("units").expect("a project"));
     let fine = &made.isolation[0];

@@ -188,7 +188,7 @@ impl<'a> Draft<'a> {
             "zwork" => self.made.options.depth = self.depth(entry, Needs::Copper)?.map(Length),
             "mill-feed" => options.feed = Some(entry.feed(units)?),
             "mill-vertfeed" => options.plunge = Some(entry.feed(units)?),
-            "mill-speed" => options.spindle = Some(entry.turns()?),
+            "mill-speed" => self.made.options.spindle = self.turns(entry)?,
             "mill-diameters" => isolating.mills.extend(entry.lengths(units)?),
             "mill-infeed" => isolating.infeed = Some((entry.positive(units)?, *entry)),
             "isolation-width" => isolating.width = Some(entry.width(units)?),
@@ -231,7 +231,7 @@ impl<'a> Draft<'a> {
             }
             "cut-feed" => cutting.cutter.feed = Some(entry.feed(units)?),
             "cut-vertfeed" => cutting.cutter.plunge = Some(entry.feed(units)?),
-            "cut-speed" => cutting.cutter.spindle = Some(entry.turns()?),
+            "cut-speed" => self.cutting.cutter.spindle = self.turns(entry)?,
             "cut-infeed" => self.made.options.cutout_pass = Some(Length(entry.positive(units)?)),
             "cut-side" => cutting.side = side(entry)?,
             "cut-front" if entry.flag()? => cutting.side = CutSide::Front,
@@ -254,7 +254,7 @@ impl<'a> Draft<'a> {
         let (units, options, drilling) = (self.units, &mut self.made.options, &mut self.drilling);
         match entry.name {
             "drill-feed" => options.drill_plunge = Some(entry.feed(units)?),
-            "drill-speed" => options.drill_spindle = Some(entry.turns()?),
+            "drill-speed" => self.made.options.drill_spindle = self.turns(entry)?,
             "drills-available" => self.drills(entry)?,
             "onedrill" => options.one_drill = entry.flag()?.then_some(true),
             "drill-side" => drilling.side = side(entry)?,
@@ -413,6 +413,15 @@ impl<'a> Draft<'a> {
             }
             Err(_) => self.leave(entry, "all files lie in output-dir"),
         }
+    }
+
+    /// The turns of a spindle; none for one that stands, as where it is switched on by hand.
+    fn turns(&mut self, entry: &Entry<'_>) -> Result<Option<u32>, Wrong> {
+        let turns = Some(entry.turns()?).filter(|&turns| turns > 0);
+        if turns.is_none() {
+            self.leave(entry, "a spindle that stands cuts nothing: the usual speed is written");
+        }
+        Ok(turns)
     }
 
     /// Notes an option that is not taken over.

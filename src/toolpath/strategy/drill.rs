@@ -121,14 +121,24 @@ fn bit(hole: &Hole, settings: &Drilling<'_>) -> Option<Tool> {
         {
             return None;
         }
-        let (plunge, spindle) = settings.speeds.of(hole.diameter);
-        let usual = Tool::new(ToolKind::Drill { diameter: hole.diameter });
+        let diameter = as_sold(hole.diameter);
+        let (plunge, spindle) = settings.speeds.of(diameter);
+        let usual = Tool::new(ToolKind::Drill { diameter });
         return Some(Tool { plunge, spindle, point: settings.point, ..usual });
     }
     let off = |tool: &&Tool| (tool.width_at(Nm::ZERO) - hole.diameter).abs();
     let nearest =
         settings.drills.iter().min_by_key(|tool| (off(tool), tool.width_at(Nm::ZERO), tool.number))?;
     (off(&nearest) <= settings.tolerance).then(|| nearest.clone())
+}
+
+/// The drill for a diameter that was meant in millimetres and written in inches, where 1 mm is
+/// 0.999998 mm or 1.00076 mm: in hundredths of a millimetre if it is a micrometre from them.
+fn as_sold(diameter: Nm) -> Nm {
+    const STEP: i64 = 10_000;
+    const ROUNDING: Nm = Nm::from_um(1);
+    let nearest = Nm::new((diameter.get() + STEP / 2) / STEP * STEP);
+    if nearest > Nm::ZERO && (nearest - diameter).abs() <= ROUNDING { nearest } else { diameter }
 }
 
 /// The warning for a hole that no drill fits.
@@ -252,6 +262,22 @@ mod tests {
             let mut order = halved(count);
             order.sort_unstable();
             assert!(order.into_iter().eq(0..count), "all of {count}");
+        }
+    }
+
+    #[test]
+    fn drills_are_as_they_are_sold() {
+        for (hole, drill) in [
+            (999_998, 1_000_000),
+            (1_000_760, 1_000_000),
+            (249_936, 250_000),
+            (299_720, 300_000),
+            (812_800, 812_800),
+            (3_175_000, 3_175_000),
+            (1_016_000, 1_016_000),
+            (800, 800),
+        ] {
+            assert_eq!(as_sold(Nm::new(hole)), Nm::new(drill), "for a hole of {hole} nm");
         }
     }
 }
