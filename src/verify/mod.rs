@@ -30,6 +30,7 @@
 //! Checks are listed in [`check::ALL`], a file each.
 
 mod asked;
+mod border;
 mod bores;
 mod boxes;
 pub mod carving;

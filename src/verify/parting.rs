@@ -7,16 +7,19 @@
 //! the net is drawn so: a plane that is cut at one place hangs together by others. Polygons said
 //! the same in many times the time, and of a plane in fifteen times the memory.
 
+use std::cell::LazyCell;
+
 use crate::board::Shape;
 use crate::geometry::{Nm, Rect};
 use crate::grid::Grid;
 use crate::topology::NetId;
 
 use super::Settings;
+use super::border::Border;
 use super::hit::Hit;
 use super::machining::with_radius;
 use super::pieces::{Extent, Joiner, Part, Run};
-use super::rest::HINT;
+use super::rest::{HINT, SMALL};
 use super::sheet::{CUT, Sheet};
 use super::spans::{Spans, less};
 
@@ -33,22 +36,30 @@ const WHOLE: Nm = Nm::from_um(8);
 const MOST: i64 = 30_000;
 /// Rows that are held at once. Chosen: they take a few megabytes.
 const BAND: u32 = 512;
-/// Below this area, in mm², a piece at the edge of a window is nothing. Chosen: a hundredth of a
-/// millimetre square.
-const NOTHING: f64 = 1e-4;
-
 /// Whether cuts may part the copper of a net, all of which lies in `place`: the middle of one goes
 /// through it, or around some there are more pieces after than before; and there are more in all of
-/// it, too.
+/// it, too. What is the smaller, all of it or the windows, is looked at first.
 pub(super) fn may_part(sheet: &Sheet<'_>, hits: &[Hit], place: Rect, settings: &Settings) -> bool {
-    let net = hits[0].net;
+    let whole = place.inflate(WHOLE * 4);
+    let look = |rect: Rect, pitch: Nm| parts(sheet, hits[0].net, rect, pitch, settings);
+    let looks = LOOKS.map(|(halves, pitch)| (halves, pitch, LazyCell::new(move || look(whole, pitch))));
     let locally = |rect: Rect| {
-        LOOKS.into_iter().all(|(halves, pitch)| {
-            parts(sheet, net, rect.inflate(sheet.half * halves), pitch, settings) == Pieces::Others
+        looks.iter().all(|(halves, pitch, at_whole)| {
+            let window = rect.inflate(sheet.half * *halves).common(whole);
+            // Where cuts are wide, windows round many of them are all of a small net.
+            let pieces = window.map(|window| if window == whole { **at_whole } else { look(window, *pitch) });
+            pieces == Some(Pieces::Others)
         })
     };
-    (hits.iter().any(|hit| hit.through) || windows(sheet, hits).into_iter().any(locally))
-        && parts(sheet, net, place.inflate(WHOLE * 4), WHOLE, settings) != Pieces::One
+    let windows = windows(sheet, hits);
+    let area = |rect: &Rect| rect.width().to_mm() * rect.height().to_mm();
+    let is_small = area(&whole) < windows.iter().map(area).sum();
+    let as_one = || look(whole, WHOLE) == Pieces::One;
+    if is_small && as_one() {
+        return false;
+    }
+    let is_parted = hits.iter().any(|hit| hit.through) || windows.into_iter().any(locally);
+    is_parted && (is_small || !as_one())
 }
 
 /// Windows that hold what these cuts take, each of a few cuts that follow one another.
@@ -81,6 +92,7 @@ fn parts(sheet: &Sheet<'_>, net: NetId, rect: Rect, pitch: Nm, settings: &Settin
     let pitch = pitch.max(rect.width().max(rect.height()) / MOST);
     let Ok(grid) = Grid::covering(rect, pitch) else { return Pieces::Others };
     let (mut before, mut after) = (Joiner::default(), Joiner::default());
+    let mut border = Border::default();
     let wider = |index: usize| {
         let swept = sheet.cuts[index].swept;
         with_radius(&swept.shape, swept.half() + pitch)
@@ -93,30 +105,44 @@ fn parts(sheet: &Sheet<'_>, net: NetId, rect: Rect, pitch: Nm, settings: &Settin
         let outside = outside(sheet, &band);
         let rows = copper.into_rows().zip(kerfs.into_rows());
         for (row, (copper, kerfs)) in (top..).zip(rows) {
-            match outside.get((row - top) as usize) {
-                Some(outside) => before.row(row, &less(&copper, outside)),
-                None => before.row(row, &copper),
-            }
+            let copper = match outside.get((row - top) as usize) {
+                Some(outside) => less(&copper, outside),
+                None => copper,
+            };
+            before.row(row, &copper);
             // Each run with the region that it is part of, before the cuts.
             let regions = before.last().iter().map(|&(run, region)| Run { label: region, ..run });
-            after.row(row, &less(&regions.collect::<Vec<_>>(), &kerfs));
+            let left = less(&regions.collect::<Vec<_>>(), &kerfs);
+            border.row(grid.width(), &copper, &left);
+            if row == 0 || row + 1 == grid.height() {
+                border.side(&copper, &left);
+            }
+            after.row(row, &left);
         }
+    }
+    if border.is_lost() {
+        return Pieces::Others;
     }
     let mm2 = pitch.to_mm() * pitch.to_mm();
     #[expect(clippy::cast_precision_loss, reason = "an area")]
-    let counts = |pixels: u64, extent: Extent| {
-        let area = pixels as f64 * mm2;
-        area >= settings.crumb * HINT || (area >= NOTHING && is_at_edge(extent, &grid))
-    };
+    let area = |pixels: u64| pixels as f64 * mm2;
+    let counts =
+        |pixels: u64, extent: Extent| area(pixels) >= settings.crumb * HINT || is_at_edge(extent, &grid);
     let left: Vec<(u64, Extent, u32)> = whole(&after.parts())
         .into_iter()
         .filter(|(pixels, extent, _)| counts(*pixels, *extent))
         .map(|(pixels, extent, region)| (pixels, extent, before.find(region)))
         .collect();
     let before = before.parts();
-    let counted: Vec<u32> =
-        before.iter().filter(|part| counts(part.pixels, part.extent)).map(|part| part.piece).collect();
-    let is_whole = |piece: &u32| left.iter().filter(|(_, _, own)| own == piece).count() == 1;
+    let counted: Vec<&Part> = before.iter().filter(|part| counts(part.pixels, part.extent)).collect();
+    let is_whole = |part: &&Part| {
+        let mut own = left.iter().filter(|(_, _, piece)| *piece == part.piece);
+        // What hardly counts may be nothing, too.
+        let least = (area(part.pixels) * SMALL).min(settings.crumb);
+        let is_enough =
+            |&(pixels, extent, _): &(u64, Extent, u32)| area(pixels) >= least || is_at_edge(extent, &grid);
+        own.next().is_some_and(is_enough) && own.next().is_none()
+    };
     match counted.iter().all(is_whole) {
         true if counted.len() == 1 => Pieces::One,
         true => Pieces::AsBefore,

@@ -336,6 +336,58 @@ fn a_pad_that_is_milled_away_is_destroyed() {
     assert_eq!(destroyed.nets, ["LEFT"], "the left one alone: {:?}", report.findings);
 }
 
+/// Two pads and a trace of 0.3 mm between them, along y = 0 from x = 0 to 20.
+fn dumbbell() -> Board {
+    let copper = "%FSLAX34Y34*%\n%MOMM*%\n%ADD10C,2*%\n%ADD11C,0.3*%\nD10*\nX0Y0D03*\nX200000Y0D03*\nD11*\n\
+                  X0Y0D02*\nX200000Y0D01*\nM02*\n";
+    Folder::with(&[("a-F_Cu.gbr", copper)]).load(&Selection::default()).expect("a board").board
+}
+
+/// A loop round it in short lines, 0.22 mm from the middle of the trace, and on one side `near` it
+/// from x = 1.4 to 1.6, where the pad is left and the trace is thinner than large pixels show.
+fn round(near: f64) -> String {
+    let mut text = "G21 G90 G94 F100\nM3 S10000\nG0 Z2\nG0 X1.3 Y0.22\nG1 Z-0.1\n".to_owned();
+    for step in 7..=93 {
+        let y = if step == 7 || step == 8 { near } else { 0.22 };
+        text += &format!("G1 X{:.4} Y{y:.4}\n", f64::from(step) * 0.2);
+    }
+    text += "G1 X18.7\nG1 Y1.3\nG1 X21.3\nG1 Y-1.3\nG1 X18.7\nG1 Y-0.22\n";
+    for step in (7..=93).rev() {
+        text += &format!("G1 X{:.4}\n", f64::from(step) * 0.2);
+    }
+    text + "G1 X1.3\nG1 Y-1.3\nG1 X-1.3\nG1 Y1.3\nG1 X1.3\nG1 Y0.22\nG0 Z2\nM5\nM2\n"
+}
+
+#[test]
+fn a_trace_that_is_thinned_is_parted_where_cuts_beside_it_meet() {
+    let board = dumbbell();
+    let judged = |text: String| {
+        let report = judge(&board, foreign("round.nc", text, "endmill:0.4mm", FRONT));
+        names(&report, Severity::Error).contains(&"open")
+    };
+    assert!(!judged(round(0.22)), "40 µm are left all along");
+    assert!(judged(round(0.17)), "nothing is, for 0.2 mm, and no cut goes through the middle");
+}
+
+#[test]
+fn a_pad_of_which_a_crumb_is_left_is_destroyed() {
+    let copper = "%FSLAX34Y34*%\n%MOMM*%\n%ADD10C,0.8*%\nD10*\nX0Y0D03*\nX40000Y0D03*\nM02*\n";
+    let board = Folder::with(&[("a-F_Cu.gbr", copper)]).load(&Selection::default()).expect("a board").board;
+    // Discs of 1 mm whose middles lie outside the pad leave what is in none of them.
+    let judged = |off: f64| {
+        let mut text = "G21 G90 G94 F100\nM3 S10000\n".to_owned();
+        for step in 0..12 {
+            let turn = f64::from(step) * std::f64::consts::TAU / 12.0;
+            text +=
+                &format!("G0 Z2\nG0 X{:.4} Y{:.4}\nG1 Z-0.1\n", off * libm::cos(turn), off * libm::sin(turn));
+        }
+        let report = judge(&board, foreign("away.nc", text + "G0 Z2\nM5\nM2\n", "endmill:1mm", FRONT));
+        names(&report, Severity::Error).contains(&"destroyed")
+    };
+    assert!(judged(0.54), "0.005 mm² are a crumb");
+    assert!(!judged(0.58), "0.02 mm² are something");
+}
+
 #[test]
 fn a_trace_left_with_less_than_half_its_width_is_told() {
     let board = load(&["verify/seven-F_Cu.gbr", "verify/seven-Edge_Cuts.gbr"]).board;
