@@ -3,9 +3,10 @@
 //!
 //! Most cuts that reach into copper shave a trace or a pad, where a gap is narrower than the kerf.
 //! Around each of them the copper of the net is drawn without and with kerfs, these wider by a
-//! pixel all round: as many pieces as before, and no cut parts it. Where that leaves a doubt all of
-//! the net is drawn so: a plane that is cut at one place hangs together by others. Polygons said
-//! the same in many times the time, and of a plane in fifteen times the memory.
+//! pixel all round: as many pieces as before, which still go on wherever they did at the border,
+//! and no cut parts it. Where that leaves a doubt all of the net is drawn so: a plane that is cut at
+//! one place hangs together by others. Polygons said the same in many times the time, and of a plane
+//! in fifteen times the memory.
 
 use std::cell::LazyCell;
 
