@@ -61,6 +61,7 @@ fn known(bytes: &[u8]) -> (&'static str, Words) {
     if bytes.iter().all(|b| b.is_ascii_whitespace() || *b == 0) {
         return ("an empty file", GIVE);
     }
+    let head = &bytes[..bytes.len().min(HEAD)];
     let beginning = bytes[..bytes.len().min(BEGINNING)].to_ascii_lowercase();
     let text = |b: &u8| b.is_ascii_graphic() || b.is_ascii_whitespace() || *b >= 0xa0;
     if beginning.starts_with(b"<?xml") {
@@ -70,8 +71,8 @@ fn known(bytes: &[u8]) -> (&'static str, Words) {
     }
     match KNOWN.iter().find(|(start, ..)| beginning.starts_with(start)) {
         Some(&(_, what, hint)) => (what, hint),
-        None if is_program(&bytes[..bytes.len().min(HEAD)]) => ("a G-code program", JUDGE),
-        None if is_project(bytes) => ("the options of pcb2gcode", TAKE_OVER),
+        None if is_program(head) => ("a G-code program", JUDGE),
+        None if is_project(head) => ("the options of pcb2gcode", TAKE_OVER),
         None if beginning.iter().all(text) => ("a text file of unknown type", GIVE),
         None => ("a file of unknown type", GIVE),
     }
@@ -80,7 +81,7 @@ fn known(bytes: &[u8]) -> (&'static str, Words) {
 /// Whether it sets a height of pcb2gcode's.
 pub(super) fn is_project(bytes: &[u8]) -> bool {
     const HEIGHTS: [&str; 4] = ["zwork", "zsafe", "zdrill", "zcut"];
-    let text = String::from_utf8_lossy(&bytes[..bytes.len().min(HEAD)]);
+    let text = String::from_utf8_lossy(bytes);
     let mut settings = text.lines().filter_map(|line| line.split_once('='));
     settings.any(|(key, _)| HEIGHTS.contains(&key.trim()))
 }

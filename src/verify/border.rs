@@ -50,11 +50,10 @@ impl Crossing {
     /// Goes on by a row; whether a stretch has ended that is crossed no longer.
     fn go_on(&mut self, before: bool, after: bool) -> bool {
         let is_lost = !before && *self == Self::Gone;
-        *self = match self {
-            _ if !before => Self::None,
-            Self::Kept => Self::Kept,
-            _ if after => Self::Kept,
-            _ => Self::Gone,
+        *self = match before {
+            false => Self::None,
+            true if after || *self == Self::Kept => Self::Kept,
+            true => Self::Gone,
         };
         is_lost
     }

@@ -4,9 +4,9 @@
 //! Most cuts that reach into copper shave a trace or a pad, where a gap is narrower than the kerf.
 //! Around each of them the copper of the net is drawn without and with kerfs, these wider by a
 //! pixel all round: as many pieces as before, which still go on wherever they did at the border,
-//! and no cut parts it. Where that leaves a doubt all of the net is drawn so: a plane that is cut at
-//! one place hangs together by others. Polygons said the same in many times the time, and of a plane
-//! in fifteen times the memory.
+//! and no cut parts it. Where that leaves a doubt all of the net is drawn so: a plane that is cut
+//! at one place hangs together by others. Polygons said the same in many times the time, and of a
+//! plane in fifteen times the memory.
 
 use std::cell::LazyCell;
 
@@ -20,7 +20,7 @@ use super::border::Border;
 use super::hit::Hit;
 use super::machining::with_radius;
 use super::pieces::{Extent, Joiner, Part, Run};
-use super::rest::{HINT, SMALL};
+use super::rest::{HINT, least};
 use super::sheet::{CUT, Sheet};
 use super::spans::{Spans, less};
 
@@ -37,6 +37,7 @@ const WHOLE: Nm = Nm::from_um(8);
 const MOST: i64 = 30_000;
 /// Rows that are held at once. Chosen: they take a few megabytes.
 const BAND: u32 = 512;
+
 /// Whether cuts may part the copper of a net, all of which lies in `place`: the middle of one goes
 /// through it, or around some there are more pieces after than before; and there are more in all of
 /// it, too. What is the smaller, all of it or the windows, is looked at first.
@@ -46,10 +47,11 @@ pub(super) fn may_part(sheet: &Sheet<'_>, hits: &[Hit], place: Rect, settings: &
     let looks = LOOKS.map(|(halves, pitch)| (halves, pitch, LazyCell::new(move || look(whole, pitch))));
     let locally = |rect: Rect| {
         looks.iter().all(|(halves, pitch, at_whole)| {
-            let window = rect.inflate(sheet.half * *halves).common(whole);
             // Where cuts are wide, windows round many of them are all of a small net.
-            let pieces = window.map(|window| if window == whole { **at_whole } else { look(window, *pitch) });
-            pieces == Some(Pieces::Others)
+            rect.inflate(sheet.half * *halves).common(whole).is_some_and(|window| {
+                let pieces = if window == whole { **at_whole } else { look(window, *pitch) };
+                pieces == Pieces::Others
+            })
         })
     };
     let windows = windows(sheet, hits);
@@ -139,7 +141,7 @@ fn parts(sheet: &Sheet<'_>, net: NetId, rect: Rect, pitch: Nm, settings: &Settin
     let is_whole = |part: &&Part| {
         let mut own = left.iter().filter(|(_, _, piece)| *piece == part.piece);
         // What hardly counts may be nothing, too.
-        let least = (area(part.pixels) * SMALL).min(settings.crumb);
+        let least = least(area(part.pixels), settings);
         let is_enough =
             |&(pixels, extent, _): &(u64, Extent, u32)| area(pixels) >= least || is_at_edge(extent, &grid);
         own.next().is_some_and(is_enough) && own.next().is_none()

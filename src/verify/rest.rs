@@ -56,7 +56,7 @@ impl Rest {
 
     /// The area from which on a part of it counts, in mm²: a crumb, or of small nets three tenths.
     pub(super) fn least(&self, settings: &Settings) -> f64 {
-        (self.area() * SMALL).min(settings.crumb)
+        least(self.area(), settings)
     }
 
     /// The parts by what they conduct to, each group the largest first; more than one for a net
@@ -71,6 +71,11 @@ impl Rest {
         }
         groups
     }
+}
+
+/// The same, of a net of this area in mm².
+pub(super) fn least(area: f64, settings: &Settings) -> f64 {
+    (area * SMALL).min(settings.crumb)
 }
 
 /// A part of the board in doubt.

@@ -372,6 +372,10 @@ fn bridges_are_as_thick_as_they_can_be() {
     let shallow = construct("shallow").expect("a project");
     assert!(told(&shallow).contains("`zbridges` is not taken over"), "{}", told(&shallow));
     assert_eq!(settings(shallow).tabs, Holding::Count(0), "nothing is cut through");
+    let deep = project("metric = true\nzcut = -2.5\nbridges = 2\nzbridges = -2\n");
+    assert!(told(&deep).contains("hold nothing: tabs of the usual height do"), "{}", told(&deep));
+    let deep = settings(deep);
+    assert_eq!((deep.tabs, deep.tab_top), (Holding::Count(2), um(1000)), "0.6 mm of 1.6 mm");
     let made = settings(construct("bridges-to-the-surface").expect("a project"));
     assert_eq!((made.tabs, made.tab_top), (Holding::Count(2), um(50)), "the cutter is lifted out");
 }

@@ -101,13 +101,9 @@ impl Axis {
         }
         let origin = self.origin(system);
         match (self.at, origin) {
-            (Some(at), Some(origin)) if for_good => {
-                self.zeros[system] = Zero::Board(at - value - self.shift);
-                let _ = origin;
-            }
-            (Some(at), Some(origin)) => self.set_shift(self.shift + at - value - origin),
-            (Some(at), None) => self.zeros[system] = Zero::Board(at - value - self.shift),
             (None, _) => self.zeros[system] = Zero::Unknown,
+            (Some(at), Some(origin)) if !for_good => self.set_shift(self.shift + at - value - origin),
+            (Some(at), _) => self.zeros[system] = Zero::Board(at - value - self.shift),
         }
     }
 

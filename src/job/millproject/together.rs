@@ -195,7 +195,7 @@ impl Draft<'_> {
             options.tabs = Some(0);
             "bridges below the cut hold nothing".to_owned()
         } else if top <= -back {
-            format!("bridges below a board of {} hold nothing: they are as high as unasked", Length(back))
+            format!("bridges below a board of {} hold nothing: tabs of the usual height do", Length(back))
         } else {
             options.tab_height = Some(Length((top + back).min(back - SCRATCH).max(Nm::new(1))));
             return;
