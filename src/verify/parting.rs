@@ -57,12 +57,12 @@ pub(super) fn may_part(sheet: &Sheet<'_>, hits: &[Hit], place: Rect, settings: &
     let windows = windows(sheet, hits);
     let area = |rect: &Rect| rect.width().to_mm() * rect.height().to_mm();
     let is_small = area(&whole) < windows.iter().map(area).sum();
-    let as_one = || look(whole, WHOLE) == Pieces::One;
-    if is_small && as_one() {
+    let as_one = LazyCell::new(|| look(whole, WHOLE) == Pieces::One);
+    if is_small && *as_one {
         return false;
     }
     let is_parted = hits.iter().any(|hit| hit.through) || windows.into_iter().any(locally);
-    is_parted && (is_small || !as_one())
+    is_parted && !*as_one
 }
 
 /// Windows that hold what these cuts take, each of a few cuts that follow one another.

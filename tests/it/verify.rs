@@ -18,6 +18,11 @@ fn load(files: &[&str]) -> import::Loaded {
     import::load(&paths, &Selection::default()).expect("a board")
 }
 
+/// The board of these layers.
+fn drawn(layers: &[(&str, &str)]) -> Board {
+    Folder::with(layers).load(&Selection::default()).expect("a board").board
+}
+
 fn text(file: &str) -> String {
     std::fs::read_to_string(fixture(file)).expect("a program")
 }
@@ -258,8 +263,7 @@ fn a_cut_that_crosses_an_edge_of_small_steps_leaves_no_sliver() {
     let head = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,0.2*%\nD10*\nX0Y0D02*\n";
     let edge = format!("{head}{edge}X0Y0D01*\nM02*\n");
     let copper = format!("{head}X1000000Y5000000D03*\nX4000000Y5000000D03*\nM02*\n");
-    let board = Folder::with(&[("b-F_Cu.gbr", &copper), ("b-Edge_Cuts.gbr", &edge)]);
-    let board = board.load(&Selection::default()).expect("a board").board;
+    let board = drawn(&[("b-F_Cu.gbr", &copper), ("b-Edge_Cuts.gbr", &edge)]);
     let judged = |way: &str| {
         let program = format!("G21 G90 G94 F100\nM3 S10000\nG0 Z2\n{way}\nG0 Z2\nM5\nM2\n");
         let report = judge(&board, foreign("cut.nc", program, "endmill:0.15mm", FRONT));
@@ -340,7 +344,7 @@ fn a_pad_that_is_milled_away_is_destroyed() {
 fn dumbbell() -> Board {
     let copper = "%FSLAX34Y34*%\n%MOMM*%\n%ADD10C,2*%\n%ADD11C,0.3*%\nD10*\nX0Y0D03*\nX200000Y0D03*\nD11*\n\
                   X0Y0D02*\nX200000Y0D01*\nM02*\n";
-    Folder::with(&[("a-F_Cu.gbr", copper)]).load(&Selection::default()).expect("a board").board
+    drawn(&[("a-F_Cu.gbr", copper)])
 }
 
 /// A loop round it in short lines, 0.22 mm from the middle of the trace, and on one side `near` it
@@ -372,7 +376,7 @@ fn a_trace_that_is_thinned_is_parted_where_cuts_beside_it_meet() {
 #[test]
 fn a_pad_of_which_a_crumb_is_left_is_destroyed() {
     let copper = "%FSLAX34Y34*%\n%MOMM*%\n%ADD10C,0.8*%\nD10*\nX0Y0D03*\nX40000Y0D03*\nM02*\n";
-    let board = Folder::with(&[("a-F_Cu.gbr", copper)]).load(&Selection::default()).expect("a board").board;
+    let board = drawn(&[("a-F_Cu.gbr", copper)]);
     // Discs of 1 mm whose middles lie outside the pad leave what is in none of them.
     let judged = |off: f64| {
         let mut text = "G21 G90 G94 F100\nM3 S10000\n".to_owned();
