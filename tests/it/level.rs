@@ -184,6 +184,10 @@ fn cycles_increments_inches_and_modal_lines_are_levelled_as_they_are_written() {
             "G90 G98\nG0 Z5\nG0 X0 Y0\nG81 X1 Y1 Z-1.746 R1.254 F100\nX2\nG80\nM2",
         ),
         (
+            "G90 G98\nG0 Z5\nG0 X0 Y0\nG73 X1 Y1 Z-2 R1 Q0.7 F100\nX2\nG89 X3 R2 P0.1\nG86 X4 Z-1\nG80\nM2",
+            "G90 G98\nG0 Z5\nG0 X0 Y0\nG73 X1 Y1 Z-1.746 R1.254 Q0.7 F100\nX2\nG89 X3 R2.254 P0.1\nG86 X4 Z-0.746\nG80\nM2",
+        ),
+        (
             "N10 G90\nN20 G0 Z2\nN30 G0X1Y1\nN40 G1Z-1F100(down)\nN50 M2",
             "N10 G90\nN20 G0 Z2\nN30 G0X1Y1\nN40 G1Z-0.746F100(down)\nN50 M2",
         ),

@@ -12,7 +12,7 @@ pub(super) struct Modal {
     pub(super) incremental: bool,
     /// G90.1.
     pub(super) absolute_centers: bool,
-    /// G81 to G83.
+    /// A drilling cycle.
     pub(super) cycle: bool,
 }
 
@@ -35,7 +35,7 @@ impl Modal {
                 Some(901) => self.absolute_centers = true,
                 Some(911) => self.absolute_centers = false,
                 Some(0 | 10 | 20 | 30 | 800) => self.cycle = false,
-                Some(810 | 820 | 830) => self.cycle = true,
+                Some(730 | 740 | 810..=890) => self.cycle = true,
                 _ => {}
             }
         }

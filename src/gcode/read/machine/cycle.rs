@@ -55,8 +55,8 @@ impl Machine {
     /// A hole, of whose words this is the `first`.
     pub(super) fn drill(&mut self, run: Run<'_>, cycle: Cycle, first: Word) -> Result<(), ReadError> {
         let [a, b, normal] = self.modal.plane.axes();
-        if normal != 2 || self.modal.distance == Distance::Incremental || !is_simple(cycle) {
-            self.listing.is_indirect(run.line(), "a cycle of this kind");
+        if normal != 2 || self.modal.distance == Distance::Incremental {
+            self.listing.is_indirect(run.line(), "a drilling cycle in G91 or in another plane");
         }
         let incremental = self.modal.distance == Distance::Incremental;
         self.remember(run, normal, incremental)?;
@@ -162,11 +162,6 @@ impl Machine {
         }
         if self.axes[normal].at == Some(hole.up) { Ok(()) } else { self.go(run, Way::Rapid, at(hole.up)) }
     }
-}
-
-/// Whether a cycle is one of those whose Z and R can be changed in the text.
-const fn is_simple(cycle: Cycle) -> bool {
-    matches!(cycle, Cycle::Drill { .. } | Cycle::Peck)
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped")]
