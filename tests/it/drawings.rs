@@ -10,16 +10,15 @@ use voromill::import::drawing::{self, Drawing, Options, Unit};
 use voromill::import::{Loaded, Selection, load, svg};
 use voromill::job::{self, Options as JobOptions, Settings};
 
+use crate::corpus;
+
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/drawings").join(name)
 }
 
-/// The gathered drawings of others: `VOROMILL_ARTWORK`, or `../shared/artwork`; none where they are
-/// not at hand.
+/// Drawings of others.
 fn gathered(kind: &str) -> Option<PathBuf> {
-    let usual = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/artwork");
-    let root = std::env::var_os("VOROMILL_ARTWORK").map_or_else(usual, PathBuf::from).join(kind);
-    root.is_dir().then_some(root)
+    corpus::artwork().map(|root| root.join(kind))
 }
 
 fn in_millimetres() -> Options {

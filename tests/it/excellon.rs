@@ -1,13 +1,15 @@
 //! Drill files: each construct, each format, and every hole of every board that is at hand.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use proptest::prelude::*;
 
 use voromill::board::{Hole, Plating};
 use voromill::geometry::{Nm, Point, Rect};
 use voromill::import::excellon::{self, Context, Drilling};
+
+use crate::corpus;
 
 fn fixture(name: &str) -> Drilling {
     fixture_among(name, &Context::default())
@@ -294,9 +296,8 @@ fn what_is_repaired_or_left_out_is_a_warning() {
 /// The corpus' drill files with what an independent reader found: holes, slots.
 #[test]
 fn drill_files_of_the_corpus_are_read() {
-    let folder =
-        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
-    let Ok(index) = fs::read(folder.join("syntax/INDEX.json")) else { return };
+    let Some(folder) = corpus::boards() else { return };
+    let index = fs::read(folder.join("syntax/INDEX.json")).expect("readable");
     let index: serde_json::Value = serde_json::from_slice(&index).expect("JSON");
     let entries = index.as_array().cloned().or_else(|| index["files"].as_array().cloned()).expect("a list");
     for entry in entries.iter().filter(|entry| entry["kind"] == "drill") {
@@ -325,8 +326,7 @@ fn drill_files_of_the_corpus_are_read() {
 
 #[test]
 fn broken_drill_files_end_in_words() {
-    let folder =
-        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
+    let Some(folder) = corpus::boards() else { return };
     let cases = [
         ("drill_empty.drl", Err("the drill file is empty")),
         ("drill_no_holes.drl", Ok("drill-without-holes")),

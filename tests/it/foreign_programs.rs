@@ -1,10 +1,12 @@
 //! Programs as people and other tools write them, followed as their controllers would run them.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use voromill::gcode::read;
 use voromill::gcode::read::{Listing, Spindle, Way};
 use voromill::geometry::Nm;
+
+use crate::corpus;
 
 /// Ends of all motions in millimetres; not a number where it is not known.
 fn ends(listing: &Listing) -> Vec<[f64; 3]> {
@@ -259,12 +261,10 @@ fn polar_coordinates_turn_about_zero() {
     assert!(error.contains("from its centre"), "{error}");
 }
 
-/// The programs in a folder, other people's: `VOROMILL_ARTWORK`, or `../shared/artwork`.
+/// Other people's programs.
 fn gathered() -> Vec<PathBuf> {
-    let usual = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/artwork");
-    let root = std::env::var_os("VOROMILL_ARTWORK").map_or_else(usual, PathBuf::from).join("gcode");
     let mut found = Vec::new();
-    let mut folders = vec![root];
+    let mut folders: Vec<PathBuf> = corpus::artwork().map(|root| root.join("gcode")).into_iter().collect();
     while let Some(folder) = folders.pop() {
         for path in std::fs::read_dir(&folder).into_iter().flatten().flatten().map(|entry| entry.path()) {
             let is_program = path.extension().is_some_and(|extension| {

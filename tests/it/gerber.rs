@@ -5,24 +5,14 @@
 )]
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 use voromill::board::polarity;
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::gerber::{self, Image, Options};
 
-/// The folder of real boards, which is not part of the repository; none where there is none.
-#[expect(clippy::print_stderr, reason = "says why a test tests nothing")]
-fn boards() -> Option<PathBuf> {
-    let folder = std::env::var_os("VOROMILL_BOARDS")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/boards"), PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("skipped: no boards in {}", folder.display());
-    None
-}
+use crate::corpus::{board_folders, boards};
 
 fn json(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).expect("the file is there")).expect("it is JSON")
@@ -157,9 +147,8 @@ const BEYOND: &[(&str, usize)] =
 
 #[test]
 fn copper_is_what_other_programs_draw() {
-    let Some(boards) = boards() else { return };
     let mut failures = Vec::new();
-    for folder in folders(&boards) {
+    for folder in board_folders() {
         for side in ["front", "back"] {
             let picture = folder.join(format!("ref/{side}_500.png"));
             if picture.exists() {
@@ -192,14 +181,6 @@ fn compare(folder: &Path, picture: &Path, side: &str, name: &str) -> Result<(), 
     println!("{found}");
     let agrees = share <= MISMATCH && beyond <= excused && islands == Some(copper.len() as u64);
     if agrees { Ok(()) } else { Err(found) }
-}
-
-/// The folders of boards, sorted.
-fn folders(boards: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(boards).expect("boards").map(|entry| entry.expect("an entry").path());
-    let mut folders: Vec<_> = entries.filter(|folder| folder.join("meta.json").exists()).collect();
-    folders.sort();
-    folders
 }
 
 #[test]

@@ -5,10 +5,11 @@ use std::fs;
 use std::path::Path;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use voromill::board::Shape;
 use voromill::geometry::{Nm, Point};
 use voromill::import::gerber::{Options, read};
+
+use crate::cases;
 
 /// Small, so that a bomb is refused soon.
 const LIMITS: Options = Options { features: 5_000, vertices: 50_000 };
@@ -149,17 +150,8 @@ fn survives(bytes: &[u8]) {
     assert!(!image.features.is_empty() || !image.warnings.is_empty(), "nothing, and not a word about it");
 }
 
-/// The same cases every time; others, as many as it says, where `PROPTEST_CASES` is set.
-fn config() -> ProptestConfig {
-    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
-    if std::env::var_os("PROPTEST_CASES").is_some() {
-        return config;
-    }
-    ProptestConfig { cases: 300, rng_seed: RngSeed::Fixed(274), ..config }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(cases::same(300, 274))]
 
     #[test]
     fn damaged_files_are_read_or_refused(bytes in damaged()) {

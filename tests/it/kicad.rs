@@ -8,6 +8,8 @@ use voromill::board::{Axis, Board, Copper, FLATTEN, Feature, Hole, Outline, Plat
 use voromill::geometry::{Nm, Polygon, Rect};
 use voromill::import::{self, Loaded, Selection};
 
+use crate::corpus;
+
 /// A board of KiCad beside its plots, which are moved to where the board lies.
 struct Pair {
     name: &'static str,
@@ -19,17 +21,6 @@ struct Pair {
     lettered: bool,
 }
 
-/// The folder that a variable names, or that lies beside the repository.
-#[expect(clippy::print_stderr, reason = "a test that skips says so")]
-fn folder(variable: &str, beside: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os(variable).map_or_else(|| PathBuf::from(beside), PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("skipped: no {} (set {variable})", folder.display());
-    None
-}
-
 fn load(path: &Path) -> Loaded {
     let loaded = import::load(&[path.to_owned()], &Selection::default());
     loaded.unwrap_or_else(|error| panic!("{}:\n{}", path.display(), error.render()))
@@ -39,7 +30,7 @@ fn load(path: &Path) -> Loaded {
 fn pairs() -> &'static [Pair] {
     static PAIRS: OnceLock<Vec<Pair>> = OnceLock::new();
     PAIRS.get_or_init(|| {
-        let Some(artwork) = folder("VOROMILL_ARTWORK", "../shared/artwork") else { return Vec::new() };
+        let Some(artwork) = corpus::artwork() else { return Vec::new() };
         let artwork = artwork.join("kicad");
         // Those that are moved were plotted from another origin than they were saved with.
         let beside = [
@@ -64,7 +55,7 @@ fn pairs() -> &'static [Pair] {
             ("v6_interf_u", "kicad_interf_u", 1),
             ("v6_StickHub", "kicad_stickhub", 1),
         ];
-        if let Some(boards) = folder("VOROMILL_BOARDS", "../shared/boards") {
+        if let Some(boards) = corpus::boards() {
             for (name, plots, within) in elsewhere {
                 let ours = load(&artwork.join(format!("{name}.kicad_pcb")));
                 let plotted = load(&boards.join(plots)).board;

@@ -5,9 +5,10 @@ use std::fs;
 use std::path::Path;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use voromill::geometry::{Nm, Point};
 use voromill::import::kicad::read;
+
+use crate::cases;
 
 /// What boards are made of, and some of what they should not hold.
 const WORDS: &[&str] = &[
@@ -153,17 +154,8 @@ fn survives(bytes: &[u8]) {
     }
 }
 
-/// The same cases every time; others, as many as it says, where `PROPTEST_CASES` is set.
-fn config() -> ProptestConfig {
-    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
-    if std::env::var_os("PROPTEST_CASES").is_some() {
-        return config;
-    }
-    ProptestConfig { cases: 300, rng_seed: RngSeed::Fixed(9), ..config }
-}
-
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(cases::same(300, 9))]
 
     #[test]
     fn damaged_boards_are_read_or_refused(bytes in damaged()) {

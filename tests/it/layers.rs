@@ -8,19 +8,7 @@ use voromill::board::{Hole, Plating, Side};
 use voromill::geometry::{Nm, Point};
 use voromill::import::{Loaded, Selection, load, load_copper, survey};
 
-#[expect(clippy::print_stderr, reason = "a test that skips says so")]
-pub(crate) fn boards() -> Option<Vec<PathBuf>> {
-    let folder =
-        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
-    if !folder.is_dir() {
-        eprintln!("skipped: no boards in {} (set VOROMILL_BOARDS)", folder.display());
-        return None;
-    }
-    let entries = fs::read_dir(&folder).expect("readable").map(|entry| entry.expect("an entry").path());
-    let mut found: Vec<_> = entries.filter(|path| path.join("meta.json").is_file()).collect();
-    found.sort();
-    Some(found)
-}
+use crate::corpus::board_folders;
 
 fn json(path: &Path) -> Value {
     serde_json::from_slice(&fs::read(path).expect("readable")).expect("JSON")
@@ -53,7 +41,7 @@ fn names(value: &Value) -> Vec<String> {
 
 #[test]
 fn every_board_loads_with_its_roles() {
-    for path in boards().into_iter().flatten() {
+    for path in board_folders() {
         let loaded = board(&path);
         let layers = &json(&path.join("meta.json"))["layers"];
         for (role, key) in
@@ -69,7 +57,7 @@ fn every_board_loads_with_its_roles() {
 
 #[test]
 fn every_outline_encloses_the_area_that_it_should() {
-    for path in boards().into_iter().flatten() {
+    for path in board_folders() {
         let truth = &json(&path.join("truth_nets.json"))["outline"];
         let (Some(area), Some(grid)) =
             (truth["board_area_mm2"].as_f64(), truth["closes_at_grid_mm"].as_f64())
@@ -118,7 +106,7 @@ fn has_size(hole: &Hole, size: &Value) -> bool {
 #[test]
 fn every_hole_of_every_board_is_read_with_its_size_and_place() {
     let (mut checked, mut slots) = (0, 0);
-    for path in boards().into_iter().flatten() {
+    for path in board_folders() {
         let truth = path.join("truth_drill.json");
         if !truth.is_file() {
             continue;

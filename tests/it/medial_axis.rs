@@ -12,6 +12,7 @@ use voromill::voronoi::exact::{Diagram, Generators, Kind, Space};
 use voromill::voronoi::medial::{Interior, MedialAxis, Pruning};
 
 use crate::certified_diagram::Random;
+use crate::corpus;
 use crate::oracle::field::Spot;
 use crate::oracle::parabola::parabola;
 use crate::oracle::polyline;
@@ -350,10 +351,10 @@ fn gathered_drawings() -> Vec<PathBuf> {
             }
         }
     }
-    let usual = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/artwork");
-    let root = std::env::var_os("VOROMILL_ARTWORK").map_or_else(usual, PathBuf::from);
     let mut all = Vec::new();
-    ["svg", "dxf"].iter().for_each(|kind| files(&root.join(kind), &mut all));
+    if let Some(artwork) = corpus::artwork() {
+        ["svg", "dxf"].iter().for_each(|kind| files(&artwork.join(kind), &mut all));
+    }
     all.sort();
     all
 }

@@ -15,6 +15,7 @@ use voromill::toolpath::{Direction, Feed, ToolKind};
 use voromill::verify::Severity;
 
 use crate::cli::{stderr, stdout, voromill};
+use crate::corpus;
 
 fn project(text: &str) -> MillProject {
     MillProject::read("millproject", text).unwrap_or_else(|error| panic!("{error}\n{text}"))
@@ -426,17 +427,12 @@ enum Fate {
     WithoutFiles,
 }
 
-/// The projects of pcb2gcode and of users, which are not part of the repository: `VOROMILL_ARTWORK`
-/// names their folder.
+/// The projects of pcb2gcode and of users.
 #[test]
 fn every_project_of_the_corpus_is_taken_over_or_refused_with_the_line() {
-    let artwork = std::env::var_os("VOROMILL_ARTWORK")
-        .map_or_else(|| PathBuf::from("../shared/artwork"), PathBuf::from);
+    let Some(artwork) = corpus::artwork() else { return };
     let corpus = artwork.join("millprojects");
-    let Ok(expected) = fs::read_to_string(corpus.join("EXPECT.json")) else {
-        eprintln!("skipped: no millprojects in {} (set VOROMILL_ARTWORK)", artwork.display());
-        return;
-    };
+    let expected = fs::read_to_string(corpus.join("EXPECT.json")).expect("readable");
     let expected: serde_json::Value = serde_json::from_str(&expected).expect("JSON");
     let mut fates = Vec::new();
     let (users, own): (Vec<_>, Vec<_>) =

@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 use rayon::prelude::*;
 use voromill::import::{Loaded, load};
 
-use crate::layers::boards;
+use crate::corpus::board_folders;
 use crate::random::splitmix64;
 use crate::real_boards;
 
@@ -112,8 +112,8 @@ impl Random {
 /// The boards that are read as they are, or with what a person has to say; what lies beside their
 /// files for the tests is no part of them.
 fn subjects() -> Vec<Subject> {
-    let folders = boards().into_iter().flatten();
-    folders
+    board_folders()
+        .into_iter()
         .filter_map(|folder| {
             let is_of_board =
                 |path: &PathBuf| path.is_file() && path.extension().is_none_or(|end| end != "json");

@@ -4,11 +4,13 @@ use std::fs;
 use std::path::PathBuf;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use voromill::board::{Shape, polarity};
 use voromill::geometry::{Nm, Path, Point, Polygon, Segment};
 use voromill::import::gerber;
 use voromill::import::outline::{GAP, Joined, join};
+
+use crate::cases;
+use crate::corpus;
 
 /// A profile layer with `body` behind its header: coordinates in micrometres, D10 of no width.
 fn joined(body: &str) -> Joined {
@@ -302,8 +304,7 @@ fn filled_areas_that_overlap_are_one_board() {
 
 #[test]
 fn outlines_of_the_corpus_close() {
-    let folder =
-        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
+    let Some(folder) = corpus::boards() else { return };
     let cases: [(&str, &[i64], &[&str]); 10] = [
         (
             "syntax/p2gboard__edge-cuts-broken-loop__edge-cuts-Edge.Cuts.gbr",
@@ -358,15 +359,6 @@ proptest! {
     }
 }
 
-/// The same cases every time; others, as many as it says, where `PROPTEST_CASES` is set.
-fn same_cases() -> ProptestConfig {
-    let config = ProptestConfig { failure_persistence: None, ..ProptestConfig::default() };
-    if std::env::var_os("PROPTEST_CASES").is_some() {
-        return config;
-    }
-    ProptestConfig { cases: 500, rng_seed: RngSeed::Fixed(41), ..config }
-}
-
 /// A place or a length, off by a nanometre as well as by thirty micrometres.
 fn off() -> impl Strategy<Value = i64> {
     (0..15_u32, -1.0..1.0_f64)
@@ -374,7 +366,7 @@ fn off() -> impl Strategy<Value = i64> {
 }
 
 proptest! {
-    #![proptest_config(same_cases())]
+    #![proptest_config(cases::same(500, 41))]
 
     /// A hole that a footprint and a drawing both have, each rounded otherwise.
     #[test]
@@ -409,7 +401,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(same_cases())]
+    #![proptest_config(cases::same(500, 41))]
 
     /// The edge of a board on two layers of one export, its corners rounded otherwise on each.
     #[test]
@@ -448,7 +440,7 @@ proptest! {
 }
 
 proptest! {
-    #![proptest_config(same_cases())]
+    #![proptest_config(cases::same(500, 41))]
 
     /// Slots of which a footprint and a drawing both have the edge, each moved and turned by
     /// little.

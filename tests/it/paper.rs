@@ -3,7 +3,7 @@
 
 use std::fmt::Write as _;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde_json::Value;
 
@@ -15,6 +15,8 @@ use voromill::report::paper::{PaperEntry, Paths};
 use voromill::topology::{self, Method, Sampling};
 use voromill::voronoi::paper::{PITCH, Paper};
 
+use crate::corpus::{boards, paper_results};
+
 /// The paper's boards that are to be had: dataset, file, and the row that the paper prints.
 const BOARDS: [(usize, &str, &str); 5] = [
     (1, "visolate_eaglecad1/top-cop.gbx", "86 | 12.1 | 112.8 | 85.4 | 32 | 0.07 | 0.25 | 271"),
@@ -24,23 +26,9 @@ const BOARDS: [(usize, &str, &str); 5] = [
     (6, "visolate_orcad_rs232/rs232_cm.bot", "13 | 0.6 | 12.4 | 8.9 | 38 | 0.04 | 0.14 | 267"),
 ];
 
-#[expect(clippy::print_stderr, reason = "says what was skipped")]
-fn folder(variable: &str, default: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os(variable).map_or_else(|| PathBuf::from(default), PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("skipped: nothing at {} (set {variable})", folder.display());
-    None
-}
-
-fn boards() -> Option<PathBuf> {
-    folder("VOROMILL_BOARDS", "../shared/boards")
-}
-
 /// The logs of the paper's program, dataset by dataset.
 fn logs() -> Option<Value> {
-    let text = fs::read_to_string(folder("VOROMILL_PAPER", "../shared/paper-results")?.join("table_v.json"));
+    let text = fs::read_to_string(paper_results()?.join("table_v.json"));
     Some(serde_json::from_str(&text.expect("the logs are readable")).expect("the logs are JSON"))
 }
 

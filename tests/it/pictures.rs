@@ -2,7 +2,7 @@
 //! so.
 
 use std::io::Cursor;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::LazyLock;
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma, Rgb, RgbImage, Rgba, RgbaImage};
@@ -13,6 +13,8 @@ use voromill::import::picture::{Colour, Options, Picture, read};
 use voromill::import::{self, Selection};
 use voromill::report::mask::{self, Sheet};
 use voromill::topology::{self, Method};
+
+use crate::corpus::{self, board_folders};
 
 /// Pads with a drill dot, in millimetres from the lower left: x, y, pad, dot.
 const PADS: [(f64, f64, f64, f64); 4] =
@@ -317,19 +319,9 @@ proptest! {
 }
 
 /// The folder of real artwork, if there is one.
-#[expect(clippy::print_stderr, reason = "a test that skips says so")]
-fn shared(variable: &str, folder: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os(variable).map_or_else(|| PathBuf::from(folder), PathBuf::from);
-    if !folder.is_dir() {
-        eprintln!("skipped: {} is no folder (set {variable})", folder.display());
-        return None;
-    }
-    Some(folder)
-}
-
 #[test]
 fn one_board_in_many_encodings_is_one_board() {
-    let Some(folder) = shared("VOROMILL_ARTWORK", "../shared/artwork") else { return };
+    let Some(folder) = corpus::artwork() else { return };
     let entries = std::fs::read_dir(folder.join("pictures/odd")).expect("pictures");
     let mut seen = 0;
     for path in entries.map(|entry| entry.expect("an entry").path()) {
@@ -358,12 +350,15 @@ fn place(p: Point) -> (i64, i64) {
 /// Every picture of a layer of the test boards; unoptimised, the small ones.
 #[test]
 fn pictures_of_layers_have_the_islands_of_their_boards() {
-    let Some(folder) = shared("VOROMILL_BOARDS", "../shared/boards") else { return };
+    let boards = board_folders();
+    if boards.is_empty() {
+        return;
+    }
     let json = |path: &Path| -> Option<serde_json::Value> {
         serde_json::from_slice(&std::fs::read(path).ok()?).ok()
     };
     let (mut seen, mut right) = (0, 0);
-    for board in std::fs::read_dir(folder).expect("boards").map(|entry| entry.expect("an entry").path()) {
+    for board in boards {
         let Some(truth) = json(&board.join("truth_nets.json")) else { continue };
         for side in ["front", "back"] {
             let path = board.join(format!("ref/{side}_500.png"));
@@ -503,12 +498,15 @@ fn most(values: &mut [f64]) -> f64 {
 /// Unoptimised, into the small ones.
 #[test]
 fn drill_dots_of_layers_are_their_holes() {
-    let Some(folder) = shared("VOROMILL_BOARDS", "../shared/boards") else { return };
+    let boards = board_folders();
+    if boards.is_empty() {
+        return;
+    }
     let json = |path: &Path| -> Option<serde_json::Value> {
         serde_json::from_slice(&std::fs::read(path).ok()?).ok()
     };
     let mut found = Found::default();
-    for board in std::fs::read_dir(folder).expect("boards").map(|entry| entry.expect("an entry").path()) {
+    for board in boards {
         let Some(truth) = json(&board.join("truth_drill.json")) else { continue };
         for side in ["front", "back"] {
             let Some(window) = json(&board.join(format!("ref/{side}_500.json"))) else { continue };
@@ -562,7 +560,7 @@ fn edges_in_greys_are_known_to_a_quarter_of_a_pixel() {
 
 #[test]
 fn photos_of_boards_are_refused() {
-    let Some(folder) = shared("VOROMILL_ARTWORK", "../shared/artwork") else { return };
+    let Some(folder) = corpus::artwork() else { return };
     for name in ["hello_t1616/board_photo.jpg", "milled_board_photo.jpeg"] {
         let bytes = std::fs::read(folder.join("pictures").join(name)).expect(name);
         let error = read(name, &bytes, &OPTIONS).expect_err(name).to_string();

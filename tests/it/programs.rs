@@ -11,6 +11,7 @@ use voromill::import;
 use voromill::job::{self, Job, Options, Settings};
 use voromill::toolpath::{Move, Position, Program};
 
+use crate::corpus::board_folders;
 use crate::real_boards::selection;
 
 /// The job on the files in `folder`.
@@ -204,14 +205,7 @@ fn every_option_is_done_as_was_planned() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "takes minutes in a debug build")]
 fn every_dialect_does_with_real_boards_as_was_planned() {
-    let folder =
-        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        eprintln!("skipped: no boards in {} (set VOROMILL_BOARDS)", folder.display());
-        return;
-    };
-    let boards = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
-    for board in boards.filter(|path| path.join("meta.json").exists()) {
+    for board in board_folders() {
         eprintln!("{}", board.display());
         assert_all_dialects_do_as_planned(&board, "tool = \"endmill:0.1mm\"");
     }

@@ -1,9 +1,11 @@
 //! The real boards, which are not part of the repository: `VOROMILL_BOARDS` names their folder.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use voromill::board::{Copper, Outline};
 use voromill::import::{self, Selection};
+
+use crate::corpus::board_folders;
 
 /// A layer of copper with the board's name and side.
 pub(crate) struct Layer {
@@ -24,19 +26,9 @@ pub(crate) fn selection(folder: &Path) -> Selection {
     Selection { front: untold.is_file().then_some(untold), ..Selection::default() }
 }
 
-/// Nothing, with a message, where there are no boards.
-#[expect(clippy::print_stderr, reason = "a test that skips says so")]
 fn all() -> Vec<Layer> {
-    let folder =
-        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        eprintln!("skipped: no boards in {} (set VOROMILL_BOARDS)", folder.display());
-        return Vec::new();
-    };
-    let mut folders: Vec<_> = entries.map(|entry| entry.expect("an entry").path()).collect();
-    folders.sort();
     let mut layers = Vec::new();
-    for folder in folders.into_iter().filter(|folder| folder.join("meta.json").is_file()) {
+    for folder in board_folders() {
         let Ok(loaded) = import::survey(std::slice::from_ref(&folder), &selection(&folder)) else {
             continue;
         };

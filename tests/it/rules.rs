@@ -19,6 +19,7 @@ use voromill::import;
 use voromill::job::{self, Job, Options, Settings, Written};
 use voromill::verify::Severity;
 
+use crate::corpus::board_folders;
 use crate::real_boards::selection;
 
 /// What a controller takes.
@@ -1037,14 +1038,7 @@ fn the_rules_refuse_what_breaks_them() {
 #[test]
 #[cfg_attr(debug_assertions, ignore = "takes minutes in a debug build")]
 fn real_boards_keep_the_rules_in_every_dialect() {
-    let folder =
-        std::env::var_os("VOROMILL_BOARDS").map_or_else(|| PathBuf::from("../shared/boards"), PathBuf::from);
-    let Ok(entries) = std::fs::read_dir(&folder) else {
-        eprintln!("skipped: no boards in {} (set VOROMILL_BOARDS)", folder.display());
-        return;
-    };
-    let boards = entries.filter_map(|entry| entry.ok().map(|entry| entry.path()));
-    for board in boards.filter(|path| path.join("meta.json").exists()) {
+    for board in board_folders() {
         for case in cases(&board, "tool = \"endmill:0.1mm\"") {
             for (number, rule) in RULES {
                 let wrong = rule(&case);

@@ -1,9 +1,10 @@
 //! The cellular automaton that thins a picture: against a slow one, and against its original.
 
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use voromill::raster::{Bits, Node, thin};
+
+use crate::corpus;
 
 /// The automaton pixel by pixel, straight from its description.
 fn slow(width: usize, height: usize, set: &[bool]) -> (Vec<bool>, u32) {
@@ -131,13 +132,8 @@ fn a_lattice_has_its_junctions_and_routes() {
 
 #[test]
 fn cisolates_own_example_has_its_own_figures() {
-    let usual = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/artwork");
-    let root = std::env::var_os("VOROMILL_ARTWORK").map_or_else(usual, PathBuf::from);
-    let picture = root.join("pictures/cisolate_visolate_example.bmp");
-    if !picture.is_file() {
-        println!("no picture at VOROMILL_ARTWORK/pictures: nothing is thinned");
-        return;
-    }
+    let Some(artwork) = corpus::artwork() else { return };
+    let picture = artwork.join("pictures/cisolate_visolate_example.bmp");
     let out = tempfile::tempdir().expect("a folder");
     let done = Command::new(env!("CARGO_BIN_EXE_voromill"))
         .current_dir(out.path())

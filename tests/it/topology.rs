@@ -2,7 +2,7 @@
 //! gaps.
 
 use std::fs;
-use std::path::{Path as FilePath, PathBuf};
+use std::path::Path as FilePath;
 
 use proptest::prelude::*;
 use serde_json::Value;
@@ -12,6 +12,8 @@ use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn};
 use voromill::grid::Grid;
 use voromill::import::{self, gerber};
 use voromill::topology::{self, Method, NetId, Nets, Reason, Sampling};
+
+use crate::corpus::board_folders;
 
 fn at(x: i64, y: i64) -> Point {
     Point::new(Nm::new(x), Nm::new(y))
@@ -545,18 +547,6 @@ fn an_empty_layer_has_no_nets() {
     assert!(topology::smallest_gap(&copper, &nets).is_none(), "and no gap");
 }
 
-/// The folder of real boards, which is not part of the repository; none where there is none.
-#[expect(clippy::print_stderr, reason = "says that a test checked nothing")]
-fn boards() -> Option<PathBuf> {
-    let folder = std::env::var_os("VOROMILL_BOARDS")
-        .map_or_else(|| FilePath::new(env!("CARGO_MANIFEST_DIR")).join("../shared/boards"), PathBuf::from);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    eprintln!("skipped: no boards in {}", folder.display());
-    None
-}
-
 fn json(path: &FilePath) -> Option<Value> {
     Some(serde_json::from_slice(&fs::read(path).ok()?).expect("it is JSON"))
 }
@@ -580,11 +570,7 @@ fn layer(file: &FilePath, side: Side) -> Copper {
 /// truth).
 fn layers() -> Vec<(String, Copper, Value)> {
     let mut found = Vec::new();
-    let Some(folder) = boards() else { return found };
-    let mut names: Vec<_> =
-        fs::read_dir(&folder).expect("readable").map(|entry| entry.expect("an entry").path()).collect();
-    names.sort();
-    for board in names {
+    for board in board_folders() {
         let (Some(meta), Some(truth)) =
             (json(&board.join("meta.json")), json(&board.join("truth_nets.json")))
         else {
@@ -793,8 +779,7 @@ fn the_seed_decides_the_colours_and_nothing_else_does() {
 #[test]
 fn real_boards_have_as_many_electrical_nets_as_their_truth() {
     let mut wrong = Vec::new();
-    for folder in boards().into_iter().flat_map(|boards| fs::read_dir(boards).expect("readable")) {
-        let folder = folder.expect("an entry").path();
+    for folder in board_folders() {
         let Some(truth) = json(&folder.join("truth_nets.json")) else { continue };
         let Some(groups) = truth["board"]["connected_groups"].as_u64() else { continue };
         let Ok(import::Loaded { board, .. }) =

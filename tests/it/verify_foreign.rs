@@ -10,6 +10,8 @@ use voromill::verify::{
     Change, Finding, Orientation, Placement, Program, Role, Settings, Severity, Tiles, diff, register, verify,
 };
 
+use crate::corpus;
+
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/verify").join(name)
 }
@@ -208,12 +210,10 @@ fn differences_cover_what_exact_distances_say() {
     assert!(turned.is_same(), "the way that a line is cut is no difference");
 }
 
-/// Cutouts that other people gathered beside boards they were not made for: `VOROMILL_ARTWORK`, or
-/// `../shared/artwork`.
+/// Other people's cutouts, beside boards they were not made for.
 #[test]
 fn a_cutout_of_another_board_does_not_fit_wherever_it_is_laid() {
-    let usual = || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/artwork");
-    let root = std::env::var_os("VOROMILL_ARTWORK").map_or_else(usual, PathBuf::from);
+    let Some(root) = corpus::artwork() else { return };
     for (program, board, tool, thickness) in [
         (
             "gcode/flatcam_8991_test_copper/CUTOUT-2mm.nc",

@@ -10,7 +10,6 @@ use std::fs;
 use std::path::Path;
 
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
 use rayon::ThreadPoolBuilder;
 use voromill::board::{Board, Copper, FLATTEN, Side, polarity};
 use voromill::gcode::read;
@@ -20,6 +19,7 @@ use voromill::import::outline;
 use voromill::job::{self, Job, Options, Settings};
 use voromill::verify::{Finding, Severity};
 
+use crate::cases;
 use crate::euler;
 use drawing::{Drawing, coarse_drawing, drawing, drawing_with_holes};
 
@@ -41,15 +41,9 @@ const SETTINGS: [&str; 14] = [
     "adaptive-depth = \"0.05mm\"\nwidth = \"0.8mm\"\ntool = \"vbit:0.1mm:30deg\"",
 ];
 
-/// The same cases every time; others, as many as it says, where `PROPTEST_CASES` is set.
 fn config() -> ProptestConfig {
-    let config =
-        ProptestConfig { failure_persistence: None, max_shrink_time: 60_000, ..ProptestConfig::default() };
-    if std::env::var_os("PROPTEST_CASES").is_some() {
-        return config;
-    }
     let cases = if cfg!(debug_assertions) { 30 } else { 100 };
-    ProptestConfig { cases, rng_seed: RngSeed::Fixed(73), ..config }
+    ProptestConfig { max_shrink_time: 60_000, ..cases::same(cases, 73) }
 }
 
 fn image(text: &str) -> Result<Image, String> {
