@@ -261,6 +261,15 @@ fn arcs_along_the_axis_bear_no_more_than_they_may() {
     }
 }
 
+/// What a helix cleared above its last turn stands no more, though it was never level.
+#[test]
+fn a_helix_meets_its_own_turns_and_not_the_wall() {
+    let areas = vec![rectangle([0, 0, 14_000, 8000])];
+    let art = Art { name: "deep".to_owned(), areas, ..Art::default() };
+    let made = pocket(art, &settings("endmill:3mm", "3mm"), &engaging("5%", false)).expect("a program");
+    check_engaged("deep", &made, 0.05);
+}
+
 /// The stock tapers off in a corner, however few places the axis of a long one has: the loop along
 /// the wall meets as much there as along a straight edge.
 #[test]

@@ -68,8 +68,8 @@ pub(super) struct Work<'a> {
     pub(super) pass: f64,
     /// The engagement above which something is found, as a part of the diameter.
     pub(super) allowed: f64,
-    /// All level motions.
-    pub(super) sweeps: &'a Sweeps,
+    /// All level motions, and the slopes, which are asked only where those leave too much.
+    pub(super) sweeps: [&'a Sweeps; 2],
 }
 
 /// Cells across a radius, if there are not too many. Chosen: half a cell is a part of the
@@ -432,9 +432,11 @@ impl<'a> Mill<'a> {
     /// What it meets ahead at a place, so deep and on a part of its way so long, on which it `cuts`
     /// or does not.
     fn feel(&mut self, at: Spot, heading: Spot, (depth, length): (f64, f64), cuts: bool, stretch: &Stretch) {
-        let mut angle = self.angle(at, heading, depth, None);
-        if engaged(angle) > self.work.allowed {
-            angle = self.angle(at, heading, depth, Some(stretch.order));
+        let mut angle = self.angle(at, heading, depth, &[], stretch.order);
+        for asked in 1..=self.work.sweeps.len() {
+            if engaged(angle) > self.work.allowed {
+                angle = self.angle(at, heading, depth, &self.work.sweeps[..asked], stretch.order);
+            }
         }
         let part = self.lasting(engaged(angle), length);
         if !holds(self.tile, 0.0, at) {
@@ -475,8 +477,8 @@ impl<'a> Mill<'a> {
     }
 
     /// The angle along which it meets material, each part weighted by how much of a pass that is
-    /// high; with the number of the motion less what those before it have cleared.
-    fn angle(&self, at: Spot, heading: Spot, depth: f64, order: Option<usize>) -> f64 {
+    /// high, less what of the motions that are asked those before this one have cleared.
+    fn angle(&self, at: Spot, heading: Spot, depth: f64, asked: &[&Sweeps], order: usize) -> f64 {
         let radius = self.work.radius.to_f64();
         let ahead = self.ahead;
         let next = radius - WITHIN;
@@ -485,10 +487,10 @@ impl<'a> Mill<'a> {
             let way = (heading.0 * on - heading.1 * side, heading.1 * on + heading.0 * side);
             let at = |off: f64| (at.0 + way.0 * off, at.1 + way.1 * off);
             let mut known = self.field.at(at(ahead));
-            if let Some(order) = order
-                && depth - known > self.work.pass * THIN
-            {
-                known = known.max(self.work.sweeps.deepest(at(next), order));
+            for sweeps in asked {
+                if depth - known > self.work.pass * THIN {
+                    known = known.max(sweeps.deepest(at(next), order));
+                }
             }
             let height = depth - known;
             if height > self.work.pass * THIN {
@@ -564,7 +566,7 @@ mod tests {
             depth: Nm::from_mm(1),
             pass: 1e6,
             allowed: 0.17,
-            sweeps: &sweeps,
+            sweeps: [&sweeps, &Sweeps::new(Vec::new())],
         };
         borne(&stretches.collect::<Vec<_>>(), &work)
     }

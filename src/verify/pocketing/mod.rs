@@ -113,13 +113,16 @@ struct Step {
 }
 
 impl Step {
-    /// What it clears for certain: a level way all along, and straight down as deep as it comes.
-    fn sweep(&self) -> Option<Sweep> {
-        let [from, to] = self.ends;
-        let [low, high] = [self.depths[0].min(self.depths[1]), self.depths[0].max(self.depths[1])];
-        let depth = if from == to { high } else { low };
-        let Self { radius, order, .. } = *self;
-        (from == to || high - low < LEVEL).then_some(Sweep { from, to, radius, depth, order })
+    /// What it clears for certain: all along as deep as its higher end, and straight down as deep as
+    /// it comes.
+    fn sweep(&self) -> Sweep {
+        let Self { ends: [from, to], depths: [a, b], radius, order, .. } = *self;
+        Sweep { from, to, radius, depth: if from == to { a.max(b) } else { a.min(b) }, order }
+    }
+
+    /// Whether that is all that it clears.
+    fn is_level(&self) -> bool {
+        self.ends[0] == self.ends[1] || (self.depths[0] - self.depths[1]).abs() < LEVEL
     }
 }
 
@@ -134,7 +137,8 @@ pub fn pocketing(programs: &[Text<'_>], floor: &Floor<'_>) -> Result<Pocketed, E
     for (program, (listing, cutter)) in listings.iter().enumerate() {
         all_steps(listing, cutter, program, &mut steps);
     }
-    let sweeps = Sweeps::new(steps.iter().filter_map(Step::sweep).collect());
+    let level = steps.iter().filter(|step| step.is_level());
+    let sweeps = Sweeps::new(level.map(Step::sweep).collect());
     let edges = Edges::new(floor.areas);
     let mut judge = Judge { floor, programs, pocketed: Pocketed::default() };
     judge.harm(&listings);
@@ -319,13 +323,15 @@ impl Judge<'_> {
             Stretch { ends, depths, line, order }
         };
         let stretches: Vec<Stretch> = steps.iter().filter(|step| step.program == 0).map(stretch).collect();
+        let slopes = steps.iter().filter(|step| !step.is_level()).map(Step::sweep);
+        let slopes = Sweeps::new(slopes.filter(|slope| slope.depth > 0.0).collect());
         let work = Work {
             areas: self.floor.areas,
             radius: first.cutter.tip / 2,
             depth: self.floor.depth,
             pass: self.floor.depth.to_f64() / passes.max(1.0),
             allowed: target + TOLERATED,
-            sweeps,
+            sweeps: [sweeps, &slopes],
         };
         let found = borne(&stretches, &work);
         self.pocketed.borne = Some(found);
