@@ -113,8 +113,8 @@ struct Step {
 }
 
 impl Step {
-    /// What it clears for certain: all along as deep as its higher end, and straight down as deep as
-    /// it comes.
+    /// What it clears for certain: all along as deep as its higher end, and straight down as deep
+    /// as it comes.
     fn sweep(&self) -> Sweep {
         let Self { ends: [from, to], depths: [a, b], radius, order, .. } = *self;
         Sweep { from, to, radius, depth: if from == to { a.max(b) } else { a.min(b) }, order }
