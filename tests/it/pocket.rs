@@ -389,6 +389,23 @@ fn climb_has_the_wall_on_the_right() {
     assert!(turning("conventional", Sequence::InsideOut) < 0.0, "clockwise");
 }
 
+/// Other programs come down to the floor in one helix.
+#[test]
+fn turns_of_a_helix_are_passes() {
+    let how = Pocketing { step: Some(Nm::from_um(500)), ..how() };
+    let made = pocketed("hole", vec![disc(2200)], "endmill:3mm", &how);
+    let judge = |turns: f64| {
+        let halves = (1..).map(|half| f64::from(half) / (2.0 * turns)).take_while(|&part| part <= 1.0);
+        let arc = |(to, depth): (f64, f64)| format!("G3 X{:.1} Y2.2 Z{} I{to} J0\n", 2.2 + to, -depth);
+        let helix: String = [-0.7, 0.7].into_iter().cycle().zip(halves.chain([1.0; 2])).map(arc).collect();
+        let text = format!("G21 G90 G17\nM3 S9000\nG0 X2.9 Y2.2 Z5\nG1 Z0 F90\n{helix}G0 Z5\nM2\n");
+        let judged = made.judge(&[("it", &text)], PITCH).expect("a program");
+        judged.findings.iter().map(|found| found.name).collect::<Vec<_>>()
+    };
+    assert_eq!(judge(2.0), [""; 0], "half a millimetre each");
+    assert!(judge(1.0).contains(&"pocket-pass-too-thick"), "a millimetre");
+}
+
 #[test]
 fn kinds_of_spoiling_are_found() {
     let how = Pocketing { step: Some(Nm::from_um(500)), ..how() };

@@ -126,6 +126,26 @@ impl Step {
     }
 }
 
+/// What steps clear for certain.
+struct Swept {
+    level: Sweeps,
+    /// As deep as their higher ends.
+    slopes: Sweeps,
+}
+
+impl Swept {
+    fn by(steps: &[Step]) -> Self {
+        let (level, slopes): (Vec<&Step>, Vec<&Step>) = steps.iter().partition(|step| step.is_level());
+        let sweeps = |steps: Vec<&Step>| Sweeps::new(steps.into_iter().map(Step::sweep).collect());
+        Self { level: sweeps(level), slopes: sweeps(slopes) }
+    }
+
+    /// Whether a place was swept before a motion, no less deep than `least`.
+    fn clear(&self, p: Spot, least: f64, before: usize) -> bool {
+        [&self.level, &self.slopes].into_iter().any(|sweeps| sweeps.clear(p, least, before))
+    }
+}
+
 /// Reads programs and compares what they mill together with the pockets.
 ///
 /// # Errors
@@ -137,16 +157,15 @@ pub fn pocketing(programs: &[Text<'_>], floor: &Floor<'_>) -> Result<Pocketed, E
     for (program, (listing, cutter)) in listings.iter().enumerate() {
         all_steps(listing, cutter, program, &mut steps);
     }
-    let level = steps.iter().filter(|step| step.is_level());
-    let sweeps = Sweeps::new(level.map(Step::sweep).collect());
+    let swept = Swept::by(&steps);
     let edges = Edges::new(floor.areas);
     let mut judge = Judge { floor, programs, pocketed: Pocketed::default() };
     judge.harm(&listings);
     judge.overcut(&steps, &edges);
-    judge.depths(&steps, &sweeps, &edges);
-    judge.residue(&sweeps);
+    judge.depths(&steps, &swept, &edges);
+    judge.residue(&swept.level);
     judge.plunges(&listings);
-    judge.engagement(&steps, &sweeps);
+    judge.engagement(&steps, &swept);
     Ok(judge.pocketed)
 }
 
@@ -226,7 +245,7 @@ impl Judge<'_> {
     }
 
     /// Motions that go too deep, take too much at once, or go down too steeply.
-    fn depths(&mut self, steps: &[Step], sweeps: &Sweeps, edges: &Edges) {
+    fn depths(&mut self, steps: &[Step], swept: &Swept, edges: &Edges) {
         let tolerance = self.floor.tolerance.to_f64();
         let (depth, stock) = (self.floor.depth.to_f64(), self.floor.stock.to_f64());
         // What no more than the rim of the tool meets it may bear at any depth.
@@ -238,7 +257,7 @@ impl Judge<'_> {
                 deep.push((bottom - depth, step));
             }
             let most = self.floor.step.map_or(f64::INFINITY, Nm::to_f64) + tolerance;
-            if bottom > most && !is_clear(step, WITHIN, bottom - most, sweeps) {
+            if bottom > most && !is_clear(step, WITHIN, bottom - most, swept) {
                 thick.push((bottom, step));
             }
             let way = (step.ends[1].0 - step.ends[0].0, step.ends[1].1 - step.ends[0].1);
@@ -247,7 +266,7 @@ impl Judge<'_> {
             let is_steep = self.floor.steepest.is_some_and(|steepest| slope > steepest * STEEPER);
             if is_steep
                 && drop > tolerance
-                && !is_clear(step, inner, bottom - tolerance, sweeps)
+                && !is_clear(step, inner, bottom - tolerance, swept)
                 && edges.nearest(step.ends[1]).0 - step.radius - stock >= step.radius * ROOM
             {
                 steep.push((slope, step));
@@ -315,7 +334,7 @@ const TOLERATED: f64 = 0.02;
 
 impl Judge<'_> {
     /// What the first tool bears.
-    fn engagement(&mut self, steps: &[Step], sweeps: &Sweeps) {
+    fn engagement(&mut self, steps: &[Step], swept: &Swept) {
         let (Some(target), Some(first)) = (self.floor.engagement, self.programs.first()) else { return };
         let passes = self.floor.step.map_or(1.0, |step| (self.floor.depth.to_f64() / step.to_f64()).ceil());
         let stretch = |step: &Step| {
@@ -323,15 +342,13 @@ impl Judge<'_> {
             Stretch { ends, depths, line, order }
         };
         let stretches: Vec<Stretch> = steps.iter().filter(|step| step.program == 0).map(stretch).collect();
-        let slopes = steps.iter().filter(|step| !step.is_level()).map(Step::sweep);
-        let slopes = Sweeps::new(slopes.filter(|slope| slope.depth > 0.0).collect());
         let work = Work {
             areas: self.floor.areas,
             radius: first.cutter.tip / 2,
             depth: self.floor.depth,
             pass: self.floor.depth.to_f64() / passes.max(1.0),
             allowed: target + TOLERATED,
-            sweeps: [sweeps, &slopes],
+            sweeps: [&swept.level, &swept.slopes],
         };
         let found = borne(&stretches, &work);
         self.pocketed.borne = Some(found);
@@ -357,7 +374,7 @@ const WITHIN: f64 = 0.97;
 
 /// Whether where a step ends all under a part of the tool's radius was swept before, no less deep
 /// than `least`.
-fn is_clear(step: &Step, part: f64, least: f64, sweeps: &Sweeps) -> bool {
+fn is_clear(step: &Step, part: f64, least: f64, swept: &Swept) -> bool {
     let (x, y) = step.ends[1];
     let off = step.radius * part;
     let slant = off * std::f64::consts::FRAC_1_SQRT_2;
@@ -372,7 +389,7 @@ fn is_clear(step: &Step, part: f64, least: f64, sweeps: &Sweeps) -> bool {
         (0.0, -off),
         (slant, -slant),
     ];
-    round.into_iter().all(|(right, up)| sweeps.clear((x + right, y + up), least, step.order))
+    round.into_iter().all(|(right, up)| swept.clear((x + right, y + up), least, step.order))
 }
 
 /// A piece that is smaller is none, in nanometres. Chosen: above rounding.
@@ -422,9 +439,11 @@ const BESIDE_LEVEL: [f64; 2] = [30.0, 300.0];
 
 /// How often the tool need come down, which did so `made` times in a pass.
 fn needed(areas: &[Polygon], levels: &[f64], made: usize) -> usize {
-    // Two ways of counting that agree with the program are enough; else the exact one decides.
-    if maxima_by_steps(areas, levels) == made {
-        return made;
+    // Two ways of counting that agree with the program are enough; else the exact one decides,
+    // unless no program comes down less often.
+    let stepped = maxima_by_steps(areas, levels);
+    if stepped == made || made == 0 {
+        return stepped;
     }
     let exact = maxima(areas, levels);
     if exact == made {
