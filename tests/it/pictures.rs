@@ -318,7 +318,6 @@ proptest! {
     }
 }
 
-/// The folder of real artwork, if there is one.
 #[test]
 fn one_board_in_many_encodings_is_one_board() {
     let Some(folder) = corpus::artwork() else { return };

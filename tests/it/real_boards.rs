@@ -26,6 +26,7 @@ pub(crate) fn selection(folder: &Path) -> Selection {
     Selection { front: untold.is_file().then_some(untold), ..Selection::default() }
 }
 
+/// None where there are no boards.
 fn all() -> Vec<Layer> {
     let mut layers = Vec::new();
     for folder in board_folders() {
