@@ -21,9 +21,7 @@ pub(super) struct Bin {
     pub parts: Vec<Part>,
     /// The edges of the parts.
     pub edges: Vec<u32>,
-    /// No fragment is nearer, and none that is seen is deeper; infinite where something may not be
-    /// covered.
-    near: f32,
+    /// No fragment that is seen is deeper; infinite where something may not be covered.
     far: f32,
     /// Whether what lies behind is kept, too: for blending, where nothing hides anything.
     pub sees_through: bool,
@@ -77,7 +75,7 @@ impl Bin {
     pub(super) fn root(scene: &Scene, picture: Cell) -> Self {
         let mut order: Vec<_> = (0..).zip(&scene.primitives).map(|(index, p)| (p.label, index)).collect();
         order.sort_unstable();
-        let mut bin = Self { near: f32::NEG_INFINITY, far: f32::INFINITY, ..Self::default() };
+        let mut bin = Self { far: f32::INFINITY, ..Self::default() };
         for (_, primitive) in order {
             let shape = &scene.primitives[index(primitive)].shape;
             if let Shape::Polygon(polygon) = shape {
@@ -116,21 +114,27 @@ impl Bin {
     /// Lets go of all that lies behind `hidden`, and behind the nearest candidate in a cell of this
     /// radius.
     pub(super) fn settle(&mut self, scene: &Scene, hidden: f32, radius: f32) {
-        let depth = |part: &Part| match &scene.primitives[index(part.primitive)].shape {
-            Shape::Polygon(polygon) => polygon.depth(),
-            _ => f32::INFINITY,
-        };
-        let nearest = self.shapes.iter().copied().min_by(|a, b| a.far.total_cmp(&b.far));
-        if let Some(nearest) = nearest {
+        self.far = hidden;
+        // One that is alone lies behind nothing: most bins of blocks.
+        if self.len() < 2 {
+            return;
+        }
+        let nearer = |a: Candidate, b: &Candidate| if b.far < a.far { *b } else { a };
+        if let [first, others @ ..] = self.shapes.as_slice() {
+            let nearest = others.iter().fold(*first, nearer);
             let behind = |candidate: &Candidate| {
                 !self.sees_through && nearest.far < f32::INFINITY && candidate.lies_behind(&nearest, radius)
             };
             self.shapes.retain(|candidate| candidate.near.max(0.0) <= hidden && !behind(candidate));
         }
-        self.parts.retain(|part| depth(part) <= hidden);
+        self.parts.retain(|part| depth(scene, part) <= hidden);
+    }
+
+    /// The depth that no fragment is nearer than.
+    fn near(&self, scene: &Scene) -> f32 {
         let shapes = self.shapes.iter().map(|candidate| candidate.near.max(0.0));
-        self.near = shapes.chain(self.parts.iter().map(depth)).fold(f32::INFINITY, f32::min);
-        self.far = hidden;
+        let parts = self.parts.iter().map(|part| depth(scene, part));
+        shapes.chain(parts).fold(f32::INFINITY, f32::min)
     }
 
     /// The one label of every pixel of the cell, where that is certain, and certain that no pixel
@@ -140,8 +144,11 @@ impl Bin {
         let Some(label) = labels.next() else { return Some(Label::BACKGROUND) };
         let covered = self.far < f32::INFINITY;
         let alone = labels.all(|other| other == label);
-        let crossed = levels.iter().any(|&level| (self.near..=self.far).contains(&level));
-        (covered && alone && !crossed).then_some(label)
+        let crossed = || {
+            let range = self.near(scene)..=self.far;
+            levels.iter().any(|level| range.contains(level))
+        };
+        (covered && alone && (levels.is_empty() || !crossed())).then_some(label)
     }
 
     /// All that may be seen, in no particular order.
@@ -228,6 +235,14 @@ impl Bin {
             (None, Some(part)) => part.edges.is_empty(),
             (None, None) => false,
         }
+    }
+}
+
+/// The depth of a polygon's part.
+fn depth(scene: &Scene, part: &Part) -> f32 {
+    match &scene.primitives[index(part.primitive)].shape {
+        Shape::Polygon(polygon) => polygon.depth(),
+        _ => f32::INFINITY,
     }
 }
 

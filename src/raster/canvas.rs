@@ -23,22 +23,23 @@ const OFFSETS: [f32; LANES as usize] = [0.0, 256.0, 512.0, 768.0, 1024.0, 1280.0
 ///
 /// Positions are sample positions in steps: whole numbers below 2²⁴, so exact in an `f32`.
 pub(super) trait Field {
-    /// What is constant in a row.
-    type Row<S: Simd>: Copy;
+    /// What is constant in some columns side by side, one for each lane.
+    type Columns<S: Simd>: Copy;
 
-    /// Sets up the row at `y`.
-    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S>;
+    /// Sets up the columns at `x`.
+    fn columns<S: Simd>(&self, simd: S, x: Lanes<S>) -> Self::Columns<S>;
 
-    /// The depth at `x`; never NaN, never −0.
-    fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S>;
+    /// The depth in the row at `y`, the same in all lanes; never NaN, never −0.
+    fn depth<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S>;
 
-    /// How it lies around `x`, as far as `radius` pixels away.
-    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, radius: Lanes<S>) -> Slope<S>;
+    /// How it lies around the row at `y`, as far as `radius` pixels away.
+    fn slope<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>, radius: Lanes<S>) -> Slope<S>;
 
-    /// How many pixels `x` lies outside of what the surface covers; negative inside, by as much.
+    /// How many pixels the row at `y` lies outside of what the surface covers; negative inside, by
+    /// as much.
     #[inline(always)]
-    fn beyond<S: Simd>(_row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        x.all(f32::NEG_INFINITY)
+    fn beyond<S: Simd>(_columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        y.all(f32::NEG_INFINITY)
     }
 }
 
@@ -215,74 +216,52 @@ impl<F: Field> WithSimd for Lay<'_, F> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let label = simd.splat_u32s(self.label.0);
-        let Self { field, extent, block, width, stride, mut depths, mut labels, .. } = self;
-        let mut columns = match extent {
-            Extent::Part(columns, _) => columns.iter(),
-            Extent::First | Extent::Whole => [].iter(),
-        };
-        // Split row by row: chunks of a length not known beforehand would cost a division each
-        // time.
-        for y in block.y..block.y + block.height {
-            let (row_depths, row_labels);
-            (row_depths, depths) = depths.split_at_mut(stride.min(depths.len()));
-            (row_labels, labels) = labels.split_at_mut(stride.min(labels.len()));
-            let (row_depths, row_labels) = (&mut row_depths[..width], &mut row_labels[..width]);
-            let row = field.row(simd, position(y));
+        let Self { field, extent, block, width, stride, depths, labels, .. } = self;
+        let (depths, labels) = (S::as_mut_simd_f32s(depths).0, S::as_mut_simd_u32s(labels).0);
+        // One bound for both is looked at once.
+        let (depths, labels) = (&mut depths[..labels.len()], labels);
+        let (lanes, stride) = (S::F32_LANES, stride / S::F32_LANES);
+        let offsets = Lanes::new(simd, simd.partial_load_f32s(&OFFSETS[..lanes]));
+        let top = Lanes::splat(simd, position(block.y));
+        // Whole numbers below 2²⁴ all the way: adding them is exact, and a position is what it is
+        // wherever a column starts.
+        let step = Lanes::splat(simd, OFFSETS[1]);
+        for (at, first) in (block.x..).step_by(lanes).take(width / lanes).enumerate() {
+            let x = Lanes::splat(simd, position(first)) + offsets;
+            let columns = field.columns(simd, x);
+            let (mut at, mut y) = (at, top);
             match extent {
-                Extent::First => along(simd, block.x, row_depths, row_labels, |x, old_depth, old_label| {
-                    *old_depth = F::depth(row, x).value;
-                    *old_label = label;
-                }),
-                Extent::Whole => along(simd, block.x, row_depths, row_labels, |x, old_depth, old_label| {
-                    let (depth, old) = (F::depth(row, x), Lanes::new(simd, *old_depth));
-                    *old_label = depth.less(old).merge(label, *old_label);
-                    *old_depth = depth.min(old).value;
-                }),
-                Extent::Part(_, limit) => {
-                    let Some(columns) = columns.next().filter(|columns| !columns.is_empty()) else {
-                        continue;
-                    };
-                    let limit = Lanes::splat(simd, limit);
-                    let from = Lanes::splat(simd, position(columns.start));
-                    let to = Lanes::splat(simd, position(columns.end));
-                    let far = Lanes::splat(simd, f32::INFINITY);
-                    along(simd, block.x, row_depths, row_labels, |x, old_depth, old_label| {
-                        let depth = F::depth(row, x);
+                Extent::First => {
+                    for _ in 0..block.height {
+                        (depths[at], labels[at]) = (F::depth(columns, y).value, label);
+                        (at, y) = (at + stride, y + step);
+                    }
+                }
+                Extent::Whole => {
+                    for _ in 0..block.height {
+                        let (depth, old) = (F::depth(columns, y), Lanes::new(simd, depths[at]));
+                        labels[at] = depth.less(old).merge(label, labels[at]);
+                        depths[at] = depth.min(old).value;
+                        (at, y) = (at + stride, y + step);
+                    }
+                }
+                Extent::Part(parts, limit) => {
+                    let (limit, far) = (Lanes::splat(simd, limit), Lanes::splat(simd, f32::INFINITY));
+                    for part in parts.iter().take(count(block.height)) {
+                        let from = Lanes::splat(simd, position(part.start));
+                        let to = Lanes::splat(simd, position(part.end));
+                        let (depth, old) = (F::depth(columns, y), Lanes::new(simd, depths[at]));
                         let inside = from.at_most(x).and(x.less(to)).and(depth.at_most(limit));
-                        let old = Lanes::new(simd, *old_depth);
                         let depth = inside.select(depth, far);
-                        *old_label = depth.less(old).merge(label, *old_label);
-                        *old_depth = depth.min(old).value;
-                    });
+                        labels[at] = depth.less(old).merge(label, labels[at]);
+                        depths[at] = depth.min(old).value;
+                        (at, y) = (at + stride, y + step);
+                    }
                 }
             }
         }
     }
 }
-
-/// Goes along a row whose first column is `first`, with the sample positions, depths and labels of
-/// several pixels.
-#[inline(always)]
-fn along<S: Simd>(
-    simd: S,
-    first: i32,
-    depths: &mut [f32],
-    labels: &mut [u32],
-    mut pixels: impl FnMut(Lanes<S>, &mut S::f32s, &mut S::u32s),
-) {
-    let offsets = Lanes::new(simd, simd.partial_load_f32s(&OFFSETS[..S::F32_LANES]));
-    // Whole numbers below 2²⁴ all the way: adding them is exact, and a position is what it is
-    // wherever a row starts.
-    let step = Lanes::splat(simd, OFFSETS[1]) * Lanes::splat(simd, LANES_AS_FLOAT[S::F32_LANES]);
-    let mut x = Lanes::splat(simd, position(first)) + offsets;
-    let (depths, labels) = (S::as_mut_simd_f32s(depths).0, S::as_mut_simd_u32s(labels).0);
-    for (depth, label) in depths.iter_mut().zip(labels) {
-        pixels(x, depth, label);
-        x = x + step;
-    }
-}
-
-const LANES_AS_FLOAT: [f32; LANES as usize + 1] = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0];
 
 /// The sample position of a column or row as a float; exact.
 #[inline(always)]

@@ -305,25 +305,22 @@ impl<F: Field> WithSimd for Sample<'_, F> {
         let zero = splat(0.0);
         let xs = S::as_simd_f32s(self.xs).0;
         let Weights { near, far, way_x, way_y, curve } = self.weights;
-        for number in self.rows {
-            let row = self.field.row(simd, self.ys[number]);
-            let near = S::as_mut_simd_f32s(&mut near[number]).0.iter_mut();
-            let far = S::as_mut_simd_f32s(&mut far[number]).0;
-            let way_x = S::as_mut_simd_f32s(&mut way_x[number]).0;
-            let way_y = S::as_mut_simd_f32s(&mut way_y[number]).0;
-            let curve = S::as_mut_simd_f32s(&mut curve[number]).0;
-            let places = xs.iter().zip(near.zip(far).zip(way_x.iter_mut().zip(way_y).zip(curve)));
-            for (&x, ((near, far), ((way_x, way_y), curve))) in places {
-                let x = Lanes::new(simd, x);
-                let slope = F::slope(row, x, radius);
+        for (at, &x) in xs.iter().enumerate() {
+            let columns = self.field.columns(simd, Lanes::new(simd, x));
+            for number in self.rows.clone() {
+                let y = splat(self.ys[number]);
+                let slope = F::slope(columns, y, radius);
                 let margin = radius + (slope.far.max(zero) + size) * slack;
                 let (least, most) = (slope.near - margin, slope.far + margin);
-                let beyond = F::beyond(row, x);
+                let beyond = F::beyond(columns, y);
                 let (none, some) = (margin.less(beyond), (zero - margin).less(beyond));
-                *near = none.select(nowhere, least.at_most(limit).select(least, nowhere)).value;
-                *far = some.select(nowhere, most.at_most(limit).select(most, nowhere)).value;
-                (*way_x, *way_y) = (slope.way.0.value, slope.way.1.value);
-                *curve = slope.curve.value;
+                let near_seen = none.select(nowhere, least.at_most(limit).select(least, nowhere));
+                let far_seen = some.select(nowhere, most.at_most(limit).select(most, nowhere));
+                S::as_mut_simd_f32s(&mut near[number]).0[at] = near_seen.value;
+                S::as_mut_simd_f32s(&mut far[number]).0[at] = far_seen.value;
+                S::as_mut_simd_f32s(&mut way_x[number]).0[at] = slope.way.0.value;
+                S::as_mut_simd_f32s(&mut way_y[number]).0[at] = slope.way.1.value;
+                S::as_mut_simd_f32s(&mut curve[number]).0[at] = slope.curve.value;
             }
         }
     }

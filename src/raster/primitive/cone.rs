@@ -27,24 +27,34 @@ impl Cone {
 }
 
 impl Field for Cone {
-    type Row<S: Simd> = (Lanes<S>, Lanes<S>, StrokeLanes<S>);
+    type Columns<S: Simd> = ConeColumns<S>;
 
     #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
-        let dy = y - self.apex.1;
-        (Lanes::splat(simd, self.apex.0), Lanes::splat(simd, dy), self.stroke.lanes(simd))
+    fn columns<S: Simd>(&self, simd: S, x: Lanes<S>) -> Self::Columns<S> {
+        let dx = x - Lanes::splat(simd, self.apex.0);
+        let apex_y = Lanes::splat(simd, self.apex.1);
+        ConeColumns { dx, dx2: dx * dx, apex_y, stroke: self.stroke.lanes(simd) }
     }
 
     #[inline(always)]
-    fn depth<S: Simd>((apex, dy, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        let dx = x - apex;
-        stroke.depth((dx * dx + dy * dy).sqrt())
+    fn depth<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        let dy = y - columns.apex_y;
+        columns.stroke.depth((columns.dx2 + dy * dy).sqrt())
     }
 
     #[inline(always)]
-    fn slope<S: Simd>((apex, dy, stroke): Self::Row<S>, x: Lanes<S>, _: Lanes<S>) -> Slope<S> {
-        stroke.slope(x - apex, dy)
+    fn slope<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        columns.stroke.slope(columns.dx, y - columns.apex_y)
     }
+}
+
+/// What is constant in some columns of a cone.
+#[derive(Clone, Copy)]
+pub(in super::super) struct ConeColumns<S: Simd> {
+    dx: Lanes<S>,
+    dx2: Lanes<S>,
+    apex_y: Lanes<S>,
+    stroke: StrokeLanes<S>,
 }
 
 /// A point in steps as floats: exact within 65 536 pixels of the origin, beyond that rounded once.

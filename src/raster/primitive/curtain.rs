@@ -80,17 +80,17 @@ impl Curtain {
 }
 
 impl Field for Curtain {
-    type Row<S: Simd> = CurtainRow<S>;
+    type Columns<S: Simd> = CurtainColumns<S>;
 
     #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
-        let wy = y - self.start.1;
+    fn columns<S: Simd>(&self, simd: S, x: Lanes<S>) -> Self::Columns<S> {
         let splat = |number| Lanes::splat(simd, number);
-        CurtainRow {
-            start: splat(self.start.0),
-            wy: splat(wy),
-            along: splat(wy * self.way.1),
-            ux: splat(self.way.0),
+        let (wx, ux) = (x - splat(self.start.0), splat(self.way.0));
+        CurtainColumns {
+            wx,
+            along: wx * ux,
+            start_y: splat(self.start.1),
+            ux,
             uy: splat(self.way.1),
             inverse: splat(self.inverse),
             zero: splat(0.0),
@@ -102,25 +102,25 @@ impl Field for Curtain {
     /// With w the way from the start to the sample and u the way along the segment, the nearest
     /// point lies at t = clamp(w·u / u·u, 0, 1), and the distance is |w − t u|.
     #[inline(always)]
-    fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        let (ex, ey) = row.away(x);
-        row.stroke.depth((ex * ex + ey * ey).sqrt())
+    fn depth<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        let (ex, ey) = columns.away(y);
+        columns.stroke.depth((ex * ex + ey * ey).sqrt())
     }
 
     #[inline(always)]
-    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, _: Lanes<S>) -> Slope<S> {
-        let (ex, ey) = row.away(x);
-        row.stroke.slope(ex, ey)
+    fn slope<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        let (ex, ey) = columns.away(y);
+        columns.stroke.slope(ex, ey)
     }
 }
 
-/// What is constant in a row of a curtain.
+/// What is constant in some columns of a curtain.
 #[derive(Clone, Copy)]
-pub(in super::super) struct CurtainRow<S: Simd> {
-    start: Lanes<S>,
-    wy: Lanes<S>,
-    /// The row's part of w·u.
+pub(in super::super) struct CurtainColumns<S: Simd> {
+    wx: Lanes<S>,
+    /// The columns' part of w·u.
     along: Lanes<S>,
+    start_y: Lanes<S>,
     ux: Lanes<S>,
     uy: Lanes<S>,
     inverse: Lanes<S>,
@@ -129,13 +129,13 @@ pub(in super::super) struct CurtainRow<S: Simd> {
     stroke: StrokeLanes<S>,
 }
 
-impl<S: Simd> CurtainRow<S> {
+impl<S: Simd> CurtainColumns<S> {
     /// The way to the sample from the nearest point of the segment: w − t u.
     #[inline(always)]
-    fn away(self, x: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
-        let wx = x - self.start;
-        let t = ((wx * self.ux + self.along) * self.inverse).max(self.zero).min(self.one);
-        (wx - t * self.ux, self.wy - t * self.uy)
+    fn away(self, y: Lanes<S>) -> (Lanes<S>, Lanes<S>) {
+        let wy = y - self.start_y;
+        let t = ((self.along + wy * self.uy) * self.inverse).max(self.zero).min(self.one);
+        (self.wx - t * self.ux, wy - t * self.uy)
     }
 }
 
@@ -144,12 +144,12 @@ impl<S: Simd> CurtainRow<S> {
 struct Hung(Curtain);
 
 #[derive(Clone, Copy)]
-struct HungRow<S: Simd> {
-    curtain: CurtainRow<S>,
+struct HungColumns<S: Simd> {
+    curtain: CurtainColumns<S>,
     /// One over the length, a pixel.
     scale: Lanes<S>,
     length: Lanes<S>,
-    /// The row's part of the cross product of the curtain's way and the way to the sample.
+    /// The columns' part of the cross product of the curtain's way and the way to the sample.
     across: Lanes<S>,
     /// 0 where a bound is there, else −∞, to be added to how far a place lies beyond it.
     start: Lanes<S>,
@@ -159,19 +159,20 @@ struct HungRow<S: Simd> {
 }
 
 impl Field for Hung {
-    type Row<S: Simd> = HungRow<S>;
+    type Columns<S: Simd> = HungColumns<S>;
 
     #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
-        let Curtain { way: (ux, uy), start, .. } = self.0;
+    fn columns<S: Simd>(&self, simd: S, x: Lanes<S>) -> Self::Columns<S> {
+        let (ux, uy) = self.0.way;
         let length = (ux * ux + uy * uy).sqrt();
         let splat = |number| Lanes::splat(simd, number);
         let bound = |there: bool| splat(if there { 0.0 } else { f32::NEG_INFINITY });
-        HungRow {
-            curtain: self.0.row(simd, y),
+        let curtain = self.0.columns(simd, x);
+        HungColumns {
+            curtain,
             scale: splat(if length > 0.0 { 1.0 / (256.0 * length) } else { 0.0 }),
             length: splat(length / 256.0),
-            across: splat(ux * (y - start.1)),
+            across: curtain.wx * curtain.uy,
             start: bound(!self.0.caps.start()),
             end: bound(!self.0.caps.end()),
             left: bound(self.0.sides == Sides::Left),
@@ -180,23 +181,23 @@ impl Field for Hung {
     }
 
     #[inline(always)]
-    fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        Curtain::depth(row.curtain, x)
+    fn depth<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        Curtain::depth(columns.curtain, y)
     }
 
     #[inline(always)]
-    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, radius: Lanes<S>) -> Slope<S> {
-        Curtain::slope(row.curtain, x, radius)
+    fn slope<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>, radius: Lanes<S>) -> Slope<S> {
+        Curtain::slope(columns.curtain, y, radius)
     }
 
     #[inline(always)]
-    fn beyond<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        let wx = x - row.curtain.start;
-        let along = (wx * row.curtain.ux + row.curtain.along) * row.scale;
-        let clockwise = (row.across - wx * row.curtain.uy) * row.scale;
-        let zero = row.curtain.zero;
-        let ends = (zero - along + row.start).max(along - row.length + row.end);
-        let sides = (clockwise + row.left).max(zero - clockwise + row.right);
+    fn beyond<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        let curtain = columns.curtain;
+        let (wy, zero) = (y - curtain.start_y, curtain.zero);
+        let along = (curtain.along + wy * curtain.uy) * columns.scale;
+        let clockwise = (curtain.ux * wy - columns.across) * columns.scale;
+        let ends = (zero - along + columns.start).max(along - columns.length + columns.end);
+        let sides = (clockwise + columns.left).max(zero - clockwise + columns.right);
         ends.max(sides)
     }
 }

@@ -155,7 +155,8 @@ impl Shape {
 /// What a field says to one pixel.
 fn at<F: Field>(field: &F, column: i32, row: i32) -> f32 {
     let simd = Scalar;
-    F::depth(field.row(simd, position(row)), Lanes::splat(simd, position(column))).value
+    F::depth(field.columns(simd, Lanes::splat(simd, position(column))), Lanes::splat(simd, position(row)))
+        .value
 }
 
 /// Lays a surface on the whole of a block or on the part of it that lies in `region`.

@@ -267,21 +267,21 @@ impl Polygon {
 struct Flat(f32);
 
 impl Field for Flat {
-    type Row<S: Simd> = Lanes<S>;
+    type Columns<S: Simd> = Lanes<S>;
 
     #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, _: f32) -> Lanes<S> {
+    fn columns<S: Simd>(&self, simd: S, _: Lanes<S>) -> Lanes<S> {
         Lanes::splat(simd, self.0)
     }
 
     #[inline(always)]
-    fn depth<S: Simd>(row: Lanes<S>, _: Lanes<S>) -> Lanes<S> {
-        row
+    fn depth<S: Simd>(depth: Lanes<S>, _: Lanes<S>) -> Lanes<S> {
+        depth
     }
 
     #[inline(always)]
-    fn slope<S: Simd>(row: Lanes<S>, _: Lanes<S>, _: Lanes<S>) -> Slope<S> {
-        let zero = row.all(0.0);
-        Slope { near: row, far: row, way: (zero, zero), curve: zero }
+    fn slope<S: Simd>(depth: Lanes<S>, _: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        let zero = depth.all(0.0);
+        Slope { near: depth, far: depth, way: (zero, zero), curve: zero }
     }
 }

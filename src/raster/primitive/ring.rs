@@ -154,26 +154,40 @@ fn flat_slope<S: Simd>(near: Lanes<S>, far: Lanes<S>) -> Slope<S> {
 /// The strip of an arc, as if it were the whole circle.
 struct Strip(Ring);
 
+#[derive(Clone, Copy)]
+struct StripColumns<S: Simd> {
+    dx: Lanes<S>,
+    dx2: Lanes<S>,
+    center_y: Lanes<S>,
+    radius: Lanes<S>,
+    stroke: StrokeLanes<S>,
+}
+
 impl Field for Strip {
-    type Row<S: Simd> = (Lanes<S>, Lanes<S>, Lanes<S>, StrokeLanes<S>);
+    type Columns<S: Simd> = StripColumns<S>;
 
     #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
+    fn columns<S: Simd>(&self, simd: S, x: Lanes<S>) -> Self::Columns<S> {
         let (x0, y0) = floats(self.0.center);
-        let dy = y - y0;
-        let [x0, dy2, radius] = [x0, dy * dy, self.0.radius].map(|number| Lanes::splat(simd, number));
-        (x0, dy2, radius, self.0.stroke.lanes(simd))
+        let dx = x - Lanes::splat(simd, x0);
+        StripColumns {
+            dx,
+            dx2: dx * dx,
+            center_y: Lanes::splat(simd, y0),
+            radius: Lanes::splat(simd, self.0.radius),
+            stroke: self.0.stroke.lanes(simd),
+        }
     }
 
     #[inline(always)]
-    fn depth<S: Simd>((x0, dy2, radius, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        let dx = x - x0;
-        stroke.depth(((dx * dx + dy2).sqrt() - radius).abs())
+    fn depth<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        let dy = y - columns.center_y;
+        columns.stroke.depth(((columns.dx2 + dy * dy).sqrt() - columns.radius).abs())
     }
 
     #[inline(always)]
-    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, _: Lanes<S>) -> Slope<S> {
-        let depth = Self::depth(row, x);
+    fn slope<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        let depth = Self::depth(columns, y);
         flat_slope(depth, depth)
     }
 }
@@ -182,29 +196,45 @@ impl Field for Strip {
 /// are none.
 struct Ends(Ring);
 
+#[derive(Clone, Copy)]
+struct EndsColumns<S: Simd> {
+    /// The square of the way along x to the start, infinite where it is not round, and the start's
+    /// y.
+    start: (Lanes<S>, Lanes<S>),
+    end: (Lanes<S>, Lanes<S>),
+    stroke: StrokeLanes<S>,
+}
+
 impl Field for Ends {
-    type Row<S: Simd> = (Lanes<S>, Lanes<S>, Lanes<S>, Lanes<S>, StrokeLanes<S>);
+    type Columns<S: Simd> = EndsColumns<S>;
 
     #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
-        let (start, end) = (floats(self.0.start), floats(self.0.end));
-        let square = |dy: f32, there: bool| if there { dy * dy } else { f32::INFINITY };
-        let start_y2 = square(y - start.1, self.0.caps.start());
-        let end_y2 = square(y - end.1, self.0.caps.end());
-        let [sx, sy, ex, ey] = [start.0, start_y2, end.0, end_y2].map(|number| Lanes::splat(simd, number));
-        (sx, sy, ex, ey, self.0.stroke.lanes(simd))
+    fn columns<S: Simd>(&self, simd: S, x: Lanes<S>) -> Self::Columns<S> {
+        let end = |place: (i32, i32), there: bool| {
+            let (end_x, end_y) = floats(place);
+            let dx = x - Lanes::splat(simd, end_x);
+            (if there { dx * dx } else { x.all(f32::INFINITY) }, Lanes::splat(simd, end_y))
+        };
+        let Ring { start, end: last, caps, stroke, .. } = self.0;
+        EndsColumns {
+            start: end(start, caps.start()),
+            end: end(last, caps.end()),
+            stroke: stroke.lanes(simd),
+        }
     }
 
     #[inline(always)]
-    fn depth<S: Simd>((sx, sy, ex, ey, stroke): Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        let (to_start, to_end) = (x - sx, x - ex);
-        let nearer = (to_start * to_start + sy).min(to_end * to_end + ey);
-        stroke.depth(nearer.sqrt())
+    fn depth<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        let square = |(dx2, end_y): (Lanes<S>, Lanes<S>)| {
+            let dy = y - end_y;
+            dx2 + dy * dy
+        };
+        columns.stroke.depth(square(columns.start).min(square(columns.end)).sqrt())
     }
 
     #[inline(always)]
-    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, _: Lanes<S>) -> Slope<S> {
-        let depth = Self::depth(row, x);
+    fn slope<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>, _: Lanes<S>) -> Slope<S> {
+        let depth = Self::depth(columns, y);
         flat_slope(depth, depth)
     }
 }
@@ -214,11 +244,11 @@ impl Field for Ends {
 struct Weighed(Ring);
 
 #[derive(Clone, Copy)]
-struct WeighedRow<S: Simd> {
-    strip: <Strip as Field>::Row<S>,
-    ends: <Ends as Field>::Row<S>,
-    /// The unit ways to start and end, a pixel, and the row's part of their cross products with the
-    /// way to a sample.
+struct WeighedColumns<S: Simd> {
+    strip: StripColumns<S>,
+    ends: EndsColumns<S>,
+    /// The unit ways to start and end, a pixel: their x, and the columns' part of their cross
+    /// products with the way to a sample.
     start: (Lanes<S>, Lanes<S>),
     end: (Lanes<S>, Lanes<S>),
     /// Whether the sector is at most half a turn (all lanes alike), and −∞ where it is the whole
@@ -229,38 +259,38 @@ struct WeighedRow<S: Simd> {
     bare: Lanes<S>,
 }
 
-impl<S: Simd> WeighedRow<S> {
+impl<S: Simd> WeighedColumns<S> {
     /// How many pixels a sample lies inside the sector; negative outside.
     #[inline(always)]
-    fn inside(self, x: Lanes<S>) -> Lanes<S> {
-        let wx = x - self.strip.0;
+    fn inside(self, y: Lanes<S>) -> Lanes<S> {
+        let wy = y - self.strip.center_y;
         // How far clockwise of the start, and counter-clockwise of the end.
-        let after_start = self.start.1 - wx * self.start.0;
-        let before_end = wx * self.end.0 - self.end.1;
+        let after_start = self.start.0 * wy - self.start.1;
+        let before_end = self.end.1 - self.end.0 * wy;
         let (both, either) = (after_start.min(before_end), after_start.max(before_end));
-        x.all(0.0).less(self.convex).select(both, either) - self.closed
+        y.all(0.0).less(self.convex).select(both, either) - self.closed
     }
 }
 
 impl Field for Weighed {
-    type Row<S: Simd> = WeighedRow<S>;
+    type Columns<S: Simd> = WeighedColumns<S>;
 
     #[inline(always)]
-    fn row<S: Simd>(&self, simd: S, y: f32) -> Self::Row<S> {
+    fn columns<S: Simd>(&self, simd: S, x: Lanes<S>) -> Self::Columns<S> {
         let ring = &self.0;
         let (center, start, end) = (floats(ring.center), floats(ring.start), floats(ring.end));
         let (s, e) = ((start.0 - center.0, start.1 - center.1), (end.0 - center.0, end.1 - center.1));
-        let dy = y - center.1;
         let splat = |number| Lanes::splat(simd, number);
+        let strip = Strip(*ring).columns(simd, x);
         let ray = |(x, y): (f32, f32)| {
             let length = (x * x + y * y).sqrt() * 256.0;
             let (x, y) = if length > 0.0 { (x / length, y / length) } else { (0.0, 0.0) };
-            (splat(y), splat(x * dy))
+            (splat(x), strip.dx * splat(y))
         };
         let sector = ring.sector();
-        WeighedRow {
-            strip: Strip(*ring).row(simd, y),
-            ends: Ends(*ring).row(simd, y),
+        WeighedColumns {
+            strip,
+            ends: Ends(*ring).columns(simd, x),
             start: ray(s),
             end: ray(e),
             convex: splat(if matches!(sector, Sector::Convex(_)) { 1.0 } else { 0.0 }),
@@ -270,18 +300,18 @@ impl Field for Weighed {
     }
 
     #[inline(always)]
-    fn depth<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        Strip::depth(row.strip, x)
+    fn depth<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        Strip::depth(columns.strip, y)
     }
 
     #[inline(always)]
-    fn slope<S: Simd>(row: Self::Row<S>, x: Lanes<S>, radius: Lanes<S>) -> Slope<S> {
-        let zero = x.all(0.0);
-        let strip = Strip::depth(row.strip, x);
-        let ends = zero.at_most(row.bare).select(strip, Ends::depth(row.ends, x));
-        let inside = row.inside(x);
+    fn slope<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>, radius: Lanes<S>) -> Slope<S> {
+        let zero = y.all(0.0);
+        let strip = Strip::depth(columns.strip, y);
+        let ends = zero.at_most(columns.bare).select(strip, Ends::depth(columns.ends, y));
+        let inside = columns.inside(y);
         // The doubt of two roundings in a product of large numbers, far above them.
-        let doubt = radius + (strip + row.strip.2) * x.all(1.0 / 65536.0);
+        let doubt = radius + (strip + columns.strip.radius) * y.all(1.0 / 65536.0);
         let (surely_in, surely_out) = (doubt.less(inside), inside.less(zero - doubt));
         let near = surely_in.select(strip, surely_out.select(ends, strip.min(ends)));
         let far = surely_in.select(strip, surely_out.select(ends, strip.max(ends)));
@@ -289,8 +319,8 @@ impl Field for Weighed {
     }
 
     #[inline(always)]
-    fn beyond<S: Simd>(row: Self::Row<S>, x: Lanes<S>) -> Lanes<S> {
-        x.all(0.0) - row.inside(x) + row.bare
+    fn beyond<S: Simd>(columns: Self::Columns<S>, y: Lanes<S>) -> Lanes<S> {
+        y.all(0.0) - columns.inside(y) + columns.bare
     }
 }
 

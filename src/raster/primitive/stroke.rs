@@ -34,8 +34,11 @@ impl Stroke {
     /// The same for many distances at a time.
     #[inline(always)]
     pub(super) fn lanes<S: Simd>(self, simd: S) -> StrokeLanes<S> {
-        let [offset, pixel, zero] = [self.offset, PIXEL, 0.0].map(|number| Lanes::splat(simd, number));
-        StrokeLanes { offset, pixel, zero }
+        StrokeLanes {
+            offset: Lanes::splat(simd, self.offset),
+            pixel: Lanes::splat(simd, PIXEL),
+            zero: Lanes::splat(simd, 0.0),
+        }
     }
 }
 
