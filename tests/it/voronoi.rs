@@ -425,6 +425,30 @@ fn the_middle_of_a_gap_too_narrow_for_the_next_pass_is_cleared_by_one_cut() {
     assert!((3.4e6..3.9e6).contains(&along_middle), "once along the middle: {along_middle} nm");
 }
 
+/// Holes of one net, whole or open by a slit, in which some width of passes leaves something along
+/// the axis whatever that width is.
+#[test]
+fn where_one_net_encloses_all_there_is_neither_a_pass_nor_what_passes_leave() {
+    let ring = |corners: &[(i64, i64)]| corners.iter().map(|&(x, y)| at(x, y)).collect::<Vec<_>>();
+    let sides = [(-2000, 1500), (-2000, -1500), (2500, -1500), (2500, 1500)];
+    let pocket = [(500, 400), (500, -600), (1600, -600), (1600, 400)];
+    let slit = [(1060, 1500), (1060, 400), (1000, 400), (1000, 1500)];
+    let [above, below] = [&slit[..2], &slit[2..]];
+    let pocket: Vec<(i64, i64)> = pocket.into_iter().rev().collect();
+    let block = [&sides[..], above, &pocket, below].concat();
+    let diamond = [(-1500, 0), (-1000, 500), (-500, 0), (-1000, -500)];
+    let block = Polygon::new(vec![ring(&block), ring(&diamond)]).expect("a block with a hole");
+    let copper = layer([Shape::Polygon(block), disc(5000, 0, 500)]);
+    let settings = Settings { enclosed: false, ..Settings::default() };
+    for width in (300..1500).step_by(60) {
+        let cuts = widened_by(&settings, &copper, Some(Nm::from_um(width)), 20, &Clearing::default());
+        let places = cuts.edges.iter().flat_map(|edge| edge.path.flatten(Nm::from_um(1)));
+        let within = Rect::new(at(-1900, -1400), at(2400, 1400));
+        let inside: Vec<Point> = places.filter(|&place| within.contains(place)).collect();
+        assert_eq!(inside, [], "passes {width} µm wide");
+    }
+}
+
 #[test]
 fn passes_round_a_pad_are_cut_in_one_go() {
     let copper = layer([disc(0, 0, 500), disc(6000, 0, 500)]);
@@ -517,8 +541,18 @@ fn assert_cleared(copper: &Copper, width: i64, overlap: i64, places: impl Iterat
 
 /// The cuts of 200 µm between the nets of `copper`, and the passes beside them.
 fn widened(copper: &Copper, width: Option<Nm>, overlap: i64, clearing: &Clearing) -> Boundaries {
+    widened_by(&Settings::default(), copper, width, overlap, clearing)
+}
+
+fn widened_by(
+    settings: &Settings,
+    copper: &Copper,
+    width: Option<Nm>,
+    overlap: i64,
+    clearing: &Clearing,
+) -> Boundaries {
     let nets = topology::recover(copper, Method::Contact);
-    let diagram = Diagram::new(copper, &nets, None, &Settings::default()).expect("a diagram");
+    let diagram = Diagram::new(copper, &nets, None, settings).expect("a diagram");
     let (kerf, overlap) = (Nm::from_um(200), Nm::from_um(overlap));
     let widening = Widening { kerf, floor: kerf, width, overlap, skips: false };
     let (cuts, warnings) = diagram.widened(

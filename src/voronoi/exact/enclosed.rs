@@ -9,8 +9,10 @@
 //! ```
 
 use crate::topology::DisjointSets;
+use crate::voronoi::plane::Spot;
 
 use super::Diagram;
+use super::axis::OnAxis;
 use super::level::Crossings;
 
 /// Who encloses a part of the space above a level.
@@ -46,7 +48,37 @@ impl Parts {
     }
 }
 
+/// The space above a level, and which of it one owner alone encloses.
+pub(in crate::voronoi) struct Above {
+    crossings: Crossings,
+    parts: Parts,
+}
+
 impl Diagram {
+    /// The space above a level, in nanometres.
+    pub(in crate::voronoi) fn above(&self, level: f64) -> Above {
+        let crossings = self.crossings(level);
+        let parts = self.parts_above(&crossings);
+        Above { crossings, parts }
+    }
+
+    /// Whether a place on the axis above a level lies where one owner alone encloses the space
+    /// above it.
+    pub(in crate::voronoi) fn is_enclosed(&self, place: &OnAxis, above: &Above) -> bool {
+        let edge = &self.edges[place.edge as usize];
+        let from = self.sample_at(edge.from);
+        // Where the clearance falls below the level and rises again, a place lies before or behind;
+        // edges turn by less than half a turn, so who goes along one goes away from its beginning.
+        let way = |at: Spot| (at - from.at).length();
+        let mut falls = above.crossings.of(place.edge);
+        let is_before = match falls.next() {
+            Some(first) => way(place.sample.at) <= way(above.crossings.at(first)),
+            None => true,
+        };
+        let is_first = from.clearance > above.crossings.level() && is_before;
+        above.parts.is_enclosed(if is_first { edge.from } else { edge.to })
+    }
+
     /// The parts of the space above the level of `crossings`.
     pub(super) fn parts_above(&self, crossings: &Crossings) -> Parts {
         let mut parts = DisjointSets::new(self.vertices.len() + crossings.len());

@@ -58,6 +58,11 @@ impl Crossings {
         self.level
     }
 
+    /// Where one is.
+    pub(super) fn at(&self, crossing: usize) -> Spot {
+        self.all[crossing].at
+    }
+
     /// Those of an edge, in its order.
     pub(super) fn of(&self, edge: u32) -> std::ops::Range<usize> {
         self.starts[edge as usize]..self.starts[edge as usize + 1]

@@ -107,6 +107,7 @@ pub use level::LevelCurve;
 
 pub(super) use axis::OnAxis;
 pub(super) use chain::Chain;
+pub(super) use enclosed::Above;
 pub(super) use weld::NEAR;
 
 /// The number of no generator.

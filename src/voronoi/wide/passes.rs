@@ -191,7 +191,7 @@ impl Diagram {
         let passes = Passes { diagram: &diagram, fence: &fence, kerf, step: step.to_f64(), levels: &levels };
         // Between all nets there is a cut along the axis.
         let is_open = |left: u32, right: u32| left == right || widening.skips || !self.is_plain();
-        let mut lines = zone.open(passes.residues(all.edges.iter(), before, is_open));
+        let mut lines = zone.open(passes.residues(all.edges.iter(), before, is_open, self.settings.enclosed));
         let edges = passes
             .beyond()
             .and_then(|beyond| self.level_pieces(&diagram, Nm::from_f64(beyond), self.settings.enclosed));
@@ -203,7 +203,7 @@ impl Diagram {
         if !further.is_empty() {
             let levels: Vec<f64> = levels.iter().copied().chain(heights(&further)).collect();
             let passes = Passes { levels: &levels, ..passes };
-            let lines = zone.cleared(passes.residues(all.edges.iter(), before, is_open));
+            let lines = zone.cleared(passes.residues(all.edges.iter(), before, is_open, true));
             all.append(self.fitted(lines));
         }
         let within = self.settings.overlap.to_f64();

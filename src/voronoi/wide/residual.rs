@@ -101,18 +101,30 @@ impl Passes<'_> {
     }
 
     /// What clears the residues of all passes, where `cuts` may have cleared them and wider tools
-    /// have cut `before`; only between owners that are `wanted`.
+    /// have cut `before`; only between owners that are `wanted`, and without `enclosed` not where
+    /// no pass runs because one owner alone encloses the space.
     pub(super) fn residues<'b>(
         &self,
         cuts: impl Iterator<Item = &'b Boundary>,
         before: &[Share<'_>],
         wanted: impl Fn(u32, u32) -> bool,
+        enclosed: bool,
     ) -> Vec<Piece> {
         let Some(&last) = self.levels.last() else { return Vec::new() };
         let strip = [last + self.way(), last + self.way() + self.thin() / 2.0];
         let between = self.levels.windows(2).map(|pair| [pair[0] + self.way(), pair[1]]);
         let ranges: Vec<[f64; 2]> = between.chain([strip]).filter(|[low, high]| low < high).collect();
-        let axes = self.diagram.axes_between(&ranges, wanted);
+        let mut axes = self.diagram.axes_between(&ranges, wanted);
+        if !enclosed && !axes.is_empty() {
+            let above: Vec<exact::Above> =
+                self.levels.par_iter().map(|&level| self.diagram.above(level)).collect();
+            // All of an axis lies between the same two passes.
+            axes.retain(|axis| {
+                let [first, ..] = &axis.places[..] else { return false };
+                let inner = self.levels.iter().rposition(|&level| level < first.sample.clearance);
+                inner.is_none_or(|inner| !self.diagram.is_enclosed(first, &above[inner]))
+            });
+        }
         if axes.is_empty() {
             return Vec::new();
         }
