@@ -65,18 +65,13 @@ impl Diagram {
     /// Whether a place on the axis above a level lies where one owner alone encloses the space
     /// above it.
     pub(in crate::voronoi) fn is_enclosed(&self, place: &OnAxis, above: &Above) -> bool {
-        let edge = &self.edges[place.edge as usize];
-        let from = self.sample_at(edge.from);
-        // Where the clearance falls below the level and rises again, a place lies before or behind;
-        // edges turn by less than half a turn, so who goes along one goes away from its beginning.
-        let way = |at: Spot| (at - from.at).length();
-        let mut falls = above.crossings.of(place.edge);
-        let is_before = match falls.next() {
-            Some(first) => way(place.sample.at) <= way(above.crossings.at(first)),
-            None => true,
-        };
-        let is_first = from.clearance > above.crossings.level() && is_before;
-        above.parts.is_enclosed(if is_first { edge.from } else { edge.to })
+        let begin = self.edges[place.edge as usize].from;
+        // Edges turn by less than half a turn: who goes along one goes away from its beginning. The
+        // crossing behind a place above the level is where the clearance rises to it.
+        let way = |at: Spot| (at - self.sample_at(begin).at).length();
+        let is_behind = |&crossing: &usize| way(above.crossings.at(crossing)) < way(place.sample.at);
+        let risen = above.crossings.of(place.edge).take_while(is_behind).last();
+        above.parts.is_enclosed(risen.map_or(begin, |crossing| self.node(crossing)))
     }
 
     /// The parts of the space above the level of `crossings`.
