@@ -148,7 +148,7 @@ impl Bin {
             let range = self.near(scene)..=self.far;
             levels.iter().any(|level| range.contains(level))
         };
-        (covered && alone && (levels.is_empty() || !crossed())).then_some(label)
+        (covered && alone && !crossed()).then_some(label)
     }
 
     /// All that may be seen, in no particular order.

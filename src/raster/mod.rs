@@ -105,8 +105,9 @@
 //!
 //! A block is drawn column by column of lanes, down its rows: what is constant in the columns (the
 //! way along x, its part of the products) is worked out once for sixteen rows, where a row has two
-//! groups of lanes only. An EPYC of the fifth generation (Zen 5) takes a tenth less for it: on two
-//! threads 3.5 times writing 8 bytes a pixel became 3.25 drawn, and 2.9 became 2.7 streamed.
+//! groups of lanes only. With that, and bins of one primitive left as they are, an EPYC of the
+//! fifth generation (Zen 5) takes a tenth less: on two threads 3.5 times writing 8 bytes a pixel
+//! became 3.25 drawn, and 2.9 became 2.7 streamed.
 //!
 //! What remains: streamed, without a picture to write, the same scene takes 2.0; three quarters of
 //! one part is writing long rows. Of the 2.0, one is fragments, most of which is square roots, the

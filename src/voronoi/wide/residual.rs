@@ -119,11 +119,11 @@ impl Passes<'_> {
             let above: Vec<exact::Above> =
                 self.levels.par_iter().map(|&level| self.diagram.above(level)).collect();
             // All of an axis lies between the same two passes.
-            axes.retain(|axis| {
-                let [first, ..] = &axis.places[..] else { return false };
-                let inner = self.levels.iter().rposition(|&level| level < first.sample.clearance);
-                inner.is_none_or(|inner| !self.diagram.is_enclosed(first, &above[inner]))
-            });
+            let is_passed = |place: &OnAxis| {
+                let inner = self.inner(place.sample.clearance);
+                inner.is_some_and(|inner| !self.diagram.is_enclosed(place, &above[inner]))
+            };
+            axes.retain(|axis| axis.places.first().is_some_and(is_passed));
         }
         if axes.is_empty() {
             return Vec::new();
@@ -139,11 +139,16 @@ impl Passes<'_> {
         residues.collect()
     }
 
+    /// The last pass that runs nearer to copper than this.
+    fn inner(&self, clearance: f64) -> Option<usize> {
+        self.levels.iter().rposition(|&level| level < clearance)
+    }
+
     /// A place on the axis, where anything beside it is left: it, or what lies straight towards
     /// copper as far as a pass has not cleared.
     fn residue(&self, place: &OnAxis, cleared: &Cleared) -> Option<Residue> {
         let on_axis @ Sample { at, clearance } = place.sample;
-        let inner = self.levels.iter().rev().find(|&&level| level < clearance)?;
+        let inner = self.levels[self.inner(clearance)?];
         let rest = (clearance - inner - self.way()).max(0.0);
         let is_left = |p: Spot| !cleared.holds(p) && self.fence.holds(p);
         let shoulders = self.diagram.away_at(place).map(|away| at + away * -rest);
