@@ -3,11 +3,12 @@
 //! A cell's bin is sifted from that of the cell around it, so that unlimited cones do not cost
 //! sites × tiles.
 
-use super::canvas::{Canvas, Extent, LANES, SIDE};
+use super::canvas::{Canvas, Extent, SIDE};
 use super::cell::Cell;
 use super::half_plane::Cover;
 use super::mosaic::{Cuts, Mosaic};
 use super::primitive::{Part, Primitive, Shape};
+use super::processor::LANES;
 use super::{Label, Scene};
 
 /// The primitives that may be seen in a cell: the bin of the cell.

@@ -4,20 +4,20 @@ use std::ops::Range;
 
 use super::cell::Cell;
 use super::lanes::Lanes;
-use super::simd::{Arch, Simd, WithSimd};
+use super::processor::{LANES, Processor, WIDEST};
+use super::simd::{Simd, WithSimd};
 use super::subpixel::sample;
 use super::{Fragment, Label};
-
-/// Pixels that a row is padded to: as many as any processor works on at once. Cells are cut at
-/// multiples of it.
-pub(super) const LANES: i32 = 8;
 
 /// Pixels along a side of the largest block of pixels drawn at a time. Chosen: 8 KiB, a quarter of
 /// a first-level cache.
 pub(super) const SIDE: i32 = 32;
 
 /// Sample positions of neighbouring pixels from the first one on, in steps.
-const OFFSETS: [f32; LANES as usize] = [0.0, 256.0, 512.0, 768.0, 1024.0, 1280.0, 1536.0, 1792.0];
+const OFFSETS: [f32; WIDEST] = [
+    0.0, 256.0, 512.0, 768.0, 1024.0, 1280.0, 1536.0, 1792.0, 2048.0, 2304.0, 2560.0, 2816.0, 3072.0, 3328.0,
+    3584.0, 3840.0,
+];
 
 /// A surface whose depth is computed many pixels at a time.
 ///
@@ -73,7 +73,7 @@ pub(super) enum Extent<'a> {
 /// Rows of a block are padded to whole lanes; what lies beyond it is drawn along. Blocks that are
 /// cut from the left of the frame at multiples of [`LANES`] do not reach into each other.
 pub(super) struct Canvas {
-    arch: Arch,
+    pub processor: Processor,
     frame: Cell,
     /// From one row to the next.
     stride: usize,
@@ -91,7 +91,16 @@ impl Canvas {
     pub(super) fn new() -> Self {
         let cell = Cell { x: 0, y: 0, width: 1, height: 1 };
         let (depths, labels, columns) = (Vec::new(), Vec::new(), Vec::new());
-        Self { arch: Arch::new(), frame: cell, stride: 1, depths, labels, block: cell, at: 0, columns }
+        Self {
+            processor: Processor::new(),
+            frame: cell,
+            stride: 1,
+            depths,
+            labels,
+            block: cell,
+            at: 0,
+            columns,
+        }
     }
 
     /// Stretches it on `frame`; what was drawn before is still there.
@@ -99,7 +108,7 @@ impl Canvas {
         self.frame = frame;
         // Room for a block that does not begin at the frame's left, and a stride that is no power
         // of two: rows of a block a power of two apart would push one another out of the cache.
-        self.stride = count(frame.width).next_multiple_of(count(LANES)) + 2 * count(LANES);
+        self.stride = count(frame.width).next_multiple_of(WIDEST) + WIDEST;
         let pixels = self.stride * count(frame.height);
         if self.depths.len() < pixels {
             self.depths.resize(pixels, f32::INFINITY);
@@ -169,7 +178,7 @@ impl Canvas {
         let Self { stride, block, at, .. } = *self;
         let width = self.padded_width();
         let (depths, labels) = (&mut self.depths[at..], &mut self.labels[at..]);
-        self.arch.dispatch(Lay { field, label, extent, block, width, stride, depths, labels });
+        self.processor.dispatch(width, Lay { field, label, extent, block, width, stride, depths, labels });
     }
 
     /// The block's rows from the top as (row, depths, labels), padding included.
@@ -221,7 +230,7 @@ impl<F: Field> WithSimd for Lay<'_, F> {
         // One bound for both is looked at once.
         let (depths, labels) = (&mut depths[..labels.len()], labels);
         let (lanes, stride) = (S::F32_LANES, stride / S::F32_LANES);
-        let offsets = Lanes::new(simd, simd.partial_load_f32s(&OFFSETS[..lanes]));
+        let offsets = Lanes::new(simd, S::as_simd_f32s(&OFFSETS).0[0]);
         let top = Lanes::splat(simd, position(block.y));
         // Whole numbers below 2²⁴ all the way: adding them is exact, and a position is what it is
         // wherever a column starts.

@@ -109,6 +109,12 @@
 //! fifth generation (Zen 5) takes a tenth less: on two threads 3.5 times writing 8 bytes a pixel
 //! became 3.25 drawn, and 2.9 became 2.7 streamed.
 //!
+//! Where there is AVX-512, blocks whose rows are multiples of sixteen are drawn with as many lanes:
+//! the same EPYC takes 11.2 ms instead of 13.6 drawn and 8.5 instead of 10.7 streamed (two threads,
+//! medians of four runs in turns). Pieces of a mosaic, eight in a row, are weighed by eight: two
+//! rows at once made boards of thousands of segments 2 to 4 % quicker and those of a million 7 %
+//! slower.
+//!
 //! What remains: streamed, without a picture to write, the same scene takes 2.0; three quarters of
 //! one part is writing long rows. Of the 2.0, one is fragments, most of which is square roots, the
 //! rest bins. (Four squares: 3.1; one: 3.7; sixteen, more than half of a second-level cache of 2
@@ -181,6 +187,7 @@ mod node;
 mod palette;
 mod pick;
 mod primitive;
+mod processor;
 mod render;
 mod scene;
 #[cfg(not(feature = "simd"))]

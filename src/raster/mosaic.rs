@@ -4,13 +4,14 @@ use std::ops::Range;
 
 use super::Scene;
 use super::bin::{Bin, Candidate, index};
-use super::canvas::{Field, LANES};
+use super::canvas::Field;
 use super::cell::Cell;
 use super::lanes::Lanes;
 use super::primitive::{Reach, SLACK, Shape};
-use super::simd::{Arch, Simd, WithSimd};
+use super::processor::{LANES, Processor};
+use super::simd::{Simd, WithSimd};
 
-/// Pieces along a side of the largest mosaic: as many as a processor works on at once.
+/// Pieces along a side of the largest mosaic: as many as most processors work on at once.
 pub(super) const ACROSS: usize = LANES as usize;
 
 /// One number for each piece in a row of pieces.
@@ -84,7 +85,7 @@ impl Weights {
 /// the middle of each piece, and the piece's radius as the doubt. So a candidate is weighed for 64
 /// pieces by as many instructions as drawing 64 pixels takes.
 pub(super) struct Mosaic {
-    arch: Arch,
+    pub processor: Processor,
     /// The middles of the columns and rows of pieces, in steps.
     xs: Across,
     ys: Across,
@@ -102,7 +103,7 @@ pub(super) struct Mosaic {
 impl Mosaic {
     pub(super) fn new() -> Self {
         Self {
-            arch: Arch::new(),
+            processor: Processor::new(),
             xs: [0.0; ACROSS],
             ys: [0.0; ACROSS],
             radius: 0.0,
@@ -261,9 +262,9 @@ impl Mosaic {
     /// Samples a field in the middle of each piece of the rows where it may be seen.
     pub(super) fn sample(&mut self, field: &impl Field, offset: f32, size: f32, limit: f32) {
         let size = size + 2.0 * offset.abs() + self.radius;
-        let Self { arch, xs, ys, radius, weights, rows, .. } = self;
+        let Self { processor, xs, ys, radius, weights, rows, .. } = self;
         let rows = rows.clone();
-        arch.dispatch(Sample { field, xs, ys, rows, radius: *radius, size, limit, weights });
+        processor.dispatch(ACROSS, Sample { field, xs, ys, rows, radius: *radius, size, limit, weights });
     }
 }
 
