@@ -13,7 +13,6 @@ pub(super) trait Simd: Copy {
     fn as_simd_f32s(numbers: &[f32]) -> (&[Self::f32s], &[f32]);
     fn as_mut_simd_f32s(numbers: &mut [f32]) -> (&mut [Self::f32s], &mut [f32]);
     fn as_mut_simd_u32s(numbers: &mut [u32]) -> (&mut [Self::u32s], &mut [u32]);
-    fn partial_load_f32s(self, numbers: &[f32]) -> Self::f32s;
     fn splat_f32s(self, number: f32) -> Self::f32s;
     fn splat_u32s(self, number: u32) -> Self::u32s;
     fn add_f32s(self, a: Self::f32s, b: Self::f32s) -> Self::f32s;
@@ -45,6 +44,7 @@ pub(super) trait WithSimd {
 pub(super) struct Scalar;
 
 /// What the processor has: nothing is asked of it.
+#[derive(Clone, Copy)]
 pub(super) struct Arch;
 
 impl Arch {
@@ -54,7 +54,7 @@ impl Arch {
 
     #[inline(always)]
     #[expect(clippy::unused_self, reason = "as that of `pulp`")]
-    pub(super) fn dispatch<W: WithSimd>(&self, work: W) -> W::Output {
+    pub(super) fn dispatch<W: WithSimd>(self, work: W) -> W::Output {
         work.with_simd(Scalar)
     }
 }
@@ -92,7 +92,6 @@ impl Simd for Scalar {
     }
 
     lanes! {
-        partial_load_f32s(numbers: &[f32]) -> f32 = numbers[0];
         splat_f32s(number: f32) -> f32 = number;
         splat_u32s(number: u32) -> u32 = number;
         add_f32s(a: f32, b: f32) -> f32 = a + b;
