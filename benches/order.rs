@@ -121,6 +121,7 @@ fn drilled(holes: &[Trail], order: Order) -> Section {
         mill: None,
         bored_from: None,
         heights: heights(),
+        turn: None,
         placement: &placement,
         order,
         dwell: 0,

@@ -203,7 +203,7 @@ macro_rules! job_options {
     #[changes(PROGRAMS, ART, PICTURES)]
     pub feed: Option<Feed> = usual,
 
-    /// Feed rate of the cutter down into the material
+    /// Feed rate of the cutter down into the material, straight or along a slope
     #[arg(long, value_name = "SPEED")]
     #[serde(with = "text")]
     #[changes(PROGRAMS, ART, PICTURES)]
@@ -512,10 +512,10 @@ macro_rules! job_options {
     #[changes(CUTOUT, PICTURES)]
     pub cutout_depth: Option<Length>,
 
-    /// Depth of each pass of the cutout; less for a thin cutter
+    /// Depth of each pass of the cutout, and of each turn of boring; less for a thin cutter
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
-    #[changes(CUTOUT, PICTURES)]
+    #[changes(CUTOUT, DRILLING, PICTURES)]
     pub cutout_pass: Option<Length>,
 
     /// Angle at which the cutter ramps down along the contour in each pass, for cutters that cannot

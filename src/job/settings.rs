@@ -260,6 +260,7 @@ impl Settings {
             mill: self.drill_bore.then_some(&self.drill_bore_tool),
             bored_from: self.drill_bore_from,
             heights: self.drilling,
+            turn: self.cutout.step,
             tips: self.drill_tips,
             one: self.one_drill,
             placement,

@@ -55,6 +55,16 @@ impl Feed {
         self.0
     }
 
+    /// So many times as fast, at least once: in whole millimetres per minute, rounded down.
+    #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "`as` saturates")]
+    pub(crate) fn times(self, ratio: f64) -> Self {
+        const MOST: i64 = 1_000_000_000;
+        #[expect(clippy::cast_precision_loss, reason = "a feed is below 2⁵³")]
+        let faster = (self.0 as f64 * ratio) as i64;
+        Self((faster.min(MOST) / 1_000 * 1_000).max(self.0))
+    }
+
     /// In nanometres per second, for estimating time.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a feed is below 2⁵³")]

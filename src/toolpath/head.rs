@@ -10,8 +10,8 @@ use super::program::{Move, Position};
 
 /// The machine's head while a section is planned. Its methods are the only way to make moves, so
 /// what a [`Section`](super::Section) guarantees holds by construction: sideways below the safe
-/// height is always a feed, a rapid is level at the safe height or straight up or down, and the
-/// last move is a retract.
+/// height is always a feed, a rapid is level at the safe height or straight up or down, no feed
+/// goes down faster than a plunge, however much sideways it goes, and the last move is a retract.
 pub(super) struct Head {
     heights: Heights,
     plunge: Feed,
@@ -59,24 +59,35 @@ impl Head {
         }
     }
 
-    /// Straight to `to`, at `feed`.
+    /// Straight to `to`, at `feed`, or slower where it goes down.
     pub(super) fn feed_to(&mut self, to: Position, feed: Feed) {
         if self.at != Some(to) {
+            let feed = self.feed_down(&Segment::Line { to: to.point() }, to.z, feed);
             self.at = Some(to);
             self.moves.push(Move::Feed { to, feed });
         }
     }
 
-    /// One segment from where the head is, ending at `depth` below the surface.
+    /// One segment from where the head is, ending at `depth` below the surface; at `feed`, or
+    /// slower where it goes down.
     pub(super) fn cut(&mut self, segment: &Segment, depth: Nm, feed: Feed) {
         let to = Position::over(segment.to(), -depth);
         match *segment {
             Segment::Line { .. } => self.feed_to(to, feed),
             Segment::Arc { center, turn, .. } => {
+                let feed = self.feed_down(segment, to.z, feed);
                 self.at = Some(to);
                 self.moves.push(Move::Arc { to, center, turn, feed });
             }
         }
+    }
+
+    /// `feed`, or what keeps the head from going down along `segment` to `z` faster than it
+    /// plunges.
+    fn feed_down(&self, segment: &Segment, z: Nm, feed: Feed) -> Feed {
+        let Some(at) = self.at.filter(|at| at.z > z) else { return feed };
+        let (along, down) = (segment.length(at.point()), (at.z - z).to_f64());
+        feed.min(self.plunge.times((along * along + down * down).sqrt() / down))
     }
 
     /// Along `path`, which begins where the head is, level at the depth the head has.

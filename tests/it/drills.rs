@@ -167,3 +167,23 @@ fn holes_have_a_height_for_travel_of_their_own() {
     let drill = low.programs.iter().find(|program| program.part == Part::Drill).expect("holes");
     assert!(drill.text.contains("G0 Z0.7\n") && drill.statistics.seconds > 0.0, "in the text too");
 }
+
+#[test]
+fn a_turn_of_boring_goes_no_deeper_than_a_pass_of_the_cutout() {
+    for (settings, most) in [
+        ("", 500),
+        ("cutout-pass = \"0.2mm\"\ndrill-peck = \"0.05mm\"", 200),
+        ("cutout-pass = \"1.8mm\"", 1000),
+    ] {
+        let settings = format!("drill-bore-from = \"2mm\"\ncutout-tool = \"endmill:2mm\"\n{settings}");
+        let (bored, _) = job("blinker", &settings);
+        let bore = *sections(&bored, Part::Drill).last().expect("sections");
+        let turn = |pair: &[Move]| match pair {
+            [from, to @ Move::Arc { .. }] => Some(from.to()?.z - to.to()?.z),
+            _ => None,
+        };
+        let deepest = bore.moves.windows(2).filter_map(turn).max().expect("turns");
+        assert!(deepest <= Nm::from_um(most), "{settings}: {deepest} at once");
+        assert!(deepest * 5 >= Nm::from_um(most) * 4, "{settings}: {deepest} at once, where more may be");
+    }
+}

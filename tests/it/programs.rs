@@ -9,7 +9,7 @@ use voromill::gcode::{Dialect, Header, read, write};
 use voromill::geometry::{Arc, Nm, Point};
 use voromill::import;
 use voromill::job::{self, Job, Options, Settings};
-use voromill::toolpath::{Move, Position, Program};
+use voromill::toolpath::{Feed, Move, Position, Program, Section};
 
 use crate::corpus::board_folders;
 use crate::real_boards::selection;
@@ -93,7 +93,7 @@ impl Follower<'_> {
                     assert_eq!(motion.feed, Some(feed.get() * 1000), "{} line {}", self.what, motion.line);
                 }
             }
-            Move::Arc { center, turn, .. } => {
+            Move::Arc { center, turn, feed, .. } => {
                 let from = from.expect("an arc follows a move");
                 let start = self.planned.map_or(from.point(), Position::point);
                 let exact = Arc { start, end: planned.point(), center, turn };
@@ -102,7 +102,7 @@ impl Follower<'_> {
                     self.planned = Some(planned);
                     return;
                 }
-                self.round(Arc { start: from.point(), end: wanted.point(), center, turn }, wanted);
+                self.round(Arc { start: from.point(), end: wanted.point(), center, turn }, wanted, feed);
             }
             Move::Dwell { .. } => {}
         }
@@ -111,12 +111,13 @@ impl Follower<'_> {
     }
 
     /// An arc, whole, in parts, or as chords: never off it, the same way round, to its end.
-    fn round(&mut self, arc: Arc, wanted: Position) {
+    fn round(&mut self, arc: Arc, wanted: Position, feed: Feed) {
         let off = |p: Point| (arc.center.distance(p) - arc.radius()).abs();
         let most = Nm::new(4 * self.unit).to_f64() + 1_000.0;
         let mut parts = 0;
         while parts == 0 || self.at != Some(wanted) {
             let (motion, to) = self.next(wanted);
+            assert_eq!(motion.feed, Some(feed.get() * 1000), "{} line {}", self.what, motion.line);
             assert!(off(to.point()) <= most, "{} line {}: off the arc", self.what, motion.line);
             match motion.way {
                 Way::Arc { center, turn } => {
@@ -149,11 +150,35 @@ fn assert_does_as_planned(text: &str, program: &Program, dialect: &Dialect, what
     for section in &program.sections {
         follower.skip_lifts(program.safe);
         section.moves.iter().for_each(|step| follower.follow(step));
+        assert_goes_down_no_faster_than_it_plunges(section, what);
     }
     follower.skip_lifts(program.safe);
     assert!(follower.motions.next().is_none(), "{what} does more than was planned");
     assert_safe(&listing.motions, program.safe, what);
     assert!(!listing.spinning, "{what} ends with the spindle on");
+}
+
+/// However much sideways a feed goes, down it goes no faster than straight down.
+fn assert_goes_down_no_faster_than_it_plunges(section: &Section, what: &str) {
+    let mut at: Option<Position> = None;
+    for step in &section.moves {
+        let Some(to) = step.to() else { continue };
+        if let Some(from) = at {
+            let (along, feed) = match *step {
+                Move::Arc { center, turn, feed, .. } => {
+                    (Arc { start: from.point(), end: to.point(), center, turn }.length(), feed)
+                }
+                Move::Feed { feed, .. } => (from.point().distance(to.point()), feed),
+                Move::Rapid { .. } | Move::Dwell { .. } => (0.0, section.tool.plunge),
+            };
+            let down = (from.z - to.z).to_f64().max(0.0);
+            let whole = (along * along + down * down).sqrt().max(1.0);
+            let speed = feed.nm_per_second() * down / whole;
+            let most = section.tool.plunge.nm_per_second();
+            assert!(speed <= most * 1.000_001, "{what}, {}: {step:?} from {from:?}", section.label);
+        }
+        at = Some(to);
+    }
 }
 
 /// No sideways rapid below the safe height, no cut with the spindle off.
@@ -196,6 +221,7 @@ fn every_option_is_done_as_was_planned() {
     for settings in [
         "tool = [\"endmill:0.6mm\", \"vbit:0.1mm:20deg\"]\nwidth = \"0.4mm\"\nrotate = \"17deg\"",
         "strategy = \"outline\"\ncutout-ramp = \"4deg\"\ndrill-bore = true\ntab-spacing = \"25mm\"\ndrills = \"0.6mm\"",
+        "cutout-ramp = \"60deg\"\ncutout-pass = \"0.3mm\"\ncutout-tool = \"endmill:0.8mm\"\ndrill-bore-from = \"0.9mm\"",
         "adaptive-depth = \"0.04mm\"\ndrill-peck = \"0.5mm\"\ntabs = 0\nalignment-holes = \"3mm\"\norigin = \"keep\"",
     ] {
         assert_all_dialects_do_as_planned(folder, settings);

@@ -294,6 +294,7 @@ fn drilling<'a>(drills: &'a [Tool], mill: Option<&'a Tool>, placement: &'a Place
         mill,
         bored_from: None,
         heights: heights(1800, Some(1000)),
+        turn: None,
         placement,
         order: Order::Improved,
         dwell: 0,

@@ -17,7 +17,8 @@ use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Heights, Placement, Section, Tool};
 
-/// A turn of the helix goes down at most this part of the cutter's width. Chosen.
+/// A turn of the helix goes down at most this part of the cutter's width, and no more than a pass.
+/// Chosen.
 const TURN: i64 = 2;
 
 /// Whether `mill` can make this hole: it fits in, and a slot is one straight way.
@@ -26,7 +27,7 @@ pub(super) fn fits(hole: &Hole, mill: &Tool, tolerance: Nm) -> bool {
     wide && matches!(hole.path.segments.as_slice(), [] | [Segment::Line { .. }])
 }
 
-/// Mills out all `holes` with one end mill.
+/// Mills out all `holes` with one end mill; the step of `heights` is how deep a turn goes at most.
 pub(super) fn bore(
     holes: &[&Hole],
     mill: &Tool,

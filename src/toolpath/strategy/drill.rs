@@ -25,6 +25,8 @@ pub struct Drilling<'a> {
     pub bored_from: Option<Nm>,
     /// How high and how deep; the step is the peck.
     pub heights: Heights,
+    /// How deep a turn of boring goes at most; none where the mill's width alone bounds it.
+    pub turn: Option<Nm>,
     /// Whether that depth is the full diameter's: each drill goes deeper by its tip.
     pub tips: bool,
     /// Whether the thinnest of all drills that the holes need drills them all.
@@ -76,7 +78,8 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
     let mut sections: Vec<Section> = Vec::with_capacity(jobs.len() + 1);
     sections.extend(jobs.into_values().map(|(tool, holes)| section(tool, &holes, settings)));
     if let Some(mill) = settings.mill.filter(|_| !bored.is_empty()) {
-        sections.push(bore::bore(&bored, mill, settings.heights, settings.placement, settings.order));
+        let heights = Heights { step: settings.turn, ..settings.heights };
+        sections.push(bore::bore(&bored, mill, heights, settings.placement, settings.order));
     }
     (sections, warnings)
 }
