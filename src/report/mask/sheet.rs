@@ -7,7 +7,7 @@ use crate::board::diagnostic::planning;
 use crate::board::{
     Axis, Board, Copper, Diagnostic, FLATTEN, Feature, Outline, Shape, Side, Warning, polarity,
 };
-use crate::geometry::{Nm, Path, Point, Polygon, Rect, Segment};
+use crate::geometry::{Nm, Path, Point, Polygon, Rect, Segment, distance_to_segment};
 use crate::topology::{NetId, Nets};
 use crate::voronoi::{Boundaries, Boundary};
 
@@ -206,19 +206,18 @@ fn owners(regions: &[Polygon], copper: &Copper, nets: &Nets) -> (Vec<Option<NetI
         let near = order.iter().filter(|(bounds, _)| bounds.contains(p)).map(|&(_, at)| at);
         near.into_iter().find(|&at| regions[at].contains(p))
     };
+    let anchors = |id: NetId| {
+        let features = nets.nets()[id.index()].features.iter();
+        features.map(|&feature| copper.features[feature as usize].shape.anchor())
+    };
+    let warn = |kind: &'static Diagnostic, id: NetId, message: String| {
+        kind.warning(message).at(anchors(id).next().unwrap_or_default()).on(copper.side)
+    };
     let mut owners: Vec<Option<NetId>> = vec![None; regions.len()];
-    let mut warnings = Vec::new();
+    let (mut warnings, mut lost) = (Vec::new(), Vec::new());
     for id in (0..).map(NetId).take(nets.nets().len()) {
-        let anchors = nets.nets()[id.index()].features.iter();
-        let mut anchors = anchors.map(|&feature| copper.features[feature as usize].shape.anchor());
-        let first = anchors.clone().next().unwrap_or_default();
-        let warn =
-            |kind: &'static Diagnostic, message: String| kind.warning(message).at(first).on(copper.side);
-        match anchors.find_map(find) {
-            None => {
-                let message = format!("{} has no region left: --gap removes all of it", nets.label(id));
-                warnings.push(warn(&planning::MASK_NET_WITHOUT_REGION, message));
-            }
+        match anchors(id).find_map(find) {
+            None => lost.push(id),
             Some(at) => match owners[at] {
                 None => owners[at] = Some(id),
                 Some(other) => {
@@ -227,26 +226,44 @@ fn owners(regions: &[Polygon], copper: &Copper, nets: &Nets) -> (Vec<Option<NetI
                         nets.label(other),
                         nets.label(id)
                     );
-                    warnings.push(warn(&planning::MASK_REGIONS_JOINED, message));
+                    warnings.push(warn(&planning::MASK_REGIONS_JOINED, id, message));
                 }
             },
         }
     }
-    // A region that necks narrower than the gap cut in two.
+    // A region that necks narrower than the gap cut in two, or where it cut off all anchors.
     for (region, owner) in regions.iter().zip(&mut owners).filter(|(_, owner)| owner.is_none()) {
         *owner = owner_of(region, copper, nets);
     }
+    lost.retain(|&id| !owners.contains(&Some(id)));
+    warnings.extend(lost.into_iter().map(|id| {
+        let message = format!("{} has no region left: --gap removes all of it", nets.label(id));
+        warn(&planning::MASK_NET_WITHOUT_REGION, id, message)
+    }));
     (owners, warnings)
 }
 
-/// The net of the first feature with its anchor in `region`.
+/// The net whose copper is nearest to `region`: there is none that another is nearer to in a part
+/// of it.
 fn owner_of(region: &Polygon, copper: &Copper, nets: &Nets) -> Option<NetId> {
-    let bounds = region.bounds();
-    let lies_within = |feature: &Feature| {
-        let anchor = feature.shape.anchor();
-        bounds.contains(anchor) && region.contains(anchor)
-    };
-    copper.features.iter().position(lies_within).map(|at| nets.of(at))
+    let corner = region.contours()[0][0];
+    let (mut least, mut nearest) = (f64::INFINITY, None);
+    for (at, feature) in copper.features.iter().enumerate() {
+        let within = |away: f64| feature.shape.bounds().inflate(Nm::from_f64(away)).contains(corner);
+        if least.is_finite() && !within(least) {
+            continue;
+        }
+        let Some(polygon) = feature.shape.polygon(FLATTEN) else { continue };
+        if polygon.contains(corner) {
+            return Some(nets.of(at));
+        }
+        let edges = polygon.edges().map(|edge| distance_to_segment(corner, edge));
+        let away = edges.fold(f64::INFINITY, f64::min);
+        if away < least {
+            (least, nearest) = (away, Some(nets.of(at)));
+        }
+    }
+    nearest
 }
 
 /// What is to be said of boundaries that have less than half a `gap` to copper: the gap takes some.

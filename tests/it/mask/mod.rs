@@ -197,6 +197,38 @@ fn regions_are_one_for_each_net_and_a_gap_apart() {
 }
 
 #[test]
+fn a_region_is_its_nets_where_the_gap_takes_the_corner_that_copper_begins_at() {
+    let out = TempDir::new().expect("a temporary folder");
+    // Two areas, the first corner of each a tenth of a millimetre from the other, and one of three
+    // hundredths between others, of which nothing is left.
+    let area = |corners: &[(i32, i32)]| {
+        let place = |&(x, y): &(i32, i32)| format!("X{x}Y{y}");
+        let (first, rest) = corners.split_first().expect("corners");
+        let drawn: String =
+            rest.iter().chain([first]).map(|corner| format!("{}D01*\n", place(corner))).collect();
+        format!("G36*\n{}D02*\nG01*\n{drawn}G37*\n", place(first))
+    };
+    let gerber = [
+        area(&[(1950, 0), (0, 0), (0, 2000), (1950, 2000)]),
+        area(&[(2050, 0), (4000, 0), (4000, 2000), (2050, 2000)]),
+        area(&[(4100, 0), (4130, 0), (4130, 2000), (4100, 2000)]),
+        area(&[(4230, 0), (6000, 0), (6000, 2000), (4230, 2000)]),
+    ];
+    let text = format!("%FSLAX33Y33*%\n%MOMM*%\n{}M02*\n", gerber.concat());
+    fs::write(out.path().join("a-F_Cu.gbr"), text).expect("written");
+    let arguments = ["mask", "a-F_Cu.gbr", "--what", "regions", "--gap", "0.4mm", "-o", "a.svg"];
+    let done = voromill(out.path(), &arguments);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let drawn = fs::read_to_string(out.path().join("a.svg")).expect("written");
+    let titles: Vec<&str> =
+        drawn.match_indices("<title>net ").map(|(at, _)| &drawn[at + 7..at + 12]).collect();
+    assert_eq!(titles, ["net 1", "net 2", "net 4"], "{drawn}");
+    let lost = stderr(&done).matches("has no region left").count();
+    assert_eq!(lost, 1, "the narrow one alone: {}", stderr(&done));
+    assert!(!drawn.contains("no net"), "{drawn}");
+}
+
+#[test]
 fn a_negative_is_all_the_rest_of_the_page() {
     let board = import::load(&[board("blinker")], &Selection::default()).expect("a board").board;
     let margin = |masking: &mut Masking| masking.margin = Nm::from_mm(2);
