@@ -17,6 +17,8 @@
 //!          •               •
 //! ```
 
+use std::borrow::Cow;
+
 use crate::geometry::{Nm, Path, Point, Segment, Turn};
 
 use super::plane::Spot;
@@ -57,12 +59,14 @@ pub(super) struct Fit {
 /// A fitted path with the clearance at its vertices: the start's, then each segment's end.
 pub(super) fn fit(vertices: &[Sample], how: Fit) -> Option<(Path, Vec<Nm>)> {
     let Fit { tolerance, arcs, rises } = how;
+    let rises = rises.map(|ends| ends.map(Nm::to_f64));
+    let vertices = &*rises.map_or(Cow::Borrowed(vertices), |ends| Cow::Owned(with_knees(vertices, ends)));
     let start = vertices.first()?;
     let mut path = Path { start: start.at.rounded(), segments: Vec::new() };
     let mut clearance = vec![Nm::from_f64(finite(start.clearance))];
     // What sampling may already have lost counts against the tolerance.
     let tolerance = (tolerance.to_f64() * SHARE - CHORD).max(CHORD);
-    let fitter = Fitter { vertices, tolerance, arcs, rises: rises.map(|ends| ends.map(Nm::to_f64)) };
+    let fitter = Fitter { vertices, tolerance, arcs, rises };
     let mut i = 0;
     while i + 1 < vertices.len() {
         let (j, segment) = fitter.longest(i);
@@ -82,6 +86,29 @@ pub fn fit_points(points: impl IntoIterator<Item = Point>, tolerance: Nm) -> Opt
     let vertices: Vec<Sample> =
         points.into_iter().map(|point| Sample { at: point.into(), clearance: 0.0 }).collect();
     fit(&vertices, Fit { tolerance, arcs: true, rises: None }).map(|(path, _)| path)
+}
+
+/// The samples, and between them the places where the tool begins or ends to rise: those where the
+/// clearance passes one of `ends`.
+///
+/// ```text
+///   room   ╲          ╱    On a straight way there are samples at its ends alone: the tip would go
+///           ╲________╱     straight from one to the other, and be too deep at the knee.
+///     least  •      •
+/// ```
+fn with_knees(samples: &[Sample], ends: [f64; 2]) -> Vec<Sample> {
+    let mut all = Vec::with_capacity(samples.len());
+    all.extend(samples.first());
+    for pair in samples.windows(2) {
+        let [from, to] = [pair[0].clearance, pair[1].clearance];
+        let passes = |end: &f64| from.min(to) < *end && *end < from.max(to) && (to - from).is_finite();
+        let mut parts: Vec<f64> =
+            ends.into_iter().filter(passes).map(|end| (end - from) / (to - from)).collect();
+        parts.sort_by(f64::total_cmp);
+        all.extend(parts.into_iter().map(|part| pair[0].toward(&pair[1], part)));
+        all.push(pair[1]);
+    }
+    all
 }
 
 /// Clearances from nowhere (a path along the border) are the largest length.
@@ -276,6 +303,19 @@ mod tests {
         assert_eq!(vertices(Some([60, 90].map(Nm::from_um))), [(0, 80), (50, 65), (450, 65)]);
         // What is deep enough for all of the tool is even.
         assert_eq!(vertices(Some([50, 60].map(Nm::from_um))), [(0, 80), (450, 65)]);
+    }
+
+    #[test]
+    fn where_the_tool_begins_and_ends_to_rise_is_a_vertex_of_a_straight_way() {
+        let points = [vertex(0.0, 0.0, 2e4), vertex(1e6, 0.0, 1.2e5), vertex(2e6, 0.0, 2e4)];
+        let rises = Some([50, 100].map(Nm::from_um));
+        let (path, clearance) = fit(&points, Fit { rises, ..FIT }).expect("a path");
+        let ends = path.segments.iter().map(|segment| segment.to().x.get() / 1000);
+        let found: Vec<_> = ends.zip(&clearance[1..]).map(|(x, room)| (x, room.get() / 1000)).collect();
+        // Between 800 and 1200 µm the tool is as deep as it goes; the narrow ends are even.
+        for expected in [(300, 50), (800, 100), (1200, 100), (1700, 50), (2000, 20)] {
+            assert!(found.contains(&expected), "{expected:?}: {found:?}");
+        }
     }
 
     #[test]

@@ -13,6 +13,7 @@ use proptest::prelude::*;
 use rayon::ThreadPoolBuilder;
 use voromill::board::{Board, Copper, FLATTEN, Side, polarity};
 use voromill::gcode::read;
+use voromill::geometry::{Nm, Point, Polygon, Rect};
 use voromill::import::Loaded;
 use voromill::import::gerber::{self, Image};
 use voromill::import::outline;
@@ -138,8 +139,76 @@ fn judge_drawing(drawing: &Drawing, side: Side, settings: &str) -> Result<(), St
         .map_err(|wrong| edge.map_or(wrong.clone(), |edge| format!("{wrong}\nwith the edge\n{edge}")))
 }
 
+/// Widths that a V-bit of 60° and 0.1 mm cuts at half a tenth of a millimetre and at two tenths:
+/// half of them, in nanometres.
+const HALF_WIDTHS: [f64; 2] = [78_868.0, 165_470.0];
+
+/// How far the tool may be off the depth that the room asks for, told by half its width there, in
+/// nanometres. Chosen: what a cut may be off the middle, and what sampling leaves.
+const OFF: f64 = 3_000.0;
+
+/// Where a V-bit that goes evenly from vertex to vertex is not as wide as there is room, as far as
+/// it can be.
+fn rises_wrong(board: &Board, settings: &str) -> Result<(), String> {
+    let tool = "tool = \"vbit:0.1mm:60deg\"\ndepth = \"0.2mm\"\nadaptive-depth = \"0.05mm\"";
+    let options = Options::from_toml("voromill.toml", &format!("{tool}\n{settings}")).expect("settings");
+    let job = mill(board, &Settings::resolve(options).expect("settings that make sense"), 2)?;
+    for layer in &job.layers {
+        let features = &board.copper(layer.side).expect("copper").features;
+        let copper: Vec<Polygon> = features.iter().filter_map(|one| one.shape.polygon(FLATTEN)).collect();
+        // What is farther makes no difference.
+        let near: Vec<Rect> =
+            copper.iter().map(|one| one.bounds().inflate(Nm::from_f64(HALF_WIDTHS[1]))).collect();
+        let room = |at: Point| {
+            let near = copper.iter().zip(&near).filter(|(_, near)| near.contains(at));
+            near.map(|(one, _)| distance(one, at)).fold(f64::INFINITY, f64::min)
+        };
+        let half = |room: f64| room.clamp(HALF_WIDTHS[0], HALF_WIDTHS[1]);
+        for boundary in layer.boundaries.edges.iter().filter(|edge| !edge.is_border()) {
+            for ((from, segment), ends) in boundary.path.steps().zip(boundary.clearance.windows(2)) {
+                let [first, last] = [ends[0], ends[1]].map(|end| half(end.to_f64()));
+                for share in (0..=16).map(|part| f64::from(part) / 16.0) {
+                    let at = segment.at(from, share);
+                    let (cut, fits) = (first + (last - first) * share, half(room(at)));
+                    if (cut - fits).abs() > OFF {
+                        return Err(format!("at {at:?} half the kerf is {cut} nm, where {fits} fit"));
+                    }
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+/// How far a place is from an area; zero within.
+fn distance(area: &Polygon, at: Point) -> f64 {
+    if area.contains(at) {
+        return 0.0;
+    }
+    let to_edge = |(a, b): (Point, Point)| {
+        let [(px, py), (ax, ay), (bx, by)] = [at, a, b].map(Point::to_f64);
+        let (ux, uy) = (bx - ax, by - ay);
+        let along = ((px - ax) * ux + (py - ay) * uy) / (ux * ux + uy * uy).max(1.0);
+        let t = along.clamp(0.0, 1.0);
+        libm::hypot(px - ax - t * ux, py - ay - t * uy)
+    };
+    area.edges().map(to_edge).fold(f64::INFINITY, f64::min)
+}
+
 proptest! {
     #![proptest_config(config())]
+
+    #[test]
+    fn on_a_random_board_the_tool_rises_where_it_must_and_nowhere_else(
+        drawing in drawing(),
+        settings in prop::sample::select(vec!["", "width = \"0.5mm\""]),
+    ) {
+        let text = drawing.copper();
+        if let Some(copper) = copper(&text, Side::Front).map_err(TestCaseError::fail)? {
+            let board = board(copper, None).map_err(TestCaseError::fail)?;
+            rises_wrong(&board, settings).map_err(|wrong| TestCaseError::fail(format!("{wrong}\n{text}")))?;
+        }
+    }
 
     #[test]
     fn a_random_board_is_isolated_as_it_was_drawn(
