@@ -240,6 +240,29 @@ fn turns(text: &str) -> Vec<f64> {
 }
 
 #[test]
+fn loops_that_share_a_cut_go_round_what_is_kept_as_they_are_asked_to() {
+    let folder = TempDir::new().expect("a temporary folder");
+    // Two squares of 2 mm, either side of zero, nearer to each other than two cuts are wide.
+    let text = "%FSLAX33Y33*%\n%MOMM*%\n%ADD10R,2X2*%\nD10*\nX-1051Y0D03*\nX1051Y0D03*\nM02*\n";
+    fs::write(folder.path().join("a-F_Cu.gbr"), text).expect("written");
+    for (direction, sign) in [("climb", -1.0), ("conventional", 1.0)] {
+        let arguments = ["isolate", "a-F_Cu.gbr", "--tool", "endmill:0.1mm", "--strategy", "outline"];
+        let more = ["--direction", direction, "--origin", "keep", "-o", "a.ngc"];
+        let done = voromill(folder.path(), &[&arguments[..], &more].concat());
+        assert!(done.status.success(), "{}", stderr(&done));
+        let text = fs::read_to_string(folder.path().join("a.ngc")).expect("written");
+        let listing = read(&text).expect("a program");
+        let cuts = listing.motions.iter().filter(|motion| motion.way != Way::Rapid);
+        let places = cuts.filter_map(|motion| Some((motion.from.point()?, motion.to.point()?)));
+        // Twice the area that the way sweeps as seen from zero.
+        let swept =
+            |(from, to): (Point, Point)| from.x.to_mm() * to.y.to_mm() - to.x.to_mm() * from.y.to_mm();
+        let area: f64 = places.map(swept).sum();
+        assert!(area * sign > 15.0, "{direction}: {area} mm²");
+    }
+}
+
+#[test]
 fn loops_go_round_what_is_kept_as_they_are_asked_to() {
     for (direction, sign) in [("climb", -1.0), ("conventional", 1.0)] {
         let settings = format!("direction = \"{direction}\"\nstrategy = \"outline\"\ntabs = 0");

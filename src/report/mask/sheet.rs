@@ -243,8 +243,8 @@ fn owners(regions: &[Polygon], copper: &Copper, nets: &Nets) -> (Vec<Option<NetI
     (owners, warnings)
 }
 
-/// The net whose copper is nearest to `region`: there is none that another is nearer to in a part
-/// of it.
+/// The net whose copper is nearest to a corner of `region`: it lies among the places that are
+/// nearest to one net, so that any of it tells.
 fn owner_of(region: &Polygon, copper: &Copper, nets: &Nets) -> Option<NetId> {
     let corner = region.contours()[0][0];
     let (mut least, mut nearest) = (f64::INFINITY, None);

@@ -17,7 +17,7 @@ use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::{Heights, Placement, Section, Tool};
 
-/// A turn of the helix goes down at most this part of the cutter's width, and no more than a pass.
+/// A turn of the helix goes down at most this part of the cutter's width, whatever a pass may be.
 /// Chosen.
 const TURN: i64 = 2;
 

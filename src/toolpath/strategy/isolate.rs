@@ -203,7 +203,8 @@ const AROUND: usize = 4;
 fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move> {
     let links: Vec<Link> = ways.iter().map(|way| way.link).collect();
     let trails = walk(nodes.len(), &links, retract_worth(settings.heights, settings.tool, settings.machine));
-    let lines = trails.iter().filter_map(|trail| Line::along(ways, trail, settings.placement));
+    let trails = trails.iter().flat_map(|trail| one_sided(ways, trail, settings.direction));
+    let lines = trails.filter_map(|trail| Line::along(ways, trail, settings.placement));
     let mut lines: Vec<Option<Line>> = lines.map(Some).collect();
     let stretches: Vec<Stretch> = lines.iter().flatten().map(Line::stretch).collect();
     let mut head = Head::new(settings.heights, settings.tool.plunge);
@@ -224,6 +225,35 @@ fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move>
         before = line.clearance.last().copied().flatten().map(|clearance| (line.path.end(), clearance));
     }
     head.finish()
+}
+
+/// The parts of a trail along which copper lies on one side, where a direction is asked for: each
+/// can be cut in it.
+///
+/// ```text
+///   ╭── × ──╮    Nets so near to each other that they share a cut: up on the left, down between
+///   ↑   ↓   ↑    them and up on the right has the one on its right and the other on its left.
+///   ╰── × ──╯
+/// ```
+fn one_sided<'a>(ways: &[Way<'_>], trail: &'a [Step], direction: Option<Direction>) -> Vec<&'a [Step]> {
+    if direction.is_none() {
+        return vec![trail];
+    }
+    let side = |step: &Step| ways[step.link].left.map(|left| left != step.backwards);
+    let (mut parts, mut from, mut known) = (Vec::new(), 0, None);
+    for (at, step) in trail.iter().enumerate() {
+        let here = side(step);
+        if known.is_some() && here.is_some() && known != here {
+            parts.push(&trail[from..at]);
+            from = at;
+        }
+        known = here.or(known);
+    }
+    parts.push(&trail[from..]);
+    // A link leads from one to the next alone.
+    let must = |step: &Step| ways[step.link].link.must;
+    let needed = |part: &'a [Step]| Some(&part[part.iter().position(must)?..=part.iter().rposition(must)?]);
+    parts.into_iter().filter_map(needed).collect()
 }
 
 /// Whether the tool may stay down from the end of a trail, with its clearance, to the beginning of
@@ -258,16 +288,15 @@ fn cut_line(head: &mut Head, line: &mut Line, settings: &Isolation<'_>) {
 struct Line {
     path: Path,
     clearance: Vec<Option<Nm>>,
-    /// As of its ways, where that is the same for all.
+    /// As of its ways, of which all that know have the same where a direction is asked for.
     left: Option<bool>,
 }
 
 impl Line {
-    /// Whether a closed one must be turned round for the direction that is asked for; none where
-    /// either will do.
+    /// Whether it must be turned round for the direction that is asked for; none where either will
+    /// do.
     fn reverses(&self, settings: &Isolation<'_>) -> Option<bool> {
-        let left = self.left.filter(|_| self.path.is_closed())?;
-        Some(settings.direction?.reverses(left, settings.placement.mirror.is_some()))
+        Some(settings.direction?.reverses(self.left?, settings.placement.mirror.is_some()))
     }
 
     fn along(ways: &[Way<'_>], steps: &[Step], placement: &Placement) -> Option<Self> {
@@ -285,7 +314,7 @@ impl Line {
                 Some(line) => {
                     line.path.segments.append(&mut next.path.segments);
                     line.clearance.extend(next.clearance.drain(1..));
-                    line.left = line.left.filter(|_| line.left == next.left);
+                    line.left = line.left.or(next.left);
                 }
             }
         }
