@@ -89,13 +89,8 @@ pub fn fit_points(points: impl IntoIterator<Item = Point>, tolerance: Nm) -> Opt
 }
 
 /// The samples, and between them the places where the tool begins or ends to rise: those where the
-/// clearance passes one of `ends`.
-///
-/// ```text
-///   room   ╲          ╱    On a straight way there are samples at its ends alone: the tip would go
-///           ╲________╱     straight from one to the other, and be too deep at the knee.
-///     least  •      •
-/// ```
+/// clearance passes one of `ends`. A straight way has samples at its ends alone, and the tip would
+/// go straight from one depth to the other.
 fn with_knees(samples: &[Sample], ends: [f64; 2]) -> Vec<Sample> {
     let mut all = Vec::with_capacity(samples.len());
     all.extend(samples.first());

@@ -230,9 +230,11 @@ fn cut(ways: &[Way<'_>], nodes: &[Point], settings: &Isolation<'_>) -> Vec<Move>
 /// The parts of a trail along which copper lies on one side, where a direction is asked for: each
 /// can be cut in it.
 ///
+/// Nets so near to each other that they share a cut have one trail:
+///
 /// ```text
-///   ╭── × ──╮    Nets so near to each other that they share a cut: up on the left, down between
-///   ↑   ↓   ↑    them and up on the right has the one on its right and the other on its left.
+///   ╭── × ──╮    up on the left, down between them, up on the right:
+///   ↑   ↓   ↑    the one lies on its right, the other on its left
 ///   ╰── × ──╯
 /// ```
 fn one_sided<'a>(ways: &[Way<'_>], trail: &'a [Step], direction: Option<Direction>) -> Vec<&'a [Step]> {

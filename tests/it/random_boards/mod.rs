@@ -11,9 +11,9 @@ use std::path::Path;
 
 use proptest::prelude::*;
 use rayon::ThreadPoolBuilder;
-use voromill::board::{Board, Copper, FLATTEN, Side, polarity};
+use voromill::board::{Board, Copper, FLATTEN, Shape, Side, polarity};
 use voromill::gcode::read;
-use voromill::geometry::{Nm, Point, Polygon, Rect};
+use voromill::geometry::{Nm, Point, Rect};
 use voromill::import::Loaded;
 use voromill::import::gerber::{self, Image};
 use voromill::import::outline;
@@ -22,6 +22,7 @@ use voromill::verify::{Finding, Severity};
 
 use crate::cases;
 use crate::euler;
+use crate::oracle::distance::distance;
 use drawing::{Drawing, coarse_drawing, drawing, drawing_with_holes};
 
 /// What cuts them: settings as a settings file gives them.
@@ -155,13 +156,14 @@ fn rises_wrong(board: &Board, settings: &str) -> Result<(), String> {
     let job = mill(board, &Settings::resolve(options).expect("settings that make sense"), 2)?;
     for layer in &job.layers {
         let features = &board.copper(layer.side).expect("copper").features;
-        let copper: Vec<Polygon> = features.iter().filter_map(|one| one.shape.polygon(FLATTEN)).collect();
+        let areas = features.iter().filter_map(|one| one.shape.polygon(FLATTEN)).map(Shape::Polygon);
         // What is farther makes no difference.
-        let near: Vec<Rect> =
-            copper.iter().map(|one| one.bounds().inflate(Nm::from_f64(HALF_WIDTHS[1]))).collect();
+        let near = |area: &Shape| area.bounds().inflate(Nm::from_f64(HALF_WIDTHS[1]));
+        let copper: Vec<(Rect, Shape)> = areas.map(|area| (near(&area), area)).collect();
         let room = |at: Point| {
-            let near = copper.iter().zip(&near).filter(|(_, near)| near.contains(at));
-            near.map(|(one, _)| distance(one, at)).fold(f64::INFINITY, f64::min)
+            let near = copper.iter().filter(|(near, _)| near.contains(at));
+            let (x, y) = at.to_f64();
+            near.map(|(_, area)| distance(area, x, y)).fold(f64::INFINITY, f64::min)
         };
         let half = |room: f64| room.clamp(HALF_WIDTHS[0], HALF_WIDTHS[1]);
         for boundary in layer.boundaries.edges.iter().filter(|edge| !edge.is_border()) {
@@ -178,21 +180,6 @@ fn rises_wrong(board: &Board, settings: &str) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-/// How far a place is from an area; zero within.
-fn distance(area: &Polygon, at: Point) -> f64 {
-    if area.contains(at) {
-        return 0.0;
-    }
-    let to_edge = |(a, b): (Point, Point)| {
-        let [(px, py), (ax, ay), (bx, by)] = [at, a, b].map(Point::to_f64);
-        let (ux, uy) = (bx - ax, by - ay);
-        let along = ((px - ax) * ux + (py - ay) * uy) / (ux * ux + uy * uy).max(1.0);
-        let t = along.clamp(0.0, 1.0);
-        libm::hypot(px - ax - t * ux, py - ay - t * uy)
-    };
-    area.edges().map(to_edge).fold(f64::INFINITY, f64::min)
 }
 
 proptest! {
