@@ -6,9 +6,9 @@ use rustc_hash::FxHashMap;
 
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
-use crate::geometry::{Nm, Point};
+use crate::geometry::Point;
 
-use super::{Net, NetId, Nets, Proximity};
+use super::{JOINED, Net, NetId, Nets, Proximity};
 
 /// What a net is called: its names, its number, and what all its copper is for if that is one
 /// thing.
@@ -73,7 +73,7 @@ fn meetings<'a>(copper: &'a Copper, net: &Net, proximity: &Proximity) -> BTreeMa
     let mut found = BTreeMap::new();
     while let Some(feature) = queue.pop_front() {
         let name = names[&feature];
-        for near in proximity.near(&copper.features[feature].shape, Nm::ZERO) {
+        for near in proximity.near(&copper.features[feature].shape, JOINED) {
             let other = *names.entry(near.feature).or_insert_with(|| {
                 queue.push_back(near.feature);
                 name

@@ -14,11 +14,11 @@ use rayon::prelude::*;
 
 use crate::geometry::{BoxTree, Polygon};
 
-use super::OUTSIDE;
 use super::edge::Border;
 use super::exact::Chain;
 use super::plane::{Spot, spanned};
 use super::sample::{Sample, length};
+use super::{BACKGROUND, OUTSIDE};
 
 /// Where a piece ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -160,6 +160,12 @@ impl Fence {
         beyond.count() % 2 == 1
     }
 
+    /// Whether all of the straight way between two places lies beyond the border.
+    pub(super) fn is_beyond(&self, a: Spot, b: Spot) -> bool {
+        let ends = [a, b].map(|at| Sample { at, clearance: 0.0 });
+        !self.holds(a) && self.crossings(&ends, (BACKGROUND, BACKGROUND)).is_empty()
+    }
+
     /// The parts of a piece within the border, or those beyond it.
     pub(super) fn parts(&self, piece: Piece, is_within: bool) -> impl Iterator<Item = Piece> + use<> {
         let Piece { left, right, samples, ends } = piece;
@@ -261,7 +267,7 @@ pub(super) fn within(
         let clearance = border.clearance.to_f64();
         let lap = Lap { corners, first_edge: edges.start, clearance };
         if on.is_empty() {
-            let left = owner(corners[0]).map_or(super::BACKGROUND, &number);
+            let left = owner(corners[0]).map_or(BACKGROUND, &number);
             pieces.push(Piece { left, right: OUTSIDE, samples: lap.whole(), ends: None });
         }
         for (i, &(from, start)) in on.iter().enumerate() {

@@ -440,25 +440,35 @@ fn named(mut copper: Copper, names: &[Option<&str>]) -> Copper {
 
 #[test]
 fn two_names_on_one_island_are_a_warning_with_the_place_where_they_meet() {
-    let shapes = vec![disc(0, 0, 10), stroke((0, 0), (100, 0), 2), disc(100, 0, 10), disc(500, 0, 10)];
+    let shapes = [disc(0, 0, 10_000), stroke((0, 0), (100_000, 0), 2_000), disc(100_000, 0, 10_000)];
+    let shapes = shapes.into_iter().chain([disc(500_000, 0, 10_000)]).collect();
     let copper = named(copper(shapes), &[Some("GND"), None, Some("AGND"), Some("GND")]);
     let nets = topology::recover(&copper, Method::Contact);
     let warnings = topology::names_check(&copper, &nets);
     assert_eq!(warnings.len(), 1, "{warnings:?}");
     assert_eq!(warnings[0].code(), "nets-joined", "by its stable name");
     assert!(
-        warnings[0].message.starts_with("AGND and GND are one island of copper (AGND meets GND at 0.0001"),
+        warnings[0].message.starts_with("AGND and GND are one island of copper (AGND meets GND at 0.1"),
         "{}",
         warnings[0].message
     );
     let at = warnings[0].at.expect("a place");
     assert!(
-        (88..=112).contains(&at.x.get()) && at.y.get().abs() <= 2,
+        (88_000..=112_000).contains(&at.x.get()) && at.y.get().abs() <= 2_000,
         "where the trace runs into AGND: {at:?}"
     );
     assert_eq!(nets.label(NetId(0)), "AGND+GND", "both names, in order");
     let islands = topology::islands_of_names(&nets);
     assert_eq!(islands["GND"], [NetId(0), NetId(1)], "GND is on two islands, which is normal");
+}
+
+#[test]
+fn names_meet_where_copper_is_as_near_as_what_touches() {
+    let copper = named(copper(vec![disc(0, 0, 10_000), disc(20_200, 0, 10_000)]), &[Some("A"), Some("B")]);
+    let nets = topology::recover(&copper, Method::Contact);
+    let warnings = topology::names_check(&copper, &nets);
+    assert_eq!(warnings.len(), 1, "200 nm are no gap: {warnings:?}");
+    assert!(warnings[0].message.contains("(A meets B at 0.0101"), "{}", warnings[0].message);
 }
 
 #[test]

@@ -446,6 +446,43 @@ fn where_one_net_encloses_all_there_is_neither_a_pass_nor_what_passes_leave() {
     }
 }
 
+/// The cutter fits into the pocket, but further passes do not fit through its mouth.
+#[test]
+fn a_pocket_of_one_net_that_the_first_pass_runs_into_is_cleared_as_all_else() {
+    let sides = [(-2000, 1500), (-2000, -1500), (2500, -1500), (2500, 1500)];
+    let (mouth, pocket) = ([(1300, 1500), (1300, 900)], [(1600, 900), (1600, -600), (500, -600), (500, 900)]);
+    let corners = [&sides[..], &mouth, &pocket, &[(900, 900), (900, 1500)]].concat();
+    let block = Polygon::new(vec![corners.into_iter().map(|(x, y)| at(x, y)).collect()]).expect("a block");
+    let copper = layer([Shape::Polygon(block), disc(5000, 0, 500)]);
+    let settings = Settings { enclosed: false, ..Settings::default() };
+    let wide = Nm::from_um(1200);
+    let cuts = widened_by(&settings, &copper, Some(wide), 20, &Clearing::default());
+    let within = (1..50_i32).flat_map(|x| (1..70_i32).map(move |y| (x, y)));
+    let within = within.map(|(x, y)| (520e3 + 2e4 * f64::from(x), -580e3 + 2e4 * f64::from(y)));
+    // Round cutters leave the corners.
+    let is_reached = |&(x, y): &(f64, f64)| {
+        let [right, top] = [(x - 1_050e3).abs() + 102e3 - 550e3, (y - 150e3).abs() + 102e3 - 750e3];
+        libm::hypot(right.max(0.0), top.max(0.0)) < 98e3
+    };
+    assert_all_cleared(&copper, &cuts, within.filter(is_reached));
+}
+
+#[test]
+fn passes_on_both_sides_of_what_is_kept_are_not_linked_across_it() {
+    let copper = layer([disc(0, 0, 500)]);
+    let strip = Rect::new(at(-3000, -150), at(3000, 100));
+    let clearing = Clearing { kept: vec![Polygon::rectangle(strip)], ..Clearing::default() };
+    for width in [500, 900] {
+        let cuts = widened(&copper, Some(Nm::from_um(width)), 20, &clearing);
+        assert!(!cuts.links.is_empty(), "passes are linked");
+        for link in &cuts.links {
+            let [a, b] = [link.path.start, link.path.end()].map(|at| at.to_f64());
+            let is_across = a.1.min(b.1) < -200e3 && a.1.max(b.1) > 150e3;
+            assert!(!is_across, "from {a:?} to {b:?}");
+        }
+    }
+}
+
 #[test]
 fn passes_round_a_pad_are_cut_in_one_go() {
     let copper = layer([disc(0, 0, 500), disc(6000, 0, 500)]);

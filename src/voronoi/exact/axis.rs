@@ -12,7 +12,7 @@ use crate::voronoi::sample::Sample;
 pub(in crate::voronoi) struct OnAxis {
     pub(in crate::voronoi) sample: Sample,
     /// The edge of the diagram that it lies on.
-    pub(super) edge: u32,
+    pub(in crate::voronoi) edge: u32,
 }
 
 /// A part of the medial axis, without branches.

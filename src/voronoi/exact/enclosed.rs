@@ -12,7 +12,7 @@ use crate::topology::DisjointSets;
 use crate::voronoi::plane::Spot;
 
 use super::Diagram;
-use super::axis::OnAxis;
+use super::chain::Chain;
 use super::level::Crossings;
 
 /// Who encloses a part of the space above a level.
@@ -62,16 +62,34 @@ impl Diagram {
         Above { crossings, parts }
     }
 
-    /// Whether a place on the axis above a level lies where one owner alone encloses the space
-    /// above it.
-    pub(in crate::voronoi) fn is_enclosed(&self, place: &OnAxis, above: &Above) -> bool {
-        let begin = self.edges[place.edge as usize].from;
+    /// Whether a place on an edge above a level, or where the edge crosses it, lies where one owner
+    /// alone encloses the space above it.
+    pub(in crate::voronoi) fn is_enclosed(&self, (edge, place): (u32, Spot), above: &Above) -> bool {
+        let begin = self.edges[edge as usize].from;
         // Edges turn by less than half a turn: who goes along one goes away from its beginning. The
         // crossing behind a place above the level is where the clearance rises to it.
         let way = |at: Spot| (at - self.sample_at(begin).at).length();
-        let is_behind = |&crossing: &usize| way(above.crossings.at(crossing)) < way(place.sample.at);
-        let risen = above.crossings.of(place.edge).take_while(is_behind).last();
+        let is_behind = |&crossing: &usize| way(above.crossings.at(crossing)) <= way(place);
+        let risen = above.crossings.of(edge).take_while(is_behind).last();
         above.parts.is_enclosed(risen.map_or(begin, |crossing| self.node(crossing)))
+    }
+
+    /// The curves where copper is `level` nanometres away, cut where owners meet, with copper on
+    /// their left and `nobody` on their right; with `open`, which is no higher, not those of parts
+    /// of that space that one owner alone encloses. None where the graph contradicts itself.
+    pub(in crate::voronoi) fn curves_at(
+        &self,
+        level: f64,
+        nobody: u32,
+        open: Option<&Above>,
+    ) -> Option<Vec<Chain>> {
+        let crossings = self.crossings(level);
+        let is_enclosed = |place: u32, open: &Above| match (place as usize).checked_sub(self.vertices.len()) {
+            Some(crossing) => self.is_enclosed((crossings.edge_of(crossing), crossings.at(crossing)), open),
+            None => open.parts.is_enclosed(place),
+        };
+        let wanted = |place: u32| open.is_none_or(|open| !is_enclosed(place, open));
+        self.level_chains(&crossings, true, nobody, wanted)
     }
 
     /// The parts of the space above the level of `crossings`.

@@ -63,6 +63,11 @@ impl Crossings {
         self.all[crossing].at
     }
 
+    /// The edge that one is on.
+    pub(super) fn edge_of(&self, crossing: usize) -> u32 {
+        self.all[crossing].edge
+    }
+
     /// Those of an edge, in its order.
     pub(super) fn of(&self, edge: u32) -> std::ops::Range<usize> {
         self.starts[edge as usize]..self.starts[edge as usize + 1]
@@ -209,13 +214,14 @@ impl Diagram {
     /// with `nodes`, cut where boundaries between owners cross them. Of those without a node only
     /// what `wanted` accepts, by a vertex above or a crossing behind all vertices. None where the
     /// graph contradicts itself: never, unless the program is at fault.
-    fn level_chains(
+    pub(super) fn level_chains(
         &self,
         crossings: &Crossings,
         nodes: bool,
         nobody: u32,
         wanted: impl Fn(u32) -> bool,
     ) -> Option<Vec<Chain>> {
+        debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
         let mut chains = Vec::new();
         let is_node = |crossing: usize| {
             let edge = &self.edges[crossings.all[crossing].edge as usize];
@@ -322,28 +328,10 @@ impl Diagram {
     ) -> Option<Vec<Chain>> {
         let crossings = self.crossings(level);
         let mut chains = self.chains_below(&crossings);
-        chains.extend(self.curves(&crossings, nobody, enclosed)?);
-        Some(chains)
-    }
-
-    /// The curves where copper is `level` nanometres away, cut where owners meet, with copper on
-    /// their left and `nobody` on their right; without `enclosed` not those of space that one owner
-    /// alone encloses. None where the graph contradicts itself.
-    pub(in crate::voronoi) fn curves_at(
-        &self,
-        level: f64,
-        nobody: u32,
-        enclosed: bool,
-    ) -> Option<Vec<Chain>> {
-        self.curves(&self.crossings(level), nobody, enclosed)
-    }
-
-    /// The curves of a level, as [`Diagram::curves_at`] has them.
-    fn curves(&self, crossings: &Crossings, nobody: u32, enclosed: bool) -> Option<Vec<Chain>> {
-        debug_assert_ne!(self.kind, Kind::Owners, "level sets cross all edges of the free space");
-        let parts = (!enclosed).then(|| self.parts_above(crossings));
+        let parts = (!enclosed).then(|| self.parts_above(&crossings));
         let wanted = |place: u32| parts.as_ref().is_none_or(|parts| !parts.is_enclosed(place));
-        self.level_chains(crossings, true, nobody, wanted)
+        chains.extend(self.level_chains(&crossings, true, nobody, wanted)?);
+        Some(chains)
     }
 
     /// The chains between owners, as far as they lie below the level.

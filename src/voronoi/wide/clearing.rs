@@ -42,6 +42,10 @@ impl Clearing {
 const STEP: f64 = 20_000.0;
 const LEAST: f64 = 100.0;
 
+/// Ways may begin and end so far within what is kept, in nanometres. Chosen: more than fitting may
+/// take.
+const END: f64 = 10_000.0;
+
 /// What is known of the space that passes run in.
 #[derive(Clone, Copy)]
 pub(super) struct Room<'a> {
@@ -104,6 +108,13 @@ impl<'a> Zone<'a> {
             Some(kept) => pieces.into_par_iter().flat_map_iter(|piece| kept.parts(piece, false)).collect(),
             None => pieces,
         }
+    }
+
+    /// Whether the straight way between two passes lies where anything may be cleared.
+    pub(super) fn is_open(&self, a: Spot, b: Spot) -> bool {
+        // Passes round what is kept are true to the tolerance of fitting alone.
+        let end = (b - a) * (END / (b - a).length()).min(0.5);
+        self.kept.as_ref().is_none_or(|kept| kept.is_beyond(a + end, b - end))
     }
 
     /// What of passes lies where everything is cleared.

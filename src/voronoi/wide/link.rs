@@ -36,6 +36,8 @@ pub struct Link {
 pub(super) struct Rules<'a> {
     /// How far a place is from copper that is no farther than so many nanometres.
     pub(super) clearance: &'a (dyn Fn(Spot, f64) -> f64 + Sync),
+    /// Whether nothing is kept on the straight way between two places, so that it may be cut.
+    pub(super) is_open: &'a (dyn Fn(Spot, Spot) -> bool + Sync),
     /// How near to copper a cut may come.
     pub(super) nearest: f64,
     /// How far passes lie apart, in nanometres: where links are looked for first.
@@ -80,8 +82,9 @@ impl Rules<'_> {
         if is_long && middle.1 < self.nearest {
             return None;
         }
-        let [a, b] = [a, b].map(|end| self.beside(middle, end));
-        self.at_once(a, b).or_else(|| self.halved(a, middle, b))
+        let ends = [a, b].map(|end| self.beside(middle, end));
+        let clearance = self.at_once(ends[0], ends[1]).or_else(|| self.halved(ends[0], middle, ends[1]))?;
+        (self.is_open)(a, b).then_some(clearance)
     }
 
     /// Copper is no nearer to the way between two places that are so far from it, if that follows

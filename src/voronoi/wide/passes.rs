@@ -126,18 +126,21 @@ impl Diagram {
         let kind = if further.is_empty() { self.settings.kind(floor) } else { exact::Kind::Above(floor) };
         let zone = Zone::new(clearing, widening.kerf);
         let lines = |diagram: &exact::Diagram| {
+            // What the cutter reaches from where nets are parted is cleared, whoever is round it.
+            let open = (!self.settings.enclosed).then(|| diagram.above(first.to_f64()));
             let pieces = |(stage, &level): (usize, &Nm)| {
-                let enclosed = stage > 0 || self.settings.enclosed;
-                let found = self.level_pieces(diagram, level, enclosed)?;
+                let found = self.level_pieces(diagram, level, open.as_ref().filter(|_| stage == 0))?;
                 Some(if stage > 0 { zone.cleared(found) } else { zone.open(found) })
             };
             let levels = wanted.iter().enumerate();
             let levels: Vec<_> =
                 levels.flat_map(|(stage, all)| all.iter().map(move |level| (stage, level))).collect();
-            levels.into_par_iter().map(pieces).collect::<Option<Vec<_>>>()
+            let found = levels.into_par_iter().map(pieces).collect::<Option<Vec<_>>>()?;
+            Some((open, found))
         };
         let (diagram, found) = owned.diagram(kind, exact::Space::Within, Some(wall), lines);
         let is_whole = found.is_some();
+        let (open, found) = found.unwrap_or_default();
         let wider = wider(before, widening.kerf);
         let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), widening.floor - step);
         // What also runs in enclosed space minds the loops outside it.
@@ -156,9 +159,7 @@ impl Diagram {
         let first_pass = base.edges.len();
         let mut all = base;
         let mut passed: Option<Grooves> = None;
-        for (number, (&level, mut lines)) in
-            wanted.iter().flatten().zip(found.unwrap_or_default()).enumerate()
-        {
+        for (number, (&level, mut lines)) in wanted.iter().flatten().zip(found).enumerate() {
             let minds_loops = number >= wanted[0].len() && !self.settings.enclosed;
             if !minds_loops {
                 lines.retain(|line| !self.has_loop_at(level, line));
@@ -191,10 +192,10 @@ impl Diagram {
         let passes = Passes { diagram: &diagram, fence: &fence, kerf, step: step.to_f64(), levels: &levels };
         // Between all nets there is a cut along the axis.
         let is_open = |left: u32, right: u32| left == right || widening.skips || !self.is_plain();
-        let mut lines = zone.open(passes.residues(all.edges.iter(), before, is_open, self.settings.enclosed));
+        let mut lines = zone.open(passes.residues(all.edges.iter(), before, is_open, open.as_ref()));
         let edges = passes
             .beyond()
-            .and_then(|beyond| self.level_pieces(&diagram, Nm::from_f64(beyond), self.settings.enclosed));
+            .and_then(|beyond| self.level_pieces(&diagram, Nm::from_f64(beyond), open.as_ref()));
         if let Some(edges) = edges {
             let cuts = all.edges[..first_pass].iter().filter(|edge| !is_pass(edge));
             lines.extend(zone.beside(passes.strips(&edges, cuts, before)));
@@ -203,7 +204,7 @@ impl Diagram {
         if !further.is_empty() {
             let levels: Vec<f64> = levels.iter().copied().chain(heights(&further)).collect();
             let passes = Passes { levels: &levels, ..passes };
-            let lines = zone.cleared(passes.residues(all.edges.iter(), before, is_open, true));
+            let lines = zone.cleared(passes.residues(all.edges.iter(), before, is_open, None));
             all.append(self.fitted(lines));
         }
         let within = self.settings.overlap.to_f64();
@@ -217,6 +218,7 @@ impl Diagram {
             if further.is_empty() { widening.width.unwrap_or(LONGEST).min(LONGEST) } else { LONGEST };
         let rules = Rules {
             clearance: &|at, reach| diagram.distance_within(at, reach),
+            is_open: &|a, b| zone.is_open(a, b),
             nearest: (widening.kerf / 2).to_f64(),
             step: step.to_f64(),
             short: (widening.kerf * 3 / 2).to_f64(),
@@ -236,9 +238,15 @@ impl Diagram {
         self.settings.sites == SiteKind::Copper && self.settings.limit.is_none() && self.mixed.is_none()
     }
 
-    /// Where copper is just so far away on the board.
-    fn level_pieces(&self, diagram: &exact::Diagram, level: Nm, enclosed: bool) -> Option<Vec<Piece>> {
-        let chains = diagram.curves_at(level.to_f64(), NOBODY, enclosed)?;
+    /// Where copper is just so far away on the board; with `open` not in parts of that space that
+    /// one net alone encloses.
+    fn level_pieces(
+        &self,
+        diagram: &exact::Diagram,
+        level: Nm,
+        open: Option<&exact::Above>,
+    ) -> Option<Vec<Piece>> {
+        let chains = diagram.curves_at(level.to_f64(), NOBODY, open)?;
         // Who owns the border between two crossings nobody asks.
         let (mut pieces, _) = self.on_board(diagram, chains, level.to_f64());
         pieces.retain(|piece| !piece.is_border());

@@ -101,27 +101,24 @@ impl Passes<'_> {
     }
 
     /// What clears the residues of all passes, where `cuts` may have cleared them and wider tools
-    /// have cut `before`; only between owners that are `wanted`, and without `enclosed` not where
-    /// no pass runs because one owner alone encloses the space.
+    /// have cut `before`; only between owners that are `wanted`, and with `open` not where no pass
+    /// runs because one owner alone encloses that part of the space.
     pub(super) fn residues<'b>(
         &self,
         cuts: impl Iterator<Item = &'b Boundary>,
         before: &[Share<'_>],
         wanted: impl Fn(u32, u32) -> bool,
-        enclosed: bool,
+        open: Option<&exact::Above>,
     ) -> Vec<Piece> {
         let Some(&last) = self.levels.last() else { return Vec::new() };
         let strip = [last + self.way(), last + self.way() + self.thin() / 2.0];
         let between = self.levels.windows(2).map(|pair| [pair[0] + self.way(), pair[1]]);
         let ranges: Vec<[f64; 2]> = between.chain([strip]).filter(|[low, high]| low < high).collect();
         let mut axes = self.diagram.axes_between(&ranges, wanted);
-        if !enclosed && !axes.is_empty() {
-            let above: Vec<exact::Above> =
-                self.levels.par_iter().map(|&level| self.diagram.above(level)).collect();
-            // All of an axis lies between the same two passes.
+        if let Some(open) = open {
             let is_passed = |place: &OnAxis| {
-                let inner = self.inner(place.sample.clearance);
-                inner.is_some_and(|inner| !self.diagram.is_enclosed(place, &above[inner]))
+                let OnAxis { edge, sample: Sample { at, clearance }, .. } = *place;
+                self.inner(clearance).is_some() && !self.diagram.is_enclosed((edge, at), open)
             };
             axes.retain(|axis| axis.places.first().is_some_and(is_passed));
         }
