@@ -153,7 +153,7 @@ impl Planned<'_> {
         let (shares, passes) = stages.run(
             format!("{side}: passes"),
             || shares((copper, nets), &diagram, &boundaries, settings),
-            |(shares, _)| [("edges", shares.iter().map(|(_, share)| share.edges.len()).sum())],
+            |(shares, _)| [("edges", shares.iter().map(|share| share.cuts.edges.len()).sum())],
         );
         let coupling = extents.map(|extents| {
             let couple = || coupling::strongest(nets, extents, (&diagram, &boundaries), settings);
@@ -275,7 +275,9 @@ fn shares<'a>(
             }
             None => base,
         };
-        cut.push((cutting.kerf(), all));
+        let kerf = cutting.kerf();
+        let floor = cutting.widening.map_or(kerf, |widening| widening.floor);
+        cut.push(Share { kerf, floor, cuts: all });
     }
     (cut, warnings)
 }
@@ -309,7 +311,7 @@ fn cut(
         Owner::Outside => "the edge".to_owned(),
     };
     let (mut sections, mut warnings) = (Vec::new(), Vec::new());
-    for (cutting, (_, boundaries)) in settings.isolation.iter().zip(shares) {
+    for (cutting, Share { cuts: boundaries, .. }) in settings.isolation.iter().zip(shares) {
         let isolation = Isolation {
             tool: &cutting.tool,
             heights: cutting.heights,

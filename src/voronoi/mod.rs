@@ -156,8 +156,16 @@ pub struct Boundaries {
     pub links: Vec<Link>,
 }
 
-/// What one of several tools cuts, with its kerf.
-pub type Share<'a> = (Nm, Cow<'a, Boundaries>);
+/// What one of several tools cuts.
+#[derive(Clone, Debug)]
+pub struct Share<'a> {
+    /// How wide it cuts, at the surface.
+    pub kerf: Nm,
+    /// How wide at the bottom of the copper.
+    pub floor: Nm,
+    /// Along what.
+    pub cuts: Cow<'a, Boundaries>,
+}
 
 /// What distances are measured to.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, serde::Serialize, serde::Deserialize)]

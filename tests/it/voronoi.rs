@@ -1,11 +1,15 @@
 //! Boundaries against brute-force distances.
 
+use std::borrow::Cow;
+
 use proptest::prelude::*;
 use proptest::test_runner::{RngSeed, TestRunner};
 use voromill::board::{Axis, Copper, Feature, Outline, Shape, Side};
 use voromill::geometry::{Arc, Nm, Path, Point, Polygon, Rect, Turn, Vector};
 use voromill::topology::{self, DisjointSets, Method, Nets};
-use voromill::voronoi::{Boundaries, Boundary, Clearing, Diagram, Owner, Settings, SiteKind, Widening};
+use voromill::voronoi::{
+    Boundaries, Boundary, Clearing, Diagram, Frame, Owner, Settings, Share, SiteKind, Widening,
+};
 
 use crate::cli::{stderr, stdout, voromill};
 use crate::oracle::distance as oracle;
@@ -465,6 +469,30 @@ fn a_pocket_of_one_net_that_the_first_pass_runs_into_is_cleared_as_all_else() {
         libm::hypot(right.max(0.0), top.max(0.0)) < 98e3
     };
     assert_all_cleared(&copper, &cuts, within.filter(is_reached));
+}
+
+#[test]
+fn a_finer_tool_leaves_alone_what_passes_of_a_wider_one_clear_together() {
+    let copper = layer([disc(0, 0, 500), disc(2100, 0, 500)]);
+    let nets = topology::recover(&copper, Method::Contact);
+    let settings = Settings { frame: Frame::Rectangle(Nm::from_mm(6)), ..Settings::default() };
+    let diagram = Diagram::new(&copper, &nets, None, &settings).expect("a diagram");
+    let passes = |kerf: i64, base: Boundaries, before: &[Share<'_>]| {
+        let (kerf, overlap) = (Nm::from_um(kerf), Nm::from_um(kerf / 10));
+        let widening = Widening { kerf, floor: kerf, width: Some(Nm::from_mm(5)), overlap, skips: false };
+        let (cuts, warnings) =
+            diagram.widened((&copper, &nets), base, &widening, &Clearing::default(), before);
+        assert_eq!(warnings, [], "all is placed");
+        Share { kerf, floor: kerf, cuts: Cow::Owned(cuts) }
+    };
+    let length = |share: &Share<'_>| -> f64 {
+        let inner = share.cuts.edges.iter().filter(|edge| !edge.is_border());
+        inner.map(|edge| edge.path.length()).sum()
+    };
+    let wide = passes(1000, diagram.boundaries().expect("whole boundaries"), &[]);
+    assert!(length(&wide) > 1.0e8, "what passes clear is 9 mm wide and more");
+    let fine = passes(350, Boundaries::default(), std::slice::from_ref(&wide));
+    assert!(length(&fine) < 2.0e6, "the narrowest of the gap alone: {} nm", length(&fine));
 }
 
 #[test]

@@ -271,17 +271,28 @@ impl Diagram {
         let mut found = Vec::new();
         let mut seen = vec![[false; 2]; self.edges.len()];
         let links = (0_u32..).take(self.edges.len()).flat_map(|edge| [(edge, false), (edge, true)]);
+        let is_above = |link: Link| {
+            self.vertices[self.target(link) as usize].clearance > crossings.level
+                && crossings.of(link.0).is_empty()
+        };
+        let mut face = Vec::new();
         for first in links {
-            let (mut link, mut legs, mut is_whole) = (first, Vec::new(), true);
-            while !std::mem::replace(&mut seen[link.0 as usize][usize::from(link.1)], true) {
-                let [from, to] = [(link.0, !link.1), link].map(|link| self.sample_at(self.target(link)));
-                is_whole &= from.clearance > crossings.level && crossings.of(link.0).is_empty();
-                legs.push(Leg { generator: self.left_of(link), from: from.at, to: to.at, crossing: None });
-                let onward = self.onward(link)?;
-                self.add_hollow(link, onward, &mut legs);
-                link = onward;
+            // Who comes to a link that was seen comes to where that face lies below the level.
+            face.clear();
+            let mut link = first;
+            while is_above(link) && !std::mem::replace(&mut seen[link.0 as usize][usize::from(link.1)], true)
+            {
+                face.push(link);
+                link = self.onward(link)?;
             }
-            if is_whole && !legs.is_empty() && wanted(self.target(first)) {
+            if link == first && !face.is_empty() && wanted(self.target(first)) {
+                let mut legs = Vec::with_capacity(face.len());
+                for (i, &link) in face.iter().enumerate() {
+                    let [from, to] =
+                        [(link.0, !link.1), link].map(|link| self.sample_at(self.target(link)).at);
+                    legs.push(Leg { generator: self.left_of(link), from, to, crossing: None });
+                    self.add_hollow(link, face[(i + 1) % face.len()], &mut legs);
+                }
                 // What begins within a generator's part ends there, too.
                 let turns = legs.windows(2).position(|pair| pair[0].generator != pair[1].generator);
                 legs.rotate_left(turns.map_or(0, |at| at + 1));

@@ -7,7 +7,14 @@
 //! ```
 //!
 //! A pass runs on for as long as it clears anything that a cut does not: up to where it comes
-//! nearer to the cut than passes do to each other.
+//! nearer to the cut than passes do to each other. The passes of a finer tool also end where cuts
+//! beside each other have cleared together all that it would clear:
+//!
+//! ```text
+//!    ━━━━━━━━━━━━━━━━━━━━━━━━ cut ╮
+//!    ▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒     │ each clears past the middle between them
+//!    ━━━━━━━━━━━━━━━━━━━━━━━━ cut ╯
+//! ```
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -36,7 +43,34 @@ pub(super) struct Grooves {
     cuts: Arc<Cuts>,
     /// How far from a cut nothing is left to clear, in nanometres.
     reach: f64,
+    /// What several cuts clear together, if that is asked.
+    together: Option<Together>,
 }
+
+/// What several cuts clear together, in nanometres.
+#[derive(Clone, Copy)]
+struct Together {
+    /// How far from its middle each clears.
+    wide: f64,
+    /// Within so much of a place nothing may be left.
+    disc: f64,
+}
+
+/// Where in a disc it is looked whether anything is left, but for its middle: all round, and half
+/// as far out.
+const DIRECTIONS: [(f64, f64); 8] = {
+    const SLANT: f64 = std::f64::consts::FRAC_1_SQRT_2;
+    [
+        (1.0, 0.0),
+        (SLANT, SLANT),
+        (0.0, 1.0),
+        (-SLANT, SLANT),
+        (-1.0, 0.0),
+        (-SLANT, -SLANT),
+        (0.0, -1.0),
+        (SLANT, -SLANT),
+    ]
+};
 
 /// Cuts by place.
 struct Cuts {
@@ -54,12 +88,19 @@ impl Grooves {
         }
         let tree = BoxTree::new(bounds.into_iter());
         let is_any = !spans.is_empty();
-        is_any.then(|| Self { cuts: Arc::new(Cuts { spans, tree }), reach: reach.to_f64() })
+        is_any.then(|| Self { cuts: Arc::new(Cuts { spans, tree }), reach: reach.to_f64(), together: None })
     }
 
     /// What of it lies within `reach` of the same cuts.
     pub(super) fn within(&self, reach: Nm) -> Self {
         Self { reach: self.reach.min(reach.to_f64()), ..self.clone() }
+    }
+
+    /// The same, and what cuts clear together, each as far from its middle as `wide`, of what is
+    /// within `disc` of a place.
+    pub(super) fn together(self, wide: Nm, disc: Nm) -> Self {
+        let [wide, disc] = [wide, disc].map(Nm::to_f64);
+        Self { together: Some(Together { wide, disc }), ..self }
     }
 
     /// Whether nothing is left to clear at `p`.
@@ -157,15 +198,34 @@ impl Walk<'_> {
         spare.max(0.0)
     }
 
-    /// How far a place is from the nearest cut; where none is near, at least how far none is.
+    /// How far a place is from the nearest cut, or less where several have cleared together what is
+    /// beside it; no more than [`Grooves::reach`] where nothing is left.
     fn distance(&mut self, p: Spot) -> f64 {
+        let alone = self.off_cut(p);
+        let Grooves { reach, together, .. } = *self.grooves;
+        let Some(Together { wide, disc }) = together.filter(|_| alone >= reach) else { return alone };
+        let mut farthest = alone;
+        for part in [disc, disc / 2.0] {
+            for (x, y) in DIRECTIONS {
+                if farthest >= wide {
+                    break;
+                }
+                farthest = farthest.max(self.off_cut(p + Spot::new(x, y) * part));
+            }
+        }
+        alone.min(farthest - wide + reach)
+    }
+
+    /// How far a place is from the nearest cut; where none is near, at least how far none is.
+    fn off_cut(&mut self, p: Spot) -> f64 {
         let Self { grooves, about, .. } = self;
         let known = about.radius - (p - about.center).length();
-        let known = if known > grooves.reach {
+        let enough = grooves.together.map_or(grooves.reach, |together| together.wide.max(grooves.reach));
+        let known = if known > enough {
             known
         } else {
             about.center = p;
-            about.radius = grooves.reach + FARTHEST;
+            about.radius = enough + FARTHEST;
             about.spans.clear();
             let Cuts { spans, tree } = &*grooves.cuts;
             let [x, y, reach] = [p.x, p.y, about.radius];

@@ -19,7 +19,7 @@ use crate::geometry::{BoxTree, Nm, Path, Point, Segment};
 use crate::topology::DisjointSets;
 use crate::voronoi::part::{Cut, foot_on, part, vertex};
 use crate::voronoi::plane::{Spot, sides};
-use crate::voronoi::{Boundaries, NodeId};
+use crate::voronoi::{Boundaries, Boundary, NodeId};
 
 /// A way between two nodes that may be cut, and need not be.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -73,11 +73,11 @@ struct Way {
 }
 
 impl Rules<'_> {
-    /// Copper is no nearer to the straight way between two places than this, in nanometres; none
-    /// where it is too near.
-    fn keeps_off(&self, a: Spot, b: Spot) -> Option<f64> {
+    /// Copper is no nearer to the straight way between two places, the first of which is about so
+    /// far from it, than this, in nanometres; none where it is too near.
+    fn keeps_off(&self, (a, about): (Spot, f64), b: Spot) -> Option<f64> {
         // Most ways that are refused are so in their middle, which says so of the whole.
-        let middle = self.place(a.midpoint(b), f64::INFINITY);
+        let middle = self.place(a.midpoint(b), about + (b - a).length() / 2.0 + FINE);
         let is_long = (b - a).length() >= FINE;
         if is_long && middle.1 < self.nearest {
             return None;
@@ -107,9 +107,9 @@ impl Rules<'_> {
         Some(half(a, middle)?.min(half(middle, b)?))
     }
 
-    /// A place, and how far it is from copper, which is no farther than `reach`.
+    /// A place, and how far it is from copper, up to `reach`.
     fn place(&self, at: Spot, reach: f64) -> (Spot, f64) {
-        (at, (self.clearance)(at, reach))
+        (at, (self.clearance)(at, reach).min(reach))
     }
 
     /// A place beside one that is so far from copper.
@@ -292,8 +292,10 @@ impl Boundaries {
         let nodes = self.nodes.clone();
         let known = (0_u32..).zip(&nodes).map(|(node, &at)| (at, NodeId(node))).collect();
         let mut chosen = Chosen { nodes, known, cuts: vec![Vec::new(); self.edges.len()], links: Vec::new() };
-        let place = |&(edge, at): &(usize, usize)| Spot::from(vertex(&self.edges[edge].path, at));
-        let keeps_off = |way: &Way| rules.keeps_off(place(&way.from), way.to.2.into());
+        let keeps_off = |way: &Way| {
+            let (Boundary { path, clearance, .. }, at) = (&self.edges[way.from.0], way.from.1);
+            rules.keeps_off((vertex(path, at).into(), clearance[at].to_f64()), way.to.2.into())
+        };
         let loose = web.loose_ends().into_par_iter().flat_map_iter(|from| {
             let ways = web.ways(from, &web.segments, rules.short, |edge| edge != from.0).into_iter();
             ways.filter_map(|way| keeps_off(&way).map(|clearance| (way, clearance))).take(CHOICES)

@@ -141,7 +141,7 @@ impl Diagram {
         let (diagram, found) = owned.diagram(kind, exact::Space::Within, Some(wall), lines);
         let is_whole = found.is_some();
         let (open, found) = found.unwrap_or_default();
-        let wider = wider(before, widening.kerf);
+        let wider = wider(before, widening);
         let grooves = Grooves::new(base.edges.iter().filter(|edge| !is_pass(edge)), widening.floor - step);
         // What also runs in enclosed space minds the loops outside it.
         let has_both = !further.is_empty() && !self.settings.enclosed;
@@ -265,11 +265,15 @@ impl Diagram {
     }
 }
 
-/// What wider tools have cleared of what one of `kerf` would clear, each: with a part of the kerf
-/// to spare, for a pass along the very edge of it would come and go.
-fn wider(before: &[Share<'_>], kerf: Nm) -> Vec<Grooves> {
-    let reach = |wide: Nm| (wide - kerf) / 2 + kerf / 8;
-    before.iter().filter_map(|(wide, cuts)| Grooves::new(cuts.edges.iter(), reach(*wide))).collect()
+/// What wider tools have cleared of what this one would clear: with a part of its kerf to spare,
+/// for a pass along the very edge of it would come and go.
+fn wider(before: &[Share<'_>], widening: &Widening) -> Vec<Grooves> {
+    let Widening { kerf, floor, .. } = *widening;
+    let of = |wide: &Share<'_>| {
+        let alone = Grooves::new(wide.cuts.edges.iter(), (wide.kerf - kerf) / 2 + kerf / 8)?;
+        Some(alone.together(wide.floor / 2, floor / 2))
+    };
+    before.iter().filter_map(of).collect()
 }
 
 impl Boundaries {

@@ -96,7 +96,7 @@ impl Passes<'_> {
     fn cleared<'b>(&self, cuts: impl Iterator<Item = &'b Boundary>, before: &[Share<'_>]) -> Cleared {
         let reach = |kerf: f64| Nm::from_f64((kerf - self.shared()) / 2.0);
         let wider =
-            before.iter().filter_map(|(kerf, cuts)| Grooves::new(cuts.edges.iter(), reach(kerf.to_f64())));
+            before.iter().filter_map(|wide| Grooves::new(wide.cuts.edges.iter(), reach(wide.kerf.to_f64())));
         Cleared(Grooves::new(cuts, reach(self.kerf)).into_iter().chain(wider).collect())
     }
 
