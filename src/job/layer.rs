@@ -221,6 +221,7 @@ fn diagram_settings(settings: &Settings) -> voronoi::Settings {
             Sites::Copper => SiteKind::Copper,
             Sites::Core => SiteKind::Core,
         },
+        passes: passes(settings),
         limit: settings.limit,
         // Nothing is to be isolated there: it is cleared with everything alone.
         enclosed: settings.isolation.iter().any(Cutting::clears_everything),
@@ -234,6 +235,15 @@ fn diagram_settings(settings: &Settings) -> voronoi::Settings {
         frame: Frame::Hull(settings.frame_margin),
         ..voronoi::Settings::default()
     }
+}
+
+/// Between which distances from copper all passes run, if that is known before.
+fn passes(settings: &Settings) -> Option<[Nm; 2]> {
+    let tools = &settings.isolation;
+    let is_known = !settings.clearing.is_wanted() && !tools.iter().any(Cutting::clears_everything);
+    let wide = tools.iter().filter(|_| is_known).filter_map(|cutting| cutting.widening);
+    let ranges = wide.map(|widening| widening.distances(settings.tolerance));
+    ranges.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
 }
 
 /// The clearances between which some tool rises.

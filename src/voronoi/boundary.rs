@@ -29,7 +29,7 @@ impl Diagram {
     /// They take more memory than all else, and are not kept.
     fn chains(&self) -> Option<Vec<exact::Chain>> {
         let Settings { limit, enclosed, .. } = self.settings;
-        let known = self.limited.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let known = self.found.lock().unwrap_or_else(PoisonError::into_inner).take();
         let chains = match (known, limit) {
             (Some(chains), _) => chains,
             (None, Some(limit)) => self.certified.limited_chains(limit.to_f64(), NOBODY, enclosed)?,

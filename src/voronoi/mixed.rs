@@ -140,7 +140,9 @@ fn fields(
         let Border { window, ref frame, clearance, .. } = all.border;
         let border = Border::round(vec![polygon], window, frame.clone(), clearance);
         let kept = homes.iter().map(|home| *home == Some(piece)).collect();
-        Diagram::within(border, copper, nets, settings, kept)
+        // Passes are those of the diagram in which every net has a loop.
+        let settings = Settings { passes: None, ..settings.clone() };
+        Diagram::within(border, copper, nets, &settings, kept)
     };
     inhabited.map(field).collect()
 }

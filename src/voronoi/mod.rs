@@ -11,10 +11,10 @@
 //!
 //! Everything that is cut comes from the certified diagram of [`exact`], which no pixel has a part
 //! in: boundaries between nets are its edges between owners; the loops round nets whose regions
-//! have a limit, and passes beside a cut, are level sets of its clearance; what passes leave is
-//! found along its medial axis; between core axes it is a diagram of these, which the copper's
-//! [`band`](self) overrules. Loops round some nets and not others cut the board into fields with a
-//! diagram each.
+//! have a limit, and passes beside a cut, are level sets of its clearance, for which one walk of the
+//! copper's free space does ([`walked`](self)); what passes leave is found along its medial axis;
+//! between core axes it is a diagram of these, which the copper's [`band`](self) overrules. Loops
+//! round some nets and not others cut the board into fields with a diagram each.
 //!
 //! The rasterizer draws the same regions from cones and curtains, tile by tile, for whoever looks
 //! at them. The two share no code: that they agree, pixel for pixel and on both sides of each
@@ -39,10 +39,11 @@ mod plane;
 mod regions;
 mod sample;
 mod sliver;
+mod walked;
 mod wide;
 
 use std::borrow::Cow;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex};
 
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Outline, Side, Warning};
@@ -60,6 +61,7 @@ use band::Band;
 use certified::Owned;
 use edge::Border;
 use mixed::Mixed;
+use walked::Walked;
 
 /// The owner number of nothing at all.
 const BACKGROUND: u32 = 0;
@@ -185,6 +187,9 @@ pub struct Settings {
     pub pitch: Nm,
     /// What distances are measured to.
     pub sites: SiteKind,
+    /// Between which distances from copper passes will run ([`Diagram::widened`]), if that is
+    /// known: then what is walked for the boundaries serves them, too.
+    pub passes: Option<[Nm; 2]>,
     /// How far regions reach (§III-D.1); none for as far as there is room. The outline strategy is
     /// `copper` sites with the cutter's radius here (§III-C).
     pub limit: Option<Nm>,
@@ -219,6 +224,7 @@ impl Default for Settings {
         Self {
             pitch: Nm::new(25_400),
             sites: SiteKind::Copper,
+            passes: None,
             limit: None,
             enclosed: true,
             min_width: Some(Nm::ZERO),
@@ -268,9 +274,11 @@ pub struct Diagram {
     /// What makes it one of loops and of boundaries midway, where nets differ.
     mixed: Option<Box<Mixed>>,
     /// The certified diagram of the sites.
-    certified: Box<exact::Diagram>,
-    /// Its chains with a limit, which had to be found to certify it, until they are asked for.
-    limited: Mutex<Option<Vec<exact::Chain>>>,
+    certified: Arc<exact::Diagram>,
+    /// Its chains, where they had to be found to certify it, until they are asked for.
+    found: Mutex<Option<Vec<exact::Chain>>>,
+    /// What has been walked of the copper's free space.
+    walked: Mutex<Option<Walked>>,
     /// What belongs to the copper's nets whatever core axes say.
     band: Option<Box<Band>>,
     /// Whether each net has anything on the board.
@@ -323,21 +331,31 @@ impl Diagram {
             SiteKind::Copper => Owned::copper(copper, nets, keep),
             SiteKind::Core => Owned::axes(copper, nets, keep),
         };
-        let (certified, limited) = match settings.limit {
-            Some(limit) => {
-                // Where copper is nearer than the limit, the wall is not.
-                let wall = bounds.inflate(limit.min(FARTHEST) * 3 + BEYOND);
-                owned.diagram(
-                    settings.kind(FLOOR.min(limit / 2)),
-                    exact::Space::Within,
-                    Some(wall),
-                    |diagram| diagram.limited_chains(limit.to_f64(), NOBODY, settings.enclosed),
-                )
-            }
-            None => {
-                let space = exact::Space::Window(border.bounds().unwrap_or(border.window));
-                let (certified, _) = owned.diagram(exact::Kind::Owners, space, None, |_| Some(()));
-                (certified, None)
+        let board = border.bounds().unwrap_or(border.window);
+        let is_of_copper = settings.sites == SiteKind::Copper;
+        // No place of the board is farther from copper.
+        let reach = board.union(bounds).width() + board.union(bounds).height();
+        let passes = settings.passes.filter(|_| is_of_copper).into_iter().flatten().map(|far| far.min(reach));
+        let levels = settings.limit.into_iter().chain(passes);
+        let range = levels.clone().min().zip(levels.max());
+        let space = range.map(|(least, most)| {
+            let (kind, wall) = (settings.kind(FLOOR.min(least / 2)), walked::wall(bounds, most));
+            Walked::new(&owned, kind, wall, |diagram| match settings.limit {
+                Some(limit) => diagram.limited_chains(limit.to_f64(), NOBODY, settings.enclosed),
+                None => Some(diagram.chains()),
+            })
+        });
+        let (space, mut found) = space.unzip();
+        if settings.limit.is_none() {
+            found = found.filter(|chains| {
+                chains.as_ref().is_some_and(|chains| walked::is_copper_nearer(chains, board))
+            });
+        }
+        let certified = match (&space, &found) {
+            (Some(walked), Some(_)) => Arc::clone(&walked.diagram),
+            _ => {
+                let space = exact::Space::Window(board);
+                Arc::new(owned.diagram(exact::Kind::Owners, space, None, |_| Some(())).0)
             }
         };
         let mut band = None;
@@ -361,8 +379,9 @@ impl Diagram {
             copper: bounds,
             warnings: Vec::new(),
             mixed: None,
-            certified: Box::new(certified),
-            limited: Mutex::new(limited),
+            certified,
+            found: Mutex::new(found.flatten()),
+            walked: Mutex::new(space.filter(|_| is_of_copper)),
             band,
             kept,
         })

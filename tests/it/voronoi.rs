@@ -471,6 +471,32 @@ fn a_pocket_of_one_net_that_the_first_pass_runs_into_is_cleared_as_all_else() {
     assert_all_cleared(&copper, &cuts, within.filter(is_reached));
 }
 
+/// On a board hardly larger than its copper, and on one that reaches farther than what passes need.
+#[test]
+fn what_is_walked_for_passes_has_the_same_boundaries() {
+    let frame = |edge: i64| Frame::Rectangle(Nm::from_mm(edge));
+    for (copper, frame) in [
+        (pads_and_a_plane(), frame(1)),
+        (layer([disc(0, 0, 500), disc(2100, 0, 300), disc(700, 1800, 200)]), frame(40)),
+    ] {
+        for limit in [None, Some(Nm::from_um(102))] {
+            let alone = Settings { frame, limit, ..Settings::default() };
+            let passes = Settings { passes: Some([102, 900].map(Nm::from_um)), ..alone.clone() };
+            let [(_, alone), (_, passes)] = [alone, passes].map(|settings| boundaries(&copper, &settings));
+            assert_eq!(alone.edges.len(), passes.edges.len(), "{limit:?}");
+            assert_eq!(alone.nodes.len(), passes.nodes.len(), "{limit:?}");
+            for (a, b) in alone.nodes.iter().zip(&passes.nodes) {
+                assert!(a.distance(*b) < 3.0, "{a:?} and {b:?}");
+            }
+            for (a, b) in alone.edges.iter().zip(&passes.edges) {
+                assert_eq!((a.left, a.right), (b.left, b.right));
+                let (a, b) = (a.path.length(), b.path.length());
+                assert!((a - b).abs() < 1e-5 * a + 10.0, "{a} and {b} nm");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_finer_tool_leaves_alone_what_passes_of_a_wider_one_clear_together() {
     let copper = layer([disc(0, 0, 500), disc(2100, 0, 500)]);

@@ -18,10 +18,9 @@ use crate::board::diagnostic::planning;
 use crate::board::{Copper, Warning};
 use crate::geometry::{Nm, Point};
 use crate::topology::{NetId, Nets};
-use crate::voronoi::certified::Owned;
 use crate::voronoi::clip::{Fence, Piece};
-use crate::voronoi::exact;
-use crate::voronoi::{BEYOND, Boundaries, Boundary, Diagram, FLOOR, NOBODY, NodeId, Owner, Share, SiteKind};
+use crate::voronoi::{Boundaries, Boundary, Diagram, FLOOR, NOBODY, NodeId, Owner, Share, SiteKind};
+use crate::voronoi::{exact, walked};
 
 use super::clearing::{Clearing, Room, Zone};
 use super::groove::Grooves;
@@ -54,16 +53,25 @@ pub struct Widening {
 }
 
 impl Widening {
-    /// The distances from copper at which passes run, from the nearest to the farthest, evenly
+    /// How far from copper the nearest pass runs, and the farthest of those that make the gap wide,
+    /// so that fitting them to a `tolerance` leaves the copper alone.
+    #[must_use]
+    pub fn distances(&self, tolerance: Nm) -> [Nm; 2] {
+        let first = self.kerf / 2 + tolerance;
+        [first, self.width.map_or(first, |width| first.max(width - self.kerf / 2))]
+    }
+
+    /// The distances from copper at which these run, from the nearest to the farthest, evenly
     /// spaced; none of more than `most`.
-    fn levels(&self, first: Nm, most: Nm) -> Vec<Nm> {
-        let Some(width) = self.width else { return Vec::new() };
-        let last = width - self.kerf / 2;
-        if last <= first {
-            return vec![first];
+    fn levels(&self, [first, last]: [Nm; 2], most: Nm) -> Vec<Nm> {
+        if self.width.is_none() {
+            return Vec::new();
         }
         let gaps = (last - first + self.advance() - Nm::new(1)).get() / self.advance().get();
-        (0..=gaps).map(|i| first + (last - first) * i / gaps).take_while(|&level| level <= most).collect()
+        (0..=gaps)
+            .map(|i| first + (last - first) * i / gaps.max(1))
+            .take_while(|&level| level <= most)
+            .collect()
     }
 
     /// Those farther out: `next`, and what follows on it.
@@ -97,9 +105,9 @@ impl Diagram {
         clearing: &Clearing,
         before: &[Share<'_>],
     ) -> (Boundaries, Vec<Warning>) {
-        let first = widening.kerf / 2 + self.settings.tolerance;
+        let distances @ [first, _] = widening.distances(self.settings.tolerance);
         let most = self.farthest(widening.advance()) + widening.advance() * 2 + widening.kerf;
-        let levels = widening.levels(first, most);
+        let levels = widening.levels(distances, most);
         let next = levels.last().map_or(first, |&last| last + widening.advance());
         let further = if clearing.is_wanted() { widening.further(next, most) } else { Vec::new() };
         // What is to be cleared may be space that one net encloses, where passes did not run.
@@ -120,8 +128,7 @@ impl Diagram {
             return (base, Vec::new());
         }
         let farthest = levels.iter().chain(&further).copied().max().unwrap_or(first);
-        let owned = Owned::copper(copper, nets, |feature| self.kept[nets.of(feature).index()]);
-        let wall = self.copper.inflate(farthest * 3 + BEYOND);
+        let wall = walked::wall(self.copper, farthest);
         let floor = FLOOR.min(first / 2);
         let kind = if further.is_empty() { self.settings.kind(floor) } else { exact::Kind::Above(floor) };
         let zone = Zone::new(clearing, widening.kerf);
@@ -138,7 +145,7 @@ impl Diagram {
             let found = levels.into_par_iter().map(pieces).collect::<Option<Vec<_>>>()?;
             Some((open, found))
         };
-        let (diagram, found) = owned.diagram(kind, exact::Space::Within, Some(wall), lines);
+        let (diagram, found) = self.walked((copper, nets), kind, wall, lines);
         let is_whole = found.is_some();
         let (open, found) = found.unwrap_or_default();
         let wider = wider(before, widening);

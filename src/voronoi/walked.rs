@@ -1,0 +1,100 @@
+//! The free space of the copper, walked once for all that is asked of it.
+//!
+//! ```text
+//!   ┌──────────────────────── wall ─┐     Level sets need all edges of the space that passes run in, up to a wall
+//!   │   ┌─────────── board ─┐       │     beyond them. Those between owners are the boundaries between nets, as far
+//!   │   │  ▓▓ A ▓▓ │ ▓▓ B ▓▓│       │     as the wall is no nearer than copper: one diagram answers for both, and
+//!   │   └──────────┴────────┘       │     for the passes of every tool.
+//!   └───────────────────────────────┘
+//! ```
+
+use std::sync::{Arc, PoisonError};
+
+use crate::board::Copper;
+use crate::geometry::{Nm, Rect};
+use crate::topology::Nets;
+
+use super::certified::Owned;
+use super::exact::{Chain, Diagram as Walk, Kind, Space, WALL};
+use super::plane::spanned;
+use super::{BEYOND, Diagram, FARTHEST};
+
+/// The window is so much larger than the board, in nanometres. Chosen: more than chords leave
+/// curves.
+const ASIDE: f64 = 1_000.0;
+
+/// Copper's free space, as far as it has been walked.
+pub(super) struct Walked {
+    pub(super) diagram: Arc<Walk>,
+    kind: Kind,
+    wall: Rect,
+}
+
+impl Walked {
+    /// The space within `wall`, and what is `asked` of it; none where it contradicts itself.
+    pub(super) fn new<T>(
+        owned: &Owned<'_>,
+        kind: Kind,
+        wall: Rect,
+        asked: impl Fn(&Walk) -> Option<T>,
+    ) -> (Self, Option<T>) {
+        let (diagram, answer) = owned.diagram(kind, Space::Within, Some(wall), asked);
+        (Self { diagram: Arc::new(diagram), kind, wall }, answer)
+    }
+
+    /// Whether all edges are there that one of this `kind` has within `wall`.
+    fn covers(&self, kind: Kind, wall: Rect) -> bool {
+        let has_all = match (self.kind, kind) {
+            (Kind::Above(known), Kind::Above(wanted)) | (Kind::Between(known), Kind::Between(wanted)) => {
+                known <= wanted
+            }
+            _ => false,
+        };
+        has_all && self.wall.union(wall) == self.wall
+    }
+}
+
+/// Where a wall stands that level sets within `bounds` do not see, which run no farther from copper
+/// than this.
+pub(super) fn wall(bounds: Rect, farthest: Nm) -> Rect {
+    // Where copper is nearer than that, the wall is not.
+    bounds.inflate(farthest.min(FARTHEST) * 3 + BEYOND)
+}
+
+/// Whether no place of `board` is nearer to the wall than to copper.
+pub(super) fn is_copper_nearer(chains: &[Chain], board: Rect) -> bool {
+    let [low, high] = [board.min(), board.max()].map(|corner| corner.to_f64());
+    let window = [low.0 - ASIDE, low.1 - ASIDE, high.0 + ASIDE, high.1 + ASIDE];
+    let is_in = |[left, bottom, right, top]: [f64; 4]| {
+        left <= window[2] && right >= window[0] && bottom <= window[3] && top >= window[1]
+    };
+    let mut of_wall = chains.iter().filter(|chain| [chain.left, chain.right].contains(&WALL));
+    of_wall.all(|chain| !chain.samples.windows(2).any(|pair| is_in(spanned(pair[0].at, pair[1].at))))
+}
+
+impl Diagram {
+    /// The copper's free space within `wall`, and what is `asked` of it; none where it contradicts
+    /// itself. What is known of it already is not walked again.
+    pub(super) fn walked<T>(
+        &self,
+        (copper, nets): (&Copper, &Nets),
+        kind: Kind,
+        wall: Rect,
+        asked: impl Fn(&Walk) -> Option<T>,
+    ) -> (Arc<Walk>, Option<T>) {
+        let mut known = self.walked.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(Walked { diagram, .. }) = known.as_ref().filter(|known| known.covers(kind, wall))
+            && let Some(answer) = asked(diagram)
+        {
+            return (Arc::clone(diagram), Some(answer));
+        }
+        // Two take twice the memory.
+        *known = None;
+        let owned = Owned::copper(copper, nets, |feature| self.kept[nets.of(feature).index()]);
+        let (walked, answer) = Walked::new(&owned, kind, wall, asked);
+        let diagram = Arc::clone(&walked.diagram);
+        *known = Some(walked);
+        drop(known);
+        (diagram, answer)
+    }
+}
