@@ -11,10 +11,10 @@
 //!
 //! Everything that is cut comes from the certified diagram of [`exact`], which no pixel has a part
 //! in: boundaries between nets are its edges between owners; the loops round nets whose regions
-//! have a limit, and passes beside a cut, are level sets of its clearance, for which one walk of the
-//! copper's free space does ([`walked`](self)); what passes leave is found along its medial axis;
-//! between core axes it is a diagram of these, which the copper's [`band`](self) overrules. Loops
-//! round some nets and not others cut the board into fields with a diagram each.
+//! have a limit, and passes beside a cut, are level sets of its clearance, for which one walk of
+//! the copper's free space does ([`walked`](self)); what passes leave is found along its medial
+//! axis; between core axes it is a diagram of these, which the copper's [`band`](self) overrules.
+//! Loops round some nets and not others cut the board into fields with a diagram each.
 //!
 //! The rasterizer draws the same regions from cones and curtains, tile by tile, for whoever looks
 //! at them. The two share no code: that they agree, pixel for pixel and on both sides of each

@@ -1,7 +1,7 @@
 //! What strategies plan: safe by construction, everything done once, tabs really there.
 
 use proptest::prelude::*;
-use voromill::board::{Hole, Outline, Plating};
+use voromill::board::{Hole, Outline, Plating, Warning};
 use voromill::gcode::{Dialect, Header, write};
 use voromill::geometry::{Arc, Nm, Path, Point, Rect, Turn};
 use voromill::toolpath::strategy::{
@@ -309,10 +309,13 @@ fn drilling<'a>(drills: &'a [Tool], mill: Option<&'a Tool>, placement: &'a Place
 fn from_a_diameter_on_holes_are_bored_though_a_drill_fits() {
     let (placement, mill) = (Placement::default(), tool("endmill:1mm"));
     let holes = [hole(0, 0, 800, None), hole(5000, 0, 1200, None), hole(9000, 0, 3200, None)];
-    let labels = |from: Option<i64>| -> Vec<String> {
+    let drilled = |from: Option<i64>| {
         let settings =
             Drilling { bored_from: from.map(Nm::from_um), ..drilling(&[], Some(&mill), &placement) };
-        drill(&holes, &settings).0.into_iter().map(|section| section.label).collect()
+        drill(&holes, &settings)
+    };
+    let labels = |from: Option<i64>| -> Vec<String> {
+        drilled(from).0.into_iter().map(|section| section.label).collect()
     };
     assert_eq!(labels(None).len(), 3, "a drill each");
     assert_eq!(labels(Some(1200)), ["drill 0.800 mm, 1 hole", "bore 2 holes and slots"], "the two wide ones");
@@ -321,6 +324,10 @@ fn from_a_diameter_on_holes_are_bored_though_a_drill_fits() {
         ["drill 0.800 mm, 1 hole", "bore 2 holes and slots"],
         "the mill does not fit the narrow one"
     );
+    assert_eq!(drilled(Some(1200)).1, [], "it fits all");
+    let warnings = drilled(Some(100)).1;
+    assert_eq!(warnings.iter().map(Warning::code).collect::<Vec<_>>(), ["not-bored"], "and that is said");
+    assert!(warnings[0].message.contains("does not fit 1 hole"), "{}", warnings[0].message);
 }
 
 #[test]

@@ -189,6 +189,12 @@ diagnostics! {
         "the board is held by fewer tabs",
         "make tabs narrower ({tab-width}), or place them yourself ({tab-at})";
 
+    NOT_BORED: Warning =
+        "not-bored",
+        "the end mill does not fit holes that were to be bored ({drill-bore-from})",
+        "they are drilled",
+        "choose a thinner end mill ({drill-bore-tool}), or bore wider holes alone";
+
     OUTLINE_MISSING: Warning =
         "outline-missing",
         "no outline was found or given",

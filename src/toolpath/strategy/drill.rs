@@ -52,8 +52,9 @@ const THICKEST: Nm = Nm::from_um(3200);
 /// Tools keep their numbers; drills that are only taken to be at hand all have 1, and who knows all
 /// tools of a job numbers them.
 ///
-/// Warned about: `no-drill-for-hole` where neither a drill nor the mill fits, `holes-overlap` where
-/// one drilled hole begins within another.
+/// Warned about: `no-drill-for-hole` where neither a drill nor the mill fits, `not-bored` where the
+/// mill does not fit what it was to bore, `holes-overlap` where one drilled hole begins within
+/// another.
 pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warning>) {
     let mut jobs: BTreeMap<(Nm, u32), (Tool, Vec<&Hole>)> = BTreeMap::new();
     let (mut bored, mut warnings) = (Vec::new(), Vec::new());
@@ -73,6 +74,7 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
             None => warnings.push(missing(hole)),
         }
     }
+    warnings.extend(not_bored(holes, settings));
     let plunged = jobs.values().flat_map(|(_, holes)| holes.iter().copied());
     warnings.extend(overlaps(&plunged.filter(|hole| !hole.is_slot()).collect::<Vec<_>>()));
     let mut sections: Vec<Section> = Vec::with_capacity(jobs.len() + 1);
@@ -109,11 +111,15 @@ enum Way {
 /// How a hole is made; none where neither a drill nor the mill fits.
 fn way(hole: &Hole, settings: &Drilling<'_>) -> Option<Way> {
     let fits = settings.mill.is_some_and(|mill| bore::fits(hole, mill, settings.tolerance));
-    let is_wide = settings.bored_from.is_some_and(|from| hole.diameter >= from);
-    if fits && (hole.is_slot() || is_wide) {
+    if fits && (hole.is_slot() || is_wide(hole, settings)) {
         return Some(Way::Bored);
     }
     bit(hole, settings).map(Way::Drilled).or(fits.then_some(Way::Bored))
+}
+
+/// Whether a hole is so wide that it is to be bored though there is a drill.
+fn is_wide(hole: &Hole, settings: &Drilling<'_>) -> bool {
+    settings.bored_from.is_some_and(|from| hole.diameter >= from)
 }
 
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.
@@ -148,6 +154,17 @@ fn as_sold(diameter: Nm) -> Nm {
 fn missing(hole: &Hole) -> Warning {
     let message = format!("no available drill is near {:.3} mm: the hole is not drilled", hole.diameter);
     planning::NO_DRILL_FOR_HOLE.warning(message).at(hole.path.start)
+}
+
+/// The warning for holes that are drilled though they were to be bored, if any are.
+fn not_bored(holes: &[Hole], settings: &Drilling<'_>) -> Option<Warning> {
+    let mill = settings.mill?;
+    let is_drilled = |hole: &&Hole| matches!(way(hole, settings), Some(Way::Drilled(_)));
+    let mut left = holes.iter().filter(|hole| is_wide(hole, settings)).filter(is_drilled);
+    let first = left.next()?;
+    let what = count(1 + left.count(), "hole");
+    let message = format!("`{}` does not fit {what} that it was to bore: drilled instead", mill.kind);
+    Some(planning::NOT_BORED.warning(message).at(first.path.start))
 }
 
 /// The warning for holes that begin within others, if any do. One in the middle of another is only
