@@ -160,23 +160,30 @@ impl Proximity {
     /// further than `most`.
     #[must_use]
     pub fn count(&self, shape: &Shape, reach: Nm, most: usize) -> usize {
-        let mut count = 0;
-        let index = self.index().0;
+        let rects = stretches(shape).unwrap_or_else(|| vec![shape.bounds()]);
+        rects.into_iter().fold(0, |count, rect| count + self.count_in(rect.inflate(reach), most - count))
+    }
+
+    /// Whether so many features, stretches of long ones each, may be within `reach` of `shape`, or
+    /// of one stretch of it if it is long.
+    #[must_use]
+    pub fn is_crowded(&self, shape: &Shape, reach: Nm, most: usize) -> bool {
+        let rects = stretches(shape).unwrap_or_else(|| vec![shape.bounds()]);
+        rects.into_iter().any(|rect| self.count_in(rect.inflate(reach), most) >= most)
+    }
+
+    /// How many features, stretches of long ones each, may reach into `rect`; counts no further
+    /// than `most`.
+    fn count_in(&self, rect: Rect, most: usize) -> usize {
         let density = self.close.as_ref().and_then(|close| close.density.as_ref());
-        let long = stretches(shape);
-        let bounds = shape.bounds();
-        for rect in long.as_deref().unwrap_or(std::slice::from_ref(&bounds)) {
-            if density.is_some_and(|density| density.least(rect.inflate(reach)) >= most) {
-                return most;
-            }
-            let _ = index.visit(rect.inflate(reach), |_| {
-                count += 1;
-                if count < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
-            });
-            if count >= most {
-                break;
-            }
+        if most == 0 || density.is_some_and(|density| density.least(rect) >= most) {
+            return most;
         }
+        let mut count = 0;
+        let _ = self.index().0.visit(rect, |_| {
+            count += 1;
+            if count < most { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+        });
         count
     }
 }

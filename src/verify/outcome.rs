@@ -34,8 +34,8 @@ impl<'a> Deref for Outcome<'a> {
     }
 }
 
-/// Ways, stretches of long ones each, of which no more may come near one for all to be asked.
-/// Chosen, and not compared with other numbers.
+/// Ways, stretches of long ones each, of which no more may come near a stretch of one for all to be
+/// asked. Chosen, and not compared with other numbers.
 const CROWD: usize = 300;
 
 impl<'a> Outcome<'a> {
@@ -50,11 +50,11 @@ impl<'a> Outcome<'a> {
     }
 }
 
-/// Beside which cuts more than a [`CROWD`] of others run.
+/// Beside which cuts, or stretches of them, more than a [`CROWD`] of others run.
 fn crowded(sheet: &Sheet<'_>, settings: &Settings) -> Vec<bool> {
     let mut order = sheet.walls.order();
     order.retain(|&wall| wall < sheet.cuts.len());
-    let is_crowded = |&cut: &usize| sheet.walls.count(cut, settings.sliver, CROWD) >= CROWD;
+    let is_crowded = |&cut: &usize| sheet.walls.is_crowded(cut, settings.sliver, CROWD);
     let found: Vec<bool> = order.par_iter().map(is_crowded).collect();
     let mut crowded = vec![false; sheet.cuts.len()];
     order.into_iter().zip(found).for_each(|(cut, is_crowded)| crowded[cut] = is_crowded);

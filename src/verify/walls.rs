@@ -104,6 +104,12 @@ impl Walls {
         self.near.count(&self.axes[index], self.halves[index] + self.widest + reach, most)
     }
 
+    /// Whether so many ways, stretches of long ones each, may come within `reach` of that of wall
+    /// `index`, or of one stretch of it.
+    pub(super) fn is_crowded(&self, index: usize, reach: Nm, most: usize) -> bool {
+        self.near.is_crowded(&self.axes[index], self.halves[index] + self.widest + reach, most)
+    }
+
     /// The indices of all walls, neighbours close to each other.
     pub(super) fn order(&self) -> Vec<usize> {
         self.near.order()

@@ -66,6 +66,21 @@ fn thousands_of_circles_over_a_board_are_judged() {
     assert_eq!(count(&report, "destroyed"), 2, "both pads are gone: {:?}", report.findings);
 }
 
+/// As where all of a large empty board is cleared.
+#[test]
+fn slivers_are_looked_for_beside_long_ways_that_run_side_by_side() {
+    let arcs = (0..40).map(f64::from).map(|i| {
+        let radius = 3.0 + 0.15 * i;
+        ([7.0 + radius, 4.0], format!("G3 X{:.4} Y4 I{:.4} J0", 7.0 - radius, -radius))
+    });
+    let lines = (0..40).map(f64::from).map(|i| {
+        let y = -60.0 + 0.15 * i;
+        ([-30.0, y], format!("G1 X30 Y{:.4}", y + 40.0))
+    });
+    let report = judged(arcs.chain(lines));
+    assert_eq!(count(&report, "not-judged"), 0, "{:?}", report.findings);
+}
+
 #[test]
 fn a_program_run_a_hundred_times_is_no_worse_than_once() {
     let loops =
