@@ -9,7 +9,7 @@ use crate::geometry::{Nm, Point, Rect, RectIndex};
 
 use super::contact::{Bodies, Body};
 use super::density::Density;
-use super::stretches::stretches;
+use super::stretches::{pieces, stretches};
 
 /// Shapes made ready to be asked what comes near another.
 #[derive(Debug)]
@@ -168,7 +168,7 @@ impl Proximity {
     /// of one stretch of it if it is long.
     #[must_use]
     pub fn is_crowded(&self, shape: &Shape, reach: Nm, most: usize) -> bool {
-        let rects = stretches(shape).unwrap_or_else(|| vec![shape.bounds()]);
+        let rects = pieces(shape).unwrap_or_else(|| vec![shape.bounds()]);
         rects.into_iter().any(|rect| self.count_in(rect.inflate(reach), most) >= most)
     }
 

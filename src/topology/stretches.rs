@@ -20,14 +20,14 @@ const MOST: u32 = 256;
 /// Rectangles that hold a long way together, those of its stretches; none for a shape that its
 /// bounds hold as closely.
 pub(super) fn stretches(shape: &Shape) -> Option<Vec<Rect>> {
-    if matches!(shape, Shape::Disc { .. } | Shape::Polygon(_)) {
-        return None;
-    }
     let bounds = shape.bounds();
     // One that runs along an axis fills its bounds.
-    if bounds.width().min(bounds.height()).to_f64() <= LONG {
-        return None;
-    }
+    let is_slanting = bounds.width().min(bounds.height()).to_f64() > LONG;
+    is_slanting.then(|| pieces(shape)).flatten()
+}
+
+/// The same of a way that fills its bounds, too: what is near it may be far from a stretch of it.
+pub(super) fn pieces(shape: &Shape) -> Option<Vec<Rect>> {
     match shape {
         // Places are whole nanometres.
         Shape::Stroke { radius, .. } => Some(parts(shape, *radius + Nm::new(1))),

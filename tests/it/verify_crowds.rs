@@ -77,7 +77,12 @@ fn slivers_are_looked_for_beside_long_ways_that_run_side_by_side() {
         let y = -60.0 + 0.15 * i;
         ([-30.0, y], format!("G1 X30 Y{:.4}", y + 40.0))
     });
-    let report = judged(arcs.chain(lines));
+    let along_an_axis = (0..40).map(f64::from).map(|i| {
+        let y = 20.0 + 0.15 * i;
+        ([-90.0, y], format!("G1 X90 Y{y:.4}"))
+    });
+    let small = (0..400).map(f64::from).map(|i| ([-80.0 + 0.4 * i, 20.8], "G1 Y20.9".to_owned()));
+    let report = judged(arcs.chain(lines).chain(along_an_axis).chain(small));
     assert_eq!(count(&report, "not-judged"), 0, "{:?}", report.findings);
 }
 

@@ -12,6 +12,7 @@
 //! Nothing: it only tells of budgets that ended.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
+use crate::board::diagnostic::count as counted;
 use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
 
@@ -61,7 +62,8 @@ fn crowded(sheet: &Outcome<'_>) -> Option<Finding> {
     let count = sheet.crowded.iter().filter(|crowded| **crowded).count();
     let first = sheet.crowded.iter().position(|crowded| *crowded)?;
     let cut = sheet.cuts[first];
-    let message = format!("slivers were not checked beside {count} cuts: hundreds of others run near each");
+    let cuts = counted(count, "cut");
+    let message = format!("slivers were not checked beside {cuts}: hundreds of others run near each");
     Some(Finding {
         at: Some(cut.swept.shape.anchor()),
         program: Some(cut.program.file.clone()),
