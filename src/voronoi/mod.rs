@@ -61,7 +61,7 @@ use band::Band;
 use certified::Owned;
 use edge::Border;
 use mixed::Mixed;
-use walked::Walked;
+use walked::{Certified, Walked};
 
 /// The owner number of nothing at all.
 const BACKGROUND: u32 = 0;
@@ -332,32 +332,7 @@ impl Diagram {
             SiteKind::Core => Owned::axes(copper, nets, keep),
         };
         let board = border.bounds().unwrap_or(border.window);
-        let is_of_copper = settings.sites == SiteKind::Copper;
-        // No place of the board is farther from copper.
-        let reach = board.union(bounds).width() + board.union(bounds).height();
-        let passes = settings.passes.filter(|_| is_of_copper).into_iter().flatten().map(|far| far.min(reach));
-        let levels = settings.limit.into_iter().chain(passes);
-        let range = levels.clone().min().zip(levels.max());
-        let space = range.map(|(least, most)| {
-            let (kind, wall) = (settings.kind(FLOOR.min(least / 2)), walked::wall(bounds, most));
-            Walked::new(&owned, kind, wall, |diagram| match settings.limit {
-                Some(limit) => diagram.limited_chains(limit.to_f64(), NOBODY, settings.enclosed),
-                None => Some(diagram.chains()),
-            })
-        });
-        let (space, mut found) = space.unzip();
-        if settings.limit.is_none() {
-            found = found.filter(|chains| {
-                chains.as_ref().is_some_and(|chains| walked::is_copper_nearer(chains, board))
-            });
-        }
-        let certified = match (&space, &found) {
-            (Some(walked), Some(_)) => Arc::clone(&walked.diagram),
-            _ => {
-                let space = exact::Space::Window(board);
-                Arc::new(owned.diagram(exact::Kind::Owners, space, None, |_| Some(())).0)
-            }
-        };
+        let Certified { diagram: certified, found, walked } = Certified::new(&owned, settings, bounds, board);
         let mut band = None;
         // Nothing parts one net from itself, but its loop goes round its copper, too.
         let is_cut = settings.limit.is_some() || !owned.is_of_one();
@@ -380,8 +355,8 @@ impl Diagram {
             warnings: Vec::new(),
             mixed: None,
             certified,
-            found: Mutex::new(found.flatten()),
-            walked: Mutex::new(space.filter(|_| is_of_copper)),
+            found: Mutex::new(found),
+            walked: Mutex::new(walked),
             band,
             kept,
         })

@@ -17,7 +17,7 @@ use crate::topology::Nets;
 use super::certified::Owned;
 use super::exact::{Chain, Diagram as Walk, Kind, Space, WALL};
 use super::plane::spanned;
-use super::{BEYOND, Diagram, FARTHEST};
+use super::{BEYOND, Diagram, FARTHEST, FLOOR, NOBODY, Settings, SiteKind};
 
 /// The window is so much larger than the board, in nanometres. Chosen: more than chords leave
 /// curves.
@@ -62,7 +62,7 @@ pub(super) fn wall(bounds: Rect, farthest: Nm) -> Rect {
 }
 
 /// Whether no place of `board` is nearer to the wall than to copper.
-pub(super) fn is_copper_nearer(chains: &[Chain], board: Rect) -> bool {
+fn is_copper_nearer(chains: &[Chain], board: Rect) -> bool {
     let [low, high] = [board.min(), board.max()].map(|corner| corner.to_f64());
     let window = [low.0 - ASIDE, low.1 - ASIDE, high.0 + ASIDE, high.1 + ASIDE];
     let is_in = |[left, bottom, right, top]: [f64; 4]| {
@@ -70,6 +70,48 @@ pub(super) fn is_copper_nearer(chains: &[Chain], board: Rect) -> bool {
     };
     let mut of_wall = chains.iter().filter(|chain| [chain.left, chain.right].contains(&WALL));
     of_wall.all(|chain| !chain.samples.windows(2).any(|pair| is_in(spanned(pair[0].at, pair[1].at))))
+}
+
+/// The certified diagram of a board.
+pub(super) struct Certified {
+    pub(super) diagram: Arc<Walk>,
+    /// Its chains, where they had to be found to certify it.
+    pub(super) found: Option<Vec<Chain>>,
+    /// What was walked for it of the copper's free space.
+    pub(super) walked: Option<Walked>,
+}
+
+impl Certified {
+    /// That of what lies within `bounds`, on a `board`.
+    pub(super) fn new(owned: &Owned<'_>, settings: &Settings, bounds: Rect, board: Rect) -> Self {
+        let Settings { limit, enclosed, .. } = *settings;
+        let is_of_copper = settings.sites == SiteKind::Copper;
+        // No place of the board is farther from copper.
+        let reach = board.union(bounds).width() + board.union(bounds).height();
+        let passes = settings.passes.filter(|_| is_of_copper).into_iter().flatten();
+        let levels = limit.into_iter().chain(passes.map(|far| far.min(reach)));
+        let range = levels.clone().min().zip(levels.max());
+        let space = range.map(|(least, most)| {
+            let (kind, wall) = (settings.kind(FLOOR.min(least / 2)), wall(bounds, most));
+            Walked::new(owned, kind, wall, |diagram| match limit {
+                Some(limit) => diagram.limited_chains(limit.to_f64(), NOBODY, enclosed),
+                None => Some(diagram.chains()),
+            })
+        });
+        let (walked, found) = space.map_or((None, None), |(walked, found)| (Some(walked), found));
+        let does_serve =
+            limit.is_some() || found.as_ref().is_some_and(|chains| is_copper_nearer(chains, board));
+        match walked {
+            Some(walked) if does_serve => {
+                let diagram = Arc::clone(&walked.diagram);
+                Self { diagram, found, walked: Some(walked).filter(|_| is_of_copper) }
+            }
+            walked => {
+                let (diagram, _) = owned.diagram(Kind::Owners, Space::Window(board), None, |_| Some(()));
+                Self { diagram: Arc::new(diagram), found: None, walked }
+            }
+        }
+    }
 }
 
 impl Diagram {

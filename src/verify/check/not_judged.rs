@@ -12,7 +12,7 @@
 //! Nothing: it only tells of budgets that ended.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
-use crate::board::diagnostic::count as counted;
+use crate::board::diagnostic::count;
 use crate::verify::outcome::Outcome;
 use crate::verify::report::Finding;
 
@@ -59,10 +59,10 @@ fn many(sheet: &Outcome<'_>) -> Option<Finding> {
 
 /// Cuts beside which no slivers were looked for.
 fn crowded(sheet: &Outcome<'_>) -> Option<Finding> {
-    let count = sheet.crowded.iter().filter(|crowded| **crowded).count();
+    let crowded = sheet.crowded.iter().filter(|crowded| **crowded).count();
     let first = sheet.crowded.iter().position(|crowded| *crowded)?;
     let cut = sheet.cuts[first];
-    let cuts = counted(count, "cut");
+    let cuts = count(crowded, "cut");
     let message = format!("slivers were not checked beside {cuts}: hundreds of others run near each");
     Some(Finding {
         at: Some(cut.swept.shape.anchor()),
