@@ -160,16 +160,18 @@ impl Proximity {
     /// further than `most`.
     #[must_use]
     pub fn count(&self, shape: &Shape, reach: Nm, most: usize) -> usize {
-        let rects = stretches(shape).unwrap_or_else(|| vec![shape.bounds()]);
-        rects.into_iter().fold(0, |count, rect| count + self.count_in(rect.inflate(reach), most - count))
+        let (long, bounds) = (stretches(shape), shape.bounds());
+        let rects = long.as_deref().unwrap_or(std::slice::from_ref(&bounds));
+        rects.iter().fold(0, |count, rect| count + self.count_in(rect.inflate(reach), most - count))
     }
 
     /// Whether so many features, stretches of long ones each, may be within `reach` of `shape`, or
     /// of one stretch of it if it is long.
     #[must_use]
     pub fn is_crowded(&self, shape: &Shape, reach: Nm, most: usize) -> bool {
-        let rects = pieces(shape).unwrap_or_else(|| vec![shape.bounds()]);
-        rects.into_iter().any(|rect| self.count_in(rect.inflate(reach), most) >= most)
+        let (long, bounds) = (pieces(shape), shape.bounds());
+        let rects = long.as_deref().unwrap_or(std::slice::from_ref(&bounds));
+        rects.iter().any(|rect| self.count_in(rect.inflate(reach), most) >= most)
     }
 
     /// How many features, stretches of long ones each, may reach into `rect`; counts no further

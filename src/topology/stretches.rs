@@ -28,6 +28,9 @@ pub(super) fn stretches(shape: &Shape) -> Option<Vec<Rect>> {
 
 /// The same of a way that fills its bounds, too: what is near it may be far from a stretch of it.
 pub(super) fn pieces(shape: &Shape) -> Option<Vec<Rect>> {
+    if shape.length() <= LONG {
+        return None;
+    }
     match shape {
         // Places are whole nanometres.
         Shape::Stroke { radius, .. } => Some(parts(shape, *radius + Nm::new(1))),

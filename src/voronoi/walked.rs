@@ -1,27 +1,30 @@
 //! The free space of the copper, walked once for all that is asked of it.
 //!
+//! Level sets need all edges of the space that passes run in, up to a wall beyond them. Those
+//! between owners are the boundaries between nets, as far as the wall is no nearer than copper: one
+//! diagram answers for both, and for the passes of every tool.
+//!
 //! ```text
-//!   ┌──────────────────────── wall ─┐     Level sets need all edges of the space that passes run in, up to a wall
-//!   │   ┌─────────── board ─┐       │     beyond them. Those between owners are the boundaries between nets, as far
-//!   │   │  ▓▓ A ▓▓ │ ▓▓ B ▓▓│       │     as the wall is no nearer than copper: one diagram answers for both, and
-//!   │   └──────────┴────────┘       │     for the passes of every tool.
-//!   └───────────────────────────────┘
+//!   ┌─ wall ──────────────┐
+//!   │  ┌─ board ───────┐  │
+//!   │  │ ▓ A ▓ │ ▓ B ▓ │  │
+//!   │  └───────┴───────┘  │
+//!   └─────────────────────┘
 //! ```
 
 use std::sync::{Arc, PoisonError};
 
 use crate::board::Copper;
-use crate::geometry::{Nm, Rect};
+use crate::geometry::{BoxTree, Nm, Rect};
 use crate::topology::Nets;
 
 use super::certified::Owned;
 use super::exact::{Chain, Diagram as Walk, Kind, Space, WALL};
-use super::plane::spanned;
+use super::plane::{sides, spanned};
 use super::{BEYOND, Diagram, FARTHEST, FLOOR, NOBODY, Settings, SiteKind};
 
-/// The window is so much larger than the board, in nanometres. Chosen: more than chords leave
-/// curves.
-const ASIDE: f64 = 1_000.0;
+/// The wall's edges keep so far from the board. Chosen: more than chords leave curves.
+const ASIDE: Nm = Nm::from_um(1);
 
 /// Copper's free space, as far as it has been walked.
 pub(super) struct Walked {
@@ -63,13 +66,9 @@ pub(super) fn wall(bounds: Rect, farthest: Nm) -> Rect {
 
 /// Whether no place of `board` is nearer to the wall than to copper.
 fn is_copper_nearer(chains: &[Chain], board: Rect) -> bool {
-    let [low, high] = [board.min(), board.max()].map(|corner| corner.to_f64());
-    let window = [low.0 - ASIDE, low.1 - ASIDE, high.0 + ASIDE, high.1 + ASIDE];
-    let is_in = |[left, bottom, right, top]: [f64; 4]| {
-        left <= window[2] && right >= window[0] && bottom <= window[3] && top >= window[1]
-    };
+    let window = BoxTree::new([sides(board.inflate(ASIDE))].into_iter());
     let mut of_wall = chains.iter().filter(|chain| [chain.left, chain.right].contains(&WALL));
-    of_wall.all(|chain| !chain.samples.windows(2).any(|pair| is_in(spanned(pair[0].at, pair[1].at))))
+    of_wall.all(|chain| !chain.samples.windows(2).any(|pair| window.meets(spanned(pair[0].at, pair[1].at))))
 }
 
 /// The certified diagram of a board.
@@ -124,19 +123,19 @@ impl Diagram {
         wall: Rect,
         asked: impl Fn(&Walk) -> Option<T>,
     ) -> (Arc<Walk>, Option<T>) {
-        let mut known = self.walked.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(Walked { diagram, .. }) = known.as_ref().filter(|known| known.covers(kind, wall))
-            && let Some(answer) = asked(diagram)
-        {
-            return (Arc::clone(diagram), Some(answer));
-        }
-        // Two take twice the memory.
-        *known = None;
-        let owned = Owned::copper(copper, nets, |feature| self.kept[nets.of(feature).index()]);
-        let (walked, answer) = Walked::new(&owned, kind, wall, asked);
+        let lock = || self.walked.lock().unwrap_or_else(PoisonError::into_inner);
+        // What does not serve is gone before more is walked: two take twice the memory.
+        let known = lock().take().filter(|known| known.covers(kind, wall));
+        let known = known.and_then(|known| {
+            let answer = asked(&known.diagram)?;
+            Some((known, Some(answer)))
+        });
+        let (walked, answer) = known.unwrap_or_else(|| {
+            let owned = Owned::copper(copper, nets, |feature| self.kept[nets.of(feature).index()]);
+            Walked::new(&owned, kind, wall, asked)
+        });
         let diagram = Arc::clone(&walked.diagram);
-        *known = Some(walked);
-        drop(known);
+        *lock() = Some(walked);
         (diagram, answer)
     }
 }

@@ -57,7 +57,7 @@ const THICKEST: Nm = Nm::from_um(3200);
 /// another.
 pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warning>) {
     let mut jobs: BTreeMap<(Nm, u32), (Tool, Vec<&Hole>)> = BTreeMap::new();
-    let (mut bored, mut warnings) = (Vec::new(), Vec::new());
+    let (mut bored, mut left, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
     let bits = holes.iter().filter(|_| settings.one).filter_map(|hole| match way(hole, settings)? {
         Way::Drilled(tool) => Some(tool),
         Way::Bored => None,
@@ -66,6 +66,7 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
     for hole in holes {
         match way(hole, settings) {
             Some(Way::Drilled(tool)) => {
+                left.extend(is_wide(hole, settings).then_some(hole));
                 let tool = thinnest.clone().unwrap_or(tool);
                 let key = (tool.width_at(Nm::ZERO), tool.number);
                 jobs.entry(key).or_insert_with(|| (tool, Vec::new())).1.push(hole);
@@ -74,7 +75,7 @@ pub fn drill(holes: &[Hole], settings: &Drilling<'_>) -> (Vec<Section>, Vec<Warn
             None => warnings.push(missing(hole)),
         }
     }
-    warnings.extend(not_bored(holes, settings));
+    warnings.extend(settings.mill.and_then(|mill| not_bored(&left, mill)));
     let plunged = jobs.values().flat_map(|(_, holes)| holes.iter().copied());
     warnings.extend(overlaps(&plunged.filter(|hole| !hole.is_slot()).collect::<Vec<_>>()));
     let mut sections: Vec<Section> = Vec::with_capacity(jobs.len() + 1);
@@ -156,13 +157,10 @@ fn missing(hole: &Hole) -> Warning {
     planning::NO_DRILL_FOR_HOLE.warning(message).at(hole.path.start)
 }
 
-/// The warning for holes that are drilled though they were to be bored, if any are.
-fn not_bored(holes: &[Hole], settings: &Drilling<'_>) -> Option<Warning> {
-    let mill = settings.mill?;
-    let is_drilled = |hole: &&Hole| matches!(way(hole, settings), Some(Way::Drilled(_)));
-    let mut left = holes.iter().filter(|hole| is_wide(hole, settings)).filter(is_drilled);
-    let first = left.next()?;
-    let what = count(1 + left.count(), "hole");
+/// The warning for holes that are drilled though `mill` was to bore them, if any are.
+fn not_bored(holes: &[&Hole], mill: &Tool) -> Option<Warning> {
+    let first = holes.first()?;
+    let what = count(holes.len(), "hole");
     let message = format!("`{}` does not fit {what} that it was to bore: drilled instead", mill.kind);
     Some(planning::NOT_BORED.warning(message).at(first.path.start))
 }

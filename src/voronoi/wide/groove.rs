@@ -7,13 +7,14 @@
 //! ```
 //!
 //! A pass runs on for as long as it clears anything that a cut does not: up to where it comes
-//! nearer to the cut than passes do to each other. The passes of a finer tool also end where cuts
-//! beside each other have cleared together all that it would clear:
+//! nearer to the cut than passes do to each other. The passes of a finer tool also end where two
+//! cuts beside each other, each of which clears past the middle between them, have cleared together
+//! all that it would clear:
 //!
 //! ```text
-//!    ━━━━━━━━━━━━━━━━━━━━━━━━ cut ╮
-//!    ▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒     │ each clears past the middle between them
-//!    ━━━━━━━━━━━━━━━━━━━━━━━━ cut ╯
+//!    ━━━━━━━━━━━━━━━━━━━━ cut
+//!    ▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒▒
+//!    ━━━━━━━━━━━━━━━━━━━━ cut
 //! ```
 
 use std::ops::ControlFlow;
@@ -204,14 +205,14 @@ impl Walk<'_> {
         let alone = self.off_cut(p);
         let Grooves { reach, together, .. } = *self.grooves;
         let Some(Together { wide, disc }) = together.filter(|_| alone >= reach) else { return alone };
+        let rings = [disc, disc / 2.0];
+        let places = rings.into_iter().flat_map(|part| DIRECTIONS.map(|(x, y)| p + Spot::new(x, y) * part));
         let mut farthest = alone;
-        for part in [disc, disc / 2.0] {
-            for (x, y) in DIRECTIONS {
-                if farthest >= wide {
-                    break;
-                }
-                farthest = farthest.max(self.off_cut(p + Spot::new(x, y) * part));
+        for place in places {
+            if farthest >= wide {
+                break;
             }
+            farthest = farthest.max(self.off_cut(place));
         }
         alone.min(farthest - wide + reach)
     }

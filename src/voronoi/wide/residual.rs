@@ -116,11 +116,9 @@ impl Passes<'_> {
         let ranges: Vec<[f64; 2]> = between.chain([strip]).filter(|[low, high]| low < high).collect();
         let mut axes = self.diagram.axes_between(&ranges, wanted);
         if let Some(open) = open {
-            let is_passed = |place: &OnAxis| {
-                let OnAxis { edge, sample: Sample { at, clearance }, .. } = *place;
-                self.inner(clearance).is_some() && !self.diagram.is_enclosed((edge, at), open)
-            };
-            axes.retain(|axis| axis.places.first().is_some_and(is_passed));
+            // All of an axis lies beyond the first pass.
+            let is_open = |place: &OnAxis| !self.diagram.is_enclosed((place.edge, place.sample.at), open);
+            axes.retain(|axis| axis.places.first().is_some_and(is_open));
         }
         if axes.is_empty() {
             return Vec::new();
