@@ -17,8 +17,8 @@ use super::{Failure, Shared};
 
 /// What copper changes between two programs, not which lines
 ///
-/// Mills both on a picture and compares: how much more is cut away, how much less, and where. For
-/// reviewing G-code. Programs in two folders are compared by name; what is in one folder alone is
+/// Mills both and compares: how much more is cut away, how much less, and where. For reviewing
+/// G-code. Programs in two folders are compared by name; what is in one folder alone is
 /// all of it a difference. Exit code 0: the same copper; 1: not the same; 2: it could not be
 /// compared.
 #[derive(Args)]
@@ -49,7 +49,8 @@ pub(super) struct Diff {
     #[arg(long, value_name = "LENGTH", default_value = "0.035mm")]
     copper: Nm,
 
-    /// The pixel of the picture [default: a quarter of the kerf, within 5um to 25um]
+    /// The pixel in which differences are gathered; narrower ones count by their area [default: a
+    /// quarter of the kerf, within 5um to 25um]
     #[arg(long = "pixel", alias = "resolution", value_name = "LENGTH")]
     resolution: Option<Nm>,
 

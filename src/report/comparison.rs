@@ -33,7 +33,7 @@ pub struct Compared {
     pub more_cut: Amount,
     /// How much is left now that was cut.
     pub less_cut: Amount,
-    /// The pixel of the picture in which they were compared.
+    /// The pixel in which differences are gathered.
     pub pixel_mm: Millimetres,
     /// Where, the largest first.
     pub places: Vec<Difference>,

@@ -162,6 +162,38 @@ fn a_loop_that_moved_is_cut_in_one_place_and_left_in_another() {
     }
 }
 
+/// A corner of two cuts, 10 mm each, on both sides of which strips are cut that are narrower than a
+/// pixel of 25 µm, and than are tolerated or not.
+#[test]
+fn strips_narrower_than_a_pixel_are_one_difference() {
+    let program = |kerf: f64| {
+        let lines = "G0 X0.003 Y0.004\nG1 Z-0.1\nG1 X10.003\nG1 Y10.004\nG0 Z2\n";
+        let head =
+            format!("(front isolation)\n(tool endmill:{kerf:.4}mm)\nG21 G90 G17 F100\nM3 S1000\nG0 Z2\n");
+        Program { file: "x.ngc".to_owned(), text: format!("{head}{lines}M5\nM2\n"), ..Program::default() }
+    };
+    let wide = 0.005;
+    for strip in [0.0002, 0.001, 0.006, 0.012] {
+        let (narrow, broad) = (program(0.2), program(0.2 + 2.0 * (wide + strip)));
+        let more = diff(&narrow, &broad, Nm::from_um(5), &Settings::default()).expect("compared");
+        let less = diff(&broad, &narrow, Nm::from_um(5), &Settings::default()).expect("compared");
+        // Along the outside, with two round ends and a corner, and along the inside.
+        let off = 0.1 + wide + strip / 2.0;
+        let expected = strip * (20.0 + 2.5 * std::f64::consts::PI * off + 20.0 - 2.0 * off);
+        for (found, change) in [(more, Change::Cut), (less, Change::Left)] {
+            assert_eq!(found.regions.len(), 1, "a strip of {strip} mm hangs together: {:?}", found.regions);
+            let (places, area) = found.total(change);
+            assert!(
+                places == 1 && (area / expected - 1.0).abs() < 0.005,
+                "{area} mm² for {expected}, {strip} mm wide"
+            );
+        }
+        let same = program(0.2 + 2.0 * (wide - strip / 4.0));
+        let same = diff(&narrow, &same, Nm::from_um(5), &Settings::default()).expect("compared");
+        assert!(same.is_same(), "a quarter of {strip} mm less than is tolerated: {:?}", same.regions);
+    }
+}
+
 /// Strokes by chance, every third the other way round in the second program, some in one alone.
 #[test]
 fn differences_cover_what_exact_distances_say() {

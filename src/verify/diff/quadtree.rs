@@ -1,0 +1,196 @@
+//! Where one program cuts and the other does not, however narrow: squares that are quartered until
+//! each is settled.
+//!
+//! ```text
+//!   ┌───────┬───┬───┐   A square that no cut comes near, or that the other program cuts all of, is
+//!   │       │ · │ ╱ │   nothing. One that a cut is all of, and that nothing else comes near, is all a
+//!   │       ├─┬─┼╱──┤   difference. Others are quartered, with what comes near to them alone; of
+//!   │       │ │╱│   │   pixels a share differs, by how far the edges of either are from the middle.
+//!   └───────┴─┴─┴───┘
+//! ```
+
+use std::cmp::Ordering;
+use std::f64::consts::SQRT_2;
+use std::ops::Range;
+
+use crate::grid::Grid;
+
+use super::Place;
+use super::capsule::Capsule;
+
+/// Cuts are looked for in others where there are no more pairs, and in squares of so many pixels
+/// along a side at least. Chosen: half and twice as many of either take longer.
+const PAIRS: usize = 4096;
+const SIDE: u32 = 8;
+
+/// How much of each pixel of a grid, row by row, `cuts` are and all `others` are farther away from
+/// than `tolerance`: from 0 to 1.
+pub(super) fn shares(grid: &Grid, cuts: Vec<Capsule>, others: Vec<Capsule>, tolerance: f64) -> Vec<f32> {
+    let (first, all) = (cuts.len(), cuts.len() + others.len());
+    let mut tree = Quadtree {
+        corner: grid.corner(0, 0).to_f64(),
+        pitch: grid.pitch().to_f64(),
+        size: (grid.width(), grid.height()),
+        tolerance,
+        near: [cuts, others].concat(),
+        shares: vec![0.0; grid.width() as usize * grid.height() as usize],
+    };
+    let side = grid.width().max(grid.height()).next_power_of_two();
+    tree.quarter((0, 0), side, &Near { cuts: 0..first, others: first..all });
+    tree.shares
+}
+
+struct Quadtree {
+    /// The upper left corner.
+    corner: Place,
+    pitch: f64,
+    /// Columns and rows.
+    size: (u32, u32),
+    tolerance: f64,
+    /// What comes near to a square, behind what comes near to those that it is a quarter of.
+    near: Vec<Capsule>,
+    shares: Vec<f32>,
+}
+
+/// What comes near to a square: where they are among all that are near.
+struct Near {
+    cuts: Range<usize>,
+    others: Range<usize>,
+}
+
+/// What is known of a square.
+enum Verdict {
+    /// Nothing differs.
+    Same,
+    /// All of it does.
+    Differs,
+    Open(Near),
+}
+
+impl Quadtree {
+    /// Settles `side` by `side` pixels from one on.
+    fn quarter(&mut self, (column, row): (u32, u32), side: u32, near: &Near) {
+        if column >= self.size.0 || row >= self.size.1 {
+            return;
+        }
+        let half = f64::from(side) * self.pitch / 2.0;
+        let (left, top) = (f64::from(column) * self.pitch, f64::from(row) * self.pitch);
+        let center = (self.corner.0 + left + half, self.corner.1 - top - half);
+        if side == 1 {
+            self.fill((column, row), side, self.share(center, near));
+            return;
+        }
+        let before = self.near.len();
+        match self.verdict(center, half * SQRT_2, near, side >= SIDE) {
+            Verdict::Same => {}
+            Verdict::Differs => self.fill((column, row), side, 1.0),
+            Verdict::Open(near) => {
+                let half = side / 2;
+                for (right, down) in [(0, 0), (half, 0), (0, half), (half, half)] {
+                    self.quarter((column + right, row + down), half, &near);
+                }
+            }
+        }
+        self.near.truncate(before);
+    }
+
+    fn fill(&mut self, (column, row): (u32, u32), side: u32, share: f32) {
+        let (right, bottom) = ((column + side).min(self.size.0), (row + side).min(self.size.1));
+        for row in row..bottom {
+            let start = row as usize * self.size.0 as usize;
+            self.shares[start + column as usize..start + right as usize].fill(share);
+        }
+    }
+
+    /// What there is to say of all that is within `reach` of a place; where `thoroughly`, cuts are
+    /// looked for in others, too.
+    fn verdict(&mut self, center: Place, reach: f64, near: &Near, thoroughly: bool) -> Verdict {
+        let start = self.near.len();
+        for other in near.others.clone() {
+            let other = self.near[other];
+            match other.side(center, reach, self.tolerance) {
+                Ordering::Less => return Verdict::Same,
+                Ordering::Equal => self.near.push(other),
+                Ordering::Greater => {}
+            }
+        }
+        let end = self.near.len();
+        for cut in near.cuts.clone() {
+            let cut = self.near[cut];
+            match cut.side(center, reach, 0.0) {
+                Ordering::Less if start == end => return Verdict::Differs,
+                Ordering::Less | Ordering::Equal => self.near.push(cut),
+                Ordering::Greater => {}
+            }
+        }
+        let pairs = (end - start) * (self.near.len() - end);
+        if thoroughly && (1..=PAIRS).contains(&pairs) {
+            let (others, cuts) = self.near[start..].split_at(end - start);
+            let is_covered = |cut: &Capsule| cut.is_covered(center, reach, others, self.tolerance);
+            let open: Vec<Capsule> = cuts.iter().filter(|cut| !is_covered(cut)).copied().collect();
+            self.near.truncate(end);
+            self.near.extend(open);
+        }
+        if self.near.len() == end {
+            return Verdict::Same;
+        }
+        Verdict::Open(Near { cuts: end..self.near.len(), others: start..end })
+    }
+
+    /// How much of a pixel the cuts are and others are not, if no more than one straight edge of
+    /// either crosses it.
+    ///
+    /// ```text
+    ///   ┌──────────╱─────╱┐
+    ///   │ others  ╱ ▒▒▒▒╱ │    Both edges are as far from the middle as is measured there; one that
+    ///   │        ╱ ▒▒▒▒╱  │    another cut lies across is none.
+    ///   └───────╱─────╱───┘
+    /// ```
+    #[expect(clippy::cast_possible_truncation, reason = "a share needs no more digits")]
+    fn share(&self, center: Place, near: &Near) -> f32 {
+        let others = &self.near[near.others.clone()];
+        let Some((cut, beyond)) = nearest(center, &self.near[near.cuts.clone()]) else { return 0.0 };
+        let out = cut.off(center);
+        let cut_share = self.within(beyond, out);
+        if cut_share <= 0.0 {
+            return 0.0;
+        }
+        let Some((other, beyond)) = nearest(center, others) else { return cut_share as f32 };
+        let beyond = beyond - self.tolerance;
+        let other_out = other.off(center);
+        let other_share = self.within(beyond, other_out);
+        if beyond < 0.0 && (other_share >= 1.0 || !self.is_edge(center, other, others)) {
+            return 0.0;
+        }
+        let is_same_way = out.0 * other_out.0 + out.1 * other_out.1 > 0.0;
+        let share = if is_same_way { cut_share - other_share } else { cut_share.min(1.0 - other_share) };
+        share.max(0.0) as f32
+    }
+
+    /// How much of a pixel lies within an edge that its middle is so far beyond; `out` is the way
+    /// across the edge.
+    fn within(&self, beyond: f64, out: Place) -> f64 {
+        let length = (out.0 * out.0 + out.1 * out.1).sqrt();
+        // As wide as the pixel is, seen along the edge.
+        let width = if length > 0.0 { self.pitch * (out.0.abs() + out.1.abs()) / length } else { self.pitch };
+        (0.5 - beyond / width).clamp(0.0, 1.0)
+    }
+
+    /// Whether the nearest place to `place` where `deepest` ends is cut by no other.
+    fn is_edge(&self, place: Place, deepest: &Capsule, others: &[Capsule]) -> bool {
+        let out = deepest.outwards(place, self.tolerance + 1.0);
+        others.iter().all(|other| other.beyond(out) > self.tolerance)
+    }
+}
+
+/// The capsule that a place is least beyond, and how far.
+fn nearest(place: Place, all: &[Capsule]) -> Option<(&Capsule, f64)> {
+    let mut nearest: Option<(&Capsule, f64)> = None;
+    for capsule in all {
+        let most = nearest.map_or(f64::INFINITY, |(_, beyond)| beyond);
+        if capsule.is_within(place, most) {
+            nearest = Some((capsule, capsule.beyond(place)));
+        }
+    }
+    nearest
+}
