@@ -119,7 +119,8 @@ const EVERYTHING: Nm = Nm::from_mm(1000);
 
 /// How thick copper is that passes clear. Chosen: one ounce, as `verify` has it unasked.
 pub(super) const COPPER: Nm = Nm::from_um(35);
-/// So much more passes share there. Chosen: less than any cut is off its place.
+/// So much more passes share there, or a third of what is cut, and at most seven eighths of the
+/// kerf. Chosen: no cut is so far off its place; sharper tools would take many more passes.
 const SURELY: Nm = Nm::from_um(6);
 
 /// So many passes run beside a net at most. Chosen.
@@ -131,7 +132,7 @@ const EXTENT: Nm = Nm::from_mm(5);
 /// from a width or a number of passes.
 fn widening(options: &Complete, kerf: Nm, floor: Nm) -> Result<Option<Widening>, Error> {
     // What is left at the bottom of the copper between two passes would be a strip of it.
-    let least = (kerf - floor + SURELY).min(kerf / 2);
+    let least = (kerf - floor + SURELY.min(floor / 3)).min(kerf * 7 / 8);
     let overlap = match options.overlap {
         None => least.max(kerf / 10),
         Some(overlap) if overlap.of(kerf) < Nm::ZERO || overlap.of(kerf) >= kerf => {

@@ -346,12 +346,14 @@ mod tests {
 
     #[test]
     fn passes_of_a_v_bit_leave_no_strip_at_the_bottom_of_the_copper() {
-        // 83 µm wide at the surface, 54 µm below 35 µm of copper.
-        for overlap in ["", "overlap = \"0mm\"", "overlap = \"20%\""] {
-            let text = format!("tool = \"vbit:0.05mm:45deg\"\ndepth = \"0.04mm\"\nclear = true\n{overlap}");
-            let widening = settings(&text).expect(&text).isolation[0].widening.expect("passes");
-            let advance = widening.kerf - widening.overlap;
-            assert!(advance <= widening.floor, "{text}: {advance:?} where {:?} are cut", widening.floor);
+        // 83 µm wide at the surface, 54 µm below 35 µm of copper; and 32 and 13 µm.
+        for tool in ["vbit:0.05mm:45deg\"\ndepth = \"0.04mm", "vbit:0mm:30deg\"\ndepth = \"0.06mm"] {
+            for overlap in ["", "overlap = \"0mm\"", "overlap = \"20%\""] {
+                let text = format!("tool = \"{tool}\"\nclear = true\n{overlap}");
+                let widening = settings(&text).expect(&text).isolation[0].widening.expect("passes");
+                let advance = widening.kerf - widening.overlap;
+                assert!(advance <= widening.floor, "{text}: {advance:?} where {:?} are cut", widening.floor);
+            }
         }
     }
 
