@@ -197,6 +197,7 @@ fn strips_narrower_than_a_pixel_are_one_difference() {
 /// Strokes by chance, every third the other way round in the second program, some in one alone.
 #[test]
 fn differences_cover_what_exact_distances_say() {
+    let coarse = Settings { pixel: Some(Nm::from_mm(1)), ..Settings::default() };
     let mut seed = 5_u64;
     let mut chance = || {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -233,7 +234,10 @@ fn differences_cover_what_exact_distances_say() {
         cut += if new <= 0.1 && old > 0.105 { 6.25e-4 } else { 0.0 };
         left += if old <= 0.1 && new > 0.105 { 6.25e-4 } else { 0.0 };
     }
+    let few = diff(&old, &new, Nm::from_um(5), &coarse).expect("compared");
     for (change, expected) in [(Change::Cut, cut), (Change::Left, left)] {
+        let area = few.total(change).1;
+        assert!((area / expected - 1.0).abs() < 0.02, "pixels of 1 mm: {area} for {expected}");
         let area = found.total(change).1;
         // Ends of strokes lie half a kerf beyond the square that is sampled.
         assert!(expected > 5.0 && (area - expected).abs() < 0.15 + expected * 0.01, "{area} for {expected}");

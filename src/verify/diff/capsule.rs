@@ -55,6 +55,11 @@ impl Capsule {
         square(self.off(p)).sqrt() - self.radius
     }
 
+    /// How wide it is.
+    pub(super) fn kerf(&self) -> f64 {
+        self.radius * 2.0
+    }
+
     /// Whether `p` is less than so far beyond it.
     pub(super) fn is_within(&self, p: Place, beyond: f64) -> bool {
         let most = self.radius + beyond;

@@ -22,6 +22,8 @@ use super::capsule::Capsule;
 /// along a side at least. Chosen: half and twice as many of either take longer.
 const PAIRS: usize = 4096;
 const SIDE: u32 = 8;
+/// Into so many parts a side of a pixel is divided at most where cuts are narrower. Chosen.
+const FINE: f64 = 8.0;
 
 /// How much of each pixel of a grid, row by row, `cuts` are and all `others` are farther away from
 /// than `tolerance`: from 0 to 1.
@@ -77,7 +79,7 @@ impl Quadtree {
         let (left, top) = (f64::from(column) * self.pitch, f64::from(row) * self.pitch);
         let center = (self.corner.0 + left + half, self.corner.1 - top - half);
         if side == 1 {
-            self.fill((column, row), side, self.share(center, near));
+            self.fill((column, row), side, self.share(center, self.pitch, near));
             return;
         }
         let before = self.near.len();
@@ -137,8 +139,8 @@ impl Quadtree {
         Verdict::Open(Near { cuts: end..self.near.len(), others: start..end })
     }
 
-    /// How much of a pixel the cuts are and others are not, if no more than one straight edge of
-    /// either crosses it.
+    /// How much of a square the cuts are and others are not, if no more than one straight edge of
+    /// either crosses it; it is quartered where it is wider than a cut.
     ///
     /// ```text
     ///   ┌──────────╱─────╱┐
@@ -147,18 +149,25 @@ impl Quadtree {
     ///   └───────╱─────╱───┘
     /// ```
     #[expect(clippy::cast_possible_truncation, reason = "a share needs no more digits")]
-    fn share(&self, center: Place, near: &Near) -> f32 {
-        let others = &self.near[near.others.clone()];
-        let Some((cut, beyond)) = nearest(center, &self.near[near.cuts.clone()]) else { return 0.0 };
+    fn share(&self, center: Place, side: f64, near: &Near) -> f32 {
+        let (cuts, others) = (&self.near[near.cuts.clone()], &self.near[near.others.clone()]);
+        let is_narrow = |cut: &Capsule| cut.kerf() < side;
+        if side > self.pitch / FINE && cuts.iter().chain(others).any(is_narrow) {
+            let (side, off) = (side / 2.0, side / 4.0);
+            let quarters = [(-off, off), (off, off), (-off, -off), (off, -off)];
+            let share = |(x, y): Place| self.share((center.0 + x, center.1 + y), side, near);
+            return quarters.map(share).into_iter().sum::<f32>() / 4.0;
+        }
+        let Some((cut, beyond)) = nearest(center, cuts) else { return 0.0 };
         let out = cut.off(center);
-        let cut_share = self.within(beyond, out);
+        let cut_share = within(beyond, out, side);
         if cut_share <= 0.0 {
             return 0.0;
         }
         let Some((other, beyond)) = nearest(center, others) else { return cut_share as f32 };
         let beyond = beyond - self.tolerance;
         let other_out = other.off(center);
-        let other_share = self.within(beyond, other_out);
+        let other_share = within(beyond, other_out, side);
         if beyond < 0.0 && (other_share >= 1.0 || !self.is_edge(center, other, others)) {
             return 0.0;
         }
@@ -167,20 +176,20 @@ impl Quadtree {
         share.max(0.0) as f32
     }
 
-    /// How much of a pixel lies within an edge that its middle is so far beyond; `out` is the way
-    /// across the edge.
-    fn within(&self, beyond: f64, out: Place) -> f64 {
-        let length = (out.0 * out.0 + out.1 * out.1).sqrt();
-        // As wide as the pixel is, seen along the edge.
-        let width = if length > 0.0 { self.pitch * (out.0.abs() + out.1.abs()) / length } else { self.pitch };
-        (0.5 - beyond / width).clamp(0.0, 1.0)
-    }
-
     /// Whether the nearest place to `place` where `deepest` ends is cut by no other.
     fn is_edge(&self, place: Place, deepest: &Capsule, others: &[Capsule]) -> bool {
         let out = deepest.outwards(place, self.tolerance + 1.0);
         others.iter().all(|other| other.beyond(out) > self.tolerance)
     }
+}
+
+/// How much of a square, so wide, lies within an edge that its middle is so far beyond; `out` is
+/// the way across the edge.
+fn within(beyond: f64, out: Place, side: f64) -> f64 {
+    let length = (out.0 * out.0 + out.1 * out.1).sqrt();
+    // As wide as the square is, seen along the edge.
+    let width = if length > 0.0 { side * (out.0.abs() + out.1.abs()) / length } else { side };
+    (0.5 - beyond / width).clamp(0.0, 1.0)
 }
 
 /// The capsule that a place is least beyond, and how far.
