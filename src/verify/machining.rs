@@ -169,6 +169,7 @@ impl Machining {
             }
         }
         self.swept.dedup_by(|a, b| (&a.shape, a.depth) == (&b.shape, b.depth));
+        self.swept.shrink_to_fit();
         let half = |(cutter, depth): (Cutter, Nm)| cutter.width_at(depth) / 2;
         let kerf =
             |(cutter, depth)| Kerf { half: half((cutter, depth)), floor: half((cutter, depth - copper)) };

@@ -32,7 +32,7 @@ pub(super) struct Sheet<'a> {
     /// All that is cut, program by program in order.
     pub(super) cuts: Vec<Cut<'a>>,
     /// What bounds the copper that is left.
-    pub(super) walls: Walls,
+    pub(super) walls: Walls<'a>,
     /// Half the narrowest kerf.
     pub(super) half: Nm,
     /// The same at the copper's bottom.

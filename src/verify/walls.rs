@@ -9,14 +9,14 @@ use crate::geometry::{Nm, Point, Polygon, Vector};
 use crate::topology::{Near, Proximity};
 
 use super::cut::Cut;
+use super::machining::Swept;
 
 /// Cuts and the board's edge, to be asked what is near.
-pub(super) struct Walls {
-    near: Proximity,
+pub(super) struct Walls<'a> {
     /// The axes of all cuts, then the edges of the outline.
-    axes: Vec<Shape>,
-    /// Half the kerf of each, at the copper's bottom.
-    halves: Vec<Nm>,
+    near: Proximity,
+    cuts: Vec<&'a Swept>,
+    edges: Vec<Shape>,
     widest: Nm,
 }
 
@@ -43,18 +43,28 @@ pub(super) struct Neck {
 /// corners.
 const STEPS: usize = 5;
 
-impl Walls {
-    pub(super) fn new(cuts: &[Cut<'_>], outline: Option<&Polygon>) -> Self {
-        let edges = || outline.into_iter().flat_map(Polygon::edges).filter(|(from, to)| from != to);
-        // Nothing to spare: there are many.
-        let mut axes = Vec::with_capacity(cuts.len() + edges().count());
+impl<'a> Walls<'a> {
+    pub(super) fn new(cuts: &[Cut<'a>], outline: Option<&Polygon>) -> Self {
+        let edges = outline.into_iter().flat_map(Polygon::edges).filter(|(from, to)| from != to);
+        let edges: Vec<Shape> =
+            edges.map(|(from, to)| Shape::Stroke { from, to, radius: Nm::ZERO }).collect();
+        // Nothing to spare, and let go as soon as all are by place: there are many.
+        let mut axes = Vec::with_capacity(cuts.len() + edges.len());
         axes.extend(cuts.iter().map(|cut| cut.swept.axis()));
-        axes.extend(edges().map(|(from, to)| Shape::Stroke { from, to, radius: Nm::ZERO }));
-        let mut halves = Vec::with_capacity(axes.len());
-        halves.extend(cuts.iter().map(|cut| cut.swept.floor));
-        halves.resize(axes.len(), Nm::ZERO);
-        let widest = halves.iter().copied().max().unwrap_or(Nm::ZERO);
-        Self { near: Proximity::of(&axes), axes, halves, widest }
+        axes.extend(edges.iter().cloned());
+        let cuts: Vec<&Swept> = cuts.iter().map(|cut| cut.swept).collect();
+        let widest = cuts.iter().map(|cut| cut.floor).max().unwrap_or(Nm::ZERO);
+        Self { near: Proximity::of(&axes), cuts, edges, widest }
+    }
+
+    /// The axis of a wall.
+    fn axis(&self, index: usize) -> Shape {
+        self.cuts.get(index).map_or_else(|| self.edges[index - self.cuts.len()].clone(), |cut| cut.axis())
+    }
+
+    /// Half its kerf, at the copper's bottom.
+    fn half(&self, index: usize) -> Nm {
+        self.cuts.get(index).map_or(Nm::ZERO, |cut| cut.floor)
     }
 
     /// The walls whose faces are within `reach` of `p`, the nearest first.
@@ -101,13 +111,13 @@ impl Walls {
     /// How many ways, stretches of long ones each, may come within `reach` of that of wall `index`;
     /// counts no further than `most`.
     pub(super) fn count(&self, index: usize, reach: Nm, most: usize) -> usize {
-        self.near.count(&self.axes[index], self.halves[index] + self.widest + reach, most)
+        self.near.count(&self.axis(index), self.half(index) + self.widest + reach, most)
     }
 
     /// Whether so many ways, stretches of long ones each, may come within `reach` of that of wall
     /// `index`, or of one stretch of it.
     pub(super) fn is_crowded(&self, index: usize, reach: Nm, most: usize) -> bool {
-        self.near.is_crowded(&self.axes[index], self.halves[index] + self.widest + reach, most)
+        self.near.is_crowded(&self.axis(index), self.half(index) + self.widest + reach, most)
     }
 
     /// The indices of all walls, neighbours close to each other.
@@ -118,7 +128,7 @@ impl Walls {
     fn wall(&self, p: Point, near: &Near) -> Wall {
         Wall {
             index: near.feature,
-            distance: near.width - self.halves[near.feature].to_f64(),
+            distance: near.width - self.half(near.feature).to_f64(),
             foot: near.at + (near.at - p),
         }
     }
@@ -131,10 +141,10 @@ impl Walls {
         reach: Nm,
         wanted: impl Fn(usize) -> bool,
     ) -> Vec<(usize, Neck)> {
-        let own = self.halves[index];
-        let near = self.near.near_of(&self.axes[index], own + self.widest + reach, wanted);
+        let own = self.half(index);
+        let near = self.near.near_of(&self.axis(index), own + self.widest + reach, wanted);
         let gap = |near: Near| {
-            let width = near.width - (own + self.halves[near.feature]).to_f64();
+            let width = near.width - (own + self.half(near.feature)).to_f64();
             (near.feature, Neck { at: near.at, width })
         };
         near.into_iter().map(gap).filter(|(_, neck)| neck.width <= reach.to_f64()).collect()
