@@ -7,9 +7,8 @@
 //! Those that hang together are one.
 
 mod capsule;
+mod joined;
 mod quadtree;
-
-use std::collections::BTreeMap;
 
 use bitvec::vec::BitVec;
 use rayon::prelude::*;
@@ -22,9 +21,9 @@ use crate::raster::{Buffers, Label, Scene, render};
 use crate::topology::surface;
 
 use capsule::Capsule;
+use joined::{Joined, Strip, strips};
 
 use super::machining::Machining;
-use super::pieces::{Joiner, Part, Run};
 use super::sheet::pixel;
 use super::{Error, Placement, Program, Role, Settings};
 
@@ -116,7 +115,10 @@ fn swept(program: &Program, settings: &Settings) -> Result<Vec<Shape>, Error> {
     let role = program.role.unwrap_or(Role::Cutout);
     let placed = Program { role: Some(role), placement: Some(Placement::default()), ..program.clone() };
     let read = Machining::read(&placed, &Board::default(), settings)?;
-    Ok(read.swept.into_iter().map(|swept| undirected(swept.shape)).collect())
+    // The same way is cut again and again, deeper each time.
+    let mut known = FxHashSet::default();
+    let shapes = read.swept.into_iter().map(|swept| undirected(swept.shape));
+    Ok(shapes.filter(|shape| known.insert(shape.clone())).collect())
 }
 
 /// The same shape whichever way it is cut.
@@ -168,9 +170,8 @@ const fn half(shape: &Shape) -> Nm {
     }
 }
 
-/// Pixels along a side of what is drawn at once. Chosen: half as much took a tenth longer, twice as
-/// much draws more beside what differs.
-const TILE: u32 = 128;
+/// Pixels along a side of what is compared at once. Chosen: half as many take a tenth longer.
+const TILE: u32 = 256;
 
 impl Comparison {
     /// Whether both cut the same.
@@ -247,16 +248,16 @@ impl Comparison {
         let mut found = [Change::Cut, Change::Left].map(Joined::new);
         for top in tops(grid) {
             let tiles: Vec<(u32, Grid)> = tiles(grid, top).collect();
-            let strips = |(column, tile): (u32, Grid)| {
+            let of_tile = |(column, tile): (u32, Grid)| {
                 let rows = |shares: Vec<f32>| {
                     shares.chunks_exact(tile.width() as usize).map(|row| strips(column, row)).collect()
                 };
                 self.shares(&tile).map(rows)
             };
-            let strips: Vec<[Vec<Vec<Strip>>; 2]> = tiles.into_par_iter().map(strips).collect();
+            let found_there: Vec<[Vec<Vec<Strip>>; 2]> = tiles.into_par_iter().map(of_tile).collect();
             for row in 0..TILE.min(grid.height() - top) {
                 for (side, joined) in found.iter_mut().enumerate() {
-                    let of = strips.iter().filter_map(|tile| tile[side].get(row as usize));
+                    let of = found_there.iter().filter_map(|tile| tile[side].get(row as usize));
                     joined.row(top + row, of.flatten().copied());
                 }
             }
@@ -280,70 +281,6 @@ fn tiles(grid: &Grid, top: u32) -> impl Iterator<Item = (u32, Grid)> {
     (0..grid.width())
         .step_by(TILE as usize)
         .map(move |column| (column, grid.part((column, top), TILE.min(grid.width() - column), height)))
-}
-
-/// Neighbouring pixels of a row that differ, and of how many pixels' area.
-type Strip = (Run, f64);
-
-/// What differs in a row of pixels, of which the first is in this column.
-fn strips(column: u32, shares: &[f32]) -> Vec<Strip> {
-    let mut strips: Vec<Strip> = Vec::new();
-    for (first, some) in (column..).step_by(SOME).zip(shares.chunks(SOME)) {
-        // Most do not differ, which is told of all at a time.
-        if some.iter().fold(false, |any, &share| any | (share > 0.0)) {
-            for (at, &share) in (first..).zip(some).filter(|(_, share)| **share > 0.0) {
-                match strips.last_mut().filter(|(run, _)| run.end == at) {
-                    Some((run, area)) => {
-                        run.end += 1;
-                        *area += f64::from(share);
-                    }
-                    None => strips.push((Run { start: at, end: at + 1, label: 0 }, share.into())),
-                }
-            }
-        }
-    }
-    strips
-}
-
-/// Pixels that are looked at together. Chosen: twice as many and half as many take longer.
-const SOME: usize = 32;
-
-/// Differences of one kind, joined row by row.
-struct Joined {
-    change: Change,
-    joiner: Joiner,
-    /// Of how many pixels' area each of the joiner's regions is.
-    areas: Vec<f64>,
-}
-
-impl Joined {
-    fn new(change: Change) -> Self {
-        Self { change, joiner: Joiner::default(), areas: Vec::new() }
-    }
-
-    fn row(&mut self, row: u32, strips: impl Iterator<Item = Strip>) {
-        let (runs, areas): (Vec<Run>, Vec<f64>) = strips.unzip();
-        self.joiner.row(row, &runs);
-        for ((_, region), area) in self.joiner.last().iter().zip(areas) {
-            let region = *region as usize;
-            self.areas.resize(self.areas.len().max(region + 1), 0.0);
-            self.areas[region] += area;
-        }
-    }
-
-    fn regions(mut self, grid: &Grid) -> Vec<Region> {
-        let mut areas: BTreeMap<u32, f64> = BTreeMap::new();
-        for (region, area) in (0..).zip(&self.areas) {
-            *areas.entry(self.joiner.find(region)).or_default() += area;
-        }
-        let mm2 = grid.pitch().to_mm() * grid.pitch().to_mm();
-        let region = |part: Part| Region {
-            change: self.change,
-            rect: part.extent.rect(grid),
-            area: areas.get(&part.piece).map_or(0.0, |area| area * mm2),
-        };
-        self.joiner.parts().into_iter().map(region).collect()
-    }
 }
 
 impl Region {

@@ -2,11 +2,11 @@
 //! each is settled.
 //!
 //! ```text
-//!   ┌───────┬───┬───┐   A square that no cut comes near, or that the other program cuts all of, is
-//!   │       │ · │ ╱ │   nothing. One that a cut is all of, and that nothing else comes near, is all a
-//!   │       ├─┬─┼╱──┤   difference. Others are quartered, with what comes near to them alone; of
-//!   │       │ │╱│   │   pixels a share differs, by how far the edges of either are from the middle.
-//!   └───────┴─┴─┴───┘
+//!   ┌───────┬───┬───┐   A square that no cut comes near, or that the other program cuts all
+//!   │       │ · │ ╱ │   of, is nothing. One that a cut is all of, and that nothing else comes
+//!   │       ├─┬─┼╱──┤   near, is all a difference. Others are quartered, with what comes near
+//!   │       │ │╱│   │   to them alone; of pixels a share differs, by how far the edges of
+//!   └───────┴─┴─┴───┘   either are from the middle.
 //! ```
 
 use std::cmp::Ordering;
@@ -19,9 +19,9 @@ use super::Place;
 use super::capsule::Capsule;
 
 /// Cuts are looked for in others where there are no more pairs, and in squares of so many pixels
-/// along a side at least. Chosen: half and twice as many of either take longer.
+/// along a side at least. Chosen: half and twice as many make hardly a difference.
 const PAIRS: usize = 4096;
-const SIDE: u32 = 8;
+const SIDE: u32 = 16;
 /// Into so many parts a side of a pixel is divided at most where cuts are narrower. Chosen.
 const FINE: f64 = 8.0;
 
@@ -144,8 +144,8 @@ impl Quadtree {
     ///
     /// ```text
     ///   ┌──────────╱─────╱┐
-    ///   │ others  ╱ ▒▒▒▒╱ │    Both edges are as far from the middle as is measured there; one that
-    ///   │        ╱ ▒▒▒▒╱  │    another cut lies across is none.
+    ///   │ others  ╱ ▒▒▒▒╱ │    Both edges are as far from the middle as is measured there;
+    ///   │        ╱ ▒▒▒▒╱  │    one that another cut lies across is none.
     ///   └───────╱─────╱───┘
     /// ```
     #[expect(clippy::cast_possible_truncation, reason = "a share needs no more digits")]
