@@ -31,6 +31,8 @@ pub fn write(program: &Program, dialect: &Dialect, header: &Header) -> String {
         before = Some(&section.tool);
     }
     writer.finish(program);
+    // It is kept while it is verified.
+    writer.text.shrink_to_fit();
     writer.text
 }
 

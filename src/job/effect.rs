@@ -2,6 +2,7 @@
 
 use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Warning, Words};
+use crate::toolpath::Section;
 use crate::topology::{NetId, Pattern, called};
 
 use super::by_net::without_net;
@@ -68,13 +69,12 @@ pub(super) fn areas(board: &Board, settings: &Settings) -> Vec<Warning> {
     .collect()
 }
 
-/// Warns of each isolating tool that cuts nothing on any side: a wider or a finer one cuts all it
-/// could.
-pub(super) fn tools(layers: &[Layer], settings: &Settings) -> Vec<Warning> {
+/// Warns of each isolating tool that cuts nothing on any of the sides: a wider or a finer one cuts
+/// all it could.
+pub(super) fn tools(sides: &[Vec<Section>], settings: &Settings) -> Vec<Warning> {
     let tools = settings.isolation.iter().map(|cutting| &cutting.tool);
-    let cuts =
-        |name: &str| layers.iter().flat_map(|layer| &layer.sections).any(|section| section.tool.name == name);
-    let without = tools.filter(|tool| !layers.is_empty() && !cuts(&tool.name));
+    let cuts = |name: &str| sides.iter().flatten().any(|section| section.tool.name == name);
+    let without = tools.filter(|tool| !sides.is_empty() && !cuts(&tool.name));
     without
         .map(|tool| {
             let message =

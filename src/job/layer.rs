@@ -37,8 +37,6 @@ pub struct Layer {
     pub frame_cut: Option<Path>,
     /// How the side lies on the machine: the back mirrored.
     pub placement: Placement,
-    /// What the machine does to it, a section for each tool that has something to cut.
-    pub sections: Vec<Section>,
     /// Which nets have loops, where that was left open.
     pub chosen: Option<Chosen>,
     /// What a person must know.
@@ -49,7 +47,8 @@ pub struct Layer {
 
 impl Layer {
     /// Isolates the nets of `copper`, a side of `board` that lies on the machine as `placement`
-    /// says.
+    /// says. With it comes what the machine does, a section for each tool that has something to
+    /// cut.
     ///
     /// # Errors
     ///
@@ -59,7 +58,7 @@ impl Layer {
         board: &Board,
         placement: Placement,
         settings: &Settings,
-    ) -> Result<Self, Error> {
+    ) -> Result<(Self, Vec<Section>), Error> {
         let side = copper.side;
         let mut stages = Stages::default();
         let (nets, translucency) = stages.run(
@@ -90,7 +89,7 @@ impl Layer {
         let Plan { regions, boundaries, coupling, frame_cut, sections, warnings: found, .. } = plan;
         let mut warnings = topology::names_check(copper, &nets);
         warnings.extend(found);
-        Ok(Self {
+        let layer = Self {
             side,
             nets,
             translucency,
@@ -100,11 +99,11 @@ impl Layer {
             coupling,
             frame_cut,
             placement,
-            sections,
             chosen,
             warnings,
             stages,
-        })
+        };
+        Ok((layer, sections))
     }
 
     /// The length of the boundaries that isolate something.

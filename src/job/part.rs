@@ -1,5 +1,7 @@
 //! What a program is for.
 
+use crate::board::Side;
+
 use super::Reach;
 
 /// What a program is for; its file is named after it.
@@ -18,6 +20,15 @@ pub enum Part {
 }
 
 impl Part {
+    /// What isolates a side.
+    #[must_use]
+    pub const fn of(side: Side) -> Self {
+        match side {
+            Side::Front => Self::Front,
+            Side::Back => Self::Back,
+        }
+    }
+
     /// What an option must change so that it changes this program.
     #[must_use]
     pub const fn reach(self) -> Reach {

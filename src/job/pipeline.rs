@@ -66,7 +66,8 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let bounds = board.bounds().ok_or_else(|| no_copper(settings))?;
     let stock = Stock::new(bounds, settings);
     let mut stages = Stages::default();
-    let layers = isolate(&board, &stock, settings)?;
+    let (layers, sides): (Vec<Layer>, Vec<Vec<Section>>) =
+        isolate(&board, &stock, settings)?.into_iter().unzip();
     layers.iter().for_each(|layer| stages.extend(&layer.stages));
     if settings.asked.narrow == Narrow::Error {
         refuse_narrow(&layers)?;
@@ -77,14 +78,15 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         planned.push((Part::Alignment, Side::Front, program));
         warnings.extend(found);
     }
-    planned.par_extend(layers.par_iter().flat_map_iter(|layer| {
-        let files = in_files(isolation(layer, &board, settings), settings);
-        files.into_iter().map(|program| (part(layer.side), layer.side, program))
+    let idle = effect::tools(&sides, settings);
+    planned.extend(layers.iter().zip(sides).flat_map(|(layer, sections)| {
+        let files = in_files(isolation(layer, sections, &board, settings), settings);
+        files.into_iter().map(|program| (Part::of(layer.side), layer.side, program))
     }));
     let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
     warnings.extend(effect::patterns(sides, settings));
     warnings.extend(effect::areas(&board, settings));
-    warnings.extend(effect::tools(&layers, settings));
+    warnings.extend(idle);
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
         let side = settings.drill_side;
@@ -167,7 +169,7 @@ fn restrained<'a>(programs: impl Iterator<Item = &'a mut Program>, settings: &Se
 }
 
 /// Both sides at once.
-fn isolate(board: &Board, stock: &Stock, settings: &Settings) -> Result<Vec<Layer>, Error> {
+fn isolate(board: &Board, stock: &Stock, settings: &Settings) -> Result<Vec<(Layer, Vec<Section>)>, Error> {
     let sides: Vec<_> = [Side::Front, Side::Back].into_iter().filter_map(|side| board.copper(side)).collect();
     let copper = sides.iter().filter(|copper| !copper.features.is_empty());
     // A board without copper is drilled and cut out; one whose copper is all left out is a mistake.
@@ -207,16 +209,9 @@ fn refuse_narrow(layers: &[Layer]) -> Result<(), Error> {
     Err(Error::Narrow(format!("{side}{gap}{place}{more}")))
 }
 
-const fn part(side: Side) -> Part {
-    match side {
-        Side::Front => Part::Front,
-        Side::Back => Part::Back,
-    }
-}
-
-fn isolation(layer: &Layer, board: &Board, settings: &Settings) -> Program {
+fn isolation(layer: &Layer, sections: Vec<Section>, board: &Board, settings: &Settings) -> Program {
     let side = layer.side;
-    turned(whole(&format!("{side} isolation"), board, layer.sections.clone(), settings), &layer.placement)
+    turned(whole(&format!("{side} isolation"), board, sections, settings), &layer.placement)
 }
 
 /// The program with a note where the board is flipped for it.

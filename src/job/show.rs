@@ -27,13 +27,14 @@ impl Job {
     #[must_use]
     pub fn shown(&self, side: Side) -> Option<Shown<'_>> {
         let layer = self.layer(side)?;
+        let cuts = self.programs.iter().filter(|program| program.part == Part::of(side));
         Some(Shown {
             board: &self.board,
             copper: self.board.copper(side)?,
             nets: &layer.nets,
             regions: &layer.regions,
             boundaries: &layer.boundaries,
-            sections: &layer.sections,
+            sections: cuts.flat_map(|program| &program.program.sections).collect(),
             placement: &layer.placement,
             cutout: self.cutout(),
         })

@@ -15,7 +15,7 @@ use super::palette::{COLD, COPPER, CUT, EDGE, GROUND, HOLE, HOT, INK, RAPID, SUB
 use super::{Canvas, Lettering, Rgb, png};
 
 /// What was done to one side of a board, as far as a picture shows it.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Shown<'a> {
     /// The board.
     pub board: &'a Board,
@@ -28,7 +28,7 @@ pub struct Shown<'a> {
     /// The lines between these.
     pub boundaries: &'a Boundaries,
     /// What the machine does to it, tool by tool.
-    pub sections: &'a [Section],
+    pub sections: Vec<&'a Section>,
     /// How the side lies on the machine.
     pub placement: &'a Placement,
     /// What cuts the board out, and how the board lies then.
@@ -168,7 +168,7 @@ impl<'a> Toolpath<'a> {
     /// A picture of `grid`, with the tool's way through the air where `rapids`.
     #[must_use]
     pub fn new(side: &'a Shown<'a>, grid: &Grid, rapids: bool) -> Self {
-        let ways = side.sections.iter().map(|section| (section, Ways::of(section, side.placement)));
+        let ways = side.sections.iter().map(|&section| (section, Ways::of(section, side.placement)));
         let through = side.cutout.and_then(|(section, placement)| {
             let (depth, paths) = Ways::of(section, placement).cuts.pop_last()?;
             Some((paths, section.tool.width_at(depth)))

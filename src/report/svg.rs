@@ -80,7 +80,7 @@ pub fn side(shown: &Shown<'_>, area: Rect, over: Over) -> String {
         }
         Over::Cuts => {
             svg.group("cuts", &line(CUT, 0.9), |svg| {
-                for section in shown.sections {
+                for section in &shown.sections {
                     for (depth, paths) in &Ways::of(section, shown.placement).cuts {
                         svg.strokes(section.tool.width_at(*depth), paths);
                     }

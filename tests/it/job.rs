@@ -216,9 +216,9 @@ fn of_two_tools_the_wide_one_cuts_where_it_fits() {
     let both = "tool = [\"endmill:0.2mm\", \"wide\"]\n[tools.wide]\nkind = \"endmill\"\ndiameter = \"0.6mm\"\nnumber = 9";
     let (one, _) = job("blinker", fine);
     let (two, settings) = job("blinker", both);
-    let sections = &two.layers[0].sections;
-    let tools: Vec<_> =
-        sections.iter().map(|section| (section.tool.name.as_str(), section.tool.number)).collect();
+    let programs = two.programs.iter().filter(|written| written.part == Part::Back);
+    let sections = programs.flat_map(|written| &written.program.sections);
+    let tools: Vec<_> = sections.map(|section| (section.tool.name.as_str(), section.tool.number)).collect();
     assert_eq!(tools, [("wide", 9), ("endmill:0.2mm", 1)], "the wide one first");
     let (alone, shared) = (cut_mm(&one, Part::Back), cut_mm(&two, Part::Back));
     // Where a lift would take longer, one tool goes over a boundary again; which ones, depends on
