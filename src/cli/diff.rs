@@ -18,9 +18,8 @@ use super::{Failure, Shared};
 /// What copper changes between two programs, not which lines
 ///
 /// Mills both and compares: how much more is cut away, how much less, and where. For reviewing
-/// G-code. Programs in two folders are compared by name; what is in one folder alone is
-/// all of it a difference. Exit code 0: the same copper; 1: not the same; 2: it could not be
-/// compared.
+/// G-code. Programs in two folders are compared by name; what is in one folder alone is all of it
+/// a difference. Exit code 0: the same copper; 1: not the same; 2: it could not be compared.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Diff {

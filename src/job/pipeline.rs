@@ -66,7 +66,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     let bounds = board.bounds().ok_or_else(|| no_copper(settings))?;
     let stock = Stock::new(bounds, settings);
     let mut stages = Stages::default();
-    let (layers, sides): (Vec<Layer>, Vec<Vec<Section>>) =
+    let (layers, sections): (Vec<Layer>, Vec<Vec<Section>>) =
         isolate(&board, &stock, settings)?.into_iter().unzip();
     layers.iter().for_each(|layer| stages.extend(&layer.stages));
     if settings.asked.narrow == Narrow::Error {
@@ -78,8 +78,8 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         planned.push((Part::Alignment, Side::Front, program));
         warnings.extend(found);
     }
-    let idle = effect::tools(&sides, settings);
-    planned.extend(layers.iter().zip(sides).flat_map(|(layer, sections)| {
+    let idle = effect::tools(&sections, settings);
+    planned.extend(layers.iter().zip(sections).flat_map(|(layer, sections)| {
         let files = in_files(isolation(layer, sections, &board, settings), settings);
         files.into_iter().map(|program| (Part::of(layer.side), layer.side, program))
     }));

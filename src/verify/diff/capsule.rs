@@ -4,21 +4,20 @@ use std::cmp::Ordering;
 
 use crate::board::Shape;
 use crate::geometry::Nm;
-
-use super::Place;
+use crate::verify::edges::{Spot, length};
 
 /// All that is within `radius` of a segment, in nanometres.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Capsule {
-    from: Place,
-    way: Place,
+    from: Spot,
+    way: Spot,
     /// One divided by the square of how long the way is; zero where it has no length.
     inverse: f64,
     radius: f64,
 }
 
 impl Capsule {
-    fn new(from: Place, to: Place, radius: f64) -> Self {
+    fn new(from: Spot, to: Spot, radius: f64) -> Self {
         let way = (to.0 - from.0, to.1 - from.1);
         let squared = square(way);
         Self { from, way, inverse: if squared > 0.0 { 1.0 / squared } else { 0.0 }, radius }
@@ -36,23 +35,25 @@ impl Capsule {
             Shape::Arc { arc, radius } => {
                 let radius = radius.to_f64();
                 let mut from = arc.start.to_f64();
-                let capsule = |to: Place| Self::new(std::mem::replace(&mut from, to), to, radius);
+                let capsule = |to: Spot| Self::new(std::mem::replace(&mut from, to), to, radius);
                 arc.flatten(chord).map(|point| point.to_f64()).map(capsule).collect()
             }
             Shape::Polygon(_) => Vec::new(),
         }
     }
 
-    /// The way to `p` from the place of its axis nearest to it.
-    pub(super) fn off(&self, p: Place) -> Place {
+    /// The way to `p` from the place of its axis nearest to it: what
+    /// [`off_segment`](crate::geometry::off_segment) says, made ready for many places, which is a
+    /// tenth of all that there is to do.
+    pub(super) fn off(&self, p: Spot) -> Spot {
         let off = (p.0 - self.from.0, p.1 - self.from.1);
         let part = ((off.0 * self.way.0 + off.1 * self.way.1) * self.inverse).clamp(0.0, 1.0);
         (off.0 - self.way.0 * part, off.1 - self.way.1 * part)
     }
 
     /// How far `p` is beyond it; less than zero within.
-    pub(super) fn beyond(&self, p: Place) -> f64 {
-        square(self.off(p)).sqrt() - self.radius
+    pub(super) fn beyond(&self, p: Spot) -> f64 {
+        length(self.off(p)) - self.radius
     }
 
     /// How wide it is.
@@ -61,14 +62,14 @@ impl Capsule {
     }
 
     /// Whether `p` is less than so far beyond it.
-    pub(super) fn is_within(&self, p: Place, beyond: f64) -> bool {
+    pub(super) fn is_within(&self, p: Spot, beyond: f64) -> bool {
         let most = self.radius + beyond;
         most > 0.0 && square(self.off(p)) < most * most
     }
 
     /// Where all that is within `reach` of `p` lies of what is `more` beyond it: less where within,
     /// greater where outside, equal where across its edge.
-    pub(super) fn side(&self, p: Place, reach: f64, more: f64) -> Ordering {
+    pub(super) fn side(&self, p: Spot, reach: f64, more: f64) -> Ordering {
         let (off, radius) = (square(self.off(p)), self.radius + more);
         if radius >= reach && off <= (radius - reach) * (radius - reach) {
             Ordering::Less
@@ -80,9 +81,9 @@ impl Capsule {
     }
 
     /// The place so far beyond it, straight from its axis through `p`.
-    pub(super) fn outwards(&self, p: Place, beyond: f64) -> Place {
+    pub(super) fn outwards(&self, p: Spot, beyond: f64) -> Spot {
         let (x, y) = self.off(p);
-        let off = square((x, y)).sqrt();
+        let off = length((x, y));
         let further = self.radius + beyond - off;
         if off > 0.0 { (p.0 + x / off * further, p.1 + y / off * further) } else { (p.0 + further, p.1) }
     }
@@ -94,11 +95,11 @@ impl Capsule {
     /// the other's axis, it lies in the other's cut. For each other that is a stretch of its axis.
     ///
     /// ```text
-    ///     ╭───────────────╮        ├──────────────┤ within reach
-    ///   ( ┼───────────────┼ )      ├──────┤ one
-    ///     ╰───────────────╯            ├──────────┤ another: covered
+    ///   (+---------------+)   |---------------| within reach
+    ///                         |-------|         one
+    ///                              |----------| another: covered
     /// ```
-    pub(super) fn is_covered(&self, p: Place, reach: f64, others: &[Self], more: f64) -> bool {
+    pub(super) fn is_covered(&self, p: Spot, reach: f64, others: &[Self], more: f64) -> bool {
         let stretch = |other: &Self| self.stretch(other, other.radius + more - self.radius);
         let mut covers: Vec<(f64, f64)> = others.iter().filter_map(stretch).collect();
         if covers.is_empty() {
@@ -144,10 +145,10 @@ impl Capsule {
                 add((0.0, 1.0));
             }
         }
-        if other.inverse > 0.0 {
-            let length = square(side).sqrt();
-            let along = |v: Place| (v.0 * side.0 + v.1 * side.1) / length;
-            let across = |v: Place| (v.1 * side.0 - v.0 * side.1) / length;
+        let length = length(side);
+        if length > 0.0 {
+            let along = |v: Spot| (v.0 * side.0 + v.1 * side.1) / length;
+            let across = |v: Spot| (v.1 * side.0 - v.0 * side.1) / length;
             let beside = within(along(off), along(way), 0.0, length);
             let near = within(across(off), across(way), -reach, reach);
             if let (Some(beside), Some(near)) = (beside, near) {
@@ -159,7 +160,7 @@ impl Capsule {
 
     /// Whether boxes round their axes, `off` from each other where they begin, are apart by more
     /// than `reach`.
-    fn is_apart(&self, other: &Self, off: Place, reach: f64) -> bool {
+    fn is_apart(&self, other: &Self, off: Spot, reach: f64) -> bool {
         let apart = |off: f64, way: f64, side: f64| {
             off + way.min(0.0) > side.max(0.0) + reach || off + way.max(0.0) < side.min(0.0) - reach
         };
@@ -176,7 +177,7 @@ fn within(at: f64, slope: f64, low: f64, high: f64) -> Option<(f64, f64)> {
     Some((one.min(other), one.max(other)))
 }
 
-const fn square((x, y): Place) -> f64 {
+const fn square((x, y): Spot) -> f64 {
     x * x + y * y
 }
 
@@ -199,10 +200,9 @@ mod tests {
                 let part = f64::from(step) / 1000.0;
                 (cut.from.0 + cut.way.0 * part, cut.from.1 + cut.way.1 * part)
             });
-            let near = steps.filter(|at| square((at.0 - p.0, at.1 - p.1)).sqrt() <= reach + 30.0);
+            let near = steps.filter(|at| length((at.0 - p.0, at.1 - p.1)) <= reach + 30.0);
             // How far the place that is least covered is from being so.
-            let beyond =
-                |at: Place| others.iter().map(|other| other.beyond(at)).fold(f64::INFINITY, f64::min);
+            let beyond = |at: Spot| others.iter().map(|other| other.beyond(at)).fold(f64::INFINITY, f64::min);
             let Some(worst) = near.map(beyond).reduce(f64::max) else { continue };
             let is_covered = cut.is_covered(p, reach, &others, 5.0);
             if worst <= -26.0 {

@@ -47,9 +47,6 @@ pub struct Region {
     pub area: f64,
 }
 
-/// A place of the plane, in nanometres.
-type Place = (f64, f64);
-
 /// How two programs differ.
 #[derive(Debug)]
 pub struct Comparison {
@@ -238,7 +235,7 @@ impl Comparison {
                 return Vec::new();
             }
             let others = others.near(tile.rect().inflate(self.tolerance), false, chord);
-            quadtree::shares(tile, cuts, others, self.tolerance.to_f64())
+            quadtree::shares(tile, &cuts, &others, self.tolerance.to_f64())
         })
     }
 

@@ -1,12 +1,17 @@
 //! Where one program cuts and the other does not, however narrow: squares that are quartered until
 //! each is settled.
 //!
+//! A square that no cut comes near, or that the other program cuts all of, is nothing. One that a
+//! cut is all of, and that nothing else comes near, is all a difference. Others are quartered, with
+//! what comes near to them alone; of pixels a share differs, by how far the edges of either are
+//! from the middle.
+//!
 //! ```text
-//!   ┌───────┬───┬───┐   A square that no cut comes near, or that the other program cuts all
-//!   │       │ · │ ╱ │   of, is nothing. One that a cut is all of, and that nothing else comes
-//!   │       ├─┬─┼╱──┤   near, is all a difference. Others are quartered, with what comes near
-//!   │       │ │╱│   │   to them alone; of pixels a share differs, by how far the edges of
-//!   └───────┴─┴─┴───┘   either are from the middle.
+//!   ┌───────┬───┬───┐
+//!   │       │   │ ╱ │
+//!   │       ├─┬─┼╱──┤
+//!   │       │ │╱│   │
+//!   └───────┴─┴─┴───┘
 //! ```
 
 use std::cmp::Ordering;
@@ -14,8 +19,8 @@ use std::f64::consts::SQRT_2;
 use std::ops::Range;
 
 use crate::grid::Grid;
+use crate::verify::edges::{Spot, length};
 
-use super::Place;
 use super::capsule::Capsule;
 
 /// Cuts are looked for in others where there are no more pairs, and in squares of so many pixels
@@ -27,7 +32,7 @@ const FINE: f64 = 8.0;
 
 /// How much of each pixel of a grid, row by row, `cuts` are and all `others` are farther away from
 /// than `tolerance`: from 0 to 1.
-pub(super) fn shares(grid: &Grid, cuts: Vec<Capsule>, others: Vec<Capsule>, tolerance: f64) -> Vec<f32> {
+pub(super) fn shares(grid: &Grid, cuts: &[Capsule], others: &[Capsule], tolerance: f64) -> Vec<f32> {
     let (first, all) = (cuts.len(), cuts.len() + others.len());
     let mut tree = Quadtree {
         corner: grid.corner(0, 0).to_f64(),
@@ -44,7 +49,7 @@ pub(super) fn shares(grid: &Grid, cuts: Vec<Capsule>, others: Vec<Capsule>, tole
 
 struct Quadtree {
     /// The upper left corner.
-    corner: Place,
+    corner: Spot,
     pitch: f64,
     /// Columns and rows.
     size: (u32, u32),
@@ -106,7 +111,7 @@ impl Quadtree {
 
     /// What there is to say of all that is within `reach` of a place; where `thoroughly`, cuts are
     /// looked for in others, too.
-    fn verdict(&mut self, center: Place, reach: f64, near: &Near, thoroughly: bool) -> Verdict {
+    fn verdict(&mut self, center: Spot, reach: f64, near: &Near, thoroughly: bool) -> Verdict {
         let start = self.near.len();
         for other in near.others.clone() {
             let other = self.near[other];
@@ -140,22 +145,23 @@ impl Quadtree {
     }
 
     /// How much of a square the cuts are and others are not, if no more than one straight edge of
-    /// either crosses it; it is quartered where it is wider than a cut.
+    /// either crosses it; it is quartered where it is wider than a cut. Both edges are as far from
+    /// the middle as is measured there; one that another cut lies across is none.
     ///
     /// ```text
     ///   ┌──────────╱─────╱┐
-    ///   │ others  ╱ ▒▒▒▒╱ │    Both edges are as far from the middle as is measured there;
-    ///   │        ╱ ▒▒▒▒╱  │    one that another cut lies across is none.
+    ///   │ others  ╱ ▒▒▒▒╱ │
+    ///   │        ╱ ▒▒▒▒╱  │
     ///   └───────╱─────╱───┘
     /// ```
     #[expect(clippy::cast_possible_truncation, reason = "a share needs no more digits")]
-    fn share(&self, center: Place, side: f64, near: &Near) -> f32 {
+    fn share(&self, center: Spot, side: f64, near: &Near) -> f32 {
         let (cuts, others) = (&self.near[near.cuts.clone()], &self.near[near.others.clone()]);
         let is_narrow = |cut: &Capsule| cut.kerf() < side;
         if side > self.pitch / FINE && cuts.iter().chain(others).any(is_narrow) {
             let (side, off) = (side / 2.0, side / 4.0);
             let quarters = [(-off, off), (off, off), (-off, -off), (off, -off)];
-            let share = |(x, y): Place| self.share((center.0 + x, center.1 + y), side, near);
+            let share = |(x, y): Spot| self.share((center.0 + x, center.1 + y), side, near);
             return quarters.map(share).into_iter().sum::<f32>() / 4.0;
         }
         let Some((cut, beyond)) = nearest(center, cuts) else { return 0.0 };
@@ -177,7 +183,7 @@ impl Quadtree {
     }
 
     /// Whether the nearest place to `place` where `deepest` ends is cut by no other.
-    fn is_edge(&self, place: Place, deepest: &Capsule, others: &[Capsule]) -> bool {
+    fn is_edge(&self, place: Spot, deepest: &Capsule, others: &[Capsule]) -> bool {
         let out = deepest.outwards(place, self.tolerance + 1.0);
         others.iter().all(|other| other.beyond(out) > self.tolerance)
     }
@@ -185,15 +191,15 @@ impl Quadtree {
 
 /// How much of a square, so wide, lies within an edge that its middle is so far beyond; `out` is
 /// the way across the edge.
-fn within(beyond: f64, out: Place, side: f64) -> f64 {
-    let length = (out.0 * out.0 + out.1 * out.1).sqrt();
+fn within(beyond: f64, out: Spot, side: f64) -> f64 {
+    let length = length(out);
     // As wide as the square is, seen along the edge.
     let width = if length > 0.0 { side * (out.0.abs() + out.1.abs()) / length } else { side };
     (0.5 - beyond / width).clamp(0.0, 1.0)
 }
 
 /// The capsule that a place is least beyond, and how far.
-fn nearest(place: Place, all: &[Capsule]) -> Option<(&Capsule, f64)> {
+fn nearest(place: Spot, all: &[Capsule]) -> Option<(&Capsule, f64)> {
     let mut nearest: Option<(&Capsule, f64)> = None;
     for capsule in all {
         let most = nearest.map_or(f64::INFINITY, |(_, beyond)| beyond);
