@@ -17,9 +17,10 @@ use super::{Failure, Shared};
 
 /// What copper changes between two programs, not which lines
 ///
-/// Mills both and compares: how much more is cut away, how much less, and where. For reviewing
-/// G-code. Programs in two folders are compared by name; what is in one folder alone is all of it
-/// a difference. Exit code 0: the same copper; 1: not the same; 2: it could not be compared.
+/// Mills both and compares: how much more is cut away, how much less, what is cut deeper and less
+/// deep, and where. For reviewing G-code. Programs in two folders are compared by name; what is in
+/// one folder alone is all of it a difference. Exit code 0: the same copper, cut as deep; 1: not
+/// the same; 2: it could not be compared.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Diff {
@@ -92,7 +93,7 @@ impl Diff {
             }
             Format::Json => super::print(&to_json(&compared)),
         }?;
-        let same = compared.iter().all(|compared| compared.same);
+        let same = compared.iter().all(Compared::is_same);
         Ok(if same { ExitCode::SUCCESS } else { ExitCode::from(1) })
     }
 

@@ -16,6 +16,10 @@ use super::quantity::{Millimetres, Place, SCHEMA_VERSION, json};
 const NEWLY_CUT: Rgb = Rgb(0xff, 0x4d, 0x4d);
 /// What was cut and is left now.
 const NEWLY_LEFT: Rgb = Rgb(0x3d, 0xd6, 0x8c);
+/// What is cut deeper now.
+const DEEPER: Rgb = Rgb(0xff, 0xa9, 0x3d);
+/// What is cut less deep now.
+const SHALLOWER: Rgb = Rgb(0x4d, 0x9d, 0xff);
 
 /// Places that the short text shows for each file; the rest are counted. Chosen.
 const SHOWN: usize = 5;
@@ -27,12 +31,18 @@ const SIDE: u32 = 2400;
 pub struct Compared {
     /// Their name.
     pub file: String,
-    /// Whether both cut the same.
+    /// Whether both leave the same copper.
     pub same: bool,
+    /// Whether both cut as deep.
+    pub same_depth: bool,
     /// How much is cut now that was not.
     pub more_cut: Amount,
     /// How much is left now that was cut.
     pub less_cut: Amount,
+    /// How much is cut deeper now.
+    pub deeper: Amount,
+    /// How much is cut less deep now.
+    pub shallower: Amount,
     /// The pixel in which differences are gathered.
     pub pixel_mm: Millimetres,
     /// Where, the largest first.
@@ -51,7 +61,8 @@ pub struct Amount {
 /// A place where programs differ.
 #[derive(Clone, Debug, Serialize)]
 pub struct Difference {
-    /// `cut` where it is cut now and was not, else `left`.
+    /// `more` where it is cut now and was not, `less` where it was; `deeper` or `shallower` where
+    /// both cut it.
     pub change: &'static str,
     /// Its middle, where the machine has it.
     pub at: Place,
@@ -59,6 +70,9 @@ pub struct Difference {
     pub size_mm: [Millimetres; 2],
     /// In mm².
     pub area_mm2: f64,
+    /// How deep it was cut and is cut, if both cut it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub depths_mm: Option<[Millimetres; 2]>,
 }
 
 impl Compared {
@@ -69,40 +83,60 @@ impl Compared {
             let (places, area) = comparison.total(change);
             Amount { places, area_mm2: rounded(area) }
         };
+        let [more_cut, less_cut, deeper, shallower] = Change::ALL.map(amount);
         Self {
             file: file.to_owned(),
-            same: comparison.is_same(),
-            more_cut: amount(Change::Cut),
-            less_cut: amount(Change::Left),
+            same: more_cut.places + less_cut.places == 0,
+            same_depth: deeper.places + shallower.places == 0,
+            more_cut,
+            less_cut,
+            deeper,
+            shallower,
             pixel_mm: Millimetres(comparison.resolution),
             places: comparison.regions.iter().map(Difference::new).collect(),
         }
     }
 
+    /// Whether both do the same to the board.
+    #[must_use]
+    pub const fn is_same(&self) -> bool {
+        self.same && self.same_depth
+    }
+
     /// For people: a line, and the largest differences below it; all of them where `verbose`.
     #[must_use]
     pub fn to_text(&self, verbose: bool) -> String {
-        if self.same {
-            return format!("{}: the same copper\n", self.file);
-        }
-        let Self { more_cut: more, less_cut: less, .. } = self;
-        let places = |amount: &Amount| crate::board::diagnostic::count(amount.places, "place");
-        let mut text = format!(
-            "{}: {:.4} mm² more cut away in {}, {:.4} mm² less in {}\n",
-            self.file,
-            more.area_mm2,
-            places(more),
-            less.area_mm2,
-            places(less)
-        );
+        let amounts = [
+            (&self.more_cut, "more cut away"),
+            (&self.less_cut, "less"),
+            (&self.deeper, "cut deeper"),
+            (&self.shallower, "less deep"),
+        ];
+        let amounts = amounts.into_iter().filter(|(amount, _)| amount.places > 0).map(|(amount, how)| {
+            let places = crate::board::diagnostic::count(amount.places, "place");
+            format!("{:.4} mm² {how} in {places}", amount.area_mm2)
+        });
+        let amounts = amounts.collect::<Vec<_>>().join(", ");
+        let copper = match (self.same, self.same_depth) {
+            (true, true) => "the same copper",
+            (true, false) => "the same copper, but ",
+            (false, _) => "",
+        };
+        let mut text = format!("{}: {copper}{amounts}\n", self.file);
         let shown = if verbose { usize::MAX } else { SHOWN };
         for place in self.places.iter().take(shown) {
-            let sign = if place.change == "more" { "more" } else { "less" };
-            let (at, [width, height]) = (&place.at, &place.size_mm);
+            let (change, at, [width, height]) = (place.change, &place.at, &place.size_mm);
+            let depths = place.depths_mm.as_ref();
+            let depths = depths.map(|[was, is]| format!("{:.3} mm instead of {:.3} mm, ", is.0, was.0));
             let _ = writeln!(
                 text,
-                "  {sign} at {:.3}, {:.3} mm: {:.4} mm² within {:.3} × {:.3} mm",
-                at.x_mm.0, at.y_mm.0, place.area_mm2, width.0, height.0
+                "  {change} at {:.3}, {:.3} mm: {}{:.4} mm² within {:.3} × {:.3} mm",
+                at.x_mm.0,
+                at.y_mm.0,
+                depths.unwrap_or_default(),
+                place.area_mm2,
+                width.0,
+                height.0
             );
         }
         if self.places.len() > shown {
@@ -118,10 +152,13 @@ impl Difference {
             change: match region.change {
                 Change::Cut => "more",
                 Change::Left => "less",
+                Change::Deeper => "deeper",
+                Change::Shallower => "shallower",
             },
             at: Place::from(region.middle()),
             size_mm: [region.rect.width(), region.rect.height()].map(Millimetres),
             area_mm2: rounded(region.area),
+            depths_mm: region.depths.map(|depths| depths.map(Millimetres)),
         }
     }
 }
@@ -142,7 +179,7 @@ fn rounded(area: f64) -> f64 {
 }
 
 /// A picture of all that either cuts: what both cut is pale, what is cut now and was not is red,
-/// what is left now is green.
+/// what is left now is green; orange is cut deeper now, and blue less deep.
 ///
 /// # Errors
 ///
@@ -161,8 +198,10 @@ pub fn picture(comparison: &Comparison) -> Result<Canvas, Error> {
                 match spot {
                     Spot::Neither => COPPER,
                     Spot::Both => CUT,
-                    Spot::One(Change::Cut) => NEWLY_CUT,
-                    Spot::One(Change::Left) => NEWLY_LEFT,
+                    Spot::Changed(Change::Cut) => NEWLY_CUT,
+                    Spot::Changed(Change::Left) => NEWLY_LEFT,
+                    Spot::Changed(Change::Deeper) => DEEPER,
+                    Spot::Changed(Change::Shallower) => SHALLOWER,
                 },
             );
         }

@@ -62,6 +62,9 @@ pub(super) struct Swept {
     pub(super) full: Nm,
     /// The line of the program.
     pub(super) line: u32,
+    /// Whether it is a step of a motion that goes up or down, as deep as its middle: half of
+    /// [`SINK`] more at one end, and less at the other.
+    pub(super) slopes: bool,
 }
 
 impl Swept {
@@ -158,13 +161,14 @@ impl Machining {
                 None => deepest.push((cutter, -above.min(below))),
             }
             let levels = [copper, settings.board + cutter.point()];
+            let slopes = above != below && (from != to || matches!(motion.way, Way::Arc { .. }));
             for (shape, depth) in pieces(motion, from, to, cutter, levels) {
                 if depth >= copper {
                     let shape = with_radius(&shape, cutter.width_at(depth) / 2);
                     let shape = self.placement.undo_axis(shape);
                     let floor = cutter.width_at(depth - copper) / 2;
                     let full = depth - cutter.point();
-                    self.swept.push(Swept { shape, floor, depth, full, line: motion.line });
+                    self.swept.push(Swept { shape, floor, depth, full, line: motion.line, slopes });
                 }
             }
         }
@@ -234,7 +238,7 @@ fn within_range(points: &[Point]) -> bool {
 
 /// How much half the kerf may change within a piece, and how much the depth. In nanometres. Chosen.
 const STEP: f64 = 1_000.0;
-const SINK: f64 = 50_000.0;
+pub(super) const SINK: f64 = 50_000.0;
 
 /// A motion as pieces of one depth each: one where it is level, else so many that the kerf is true
 /// to [`STEP`]. Each lies either above or below each of `levels`, depths that something is judged

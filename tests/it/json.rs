@@ -13,7 +13,7 @@ use super::cli::{stderr, stdout, voromill};
 const OPEN: [&str; 2] = ["settings", "counts"];
 
 /// What writes reports, between them all keys; @ is the folder of the fixtures.
-const RUNS: [&str; 14] = [
+const RUNS: [&str; 15] = [
     "mill @boards/unsafe-gap -o a -vv --strategy auto",
     "mill @boards/unsafe-gap/unsafe-gap-F_Cu.gbr -o b --name unsafe-gap --topology translucency --tool endmill:0.0905mm",
     "mill @boards/blinker -o c --tool endmill:0.55mm --no-verify",
@@ -24,6 +24,7 @@ const RUNS: [&str; 14] = [
     "verify a --board @boards/unsafe-gap",
     "verify @verify/arcs.nc --board @verify/pads-F_Cu.gbr --tool endmill:0.2mm --side front",
     "diff a/unsafe-gap-front.ngc b/unsafe-gap-front.ngc",
+    "diff a/unsafe-gap-front.ngc a/unsafe-gap-cutout.ngc",
     "carve @gerber/clear_polarity.gbr -o carved.ngc --tool vbit:0.1mm:90deg --max-depth 0.2mm",
     "carve @gerber/clear_polarity.gbr --check carved.ngc --tool vbit:0.1mm:60deg",
     "pocket @gerber/clear_polarity.gbr -o milled.ngc --tool endmill:0.3mm --depth 0.1mm",

@@ -13,6 +13,7 @@ mod coupling;
 mod damage;
 mod diagnostics;
 mod dialect_files;
+mod diff;
 mod docs;
 mod drawings;
 mod drills;

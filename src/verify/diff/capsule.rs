@@ -14,29 +14,29 @@ pub(super) struct Capsule {
     /// One divided by the square of how long the way is; zero where it has no length.
     inverse: f64,
     radius: f64,
+    /// How deep.
+    pub(super) depth: f64,
 }
 
 impl Capsule {
-    fn new(from: Spot, to: Spot, radius: f64) -> Self {
+    fn new(from: Spot, to: Spot, radius: f64, depth: f64) -> Self {
         let way = (to.0 - from.0, to.1 - from.1);
         let squared = square(way);
-        Self { from, way, inverse: if squared > 0.0 { 1.0 / squared } else { 0.0 }, radius }
+        Self { from, way, inverse: if squared > 0.0 { 1.0 / squared } else { 0.0 }, radius, depth }
     }
 
-    /// The capsules that a cut is; an arc's axis is left by up to `chord`.
-    pub(super) fn of(shape: &Shape, chord: Nm) -> Vec<Self> {
+    /// The capsules that a cut is; an arc's axis is left by chords that are `within` so far
+    /// of it.
+    pub(super) fn of(shape: &Shape, within: Nm, depth: Nm) -> Vec<Self> {
+        let capsule =
+            |from: Spot, to: Spot, radius: &Nm| Self::new(from, to, radius.to_f64(), depth.to_f64());
         match shape {
-            Shape::Disc { center, radius } => {
-                vec![Self::new(center.to_f64(), center.to_f64(), radius.to_f64())]
-            }
-            Shape::Stroke { from, to, radius } => {
-                vec![Self::new(from.to_f64(), to.to_f64(), radius.to_f64())]
-            }
+            Shape::Disc { center, radius } => vec![capsule(center.to_f64(), center.to_f64(), radius)],
+            Shape::Stroke { from, to, radius } => vec![capsule(from.to_f64(), to.to_f64(), radius)],
             Shape::Arc { arc, radius } => {
-                let radius = radius.to_f64();
                 let mut from = arc.start.to_f64();
-                let capsule = |to: Spot| Self::new(std::mem::replace(&mut from, to), to, radius);
-                arc.flatten(chord).map(|point| point.to_f64()).map(capsule).collect()
+                let chord = |to: Spot| capsule(std::mem::replace(&mut from, to), to, radius);
+                arc.flatten(within).map(|point| point.to_f64()).map(chord).collect()
             }
             Shape::Polygon(_) => Vec::new(),
         }
@@ -88,8 +88,8 @@ impl Capsule {
         if off > 0.0 { (p.0 + x / off * further, p.1 + y / off * further) } else { (p.0 + further, p.1) }
     }
 
-    /// Whether all of its cut that comes within `reach` of `p` is also cut by `others`, where they
-    /// cut `more` than they do.
+    /// Whether all of its cut that comes within `reach` of `p` is also cut by `others`, at least as
+    /// deep, where they cut `more` than they do.
     ///
     /// Cut is a disc that goes along; where its middle is within the other's radius less its own of
     /// the other's axis, it lies in the other's cut. For each other that is a stretch of its axis.
@@ -101,11 +101,12 @@ impl Capsule {
     /// ```
     pub(super) fn is_covered(&self, p: Spot, reach: f64, others: &[Self], more: f64) -> bool {
         let stretch = |other: &Self| self.stretch(other, other.radius + more - self.radius);
-        let mut covers: Vec<(f64, f64)> = others.iter().filter_map(stretch).collect();
+        let as_deep = others.iter().filter(|other| other.depth >= self.depth);
+        let mut covers: Vec<(f64, f64)> = as_deep.filter_map(stretch).collect();
         if covers.is_empty() {
             return false;
         }
-        let Some((start, end)) = self.stretch(&Self::new(p, p, 0.0), reach + self.radius) else {
+        let Some((start, end)) = self.stretch(&Self::new(p, p, 0.0, 0.0), reach + self.radius) else {
             return true;
         };
         covers.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
@@ -193,8 +194,8 @@ mod tests {
         let (mut yes, mut no) = (0, 0);
         for board in 0..20_000 {
             let mut place = || Point::new(Nm::new(random(400)), Nm::new(random(400))).to_f64();
-            let cut = Capsule::new(place(), place(), 30.0);
-            let others: Vec<Capsule> = (0..4).map(|_| Capsule::new(place(), place(), 110.0)).collect();
+            let cut = Capsule::new(place(), place(), 30.0, 0.0);
+            let others: Vec<Capsule> = (0..4).map(|_| Capsule::new(place(), place(), 110.0, 0.0)).collect();
             let (p, reach) = (place(), 60.0);
             let steps = (0..=1000).map(|step| {
                 let part = f64::from(step) / 1000.0;

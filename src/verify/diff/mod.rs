@@ -1,31 +1,28 @@
-//! What another program cuts that this one does not: copper, not lines.
+//! What another program cuts that this one does not, and how deep: copper, not lines.
 //!
 //! Where one has cuts that the other has not, tile by tile, the plane is quartered until each
 //! square is settled: it differs where one cuts it and the other stays clear of it by more than a
 //! tolerance, so that programs that say the same in other words (lines for arcs, another order,
 //! other digits) do not differ. Pixels gather differences, and do not limit how narrow they are.
-//! Those that hang together are one.
+//! Those that hang together are one. What both cut is asked the same of what either cuts as deep.
 
 mod capsule;
+mod cuts;
 mod joined;
 mod quadtree;
 
-use bitvec::vec::BitVec;
 use rayon::prelude::*;
-use rustc_hash::FxHashSet;
 
-use crate::board::{Board, Shape};
-use crate::geometry::{Arc, Nm, Point, Rect, RectIndex, Turn};
+use crate::board::Shape;
+use crate::geometry::{Nm, Point, Rect, Vector};
 use crate::grid::Grid;
-use crate::raster::{Buffers, Label, Scene, render};
-use crate::topology::surface;
+use crate::raster::{Buffers, Scene, render};
 
-use capsule::Capsule;
+use cuts::{By, Cuts};
 use joined::{Joined, Strip, strips};
 
-use super::machining::Machining;
 use super::sheet::pixel;
-use super::{Error, Placement, Program, Role, Settings};
+use super::{Error, Program, Settings};
 
 /// What became of a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -34,6 +31,15 @@ pub enum Change {
     Cut,
     /// It was cut, and is left now.
     Left,
+    /// It was cut, and is cut deeper now.
+    Deeper,
+    /// It was cut, and is cut less deep now.
+    Shallower,
+}
+
+impl Change {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Cut, Self::Left, Self::Deeper, Self::Shallower];
 }
 
 /// A place where two programs differ.
@@ -45,6 +51,8 @@ pub struct Region {
     pub rect: Rect,
     /// How large, in mm².
     pub area: f64,
+    /// How deep it was cut and is cut now where that differs most, if both cut it.
+    pub depths: Option<[Nm; 2]>,
 }
 
 /// How two programs differ.
@@ -68,12 +76,12 @@ pub enum Spot {
     Neither,
     /// Cut by both.
     Both,
-    /// Cut by one alone.
-    One(Change),
+    /// Not the same: cut by one alone, or deeper.
+    Changed(Change),
 }
 
-/// Compares what two programs cut, each deeper than the copper of `settings` is thick; a difference
-/// counts from `tolerance` on. An empty text cuts nothing.
+/// Compares what two programs cut, each deeper than the copper of `settings` is thick, and how
+/// deep; a difference counts from `tolerance` on. An empty text cuts nothing.
 ///
 /// # Errors
 ///
@@ -84,80 +92,17 @@ pub fn diff(
     tolerance: Nm,
     settings: &Settings,
 ) -> Result<Comparison, Error> {
-    let (before, after) = (swept(before, settings)?, swept(after, settings)?);
-    let shapes = || before.iter().chain(&after);
+    let [before, after] = Cuts::of([before, after], tolerance, settings)?;
+    let shapes = || before.cuts.iter().chain(&after.cuts).map(|cut| &cut.shape);
     let rect = shapes().map(Shape::bounds).reduce(Rect::union);
     let narrowest = shapes().map(half).min().unwrap_or(Nm::from_um(100));
     let resolution = settings.pixel.unwrap_or_else(|| pixel(narrowest));
-    let alone = |cuts: &[Shape], others: &[Shape]| {
-        let others: FxHashSet<&Shape> = others.iter().collect();
-        cuts.iter().map(|cut| !others.contains(cut)).collect::<BitVec>()
-    };
-    let (only_before, only_after) = (alone(&before, &after), alone(&after, &before));
-    let (before, after) = (Cuts::new(before, only_before), Cuts::new(after, only_after));
     let mut comparison = Comparison { regions: Vec::new(), resolution, rect, before, after, tolerance };
     if let Some(rect) = rect {
         let grid = Grid::covering(rect.inflate(resolution), resolution)?;
         comparison.regions = comparison.regions(&grid);
     }
     Ok(comparison)
-}
-
-/// What a program cuts, where the machine has it; of an empty text nothing.
-fn swept(program: &Program, settings: &Settings) -> Result<Vec<Shape>, Error> {
-    if program.text.is_empty() {
-        return Ok(Vec::new());
-    }
-    // Where the board lies and what for is no matter: both are compared as the machine moves.
-    let role = program.role.unwrap_or(Role::Cutout);
-    let placed = Program { role: Some(role), placement: Some(Placement::default()), ..program.clone() };
-    let read = Machining::read(&placed, &Board::default(), settings)?;
-    // The same way is cut again and again, deeper each time.
-    let mut known = FxHashSet::default();
-    let shapes = read.swept.into_iter().map(|swept| undirected(swept.shape));
-    Ok(shapes.filter(|shape| known.insert(shape.clone())).collect())
-}
-
-/// The same shape whichever way it is cut.
-fn undirected(shape: Shape) -> Shape {
-    match shape {
-        Shape::Stroke { from, to, radius } if to < from => Shape::Stroke { from: to, to: from, radius },
-        Shape::Arc { arc, radius } if arc.turn == Turn::Clockwise => {
-            let arc = Arc { start: arc.end, end: arc.start, turn: Turn::CounterClockwise, ..arc };
-            Shape::Arc { arc, radius }
-        }
-        other => other,
-    }
-}
-
-/// What a program cuts, by place.
-#[derive(Debug)]
-struct Cuts {
-    shapes: Vec<Shape>,
-    /// Those that the other program does not have.
-    alone: BitVec,
-    index: RectIndex,
-}
-
-impl Cuts {
-    fn new(shapes: Vec<Shape>, alone: BitVec) -> Self {
-        let index = RectIndex::new(shapes.iter().map(Shape::bounds));
-        Self { shapes, alone, index }
-    }
-
-    /// The cuts that touch `rect`, arcs as chords within `chord`; of those alone that the other
-    /// program does not have, where `alone`.
-    fn near(&self, rect: Rect, alone: bool, chord: Nm) -> Vec<Capsule> {
-        let near = self.index.touching(rect).into_iter().filter(|&cut| !alone || self.alone[cut]);
-        near.flat_map(|cut| Capsule::of(&self.shapes[cut], chord)).collect()
-    }
-
-    /// Marks the pixels of `grid` that are cut with zero.
-    fn draw(&self, grid: &Grid, scene: &mut Scene) {
-        for cut in self.index.touching(grid.rect()) {
-            scene.add(Label(1), surface(&self.shapes[cut], grid, Some(0.0)));
-        }
-    }
 }
 
 const fn half(shape: &Shape) -> Nm {
@@ -213,36 +158,48 @@ impl Comparison {
         render(&scene, &mut buffers);
         let cut = |&depth: &f32| if depth <= 0.0 { Spot::Both } else { Spot::Neither };
         let mut spots: Vec<Spot> = buffers.depths().iter().map(cut).collect();
-        let [cut, left] = self.shares(tile);
         let mut least = vec![0.0; spots.len()];
-        for (change, shares) in [(Change::Cut, cut), (Change::Left, left)] {
+        for (change, shares) in Change::ALL.into_iter().zip(self.shares(tile)) {
             for ((spot, least), share) in spots.iter_mut().zip(&mut least).zip(shares) {
                 if share > *least {
-                    (*spot, *least) = (Spot::One(change), share);
+                    (*spot, *least) = (Spot::Changed(change), share);
                 }
             }
         }
         spots
     }
 
-    /// How much of each pixel of a tile is newly cut, and newly left; empty where nothing is.
-    fn shares(&self, tile: &Grid) -> [Vec<f32>; 2] {
-        // A small part of what is tolerated, but far above a nanometre.
-        let chord = (self.tolerance / 16).max(Nm::new(50)).min(Nm::new(500));
-        [(&self.after, &self.before), (&self.before, &self.after)].map(|(cuts, others)| {
-            let cuts = cuts.near(tile.rect(), true, chord);
+    /// How much of each pixel of a tile this became of, in the order of [`Change::ALL`]; empty
+    /// where nothing did.
+    fn shares(&self, tile: &Grid) -> [Vec<f32>; 4] {
+        let [cut, deeper] = self.beyond(tile, &self.after, &self.before);
+        let [left, shallower] = self.beyond(tile, &self.before, &self.after);
+        [cut, left, deeper, shallower]
+    }
+
+    /// How much of each pixel of a tile is cut where `others` do not cut, and where they do, but
+    /// less deep.
+    fn beyond(&self, tile: &Grid, cuts: &Cuts, others: &Cuts) -> [Vec<f32>; 2] {
+        [By::Copper, By::Depth].map(|by| {
+            let cuts = cuts.alone(tile.rect(), by, self.chord());
             if cuts.is_empty() {
                 return Vec::new();
             }
-            let others = others.near(tile.rect().inflate(self.tolerance), false, chord);
-            quadtree::shares(tile, &cuts, &others, self.tolerance.to_f64())
+            let others = others.near(tile.rect(), by, self.chord(), self.tolerance);
+            quadtree::shares(tile, by, &cuts, &others, self.tolerance.to_f64())
         })
+    }
+
+    /// How far chords may leave an arc: a small part of what is tolerated, but far above a
+    /// nanometre.
+    fn chord(&self) -> Nm {
+        (self.tolerance / 16).max(Nm::new(50)).min(Nm::new(500))
     }
 
     /// What differs, on this grid, tile by tile.
     fn regions(&self, grid: &Grid) -> Vec<Region> {
-        // What is cut and what is left each hang together by themselves, though they may touch.
-        let mut found = [Change::Cut, Change::Left].map(Joined::new);
+        // What this became of hangs together by itself, though it may touch what that became of.
+        let mut found = Change::ALL.map(Joined::new);
         for top in tops(grid) {
             let tiles: Vec<(u32, Grid)> = tiles(grid, top).collect();
             let of_tile = |(column, tile): (u32, Grid)| {
@@ -251,7 +208,7 @@ impl Comparison {
                 };
                 self.shares(&tile).map(rows)
             };
-            let found_there: Vec<[Vec<Vec<Strip>>; 2]> = tiles.into_par_iter().map(of_tile).collect();
+            let found_there: Vec<[Vec<Vec<Strip>>; 4]> = tiles.into_par_iter().map(of_tile).collect();
             for row in 0..TILE.min(grid.height() - top) {
                 for (side, joined) in found.iter_mut().enumerate() {
                     let of = found_there.iter().filter_map(|tile| tile[side].get(row as usize));
@@ -259,11 +216,35 @@ impl Comparison {
                 }
             }
         }
-        let mut regions: Vec<Region> = found.into_iter().flat_map(|joined| joined.regions(grid)).collect();
+        let found = found.into_iter().flat_map(|joined| joined.regions(grid));
+        let mut regions: Vec<Region> =
+            found.map(|(region, pixel)| self.with_depths(region, grid, pixel)).collect();
         regions.sort_by(|a, b| {
             b.area.total_cmp(&a.area).then((a.rect.min(), a.change).cmp(&(b.rect.min(), b.change)))
         });
         regions
+    }
+
+    /// The region, and how deep both cut it at a place of the pixel where they differ most.
+    fn with_depths(&self, region: Region, grid: &Grid, (column, row): (u32, u32)) -> Region {
+        let (deep, shallow) = match region.change {
+            Change::Cut | Change::Left => return region,
+            Change::Deeper => (&self.after, &self.before),
+            Change::Shallower => (&self.before, &self.after),
+        };
+        let pixel = grid.part((column, row), 1, 1).rect();
+        let parts = [4, 0, 1, 2, 3, 5, 6, 7, 8].map(|eighth| pixel.width() * eighth / 8);
+        let places = parts.into_iter().flat_map(|x| parts.map(|y| pixel.min() + Vector::new(x, y)));
+        let mut depths = places.filter_map(|place| {
+            let deep = deep.depth_at(place, self.chord(), Nm::ZERO)?;
+            let shallow = shallow.depth_at(place, self.chord(), self.tolerance)?;
+            (deep > shallow + self.tolerance).then_some([shallow, deep])
+        });
+        let mut depths = depths.next();
+        if region.change == Change::Shallower {
+            depths.iter_mut().for_each(|depths| depths.reverse());
+        }
+        Region { depths, ..region }
     }
 }
 

@@ -4,7 +4,8 @@
 //! A square that no cut comes near, or that the other program cuts all of, is nothing. One that a
 //! cut is all of, and that nothing else comes near, is all a difference. Others are quartered, with
 //! what comes near to them alone; of pixels a share differs, by how far the edges of either are
-//! from the middle.
+//! from the middle. By depth, squares that only the cuts come near are nothing, and others that are
+//! less deep count for nothing but for being there.
 //!
 //! ```text
 //!   ┌───────┬───┬───┐
@@ -22,6 +23,7 @@ use crate::grid::Grid;
 use crate::verify::edges::{Spot, length};
 
 use super::capsule::Capsule;
+use super::cuts::By;
 
 /// Cuts are looked for in others where there are no more pairs, and in squares of so many pixels
 /// along a side at least. Chosen: half and twice as many make hardly a difference.
@@ -31,29 +33,40 @@ const SIDE: u32 = 16;
 const FINE: f64 = 8.0;
 
 /// How much of each pixel of a grid, row by row, `cuts` are and all `others` are farther away from
-/// than `tolerance`: from 0 to 1.
-pub(super) fn shares(grid: &Grid, cuts: &[Capsule], others: &[Capsule], tolerance: f64) -> Vec<f32> {
+/// than `tolerance`; or `by` depth where others are, but none as deep: from 0 to 1.
+pub(super) fn shares(grid: &Grid, by: By, cuts: &[Capsule], others: &[Capsule], tolerance: f64) -> Vec<f32> {
     let (first, all) = (cuts.len(), cuts.len() + others.len());
+    let pitch = grid.pitch().to_f64();
+    let narrowest = cuts.iter().chain(others).map(Capsule::kerf).fold(f64::INFINITY, f64::min);
     let mut tree = Quadtree {
+        by,
         corner: grid.corner(0, 0).to_f64(),
-        pitch: grid.pitch().to_f64(),
+        pitch,
+        finest: (pitch / 4.0).min(narrowest / 16.0),
         size: (grid.width(), grid.height()),
         tolerance,
+        deepest: cuts.iter().map(|cut| cut.depth).fold(0.0, f64::max),
         near: [cuts, others].concat(),
         shares: vec![0.0; grid.width() as usize * grid.height() as usize],
     };
     let side = grid.width().max(grid.height()).next_power_of_two();
-    tree.quarter((0, 0), side, &Near { cuts: 0..first, others: first..all });
+    let near = Near { cuts: 0..first, others: first..all, depth: f64::NEG_INFINITY };
+    tree.quarter((0, 0), side, &near);
     tree.shares
 }
 
 struct Quadtree {
+    by: By,
     /// The upper left corner.
     corner: Spot,
     pitch: f64,
+    /// Of squares so wide the middle tells how deep they are cut. Chosen.
+    finest: f64,
     /// Columns and rows.
     size: (u32, u32),
     tolerance: f64,
+    /// How deep the deepest cut is.
+    deepest: f64,
     /// What comes near to a square, behind what comes near to those that it is a quarter of.
     near: Vec<Capsule>,
     shares: Vec<f32>,
@@ -63,6 +76,8 @@ struct Quadtree {
 struct Near {
     cuts: Range<usize>,
     others: Range<usize>,
+    /// How deep others that are none of these cut all of it; less than any where there are none.
+    depth: f64,
 }
 
 /// What is known of a square.
@@ -84,7 +99,11 @@ impl Quadtree {
         let (left, top) = (f64::from(column) * self.pitch, f64::from(row) * self.pitch);
         let center = (self.corner.0 + left + half, self.corner.1 - top - half);
         if side == 1 {
-            self.fill((column, row), side, self.share(center, self.pitch, near));
+            let share = match self.by {
+                By::Copper => self.share(center, self.pitch, near),
+                By::Depth => self.deeper(center, self.pitch, near),
+            };
+            self.fill((column, row), side, share);
             return;
         }
         let before = self.near.len();
@@ -112,19 +131,24 @@ impl Quadtree {
     /// What there is to say of all that is within `reach` of a place; where `thoroughly`, cuts are
     /// looked for in others, too.
     fn verdict(&mut self, center: Spot, reach: f64, near: &Near, thoroughly: bool) -> Verdict {
-        let start = self.near.len();
+        let (start, mut depth) = (self.near.len(), near.depth);
         for other in near.others.clone() {
             let other = self.near[other];
             match other.side(center, reach, self.tolerance) {
-                Ordering::Less => return Verdict::Same,
+                Ordering::Less if other.depth >= self.deepest => return Verdict::Same,
+                Ordering::Less => depth = depth.max(other.depth),
                 Ordering::Equal => self.near.push(other),
                 Ordering::Greater => {}
             }
         }
         let end = self.near.len();
+        if self.by == By::Depth && depth == f64::NEG_INFINITY && start == end {
+            return Verdict::Same;
+        }
         for cut in near.cuts.clone() {
             let cut = self.near[cut];
             match cut.side(center, reach, 0.0) {
+                _ if cut.depth <= depth => {}
                 Ordering::Less if start == end => return Verdict::Differs,
                 Ordering::Less | Ordering::Equal => self.near.push(cut),
                 Ordering::Greater => {}
@@ -141,7 +165,34 @@ impl Quadtree {
         if self.near.len() == end {
             return Verdict::Same;
         }
-        Verdict::Open(Near { cuts: end..self.near.len(), others: start..end })
+        Verdict::Open(Near { cuts: end..self.near.len(), others: start..end, depth })
+    }
+
+    /// How much of a square is cut by others, but less deep.
+    fn deeper(&mut self, center: Spot, side: f64, near: &Near) -> f32 {
+        if side <= self.finest {
+            return if self.is_deeper(center, near) { 1.0 } else { 0.0 };
+        }
+        let before = self.near.len();
+        let share = match self.verdict(center, side / SQRT_2, near, false) {
+            Verdict::Same => 0.0,
+            Verdict::Differs => 1.0,
+            Verdict::Open(near) => {
+                let shares = quarters(center, side).map(|place| self.deeper(place, side / 2.0, &near));
+                shares.into_iter().sum::<f32>() / 4.0
+            }
+        };
+        self.near.truncate(before);
+        share
+    }
+
+    fn is_deeper(&self, place: Spot, near: &Near) -> bool {
+        let deepest = |all: &Range<usize>, more: f64| {
+            let there = self.near[all.clone()].iter().filter(|capsule| capsule.beyond(place) <= more);
+            there.map(|capsule| capsule.depth).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let others = near.depth.max(deepest(&near.others, self.tolerance));
+        others > f64::NEG_INFINITY && deepest(&near.cuts, 0.0) > others
     }
 
     /// How much of a square the cuts are and others are not, if no more than one straight edge of
@@ -159,10 +210,8 @@ impl Quadtree {
         let (cuts, others) = (&self.near[near.cuts.clone()], &self.near[near.others.clone()]);
         let is_narrow = |cut: &Capsule| cut.kerf() < side;
         if side > self.pitch / FINE && cuts.iter().chain(others).any(is_narrow) {
-            let (side, off) = (side / 2.0, side / 4.0);
-            let quarters = [(-off, off), (off, off), (-off, -off), (off, -off)];
-            let share = |(x, y): Spot| self.share((center.0 + x, center.1 + y), side, near);
-            return quarters.map(share).into_iter().sum::<f32>() / 4.0;
+            let shares = quarters(center, side).map(|place| self.share(place, side / 2.0, near));
+            return shares.into_iter().sum::<f32>() / 4.0;
         }
         let Some((cut, beyond)) = nearest(center, cuts) else { return 0.0 };
         let out = cut.off(center);
@@ -187,6 +236,12 @@ impl Quadtree {
         let out = deepest.outwards(place, self.tolerance + 1.0);
         others.iter().all(|other| other.beyond(out) > self.tolerance)
     }
+}
+
+/// The middles of the quarters of a square.
+fn quarters((x, y): Spot, side: f64) -> [Spot; 4] {
+    let off = side / 4.0;
+    [(x - off, y + off), (x + off, y + off), (x - off, y - off), (x + off, y - off)]
 }
 
 /// How much of a square, so wide, lies within an edge that its middle is so far beyond; `out` is
