@@ -17,7 +17,7 @@ const NEWLY_CUT: Rgb = Rgb(0xff, 0x4d, 0x4d);
 /// What was cut and is left now.
 const NEWLY_LEFT: Rgb = Rgb(0x3d, 0xd6, 0x8c);
 /// What is cut deeper now.
-const DEEPER: Rgb = Rgb(0xff, 0xa9, 0x3d);
+const DEEPER: Rgb = Rgb(0x9b, 0x4d, 0xff);
 /// What is cut less deep now.
 const SHALLOWER: Rgb = Rgb(0x4d, 0x9d, 0xff);
 
@@ -179,7 +179,7 @@ fn rounded(area: f64) -> f64 {
 }
 
 /// A picture of all that either cuts: what both cut is pale, what is cut now and was not is red,
-/// what is left now is green; orange is cut deeper now, and blue less deep.
+/// what is left now is green; violet is cut deeper now, and blue less deep.
 ///
 /// # Errors
 ///
