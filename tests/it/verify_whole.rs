@@ -111,6 +111,25 @@ fn a_spoilt_cutout_is_found_out() {
     assert_eq!(names(&weak, Severity::Warning), ["tab-thin"], "tabs of 0.15 mm: {weak:?}");
 }
 
+/// Into what the board lies on, and into the table: slipped decimal points, drills that were not
+/// set to zero.
+#[test]
+fn what_goes_far_below_the_board_is_told() {
+    for (part, role) in [(Part::Drill, Role::Drilling), (Part::Cutout, Role::Cutout)] {
+        // Drills go 2.76 mm deep with a point of 0.96 mm.
+        for (to, warned, failed) in [("3.5", false, false), ("5", true, false), ("17", true, true)] {
+            let found = judge(&BLINKER.board, Some(role), &depth(text(part), 1.6, to));
+            let told = |severity| names(&found, severity).contains(&"too-deep");
+            let expected = (warned, failed);
+            assert_eq!(
+                (told(Severity::Warning), told(Severity::Error)),
+                expected,
+                "{role}, {to} mm: {found:?}"
+            );
+        }
+    }
+}
+
 #[test]
 fn a_tab_of_an_inner_cut_out_that_is_cut_through_is_told() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/regulator");

@@ -46,7 +46,8 @@ fn stretches(contours: &Contours<'_>, ring: &Ring, settings: &Settings) -> Vec<F
     let finding = |stretch: &Stretch| {
         let (depth, board) = (stretch.depth, settings.board);
         let message = format!(
-            "{:.3} mm of the edge is cut {depth:.3} mm deep, in a board of {board:.3} mm",
+            "{:.3} mm of the edge is not cut through: {depth:.3} mm deep where it is least, in a board of \
+             {board:.3} mm",
             stretch.length / 1e6
         );
         let severity = if stretch.length > SHORT { Severity::Error } else { Severity::Warning };

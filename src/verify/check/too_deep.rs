@@ -1,17 +1,19 @@
 //! # What it checks
 //!
 //! No isolating cut goes through half the board, or more than twice as deep as most of the program
-//! does.
+//! does. No hole and no cutout goes far below the board, the point of a drill aside.
 //!
 //! # Why
 //!
 //! Copper is a few hundredths of a millimetre thick. A cut far deeper breaks a fine cutter, and a
-//! V-bit's groove is wider the deeper it goes. It comes of a surface that was measured wrong, a
-//! slipped decimal point, a tool that was not set to zero.
+//! V-bit's groove is wider the deeper it goes. Below the board lies a sheet that may be cut, and
+//! below that the table of the machine. It comes of a surface that was measured wrong, a slipped
+//! decimal point, a wrong unit, a tool that was not set to zero.
 //!
 //! # What it can miss
 //!
-//! A program that is too deep throughout, but less than half the board.
+//! An isolating program that is too deep throughout, but less than half the board. A table that is
+//! nearer than two millimetres. Holes for pins on which the board is flipped go into the table.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
@@ -24,9 +26,14 @@ const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
-    what: Words::of("an isolating cut that is far deeper than needed"),
-    effect: Words::of("the cut is wider than planned, and may go through the board"),
-    advice: Words::of("check the unit and the Z words of the program"),
+    what: Words::of("a cut that is far deeper than needed"),
+    effect: Words::of(
+        "isolating cuts are wider than planned and may go through the board; holes and cutouts go into the \
+         machine's table",
+    ),
+    advice: Words::of(
+        "check the unit and the Z words of the program, or set the thickness of the board ({thickness})",
+    ),
 };
 
 pub(super) const CHECK: Check =
@@ -37,17 +44,37 @@ const NAME: &str = "too-deep";
 /// Below this depth twice the usual is not remarkable: boards are not flat to less. Chosen.
 const UNREMARKABLE: Nm = Nm::from_um(200);
 
+/// Farther below the board only thick sheets are cut, and nothing but the table. Chosen: most of
+/// what lies below boards is thicker than the first and thinner than the second.
+const BELOW: Nm = Nm::from_mm(2);
+const FAR_BELOW: Nm = Nm::from_mm(10);
+
 fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
-    if !matches!(program.role, Role::Isolation(_)) {
-        return Vec::new();
+    match program.role {
+        Role::Isolation(_) => {
+            let most = (usual(&program.motions) * 2).max(UNREMARKABLE).min(settings.board / 2);
+            each_stretch(program, NAME, |motion| {
+                let depth = depth(motion).filter(|depth| *depth > most)?;
+                let message = format!("a cut {depth:.3} mm deep, where {most:.3} mm is enough");
+                Some(Wrong { severity: Severity::Error, message, size: Some(depth) })
+            })
+        }
+        Role::Drilling | Role::Cutout => each_stretch(program, NAME, |motion| {
+            let depth = depth(motion)?;
+            let point = program.tools.at(motion.line).map_or(Nm::ZERO, |cutter| cutter.point());
+            let below = Some(depth - point - settings.board).filter(|below| *below > BELOW)?;
+            let message = format!("a cut {depth:.3} mm deep, in a board of {:.3} mm", settings.board);
+            let severity = if below > FAR_BELOW { Severity::Error } else { Severity::Warning };
+            Some(Wrong { severity, message, size: Some(depth) })
+        }),
+        Role::Alignment => Vec::new(),
     }
-    let most = (usual(&program.motions) * 2).max(UNREMARKABLE).min(settings.board / 2);
-    each_stretch(program, NAME, |motion| {
-        let depth = -[motion.from.z, motion.to.z].into_iter().flatten().min()?;
-        let wrong = motion.way != Way::Rapid && depth > most;
-        let message = || format!("a cut {depth:.3} mm deep, where {most:.3} mm is enough");
-        wrong.then(|| Wrong { severity: Severity::Error, message: message(), size: Some(depth) })
-    })
+}
+
+/// How deep the end of the cutter goes, but for rapids.
+fn depth(motion: &Motion) -> Option<Nm> {
+    let lowest = [motion.from.z, motion.to.z].into_iter().flatten().min();
+    lowest.filter(|_| motion.way != Way::Rapid).map(|lowest| -lowest)
 }
 
 /// The depth of the middle one of all ways below the surface, by length.
