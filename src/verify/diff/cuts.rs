@@ -13,15 +13,6 @@ use crate::verify::{Error, Placement, Program, Role, Settings};
 
 use super::capsule::Capsule;
 
-/// What programs are compared by.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum By {
-    /// What copper is cut.
-    Copper,
-    /// How deep it is, too.
-    Depth,
-}
-
 /// A shape that is cut, where the machine has it, and how deep.
 #[derive(Debug)]
 pub(super) struct Cut {
@@ -44,8 +35,8 @@ impl Cut {
 #[derive(Debug)]
 pub(super) struct Cuts {
     pub(super) cuts: Vec<Cut>,
-    /// Those that the other program does not have, and those that it does not have as deep.
-    alone: [BitVec; 2],
+    /// Those that the other program does not have as deep.
+    alone: BitVec,
     index: RectIndex,
 }
 
@@ -62,36 +53,24 @@ impl Cuts {
         Ok([Self::new(before, old), Self::new(after, new)])
     }
 
-    fn new(cuts: Vec<Cut>, alone: [BitVec; 2]) -> Self {
+    fn new(cuts: Vec<Cut>, alone: BitVec) -> Self {
         let index = RectIndex::new(cuts.iter().map(|cut| cut.shape.bounds()));
         Self { cuts, alone, index }
     }
 
-    /// Of the cuts that touch `rect` those that the other program does not have, arcs as chords
-    /// within `chord`, each at least so deep.
-    pub(super) fn alone(&self, rect: Rect, by: By, chord: Nm) -> Vec<Capsule> {
-        let alone = &self.alone[by as usize];
-        if alone.not_any() {
-            return Vec::new();
-        }
-        let near = self.index.touching(rect).into_iter().filter(|&cut| alone[cut]);
-        self.capsules(near, chord, |cut| if by == By::Depth { cut.least } else { Nm::ZERO })
+    /// Of the cuts that touch `rect` those that the other program does not have as deep, arcs as
+    /// chords within `chord`, each at least so deep.
+    pub(super) fn alone(&self, rect: Rect, chord: Nm) -> Vec<Capsule> {
+        let near = self.index.touching(rect).into_iter().filter(|&cut| self.alone[cut]);
+        let near = near.map(|cut| &self.cuts[cut]);
+        near.flat_map(|cut| Capsule::of(&cut.shape, chord, cut.least)).collect()
     }
 
     /// The cuts that come nearer to `rect` than `tolerance`, arcs as chords within `chord`, each
     /// at most so deep, and the tolerance deeper.
-    pub(super) fn near(&self, rect: Rect, by: By, chord: Nm, tolerance: Nm) -> Vec<Capsule> {
-        let near = self.index.touching(rect.inflate(tolerance)).into_iter();
-        self.capsules(near, chord, |cut| if by == By::Depth { cut.most + tolerance } else { Nm::ZERO })
-    }
-
-    fn capsules(
-        &self,
-        near: impl Iterator<Item = usize>,
-        chord: Nm,
-        depth: impl Fn(&Cut) -> Nm,
-    ) -> Vec<Capsule> {
-        near.map(|cut| &self.cuts[cut]).flat_map(|cut| Capsule::of(&cut.shape, chord, depth(cut))).collect()
+    pub(super) fn near(&self, rect: Rect, chord: Nm, tolerance: Nm) -> Vec<Capsule> {
+        let near = self.index.touching(rect.inflate(tolerance)).into_iter().map(|cut| &self.cuts[cut]);
+        near.flat_map(|cut| Capsule::of(&cut.shape, chord, cut.most + tolerance)).collect()
     }
 
     /// How deep it is cut within `tolerance` of a place, arcs as chords within `chord`.
@@ -147,14 +126,8 @@ fn undirected(shape: Shape) -> Shape {
     }
 }
 
-/// Which cuts are not among others, and which are not as deep there; the latter are none where no
-/// cut is deeper than any other.
-fn alone(cuts: &[Cut], others: &[Cut], tolerance: Nm) -> [BitVec; 2] {
-    let shallowest = others.iter().map(|cut| cut.most + tolerance).min();
-    let others: FxHashMap<&Shape, &Cut> = others.iter().map(|cut| (&cut.shape, cut)).collect();
-    let is_alone = |cut: &Cut| !others.contains_key(&cut.shape);
-    let as_deep = |cut: &Cut| others.get(&cut.shape).is_some_and(|other| cut.least <= other.most + tolerance);
-    let may_be_deeper = shallowest.is_some_and(|shallowest| cuts.iter().any(|cut| cut.least > shallowest));
-    let is_deeper = |cut: &Cut| may_be_deeper && !as_deep(cut);
-    [cuts.iter().map(is_alone).collect(), cuts.iter().map(is_deeper).collect()]
+/// Which cuts are not among others, as deep.
+fn alone(cuts: &[Cut], others: &[Cut], tolerance: Nm) -> BitVec {
+    let others: FxHashMap<&Shape, Nm> = others.iter().map(|cut| (&cut.shape, cut.most + tolerance)).collect();
+    cuts.iter().map(|cut| others.get(&cut.shape).is_none_or(|deep| cut.least > *deep)).collect()
 }

@@ -18,7 +18,7 @@ use crate::geometry::{Nm, Point, Rect, Vector};
 use crate::grid::Grid;
 use crate::raster::{Buffers, Scene, render};
 
-use cuts::{By, Cuts};
+use cuts::Cuts;
 use joined::{Joined, Strip, strips};
 
 use super::sheet::pixel;
@@ -180,14 +180,12 @@ impl Comparison {
     /// How much of each pixel of a tile is cut where `others` do not cut, and where they do, but
     /// less deep.
     fn beyond(&self, tile: &Grid, cuts: &Cuts, others: &Cuts) -> [Vec<f32>; 2] {
-        [By::Copper, By::Depth].map(|by| {
-            let cuts = cuts.alone(tile.rect(), by, self.chord());
-            if cuts.is_empty() {
-                return Vec::new();
-            }
-            let others = others.near(tile.rect(), by, self.chord(), self.tolerance);
-            quadtree::shares(tile, by, &cuts, &others, self.tolerance.to_f64())
-        })
+        let cuts = cuts.alone(tile.rect(), self.chord());
+        if cuts.is_empty() {
+            return [Vec::new(), Vec::new()];
+        }
+        let others = others.near(tile.rect(), self.chord(), self.tolerance);
+        quadtree::shares(tile, &cuts, &others, self.tolerance.to_f64())
     }
 
     /// How far chords may leave an arc: a small part of what is tolerated, but far above a
