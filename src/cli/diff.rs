@@ -41,7 +41,7 @@ pub(super) struct Diff {
     #[arg(long, value_name = "TOOL")]
     tool: Option<Cutter>,
 
-    /// How far cuts may differ unnoticed
+    /// How far cuts may differ unnoticed, sideways and in depth
     #[arg(long, value_name = "LENGTH", default_value = "0.005mm")]
     tolerance: Nm,
 

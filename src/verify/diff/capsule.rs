@@ -25,8 +25,7 @@ impl Capsule {
         Self { from, way, inverse: if squared > 0.0 { 1.0 / squared } else { 0.0 }, radius, depth }
     }
 
-    /// The capsules that a cut is; an arc's axis is left by chords that are `within` so far
-    /// of it.
+    /// The capsules that a cut is, so deep; of an arc chords that are `within` so far of it.
     pub(super) fn of(shape: &Shape, within: Nm, depth: Nm) -> Vec<Self> {
         let capsule =
             |from: Spot, to: Spot, radius: &Nm| Self::new(from, to, radius.to_f64(), depth.to_f64());

@@ -4,7 +4,7 @@
 //! square is settled: it differs where one cuts it and the other stays clear of it by more than a
 //! tolerance, so that programs that say the same in other words (lines for arcs, another order,
 //! other digits) do not differ. Pixels gather differences, and do not limit how narrow they are.
-//! Those that hang together are one. What both cut is asked the same of what either cuts as deep.
+//! Those that hang together are one. Where both cut, one may cut deeper.
 
 mod capsule;
 mod cuts;
@@ -196,7 +196,7 @@ impl Comparison {
 
     /// What differs, on this grid, tile by tile.
     fn regions(&self, grid: &Grid) -> Vec<Region> {
-        // What this became of hangs together by itself, though it may touch what that became of.
+        // What became of places each hangs together by itself, though they may touch.
         let mut found = Change::ALL.map(Joined::new);
         for top in tops(grid) {
             let tiles: Vec<(u32, Grid)> = tiles(grid, top).collect();
