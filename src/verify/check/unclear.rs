@@ -1,7 +1,7 @@
 //! # What it checks
 //!
 //! What the text of a program leaves open, and how it was taken: no unit, no speed of the spindle,
-//! places of the machine, words that were passed over.
+//! no height before it moves sideways, places of the machine, words that were passed over.
 //!
 //! # Why
 //!

@@ -169,6 +169,11 @@ impl Machine {
         if way != Way::Rapid && z_lost {
             return Err(run.refuse("a cut to an unknown depth: the program does not give its zero"));
         }
+        let is_sideways = (0..2).any(|axis| to[axis].is_some() && to[axis] != self.axes[axis].at);
+        if is_sideways && to[2].is_none() && !self.axes[2].sent {
+            let what = "it moves sideways before it says how high: the tool has to be above the board by then";
+            self.listing.note(false, run.line(), what);
+        }
         let [x, y, z] = to;
         let motion = Motion {
             way,
