@@ -100,6 +100,28 @@ fn strips_narrower_than_a_pixel_are_one_difference() {
     }
 }
 
+/// Round a polygon of sixty short sides, 0.4 µm more than is tolerated: a strip without, and one
+/// within.
+#[test]
+fn strips_along_many_bends_hang_together() {
+    let corner = |number: u32| {
+        let (sin, cos) = libm::sincos(f64::from(number % 60) * std::f64::consts::TAU / 60.0);
+        format!("X{:.6} Y{:.6}", 5.0 * cos, 5.0 * sin)
+    };
+    let sides: String = (1..=60).map(|number| format!("G1 {}\n", corner(number))).collect();
+    let round = |kerf: f64| program(kerf, &format!("G0 {}\nG1 Z-0.1\n{sides}G0 Z2\n", corner(0)));
+    let (narrow, broad) = (round(0.2), round(0.2108));
+    for (found, change) in
+        [(compared(&narrow, &broad), Change::Cut), (compared(&broad, &narrow), Change::Left)]
+    {
+        let expected = 0.0004 * 2.0 * std::f64::consts::TAU * 5.0;
+        let (places, area) = found.total(change);
+        // Each may be parted where the middle of a pixel lies at a bend.
+        assert!((2..=4).contains(&places), "{places} places, {area} mm² for {expected}");
+        assert!((area / expected - 1.0).abs() < 0.05, "{area} mm² for {expected}");
+    }
+}
+
 /// From where to where, and how deep.
 type Stroke = [f64; 5];
 

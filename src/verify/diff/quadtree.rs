@@ -31,6 +31,9 @@ const SIDE: u32 = 16;
 const FINE: f64 = 8.0;
 /// Of less than this share of a pixel places are looked at, not edges. Chosen.
 const LITTLE: f64 = 0.125;
+/// The tangent of the angle up to which edges run alike. Chosen: over a pixel it is a hundredth of
+/// what is tolerated.
+const ALIKE: f64 = 1e-3;
 
 /// How much of each pixel of a grid, row by row, `cuts` are and all `others` are farther away from
 /// than `tolerance`; and how much where others are, but none as deep: from 0 to 1. The latter is
@@ -240,9 +243,10 @@ impl Quadtree {
         if inner.beyond < 0.0 && (inner.within(side) >= 1.0 || !self.is_edge(center, innermost, others)) {
             return 0.0;
         }
-        // What is within the edge of any is not missing.
+        // Shares tell nothing of each other where edges run another way, but where they run alike.
         let near = others.iter().filter(|other| other.is_within(center, self.tolerance + side));
-        let missing = near.map(edge_of).map(|other| {
+        let alike = near.map(edge_of).filter(|other| other.runs_as(edge));
+        let missing = alike.chain([inner]).map(|other| {
             let is_same_way = edge.out.0 * other.out.0 + edge.out.1 * other.out.1 > 0.0;
             let share = other.within(side);
             if is_same_way { all - share } else { all.min(1.0 - share) }
@@ -286,6 +290,13 @@ impl Edge {
     fn of(cut: &Capsule, center: Spot, more: f64) -> Self {
         let out = cut.off(center);
         Self { beyond: length(out) - cut.kerf() / 2.0 - more, out }
+    }
+
+    /// Whether both run along each other, with what is within on the same side.
+    fn runs_as(self, other: Self) -> bool {
+        let (a, b) = (self.out, other.out);
+        let (dot, cross) = (a.0 * b.0 + a.1 * b.1, a.0 * b.1 - a.1 * b.0);
+        cross.abs() <= dot * ALIKE
     }
 
     /// How much of the square, so wide, lies within.

@@ -171,7 +171,8 @@ impl Machine {
         }
         let is_sideways = (0..2).any(|axis| to[axis].is_some() && to[axis] != self.axes[axis].at);
         if is_sideways && to[2].is_none() && !self.axes[2].sent {
-            let what = "it moves sideways before it says how high: the tool has to be above the board by then";
+            let what =
+                "it moves sideways before it says how high: the tool has to be above the board by then";
             self.listing.note(false, run.line(), what);
         }
         let [x, y, z] = to;
