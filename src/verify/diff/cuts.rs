@@ -15,14 +15,14 @@ use super::capsule::Capsule;
 
 /// A shape that is cut, where the machine has it, and how deep.
 #[derive(Debug)]
-pub(super) struct Cut {
+pub(super) struct Groove {
     pub(super) shape: Shape,
     /// Between the least and the most: slopes are cut in steps.
     least: Nm,
     most: Nm,
 }
 
-impl Cut {
+impl Groove {
     fn new(swept: Swept) -> Self {
         // The middle of a step.
         let off = if swept.slopes { Nm::from_f64(SINK / 2.0) } else { Nm::ZERO };
@@ -34,7 +34,7 @@ impl Cut {
 /// What a program cuts, by place.
 #[derive(Debug)]
 pub(super) struct Cuts {
-    pub(super) cuts: Vec<Cut>,
+    pub(super) grooves: Vec<Groove>,
     /// Those that the other program does not have as deep.
     alone: BitVec,
     index: RectIndex,
@@ -53,46 +53,49 @@ impl Cuts {
         Ok([Self::new(before, old), Self::new(after, new)])
     }
 
-    fn new(cuts: Vec<Cut>, alone: BitVec) -> Self {
-        let index = RectIndex::new(cuts.iter().map(|cut| cut.shape.bounds()));
-        Self { cuts, alone, index }
+    fn new(grooves: Vec<Groove>, alone: BitVec) -> Self {
+        let index = RectIndex::new(grooves.iter().map(|groove| groove.shape.bounds()));
+        Self { grooves, alone, index }
     }
 
-    /// Of the cuts that touch `rect` those that the other program does not have as deep, arcs as
+    /// Of the grooves that touch `rect` those that the other program does not have as deep, arcs as
     /// chords within `chord`, each at least so deep.
     pub(super) fn alone(&self, rect: Rect, chord: Nm) -> Vec<Capsule> {
-        let near = self.index.touching(rect).into_iter().filter(|&cut| self.alone[cut]);
-        let near = near.map(|cut| &self.cuts[cut]);
-        near.flat_map(|cut| Capsule::of(&cut.shape, chord, cut.least)).collect()
+        let near = self.index.touching(rect).into_iter().filter(|&groove| self.alone[groove]);
+        let near = near.map(|groove| &self.grooves[groove]);
+        near.flat_map(|groove| Capsule::of(&groove.shape, chord, groove.least)).collect()
     }
 
-    /// The cuts that come nearer to `rect` than `tolerance`, arcs as chords within `chord`, each
+    /// The grooves that come nearer to `rect` than `tolerance`, arcs as chords within `chord`, each
     /// at most so deep, and the tolerance deeper.
     pub(super) fn near(&self, rect: Rect, chord: Nm, tolerance: Nm) -> Vec<Capsule> {
-        let near = self.index.touching(rect.inflate(tolerance)).into_iter().map(|cut| &self.cuts[cut]);
-        near.flat_map(|cut| Capsule::of(&cut.shape, chord, cut.most + tolerance)).collect()
+        let near = self.touching(rect.inflate(tolerance));
+        near.flat_map(|groove| Capsule::of(&groove.shape, chord, groove.most + tolerance)).collect()
+    }
+
+    fn touching(&self, rect: Rect) -> impl Iterator<Item = &Groove> {
+        self.index.touching(rect).into_iter().map(|groove| &self.grooves[groove])
     }
 
     /// How deep it is cut within `tolerance` of a place, arcs as chords within `chord`.
     pub(super) fn depth_at(&self, place: Point, chord: Nm, tolerance: Nm) -> Option<Nm> {
-        let near = self.index.touching(Rect::new(place, place).inflate(tolerance)).into_iter();
-        let near = near.map(|cut| &self.cuts[cut]).filter(|cut| {
-            let parts = Capsule::of(&cut.shape, chord, Nm::ZERO);
+        let near = self.touching(Rect::new(place, place).inflate(tolerance)).filter(|groove| {
+            let parts = Capsule::of(&groove.shape, chord, Nm::ZERO);
             parts.iter().any(|part| part.beyond(place.to_f64()) <= tolerance.to_f64())
         });
-        near.map(|cut| (cut.least + cut.most) / 2).max()
+        near.map(|groove| (groove.least + groove.most) / 2).max()
     }
 
     /// Marks the pixels of `grid` that are cut with zero.
     pub(super) fn draw(&self, grid: &Grid, scene: &mut Scene) {
-        for cut in self.index.touching(grid.rect()) {
-            scene.add(Label(1), surface(&self.cuts[cut].shape, grid, Some(0.0)));
+        for groove in self.touching(grid.rect()) {
+            scene.add(Label(1), surface(&groove.shape, grid, Some(0.0)));
         }
     }
 }
 
 /// What a program cuts, each shape once, as deep as it comes; of an empty text nothing.
-fn read(program: &Program, settings: &Settings) -> Result<Vec<Cut>, Error> {
+fn read(program: &Program, settings: &Settings) -> Result<Vec<Groove>, Error> {
     if program.text.is_empty() {
         return Ok(Vec::new());
     }
@@ -102,16 +105,16 @@ fn read(program: &Program, settings: &Settings) -> Result<Vec<Cut>, Error> {
     let read = Machining::read(&placed, &Board::default(), settings)?;
     // The same way is cut again and again, deeper each time.
     let mut known: FxHashMap<Shape, usize> = FxHashMap::default();
-    let mut cuts: Vec<Cut> = Vec::new();
-    for cut in read.swept.into_iter().map(Cut::new) {
-        let at = *known.entry(cut.shape.clone()).or_insert(cuts.len());
-        match cuts.get_mut(at) {
-            Some(known) if known.least < cut.least => *known = cut,
+    let mut grooves: Vec<Groove> = Vec::new();
+    for groove in read.swept.into_iter().map(Groove::new) {
+        let at = *known.entry(groove.shape.clone()).or_insert(grooves.len());
+        match grooves.get_mut(at) {
+            Some(known) if known.least < groove.least => *known = groove,
             Some(_) => {}
-            None => cuts.push(cut),
+            None => grooves.push(groove),
         }
     }
-    Ok(cuts)
+    Ok(grooves)
 }
 
 /// The same shape whichever way it is cut.
@@ -126,8 +129,9 @@ fn undirected(shape: Shape) -> Shape {
     }
 }
 
-/// Which cuts are not among others, as deep.
-fn alone(cuts: &[Cut], others: &[Cut], tolerance: Nm) -> BitVec {
-    let others: FxHashMap<&Shape, Nm> = others.iter().map(|cut| (&cut.shape, cut.most + tolerance)).collect();
-    cuts.iter().map(|cut| others.get(&cut.shape).is_none_or(|deep| cut.least > *deep)).collect()
+/// Which are not among others, as deep.
+fn alone(grooves: &[Groove], others: &[Groove], tolerance: Nm) -> BitVec {
+    let others: FxHashMap<&Shape, Nm> =
+        others.iter().map(|groove| (&groove.shape, groove.most + tolerance)).collect();
+    grooves.iter().map(|groove| others.get(&groove.shape).is_none_or(|deep| groove.least > *deep)).collect()
 }

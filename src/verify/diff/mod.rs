@@ -93,7 +93,7 @@ pub fn diff(
     settings: &Settings,
 ) -> Result<Comparison, Error> {
     let [before, after] = Cuts::of([before, after], tolerance, settings)?;
-    let shapes = || before.cuts.iter().chain(&after.cuts).map(|cut| &cut.shape);
+    let shapes = || before.grooves.iter().chain(&after.grooves).map(|groove| &groove.shape);
     let rect = shapes().map(Shape::bounds).reduce(Rect::union);
     let narrowest = shapes().map(half).min().unwrap_or(Nm::from_um(100));
     let resolution = settings.pixel.unwrap_or_else(|| pixel(narrowest));

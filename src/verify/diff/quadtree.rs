@@ -218,7 +218,7 @@ impl Quadtree {
             let quarters = quarters(center, side).map(|place| self.straight(place, side / 2.0, near));
             return [0, 1].map(|which| quarters.iter().map(|share| share[which]).sum::<f64>() / 4.0);
         }
-        let Some((cut, _)) = nearest(center, cuts) else { return [0.0, 0.0] };
+        let Some(cut) = nearest(center, cuts) else { return [0.0, 0.0] };
         let edge = Edge::of(cut, center, 0.0);
         let all = edge.within(side);
         let is_cut = near.depth > f64::NEG_INFINITY;
@@ -238,12 +238,12 @@ impl Quadtree {
     fn missing(&self, center: Spot, side: f64, edge: Edge, others: &[Capsule]) -> f64 {
         let all = edge.within(side);
         let edge_of = |other: &Capsule| Edge::of(other, center, self.tolerance);
-        let Some((innermost, _)) = nearest(center, others) else { return all };
+        let Some(innermost) = nearest(center, others) else { return all };
         let inner = edge_of(innermost);
         if inner.beyond < 0.0 && (inner.within(side) >= 1.0 || !self.is_edge(center, innermost, others)) {
             return 0.0;
         }
-        // Shares tell nothing of each other where edges run another way, but where they run alike.
+        // Of edges that run alike the middle tells exactly which lies within which.
         let near = others.iter().filter(|other| other.is_within(center, self.tolerance + side));
         let alike = near.map(edge_of).filter(|other| other.runs_as(edge));
         let missing = alike.chain([inner]).map(|other| {
@@ -308,8 +308,8 @@ impl Edge {
     }
 }
 
-/// The capsule that a place is least beyond, and how far.
-fn nearest(place: Spot, all: &[Capsule]) -> Option<(&Capsule, f64)> {
+/// The capsule that a place is least beyond.
+fn nearest(place: Spot, all: &[Capsule]) -> Option<&Capsule> {
     let mut nearest: Option<(&Capsule, f64)> = None;
     for capsule in all {
         let most = nearest.map_or(f64::INFINITY, |(_, beyond)| beyond);
@@ -317,5 +317,5 @@ fn nearest(place: Spot, all: &[Capsule]) -> Option<(&Capsule, f64)> {
             nearest = Some((capsule, capsule.beyond(place)));
         }
     }
-    nearest
+    nearest.map(|(capsule, _)| capsule)
 }
