@@ -77,7 +77,7 @@ impl Diff {
             verify::Settings { copper: self.copper, pixel: self.resolution, ..verify::Settings::default() };
         let mut found: Vec<(String, Comparison)> = Vec::new();
         for (name, before, after) in self.pairs()? {
-            let [before, after] = [before, after].map(|path| self.program(&name, path.as_deref()));
+            let [before, after] = [before, after].map(|path| self.program(path.as_deref()));
             found.push((name, diff(&before?, &after?, self.tolerance, &settings)?));
         }
         if let Some(output) = &self.output {
@@ -124,15 +124,11 @@ impl Diff {
     }
 
     /// A program; without a file, one that cuts nothing.
-    fn program(&self, name: &str, path: Option<&Path>) -> Result<Program, Failure> {
-        let text = match path {
-            None => String::new(),
-            Some(path) => {
-                let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-                String::from_utf8_lossy(&bytes).into_owned()
-            }
-        };
-        Ok(Program { file: name.to_owned(), text, cutter: self.tool, ..Program::default() })
+    fn program(&self, path: Option<&Path>) -> Result<Program, Failure> {
+        let Some(path) = path else { return Ok(Program::default()) };
+        let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        Ok(Program { file: path.display().to_string(), text, cutter: self.tool, ..Program::default() })
     }
 
     fn draw(&self, output: &Path, found: &[(String, Comparison)]) -> Result<(), Failure> {

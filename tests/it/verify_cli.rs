@@ -187,6 +187,9 @@ fn diff_shows_what_copper_changes() {
     let picture = fs::read(out.path().join("pictures/added.nc.png")).expect("a picture");
     assert!(picture.starts_with(b"\x89PNG"), "of what differs");
     assert!(!out.path().join("pictures/same.nc.png").exists(), "and none of what does not");
+    fs::write(out.path().join("old/broken.nc"), "G1 X1 Yone\n").expect("written");
+    let broken = voromill(out.path(), &["diff", "old/broken.nc", "new/same.nc"]);
+    assert!(stderr(&broken).contains("old/broken.nc: line 1, column 7"), "which one: {}", stderr(&broken));
     let mixed = voromill(out.path(), &["diff", "old", "new/added.nc"]);
     assert_eq!(mixed.status.code(), Some(2), "a folder and a file: {}", stdout(&mixed));
 }
