@@ -18,7 +18,7 @@ use crate::board::{Board, Hole, Shape};
 use crate::geometry::{Nm, Point, RectIndex, distance_to_segment};
 
 use super::cut::Cut;
-use super::machining::Machining;
+use super::machining::{self, Machining};
 
 /// All holes of a board, and what is cut elsewhere.
 pub(super) struct Bores<'a> {
@@ -216,12 +216,7 @@ fn owner(shape: &Shape, walls: &[Wall<'_>], by_place: &RectIndex) -> Option<usiz
 
 /// Half the width of a piece, in nanometres.
 fn half(shape: &Shape) -> f64 {
-    match shape {
-        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => {
-            radius.to_f64()
-        }
-        Shape::Polygon(_) => 0.0,
-    }
+    machining::half(shape).to_f64()
 }
 
 /// Points of a piece's axis, one of which is the farthest from any way but for a hair.

@@ -70,10 +70,7 @@ pub(super) struct Swept {
 impl Swept {
     /// Half the kerf.
     pub(super) const fn half(&self) -> Nm {
-        match &self.shape {
-            Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => *radius,
-            Shape::Polygon(_) => Nm::ZERO,
-        }
+        half(&self.shape)
     }
 
     /// What it takes away down to the bottom of the copper.
@@ -84,6 +81,14 @@ impl Swept {
     /// The way of the cutter's middle.
     pub(super) fn axis(&self) -> Shape {
         with_radius(&self.shape, Nm::ZERO)
+    }
+}
+
+/// Half as wide as what is cut along an axis.
+pub(super) const fn half(shape: &Shape) -> Nm {
+    match shape {
+        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => *radius,
+        Shape::Polygon(_) => Nm::ZERO,
     }
 }
 
@@ -161,7 +166,7 @@ impl Machining {
                 None => deepest.push((cutter, -above.min(below))),
             }
             let levels = [copper, settings.board + cutter.point()];
-            let slopes = above != below && (from != to || matches!(motion.way, Way::Arc { .. }));
+            let slopes = above != below && !matches!(axis(motion.way, from, to), Shape::Disc { .. });
             for (shape, depth) in pieces(motion, from, to, cutter, levels) {
                 if depth >= copper {
                     let shape = with_radius(&shape, cutter.width_at(depth) / 2);

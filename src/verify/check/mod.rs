@@ -234,6 +234,11 @@ fn each_stretch(
     findings
 }
 
+/// How deep the end of the cutter goes in a motion; none where no height is known.
+fn deepest(motion: &Motion) -> Option<Nm> {
+    [motion.from.z, motion.to.z].into_iter().flatten().min().map(|lowest| -lowest)
+}
+
 /// So many pixels in mm².
 #[expect(clippy::cast_precision_loss, reason = "a display figure")]
 fn area(pixels: usize, pitch: Nm) -> f64 {

@@ -10,7 +10,7 @@
 //!
 //! Whether the spindle is up to speed: see the dwell after M3 yourself. Spindles switched by hand.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, deepest, each_stretch};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 
@@ -29,7 +29,7 @@ pub(super) const CHECK: Check =
 const NAME: &str = "plunge-spindle-off";
 
 fn wrong(motion: &Motion) -> Option<Wrong> {
-    let depth = -[motion.from.z, motion.to.z].into_iter().flatten().min()?;
+    let depth = deepest(motion)?;
     let still = !motion.spindle.turns();
     let message = || format!("the tool is {depth:.3} mm below the surface and the spindle is off");
     (motion.way != Way::Rapid && depth > Nm::ZERO && still).then(|| Wrong {

@@ -15,7 +15,7 @@
 //! An isolating program that is too deep throughout, but less than half the board. A table that is
 //! nearer than two millimetres. Holes for pins on which the board is flipped go into the table.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, deepest, each_stretch};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 use crate::verify::machining::Machining;
@@ -71,10 +71,9 @@ fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
     }
 }
 
-/// How deep the end of the cutter goes, but for rapids.
+/// How deep a motion goes, but for rapids.
 fn depth(motion: &Motion) -> Option<Nm> {
-    let lowest = [motion.from.z, motion.to.z].into_iter().flatten().min();
-    lowest.filter(|_| motion.way != Way::Rapid).map(|lowest| -lowest)
+    deepest(motion).filter(|_| motion.way != Way::Rapid)
 }
 
 /// The depth of the middle one of all ways below the surface, by length.

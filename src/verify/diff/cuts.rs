@@ -8,7 +8,8 @@ use crate::geometry::{Arc, Nm, Point, Rect, RectIndex, Turn};
 use crate::grid::Grid;
 use crate::raster::{Label, Scene};
 use crate::topology::surface;
-use crate::verify::machining::{Machining, SINK, Swept};
+use crate::verify::bores::from_axis;
+use crate::verify::machining::{Machining, SINK, Swept, half};
 use crate::verify::{Error, Placement, Program, Role, Settings};
 
 use super::capsule::Capsule;
@@ -77,12 +78,11 @@ impl Cuts {
         self.index.touching(rect).into_iter().map(|groove| &self.grooves[groove])
     }
 
-    /// How deep it is cut within `tolerance` of a place, arcs as chords within `chord`.
-    pub(super) fn depth_at(&self, place: Point, chord: Nm, tolerance: Nm) -> Option<Nm> {
-        let near = self.touching(Rect::new(place, place).inflate(tolerance)).filter(|groove| {
-            let parts = Capsule::of(&groove.shape, chord, Nm::ZERO);
-            parts.iter().any(|part| part.beyond(place.to_f64()) <= tolerance.to_f64())
-        });
+    /// How deep it is cut within `tolerance` of a place.
+    pub(super) fn depth_at(&self, place: Point, tolerance: Nm) -> Option<Nm> {
+        let reaches = |shape: &Shape| from_axis(shape, place) <= (half(shape) + tolerance).to_f64();
+        let near = self.touching(Rect::new(place, place).inflate(tolerance));
+        let near = near.filter(|groove| reaches(&groove.shape));
         near.map(|groove| (groove.least + groove.most) / 2).max()
     }
 

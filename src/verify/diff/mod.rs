@@ -21,6 +21,7 @@ use crate::raster::{Buffers, Scene, render};
 use cuts::Cuts;
 use joined::{Joined, Strip, strips};
 
+use super::machining::half;
 use super::sheet::pixel;
 use super::{Error, Program, Settings};
 
@@ -103,13 +104,6 @@ pub fn diff(
         comparison.regions = comparison.regions(&grid);
     }
     Ok(comparison)
-}
-
-const fn half(shape: &Shape) -> Nm {
-    match shape {
-        Shape::Disc { radius, .. } | Shape::Stroke { radius, .. } | Shape::Arc { radius, .. } => *radius,
-        Shape::Polygon(_) => Nm::ZERO,
-    }
 }
 
 /// Pixels along a side of what is compared at once. Chosen: half as many take a tenth longer.
@@ -234,15 +228,12 @@ impl Comparison {
         let parts = [4, 0, 1, 2, 3, 5, 6, 7, 8].map(|eighth| pixel.width() * eighth / 8);
         let places = parts.into_iter().flat_map(|x| parts.map(|y| pixel.min() + Vector::new(x, y)));
         let mut depths = places.filter_map(|place| {
-            let deep = deep.depth_at(place, self.chord(), Nm::ZERO)?;
-            let shallow = shallow.depth_at(place, self.chord(), self.tolerance)?;
-            (deep > shallow + self.tolerance).then_some([shallow, deep])
+            let deep = deep.depth_at(place, Nm::ZERO)?;
+            let shallow = shallow.depth_at(place, self.tolerance)?;
+            let depths = if region.change == Change::Deeper { [shallow, deep] } else { [deep, shallow] };
+            (deep > shallow + self.tolerance).then_some(depths)
         });
-        let mut depths = depths.next();
-        if region.change == Change::Shallower {
-            depths.iter_mut().for_each(|depths| depths.reverse());
-        }
-        Region { depths, ..region }
+        Region { depths: depths.next(), ..region }
     }
 }
 
