@@ -16,8 +16,12 @@ pub(super) struct Machining {
     pub(super) file: String,
     pub(super) role: Role,
     pub(super) placement: Placement,
+    /// Whether it says so itself.
+    pub(super) says_zero: bool,
     /// What it says, until that was looked at.
     pub(super) motions: Vec<Motion>,
+    /// After how many of them it waits for a person or changes tools, each time.
+    pub(super) stops: Vec<usize>,
     /// With what.
     pub(super) tools: Tools,
     /// What was assumed to follow it.
@@ -122,6 +126,7 @@ impl Machining {
                 guess(&listing.motions, &tools, board).ok_or_else(|| Error::NoSide(program.file.clone()))?
             }
         };
+        let says_zero = program.placement.is_none() && declared.origin.is_some();
         let placement = program.placement.or_else(|| {
             let front = origin(declared.origin.as_deref().unwrap_or("keep"), declared.degrees, board)?;
             Some(Placement { mirror: declared.mirror, shift: front.shift + declared.offset, ..front })
@@ -132,7 +137,9 @@ impl Machining {
             file,
             role,
             placement,
+            says_zero,
             motions: listing.motions,
+            stops: listing.stops.into_iter().map(|(before, _)| before).collect(),
             tools,
             notes: listing.notes,
             swept: Vec::new(),

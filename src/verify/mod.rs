@@ -336,7 +336,7 @@ pub fn verify(
     let mut roles: Vec<Role> = read.iter().map(|machining| machining.role).collect();
     roles.sort_unstable();
     roles.dedup();
-    findings.extend(check::whole(&roles, board, settings));
+    findings.extend(check::whole(&read, board, settings));
     let judged: Vec<(Judged, Vec<Finding>)> = roles
         .into_par_iter()
         .map(|role| judge(role, &read, board, known, settings))

@@ -216,6 +216,15 @@ fn a_spindle_without_a_speed_turns() {
     );
 }
 
+/// Cutters for M4 are left-handed, and hardly anybody has them.
+#[test]
+fn a_spindle_that_turns_backwards_turns_and_is_told() {
+    let listing = read("G21 G90 M4 S900\nG0 X0 Y0 Z1\nG1 Z-1 F9\nM3\nX1\nM5\n").expect("followed");
+    let spindles: Vec<Spindle> = listing.motions.iter().map(|motion| motion.spindle).collect();
+    assert_eq!(spindles, [Spindle::At(900); 3], "either way");
+    assert_notes(&listing, &[(true, "M4 turns the spindle backwards")]);
+}
+
 /// Marlin's dwell has its seconds in S; with P, as LinuxCNC reads it, S is a speed there, too.
 #[test]
 fn the_seconds_of_a_dwell_are_no_speed() {

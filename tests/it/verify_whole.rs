@@ -130,6 +130,48 @@ fn what_goes_far_below_the_board_is_told() {
     }
 }
 
+/// Zero is set once for all programs.
+#[test]
+fn a_program_whose_zero_is_elsewhere_is_told() {
+    let judge = |texts: &[&str]| {
+        let program = |(text, i): (&&str, u32)| Program {
+            file: format!("{i}.ngc"),
+            text: (*text).to_owned(),
+            ..Program::default()
+        };
+        let programs: Vec<Program> = texts.iter().zip(1..).map(program).collect();
+        let found =
+            verify(&programs, &BLINKER.board, &[], &Settings::default()).expect("it can be judged").findings;
+        let told = found.into_iter().filter(|finding| finding.name == "zero-differs");
+        told.map(|finding| (finding.program.unwrap_or_default(), finding.message)).collect::<Vec<_>>()
+    };
+    let again = |line: &str| {
+        let options =
+            Options::from_toml("settings", &format!("dialect = \"linuxcnc\"\n{line}")).expect("options");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
+        let loaded = import::load(&[folder], &Selection::default()).expect("a board");
+        let job = job::mill(loaded, &job::Settings::resolve(options).expect("settings")).expect("a job");
+        let of = |part: Part| job.programs.iter().find(|written| written.part == part).expect("a program");
+        [Part::Back, Part::Drill, Part::Cutout].map(|part| of(part).text.clone())
+    };
+    let [back, drill, cutout] = [Part::Back, Part::Drill, Part::Cutout].map(text);
+    assert_eq!(judge(&[back, drill, cutout]), [], "as they were made");
+    // The board is 40.64 by 30.48 mm.
+    let [_, _, centred] = again("origin = \"center\"");
+    let said = |program: &str, message: &str| vec![(program.to_owned(), message.to_owned())];
+    let expected = said("3.ngc", "zero lies 20.320, 15.240 mm away from that of 1.ngc");
+    assert_eq!(judge(&[back, drill, &centred]), expected, "one of three");
+    let expected = said("1.ngc", "zero lies -20.320, -15.240 mm away from that of 2.ngc");
+    let [_, other, _] = again("origin = \"center\"");
+    assert_eq!(judge(&[back, &other, &centred]), expected, "what most say counts");
+    let [_, turned, _] = again("rotate = \"90deg\"");
+    assert!(judge(&[back, &turned, cutout])[0].1.starts_with("the board is turned by 90.000°"), "turned");
+    let [flipped, _, _] = again("mirror-axis = \"25mm\"");
+    assert_eq!(judge(&[&flipped, drill, cutout]), [], "there is but one that is flipped");
+    let expected = said("2.ngc", "the board is flipped about a line 4.680 mm to the right of that of 1.ngc");
+    assert_eq!(judge(&[back, &flipped]), expected, "there are two");
+}
+
 #[test]
 fn a_tab_of_an_inner_cut_out_that_is_cut_through_is_told() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/regulator");

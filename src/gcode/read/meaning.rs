@@ -115,6 +115,8 @@ pub(super) enum Meaning {
     /// Cutter compensation.
     Compensation(bool),
     Spindle(bool),
+    /// M4.
+    Backwards,
     ToolChange,
     /// M61.
     SetTool,
@@ -206,7 +208,8 @@ fn of_m(key: u32) -> Meaning {
     match key {
         0 | 10 | 600 | 2260 | 6000 | 6010 => Meaning::Stop,
         20 | 300 => Meaning::End,
-        30 | 40 => Meaning::Spindle(true),
+        30 => Meaning::Spindle(true),
+        40 => Meaning::Backwards,
         50 => Meaning::Spindle(false),
         60 => Meaning::ToolChange,
         610 => Meaning::SetTool,

@@ -5,7 +5,9 @@ mod board_gouged;
 mod board_left;
 mod copper_left;
 mod destroyed;
+mod drill_sideways;
 mod feed_missing;
+mod feed_per_turn;
 mod gouge;
 mod hole_depth;
 mod hole_extra;
@@ -19,6 +21,7 @@ mod not_through;
 mod open;
 mod outside_stock;
 mod overtravel;
+mod pass_too_deep;
 mod plunge_spindle_off;
 mod program_missing;
 mod rapid_in_material;
@@ -31,12 +34,16 @@ mod tab_missing;
 mod tab_spread;
 mod tab_thin;
 mod too_deep;
+mod tool_not_changed;
 mod unclear;
+mod zero_differs;
 
 pub(super) use feed_missing::KIND as FEED_MISSING;
 pub use gouge::KIND as GOUGE;
 pub(super) use plunge_spindle_off::KIND as PLUNGE_SPINDLE_OFF;
 pub(super) use rapid_in_material::KIND as RAPID_IN_MATERIAL;
+
+use rustc_hash::FxHashMap;
 
 use crate::board::diagnostic::Stage;
 use crate::board::{Board, Diagnostic, Shape, Words};
@@ -48,7 +55,7 @@ use super::contours::Contours;
 use super::machining::Machining;
 use super::outcome::Outcome;
 use super::report::Finding;
-use super::{Input, Program, Role, Settings, Severity};
+use super::{Input, Program, Settings, Severity};
 
 /// A thing that is looked for.
 pub struct Check {
@@ -69,8 +76,8 @@ enum Run {
     Cutout(fn(&Contours<'_>, &Board, &Settings) -> Vec<Finding>),
     /// All programs that drill holes on whose pins the board is flipped.
     Alignment(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
-    /// What all programs together are for.
-    Whole(fn(&[Role], &Board, &Settings) -> Vec<Finding>),
+    /// All programs together.
+    Whole(fn(&[Machining], &Board, &Settings) -> Vec<Finding>),
     /// A program's text, and the board's files.
     Inputs(fn(&Program, &[Input]) -> Vec<Finding>),
 }
@@ -91,6 +98,11 @@ pub const ALL: &[Check] = &[
     rapid_in_material::CHECK,
     plunge_spindle_off::CHECK,
     feed_missing::CHECK,
+    feed_per_turn::CHECK,
+    pass_too_deep::CHECK,
+    drill_sideways::CHECK,
+    tool_not_changed::CHECK,
+    zero_differs::CHECK,
     outside_stock::CHECK,
     overtravel::CHECK,
     hole_missing::CHECK,
@@ -159,11 +171,11 @@ pub(super) fn alignment(programs: &[&Machining], board: &Board, settings: &Setti
     })
 }
 
-/// The checks of all programs together, which are for `roles`.
-pub(super) fn whole(roles: &[Role], board: &Board, settings: &Settings) -> Vec<Finding> {
+/// The checks of all programs together.
+pub(super) fn whole(programs: &[Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
     each(|check| {
         let Run::Whole(run) = check else { return None };
-        Some(run(roles, board, settings))
+        Some(run(programs, board, settings))
     })
 }
 
@@ -204,17 +216,31 @@ struct Wrong {
     size: Option<Nm>,
 }
 
-/// The findings of a check of single motions: one for each stretch of lines that are wrong one
-/// after another, as large as the largest.
+/// The findings of a check of single motions, as [`stretches`] has them.
 fn each_stretch(
     program: &Machining,
     name: &'static str,
     wrong: impl Fn(&Motion) -> Option<Wrong>,
 ) -> Vec<Finding> {
+    let place = |motion: &Motion| {
+        motion.to.point().or_else(|| motion.from.point()).map(|p| program.placement.undo(p))
+    };
+    let all =
+        program.motions.iter().map(|motion| wrong(motion).map(|wrong| (wrong, place(motion), motion.line)));
+    stretches(program, name, all)
+}
+
+/// The findings of what may be wrong each with a place and a line, in order: one for each stretch
+/// that is wrong without a break, as large as the largest.
+fn stretches(
+    program: &Machining,
+    name: &'static str,
+    all: impl Iterator<Item = Option<(Wrong, Option<Point>, u32)>>,
+) -> Vec<Finding> {
     let mut findings: Vec<Finding> = Vec::new();
     let mut last: Option<(usize, Severity)> = None;
-    for (index, motion) in program.motions.iter().enumerate() {
-        let Some(Wrong { severity, message, size }) = wrong(motion) else { continue };
+    for (index, wrong) in all.enumerate() {
+        let Some((Wrong { severity, message, size }, at, line)) = wrong else { continue };
         let follows = last.is_some_and(|(before, same)| before + 1 == index && same == severity);
         last = Some((index, severity));
         if let Some(begun) = findings.last_mut().filter(|_| follows) {
@@ -224,14 +250,34 @@ fn each_stretch(
             continue;
         }
         findings.push(Finding {
-            at: motion.to.point().or_else(|| motion.from.point()).map(|p| program.placement.undo(p)),
+            at,
             program: Some(program.file.clone()),
-            line: Some(motion.line),
+            line: Some(line),
             size,
             ..Finding::new(name, severity, message)
         });
     }
     findings
+}
+
+/// Findings that say the same as one, where the first is, with how many `things` there are.
+fn once(findings: impl IntoIterator<Item = Finding>, things: &str) -> Vec<Finding> {
+    let mut known: FxHashMap<String, usize> = FxHashMap::default();
+    let mut counted: Vec<(Finding, u32)> = Vec::new();
+    for finding in findings {
+        let at = *known.entry(finding.message.clone()).or_insert(counted.len());
+        match counted.get_mut(at) {
+            Some((_, count)) => *count += 1,
+            None => counted.push((finding, 1)),
+        }
+    }
+    let message = |(mut finding, count): (Finding, u32)| {
+        if count > 1 {
+            finding.message = format!("{} ({count} {things})", finding.message);
+        }
+        finding
+    };
+    counted.into_iter().map(message).collect()
 }
 
 /// How deep the end of the cutter goes in a motion; none where no height is known.

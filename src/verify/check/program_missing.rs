@@ -14,6 +14,7 @@
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, Side};
+use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 use crate::verify::{Role, Settings};
 
@@ -30,7 +31,7 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Whole(check) };
 
 const NAME: &str = "program-missing";
 
-fn check(roles: &[Role], board: &Board, settings: &Settings) -> Vec<Finding> {
+fn check(programs: &[Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
     if !settings.complete {
         return Vec::new();
     }
@@ -39,7 +40,7 @@ fn check(roles: &[Role], board: &Board, settings: &Settings) -> Vec<Finding> {
     let drilling = (!board.holes.is_empty()).then_some(Role::Drilling);
     let cutout = board.outline.as_ref().map(|_| Role::Cutout);
     let wanted = sides.map(Role::Isolation).chain(drilling).chain(cutout);
-    let missing = wanted.filter(|role| !roles.contains(role));
+    let missing = wanted.filter(|role| !programs.iter().any(|program| program.role == *role));
     missing
         .map(|role| {
             let why = match role {

@@ -229,6 +229,12 @@ impl Machine {
                 Meaning::Special(special) => orders.special = Some(special),
                 Meaning::Compensation(on) => self.compensated = on.then_some(run.line()),
                 Meaning::Spindle(on) => self.modal.spinning = on,
+                Meaning::Backwards => {
+                    let what = "M4 turns the spindle backwards where the machine can: drills and mills are \
+                                made for M3";
+                    self.listing.note(true, run.line(), what);
+                    self.modal.spinning = true;
+                }
                 Meaning::ToolChange | Meaning::SetTool => orders.change_tool = true,
                 Meaning::Stop => orders.stop = true,
                 Meaning::End => orders.ask = Some(Ask::End),

@@ -1,0 +1,58 @@
+//! # What it checks
+//!
+//! Where a program says in its comments that it goes on with another tool it waits for it (M0), or
+//! changes it (T with M6).
+//!
+//! # Why
+//!
+//! The machine goes on with the tool that is in. It comes of programs for one tool each that were
+//! put into one file, and of lines that were taken out since the controller did not know them.
+//!
+//! # What it can miss
+//!
+//! What the controller does at M6: some do nothing. Comments of other CAM, which are not read.
+
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, deepest};
+use crate::gcode::read::Way;
+use crate::geometry::Nm;
+use crate::verify::Cutter;
+use crate::verify::machining::Machining;
+use crate::verify::report::Finding;
+
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("another tool that nobody has time to fit"),
+    effect: Words::of("the machine goes on with the tool that is in: cuts and holes have another width"),
+    advice: Words::of(
+        "stop for the change (M0, or T with M6), or run a program for each tool ({tool-change})",
+    ),
+};
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+
+const NAME: &str = "tool-not-changed";
+
+fn check(program: &Machining) -> Vec<Finding> {
+    let mut findings = Vec::new();
+    // The tool that cut last, its number, and how many motions there were.
+    let mut last: Option<(Cutter, Option<u32>, usize)> = None;
+    for (index, motion) in program.motions.iter().enumerate() {
+        let cuts = motion.way != Way::Rapid && deepest(motion).is_some_and(|depth| depth > Nm::ZERO);
+        let Some(cutter) = program.tools.at(motion.line).filter(|_| cuts) else { continue };
+        let before = last.replace((cutter, motion.tool, index));
+        let Some((old, number, since)) = before.filter(|(old, ..)| *old != cutter) else { continue };
+        let stops = program.stops.iter().any(|stop| (since + 1..=index).contains(stop));
+        if !stops && number == motion.tool {
+            let message = format!("it goes on with {cutter}, and does not stop for {old} to be taken out");
+            findings.push(Finding {
+                at: motion.to.point().map(|p| program.placement.undo(p)),
+                program: Some(program.file.clone()),
+                line: Some(motion.line),
+                ..Finding::new(NAME, Severity::Error, message)
+            });
+        }
+    }
+    findings
+}

@@ -1,0 +1,168 @@
+//! What breaks tools, or cuts with the wrong one, though the way is right.
+
+use std::f64::consts::TAU;
+use std::fmt::Write as _;
+
+use voromill::board::{Board, Outline};
+use voromill::geometry::{Nm, Path as Way, Point};
+use voromill::verify::{Finding, Program, Role, Settings, Severity, verify};
+
+/// An empty board of 30 mm by 20 mm.
+fn plate() -> Board {
+    let corner = |x: i64, y: i64| Point::new(Nm::from_mm(x), Nm::from_mm(y));
+    let ring = [corner(0, 0), corner(30, 0), corner(30, 20), corner(0, 20), corner(0, 0)];
+    let outline = Outline::new(Way::polyline(ring).into_iter().collect());
+    Board { outline, ..Board::default() }
+}
+
+/// What is found of this name in what `motions` cut with `tool`.
+fn found(name: &str, tool: &str, motions: &str) -> Vec<Finding> {
+    let program = Program {
+        file: "loads.ngc".to_owned(),
+        text: format!("G21 G90 G94\nG0 Z5\n{motions}\nG0 Z5\nM5\nM2\n"),
+        role: Some(Role::Cutout),
+        cutter: Some(tool.parse().expect("a tool")),
+        ..Program::default()
+    };
+    let report = verify(&[program], &plate(), &[], &Settings::default()).expect("it can be judged");
+    report.findings.into_iter().filter(|finding| finding.name == name).collect()
+}
+
+#[test]
+fn a_feed_that_no_tool_bears_is_told() {
+    let told = |tool: &str, spindle: &str, feed: &str, depth: &str| {
+        let motions = format!("{spindle}\nG0 X0 Y0\nG1 Z-{depth} F10\nG1 X20 F{feed}\nX0\nG0 Z5 F9999");
+        found("feed-per-turn", tool, &motions)
+    };
+    for (tool, spindle, feed, depth, expected) in [
+        // Half of 0.8 mm in a turn.
+        ("endmill:0.8mm", "M3 S10000", "4000", "0.1", 0),
+        ("endmill:0.8mm", "M3 S10000", "4001", "0.1", 1),
+        ("endmill:0.8mm", "M3 S120", "200", "0.1", 1),
+        // A kerf of 0.1 + 2 · 0.1 · tan 15° = 0.1536 mm.
+        ("vbit:0.1mm:30deg", "M3 S10000", "1530", "0.1", 0),
+        ("vbit:0.1mm:30deg", "M3 S10000", "1540", "0.1", 1),
+        // What nobody tells turns 60 000 times a minute.
+        ("endmill:0.8mm", "M3", "24000", "0.1", 0),
+        ("endmill:0.8mm", "M3", "24001", "0.1", 1),
+        ("endmill:0.8mm", "M3 S1000", "24000", "0.1", 0),
+        ("endmill:0.8mm", "M3 S1000", "24001", "0.1", 1),
+        ("endmill:0.8mm", "M3 S999", "4000", "0.1", 1),
+        // 4 mm/min are 101.6 as inches, and 400 are 10 160.
+        ("endmill:0.8mm", "G20 M3 S10000", "4", "0.004", 0),
+        ("endmill:0.8mm", "G20 M3 S10000", "400", "0.004", 1),
+    ] {
+        let findings = told(tool, spindle, feed, depth);
+        assert_eq!(findings.len(), expected, "{tool} {spindle} F{feed}: {findings:?}");
+    }
+    let both = told("endmill:0.8mm", "M3 S10000", "20000", "0.1");
+    assert_eq!(both[0].severity, Severity::Warning, "{both:?}");
+    assert!(
+        both[0].message.ends_with("20000 mm/min: at 10000 rpm that is 2.000 mm in a turn (2 motions)"),
+        "{both:?}"
+    );
+    assert_eq!(both[0].line, Some(6), "where it is first");
+    assert_eq!(found("feed-per-turn", "endmill:0.8mm", "M3 S10000\nG1 X0 Y0 F9000\nX20"), [], "through air");
+}
+
+/// A square and a circle, cut to these depths one after another, in chords or in arcs.
+fn passes(depths: &[f64], chords: Option<u32>) -> String {
+    let mut text = "M3 S10000\nG0 X2 Y2\nG0 Z0.1\n".to_owned();
+    for depth in depths {
+        let _ = writeln!(text, "G1 Z-{depth} F60\nX12 F100\nY12\nX2\nY2");
+    }
+    let _ = writeln!(text, "G0 Z5\nG0 X25 Y10\nG0 Z0.1");
+    for depth in depths {
+        let _ = writeln!(text, "G1 Z-{depth} F60");
+        match chords {
+            None => text += "G3 X15 Y10 I-5 J0 F100\nG3 X25 Y10 I5 J0\n",
+            Some(count) => {
+                for i in 1..=count {
+                    let (sin, cos) = libm::sincos(f64::from(i) / f64::from(count) * TAU);
+                    let _ = writeln!(text, "X{:.4} Y{:.4} F100", 20.0 + 5.0 * cos, 10.0 + 5.0 * sin);
+                }
+            }
+        }
+    }
+    text
+}
+
+#[test]
+fn a_pass_that_is_too_deep_for_its_end_mill_is_told() {
+    // Three diameters are 1.5 mm.
+    for (depths, expected) in [
+        (&[1.5][..], 0),
+        (&[1.6], 1),
+        (&[1.4, 2.8], 0),
+        (&[0.2, 1.8], 1),
+        (&[0.2, 1.7], 0),
+        (&[0.4, 0.8, 1.2, 1.6, 2.0], 0),
+    ] {
+        for chords in [None, Some(8), Some(2000)] {
+            let findings = found("pass-too-deep", "endmill:0.5mm", &passes(depths, chords));
+            assert_eq!(findings.len(), expected, "{depths:?}, {chords:?} chords: {findings:?}");
+        }
+    }
+    let findings = found("pass-too-deep", "endmill:0.5mm", &passes(&[0.2, 1.8], None));
+    let said = "a pass 1.600 mm deep with an end mill of 0.500 mm (2 places)";
+    assert_eq!(findings[0].message, said, "the square and the circle");
+    assert_eq!((findings[0].severity, findings[0].line), (Severity::Warning, Some(12)), "where it is first");
+}
+
+#[test]
+fn what_was_cut_before_is_not_cut_again() {
+    let told = |motions: &str| found("pass-too-deep", "endmill:0.5mm", motions).len();
+    let start = "M3 S10000\nG0 X2 Y2\nG0 Z0.1\n";
+    // Down along 10 mm at once, and then level.
+    assert_eq!(told(&format!("{start}G1 Z0 F60\nX12 Z-1.8\nX2\n")), 1, "the ramp itself");
+    let often = "X12 Z-0.6\nX2 Z-1.2\nX12 Z-1.8\nX2\n";
+    assert_eq!(told(&format!("{start}G1 Z0 F60\n{often}")), 0, "to and fro");
+    // A hole that is bored in turns of 0.4 mm.
+    let turns: String =
+        (1..=5).map(|turn| format!("G3 X2 Y2 I0.4 Z-{:.1}\n", 0.4 * f64::from(turn))).collect();
+    assert_eq!(told(&format!("{start}G1 Z0 F60\n{turns}G3 X2 Y2 I0.4\n")), 0, "in five turns");
+    assert_eq!(told(&format!("{start}G1 Z0 F60\nG3 X2 Y2 I0.4 Z-2\n")), 1, "in one");
+    // Straight down, which is what drills and end mills bear.
+    assert_eq!(told(&format!("{start}G1 Z-2 F60\n")), 0, "a plunge");
+    assert_eq!(found("pass-too-deep", "drill:0.5mm", &format!("{start}G1 Z-2 F60\n")), [], "a drill");
+}
+
+#[test]
+fn a_drill_that_goes_sideways_is_told() {
+    let slot = "M3 S10000\nG0 X2 Y2\nG0 Z0.1\nG1 Z-1.7 F60\nG1 X3 F100\nG0 Z5\n";
+    let found = |tool: &str, motions: &str| found("drill-sideways", tool, motions);
+    let drilled = found("drill:0.8mm", slot);
+    assert_eq!(drilled.len(), 1, "{drilled:?}");
+    assert_eq!((drilled[0].severity, drilled[0].line), (Severity::Error, Some(7)), "{drilled:?}");
+    assert_eq!(found("endmill:0.8mm", slot), [], "what end mills are for");
+    assert_eq!(found("drill:0.8mm", &slot.replace("X3", "X2.04")), [], "rounded");
+    assert_eq!(found("drill:0.8mm", &slot.replace("Z-1.7", "Z0.1")), [], "above the board");
+    assert_eq!(found("drill:0.8mm", &slot.replace("G1 X3", "G2 X2 Y2 I0.4")).len(), 1, "round");
+    let aslant = "M3 S10000\nG0 X2 Y2\nG0 Z1\nG1 X3 Z-1.7 F60\n";
+    assert_eq!(found("drill:0.8mm", aslant).len(), 1, "aslant");
+    assert_eq!(
+        found("drill:0.8mm", "M3 S9000\nG0 X2 Y2\nG83 X5 Y5 Z-1.7 R1 Q0.5 F60\nX8\nG80\n"),
+        [],
+        "cycles"
+    );
+}
+
+#[test]
+fn a_tool_that_nobody_has_time_to_change_is_told() {
+    let holes = |change: &str| {
+        let hole = "G1 Z-1.8 F60\nG0 Z5\n";
+        let text = format!(
+            "(plate drill)\n(starts with tool 1: drill:0.8mm)\nG21 G90\nT1 M6\nM3 S9000\nG0 X2 Y2 Z5\n{hole}\
+             (goes on with tool 2: drill:1mm)\n{change}G0 X5\n{hole}(tool 2: drill:1mm)\nX8\n{hole}M5\nM2\n"
+        );
+        let program = Program { file: "holes.ngc".to_owned(), text, ..Program::default() };
+        let report = verify(&[program], &plate(), &[], &Settings::default()).expect("it can be judged");
+        let findings = report.findings.into_iter().filter(|finding| finding.name == "tool-not-changed");
+        findings.map(|finding| (finding.severity, finding.line)).collect::<Vec<_>>()
+    };
+    assert_eq!(holes(""), [(Severity::Error, Some(11))], "once, at the first hole");
+    assert_eq!(holes("T2\n"), [(Severity::Error, Some(12))], "T alone chooses it");
+    for change in ["M0\n", "T2 M6\n", "M5\nM0\nM3\n", "T2\nM6\n"] {
+        assert_eq!(holes(change), [], "{change}");
+    }
+}
