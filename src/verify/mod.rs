@@ -390,7 +390,11 @@ fn judge(
             let contours = Contours::new(&programs, &of(Role::Drilling), board, settings);
             findings.extend(contours.iter().flat_map(|contours| check::cutout(contours, board, settings)));
         }
-        Role::Alignment => findings.extend(check::alignment(&programs, board, settings)),
+        Role::Alignment => {
+            let others = read.iter().filter(|machining| machining.role != Role::Alignment);
+            let mirror = others.filter_map(|machining| machining.placement.mirror).next();
+            findings.extend(check::alignment(&programs, mirror, board, settings));
+        }
     }
     let programs = programs.iter().map(|program| program.file.clone()).collect();
     Ok((Judged { programs, role, resolution }, findings))

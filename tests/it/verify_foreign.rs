@@ -37,12 +37,18 @@ fn judge(board: &Board, program: Program) -> Vec<Finding> {
     report.findings.into_iter().filter(|finding| finding.severity >= Severity::Warning).collect()
 }
 
+/// Two pads on the back, which pcb2gcode mirrors.
+fn back() -> Board {
+    let selection = Selection { back: Some(fixture("pads-F_Cu.gbr")), ..Selection::default() };
+    import::load(&[], &selection).expect("a board").board
+}
+
 #[test]
 fn a_mirrored_program_with_modal_words_and_tool_changes_isolates() {
-    let board = board(&["pads-F_Cu.gbr"]);
+    let board = back();
     let placed = |shift: Vector| {
         let placement = Placement { shift, mirror: Some(Nm::ZERO), ..Placement::default() };
-        Program { placement: Some(placement), ..program("pcb2gcode.nc", "endmill:0.2mm", Side::Front) }
+        Program { placement: Some(placement), ..program("pcb2gcode.nc", "endmill:0.2mm", Side::Back) }
     };
     let right = Vector::new(Nm::from_mm(10), Nm::from_mm(20));
     assert_eq!(judge(&board, placed(right)), [], "laid as it is meant");
@@ -52,11 +58,33 @@ fn a_mirrored_program_with_modal_words_and_tool_changes_isolates() {
 
 #[test]
 fn where_a_mirrored_program_lies_is_found() {
-    let board = board(&["pads-F_Cu.gbr"]);
-    let mut program = program("pcb2gcode.nc", "endmill:0.2mm", Side::Front);
+    let board = back();
+    let mut program = program("pcb2gcode.nc", "endmill:0.2mm", Side::Back);
     let found = register(&program, &board, &Orientation::default(), &Settings::default()).expect("it fits");
     program.placement = Some(found);
     assert_eq!(judge(&board, program), [], "laid as was found: {found:?}");
+}
+
+/// The layers of a board are all drawn as they are seen from the front.
+#[test]
+fn a_side_that_becomes_its_own_mirror_image_is_told() {
+    let shift = Vector::new(Nm::from_mm(10), Nm::from_mm(20));
+    for (board, side, text, spoilt) in [
+        (back(), Side::Back, "pcb2gcode.nc", false),
+        (back(), Side::Back, "loops.nc", true),
+        (board(&["pads-F_Cu.gbr"]), Side::Front, "pcb2gcode.nc", true),
+        (board(&["pads-F_Cu.gbr"]), Side::Front, "loops.nc", false),
+    ] {
+        let placement = match text {
+            "loops.nc" => Placement::default(),
+            _ => Placement { shift, mirror: Some(Nm::ZERO), ..Placement::default() },
+        };
+        let program = Program { placement: Some(placement), ..program(text, "endmill:0.2mm", side) };
+        let found = judge(&board, program);
+        let names: Vec<_> = found.iter().map(|finding| (finding.name, finding.severity)).collect();
+        let expected = if spoilt { vec![("mirror-image", Severity::Error)] } else { Vec::new() };
+        assert_eq!(names, expected, "{text} for the {side}: {found:?}");
+    }
 }
 
 #[test]

@@ -456,6 +456,33 @@ fn holes_for_pins_lie_beside_the_board_and_go_deep_enough() {
     assert_eq!(names(&judge(&board, None, &only), Severity::Error), ["alignment-hole"], "one alone");
 }
 
+/// On pins in these holes the stock is turned over about a line that the back must have, too.
+#[test]
+fn holes_for_pins_lie_on_pins_when_the_board_is_flipped() {
+    let board = board(hole((10_000, 10_000), None, 1000));
+    let judge = |pins: [(f64, f64); 2], axis: &str| {
+        let [a, b] = pins.map(|(x, y)| format!("G0 X{x} Y{y}\nG1 Z-5 F60\nG0 Z2\n"));
+        let pins = format!("(plate alignment)\n(tool 1: drill:3mm)\nG21 G90\nM3 S9000\nG0 Z2\n{a}{b}");
+        let back = format!(
+            "(plate drill)\n(tool 1: drill:1mm)\n(mirrored left to right about the vertical line x = {axis} mm)\n\
+             G21 G90\nM3 S9000\nG0 X20 Y10 Z2\nG1 Z-2 F60\nG0 Z2\n"
+        );
+        let program = |text: String| Program { file: "pins.ngc".to_owned(), text, ..Program::default() };
+        let settings = Settings::default();
+        let found =
+            verify(&[pins, back].map(program), &board, &[], &settings).expect("it can be judged").findings;
+        let told = found.into_iter().filter(|finding| finding.name == "alignment-hole");
+        told.map(|finding| finding.message).collect::<Vec<_>>()
+    };
+    assert_eq!(judge([(15.0, -5.0), (15.0, 25.0)], "15"), [""; 0], "on the line");
+    assert_eq!(judge([(-5.0, 10.0), (35.0, 10.0)], "15"), [""; 0], "to either side of it");
+    assert_eq!(judge([(-5.04, 10.0), (35.0, 10.0)], "15"), [""; 0], "0.04 mm off");
+    let said = "flipped about x = 14.900 mm, an alignment hole lies 0.200 mm beside the next pin";
+    assert_eq!(judge([(15.0, -5.0), (15.0, 25.0)], "14.9"), [said; 2], "beside the line");
+    let said = "flipped about x = 15.000 mm, an alignment hole lies 15.000 mm beside the next pin";
+    assert_eq!(judge([(-5.0, -5.0), (35.0, 10.0)], "15"), [said; 2], "not opposite to each other");
+}
+
 /// A cutout of the plate by a cutter of 1 mm: tabs of 2 mm on the bottom and the top edge, each
 /// from this x.
 fn held_at(bottom: &[i64], top: &[i64]) -> String {

@@ -2,6 +2,7 @@
 //!
 //! The holes on whose pins the board is flipped lie beside it, there are at least two of them, and
 //! they go far enough below the board at their full diameter that pins stand in what lies under it.
+//! Flipped about the line that the other programs are mirrored about, each lies on a pin.
 //!
 //! # Why
 //!
@@ -10,12 +11,11 @@
 //!
 //! # What it can miss
 //!
-//! How thick what lies under the board is, and whether the holes lie on the line about which the
-//! board is flipped.
+//! How thick what lies under the board is.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::board::{Board, FLATTEN};
-use crate::geometry::{Nm, Point};
+use crate::geometry::{Nm, Point, Rect};
 use crate::verify::Settings;
 use crate::verify::cut::Cut;
 use crate::verify::machining::Machining;
@@ -27,7 +27,10 @@ const KIND: Diagnostic = Diagnostic {
     severity: Severity::Error,
     what: Words::of("an alignment hole that holds no pin"),
     effect: Words::of("a pin does not stand, and the back is not milled in register with the front"),
-    advice: Words::of("drill deeper ({alignment-depth}), or farther from the board ({alignment-margin})"),
+    advice: Words::of(
+        "drill deeper ({alignment-depth}) or farther from the board ({alignment-margin}), and make the holes in one \
+         run with the programs for the back ({mirror-axis})",
+    ),
 };
 
 pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Alignment(check) };
@@ -37,35 +40,51 @@ const NAME: &str = "alignment-hole";
 /// How far a pin stands in what lies under the board, at least. Chosen.
 const STAND: Nm = Nm::from_mm(1);
 
-fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
-    let mut deepest: Vec<(Point, Nm, Cut<'_>)> = Vec::new();
-    for &program in programs {
-        for swept in &program.swept {
-            let (at, depth) = (swept.shape.anchor(), swept.full);
-            let cut = Cut { program, swept };
-            match deepest.iter_mut().find(|(known, ..)| known.distance(at) <= swept.half().to_f64() * 4.0) {
-                Some(known) if known.1 < depth => (known.1, known.2) = (depth, cut),
-                Some(_) => {}
-                None => deepest.push((at, depth, cut)),
+/// A hole as it was drilled, or bored.
+struct Drilled<'a> {
+    /// What is cut of it, and a place in it.
+    around: Rect,
+    at: Point,
+    /// How deep it has its full diameter.
+    depth: Nm,
+    cut: Cut<'a>,
+}
+
+fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &Settings) -> Vec<Finding> {
+    let mut holes: Vec<Drilled<'_>> = Vec::new();
+    for cut in Cut::all(programs) {
+        let (shape, depth) = (&cut.swept.shape, cut.swept.full);
+        let (at, around, near) = (shape.anchor(), shape.bounds(), cut.swept.half().to_f64() * 4.0);
+        match holes.iter_mut().find(|hole| hole.at.distance(at) <= near) {
+            Some(hole) => {
+                hole.around = hole.around.union(around);
+                if hole.depth < depth {
+                    (hole.depth, hole.cut) = (depth, cut);
+                }
             }
+            None => holes.push(Drilled { around, at, depth, cut }),
         }
     }
     let outline = board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
     let inside = |at: Point| outline.as_ref().is_some_and(|outline| outline.contains(at));
+    let on_machine = |hole: &Drilled<'_>| {
+        let middle = hole.around.min().midpoint(hole.around.max());
+        hole.cut.program.placement.apply(middle)
+    };
+    let pins: Vec<Point> = holes.iter().map(on_machine).collect();
     let mut findings = Vec::new();
-    let mut add =
-        |(at, _, cut): &(Point, Nm, Cut<'_>), severity: Severity, message: String, size: Option<Nm>| {
-            findings.push(Finding {
-                at: Some(*at),
-                size,
-                program: Some(cut.program.file.clone()),
-                line: Some(cut.swept.line),
-                ..Finding::new(NAME, severity, message)
-            });
-        };
-    for hole in &deepest {
-        let below = hole.1 - settings.board;
-        if inside(hole.0) {
+    let mut add = |hole: &Drilled<'_>, severity: Severity, message: String, size: Option<Nm>| {
+        findings.push(Finding {
+            at: Some(hole.at),
+            size,
+            program: Some(hole.cut.program.file.clone()),
+            line: Some(hole.cut.swept.line),
+            ..Finding::new(NAME, severity, message)
+        });
+    };
+    for (hole, pin) in holes.iter().zip(&pins) {
+        let below = hole.depth - settings.board;
+        if inside(hole.at) {
             add(hole, Severity::Error, "an alignment hole lies in the board".to_owned(), None);
         }
         if below < Nm::ZERO {
@@ -75,14 +94,20 @@ fn check(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Fin
             let message = format!("an alignment hole goes {below:.3} mm below the board: a pin falls over");
             add(hole, Severity::Warning, message, Some(below));
         }
+        let Some(axis) = mirror else { continue };
+        let flipped = Point::new(axis * 2 - pin.x, pin.y);
+        let off = pins.iter().map(|pin| pin.distance(flipped)).fold(f64::INFINITY, f64::min);
+        if off > settings.place.to_f64() {
+            let off = Nm::from_f64(off);
+            let message = format!(
+                "flipped about x = {axis:.3} mm, an alignment hole lies {off:.3} mm beside the next pin"
+            );
+            add(hole, Severity::Error, message, Some(off));
+        }
     }
-    if let [only] = deepest.as_slice() {
-        add(
-            only,
-            Severity::Error,
-            "one alignment hole alone does not hold a board that is flipped".to_owned(),
-            None,
-        );
+    if let [only] = holes.as_slice() {
+        let message = "one alignment hole alone does not hold a board that is flipped".to_owned();
+        add(only, Severity::Error, message, None);
     }
     findings
 }

@@ -15,6 +15,7 @@ mod hole_missing;
 mod hole_place;
 mod hole_size;
 mod minimum_width;
+mod mirror_image;
 mod net_too_near;
 mod not_judged;
 mod not_through;
@@ -74,8 +75,9 @@ enum Run {
     Drilling(fn(&Bores<'_>, &Board, &Settings) -> Vec<Finding>),
     /// The board's outline, cut out.
     Cutout(fn(&Contours<'_>, &Board, &Settings) -> Vec<Finding>),
-    /// All programs that drill holes on whose pins the board is flipped.
-    Alignment(fn(&[&Machining], &Board, &Settings) -> Vec<Finding>),
+    /// All programs that drill holes on whose pins the board is flipped, and the x of the machine
+    /// about which the others have it flipped.
+    Alignment(fn(&[&Machining], Option<Nm>, &Board, &Settings) -> Vec<Finding>),
     /// All programs together.
     Whole(fn(&[Machining], &Board, &Settings) -> Vec<Finding>),
     /// A program's text, and the board's files.
@@ -103,6 +105,7 @@ pub const ALL: &[Check] = &[
     drill_sideways::CHECK,
     tool_not_changed::CHECK,
     zero_differs::CHECK,
+    mirror_image::CHECK,
     outside_stock::CHECK,
     overtravel::CHECK,
     hole_missing::CHECK,
@@ -163,11 +166,17 @@ pub(super) fn cutout(contours: &Contours<'_>, board: &Board, settings: &Settings
     })
 }
 
-/// The checks of holes on whose pins the board is flipped.
-pub(super) fn alignment(programs: &[&Machining], board: &Board, settings: &Settings) -> Vec<Finding> {
+/// The checks of holes on whose pins the board is flipped, as other programs have it about this x
+/// of the machine.
+pub(super) fn alignment(
+    programs: &[&Machining],
+    mirror: Option<Nm>,
+    board: &Board,
+    settings: &Settings,
+) -> Vec<Finding> {
     each(|check| {
         let Run::Alignment(run) = check else { return None };
-        Some(run(programs, board, settings))
+        Some(run(programs, mirror, board, settings))
     })
 }
 
