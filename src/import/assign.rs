@@ -178,6 +178,11 @@ fn by_content(role: Role, kind: Kind, is_drawing: bool) -> Role {
 
 /// What a person chose counts before all; the files chosen have no other role.
 fn choose_by_hand(gathered: &Gathered, selection: &Selection, votes: &mut [Vote], assigned: &mut Assigned) {
+    for (chosen, side) in [(&selection.front, Side::Front), (&selection.back, Side::Back)] {
+        let index = chosen.as_ref().and_then(|path| gathered.index_of(path));
+        let told = |index: usize| contradiction::other_side(&gathered.files[index], &votes[index], side);
+        assigned.warnings.extend(index.and_then(told));
+    }
     let mut choose = |path: &PathBuf| {
         let index = gathered.index_of(path)?;
         votes[index].role = None;

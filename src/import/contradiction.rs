@@ -11,7 +11,7 @@ use super::format::Kind;
 use super::layers::{self, Role};
 use super::selection::Selection;
 use super::vote::{Vote, Witness};
-use crate::board::{Side, Warning, Words};
+use crate::board::{Side, SourceSpan, Warning, Words};
 use crate::import::diagnostic;
 
 /// What a name says: what kind of layer it is, and on which side.
@@ -127,6 +127,27 @@ fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
     Ok(())
 }
 
+/// A file that a person chose as the copper of a side, and that is the other one's by all that is
+/// known of it: the person is believed, and it is said what comes of it.
+pub(super) fn other_side(file: &Found, vote: &Vote, chosen: Side) -> Option<Warning> {
+    let role = vote.role.filter(|role| matches!(role, Role::Copper(side) if *side != chosen))?;
+    let says = match vote.witness {
+        Witness::Name => format!("it is named like {}", what(role)),
+        Witness::Function | Witness::Job => format!("{} declares {}", who(vote.witness), what(role)),
+    };
+    let message = format!(
+        "{} is chosen as the {chosen}, but {says}: unless it was drawn mirrored, its mirror image is milled",
+        file.name
+    );
+    Some(diagnostic::OTHER_SIDE_CHOSEN.warning(message).caused_by(says_so(file, vote.witness)))
+}
+
+/// Where a file says what it is.
+fn says_so(file: &Found, witness: Witness) -> SourceSpan {
+    let place = find(&file.bytes, b"FileFunction,").filter(|_| witness == Witness::Function);
+    place.map_or_else(|| file.first_line(), |at| locate(&file.name, &file.bytes, at..at + 12))
+}
+
 /// Layers of which the name says one thing and the file or the job file another, and either is
 /// milled: the name is not believed, and that is said.
 pub(super) fn disputed(gathered: &Gathered, votes: &[Vote]) -> Vec<Warning> {
@@ -151,9 +172,7 @@ pub(super) fn disputed(gathered: &Gathered, votes: &[Vote]) -> Vec<Warning> {
             if matches!(declared, Role::Other(_)) { "so it is not milled" } else { "so it is read as that" };
         let message =
             format!("{} is named like {like}, but {} declares {calls}, {so}", file.name, who(vote.witness));
-        let place = find(&file.bytes, b"FileFunction,").filter(|_| vote.witness == Witness::Function);
-        let span = place.map_or_else(|| file.first_line(), |at| locate(&file.name, &file.bytes, at..at + 12));
-        warnings.push(diagnostic::LAYER_DISPUTED.warning(message).caused_by(span));
+        warnings.push(diagnostic::LAYER_DISPUTED.warning(message).caused_by(says_so(file, vote.witness)));
     }
     warnings
 }

@@ -466,6 +466,12 @@ diagnostics! {
         "a file name and a file function that agree",
         "rename it, choose it with {front}, {back} or {outline} FILE, or ignore it with {skip} FILE";
 
+    OTHER_SIDE_CHOSEN: Warning =
+        "other-side-chosen",
+        "A layer chosen as the copper of the other side",
+        "the copper of the side that it is chosen for",
+        "choose it with {front} FILE if it is the front, with {back} FILE if it is the back: only the back is mirrored";
+
     ROLE_UNKNOWN: Warning =
         "role-unknown",
         "A layer whose role is unknown",

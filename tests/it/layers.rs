@@ -208,6 +208,37 @@ fn a_job_file_is_believed_before_functions_and_these_before_names() {
     assert_eq!(loaded.board.name, "synth", "by the job file");
 }
 
+/// Only the back is mirrored: taken for the front, its mirror image is milled.
+#[test]
+fn copper_of_the_other_side_is_what_was_chosen_and_that_is_said() {
+    let (front, back) = (function("Copper,L1,Top"), function("Copper,L2,Bot"));
+    let plain = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,1*%\nD10*\nX0Y0D03*\nM02*\n";
+    let files = [("a.gbr", &*front), ("b.gbr", &*back), ("amp-B_Cu.gbr", plain), ("amp.gtl", plain)];
+    let folder = Folder::with(&files);
+    let said = |selection: Selection| -> Vec<String> {
+        let files = [&selection.front, &selection.back];
+        let files: Vec<PathBuf> = files.into_iter().flatten().cloned().collect();
+        let loaded = load(&files, &selection).expect("a board");
+        let said = loaded.warnings.into_iter().filter(|warning| warning.code() == "other-side-chosen");
+        said.map(|warning| warning.message).collect()
+    };
+    let as_front = |name: &str| said(Selection { front: Some(folder.path(name)), ..Selection::default() });
+    let as_back = |name: &str| said(Selection { back: Some(folder.path(name)), ..Selection::default() });
+    for (right, wrong) in [(as_front("a.gbr"), as_back("a.gbr")), (as_back("b.gbr"), as_front("b.gbr"))] {
+        assert_eq!((right.len(), wrong.len()), (0, 1), "by its function: {right:?} {wrong:?}");
+    }
+    assert_eq!((as_back("amp-B_Cu.gbr").len(), as_front("amp.gtl").len()), (0, 0), "by name");
+    assert_eq!(as_back("amp.gtl").len(), 1, "by name");
+    assert_eq!(
+        as_front("amp-B_Cu.gbr"),
+        [
+            "amp-B_Cu.gbr is chosen as the front, but it is named like the back copper: unless it was drawn mirrored, \
+             its mirror image is milled"
+        ],
+        "by name"
+    );
+}
+
 #[test]
 fn a_function_that_contradicts_a_name_of_any_layer_is_said() {
     let disputed = |loaded: &Loaded| -> Vec<String> {
