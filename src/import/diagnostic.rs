@@ -306,6 +306,12 @@ diagnostics! {
         "holes within the copper",
         "check that the files belong to one board, have the same origin, and that the unit of the drill file is right";
 
+    LAYERS_NOT_REGISTERED: Warning =
+        "layers-not-registered",
+        "Layers or holes that do not lie on each other",
+        "holes on pads, and pads on pads",
+        "export all files with the same origin, and no layer mirrored";
+
     HOLES_OFF_BOARD: Warning =
         "holes-off-board",
         "Some holes off the board",

@@ -14,7 +14,9 @@ use super::format::Kind;
 use super::gerber::{ApertureList, Image};
 use super::selection::{Need, Selection};
 use super::vote::Assigned;
-use super::{drawing_board, gerber_drill, kicad, layers, off_board, outline, picture_board, whole_board};
+use super::{
+    drawing_board, gerber_drill, kicad, layers, off_board, outline, picture_board, registration, whole_board,
+};
 use crate::board::{Axis, Copper, Diagnostic, Hole, Outline, Side, Source, Warning, Words};
 use crate::geometry::{Nm, Rect};
 use crate::import::diagnostic;
@@ -80,6 +82,7 @@ fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Load
     build.coppers(&gathered, &assigned, need)?;
     build.outline(&gathered, &assigned, selection.outline_gap.unwrap_or(outline::GAP))?;
     build.drills(&gathered, &assigned, need)?;
+    build.sides(&gathered, &assigned, need)?;
     build.warn_of_size();
     if need == Need::Job {
         build.refuse_size(&assigned.place)?;
@@ -221,6 +224,12 @@ impl Build {
                 warnings.push(stray.warning);
                 stray.refusal.filter(|_| !is_chosen).map_or(Ok(()), Err)?;
             }
+            let coppers: Vec<&Copper> = [&self.board.front, &self.board.back].into_iter().flatten().collect();
+            if let Some(misplaced) = registration::drilled(&holes, &coppers) {
+                let warning = diagnostic::LAYERS_NOT_REGISTERED.warning(misplaced.of_holes());
+                warnings.push(warning.caused_by(file.first_line()));
+                is_chosen.then_some(()).ok_or_else(|| misplaced.refuse_holes(file))?;
+            }
             self.sources.push(Source { role: "drill".to_owned(), ..source });
             self.add_holes(holes, file, &mut warnings);
         }
@@ -228,6 +237,25 @@ impl Build {
         let any = !self.board.holes.is_empty();
         warnings.retain(|warning| !(any && warning.is(&diagnostic::DRILL_WITHOUT_HOLES)));
         self.warnings.append(&mut warnings);
+        Ok(())
+    }
+
+    /// Sides whose through-hole pads do not lie on those of the other.
+    fn sides(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
+        let (Some(front), Some(back)) = (&self.board.front, &self.board.back) else { return Ok(()) };
+        for (index, copper, other) in [(assigned.back, back, front), (assigned.front, front, back)] {
+            let Some((index, misplaced)) = index.zip(registration::plotted(&self.board.holes, other, copper))
+            else {
+                continue;
+            };
+            let file = &gathered.files[index];
+            if need == Need::Job && !assigned.by_hand.contains(&index) {
+                return Err(misplaced.refuse_layer(file, copper.side));
+            }
+            let warning = diagnostic::LAYERS_NOT_REGISTERED.warning(misplaced.of_pads(other.side));
+            self.warnings.push(warning.on(copper.side).caused_by(file.first_line()));
+            return Ok(());
+        }
         Ok(())
     }
 

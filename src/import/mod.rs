@@ -38,6 +38,7 @@ mod off_board;
 pub mod outline;
 pub mod picture;
 mod picture_board;
+mod registration;
 mod selection;
 mod settle;
 pub mod text;

@@ -57,6 +57,7 @@ mod random;
 mod random_boards;
 mod raster;
 mod real_boards;
+mod registration;
 mod rules;
 mod scans;
 mod seeds;
