@@ -312,6 +312,12 @@ diagnostics! {
         "holes on pads, and pads on pads",
         "export all files with the same origin, and no layer mirrored";
 
+    PADS_WITHOUT_HOLES: Warning =
+        "pads-without-holes",
+        "Through-hole pads without a hole",
+        "a hole in each pad of a through-hole component or a via",
+        "export the drill files too, all of the same revision, or choose them with {drill}; {no-drill} if none is to be drilled";
+
     HOLES_OFF_BOARD: Warning =
         "holes-off-board",
         "Some holes off the board",

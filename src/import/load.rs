@@ -83,6 +83,10 @@ fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Load
     build.outline(&gathered, &assigned, selection.outline_gap.unwrap_or(outline::GAP))?;
     build.drills(&gathered, &assigned, need)?;
     build.sides(&gathered, &assigned, need)?;
+    // Who names single files knows which.
+    if !selection.no_drill && gathered.files.iter().any(|file| !file.named) {
+        build.warn_of_bare_pads();
+    }
     build.warn_of_size();
     if need == Need::Job {
         build.refuse_size(&assigned.place)?;
@@ -238,6 +242,15 @@ impl Build {
         warnings.retain(|warning| !(any && warning.is(&diagnostic::DRILL_WITHOUT_HOLES)));
         self.warnings.append(&mut warnings);
         Ok(())
+    }
+
+    /// Pads that are to be drilled, and are not.
+    fn warn_of_bare_pads(&mut self) {
+        let coppers: Vec<&Copper> = [&self.board.front, &self.board.back].into_iter().flatten().collect();
+        if let Some(undrilled) = registration::undrilled(&self.board.holes, &coppers) {
+            let warning = diagnostic::PADS_WITHOUT_HOLES.warning(undrilled.message());
+            self.warnings.push(warning.at(undrilled.at).on(undrilled.side));
+        }
     }
 
     /// Sides whose through-hole pads do not lie on those of the other.

@@ -10,13 +10,15 @@
 //! Nothing is said where holes lie on pads, and nothing where no other way of laying them puts them
 //! there: pads may be drawn as strokes, and holes may have none.
 
+use std::collections::BTreeMap;
+
 use rustc_hash::FxHashMap;
 
 use super::advice::{NO_DRILL, quoted};
 use super::archive::Found;
 use super::error::Error;
-use crate::board::{Axis, Copper, Hole, Plating, Sentence, Side, Words};
-use crate::geometry::{Nm, Point, Rect, Vector};
+use crate::board::{Axis, Copper, Feature, Hole, Plating, Sentence, Shape, Side, Words};
+use crate::geometry::{Nm, Point, Rect, RectIndex, Vector};
 
 /// So near to each other the middles of a hole and of its pad lie, in nanometres. Chosen: above
 /// what rounding both to mils may part them, below the distance of any two pads.
@@ -69,6 +71,59 @@ pub(super) fn plotted(holes: &[Hole], other: &Copper, copper: &Copper) -> Option
     let fits = |a: Nm, b: Nm| (a - b).abs() * 10 <= a;
     let now = own.count(&through, Vector::default(), |_, _| true);
     if now * 2 >= through.len() { None } else { own.laid_otherwise(&through, now, fits) }
+}
+
+/// Through-hole pads in which there is no hole: how many of how many, and where one of them is.
+pub(super) struct Undrilled {
+    all: usize,
+    bare: usize,
+    pub(super) at: Point,
+    pub(super) side: Side,
+}
+
+/// The pads of through-hole components and vias in which none of `holes` is: as files with
+/// attributes call them, or where none does, round pads that are on both sides.
+pub(super) fn undrilled(holes: &[Hole], coppers: &[&Copper]) -> Option<Undrilled> {
+    let told: Vec<(&Copper, &Feature)> = coppers.iter().flat_map(|copper| called_through(copper)).collect();
+    let pads = if told.is_empty() { on_both_sides(coppers) } else { told };
+    let holes = RectIndex::new(holes.iter().map(Hole::bounds));
+    // Each place once, and whether it is drilled.
+    let mut places: BTreeMap<Cell, (bool, Point, Side)> = BTreeMap::new();
+    for (copper, feature) in pads {
+        let at = feature.shape.anchor();
+        let (drilled, ..) = places.entry(cell(at)).or_insert((false, at, copper.side));
+        *drilled |= !holes.touching(feature.shape.bounds()).is_empty();
+    }
+    let bare = || places.values().filter(|(drilled, ..)| !drilled);
+    let &(_, at, side) = bare().next()?;
+    Some(Undrilled { all: places.len(), bare: bare().count(), at, side })
+}
+
+fn called_through(copper: &Copper) -> impl Iterator<Item = (&Copper, &Feature)> {
+    let pads = copper.features.iter().filter(|feature| matches!(feature.axis, Axis::Flash(_)));
+    let through = pads.filter(|feature| {
+        let function = copper.attributes_of(feature).function.as_deref().unwrap_or_default();
+        ["ComponentPad", "ViaPad"].contains(&function.split(',').next().unwrap_or_default())
+    });
+    through.map(move |feature| (copper, feature))
+}
+
+fn on_both_sides<'a>(coppers: &[&'a Copper]) -> Vec<(&'a Copper, &'a Feature)> {
+    let &[front, back] = coppers else { return Vec::new() };
+    let behind = Pads::new(flashed(back).collect());
+    let round = front.features.iter().filter(|feature| {
+        let is_round = matches!((&feature.shape, &feature.axis), (Shape::Disc { .. }, Axis::Flash(_)));
+        is_round && behind.near(feature.shape.anchor()).next().is_some()
+    });
+    round.map(|feature| (front, feature)).collect()
+}
+
+impl Undrilled {
+    /// What is wrong.
+    pub(super) fn message(&self) -> String {
+        let Self { all, bare, .. } = self;
+        format!("{bare} of {all} through-hole pads have no hole")
+    }
 }
 
 impl Misplaced {

@@ -153,3 +153,57 @@ fn layers_of_real_boards_lie_on_each_other() {
         assert_eq!(said(&loaded), [""; 0], "{}", folder.display());
     }
 }
+
+#[test]
+fn through_hole_pads_without_a_hole_are_told() {
+    let said = |folder: &TempDir, selection: &Selection| {
+        let loaded = load(folder, selection).expect("a board");
+        let said = loaded.warnings.into_iter().filter(|warning| warning.code() == "pads-without-holes");
+        said.map(|warning| warning.message).collect::<Vec<_>>()
+    };
+    let as_usual = Selection::default();
+    let without = |board: &str, file: &'static str| {
+        let folder = changed(board, |_, text| text);
+        for entry in fs::read_dir(folder.path()).expect("a folder") {
+            let path = entry.expect("a file").path();
+            if path.to_string_lossy().contains(file) {
+                fs::remove_file(path).expect("removed");
+            }
+        }
+        folder
+    };
+    assert_eq!(said(&without("blinker", "none"), &as_usual), [""; 0], "all are there");
+    assert_eq!(
+        said(&without("blinker", ".drl"), &as_usual),
+        ["43 of 43 through-hole pads have no hole"],
+        "none"
+    );
+    assert_eq!(
+        said(&without("blinker", "-PTH"), &as_usual),
+        ["43 of 43 through-hole pads have no hole"],
+        "others"
+    );
+    let no_drill = Selection { no_drill: true, ..Selection::default() };
+    assert_eq!(said(&without("blinker", ".drl"), &no_drill), [""; 0], "as a person wants it");
+    // A drill file of the revision before.
+    let old = changed("blinker", |name, text| {
+        if name.ends_with("-PTH.drl") { text.replacen("X3.81Y11.43", "X5.5Y11.43", 1) } else { text }
+    });
+    assert_eq!(said(&old, &as_usual).len(), 1, "a hole elsewhere: {:?}", said(&old, &as_usual));
+    // Files without attributes: round pads on both sides.
+    let plain = |text: String| {
+        let lines = text.lines().filter(|line| !line.contains("AperFunction"));
+        lines.map(|line| line.to_owned() + "\n").collect::<String>()
+    };
+    let folder = changed("regulator", |name, text| if name.ends_with(".gbr") { plain(text) } else { text });
+    assert_eq!(said(&folder, &as_usual), [""; 0], "all are there");
+    for file in ["regulator-PTH.drl", "regulator-NPTH.drl"] {
+        let _ = fs::remove_file(folder.path().join(file));
+    }
+    let told = said(&folder, &as_usual);
+    assert!(told.len() == 1 && told[0].ends_with("through-hole pads have no hole"), "{told:?}");
+    // Who names single files wants no others.
+    let files = ["regulator-F_Cu.gbr", "regulator-B_Cu.gbr"].map(|name| folder.path().join(name));
+    let loaded = import::load(&files, &as_usual).expect("a board");
+    assert!(loaded.warnings.iter().all(|warning| warning.code() != "pads-without-holes"), "single files");
+}
