@@ -39,7 +39,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         role: Some(Role::Isolation(Side::Front)),
         cutter: Some("endmill:0.2mm".parse()?),
         placement: None,
-        asked: None,
+        ..Program::default()
     };
     let report = verify(&[program], &board, &[], &Settings::default())?;
     for finding in &report.findings {

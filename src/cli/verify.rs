@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
 use voromill::board::{Board, Side, Source};
+use voromill::gcode::Dialect;
 use voromill::geometry::{Nm, Vector};
 use voromill::import::{self, Loaded, Selection};
 use voromill::job::{self, AreaChoice, DistanceFor, Tiles, Topology};
@@ -49,6 +50,11 @@ pub(super) struct Verify {
     /// What the programs are for [default: from their titles or motions]
     #[arg(long, value_enum)]
     side: Option<Purpose>,
+
+    /// What the machine speaks that is to run the programs, such as grbl: codes that it does not
+    /// take, or takes otherwise, are findings [default: from the programs' comments]
+    #[arg(long, value_name = "NAME", value_parser = dialect)]
+    dialect: Option<String>,
 
     /// What was added to the coordinates of the board [default: from the program's comments]
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
@@ -231,6 +237,12 @@ fn tabs(programs: &[Program]) -> Option<u32> {
         if elsewhere.is_some() { None } else { declared("tabs")?.parse().ok() }
     };
     programs.iter().find_map(of)
+}
+
+/// The name of a dialect that is built in.
+fn dialect(text: &str) -> Result<String, String> {
+    let known = Dialect::by_name(text).map(|dialect| dialect.name.to_string());
+    known.ok_or_else(|| format!("expected one of {}", Dialect::names()))
 }
 
 /// A length of something that is there.
@@ -441,6 +453,7 @@ impl Verify {
             cutter: self.tool,
             placement: placed.then_some(Placement { degrees, shift, mirror: self.mirror }),
             asked: self.asked(),
+            dialect: self.dialect.clone(),
         })
     }
 }

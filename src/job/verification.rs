@@ -52,6 +52,7 @@ impl Job {
             cutter: None,
             placement: Some(self.laid(written)),
             asked: asked.clone(),
+            dialect: None,
         };
         wanted.map(program).collect()
     }

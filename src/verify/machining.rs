@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::board::{Board, Shape, Side};
-use crate::gcode::read::{self, Motion, Note, Way};
+use crate::gcode::read::{self, Coded, Motion, Note, Way};
 use crate::geometry::{Arc, Nm, Point, Vector};
 
 use super::asked::Asked;
@@ -26,6 +26,9 @@ pub(super) struct Machining {
     pub(super) tools: Tools,
     /// What was assumed to follow it.
     pub(super) notes: Vec<Note>,
+    /// Its codes, and the controller that it is for, where that is known.
+    pub(super) codes: Vec<Coded>,
+    pub(super) controller: Option<String>,
     /// What is cut away, deep enough to part the copper.
     pub(super) swept: Vec<Swept>,
     /// Where the tool goes straight down into the board and nothing sideways follows, on the board.
@@ -142,6 +145,8 @@ impl Machining {
             stops: listing.stops.into_iter().map(|(before, _)| before).collect(),
             tools,
             notes: listing.notes,
+            codes: listing.codes,
+            controller: program.dialect.clone().or_else(|| declared_setting(&program.text, "dialect")),
             swept: Vec::new(),
             plunges: Vec::new(),
             kerfs: Vec::new(),

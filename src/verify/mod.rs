@@ -136,6 +136,9 @@ pub struct Program {
     pub placement: Option<Placement>,
     /// What it was asked to clear; else what its comments say.
     pub asked: Option<Asked>,
+    /// The [dialect](crate::gcode::dialect::ALL) of the machine that is to run it; else what its
+    /// comments say.
+    pub dialect: Option<String>,
 }
 
 /// A file of the board that programs are judged by.

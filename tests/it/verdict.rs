@@ -19,7 +19,7 @@ fn verdict() -> Verdict {
         role: Some(Role::Isolation(Side::Front)),
         cutter: Some("endmill:0.2mm".parse().expect("a tool")),
         placement: None,
-        asked: None,
+        ..Program::default()
     };
     let report = verify(&[program], &loaded.board, &[], &Settings::default()).expect("it can be judged");
     Verdict::from(&report)

@@ -45,7 +45,7 @@ fn names(report: &Report, least: Severity) -> Vec<&'static str> {
 
 fn foreign(file: &str, text: String, tool: &str, role: Option<Role>) -> Program {
     let cutter = Some(tool.parse().expect("a tool"));
-    Program { file: file.to_owned(), text, role, cutter, placement: None, asked: None }
+    Program { file: file.to_owned(), text, role, cutter, placement: None, ..Program::default() }
 }
 
 const FRONT: Option<Role> = Some(Role::Isolation(Side::Front));

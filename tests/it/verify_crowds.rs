@@ -34,7 +34,7 @@ fn judged(cuts: impl Iterator<Item = ([f64; 2], String)>) -> Report {
         role: Some(Role::Isolation(Side::Front)),
         cutter: Some("endmill:0.2mm".parse().expect("a tool")),
         placement: None,
-        asked: None,
+        ..Program::default()
     };
     verify(&[program], &board, &[], &Settings::default()).expect("it can be judged")
 }

@@ -28,7 +28,7 @@ fn program(name: &str, tool: &str, side: Side) -> Program {
         role: Some(Role::Isolation(side)),
         cutter: Some(tool.parse().expect("a tool")),
         placement: None,
-        asked: None,
+        ..Program::default()
     }
 }
 
@@ -159,7 +159,8 @@ fn a_cutout_of_another_board_does_not_fit_wherever_it_is_laid() {
         let board = import::load(&[root.join(board)], &Selection::default()).expect("a board").board;
         let cutter = Some(format!("endmill:{tool}").parse().expect("a tool"));
         let role = Some(Role::Cutout);
-        let mut read = Program { file: program.to_owned(), text, role, cutter, placement: None, asked: None };
+        let mut read =
+            Program { file: program.to_owned(), text, role, cutter, placement: None, ..Program::default() };
         let settings = Settings { board: Nm::from_um(thickness), ..Settings::default() };
         let fitted =
             register(&read, &board, &Orientation::default(), &settings).expect("it is laid somewhere");

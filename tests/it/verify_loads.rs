@@ -166,3 +166,46 @@ fn a_tool_that_nobody_has_time_to_change_is_told() {
         assert_eq!(holes(change), [], "{change}");
     }
 }
+
+#[test]
+fn codes_that_a_controller_does_not_take_are_told() {
+    let told = |dialect: Option<&str>, codes: &str| {
+        let text = format!("(plate cutout)\nG21 G90\nM3 S9000\nG0 X0 Y0 Z5\n{codes}\nM5\nM2\n");
+        let program = Program {
+            file: "codes.ngc".to_owned(),
+            text,
+            cutter: Some("endmill:1mm".parse().expect("a tool")),
+            dialect: dialect.map(str::to_owned),
+            ..Program::default()
+        };
+        let report = verify(&[program], &plate(), &[], &Settings::default()).expect("it can be judged");
+        let findings = report.findings.into_iter().filter(|finding| finding.name == "word-not-taken");
+        findings.map(|finding| finding.message).collect::<Vec<_>>()
+    };
+    for (dialect, codes, expected) in [
+        ("grbl", "G81 X5 Y5 Z-1.8 R1 F60\nG80", "G81: grbl stops there with an error"),
+        ("grbl", "M6 T1", "M6: grbl stops there with an error"),
+        ("grbl", "G64 P0.01\nG64 P0.02", "G64: grbl stops there with an error (2 times)"),
+        ("grbl", "G4 P1\nG17 G40 G49 G61 G80 G91.1 G94\nG38.2 Z-1 F9\nM0\nM8\nM9", ""),
+        ("fluidnc", "G83 X5 Y5 Z-1.8 R1 Q0.5 F60\nG80", "G83: fluidnc stops there with an error"),
+        ("fluidnc", "T1 M6", "M6: fluidnc passes over it, and does not wait"),
+        ("grblhal", "G83 X5 Y5 Z-1.8 R1 Q0.5 F60\nG80\nT1 M6", ""),
+        ("linuxcnc", "G83 X5 Y5 Z-1.8 R1 Q0.5 F60\nG80\nG64 P0.01\nT1 M6", ""),
+        ("tinyg", "M0", "M0: tinyg passes over it, and does not wait"),
+        ("smoothieware", "G91.1", "G91.1: smoothieware takes it for G91, and all that follows for steps"),
+        ("klipper", "G81 X5 Y5 Z-1.8 R1 F60\nG80", "G81: klipper passes over it, and drills no hole"),
+        ("reprapfirmware", "M0", "M0: reprapfirmware ends the job there"),
+        ("marlin", "G1 X5 F60\nM30", "M30: marlin deletes a file there"),
+    ] {
+        let findings = told(Some(dialect), codes);
+        let expected: Vec<&str> =
+            Some(expected).into_iter().filter(|expected| !expected.is_empty()).collect();
+        assert_eq!(findings, expected, "{dialect}: {codes}");
+        assert_eq!(
+            told(None, &format!("(dialect {dialect})\n{codes}")),
+            expected,
+            "as the program says: {codes}"
+        );
+    }
+    assert_eq!(told(None, "G81 X5 Y5 Z-1.8 R1 F60\nG80\nM6"), [""; 0], "nobody knows for which");
+}

@@ -46,7 +46,7 @@ impl Milled {
             role: Some(Role::Isolation(Side::Front)),
             cutter: None,
             placement: Some(self.placement),
-            asked: None,
+            ..Program::default()
         };
         let known = [Known { side: Side::Front, nets: &self.nets }];
         let report = verify(&[program], &self.board, &known, &Settings::default());

@@ -80,6 +80,19 @@ pub struct Motion {
     pub line: u32,
 }
 
+/// A code of G or M that a program has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coded {
+    /// G or M.
+    pub letter: char,
+    /// Ten times its number: 382 for G38.2.
+    pub key: u32,
+    /// The line where it is first.
+    pub line: u32,
+    /// How often it is there.
+    pub count: u32,
+}
+
 /// Something that the text leaves open or that was passed over, and what was assumed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
@@ -109,6 +122,8 @@ pub struct Listing {
     pub spinning: bool,
     /// What was assumed, in the order of its first occurrence.
     pub notes: Vec<Note>,
+    /// Its codes, in the order of their first occurrence.
+    pub codes: Vec<Coded>,
     /// The first line, and why, from which on places are not the numbers of the text one for one (a
     /// subprogram, an expression, a moved zero); none where the text can be changed line by line.
     pub indirect: Option<(u32, &'static str)>,
@@ -121,6 +136,14 @@ impl Listing {
         match self.notes.iter_mut().find(|note| note.message == message) {
             Some(note) => note.count += 1,
             None => self.notes.push(Note { warns, line, count: 1, message }),
+        }
+    }
+
+    /// Counts a code.
+    pub(super) fn code(&mut self, letter: char, key: u32, line: u32) {
+        match self.codes.iter_mut().find(|code| (code.letter, code.key) == (letter, key)) {
+            Some(code) => code.count += 1,
+            None => self.codes.push(Coded { letter, key, line, count: 1 }),
         }
     }
 

@@ -37,6 +37,7 @@ mod tab_thin;
 mod too_deep;
 mod tool_not_changed;
 mod unclear;
+mod word_not_taken;
 mod zero_differs;
 
 pub(super) use feed_missing::KIND as FEED_MISSING;
@@ -120,6 +121,7 @@ pub const ALL: &[Check] = &[
     tab_missing::CHECK,
     revision::CHECK,
     unclear::CHECK,
+    word_not_taken::CHECK,
     tab_extra::CHECK,
     tab_thin::CHECK,
     tab_spread::CHECK,

@@ -207,6 +207,7 @@ impl Machine {
         let mut orders = Orders::default();
         for &order in &run.block.orders {
             let refuse = |expected: &str| Err(run.pointer.error(order.column, expected));
+            self.listing.code(order.letter, order.key, run.line());
             match meaning(order.letter, order.key) {
                 Meaning::Motion(mode) => {
                     // `G80 G0` is written often; two motions are not.

@@ -1,0 +1,122 @@
+//! # What it checks
+//!
+//! A program has no code that its controller stops at, passes over though something depends on it,
+//! or takes for another one.
+//!
+//! # Why
+//!
+//! A job that stops half-way leaves the tool in the board. A pause that is passed over leaves the
+//! wrong tool in, a drilling cycle no hole. A code that means something else moves the machine to
+//! where nobody thought of.
+//!
+//! # What it can miss
+//!
+//! Options that a controller was built with, and macros. Programs that do not say which controller
+//! they are for. The user's own G-code.
+//!
+//! # Sources
+//!
+//! The firmwares: Grbl 1.1h, grblHAL (f80fc34), FluidNC 4.0, TinyG (39df38c), g2core (1fb5940),
+//! Smoothieware (bb41e99), Marlin 2, RepRapFirmware 3.5.3, Klipper (84104bb).
+
+use super::{Check, Diagnostic, Run, Severity, Stage, Words};
+use crate::gcode::read::Coded;
+use crate::verify::machining::Machining;
+use crate::verify::report::Finding;
+
+const KIND: Diagnostic = Diagnostic {
+    code: NAME,
+    stage: Stage::Verification,
+    severity: Severity::Error,
+    what: Words::of("a code that the controller does not take, or takes for another one"),
+    effect: Words::of("the job stops half-way, does not wait for a tool, drills no hole, or goes elsewhere"),
+    advice: Words::of("make the program for this controller ({dialect}), or take the code out"),
+};
+
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+
+const NAME: &str = "word-not-taken";
+
+/// What controllers do with some codes.
+struct Rule {
+    controllers: &'static [&'static str],
+    codes: Codes,
+    /// What they do, behind the name of the controller.
+    does: &'static str,
+}
+
+/// Some codes, with blanks between.
+enum Codes {
+    These(&'static str),
+    AllBut(&'static str),
+}
+use Codes::{AllBut, These};
+
+/// All that Grbl takes.
+const GRBL: &str = "G0 G1 G2 G3 G4 G10 G17 G18 G19 G20 G21 G28 G28.1 G30 G30.1 G38.2 G38.3 G38.4 G38.5 G40 G43.1 G49 \
+                    G53 G54 G55 G56 G57 G58 G59 G61 G80 G90 G91 G91.1 G92 G92.1 G93 G94 \
+                    M0 M1 M2 M3 M4 M5 M8 M9 M30";
+const CYCLES: &str = "G73 G74 G81 G82 G83 G84 G85 G86 G89";
+
+const STOPS: &str = "stops there with an error";
+const PASSES: &str = "passes over it, and does not wait";
+
+const RULES: &[Rule] = &[
+    Rule { controllers: &["grbl"], codes: AllBut(GRBL), does: STOPS },
+    Rule { controllers: &["grblhal", "fluidnc"], codes: These("G90.1"), does: STOPS },
+    Rule { controllers: &["fluidnc"], codes: These("G43 G64 G98 G99"), does: STOPS },
+    Rule { controllers: &["tinyg"], codes: These("G43 G95"), does: STOPS },
+    Rule { controllers: &["fluidnc", "tinyg", "g2core"], codes: These(CYCLES), does: STOPS },
+    Rule {
+        controllers: &["marlin", "klipper"],
+        codes: These(CYCLES),
+        does: "passes over it, and drills no hole",
+    },
+    Rule { controllers: &["fluidnc", "marlin"], codes: These("M6"), does: PASSES },
+    Rule {
+        controllers: &["tinyg", "g2core", "smoothieware", "klipper"],
+        codes: These("M0 M1 M6"),
+        does: PASSES,
+    },
+    Rule {
+        controllers: &["marlin", "smoothieware"],
+        codes: These("G91.1"),
+        does: "takes it for G91, and all that follows for steps",
+    },
+    Rule { controllers: &["reprapfirmware"], codes: These("M0"), does: "ends the job there" },
+    Rule { controllers: &["marlin", "reprapfirmware"], codes: These("M30"), does: "deletes a file there" },
+];
+
+fn check(program: &Machining) -> Vec<Finding> {
+    let Some(controller) = &program.controller else { return Vec::new() };
+    let rules = || RULES.iter().filter(|rule| rule.controllers.contains(&controller.as_str()));
+    let finding = |code: &Coded| {
+        let name = name(code);
+        let rule = rules().find(|rule| rule.is_for(&name))?;
+        let often = if code.count > 1 { format!(" ({} times)", code.count) } else { String::new() };
+        let message = format!("{name}: {controller} {}{often}", rule.does);
+        Some(Finding {
+            program: Some(program.file.clone()),
+            line: Some(code.line),
+            ..Finding::new(NAME, Severity::Error, message)
+        })
+    };
+    program.codes.iter().filter_map(finding).collect()
+}
+
+impl Rule {
+    fn is_for(&self, code: &str) -> bool {
+        let among = |codes: &str| codes.split_whitespace().any(|known| known == code);
+        match self.codes {
+            These(codes) => among(codes),
+            AllBut(codes) => !among(codes),
+        }
+    }
+}
+
+fn name(code: &Coded) -> String {
+    match code.key % 10 {
+        0 => format!("{}{}", code.letter, code.key / 10),
+        tenth => format!("{}{}.{tenth}", code.letter, code.key / 10),
+    }
+}
