@@ -12,6 +12,7 @@ use super::error::Error;
 use super::excellon::{self, Context};
 use super::format::Kind;
 use super::gerber::{ApertureList, Image};
+use super::registration::Flashed;
 use super::selection::{Need, Selection};
 use super::vote::Assigned;
 use super::{
@@ -81,8 +82,9 @@ fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Load
     build.warnings.extend(assigned.warnings.iter().cloned());
     build.coppers(&gathered, &assigned, need)?;
     build.outline(&gathered, &assigned, selection.outline_gap.unwrap_or(outline::GAP))?;
-    build.drills(&gathered, &assigned, need)?;
-    build.sides(&gathered, &assigned, need)?;
+    let pads = Flashed::new(&build.sides());
+    build.drills(&gathered, &assigned, need, &pads)?;
+    build.register(&gathered, &assigned, need, &pads)?;
     // Who names single files knows which.
     if !selection.no_drill && gathered.files.iter().any(|file| !file.named) {
         build.warn_of_bare_pads();
@@ -195,7 +197,13 @@ impl Build {
         Ok(())
     }
 
-    fn drills(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
+    fn drills(
+        &mut self,
+        gathered: &Gathered,
+        assigned: &Assigned,
+        need: Need,
+        pads: &Flashed,
+    ) -> Result<(), Error> {
         let context = self.context();
         let place = self.board.bounds();
         let mut warnings = Vec::new();
@@ -228,8 +236,7 @@ impl Build {
                 warnings.push(stray.warning);
                 stray.refusal.filter(|_| !is_chosen).map_or(Ok(()), Err)?;
             }
-            let coppers: Vec<&Copper> = [&self.board.front, &self.board.back].into_iter().flatten().collect();
-            if let Some(misplaced) = registration::drilled(&holes, &coppers) {
+            if let Some(misplaced) = pads.drilled(&holes) {
                 let warning = diagnostic::LAYERS_NOT_REGISTERED.warning(misplaced.of_holes());
                 warnings.push(warning.caused_by(file.first_line()));
                 is_chosen.then_some(()).ok_or_else(|| misplaced.refuse_holes(file))?;
@@ -244,31 +251,35 @@ impl Build {
         Ok(())
     }
 
+    /// Those that there are.
+    fn sides(&self) -> Vec<&Copper> {
+        [&self.board.front, &self.board.back].into_iter().flatten().collect()
+    }
+
     /// Pads that are to be drilled, and are not.
     fn warn_of_bare_pads(&mut self) {
-        let coppers: Vec<&Copper> = [&self.board.front, &self.board.back].into_iter().flatten().collect();
-        if let Some(undrilled) = registration::undrilled(&self.board.holes, &coppers) {
+        if let Some(undrilled) = registration::undrilled(&self.board.holes, &self.sides()) {
             let warning = diagnostic::PADS_WITHOUT_HOLES.warning(undrilled.message());
             self.warnings.push(warning.at(undrilled.at).on(undrilled.side));
         }
     }
 
-    /// Sides whose through-hole pads do not lie on those of the other.
-    fn sides(&mut self, gathered: &Gathered, assigned: &Assigned, need: Need) -> Result<(), Error> {
-        let (Some(front), Some(back)) = (&self.board.front, &self.board.back) else { return Ok(()) };
-        for (index, copper, other) in [(assigned.back, back, front), (assigned.front, front, back)] {
-            let Some((index, misplaced)) = index.zip(registration::plotted(&self.board.holes, other, copper))
-            else {
-                continue;
-            };
-            let file = &gathered.files[index];
-            if need == Need::Job && !assigned.by_hand.contains(&index) {
-                return Err(misplaced.refuse_layer(file, copper.side));
-            }
-            let warning = diagnostic::LAYERS_NOT_REGISTERED.warning(misplaced.of_pads(other.side));
-            self.warnings.push(warning.on(copper.side).caused_by(file.first_line()));
-            return Ok(());
+    /// A side whose through-hole pads do not lie on those of the other.
+    fn register(
+        &mut self,
+        gathered: &Gathered,
+        assigned: &Assigned,
+        need: Need,
+        pads: &Flashed,
+    ) -> Result<(), Error> {
+        let Some((side, misplaced)) = pads.plotted(&self.board.holes) else { return Ok(()) };
+        let index = if side == Side::Front { assigned.front } else { assigned.back };
+        let Some(file) = index.map(|index| &gathered.files[index]) else { return Ok(()) };
+        if need == Need::Job && index.is_some_and(|index| !assigned.by_hand.contains(&index)) {
+            return Err(misplaced.refuse_layer(file, side));
         }
+        let warning = diagnostic::LAYERS_NOT_REGISTERED.warning(misplaced.of_pads(side));
+        self.warnings.push(warning.on(side).caused_by(file.first_line()));
         Ok(())
     }
 

@@ -50,27 +50,51 @@ pub(super) struct Misplaced {
     then: usize,
 }
 
-/// The holes of a drill file that lie beside the pads of `coppers`, and would lie on them if they
-/// were moved or mirrored.
-pub(super) fn drilled(holes: &[Hole], coppers: &[&Copper]) -> Option<Misplaced> {
-    let holes: Vec<Place> = plated(holes).collect();
-    let pads = Pads::new(coppers.iter().flat_map(|copper| flashed(copper)).collect());
-    let fits = |hole: Nm, pad: Nm| pad > hole;
-    let now = pads.count(&holes, Vector::default(), fits);
-    if now * 2 >= holes.len() { None } else { pads.laid_otherwise(&holes, now, fits) }
+/// The pads of a board's sides, as far as they were flashed.
+pub(super) struct Flashed {
+    sides: Vec<(Side, Pads)>,
 }
 
-/// The through-hole pads of the other side beside which those of `copper` lie, and on which they
-/// would lie if they were moved or mirrored.
-pub(super) fn plotted(holes: &[Hole], other: &Copper, copper: &Copper) -> Option<Misplaced> {
-    let pads = Pads::new(flashed(other).collect());
-    let through = plated(holes).filter_map(|hole| pads.near(hole.at).find(|pad| pad.width > hole.width));
-    let through: Vec<Place> = through.collect();
-    let own = Pads::new(flashed(copper).collect());
-    // Pads of a part on the surface may be as far apart; they are not as wide.
-    let fits = |a: Nm, b: Nm| (a - b).abs() * 10 <= a;
-    let now = own.count(&through, Vector::default(), |_, _| true);
-    if now * 2 >= through.len() { None } else { own.laid_otherwise(&through, now, fits) }
+impl Flashed {
+    /// Those of `coppers`.
+    pub(super) fn new(coppers: &[&Copper]) -> Self {
+        let sides = coppers.iter().map(|copper| (copper.side, Pads::new(flashed(copper).collect())));
+        Self { sides: sides.collect() }
+    }
+
+    /// The holes of a drill file that lie beside pads, and would lie on them if they were moved or
+    /// mirrored.
+    pub(super) fn drilled(&self, holes: &[Hole]) -> Option<Misplaced> {
+        let holes = enough(plated(holes).collect())?;
+        let fits = |hole: Nm, pad: Nm| pad > hole;
+        let lies = |hole: &&Place| self.sides.iter().any(|(_, pads)| pads.has(hole.at, hole.width, fits));
+        let now = holes.iter().filter(lies).count();
+        let all = || self.sides.iter().flat_map(|(_, pads)| &pads.all).copied().collect();
+        if now * 2 >= holes.len() { None } else { Pads::new(all()).laid_otherwise(&holes, now, fits) }
+    }
+
+    /// A side whose through-hole pads lie beside those of the other, which has the holes, and would
+    /// lie on them if they were moved or mirrored.
+    pub(super) fn plotted(&self, holes: &[Hole]) -> Option<(Side, Misplaced)> {
+        let [front, back] = self.sides.as_slice() else { return None };
+        [(front, back), (back, front)].into_iter().find_map(|((_, other), (side, own))| {
+            let through =
+                plated(holes).filter_map(|hole| other.near(hole.at).find(|pad| pad.width > hole.width));
+            let through = enough(through.collect())?;
+            // Pads of a part on the surface may be as far apart; they are not as wide.
+            let fits = |a: Nm, b: Nm| (a - b).abs() * 10 <= a;
+            let now = through.iter().filter(|pad| own.has(pad.at, pad.width, |_, _| true)).count();
+            let laid = (now * 2 < through.len()).then(|| own.laid_otherwise(&through, now, fits))?;
+            Some((*side, laid?))
+        })
+    }
+}
+
+/// Places, where they are so many and lie so that chance does not lay them on pads.
+fn enough(places: Vec<Place>) -> Option<Vec<Place>> {
+    let around = Rect::around(places.iter().map(|place| place.at))?;
+    let is_field = around.width().min(around.height()) >= ROWS;
+    (places.len() >= LEAST && is_field).then_some(places)
 }
 
 /// Through-hole pads in which there is no hole: how many of how many, and where one of them is.
@@ -133,9 +157,10 @@ impl Misplaced {
         format!("{now} of {all} holes lie on pads, and {then} would if they were {}", self.how())
     }
 
-    /// What is wrong with a layer.
-    pub(super) fn of_pads(&self, other: Side) -> String {
+    /// What is wrong with the layer of a side.
+    pub(super) fn of_pads(&self, side: Side) -> String {
         let Self { all, now, then, .. } = self;
+        let other = if side == Side::Front { Side::Back } else { Side::Front };
         format!(
             "{now} of {all} through-hole pads of the {other} lie on pads of this layer, and {then} would if it were {}",
             self.how()
@@ -165,8 +190,7 @@ impl Misplaced {
             }
         };
         let hint: Sentence = hint.with([&quoted(&file.name)]);
-        let other = if side == Side::Front { Side::Back } else { Side::Front };
-        Error::content(&file.shown, self.of_pads(other), hint)
+        Error::content(&file.shown, self.of_pads(side), hint)
     }
 }
 
@@ -212,10 +236,9 @@ impl Pads {
         near.filter(move |pad| pad.at.distance(at) <= Nm::new(NEAR).to_f64())
     }
 
-    /// How many of `places`, moved so, lie on a pad that fits.
-    fn count(&self, places: &[Place], way: Vector, fits: impl Fn(Nm, Nm) -> bool) -> usize {
-        let lies = |place: &&Place| self.near(place.at + way).any(|pad| fits(place.width, pad.width));
-        places.iter().filter(lies).count()
+    /// Whether there is a pad that something so wide fits on.
+    fn has(&self, at: Point, width: Nm, fits: impl Fn(Nm, Nm) -> bool) -> bool {
+        self.near(at).any(|pad| fits(width, pad.width))
     }
 
     /// How most of `places` would lie on pads, of which `now` do.
@@ -225,16 +248,13 @@ impl Pads {
         now: usize,
         fits: impl Fn(Nm, Nm) -> bool + Copy,
     ) -> Option<Misplaced> {
-        let around = Rect::around(places.iter().map(|place| place.at))?;
-        if places.len() < LEAST || around.width().min(around.height()) < ROWS {
-            return None;
-        }
         let flipped = || self.all.iter().map(|pad| Place { at: Point::new(-pad.at.x, pad.at.y), ..*pad });
         let laid = |mirrored: bool| {
             let image = mirrored.then(|| Self::new(flipped().collect()));
             let pads = image.as_ref().unwrap_or(self);
             let way = pads.commonest(places, fits)?;
-            let then = pads.count(places, way, fits);
+            let lies = |place: &&Place| pads.has(place.at + way, place.width, fits);
+            let then = places.iter().filter(lies).count();
             let is_sure = then * 5 >= places.len() * 4;
             is_sure.then_some(Misplaced { mirrored, way, all: places.len(), now, then })
         };

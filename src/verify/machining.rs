@@ -20,7 +20,7 @@ pub(super) struct Machining {
     pub(super) says_zero: bool,
     /// What it says, until that was looked at.
     pub(super) motions: Vec<Motion>,
-    /// After how many of them it waits for a person or changes tools, each time.
+    /// After how many of them it waits for a person, or may, each time.
     pub(super) stops: Vec<usize>,
     /// With what.
     pub(super) tools: Tools,

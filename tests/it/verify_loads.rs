@@ -162,7 +162,7 @@ fn a_tool_that_nobody_has_time_to_change_is_told() {
     };
     assert_eq!(holes(""), [(Severity::Error, Some(11))], "once, at the first hole");
     assert_eq!(holes("T2\n"), [(Severity::Error, Some(12))], "T alone chooses it");
-    for change in ["M0\n", "T2 M6\n", "M5\nM0\nM3\n", "T2\nM6\n"] {
+    for change in ["M0\n", "T2 M6\n", "M5\nM0\nM3\n", "T2\nM6\n", "M25\n", "M291 S3\n"] {
         assert_eq!(holes(change), [], "{change}");
     }
 }

@@ -111,8 +111,7 @@ pub struct Note {
 pub struct Listing {
     /// Every motion, in order.
     pub motions: Vec<Motion>,
-    /// Where the program waits for a person or changes tools: the number of motions before it, and
-    /// its line.
+    /// Where the program waits for a person, or may: the number of motions before it, and its line.
     pub stops: Vec<(usize, u32)>,
     /// How long it dwells, in milliseconds.
     pub dwell: u64,

@@ -206,7 +206,7 @@ fn of_g(key: u32) -> Meaning {
 fn of_m(key: u32) -> Meaning {
     use Meaning::{Nothing, Refused};
     match key {
-        0 | 10 | 600 | 2260 | 6000 | 6010 => Meaning::Stop,
+        0 | 10 | 250 | 600 | 2260 | 6000 | 6010 => Meaning::Stop,
         20 | 300 => Meaning::End,
         30 => Meaning::Spindle(true),
         40 => Meaning::Backwards,

@@ -10,7 +10,8 @@
 //!
 //! # What it can miss
 //!
-//! What the controller does at M6: some do nothing. Comments of other CAM, which are not read.
+//! What the controller does at M6: some do nothing. A code that is unknown may be what waits.
+//! Comments of other CAM, which are not read.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, deepest};
 use crate::gcode::read::Way;

@@ -250,6 +250,7 @@ impl Machine {
                     let message =
                         format!("M{}{tenth} is unknown: it is assumed to move nothing", order.key / 10);
                     self.listing.note(true, run.line(), message);
+                    orders.stop = true;
                 }
                 Meaning::Refused(why) => return refuse(why),
             }
