@@ -16,8 +16,8 @@ pub(super) struct Machining {
     pub(super) file: String,
     pub(super) role: Role,
     pub(super) placement: Placement,
-    /// Whether it says so itself.
-    pub(super) says_zero: bool,
+    /// Who says so; none where nobody does.
+    pub(super) zero: Option<Zero>,
     /// What it says, until that was looked at.
     pub(super) motions: Vec<Motion>,
     /// After how many of them it waits for a person, or may, each time.
@@ -37,6 +37,15 @@ pub(super) struct Machining {
     pub(super) kerfs: Vec<Kerf>,
     /// What it was asked to clear.
     pub(super) asked: Asked,
+}
+
+/// Who says where zero is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Zero {
+    /// The program itself.
+    Told,
+    /// Who has it judged; it may be found from what is cut.
+    Given,
 }
 
 /// How wide a tool cuts.
@@ -129,7 +138,10 @@ impl Machining {
                 guess(&listing.motions, &tools, board).ok_or_else(|| Error::NoSide(program.file.clone()))?
             }
         };
-        let says_zero = program.placement.is_none() && declared.origin.is_some();
+        let zero = match program.placement {
+            Some(_) => Some(Zero::Given),
+            None => declared.origin.as_ref().map(|_| Zero::Told),
+        };
         let placement = program.placement.or_else(|| {
             let front = origin(declared.origin.as_deref().unwrap_or("keep"), declared.degrees, board)?;
             Some(Placement { mirror: declared.mirror, shift: front.shift + declared.offset, ..front })
@@ -140,7 +152,7 @@ impl Machining {
             file,
             role,
             placement,
-            says_zero,
+            zero,
             motions: listing.motions,
             stops: listing.stops.into_iter().map(|(before, _)| before).collect(),
             tools,

@@ -4,11 +4,11 @@
 use std::path::Path;
 use std::sync::LazyLock;
 
-use voromill::board::{Board, Hole, Outline, Plating};
+use voromill::board::{Board, Hole, Outline, Plating, Side};
 use voromill::geometry::{Nm, Path as Way, Point, Segment, Turn};
 use voromill::import::{self, Loaded, Selection};
 use voromill::job::{self, Job, Options, Part};
-use voromill::verify::{Finding, Program, Role, Settings, Severity, verify};
+use voromill::verify::{Finding, Orientation, Program, Role, Settings, Severity, register, verify};
 
 static BLINKER: LazyLock<Job> = LazyLock::new(|| {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
@@ -170,6 +170,44 @@ fn a_program_whose_zero_is_elsewhere_is_told() {
     assert_eq!(judge(&[&flipped, drill, cutout]), [], "there is but one that is flipped");
     let expected = said("2.ngc", "the board is flipped about a line 4.680 mm to the right of that of 1.ngc");
     assert_eq!(judge(&[back, &flipped]), expected, "there are two");
+}
+
+/// Programs of other CAM say nothing: their places are found.
+#[test]
+fn a_program_whose_zero_was_found_elsewhere_is_told() {
+    let bare = |text: &str| {
+        let code = text.lines().filter(|line| !line.starts_with('('));
+        code.map(|line| line.to_owned() + "\n").collect::<String>()
+    };
+    let settings = Settings::default();
+    let [back, drill, cutout] = [Part::Back, Part::Drill, Part::Cutout].map(text).map(bare);
+    let judge = |drill: &str, cutout: &str| {
+        let found = |(file, text, role, tool): (&str, &str, Role, &str)| {
+            let cutter = Some(tool.parse().expect("a tool"));
+            let mut program = Program {
+                file: file.to_owned(),
+                text: text.to_owned(),
+                role: Some(role),
+                cutter,
+                ..Program::default()
+            };
+            let at = register(&program, &BLINKER.board, &Orientation::default(), &settings).expect("it fits");
+            program.placement = Some(at);
+            program
+        };
+        let programs = [
+            ("back.nc", &*back, Role::Isolation(Side::Back), "vbit:0.1mm:30deg"),
+            ("drill.nc", drill, Role::Drilling, "drill:0.8mm"),
+            ("cutout.nc", cutout, Role::Cutout, "endmill:1mm"),
+        ]
+        .map(found);
+        let report = verify(&programs, &BLINKER.board, &[], &settings).expect("it can be judged");
+        let told = report.findings.into_iter().filter(|finding| finding.name == "zero-differs");
+        told.map(|finding| finding.program.unwrap_or_default()).collect::<Vec<_>>()
+    };
+    assert_eq!(judge(&drill, &cutout), [""; 0], "as they were made");
+    assert_eq!(judge(&each_x(&drill, |x| x + 2.5), &cutout).len(), 1, "one of two that are not mirrored");
+    assert_eq!(judge(&drill, &each_x(&cutout, |x| x - 1.0)).len(), 1, "one of two that are not mirrored");
 }
 
 #[test]
