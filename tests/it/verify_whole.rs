@@ -498,9 +498,7 @@ fn holes_for_pins_lie_beside_the_board_and_go_deep_enough() {
 #[test]
 fn holes_for_pins_lie_on_pins_when_the_board_is_flipped() {
     let board = board(hole((10_000, 10_000), None, 1000));
-    let judge = |pins: [(f64, f64); 2], axis: &str| {
-        let [a, b] = pins.map(|(x, y)| format!("G0 X{x} Y{y}\nG1 Z-5 F60\nG0 Z2\n"));
-        let pins = format!("(plate alignment)\n(tool 1: drill:3mm)\nG21 G90\nM3 S9000\nG0 Z2\n{a}{b}");
+    let judge_text = |pins: String, axis: &str| {
         let back = format!(
             "(plate drill)\n(tool 1: drill:1mm)\n(mirrored left to right about the vertical line x = {axis} mm)\n\
              G21 G90\nM3 S9000\nG0 X20 Y10 Z2\nG1 Z-2 F60\nG0 Z2\n"
@@ -512,13 +510,31 @@ fn holes_for_pins_lie_on_pins_when_the_board_is_flipped() {
         let told = found.into_iter().filter(|finding| finding.name == "alignment-hole");
         told.map(|finding| finding.message).collect::<Vec<_>>()
     };
+    let judge = |pins: [(f64, f64); 2], axis: &str| {
+        let [a, b] = pins.map(|(x, y)| format!("G0 X{x} Y{y}\nG1 Z-5 F60\nG0 Z2\n"));
+        judge_text(format!("(plate alignment)\n(tool 1: drill:3mm)\nG21 G90\nM3 S9000\nG0 Z2\n{a}{b}"), axis)
+    };
+    let said_of = |off: f64| {
+        format!("flipped about x = 15.000 mm, an alignment hole lies {off:.3} mm beside the next pin")
+    };
     assert_eq!(judge([(15.0, -5.0), (15.0, 25.0)], "15"), [""; 0], "on the line");
     assert_eq!(judge([(-5.0, 10.0), (35.0, 10.0)], "15"), [""; 0], "to either side of it");
     assert_eq!(judge([(-5.04, 10.0), (35.0, 10.0)], "15"), [""; 0], "0.04 mm off");
+    // Bored with an end mill that is far finer, in rounds of two halves.
+    let bored = |x: f64, y: i32| {
+        let round = |r: f64| format!("G1 X{0} F90\nG3 X{1} Y{y} I-{r}\nG3 X{0} Y{y} I{r}\n", x + r, x - r);
+        format!("G0 X{x} Y{y}\nG1 Z-5 F60\n{}{}{}G0 Z2\n", round(0.9), round(1.7), round(2.5))
+    };
+    let bore = |x: f64| {
+        let start = "(plate alignment)\n(tool 1: endmill:1mm)\nG21 G90\nM3 S9000\nG0 Z2\n";
+        judge_text(format!("{start}{}{}", bored(x, -5), bored(x, 25)), "15")
+    };
+    assert_eq!(bore(15.0), [""; 0], "bored on the line");
+    assert_eq!(bore(15.2), [said_of(0.4), said_of(0.4)], "bored beside it");
     let said = "flipped about x = 14.900 mm, an alignment hole lies 0.200 mm beside the next pin";
     assert_eq!(judge([(15.0, -5.0), (15.0, 25.0)], "14.9"), [said; 2], "beside the line");
-    let said = "flipped about x = 15.000 mm, an alignment hole lies 15.000 mm beside the next pin";
-    assert_eq!(judge([(-5.0, -5.0), (35.0, 10.0)], "15"), [said; 2], "not opposite to each other");
+    let apart = judge([(-5.0, -5.0), (35.0, 10.0)], "15");
+    assert_eq!(apart, [said_of(15.0), said_of(15.0)], "not opposite to each other");
 }
 
 /// A cutout of the plate by a cutter of 1 mm: tabs of 2 mm on the bottom and the top edge, each

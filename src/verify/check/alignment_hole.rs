@@ -54,8 +54,9 @@ fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &
     let mut holes: Vec<Drilled<'_>> = Vec::new();
     for cut in Cut::all(programs) {
         let (shape, depth) = (&cut.swept.shape, cut.swept.full);
-        let (at, around, near) = (shape.anchor(), shape.bounds(), cut.swept.half().to_f64() * 4.0);
-        match holes.iter_mut().find(|hole| hole.at.distance(at) <= near) {
+        let (at, around) = (shape.anchor(), shape.bounds());
+        // Holes are far from each other; of one that is bored each piece touches those before.
+        match holes.iter_mut().find(|hole| hole.around.touches(around)) {
             Some(hole) => {
                 hole.around = hole.around.union(around);
                 if hole.depth < depth {
