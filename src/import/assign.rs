@@ -178,21 +178,18 @@ fn by_content(role: Role, kind: Kind, is_drawing: bool) -> Role {
 
 /// What a person chose counts before all; the files chosen have no other role.
 fn choose_by_hand(gathered: &Gathered, selection: &Selection, votes: &mut [Vote], assigned: &mut Assigned) {
-    for (chosen, side) in [(&selection.front, Side::Front), (&selection.back, Side::Back)] {
-        let index = chosen.as_ref().and_then(|path| gathered.index_of(path));
-        let told = |index: usize| contradiction::other_side(&gathered.files[index], &votes[index], side);
-        assigned.warnings.extend(index.and_then(told));
-    }
-    let mut choose = |path: &PathBuf| {
+    let mut choose = |path: &PathBuf, side: Option<Side>| {
         let index = gathered.index_of(path)?;
+        let told = |side| contradiction::other_side(&gathered.files[index], &votes[index], side);
+        assigned.warnings.extend(side.and_then(told));
         votes[index].role = None;
         assigned.by_hand.push(index);
         Some(index)
     };
-    assigned.front = selection.front.as_ref().and_then(&mut choose);
-    assigned.back = selection.back.as_ref().and_then(&mut choose);
-    assigned.outline = selection.outline.as_ref().and_then(&mut choose);
-    assigned.drill = selection.drill.iter().filter_map(&mut choose).collect();
+    assigned.front = selection.front.as_ref().and_then(|path| choose(path, Some(Side::Front)));
+    assigned.back = selection.back.as_ref().and_then(|path| choose(path, Some(Side::Back)));
+    assigned.outline = selection.outline.as_ref().and_then(|path| choose(path, None));
+    assigned.drill = selection.drill.iter().filter_map(|path| choose(path, None)).collect();
 }
 
 /// One Gerber file of unknown role, and no copper: it is the front.

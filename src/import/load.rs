@@ -208,7 +208,7 @@ impl Build {
         let place = self.board.bounds();
         let mut warnings = Vec::new();
         for &index in &assigned.drill {
-            let file = &gathered.files[index];
+            let (file, stands) = (&gathered.files[index], assigned.stands(index, need));
             let (holes, source) = match file.kind {
                 Kind::Gerber => {
                     gerber_holes(gathered, file, assigned.by_hand.contains(&index), &mut warnings)
@@ -219,11 +219,9 @@ impl Build {
                         .map_err(|error| error.or(NO_DRILL))?;
                     refuse_cut_off(file, drilling.holes.is_empty(), &drilling.warnings)
                         .map_err(|error| error.or(NO_DRILL))?;
-                    let by_hand = assigned.by_hand.contains(&index);
                     let is_off = |warning: &&Warning| warning.is(&diagnostic::DRILL_OFF_BOARD);
                     if let Some(off) = drilling.warnings.iter().find(is_off)
-                        && need == Need::Job
-                        && !by_hand
+                        && !stands
                     {
                         return Err(off_board::most(file, off));
                     }
@@ -231,15 +229,14 @@ impl Build {
                     (drilling.holes, drilling.source)
                 }
             };
-            let is_chosen = need != Need::Job || assigned.by_hand.contains(&index);
             if let Some(stray) = place.and_then(|place| off_board::some(file, &holes, place)) {
                 warnings.push(stray.warning);
-                stray.refusal.filter(|_| !is_chosen).map_or(Ok(()), Err)?;
+                stray.refusal.filter(|_| !stands).map_or(Ok(()), Err)?;
             }
             if let Some(misplaced) = pads.drilled(&holes) {
                 let warning = diagnostic::LAYERS_NOT_REGISTERED.warning(misplaced.of_holes());
                 warnings.push(warning.caused_by(file.first_line()));
-                is_chosen.then_some(()).ok_or_else(|| misplaced.refuse_holes(file))?;
+                stands.then_some(()).ok_or_else(|| misplaced.refuse_holes(file))?;
             }
             self.sources.push(Source { role: "drill".to_owned(), ..source });
             self.add_holes(holes, file, &mut warnings);
@@ -274,8 +271,9 @@ impl Build {
     ) -> Result<(), Error> {
         let Some((side, misplaced)) = pads.plotted(&self.board.holes) else { return Ok(()) };
         let index = if side == Side::Front { assigned.front } else { assigned.back };
-        let Some(file) = index.map(|index| &gathered.files[index]) else { return Ok(()) };
-        if need == Need::Job && index.is_some_and(|index| !assigned.by_hand.contains(&index)) {
+        let Some(index) = index else { return Ok(()) };
+        let file = &gathered.files[index];
+        if !assigned.stands(index, need) {
             return Err(misplaced.refuse_layer(file, side));
         }
         let warning = diagnostic::LAYERS_NOT_REGISTERED.warning(misplaced.of_pads(side));

@@ -2,9 +2,10 @@
 //! different origins, and layers that were plotted mirrored.
 //!
 //! ```text
-//!     ·          ◯          ◯        All differences between a hole and a pad are counted. The one that most holes
-//!       ·   ◯      ·   ◯             have, among pads that are wide enough, is how far they were moved. The same is
-//!    hole  pad                       asked of the pads' mirror image: what puts more holes on pads is what happened.
+//!     ·        ◯        ◯    All differences between a hole and a pad are counted. The one
+//!       · ◯      · ◯         that most holes have, among pads that are wide enough, is how
+//!    hole pad                far they were moved. The same is asked of the pads' mirror
+//!                            image: what puts more holes on pads is what happened.
 //! ```
 //!
 //! Nothing is said where holes lie on pads, and nothing where no other way of laying them puts them

@@ -1,6 +1,7 @@
 //! What is known of the roles of files, and what comes of it.
 
 use super::layers::Role;
+use super::selection::Need;
 use crate::board::{Side, Warning};
 
 /// Which of the gathered files is what, as indices.
@@ -21,6 +22,14 @@ pub(super) struct Assigned {
     pub(super) warnings: Vec<Warning>,
     /// A copper layer whose side nothing tells, and which is taken for the front.
     pub(super) guessed: Option<usize>,
+}
+
+impl Assigned {
+    /// Whether a file is taken as it is, whatever speaks against it: a person chose it, or the
+    /// board is only looked at.
+    pub(super) fn stands(&self, index: usize, need: Need) -> bool {
+        need != Need::Job || self.by_hand.contains(&index)
+    }
 }
 
 /// What is known of one file's role, and how well.

@@ -11,7 +11,7 @@
 //!
 //! A drill that a program calls an end mill.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, deepest, each_stretch, once};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, each_stretch, once};
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 use crate::verify::CutterKind;
@@ -41,9 +41,9 @@ fn check(program: &Machining) -> Vec<Finding> {
 fn wrong(motion: &Motion, tools: &Tools) -> Option<Wrong> {
     let (from, to) = (motion.from.point()?, motion.to.point()?);
     let is_far = matches!(motion.way, Way::Arc { .. }) || from.distance(to) > BENDS.to_f64();
-    let depth = deepest(motion).filter(|depth| is_far && *depth > Nm::ZERO)?;
+    let depth = cut_depth(motion).filter(|_| is_far)?;
     let drills = tools.at(motion.line)?.kind == CutterKind::Drill;
-    (drills && motion.way != Way::Rapid).then(|| {
+    drills.then(|| {
         let message = format!("a drill goes sideways {depth:.3} mm below the surface");
         Wrong { severity: Severity::Error, message, size: Some(depth) }
     })

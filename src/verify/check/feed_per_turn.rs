@@ -15,8 +15,8 @@
 //! S1000 or S255, which are full speed on controllers that were not told otherwise: it is taken to
 //! be as fast as any.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, deepest, once};
-use crate::gcode::read::{Motion, Spindle, Way};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, found, once, place};
+use crate::gcode::read::{Motion, Spindle};
 use crate::geometry::Nm;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -48,7 +48,7 @@ fn check(program: &Machining) -> Vec<Finding> {
 }
 
 fn wrong(motion: &Motion, program: &Machining) -> Option<Finding> {
-    let depth = deepest(motion).filter(|depth| *depth > Nm::ZERO && motion.way != Way::Rapid)?;
+    let depth = cut_depth(motion)?;
     let (turns, how) = match motion.spindle {
         Spindle::Off | Spindle::At(0) => return None,
         Spindle::At(turns) if !FULL.contains(&turns) => (turns, "at"),
@@ -65,13 +65,8 @@ fn wrong(motion: &Motion, program: &Machining) -> Option<Finding> {
     let message = format!(
         "a cut {width:.3} mm wide at {feed} mm/min: {how} {turns} rpm that is {step:.3} mm in a turn"
     );
-    Some(Finding {
-        at: motion.to.point().map(|p| program.placement.undo(p)),
-        program: Some(program.file.clone()),
-        line: Some(motion.line),
-        size: Some(step),
-        ..Finding::new(NAME, Severity::Warning, message)
-    })
+    let wrong = Wrong { severity: Severity::Warning, message, size: Some(step) };
+    Some(found(program, NAME, wrong, place(program, motion), motion.line))
 }
 
 /// How far a tool may go in a turn. Chosen: a cylinder with two teeth takes a quarter of its width

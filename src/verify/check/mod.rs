@@ -49,7 +49,7 @@ use rustc_hash::FxHashMap;
 
 use crate::board::diagnostic::Stage;
 use crate::board::{Board, Diagnostic, Shape, Words};
-use crate::gcode::read::Motion;
+use crate::gcode::read::{Motion, Way};
 use crate::geometry::{self, Nm, Point};
 
 use super::bores::{Bore, Bores, Made};
@@ -227,17 +227,21 @@ struct Wrong {
     size: Option<Nm>,
 }
 
+/// Where a motion ends on the board, or else begins; none where that is not known.
+fn place(program: &Machining, motion: &Motion) -> Option<Point> {
+    motion.to.point().or_else(|| motion.from.point()).map(|p| program.placement.undo(p))
+}
+
 /// The findings of a check of single motions, as [`stretches`] has them.
 fn each_stretch(
     program: &Machining,
     name: &'static str,
     wrong: impl Fn(&Motion) -> Option<Wrong>,
 ) -> Vec<Finding> {
-    let place = |motion: &Motion| {
-        motion.to.point().or_else(|| motion.from.point()).map(|p| program.placement.undo(p))
-    };
-    let all =
-        program.motions.iter().map(|motion| wrong(motion).map(|wrong| (wrong, place(motion), motion.line)));
+    let all = program
+        .motions
+        .iter()
+        .map(|motion| wrong(motion).map(|wrong| (wrong, place(program, motion), motion.line)));
     stretches(program, name, all)
 }
 
@@ -260,15 +264,26 @@ fn stretches(
             }
             continue;
         }
-        findings.push(Finding {
-            at,
-            program: Some(program.file.clone()),
-            line: Some(line),
-            size,
-            ..Finding::new(name, severity, message)
-        });
+        findings.push(found(program, name, Wrong { severity, message, size }, at, line));
     }
     findings
+}
+
+/// The finding of what is wrong in a line of a program.
+fn found(
+    program: &Machining,
+    name: &'static str,
+    Wrong { severity, message, size }: Wrong,
+    at: Option<Point>,
+    line: u32,
+) -> Finding {
+    Finding {
+        at,
+        program: Some(program.file.clone()),
+        line: Some(line),
+        size,
+        ..Finding::new(name, severity, message)
+    }
 }
 
 /// Findings that say the same as one, where the first is, with how many `things` there are.
@@ -283,12 +298,20 @@ fn once(findings: impl IntoIterator<Item = Finding>, things: &str) -> Vec<Findin
         }
     }
     let message = |(mut finding, count): (Finding, u32)| {
-        if count > 1 {
-            finding.message = format!("{} ({count} {things})", finding.message);
-        }
+        finding.message += &often(count, things);
         finding
     };
     counted.into_iter().map(message).collect()
+}
+
+/// How many `things` a sentence is about, behind it; nothing for one.
+fn often(count: u32, things: &str) -> String {
+    if count > 1 { format!(" ({count} {things})") } else { String::new() }
+}
+
+/// How deep below the surface a motion cuts; none for a rapid, and for what stays above.
+fn cut_depth(motion: &Motion) -> Option<Nm> {
+    deepest(motion).filter(|depth| *depth > Nm::ZERO && motion.way != Way::Rapid)
 }
 
 /// How deep the end of the cutter goes in a motion; none where no height is known.

@@ -10,9 +10,8 @@
 //!
 //! Whether the spindle is up to speed: see the dwell after M3 yourself. Spindles switched by hand.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, deepest, each_stretch};
-use crate::gcode::read::{Motion, Way};
-use crate::geometry::Nm;
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, each_stretch};
+use crate::gcode::read::Motion;
 
 pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -29,12 +28,8 @@ pub(super) const CHECK: Check =
 const NAME: &str = "plunge-spindle-off";
 
 fn wrong(motion: &Motion) -> Option<Wrong> {
-    let depth = deepest(motion)?;
+    let depth = cut_depth(motion)?;
     let still = !motion.spindle.turns();
     let message = || format!("the tool is {depth:.3} mm below the surface and the spindle is off");
-    (motion.way != Way::Rapid && depth > Nm::ZERO && still).then(|| Wrong {
-        severity: Severity::Error,
-        message: message(),
-        size: Some(depth),
-    })
+    still.then(|| Wrong { severity: Severity::Error, message: message(), size: Some(depth) })
 }

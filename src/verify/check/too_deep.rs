@@ -15,8 +15,8 @@
 //! An isolating program that is too deep throughout, but less than half the board. A table that is
 //! nearer than two millimetres. Holes for pins on which the board is flipped go into the table.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, deepest, each_stretch};
-use crate::gcode::read::{Motion, Way};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, each_stretch};
+use crate::gcode::read::Motion;
 use crate::geometry::Nm;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -54,13 +54,13 @@ fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
         Role::Isolation(_) => {
             let most = (usual(&program.motions) * 2).max(UNREMARKABLE).min(settings.board / 2);
             each_stretch(program, NAME, |motion| {
-                let depth = depth(motion).filter(|depth| *depth > most)?;
+                let depth = cut_depth(motion).filter(|depth| *depth > most)?;
                 let message = format!("a cut {depth:.3} mm deep, where {most:.3} mm is enough");
                 Some(Wrong { severity: Severity::Error, message, size: Some(depth) })
             })
         }
         Role::Drilling | Role::Cutout => each_stretch(program, NAME, |motion| {
-            let depth = depth(motion)?;
+            let depth = cut_depth(motion)?;
             let point = program.tools.at(motion.line).map_or(Nm::ZERO, |cutter| cutter.point());
             let below = Some(depth - point - settings.board).filter(|below| *below > BELOW)?;
             let message = format!("a cut {depth:.3} mm deep, in a board of {:.3} mm", settings.board);
@@ -69,11 +69,6 @@ fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
         }),
         Role::Alignment => Vec::new(),
     }
-}
-
-/// How deep a motion goes, but for rapids.
-fn depth(motion: &Motion) -> Option<Nm> {
-    deepest(motion).filter(|_| motion.way != Way::Rapid)
 }
 
 /// The depth of the middle one of all ways below the surface, by length.

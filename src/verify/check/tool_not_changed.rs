@@ -13,9 +13,7 @@
 //! What the controller does at M6: some do nothing. A code that is unknown may be what waits.
 //! Comments of other CAM, which are not read.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, deepest};
-use crate::gcode::read::Way;
-use crate::geometry::Nm;
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, found, place};
 use crate::verify::Cutter;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -40,19 +38,14 @@ fn check(program: &Machining) -> Vec<Finding> {
     // The tool that cut last, its number, and how many motions there were.
     let mut last: Option<(Cutter, Option<u32>, usize)> = None;
     for (index, motion) in program.motions.iter().enumerate() {
-        let cuts = motion.way != Way::Rapid && deepest(motion).is_some_and(|depth| depth > Nm::ZERO);
-        let Some(cutter) = program.tools.at(motion.line).filter(|_| cuts) else { continue };
+        let Some(cutter) = cut_depth(motion).and_then(|_| program.tools.at(motion.line)) else { continue };
         let before = last.replace((cutter, motion.tool, index));
         let Some((old, number, since)) = before.filter(|(old, ..)| *old != cutter) else { continue };
         let stops = program.stops.iter().any(|stop| (since + 1..=index).contains(stop));
         if !stops && number == motion.tool {
             let message = format!("it goes on with {cutter}, and does not stop for {old} to be taken out");
-            findings.push(Finding {
-                at: motion.to.point().map(|p| program.placement.undo(p)),
-                program: Some(program.file.clone()),
-                line: Some(motion.line),
-                ..Finding::new(NAME, Severity::Error, message)
-            });
+            let wrong = Wrong { severity: Severity::Error, message, size: None };
+            findings.push(found(program, NAME, wrong, place(program, motion), motion.line));
         }
     }
     findings

@@ -12,7 +12,7 @@
 //! What the controller remembers from before the program. What the motion depends on, and nobody
 //! can know, is no finding: such a program is not judged.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, often};
 use crate::gcode::read::{Motion, Note, Spindle, Way};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -40,8 +40,7 @@ fn check(program: &Machining) -> Vec<Finding> {
     };
     let note = |Note { warns, line, count, message }: &Note| {
         let severity = if *warns { Severity::Warning } else { Severity::Info };
-        let often = if *count > 1 { format!(" ({count} times)") } else { String::new() };
-        of(severity, *line, format!("{message}{often}"))
+        of(severity, *line, message.clone() + &often(*count, "times"))
     };
     let unstated = |motion: &&Motion| motion.way != Way::Rapid && motion.spindle == Spindle::Unstated;
     let knob = program.motions.iter().find(unstated).map(|motion| {

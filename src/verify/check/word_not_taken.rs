@@ -19,7 +19,7 @@
 //! The firmwares: Grbl 1.1h, grblHAL (f80fc34), FluidNC 4.0, TinyG (39df38c), g2core (1fb5940),
 //! Smoothieware (bb41e99), Marlin 2, RepRapFirmware 3.5.3, Klipper (84104bb).
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, often};
 use crate::gcode::read::Coded;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -93,8 +93,7 @@ fn check(program: &Machining) -> Vec<Finding> {
     let finding = |code: &Coded| {
         let name = name(code);
         let rule = rules().find(|rule| rule.is_for(&name))?;
-        let often = if code.count > 1 { format!(" ({} times)", code.count) } else { String::new() };
-        let message = format!("{name}: {controller} {}{often}", rule.does);
+        let message = format!("{name}: {controller} {}{}", rule.does, often(code.count, "times"));
         Some(Finding {
             program: Some(program.file.clone()),
             line: Some(code.line),
