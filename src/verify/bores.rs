@@ -108,6 +108,11 @@ const FLAT: Nm = Nm::from_um(2);
 /// hundredth of how far it is off.
 const DIRECTIONS: u32 = 32;
 
+/// Points of a hole's wall, all round.
+pub(super) fn around(hole: &Hole) -> Vec<Point> {
+    Wall::new(hole).points
+}
+
 impl<'a> Wall<'a> {
     fn new(hole: &'a Hole) -> Self {
         let path = hole.path.flatten(FLAT);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::board::{Board, Shape, Side};
-use crate::gcode::read::{self, Coded, Motion, Note, Way};
+use crate::gcode::read::{self, Coded, Dwell, Motion, Note, Stop, Way};
 use crate::geometry::{Arc, Nm, Point, Vector};
 
 use super::asked::Asked;
@@ -20,8 +20,12 @@ pub(super) struct Machining {
     pub(super) zero: Option<Zero>,
     /// What it says, until that was looked at.
     pub(super) motions: Vec<Motion>,
-    /// After how many of them it waits for a person, or may, each time.
-    pub(super) stops: Vec<usize>,
+    /// Where it waits for a person, or may.
+    pub(super) stops: Vec<Stop>,
+    /// Its dwells.
+    pub(super) dwells: Vec<Dwell>,
+    /// Whether the spindle turns at its end.
+    pub(super) spinning: bool,
     /// With what.
     pub(super) tools: Tools,
     /// What was assumed to follow it.
@@ -154,7 +158,9 @@ impl Machining {
             placement,
             zero,
             motions: listing.motions,
-            stops: listing.stops.into_iter().map(|(before, _)| before).collect(),
+            stops: listing.stops,
+            dwells: listing.dwells,
+            spinning: listing.spinning,
             tools,
             notes: listing.notes,
             codes: listing.codes,

@@ -42,6 +42,7 @@ mod cut;
 mod cutter;
 mod declared;
 mod diff;
+mod drilled;
 mod edges;
 mod exact;
 mod flood;
@@ -93,6 +94,7 @@ pub use tiles::Tiles;
 
 use bores::Bores;
 use contours::Contours;
+use drilled::Drilled;
 use machining::Machining;
 use outcome::Outcome;
 use sheet::Sheet;
@@ -340,9 +342,11 @@ pub fn verify(
     roles.sort_unstable();
     roles.dedup();
     findings.extend(check::whole(&read, board, settings));
+    let drills: Vec<&Machining> = read.iter().filter(|machining| machining.role == Role::Drilling).collect();
+    let bores = Bores::new(&drills, board);
     let judged: Vec<(Judged, Vec<Finding>)> = roles
         .into_par_iter()
-        .map(|role| judge(role, &read, board, known, settings))
+        .map(|role| judge(role, &read, &bores, board, known, settings))
         .collect::<Result<_, _>>()?;
     let mut report = Report::default();
     for (judged, found) in judged {
@@ -369,6 +373,7 @@ fn on_machine(finding: &Finding, read: &[Machining]) -> Option<Point> {
 fn judge(
     role: Role,
     read: &[Machining],
+    bores: &Bores<'_>,
     board: &Board,
     known: &[Known<'_>],
     settings: &Settings,
@@ -386,9 +391,10 @@ fn judge(
             let nets = known.iter().find(|known| known.side == side).map(|known| known.nets);
             let milled = Outcome::new(Sheet::new(copper, nets, board, &programs, settings)?, settings);
             resolution = Some(milled.pitch());
-            findings.extend(check::isolation(&milled, settings));
+            let drilled = Drilled::new(&milled, bores, settings);
+            findings.extend(check::isolation(&milled, &drilled, settings));
         }
-        Role::Drilling => findings.extend(check::drilling(&Bores::new(&programs, board), board, settings)),
+        Role::Drilling => findings.extend(check::drilling(bores, board, settings)),
         Role::Cutout => {
             let contours = Contours::new(&programs, &of(Role::Drilling), board, settings);
             findings.extend(contours.iter().flat_map(|contours| check::cutout(contours, board, settings)));

@@ -99,7 +99,7 @@ fn a_place_of_the_machine_is_a_retract_where_it_can_only_be_one() {
 #[test]
 fn sideways_before_a_height_is_told() {
     let rest = "G0 X1 Y1\nX2\nG0 Z2\nG0 X3\nG1 Z-0.1 F100\nM2\n";
-    let (told, above) = ((false, "before it says how high"), (false, "assumed to be above all work"));
+    let (told, above) = ((true, "before it says how high"), (false, "assumed to be above all work"));
     for (start, expected) in [("", &[told][..]), ("G0 Z2\n", &[]), ("G53 G0 Z0\n", &[above])] {
         let listing = read(&format!("G21 G90\nM3 S1000\n{start}{rest}")).expect("followed");
         assert_notes(&listing, expected);

@@ -74,6 +74,7 @@ mod verify;
 mod verify_clearing;
 mod verify_cli;
 mod verify_crowds;
+mod verify_drilled;
 mod verify_foreign;
 mod verify_loads;
 mod verify_mutations;

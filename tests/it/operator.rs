@@ -111,7 +111,7 @@ type Stand = (f64, Option<(f64, f64)>, bool);
 fn stands(text: &str) -> Vec<Stand> {
     let listing = read(text).expect("a program");
     let mut stands = Vec::new();
-    let ends = listing.stops.iter().map(|stop| stop.0).chain([listing.motions.len()]);
+    let ends = listing.stops.iter().map(|stop| stop.before).chain([listing.motions.len()]);
     for count in ends {
         let place = listing.motions[count - 1].to;
         let line = listing.motions[count - 1].line as usize;

@@ -209,3 +209,93 @@ fn codes_that_a_controller_does_not_take_are_told() {
     }
     assert_eq!(told(None, "G81 X5 Y5 Z-1.8 R1 F60\nG80\nM6"), [""; 0], "nobody knows for which");
 }
+
+/// What is found of this name in a program for this controller, with its line.
+fn told(name: &str, dialect: Option<&str>, lines: &str) -> Vec<(Severity, Option<u32>, String)> {
+    let program = Program {
+        file: "state.ngc".to_owned(),
+        text: lines.to_owned(),
+        role: Some(Role::Cutout),
+        cutter: Some("endmill:1mm".parse().expect("a tool")),
+        dialect: dialect.map(str::to_owned),
+        ..Program::default()
+    };
+    let report = verify(&[program], &plate(), &[], &Settings::default()).expect("it can be judged");
+    let findings = report.findings.into_iter().filter(|finding| finding.name == name);
+    findings.map(|finding| (finding.severity, finding.line, finding.message)).collect()
+}
+
+#[test]
+fn a_dwell_in_the_unit_of_another_controller_is_told() {
+    for (dialect, dwell, expected) in [
+        (Some("grbl"), "G4 P3", ""),
+        (Some("grbl"), "G4 P3000", "grbl waits 3000 s, as P counts seconds"),
+        (Some("linuxcnc"), "G4 P1500.0\nG4 P1500", "linuxcnc waits 1500 s, as P counts seconds (2 times)"),
+        (Some("marlin"), "G4 P3", "marlin waits 3 ms, as P counts milliseconds"),
+        (Some("klipper"), "G4 P3000", ""),
+        (Some("marlin"), "G4 S3", ""),
+        (Some("reprapfirmware"), "G4 P0", ""),
+        // A setting says what P counts.
+        (Some("mach3"), "G4 P3000", ""),
+        (Some("smoothieware"), "G4 P3", ""),
+        (None, "G4 P3000", ""),
+    ] {
+        let text = format!("G21 G90\nG0 Z5\nM3 S9000\n{dwell}\nG0 X0 Y0\nM5\nM2\n");
+        let found = told("dwell-length", dialect, &text);
+        let expected = Some(expected).filter(|expected| !expected.is_empty());
+        let expected = expected.map(|expected| (Severity::Warning, Some(4), expected.to_owned()));
+        assert_eq!(found, Vec::from_iter(expected), "{dialect:?} {dwell}");
+    }
+}
+
+#[test]
+fn a_spindle_that_turns_while_a_person_reaches_for_the_tool_is_told() {
+    let waits = "it waits while the spindle turns";
+    let ends = "it ends, without M5, M2 or M30: the spindle goes on turning";
+    for (lines, expected) in [
+        ("M5\nM0\nM3\nG0 X5\nM5\nM2", None),
+        ("M0\nG0 X5\nM5\nM2", Some((5, waits.to_owned()))),
+        ("M0\nG0 X5\nM0\nM5\nM2", Some((5, format!("{waits} (2 times)")))),
+        ("M5 M0\nM3\nG0 X5\nM2", None),
+        ("G0 X5\nM30", None),
+        ("G0 X5\nM5", None),
+        ("G0 X5", Some((5, ends.to_owned()))),
+        // It stops the spindle, or a macro may.
+        ("T2 M6\nM3\nG0 X5\nM2", None),
+        ("M456\nG0 X5\nM2", None),
+    ] {
+        let found = told("spindle-left-on", None, &format!("G21 G90\nG0 Z5\nM3 S9000\nG0 X0 Y0\n{lines}\n"));
+        let expected = expected.map(|(line, message)| (Severity::Warning, Some(line), message));
+        assert_eq!(found, Vec::from_iter(expected), "{lines}");
+    }
+}
+
+#[test]
+fn a_spindle_without_a_speed_stands_where_speeds_begin_at_zero() {
+    let lines = "G21 G90\nG0 Z5\nM3\nG0 X0 Y0\nG1 Z-0.1 F50\nX5 F100\nS8000\nX9\nG0 Z5\nM5\nM2\n";
+    let found = |dialect: Option<&str>| told("plunge-spindle-off", dialect, lines);
+    for dialect in ["grbl", "grblhal", "fluidnc", "linuxcnc"] {
+        let message =
+            format!("the spindle is on without a speed (S): {dialect} begins with S0, and it stands");
+        assert_eq!(found(Some(dialect)), [(Severity::Warning, Some(5), message)]);
+    }
+    assert_eq!(found(Some("marlin")), [], "M3 alone is full speed");
+    assert_eq!(found(None), [], "by a knob");
+}
+
+#[test]
+fn what_a_program_takes_for_granted_of_where_the_machine_stands_is_told() {
+    let rest = "G1 Z-0.1 F50\nX5 F100\nG0 Z5\nM5\nM2\n";
+    let found = |lines: &str| {
+        let found = told("unclear", None, &format!("G21 G90\nM3 S9000\n{lines}\n{rest}"));
+        found.into_iter().filter(|(severity, ..)| *severity == Severity::Warning).collect::<Vec<_>>()
+    };
+    assert_eq!(found("G0 Z5\nG0 X0 Y0"), []);
+    assert_eq!(found("G28 Z0\nG0 X0 Y0\nG0 Z5"), [], "up at home");
+    let sideways = "it moves sideways before it says how high: the tool has to be above the board by then";
+    assert_eq!(found("G0 X0 Y0\nG0 Z5"), [(Severity::Warning, Some(3), sideways.to_owned())]);
+    let zero = "G92 sets zero by where the tool happens to be: a zero that was set before does not count";
+    let times = |count: u32| format!("{zero} ({count} times)");
+    assert_eq!(found("G92 X5 Y5\nG0 Z5\nG0 X0 Y0"), [(Severity::Warning, Some(3), times(2))]);
+    assert_eq!(found("G0 Z5\nG0 X0 Y0\nG92 X5 Y5\nG0 X0 Y0"), [], "from where it went");
+}

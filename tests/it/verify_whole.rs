@@ -477,7 +477,7 @@ fn holes_for_pins_lie_beside_the_board_and_go_deep_enough() {
     let program = |y: &str, z: &str| {
         format!(
             "(plate alignment)\n(tool 1: drill:3mm)\nG21 G90\nM3 S9000\nG0 X15 Y-5 Z2\nG1 Z-5 F60\nG0 Z2\n\
-             G0 X15 Y{y}\nG1 Z-{z}\nG0 Z2\n"
+             G0 X15 Y{y}\nG1 Z-{z}\nG0 Z2\nM2\n"
         )
     };
     for (y, z, errors, warnings) in [

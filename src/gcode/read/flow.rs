@@ -51,9 +51,8 @@ pub fn read(text: &str) -> Result<Listing, ReadError> {
         }
     }
     flow.finished()?;
-    let mut listing = flow.machine.listing;
-    listing.spinning = flow.spinning;
-    Ok(listing)
+    let spinning = flow.machine.is_spinning();
+    Ok(Listing { spinning, ..flow.machine.listing })
 }
 
 /// What an O-word says.
@@ -125,7 +124,6 @@ struct Flow<'a> {
     calls: Vec<Call>,
     repeats: Vec<Repeat>,
     machine: Machine,
-    spinning: bool,
     /// Whether the text stands between two lines of `%`.
     enclosed: bool,
     begun: bool,
@@ -151,7 +149,6 @@ impl<'a> Flow<'a> {
             calls: Vec::new(),
             repeats: Vec::new(),
             machine: Machine::default(),
-            spinning: false,
             enclosed: false,
             begun: false,
         }
@@ -197,9 +194,7 @@ impl<'a> Flow<'a> {
             }
         }
         let block = Block::read(&mut code, &mut self.machine)?;
-        let ask = self.machine.run(pointer, &block)?;
-        self.spinning = self.machine.is_spinning();
-        match ask {
+        match self.machine.run(pointer, &block)? {
             Ask::On | Ask::End => Ok(()),
             Ask::Call => self.m98(pointer, &block),
             Ask::Return => self.m99(pointer),

@@ -93,6 +93,28 @@ pub struct Coded {
     pub count: u32,
 }
 
+/// Where a program waits for a person, or may.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stop {
+    /// How many motions are before it.
+    pub before: usize,
+    /// Its line.
+    pub line: u32,
+    /// Whether the spindle turns meanwhile; not told of a code that nobody here knows.
+    pub spinning: bool,
+}
+
+/// A dwell whose time is behind P: controllers differ in its unit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dwell {
+    /// A thousand times the number behind P.
+    pub thousandths: u64,
+    /// The line where it is first.
+    pub line: u32,
+    /// How often it is there.
+    pub count: u32,
+}
+
 /// Something that the text leaves open or that was passed over, and what was assumed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
@@ -111,10 +133,12 @@ pub struct Note {
 pub struct Listing {
     /// Every motion, in order.
     pub motions: Vec<Motion>,
-    /// Where the program waits for a person, or may: the number of motions before it, and its line.
-    pub stops: Vec<(usize, u32)>,
+    /// Where it waits for a person, or may, in order.
+    pub stops: Vec<Stop>,
     /// How long it dwells, in milliseconds.
     pub dwell: u64,
+    /// Its dwells by P, in the order of their first occurrence.
+    pub dwells: Vec<Dwell>,
     /// The line that ends it (M2 or M30); none where the text just stops.
     pub end: Option<u32>,
     /// Whether the spindle still turns at the end.
@@ -143,6 +167,14 @@ impl Listing {
         match self.codes.iter_mut().find(|code| (code.letter, code.key) == (letter, key)) {
             Some(code) => code.count += 1,
             None => self.codes.push(Coded { letter, key, line, count: 1 }),
+        }
+    }
+
+    /// Counts a dwell.
+    pub(super) fn waits(&mut self, thousandths: u64, line: u32) {
+        match self.dwells.iter_mut().find(|dwell| dwell.thousandths == thousandths) {
+            Some(dwell) => dwell.count += 1,
+            None => self.dwells.push(Dwell { thousandths, line, count: 1 }),
         }
     }
 

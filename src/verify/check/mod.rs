@@ -6,11 +6,13 @@ mod board_left;
 mod copper_left;
 mod destroyed;
 mod drill_sideways;
+mod dwell_length;
 mod feed_missing;
 mod feed_per_turn;
 mod gouge;
 mod hole_depth;
 mod hole_extra;
+mod hole_in_copper;
 mod hole_missing;
 mod hole_place;
 mod hole_size;
@@ -28,8 +30,10 @@ mod program_missing;
 mod rapid_in_material;
 mod recut;
 mod revision;
+mod ring_missing;
 mod short;
 mod sliver;
+mod spindle_left_on;
 mod tab_extra;
 mod tab_missing;
 mod tab_spread;
@@ -54,6 +58,7 @@ use crate::geometry::{self, Nm, Point};
 
 use super::bores::{Bore, Bores, Made};
 use super::contours::Contours;
+use super::drilled::Drilled;
 use super::machining::Machining;
 use super::outcome::Outcome;
 use super::report::Finding;
@@ -74,6 +79,8 @@ enum Run {
     Isolation(fn(&Outcome<'_>, &Settings) -> Vec<Finding>),
     /// The board's holes, drilled.
     Drilling(fn(&Bores<'_>, &Board, &Settings) -> Vec<Finding>),
+    /// A side's copper, drilled.
+    Drilled(fn(&Drilled<'_, '_>, &Settings) -> Vec<Finding>),
     /// The board's outline, cut out.
     Cutout(fn(&Contours<'_>, &Board, &Settings) -> Vec<Finding>),
     /// All programs that drill holes on whose pins the board is flipped, and the x of the machine
@@ -100,6 +107,7 @@ pub const ALL: &[Check] = &[
     too_deep::CHECK,
     rapid_in_material::CHECK,
     plunge_spindle_off::CHECK,
+    spindle_left_on::CHECK,
     feed_missing::CHECK,
     feed_per_turn::CHECK,
     pass_too_deep::CHECK,
@@ -114,6 +122,8 @@ pub const ALL: &[Check] = &[
     hole_place::CHECK,
     hole_size::CHECK,
     hole_depth::CHECK,
+    hole_in_copper::CHECK,
+    ring_missing::CHECK,
     alignment_hole::CHECK,
     board_gouged::CHECK,
     board_left::CHECK,
@@ -122,6 +132,7 @@ pub const ALL: &[Check] = &[
     revision::CHECK,
     unclear::CHECK,
     word_not_taken::CHECK,
+    dwell_length::CHECK,
     tab_extra::CHECK,
     tab_thin::CHECK,
     tab_spread::CHECK,
@@ -142,11 +153,12 @@ pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) ->
     })
 }
 
-/// The checks of a milled side.
-pub(super) fn isolation(sheet: &Outcome<'_>, settings: &Settings) -> Vec<Finding> {
-    let mut findings = each(|check| {
-        let Run::Isolation(run) = check else { return None };
-        Some(run(sheet, settings))
+/// The checks of a milled side, and of what holes leave of its copper.
+pub(super) fn isolation(sheet: &Outcome<'_>, drilled: &Drilled<'_, '_>, settings: &Settings) -> Vec<Finding> {
+    let mut findings = each(|check| match check {
+        Run::Isolation(run) => Some(run(sheet, settings)),
+        Run::Drilled(run) => Some(run(drilled, settings)),
+        _ => None,
     });
     findings.iter_mut().for_each(|finding| finding.side = Some(sheet.side));
     findings

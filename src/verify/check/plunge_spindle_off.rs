@@ -9,9 +9,14 @@
 //! # What it can miss
 //!
 //! Whether the spindle is up to speed: see the dwell after M3 yourself. Spindles switched by hand.
+//!
+//! # Sources
+//!
+//! The firmwares, for what M3 does before the first S: Grbl 1.1h, grblHAL (f80fc34), FluidNC 4.0;
+//! the manual of LinuxCNC.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, each_stretch};
-use crate::gcode::read::Motion;
+use crate::gcode::read::{Motion, Spindle};
 
 pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -22,14 +27,31 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     advice: Words::of("start the spindle (M3 S…) before the first plunge"),
 };
 
-pub(super) const CHECK: Check =
-    Check { kind: &KIND, run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)) };
+pub(super) const CHECK: Check = Check {
+    kind: &KIND,
+    run: Run::Motion(|program, _, _| {
+        let controller = program.controller.as_deref().filter(|name| AT_ZERO.contains(name));
+        each_stretch(program, NAME, |motion| wrong(motion, controller))
+    }),
+};
 
 const NAME: &str = "plunge-spindle-off";
 
-fn wrong(motion: &Motion) -> Option<Wrong> {
+/// Controllers whose speed is zero until the first S: after M3 alone the spindle stands.
+const AT_ZERO: &[&str] = &["grbl", "grblhal", "fluidnc", "linuxcnc"];
+
+fn wrong(motion: &Motion, at_zero: Option<&str>) -> Option<Wrong> {
     let depth = cut_depth(motion)?;
-    let still = !motion.spindle.turns();
-    let message = || format!("the tool is {depth:.3} mm below the surface and the spindle is off");
-    still.then(|| Wrong { severity: Severity::Error, message: message(), size: Some(depth) })
+    let (severity, message) = match (motion.spindle, at_zero) {
+        (Spindle::Unstated, Some(name)) => {
+            let what = format!("the spindle is on without a speed (S): {name} begins with S0, and it stands");
+            (Severity::Warning, what)
+        }
+        (spindle, _) if !spindle.turns() => {
+            let what = format!("the tool is {depth:.3} mm below the surface and the spindle is off");
+            (Severity::Error, what)
+        }
+        _ => return None,
+    };
+    Some(Wrong { severity, message, size: Some(depth) })
 }

@@ -41,7 +41,7 @@ fn check(program: &Machining) -> Vec<Finding> {
         let Some(cutter) = cut_depth(motion).and_then(|_| program.tools.at(motion.line)) else { continue };
         let before = last.replace((cutter, motion.tool, index));
         let Some((old, number, since)) = before.filter(|(old, ..)| *old != cutter) else { continue };
-        let stops = program.stops.iter().any(|stop| (since + 1..=index).contains(stop));
+        let stops = program.stops.iter().any(|stop| (since + 1..=index).contains(&stop.before));
         if !stops && number == motion.tool {
             let message = format!("it goes on with {cutter}, and does not stop for {old} to be taken out");
             let wrong = Wrong { severity: Severity::Error, message, size: None };

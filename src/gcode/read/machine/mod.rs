@@ -13,7 +13,7 @@ use crate::geometry::Nm;
 use super::block::{Block, Word};
 use super::error::ReadError;
 use super::frame::{Axis, Plane};
-use super::listing::{Listing, Place, Spindle};
+use super::listing::{Listing, Place, Spindle, Stop};
 use super::meaning::{Distance, FeedMode, Meaning, Mode, Special, meaning};
 use super::source::Pointer;
 use super::variables::Variables;
@@ -100,8 +100,16 @@ struct Orders {
     in_machine: bool,
     dwell: bool,
     change_tool: bool,
-    stop: bool,
+    /// Waits for a person, or may, and whether that is known.
+    stop: Option<Waits>,
     ask: Option<Ask>,
+}
+
+/// How sure it is that a code waits for a person.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Waits {
+    Surely,
+    Perhaps,
 }
 
 /// A line that is being run.
@@ -151,8 +159,9 @@ impl Machine {
         for (name, value) in &block.assignments {
             self.variables.set(name.clone(), *value);
         }
-        if orders.stop {
-            self.listing.stops.push((self.listing.motions.len(), run.line()));
+        if let Some(waits) = orders.stop {
+            let spinning = waits == Waits::Surely && self.modal.spinning;
+            self.listing.stops.push(Stop { before: self.listing.motions.len(), line: run.line(), spinning });
         }
         if orders.ask == Some(Ask::End) {
             self.listing.end = Some(run.line());
@@ -237,7 +246,7 @@ impl Machine {
                     self.modal.spinning = true;
                 }
                 Meaning::ToolChange | Meaning::SetTool => orders.change_tool = true,
-                Meaning::Stop => orders.stop = true,
+                Meaning::Stop => orders.stop = Some(Waits::Surely),
                 Meaning::End => orders.ask = Some(Ask::End),
                 Meaning::Call => orders.ask = Some(Ask::Call),
                 Meaning::Return => orders.ask = Some(Ask::Return),
@@ -250,7 +259,7 @@ impl Machine {
                     let message =
                         format!("M{}{tenth} is unknown: it is assumed to move nothing", order.key / 10);
                     self.listing.note(true, run.line(), message);
-                    orders.stop = true;
+                    orders.stop = orders.stop.or(Some(Waits::Perhaps));
                 }
                 Meaning::Refused(why) => return refuse(why),
             }

@@ -114,7 +114,7 @@ impl Machine {
                     self.unit_is_used(run);
                     match special {
                         Special::Local => self.axes[axis].set_shift(value),
-                        _ => self.axes[axis].here(self.modal.system, value, false),
+                        _ => self.here(run, axis, value),
                     }
                 }
             }
@@ -123,6 +123,16 @@ impl Machine {
             Special::Ignored => {}
         }
         Ok(())
+    }
+
+    /// G92 of an axis.
+    fn here(&mut self, run: Run<'_>, axis: usize, value: Nm) {
+        if self.axes[axis].at.is_none() && !self.axes[axis].sent {
+            let what =
+                "G92 sets zero by where the tool happens to be: a zero that was set before does not count";
+            self.listing.note(true, run.line(), what);
+        }
+        self.axes[axis].here(self.modal.system, value, false);
     }
 
     /// G10: L2 sets the zero of a system from the machine's, L20 from where the tool is; L1, L10

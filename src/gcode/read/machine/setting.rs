@@ -53,11 +53,15 @@ impl Machine {
             let wrong = || run.error(word, "expected a time that is not negative");
             if (0.0..1e12).contains(&value) { Ok(milliseconds(value)) } else { Err(wrong()) }
         };
-        self.listing.dwell += match (run.block.get('P'), run.block.first("SX")) {
+        let waits = match (run.block.get('P'), run.block.first("SX")) {
             (Some(p), _) if p.value >= 100.0 && p.value.fract() == 0.0 => time(p, 1.0)?,
             (Some(word), _) | (None, Some(word)) => time(word, 1000.0)?,
             (None, None) => 0,
         };
+        self.listing.dwell += waits;
+        if let Some(p) = run.block.get('P') {
+            self.listing.waits(milliseconds(p.value * 1000.0), run.line());
+        }
         Ok(())
     }
 

@@ -173,7 +173,7 @@ impl Machine {
         if is_sideways && to[2].is_none() && !self.axes[2].sent {
             let what =
                 "it moves sideways before it says how high: the tool has to be above the board by then";
-            self.listing.note(false, run.line(), what);
+            self.listing.note(true, run.line(), what);
         }
         let [x, y, z] = to;
         let motion = Motion {
