@@ -12,7 +12,7 @@ use crate::grid::Grid;
 use crate::topology::NetId;
 
 use super::Settings;
-use super::exact::designed;
+use super::exact::{FINE, designed};
 use super::milled::{self, narrower};
 use super::pieces::{Extent, Part};
 use super::rest::{Doubt, Joined, Remains, Remnant, Rest};
@@ -63,7 +63,7 @@ pub(super) fn within(sheet: &Sheet<'_>, doubt: &Doubt, settings: &Settings) -> R
     let rests: BTreeMap<NetId, Rest> = doubt
         .nets
         .iter()
-        .map(|&net| (net, Rest { designed: designed(sheet, net, doubt.rect), parts: Vec::new() }))
+        .map(|&net| (net, Rest { designed: designed(sheet, net, doubt.rect, FINE), parts: Vec::new() }))
         .collect();
     let least = rests.iter().map(|(&net, rest)| (net, rest.least(settings))).collect();
     let mut pitch = sheet.pitch();

@@ -17,8 +17,9 @@ use crate::geometry::{Nm, Point, Polygon, Rect, RectIndex};
 use crate::topology::{NetId, Proximity};
 
 use super::Settings;
-use super::bores::{Bore, Bores, Made, around};
+use super::bores::{Bore, Bores, Made, around, from_axis};
 use super::exact;
+use super::machining::half;
 use super::rest::least;
 use super::sheet::Sheet;
 
@@ -47,6 +48,9 @@ pub(super) struct Touched {
     pub(super) is_centred: bool,
     /// The part of the way round the hole where there is copper of it.
     pub(super) ring: f64,
+    /// Whether that is one stretch, and long enough to be no trace alone: what met at the hole still
+    /// does.
+    pub(super) is_held: bool,
     /// What all holes leave of it.
     pub(super) left: Left,
 }
@@ -102,18 +106,28 @@ fn opened<'a, 'b>(sheet: &Sheet<'_>, bore: &'a Bore<'b>, settings: &Settings) ->
     let at = |p: Point| Shape::Disc { center: p, radius: Nm::ZERO };
     // Mostly one pad holds it.
     let holds = |&feature: &usize| {
-        points.iter().all(|&p| sheet.proximity.near_one(&at(p), Nm::ZERO, feature).is_some())
+        let shape = &sheet.copper.features[feature].shape;
+        points.iter().all(|&p| match shape {
+            Shape::Polygon(polygon) => polygon.contains(p),
+            _ => from_axis(shape, p) <= half(shape).to_f64(),
+        })
     };
     if nets.len() == 1 && features.iter().any(holds) {
         return None;
     }
     let touched = |&net: &NetId| {
         let is_own = |feature: usize| sheet.nets.of(feature) == net;
-        let has = |&&p: &&Point| sheet.proximity.any(&at(p), Nm::ZERO, is_own, |_| true);
-        let ring = share(points.iter().filter(has).count(), points.len());
+        let has = |&p: &Point| sheet.proximity.any(&at(p), Nm::ZERO, is_own, |_| true);
+        let copper: Vec<bool> = points.iter().map(has).collect();
+        let ring = share(copper.iter().filter(|has| **has).count(), copper.len());
+        let before = copper.iter().cycle().skip(copper.len() - 1);
+        let begins = copper.iter().zip(before).filter(|(has, before)| **has && !**before).count();
+        // Points of a slot do not follow each other.
+        let is_held = !bore.hole.is_slot() && begins == 1 && ring >= RING;
         let away = axis.iter().flat_map(|shape| sheet.proximity.near_of(shape, radius, is_own));
         let away = away.map(|near| near.width).fold(radius.to_f64(), f64::min);
-        Touched { net, depth: radius.to_f64() - away, is_centred: away <= 0.0, ring, left: Left::Whole }
+        let (depth, is_centred) = (radius.to_f64() - away, away <= 0.0);
+        Touched { net, depth, is_centred, ring, is_held, left: Left::Whole }
     };
     let nets: Vec<Touched> = nets.iter().map(touched).collect();
     let sound = nets.len() == 1 && nets[0].ring >= 1.0;
@@ -125,14 +139,17 @@ fn share(some: usize, all: usize) -> f64 {
     some as f64 / all.max(1) as f64
 }
 
+/// The part of the way round a hole below which copper is no ring. Chosen: two traces that leave a
+/// pad in both directions are less.
+pub(super) const RING: f64 = 1.0 / 3.0;
 /// How near to a hole a part of a net lies that the hole bounds. Chosen: flattened curves are apart
 /// by less.
 const BESIDE: Nm = Nm::from_um(2);
-/// How far curves of holes are flattened. Chosen: as the copper's are.
-const FINE: Nm = Nm::new(50);
+/// How far curves are flattened. Chosen: far below what a hole may be off its place.
+const FLAT: Nm = Nm::from_um(1);
 /// How far round a hole is looked first at what joins the parts of a net there. Chosen: twice as
 /// far each time after, so that a pour costs no more than what is near.
-const ROUND: Nm = Nm::from_mm(1);
+const ROUND: Nm = Nm::from_um(250);
 
 impl Opened<'_, '_> {
     /// The hole as it is made, grown by `by`.
@@ -152,20 +169,25 @@ struct Copper<'c, 'a, 'b> {
 impl Copper<'_, '_, '_> {
     /// What the holes leave round this one of each net that it reaches into.
     fn left(&self, hole: &Opened<'_, '_>) -> Vec<Left> {
-        hole.nets.iter().map(|touched| self.left_of(touched.net, hole)).collect()
+        hole.nets.iter().map(|touched| self.left_of(touched, hole)).collect()
     }
 
-    fn left_of(&self, net: NetId, hole: &Opened<'_, '_>) -> Left {
+    fn left_of(&self, touched: &Touched, hole: &Opened<'_, '_>) -> Left {
+        let net = touched.net;
         let Some(extent) = self.sheet.extent(net) else { return Left::Nothing };
+        if touched.is_held {
+            return Left::Whole;
+        }
         let own = hole.shapes(Nm::ZERO);
         let mut reach = ROUND;
         loop {
             let rect = hole.bore.hole.bounds().inflate(reach);
+            let designed = exact::designed(self.sheet, net, rect, FLAT);
             // A pad with nothing but itself may have a rim left.
-            if reach == ROUND && self.parts(net, rect, self.settings.place).is_empty() {
+            if reach == ROUND && self.parts(&designed, rect, self.settings.place).is_empty() {
                 return Left::Nothing;
             }
-            let parts = Proximity::of(&self.parts(net, rect, Nm::ZERO));
+            let parts = Proximity::of(&self.parts(&designed, rect, Nm::ZERO));
             let beside = own.iter().flat_map(|shape| parts.near(shape, BESIDE));
             let beside: BTreeSet<usize> = beside.map(|near| near.feature).collect();
             if beside.len() < 2 {
@@ -178,12 +200,11 @@ impl Copper<'_, '_, '_> {
         }
     }
 
-    /// The considerable parts of a net's copper within `rect` that the holes, grown by `by`, leave.
-    fn parts(&self, net: NetId, rect: Rect, by: Nm) -> Vec<Shape> {
-        let designed = exact::designed(self.sheet, net, rect);
+    /// The considerable parts of copper within `rect` that the holes, grown by `by`, leave.
+    fn parts(&self, designed: &[Polygon], rect: Rect, by: Nm) -> Vec<Shape> {
         let crumb = least(designed.iter().map(Polygon::area_mm2).sum(), self.settings);
         let near = self.by_place.touching(rect).into_iter().flat_map(|hole| self.holes[hole].shapes(by));
-        let cuts: Vec<Polygon> = near.filter_map(|shape| shape.polygon(FINE)).collect();
+        let cuts: Vec<Polygon> = near.filter_map(|shape| shape.polygon(FLAT)).collect();
         let left = |whole: &Polygon| {
             let near = cuts.iter().filter(|cut| cut.bounds().touches(whole.bounds()));
             polarity::difference(whole, near)

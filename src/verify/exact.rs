@@ -44,7 +44,7 @@ pub(super) fn within(sheet: &Sheet<'_>, doubt: &Doubt, settings: &Settings) -> R
 
 /// How far curves are flattened where areas count: of a strip of a tenth of a millimetre that is a
 /// thousandth. Chosen.
-const FINE: Nm = Nm::new(50);
+pub(super) const FINE: Nm = Nm::new(50);
 /// Of half a kerf that is wide, its ends are flattened by one part in so many. Chosen: a tenth of
 /// what no mill is as true as.
 const ENDS: i64 = 1000;
@@ -58,22 +58,35 @@ fn kerfs(sheet: &Sheet<'_>, rect: Rect) -> Vec<Polygon> {
     sheet.places.cuts.touching(rect).par_iter().filter_map(kerf).collect()
 }
 
-/// The copper of a net within `rect`, one polygon for each connected piece.
-fn copper(sheet: &Sheet<'_>, net: NetId, rect: Rect) -> Vec<Polygon> {
+/// The copper of a net within `rect`, one polygon for each connected piece, curves flattened so far.
+fn copper(sheet: &Sheet<'_>, net: NetId, rect: Rect, flat: Nm) -> Vec<Polygon> {
     let features = sheet.nets.nets()[net.index()].features.iter();
     let shapes = features.map(|&feature| &sheet.copper.features[feature as usize].shape);
     let near = shapes.filter(|shape| shape.bounds().touches(rect));
-    let clipped: Vec<Polygon> = near.filter_map(|shape| shape.polygon(FINE)?.clipped(rect)).collect();
+    let clipped: Vec<Polygon> = near.filter_map(|shape| shape.polygon(flat)?.clipped(rect)).collect();
     polarity::union(&clipped)
 }
 
 /// The copper of a net within `rect` as far as it lies on the board.
-pub(super) fn designed(sheet: &Sheet<'_>, net: NetId, rect: Rect) -> Vec<Polygon> {
-    on(&sheet.ground(rect), &copper(sheet, net, rect))
+pub(super) fn designed(sheet: &Sheet<'_>, net: NetId, rect: Rect, flat: Nm) -> Vec<Polygon> {
+    on(&sheet.ground(rect), copper(sheet, net, rect, flat))
 }
 
 /// What of copper lies on the ground.
-fn on(ground: &[Polygon], copper: &[Polygon]) -> Vec<Polygon> {
+fn on(ground: &[Polygon], copper: Vec<Polygon>) -> Vec<Polygon> {
+    let bounds = copper.iter().map(Polygon::bounds).reduce(Rect::union);
+    let is_within = |ground: &Polygon| {
+        // A rectangle that holds all of it.
+        let rect = ground.bounds();
+        ground.edges().count() == 4
+            && ground.twice_area() == Polygon::rectangle(rect).twice_area()
+            && bounds.is_none_or(|bounds| rect.contains(bounds.min()) && rect.contains(bounds.max()))
+    };
+    if let [ground] = ground
+        && is_within(ground)
+    {
+        return copper;
+    }
     let both = |copper| ground.iter().flat_map(move |ground| polarity::intersection(copper, ground));
     copper.iter().flat_map(both).collect()
 }
@@ -101,7 +114,7 @@ struct Within {
 impl Within {
     /// What became of a net.
     fn rest(&self, sheet: &Sheet<'_>, net: NetId, settings: &Settings) -> Rest {
-        let designed = on(&self.ground, &copper(sheet, net, self.rect));
+        let designed = on(&self.ground, copper(sheet, net, self.rect, FINE));
         let mut rest = Rest { parts: Vec::new(), designed };
         let least = rest.least(settings);
         let parts = left(&rest.designed, &self.kerfs).into_iter();

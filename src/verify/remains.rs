@@ -31,7 +31,8 @@ pub(super) fn remains(
     // Of a net that is lost to many cuts there is nothing to work out.
     let many = |net: &&NetId| hits.many.contains_key(net);
     for &net in lost.iter().filter(many) {
-        let designed = sheet.extent(net).map_or(Vec::new(), |rect| exact::designed(sheet, net, rect));
+        let designed =
+            sheet.extent(net).map_or(Vec::new(), |rect| exact::designed(sheet, net, rect, exact::FINE));
         all.nets.insert(net, Rest { designed, parts: Vec::new() });
     }
     let mut doubts: Vec<Doubt> = Vec::new();

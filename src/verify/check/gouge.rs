@@ -26,7 +26,7 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::geometry::{Nm, Point, Rect};
 use crate::topology::NetId;
 use crate::verify::Settings;
-use crate::verify::exact::designed;
+use crate::verify::exact::{FINE, designed};
 use crate::verify::hit::{Hit, TOGETHER, clusters};
 use crate::verify::interior::{Deepest, Interior};
 use crate::verify::loss::lost;
@@ -237,7 +237,7 @@ fn nearby(sheet: &Sheet<'_>, around: Rect, hits: &[Hit], deepest: Hit) -> Hit {
     let mut reach = NEARBY;
     loop {
         let rect = around.inflate(reach);
-        let interior = Interior::new(sheet, deepest.net, &designed(sheet, deepest.net, rect));
+        let interior = Interior::new(sheet, deepest.net, &designed(sheet, deepest.net, rect, FINE));
         let found = inside(sheet, &interior, hits, deepest);
         let whole =
             sheet.extent(deepest.net).is_none_or(|all| rect.contains(all.min()) && rect.contains(all.max()));

@@ -36,7 +36,7 @@ const NAME: &str = "hole-in-copper";
 
 /// The part of the way round a hole from which on copper is its ring, though its middle is bare.
 /// Chosen: pads whose middle is left bare for the drill have all of it but a slit.
-const RING: f64 = 0.75;
+const BARE: f64 = 0.75;
 
 fn check(drilled: &Drilled<'_, '_>, settings: &Settings) -> Vec<Finding> {
     let label = |net| drilled.sheet.nets.label(net);
@@ -59,7 +59,7 @@ fn check(drilled: &Drilled<'_, '_>, settings: &Settings) -> Vec<Finding> {
         }
         let Some(touched) = opened.nets.first() else { continue };
         let depth = Nm::from_f64(touched.depth);
-        if !touched.is_centred && depth > settings.place && touched.ring < RING {
+        if !touched.is_centred && depth > settings.place && touched.ring < BARE {
             let message = format!("a hole reaches {depth:.3} mm into {}", nets[0]);
             findings.push(find(opened, nets, Some(depth), message));
         }

@@ -15,7 +15,7 @@
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, hole};
 use crate::geometry::Nm;
-use crate::verify::drilled::{Drilled, Left, Touched};
+use crate::verify::drilled::{Drilled, Left, RING, Touched};
 use crate::verify::report::Finding;
 
 const KIND: Diagnostic = Diagnostic {
@@ -31,9 +31,6 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Drilled(|drilled,
 
 const NAME: &str = "ring-missing";
 
-/// The part of the way round a hole below which copper is no ring. Chosen: two traces that leave a
-/// pad in both directions are less.
-const LEAST: f64 = 1.0 / 3.0;
 /// Holes from which on a screw goes through, and nothing is soldered. Chosen: the leads of
 /// terminals and connectors are narrower, and M2 is not.
 const SCREW: Nm = Nm::from_mm(2);
@@ -42,7 +39,7 @@ fn check(drilled: &Drilled<'_, '_>) -> Vec<Finding> {
     let mut findings = Vec::new();
     for opened in drilled.holes.iter().filter(|opened| opened.bore.hole.diameter < SCREW) {
         let is_pad = |touched: &&Touched| touched.is_centred && touched.left == Left::Whole;
-        for touched in opened.nets.iter().filter(is_pad).filter(|touched| touched.ring < LEAST) {
+        for touched in opened.nets.iter().filter(is_pad).filter(|touched| touched.ring < RING) {
             let name = drilled.sheet.nets.label(touched.net);
             let message = format!("next to nothing is left of the pad of {name} round a hole");
             let found = hole(opened.bore, &opened.made, NAME, Severity::Warning, message);
