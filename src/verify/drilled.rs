@@ -48,8 +48,8 @@ pub(super) struct Touched {
     pub(super) is_centred: bool,
     /// The part of the way round the hole where there is copper of it.
     pub(super) ring: f64,
-    /// Whether that is one stretch, and long enough to be no trace alone: what met at the hole still
-    /// does.
+    /// Whether that is one stretch, and long enough to be no trace alone: what met at the hole
+    /// still does.
     pub(super) is_held: bool,
     /// What all holes leave of it.
     pub(super) left: Left,

@@ -58,7 +58,8 @@ fn kerfs(sheet: &Sheet<'_>, rect: Rect) -> Vec<Polygon> {
     sheet.places.cuts.touching(rect).par_iter().filter_map(kerf).collect()
 }
 
-/// The copper of a net within `rect`, one polygon for each connected piece, curves flattened so far.
+/// The copper of a net within `rect`, one polygon for each connected piece, curves flattened so
+/// far.
 fn copper(sheet: &Sheet<'_>, net: NetId, rect: Rect, flat: Nm) -> Vec<Polygon> {
     let features = sheet.nets.nets()[net.index()].features.iter();
     let shapes = features.map(|&feature| &sheet.copper.features[feature as usize].shape);
