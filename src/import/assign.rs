@@ -178,18 +178,17 @@ fn by_content(role: Role, kind: Kind, is_drawing: bool) -> Role {
 
 /// What a person chose counts before all; the files chosen have no other role.
 fn choose_by_hand(gathered: &Gathered, selection: &Selection, votes: &mut [Vote], assigned: &mut Assigned) {
-    let mut choose = |path: &PathBuf, side: Option<Side>| {
+    let mut choose = |path: &PathBuf, role: Role| {
         let index = gathered.index_of(path)?;
-        let told = |side| contradiction::other_side(&gathered.files[index], &votes[index], side);
-        assigned.warnings.extend(side.and_then(told));
+        assigned.warnings.extend(contradiction::chosen(&gathered.files[index], &votes[index], role));
         votes[index].role = None;
         assigned.by_hand.push(index);
         Some(index)
     };
-    assigned.front = selection.front.as_ref().and_then(|path| choose(path, Some(Side::Front)));
-    assigned.back = selection.back.as_ref().and_then(|path| choose(path, Some(Side::Back)));
-    assigned.outline = selection.outline.as_ref().and_then(|path| choose(path, None));
-    assigned.drill = selection.drill.iter().filter_map(|path| choose(path, None)).collect();
+    assigned.front = selection.front.as_ref().and_then(|path| choose(path, Role::Copper(Side::Front)));
+    assigned.back = selection.back.as_ref().and_then(|path| choose(path, Role::Copper(Side::Back)));
+    assigned.outline = selection.outline.as_ref().and_then(|path| choose(path, Role::Outline));
+    assigned.drill = selection.drill.iter().filter_map(|path| choose(path, Role::Drill)).collect();
 }
 
 /// One Gerber file of unknown role, and no copper: it is the front.

@@ -127,19 +127,29 @@ fn refuse_other_side(gathered: &Gathered, votes: &[Vote]) -> Result<(), Error> {
     Ok(())
 }
 
-/// A file that a person chose as the copper of a side, and that is the other one's by all that is
-/// known of it: the person is believed, and it is said what comes of it.
-pub(super) fn other_side(file: &Found, vote: &Vote, chosen: Side) -> Option<Warning> {
-    let role = vote.role.filter(|role| matches!(role, Role::Copper(side) if *side != chosen))?;
-    let says = match vote.witness {
-        Witness::Name => format!("it is named like {}", what(role)),
-        Witness::Function | Witness::Job => format!("{} declares {}", who(vote.witness), what(role)),
+/// A file that a person chose as one thing, and that is another by all that is known of it: the
+/// person is believed, and it is said what comes of it.
+pub(super) fn chosen(file: &Found, vote: &Vote, as_what: Role) -> Option<Warning> {
+    let role = vote.role.filter(|role| *role != as_what)?;
+    let (called, comes_of_it) = match (as_what, role) {
+        (Role::Copper(_), Role::Copper(_)) => {
+            (what(role).to_owned(), "unless it was drawn mirrored, its mirror image is milled")
+        }
+        // Whoever mills an inner layer has to choose it.
+        (Role::Copper(_), Role::Other("inner copper")) => return None,
+        (Role::Copper(_), Role::Other(other)) => {
+            (format!("the {other}"), "what it draws is taken for copper")
+        }
+        (Role::Copper(_), Role::Outline) => (what(role).to_owned(), "what it draws is taken for copper"),
+        (Role::Outline, Role::Copper(_)) => (what(role).to_owned(), "the board is cut out along its copper"),
+        _ => return None,
     };
-    let message = format!(
-        "{} is chosen as the {chosen}, but {says}: unless it was drawn mirrored, its mirror image is milled",
-        file.name
-    );
-    Some(diagnostic::OTHER_SIDE_CHOSEN.warning(message).caused_by(says_so(file, vote.witness)))
+    let says = match vote.witness {
+        Witness::Name => format!("it is named like {called}"),
+        Witness::Function | Witness::Job => format!("{} declares {called}", who(vote.witness)),
+    };
+    let message = format!("{} is chosen as {}, but {says}: {comes_of_it}", file.name, what(as_what));
+    Some(diagnostic::OTHER_LAYER_CHOSEN.warning(message).caused_by(says_so(file, vote.witness)))
 }
 
 /// Where a file says what it is.

@@ -478,11 +478,11 @@ diagnostics! {
         "a file name and a file function that agree",
         "rename it, choose it with {front}, {back} or {outline} FILE, or ignore it with {skip} FILE";
 
-    OTHER_SIDE_CHOSEN: Warning =
-        "other-side-chosen",
-        "A layer chosen as the copper of the other side",
-        "the copper of the side that it is chosen for",
-        "choose it with {front} FILE if it is the front, with {back} FILE if it is the back: only the back is mirrored";
+    OTHER_LAYER_CHOSEN: Warning =
+        "other-layer-chosen",
+        "A layer chosen as something else than it says it is",
+        "a file that is what it is chosen as",
+        "choose copper with {front} FILE if it is the front, with {back} FILE if it is the back, which is mirrored; the edge of the board with {outline} FILE";
 
     ROLE_UNKNOWN: Warning =
         "role-unknown",

@@ -219,7 +219,7 @@ fn copper_of_the_other_side_is_what_was_chosen_and_that_is_said() {
         let files = [&selection.front, &selection.back];
         let files: Vec<PathBuf> = files.into_iter().flatten().cloned().collect();
         let loaded = load(&files, &selection).expect("a board");
-        let said = loaded.warnings.into_iter().filter(|warning| warning.code() == "other-side-chosen");
+        let said = loaded.warnings.into_iter().filter(|warning| warning.code() == "other-layer-chosen");
         said.map(|warning| warning.message).collect()
     };
     let as_front = |name: &str| said(Selection { front: Some(folder.path(name)), ..Selection::default() });
@@ -232,10 +232,52 @@ fn copper_of_the_other_side_is_what_was_chosen_and_that_is_said() {
     assert_eq!(
         as_front("amp-B_Cu.gbr"),
         [
-            "amp-B_Cu.gbr is chosen as the front, but it is named like the back copper: unless it was drawn mirrored, \
+            "amp-B_Cu.gbr is chosen as the front copper, but it is named like the back copper: unless it was drawn mirrored, \
              its mirror image is milled"
         ],
         "by name"
+    );
+}
+
+#[test]
+fn a_layer_that_is_no_copper_is_what_was_chosen_and_that_is_said() {
+    let mask = function("Soldermask,Top");
+    let edge = function("Profile,NP");
+    let front = function("Copper,L1,Top");
+    let plain = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,1*%\nD10*\nX0Y0D03*\nM02*\n";
+    let files = [
+        ("a.gbr", &*mask),
+        ("b.gbr", &*edge),
+        ("c.gbr", &*front),
+        ("amp-F_Paste.gbr", plain),
+        ("amp-In1_Cu.gbr", plain),
+    ];
+    let folder = Folder::with(&files);
+    let said = |front: &str, outline: Option<&str>| -> Vec<String> {
+        let outline = outline.map(|name| folder.path(name));
+        let selection = Selection { front: Some(folder.path(front)), outline, ..Selection::default() };
+        let files: Vec<PathBuf> =
+            [&selection.front, &selection.outline].into_iter().flatten().cloned().collect();
+        let loaded = load(&files, &selection).expect("a board");
+        let said = loaded.warnings.into_iter().filter(|warning| warning.code() == "other-layer-chosen");
+        said.map(|warning| warning.message).collect()
+    };
+    let copper = "what it draws is taken for copper";
+    for (name, says) in [
+        ("a.gbr", "its .FileFunction declares the solder mask"),
+        ("b.gbr", "its .FileFunction declares the outline"),
+        ("amp-F_Paste.gbr", "it is named like the paste"),
+    ] {
+        assert_eq!(said(name, None), [format!("{name} is chosen as the front copper, but {says}: {copper}")]);
+    }
+    assert_eq!(said("amp-In1_Cu.gbr", None), [""; 0], "an inner layer is copper, too");
+    assert_eq!(said("c.gbr", Some("b.gbr")), [""; 0]);
+    assert_eq!(
+        said("amp-In1_Cu.gbr", Some("c.gbr")),
+        [
+            "c.gbr is chosen as the outline, but its .FileFunction declares the front copper: the board is cut out along \
+          its copper"
+        ]
     );
 }
 
