@@ -15,7 +15,7 @@ use voromill::report;
 use voromill::report::document::{Figures, ProgramEntry, SCHEMA_VERSION, WarningEntry};
 use voromill::report::stages::{Stage, Stages};
 use voromill::report::verdict::FindingEntry;
-use voromill::verify::Finding;
+use voromill::verify::{Finding, Severity};
 
 use super::config::Config;
 use super::format::Format;
@@ -175,10 +175,12 @@ impl Work {
         } else {
             let mut summary = if self.output.is_some() { made.summary() } else { String::new() };
             summary.extend(judged.as_ref().map(|judged| made.verdict(judged)));
-            summary += &lines(findings);
+            let entries: Vec<FindingEntry> = findings.iter().map(FindingEntry::from).collect();
+            summary += &FindingEntry::list(&entries, shared.is_verbose());
             if to_stdout { shared.say(&summary) } else { shared.report(&summary)? }
         }
-        Ok(if findings.is_empty() { ExitCode::SUCCESS } else { ExitCode::from(1) })
+        let is_spoilt = findings.iter().any(|finding| finding.severity == Severity::Error);
+        Ok(if is_spoilt { ExitCode::from(1) } else { ExitCode::SUCCESS })
     }
 
     /// The file with the shapes, as a board is read.
@@ -450,15 +452,4 @@ fn areas(copper: &Copper) -> Vec<Polygon> {
 /// To a thousandth.
 pub(super) fn rounded(number: f64) -> f64 {
     (number * 1_000.0).round() / 1_000.0
-}
-
-/// What is wrong, a line for each.
-fn lines(findings: &[Finding]) -> String {
-    let line = |finding: &Finding| {
-        let place =
-            finding.at.map_or(String::new(), |at| format!(" at x = {:.3} mm, y = {:.3} mm", at.x, at.y));
-        let line = finding.line.map_or(String::new(), |line| format!(" (line {line})"));
-        format!("{}: {}{place}{line}\n", finding.name, finding.message)
-    };
-    findings.iter().map(line).collect()
 }

@@ -36,6 +36,11 @@ pub fn all() -> Vec<Diagnostic> {
     all
 }
 
+/// The kind of a finding in a program.
+pub(super) fn of_programs(code: &str) -> Option<&'static Diagnostic> {
+    check::of(code).map(|check| check.kind).or_else(|| planning::ALL.iter().find(|kind| kind.code == code))
+}
+
 /// What a code means, in lines; none for a code that there is not.
 #[must_use]
 pub fn explain(code: &str) -> Option<String> {

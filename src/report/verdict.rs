@@ -10,6 +10,7 @@ use crate::board::Side;
 use crate::board::diagnostic::count;
 use crate::verify::{Finding, Report, Severity, check};
 
+use super::explain;
 use super::quantity::{Millimetres, Place, SCHEMA_VERSION, json as to_json};
 use super::xml::escaped;
 
@@ -118,30 +119,36 @@ impl From<&Report> for Verdict {
 /// Findings of one name that the short text shows; the rest are counted. Chosen.
 const SHOWN: usize = 5;
 
-impl Verdict {
-    /// For people: what was found with what to try, and what was judged; where `verbose`, all
-    /// findings, and what is only worth knowing.
+impl FindingEntry {
+    /// Findings, sorted as reports have them, for people, with what to try; where `verbose`, all of
+    /// them, and what is only worth knowing.
     #[must_use]
-    pub fn to_text(&self, verbose: bool) -> String {
+    pub fn list(findings: &[Self], verbose: bool) -> String {
         let mut text = String::new();
-        let count =
-            self.findings.iter().filter(|finding| verbose || finding.severity > Severity::Info).count();
-        for same in self.findings[..count].chunk_by(|a, b| (a.severity, a.code) == (b.severity, b.code)) {
+        let count = findings.iter().filter(|finding| verbose || finding.severity > Severity::Info).count();
+        for same in findings[..count].chunk_by(|a, b| (a.severity, a.code) == (b.severity, b.code)) {
             let shown = if verbose { same.len() } else { SHOWN };
             for finding in same.iter().take(shown) {
-                let FindingEntry { severity, code, message, .. } = finding;
+                let Self { severity, code, message, .. } = finding;
                 let _ = writeln!(text, "  {severity}: {}{message} [{code}]", place(finding));
             }
             let (severity, name) = (same[0].severity, same[0].code);
             if same.len() > shown {
                 let _ = writeln!(text, "  {severity}: {} more [{name}]; -v shows all", same.len() - shown);
             }
-            if let Some(check) = check::of(name).filter(|_| severity > Severity::Info) {
-                let _ = writeln!(text, "    try: {}", check.kind.advice);
+            if let Some(kind) = explain::of_programs(name).filter(|_| severity > Severity::Info) {
+                let _ = writeln!(text, "    try: {}", kind.advice);
             }
         }
-        text.push_str(&self.line());
         text
+    }
+}
+
+impl Verdict {
+    /// For people: what was found, as [`FindingEntry::list`] has it, and what was judged.
+    #[must_use]
+    pub fn to_text(&self, verbose: bool) -> String {
+        FindingEntry::list(&self.findings, verbose) + &self.line()
     }
 
     /// The verdict in one line.

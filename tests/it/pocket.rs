@@ -9,6 +9,7 @@ use voromill::toolpath::Angle;
 use voromill::toolpath::strategy::{Engaging, Sequence};
 
 use crate::art::{is_cut, is_made_checked_and_found_spoilt, is_refused, lines, voromill, word};
+use crate::cli::{stderr, stdout};
 use crate::medial_axis::{capitals, random_areas};
 use crate::seeds::seeds;
 
@@ -17,7 +18,8 @@ const PITCH: Option<Nm> = Some(Nm::from_um(if cfg!(debug_assertions) { 20 } else
 
 fn how() -> Pocketing {
     Pocketing {
-        step: None,
+        // All at once, whatever the tool bears.
+        step: Some(Nm::from_mm(1)),
         stepover: "40%".parse().expect("a part"),
         stock: Nm::ZERO,
         sequence: Sequence::InsideOut,
@@ -535,6 +537,40 @@ fn a_drawing_becomes_a_program_that_passes() {
     let wanted = ["pocket", &plate, "--tool", "endmill:2mm", "--depth", "1mm"];
     let (told, spoiling) = (["1 plunge", "0.0000 mm² are left"], ["Z-1", "Z-1.1"]);
     is_made_checked_and_found_spoilt(&wanted, folder.path(), &told, spoiling, "pocket-too-deep");
+}
+
+/// Nothing is wrong with its way: it is told, and the exit code says that it may be milled.
+#[test]
+fn what_breaks_the_tool_of_a_drawing_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let drawing = "<svg xmlns='http://www.w3.org/2000/svg' width='12mm' height='8mm' viewBox='0 0 12 8'>\
+        <path fill='black' d='M0 0H12V8H0Z'/></svg>";
+    std::fs::write(path("plate.svg"), drawing).expect("a drawing");
+    let (plate, program) = (path("plate.svg"), path("made.ngc"));
+    let told = |command: &str, tool: &str, rest: &[&str]| {
+        let done = voromill(&[&[command, &plate, "--tool", tool, "-o", &program], rest].concat());
+        assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
+        let lines = stdout(&done);
+        lines.lines().filter(|line| line.starts_with("  warning: ")).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let deep = |rest: &[&str]| told("pocket", "endmill:1mm", &[&["--depth", "4mm"], rest].concat());
+    assert!(
+        matches!(&deep(&[])[..], [one] if one.contains("a pass down to 4.000 mm with an end mill of 1.000 mm"))
+    );
+    assert_eq!(deep(&["--depth-pass", "4mm"]), [""; 0], "as it was asked for");
+    assert_eq!(deep(&["--depth-pass", "1mm"]), [""; 0]);
+    assert_eq!(told("pocket", "endmill:2mm", &["--depth", "4mm"]), [""; 0]);
+    let fast = ["--feed", "20000mm/min", "--plunge", "20000mm/min", "--spindle", "1200"];
+    let found = told("pocket", "endmill:2mm", &[&["--depth", "1mm"][..], &fast].concat());
+    assert!(
+        matches!(&found[..], [one] if one.contains("a cut 2.000 mm wide at 20000 mm/min: at 1200 rpm")),
+        "{found:?}"
+    );
+    let found = told("carve", "vbit:0.1mm:60deg", &[&["--max-depth", "1mm"][..], &fast].concat());
+    assert!(matches!(&found[..], [one] if one.ends_with("[feed-per-turn]")), "{found:?}");
+    // Near its tip a V-bit bears no feed at all.
+    assert_eq!(told("carve", "vbit:0mm:60deg", &["--max-depth", "1mm"]), [""; 0]);
 }
 
 /// Lines that fill nothing are the edge of what they enclose, but for what others enclose in it.

@@ -106,10 +106,7 @@ struct Off {
 pub fn carving(programs: &[Text<'_>], ideal: &Ideal<'_>) -> Result<Carved, Error> {
     let listings = followed(programs)?;
     let mut carved = compare(&Surface::new(&listings, surface::CHORD), ideal);
-    let harm = programs.iter().zip(&listings).flat_map(|(program, (listing, _))| {
-        harm(listing).into_iter().map(|found| Finding { program: Some(program.file.to_owned()), ..found })
-    });
-    carved.findings.splice(0..0, harm.collect::<Vec<_>>());
+    carved.findings.splice(0..0, harm(programs, &listings));
     Ok(carved)
 }
 
@@ -133,7 +130,16 @@ pub(super) fn followed(programs: &[Text<'_>]) -> Result<Vec<(Listing, Cutter)>, 
 }
 
 /// What harms the machine or the work whatever is carved.
-pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
+pub(super) fn harm(programs: &[Text<'_>], listings: &[(Listing, Cutter)]) -> Vec<Finding> {
+    let of = |(program, (listing, cutter)): (&Text<'_>, &(Listing, Cutter))| {
+        let file = program.file.to_owned();
+        let name = move |found| Finding { program: Some(file.clone()), ..found };
+        harm_of(listing, *cutter).into_iter().map(name).collect::<Vec<_>>()
+    };
+    programs.iter().zip(listings).flat_map(of).collect()
+}
+
+fn harm_of(listing: &Listing, cutter: Cutter) -> Vec<Finding> {
     let mut findings: Vec<Finding> = Vec::new();
     let mut say = |kind: &Diagnostic, message: &str, line: u32, at: Option<Point>| {
         if findings.iter().all(|finding| finding.name != kind.code) {
@@ -141,6 +147,8 @@ pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
             findings.push(Finding { line: Some(line), at, ..found });
         }
     };
+    // Where a V-bit is deepest it is widest: near its tip it bears no feed at all.
+    let deepest = listing.motions.iter().filter_map(check::cut_depth).max();
     for motion in &listing.motions {
         // At the surface a trail begins and ends: a rapid there is one that was not lifted.
         let reaches = |fits: fn(&Nm) -> bool| [motion.from.z, motion.to.z].iter().flatten().any(fits);
@@ -159,6 +167,10 @@ pub(super) fn harm(listing: &Listing) -> Vec<Finding> {
         }
         if cuts && !motion.spindle.turns() {
             say(&check::PLUNGE_SPINDLE_OFF, "it cuts with the spindle off", motion.line, at);
+        }
+        let fast = deepest.filter(|_| cuts && motion.way != Way::Rapid);
+        if let Some((_, message)) = fast.and_then(|deepest| check::too_fast(motion, cutter, deepest)) {
+            say(&check::FEED_PER_TURN, &message, motion.line, at);
         }
     }
     findings

@@ -22,7 +22,7 @@ use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 use crate::verify::{Cutter, CutterKind};
 
-const KIND: Diagnostic = Diagnostic {
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,
@@ -49,6 +49,14 @@ fn check(program: &Machining) -> Vec<Finding> {
 
 fn wrong(motion: &Motion, program: &Machining) -> Option<Finding> {
     let depth = cut_depth(motion)?;
+    let cutter = program.tools.at(motion.line)?;
+    let (step, message) = too_fast(motion, cutter, depth)?;
+    let wrong = Wrong { severity: Severity::Warning, message, size: Some(step) };
+    Some(found(program, NAME, wrong, place(program, motion), motion.line))
+}
+
+/// How far a tool that cuts so deep goes in a turn, in words, too, where it bears that not.
+pub(in crate::verify) fn too_fast(motion: &Motion, cutter: Cutter, depth: Nm) -> Option<(Nm, String)> {
     let (turns, how) = match motion.spindle {
         Spindle::Off | Spindle::At(0) => return None,
         Spindle::At(turns) if !FULL.contains(&turns) => (turns, "at"),
@@ -56,17 +64,12 @@ fn wrong(motion: &Motion, program: &Machining) -> Option<Finding> {
     };
     let feed = motion.feed.filter(|feed| *feed > 0)?;
     let step = Nm::try_new(feed / i64::from(turns)).unwrap_or(Nm::MAX);
-    let cutter = program.tools.at(motion.line)?;
     let width = cutter.width_at(depth);
-    if step <= most(cutter, width) {
-        return None;
-    }
     let feed = (feed + 500_000) / 1_000_000;
-    let message = format!(
-        "a cut {width:.3} mm wide at {feed} mm/min: {how} {turns} rpm that is {step:.3} mm in a turn"
-    );
-    let wrong = Wrong { severity: Severity::Warning, message, size: Some(step) };
-    Some(found(program, NAME, wrong, place(program, motion), motion.line))
+    let message = || {
+        format!("a cut {width:.3} mm wide at {feed} mm/min: {how} {turns} rpm that is {step:.3} mm in a turn")
+    };
+    (step > most(cutter, width)).then(|| (step, message()))
 }
 
 /// How far a tool may go in a turn. Chosen: a cylinder with two teeth takes a quarter of its width

@@ -45,7 +45,9 @@ mod word_not_taken;
 mod zero_differs;
 
 pub(super) use feed_missing::KIND as FEED_MISSING;
+pub(super) use feed_per_turn::{KIND as FEED_PER_TURN, too_fast};
 pub use gouge::KIND as GOUGE;
+pub(super) use pass_too_deep::{KIND as PASS_TOO_DEEP, MOST as MOST_DIAMETERS};
 pub(super) use plunge_spindle_off::KIND as PLUNGE_SPINDLE_OFF;
 pub(super) use rapid_in_material::KIND as RAPID_IN_MATERIAL;
 
@@ -322,7 +324,7 @@ fn often(count: u32, things: &str) -> String {
 }
 
 /// How deep below the surface a motion cuts; none for a rapid, and for what stays above.
-fn cut_depth(motion: &Motion) -> Option<Nm> {
+pub(super) fn cut_depth(motion: &Motion) -> Option<Nm> {
     deepest(motion).filter(|depth| *depth > Nm::ZERO && motion.way != Way::Rapid)
 }
 

@@ -21,13 +21,15 @@ use crate::verify::bores::from_axis;
 use crate::verify::machining::{Machining, Swept};
 use crate::verify::report::Finding;
 
-const KIND: Diagnostic = Diagnostic {
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,
     what: Words::of("a pass that is too deep for the end mill"),
     effect: Words::of("the end mill bends, cuts beside its way, and breaks"),
-    advice: Words::of("mill in several passes ({cutout-pass}), or with a wider end mill"),
+    advice: Words::of(
+        "mill in several passes ({cutout-pass}, or {depth-pass} for pockets), or with a wider end mill",
+    ),
 };
 
 pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
@@ -36,7 +38,7 @@ const NAME: &str = "pass-too-deep";
 
 /// So many diameters. Chosen: the flutes of end mills for boards are four to six diameters long,
 /// and makers of routers have two to three cut at once.
-const MOST: i64 = 3;
+pub(in crate::verify) const MOST: i64 = 3;
 
 /// How far within the edge of what is cut a place lies that is looked at. Chosen: programs round to
 /// a micrometre, and longer is what is cut at once.

@@ -25,6 +25,7 @@ use crate::geometry::{Nm, Point, Polygon, coarse};
 
 use super::Error;
 use super::carving::{Text, followed, harm};
+use super::check;
 use super::cutter::Cutter;
 use super::edges::Edges;
 use super::report::Finding;
@@ -94,6 +95,10 @@ const LEVEL: f64 = 1_500.0;
 /// So many findings of one kind are listed. Chosen.
 const MOST_LISTED: usize = 50;
 
+/// So many diameters one pass takes at most where nobody says how much.
+#[expect(clippy::cast_precision_loss, reason = "a small number")]
+const DIAMETERS: f64 = check::MOST_DIAMETERS as f64;
+
 /// With less room than this part of its radius a tool may go straight down. Chosen.
 const ROOM: f64 = 0.25;
 
@@ -159,8 +164,8 @@ pub fn pocketing(programs: &[Text<'_>], floor: &Floor<'_>) -> Result<Pocketed, E
     }
     let swept = Swept::by(&steps);
     let edges = Edges::new(floor.areas);
-    let mut judge = Judge { floor, programs, pocketed: Pocketed::default() };
-    judge.harm(&listings);
+    let pocketed = Pocketed { findings: harm(programs, &listings), ..Pocketed::default() };
+    let mut judge = Judge { floor, programs, pocketed };
     judge.overcut(&steps, &edges);
     judge.depths(&steps, &swept, &edges);
     judge.residue(&swept.level);
@@ -192,14 +197,6 @@ struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    fn harm(&mut self, listings: &[(Listing, Cutter)]) {
-        for (program, (listing, _)) in self.programs.iter().zip(listings) {
-            let found = harm(listing).into_iter();
-            let file = || Some(program.file.to_owned());
-            self.pocketed.findings.extend(found.map(|found| Finding { program: file(), ..found }));
-        }
-    }
-
     /// Lists the worst of some steps, one for each line.
     fn list(&mut self, kind: &Diagnostic, mut worst: Vec<(f64, &Step)>, what: impl Fn(f64) -> String) {
         worst.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.order.cmp(&b.1.order)));
@@ -256,7 +253,8 @@ impl Judge<'_> {
             if bottom > depth + tolerance {
                 deep.push((bottom - depth, step));
             }
-            let most = self.floor.step.map_or(f64::INFINITY, Nm::to_f64) + tolerance;
+            let borne = step.radius * 2.0 * DIAMETERS;
+            let most = self.floor.step.map_or(borne, Nm::to_f64) + tolerance;
             if bottom > most && !is_clear(step, WITHIN, bottom - most, swept) {
                 thick.push((bottom, step));
             }
@@ -275,9 +273,21 @@ impl Judge<'_> {
         self.list(&planning::POCKET_TOO_DEEP, deep, |by| {
             format!("it mills {:.1} µm below the floor", by / 1e3)
         });
-        self.list(&planning::POCKET_PASS_TOO_THICK, thick, |by| {
-            format!("it mills material at a depth of {:.3} mm that no pass above it has cleared", by / 1e6)
-        });
+        if self.floor.step.is_some() {
+            self.list(&planning::POCKET_PASS_TOO_THICK, thick, |by| {
+                format!(
+                    "it mills material at a depth of {:.3} mm that no pass above it has cleared",
+                    by / 1e6
+                )
+            });
+        } else {
+            // One says it: all that is deep is milled at once.
+            let worst = thick.into_iter().reduce(|a, b| if b.0 > a.0 { b } else { a });
+            let width = worst.map_or(0.0, |(_, step)| step.radius * 2.0);
+            self.list(&check::PASS_TOO_DEEP, worst.into_iter().collect(), |by| {
+                format!("a pass down to {:.3} mm with an end mill of {:.3} mm", by / 1e6, width / 1e6)
+            });
+        }
         self.list(&planning::POCKET_PLUNGE_TOO_STEEP, steep, |_| {
             "it plunges steeply into material where there is room for a ramp".to_owned()
         });
