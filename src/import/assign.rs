@@ -170,6 +170,7 @@ fn witness(gathered: &Gathered, job: &Job) -> Vec<Vote> {
 /// calls a drill file is a drawing of one (`is_drawing`).
 fn by_content(role: Role, kind: Kind, is_drawing: bool) -> Role {
     match (kind, role) {
+        (Kind::Excellon, Role::Other(layers::PARTIAL_HOLES)) => role,
         (Kind::Excellon, _) => Role::Drill,
         (Kind::Gerber, Role::Drill) if is_drawing => Role::Other("drill drawing"),
         _ => role,
@@ -230,6 +231,11 @@ fn set_aside(votes: &[Vote], gathered: &Gathered, selection: &Selection, assigne
                     let of =
                         "is named like a drill file, but it is Gerber and taken for a picture of the holes";
                     warn(format!("{} {of}: no holes are read", file.name));
+                }
+                if what == layers::PARTIAL_HOLES {
+                    let message = format!("{} has {what} to inner layers: they are not drilled", file.name);
+                    let warning = diagnostic::PARTIAL_HOLES.warning(message);
+                    assigned.warnings.push(warning.caused_by(file.first_line()));
                 }
                 what
             }

@@ -312,6 +312,12 @@ diagnostics! {
         "holes on pads, and pads on pads",
         "export all files with the same origin, and no layer mirrored";
 
+    PARTIAL_HOLES: Warning =
+        "partial-holes",
+        "A drill file with blind or buried holes",
+        "holes that go through the board",
+        "use through vias on a board that is milled, or choose the file with {drill} to drill them through";
+
     PADS_WITHOUT_HOLES: Warning =
         "pads-without-holes",
         "Through-hole pads without a hole",

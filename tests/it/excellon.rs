@@ -512,3 +512,15 @@ fn a_line_that_lost_its_end_is_not_drilled() {
     assert_eq!(starts(&drilling), [at(10_500, 20_250)], "the whole line alone");
     assert_eq!(codes(&drilling), ["truncated-file"], "and says so");
 }
+
+/// The header only says which tools there are.
+#[test]
+fn holes_before_the_body_names_one_of_several_tools_are_refused() {
+    let file = |tools: &str, body: &str| read(&format!("M48\nMETRIC\n{tools}%\n{body}X1.0Y2.0\nM30\n"));
+    let two = "T1C0.8\nT2C1.2\n";
+    let refused = file(two, "").expect_err("nobody knows with which");
+    assert!(refused.contains("a hole is drilled before any tool is selected"), "{refused}");
+    let diameter = |tools: &str, body: &str| file(tools, body).expect("a drill file").holes[0].diameter;
+    assert_eq!(diameter(two, "T1\n"), Nm::from_um(800));
+    assert_eq!(diameter("T1C0.8\n", ""), Nm::from_um(800), "there is no other");
+}

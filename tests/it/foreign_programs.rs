@@ -252,7 +252,7 @@ fn what_does_not_move_anything_is_noted_and_followed() {
         (true, "neither G20 nor G21"),
         (true, "A is ignored"),
         (true, "the checksum of a line is wrong"),
-        (false, "a command or a setting"),
+        (false, "a command of the controller"),
         (false, "after `/`"),
         (true, "M123 is unknown"),
         (true, "a comment does not end"),

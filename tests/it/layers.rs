@@ -239,6 +239,40 @@ fn copper_of_the_other_side_is_what_was_chosen_and_that_is_said() {
     );
 }
 
+/// Drilled through, they would join the sides.
+#[test]
+fn blind_and_buried_holes_are_left_out_and_that_is_said() {
+    let (front, back) = (function("Copper,L1,Top"), function("Copper,L4,Bot"));
+    let drill = |function: &str, x: u32| {
+        format!("M48\n; #@! TF.FileFunction,{function}\nMETRIC\nT1C0.4\n%\nT1\nX{x}.0Y1.0\nM30\n")
+    };
+    let gerber = function("Plated,2,3,Buried,Drill");
+    let (through, blind) = (drill("Plated,1,4,PTH", 5), drill("Plated,1,2,Blind", 7));
+    let files = [
+        ("a.gbr", &*front),
+        ("b.gbr", &*back),
+        ("a-PTH.drl", &*through),
+        ("a-front-in1.drl", &*blind),
+        ("a-in1-in2.gbr", &*gerber),
+    ];
+    let folder = Folder::with(&files);
+    let all: Vec<PathBuf> = files.iter().map(|(name, _)| folder.path(name)).collect();
+    let said = |loaded: &Loaded| -> Vec<String> {
+        let said = loaded.warnings.iter().filter(|warning| warning.code() == "partial-holes");
+        said.map(|warning| warning.message.clone()).collect()
+    };
+    let loaded = load(&all, &Selection::default()).expect("a board");
+    assert_eq!(loaded.board.holes.len(), 1, "that through the board");
+    let left = "has blind or buried holes to inner layers: they are not drilled";
+    assert_eq!(said(&loaded), [format!("a-front-in1.drl {left}"), format!("a-in1-in2.gbr {left}")]);
+    let chosen = Selection {
+        drill: vec![folder.path("a-PTH.drl"), folder.path("a-front-in1.drl")],
+        ..Selection::default()
+    };
+    let loaded = load(&all, &chosen).expect("a board");
+    assert_eq!(loaded.board.holes.len(), 2, "a person chose them");
+}
+
 #[test]
 fn a_layer_that_is_no_copper_is_what_was_chosen_and_that_is_said() {
     let mask = function("Soldermask,Top");

@@ -170,7 +170,7 @@ fn a_tool_that_nobody_has_time_to_change_is_told() {
 #[test]
 fn codes_that_a_controller_does_not_take_are_told() {
     let told = |dialect: Option<&str>, codes: &str| {
-        let text = format!("(plate cutout)\nG21 G90\nM3 S9000\nG0 X0 Y0 Z5\n{codes}\nM5\nM2\n");
+        let text = format!("(plate cutout)\nG21\nG90\nM3 S9000\nG0 X0 Y0 Z5\n{codes}\nM5\nM2\n");
         let program = Program {
             file: "codes.ngc".to_owned(),
             text,
@@ -297,5 +297,113 @@ fn what_a_program_takes_for_granted_of_where_the_machine_stands_is_told() {
     let zero = "G92 sets zero by where the tool happens to be: a zero that was set before does not count";
     let times = |count: u32| format!("{zero} ({count} times)");
     assert_eq!(found("G92 X5 Y5\nG0 Z5\nG0 X0 Y0"), [(Severity::Warning, Some(3), times(2))]);
-    assert_eq!(found("G0 Z5\nG0 X0 Y0\nG92 X5 Y5\nG0 X0 Y0"), [], "from where it went");
+    let stays = "G92 moves zero, and it is not moved back (G92.1) at the end: programs that come after lie beside this";
+    assert_eq!(found("G0 Z5\nG0 X0 Y0\nG92 X5 Y5\nG0 X0 Y0\nG92.1"), [], "and back");
+    assert_eq!(
+        found("G0 Z5\nG0 X0 Y0\nG92 X5 Y5\nG0 X0 Y0"),
+        [(Severity::Warning, Some(11), stays.to_owned())]
+    );
+    let by_hand =
+        "G10 L20 sets zero by where the tool happens to be: a zero that was set before does not count";
+    let moves = "G10 L20 moves zero, for the programs that come after, too";
+    for (lines, line, said) in [
+        ("G10 L20 P1 Z0\nG0 Z5\nG0 X0 Y0", 3, by_hand),
+        ("G0 Z5\nG0 X0 Y0\nG10 L20 P1 X5", 5, moves),
+        ("G92.3\nG0 Z5\nG0 X0 Y0", 3, "G92.3 moves zero as some program before has left it"),
+        (
+            "G43.1 Z-5\nG0 Z5\nG0 X0 Y0",
+            3,
+            "G43.1 shifts all heights by -5.000 mm: here they are taken as they stand",
+        ),
+        (
+            "T3 M6 M3\nG43 H4\nG0 Z5\nG0 X0 Y0",
+            4,
+            "G43 H4 takes the length of another tool than the one that is in",
+        ),
+        ("G64 P1\nG0 Z5\nG0 X0 Y0", 3, "G64 P1 lets the machine round corners by that much"),
+        ("M220 S1000\nG0 Z5\nG0 X0 Y0", 3, "M220 S1000: feeds are 1000 % of what they say"),
+        (
+            "$32=1\nG0 Z5\nG0 X0 Y0",
+            3,
+            "a setting of the controller is changed, for all programs that come after",
+        ),
+        (
+            "G0 Z5\nG0 X0 Y0\nG38.2 Z-5 F50",
+            5,
+            "it probes while the spindle turns: the tool drills into the plate, or into the board",
+        ),
+    ] {
+        assert_eq!(found(lines), [(Severity::Warning, Some(line), said.to_owned())], "{lines}");
+    }
+    for lines in [
+        "G0 Z5\nG0 X0 Y0\nM5\nG38.2 Z-5 F50\nG10 L20 P1 Z0\nG0 Z5\nM3",
+        "T3 M6 M3\nG43 H3\nG64 P0.01\nG0 Z5\nG0 X0 Y0",
+        "G53 G0 Z-5\nG0 X0 Y0\nG0 Z5",
+        "$X\nM220 S100\nG43.1 Z0\nG0 Z5\nG0 X0 Y0",
+    ] {
+        assert_eq!(found(lines), [], "{lines}");
+    }
+}
+
+#[test]
+fn a_tool_that_is_left_in_the_board_is_told() {
+    let start = "G21 G90\nM3 S9000\nG0 Z5\nG0 X0 Y0\nG1 Z-0.1 F50\n";
+    let found = |rest: &str| told("tool-left-down", None, &format!("{start}{rest}"));
+    let said = |line: u32, does: &str| {
+        [(Severity::Warning, Some(line), format!("it {does} with the tool 0.100 mm below the surface"))]
+    };
+    assert_eq!(found("X5\nG0 Z5\nM5\nM0\nM2\n"), []);
+    assert_eq!(found("X5\nM5\nM2\n"), said(6, "ends"));
+    assert_eq!(found("X5\nM5\nM0\nG0 Z5\nM2\n"), said(8, "waits"));
+    assert_eq!(found("X5\nM5\nT2 M6\nG0 Z5\nM2\n"), said(8, "waits"));
+    // Nobody here knows what it does.
+    assert_eq!(found("X5\nM456\nG0 Z5\nM5\nM2\n"), []);
+}
+
+/// Canned cycles do so, and whatever writes them out.
+#[test]
+fn a_rapid_into_a_hole_that_was_cut_before_is_none_through_material() {
+    let found = |motions: &str| {
+        let found = found("rapid-in-material", "endmill:1mm", &format!("M3 S9000\nG0 X5 Y5\n{motions}"));
+        found.into_iter().map(|finding| finding.message).collect::<Vec<_>>()
+    };
+    let through = |depth: &str| [format!("a rapid goes down to {depth} mm below the surface")];
+    assert_eq!(found("G1 Z-1 F50\nG0 Z0.2\nG0 Z-0.9\nG1 Z-1.8"), [""; 0]);
+    assert_eq!(found("G1 Z-1 F50\nG0 Z0.2\nG0 Z-1.1\nG1 Z-1.8"), through("1.100"), "deeper than it was cut");
+    assert_eq!(found("G1 Z-1 F50\nG0 Z0.2\nG0 X6\nG0 Z-0.9\nG1 Z-1.8"), through("0.900"), "beside it");
+    assert_eq!(found("G0 Z-0.9\nG1 Z-1.8 F50"), through("0.900"), "before it was cut");
+    assert_eq!(
+        found("G1 Z-1 F50\nG28"),
+        ["a rapid goes sideways 1.000 mm below the surface"],
+        "all axes go at once"
+    );
+    assert_eq!(found("G1 Z-1 F50\nG28 Z0"), [""; 0], "straight up");
+}
+
+#[test]
+fn lines_that_a_controller_takes_otherwise_are_told() {
+    let lines = |dialect: &str, codes: &str| {
+        let text = format!("G21\nG90\nM3 S9000\nG0 X0 Y0 Z5\n{codes}\nM5\nM2\n");
+        let of_lines = |message: &String| message.contains("line") || message.contains("takes it at once");
+        let found = told("word-not-taken", Some(dialect), &text).into_iter();
+        found.map(|(_, line, message)| (line, message)).filter(|(_, m)| of_lines(m)).collect::<Vec<_>>()
+    };
+    let bare = |dialect: &str| {
+        (Some(5), format!("coordinates in a line without a code: {dialect} passes over them (2 times)"))
+    };
+    let several =
+        |dialect: &str| (Some(5), format!("several codes in a line: {dialect} runs the first alone"));
+    for dialect in ["marlin", "klipper"] {
+        assert_eq!(lines(dialect, "X5\nY5"), [bare(dialect)]);
+        assert_eq!(lines(dialect, "G91 G0 X5\nG90"), [several(dialect)]);
+    }
+    let at_once = |what: &str, does: &str| {
+        [(Some(5), format!("`{what}`: grbl takes it at once, in comments, too, and {does}"))]
+    };
+    assert_eq!(lines("grbl", "X5\nG91 G0 Y5\nG90"), []);
+    assert_eq!(lines("grbl", "(second pass!)"), at_once("!", "holds the feed"));
+    assert_eq!(lines("grbl", "(~ 5 mm)"), at_once("~", "goes on where it waits"));
+    assert_eq!(lines("grbl", "(Ä)"), at_once("Ä", "changes feed or spindle, or opens the safety door"));
+    assert_eq!(lines("grbl", "(90°, 5 µm, café?)"), [], "bytes that it throws away");
+    assert_eq!(lines("linuxcnc", "(second pass!)\nX5"), []);
 }

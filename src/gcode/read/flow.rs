@@ -51,6 +51,7 @@ pub fn read(text: &str) -> Result<Listing, ReadError> {
         }
     }
     flow.finished()?;
+    flow.machine.finish();
     let spinning = flow.machine.is_spinning();
     Ok(Listing { spinning, ..flow.machine.listing })
 }
@@ -207,7 +208,13 @@ impl<'a> Flow<'a> {
             let block = Block::default();
             self.machine.home_all(pointer, &block)?;
         }
-        self.machine.listing.note(false, pointer.line, "a command or a setting of the controller is ignored");
+        let sets = source[1..].starts_with(|c: char| c.is_ascii_digit()) && source.contains('=');
+        let what = if sets {
+            "a setting of the controller is changed, for all programs that come after"
+        } else {
+            "a command of the controller is ignored"
+        };
+        self.machine.listing.note(sets, pointer.line, what);
         Ok(())
     }
 

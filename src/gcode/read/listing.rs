@@ -100,8 +100,25 @@ pub struct Stop {
     pub before: usize,
     /// Its line.
     pub line: u32,
-    /// Whether the spindle turns meanwhile; not told of a code that nobody here knows.
+    /// Whether that is what its code is for; else nobody here knows it.
+    pub known: bool,
+    /// Whether the spindle turns meanwhile, as far as that is known.
     pub spinning: bool,
+}
+
+/// Lines of some kind.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Tally {
+    /// The first.
+    pub line: u32,
+    /// How many there are.
+    pub count: u32,
+}
+
+impl Tally {
+    pub(super) fn count(tally: &mut Option<Self>, line: u32) {
+        tally.get_or_insert(Self { line, count: 0 }).count += 1;
+    }
 }
 
 /// A dwell whose time is behind P: controllers differ in its unit.
@@ -147,6 +164,10 @@ pub struct Listing {
     pub notes: Vec<Note>,
     /// Its codes, in the order of their first occurrence.
     pub codes: Vec<Coded>,
+    /// Its lines with coordinates and no code.
+    pub bare: Option<Tally>,
+    /// Its lines with several codes.
+    pub several: Option<Tally>,
     /// The first line, and why, from which on places are not the numbers of the text one for one (a
     /// subprogram, an expression, a moved zero); none where the text can be changed line by line.
     pub indirect: Option<(u32, &'static str)>,

@@ -181,7 +181,13 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
                 };
                 Ok(())
             }
-            Kind::Percent => Ok(()),
+            Kind::Percent => {
+                // Which of several it would be only the body says.
+                if self.tools.len() > 1 {
+                    self.tool = None;
+                }
+                Ok(())
+            }
             Kind::Keyword(fields) => {
                 self.keyword(fields, &line.place);
                 Ok(())

@@ -163,7 +163,8 @@ impl<'a> Reader<'a> {
         if head::is_text(head) {
             return self.text(node, layers, &self.frame.clone(), None);
         }
-        if head != b"layers" {
+        // What is generated stands as tracks beside it, as what is grouped does.
+        if head != b"layers" && head != b"generated" {
             self.not_read(node);
         }
         Ok(())

@@ -45,6 +45,9 @@ const DOCUMENTATION: &[&str] = &[
     "Viafill",
 ];
 
+/// What holes are called that do not go through the board.
+pub(in crate::import) const PARTIAL_HOLES: &str = "blind or buried holes";
+
 /// What a file function says.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::import) struct Function {
@@ -78,7 +81,10 @@ pub(in crate::import) fn role_by_function(function: &str) -> Option<Role> {
             _ => return None,
         },
         "Profile" => Role::Outline,
-        "Plated" | "NonPlated" | "MixedPlating" => Role::Drill,
+        "Plated" | "NonPlated" | "MixedPlating" => {
+            let is_partial = fields.any(|field| matches!(field, "Blind" | "Buried"));
+            if is_partial { Role::Other(PARTIAL_HOLES) } else { Role::Drill }
+        }
         "Soldermask" => Role::Other("solder mask"),
         "Paste" => Role::Other("paste"),
         "Legend" => Role::Other("silkscreen"),

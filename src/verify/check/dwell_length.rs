@@ -42,9 +42,9 @@ const NAME: &str = "dwell-length";
 const SECONDS: &[&str] = &["linuxcnc", "grbl", "grblhal", "fluidnc", "tinyg", "g2core"];
 const MILLISECONDS: &[&str] = &["marlin", "reprapfirmware", "klipper"];
 /// In milliseconds, the longest dwell that a spindle asks for, and one that nothing asks for.
-/// Chosen: spindles come up to speed within seconds; ten are as likely to be meant as ten
-/// thousandths.
-const LONGEST: u64 = 60_000;
+/// Chosen: some warm a spindle up for minutes; it comes up to speed within seconds, and in no
+/// twentieth of one.
+const LONGEST: u64 = 300_000;
 const SHORTEST: u64 = 50;
 
 fn check(program: &Machining) -> Vec<Finding> {

@@ -39,6 +39,7 @@ mod tab_missing;
 mod tab_spread;
 mod tab_thin;
 mod too_deep;
+mod tool_left_down;
 mod tool_not_changed;
 mod unclear;
 mod word_not_taken;
@@ -110,6 +111,7 @@ pub const ALL: &[Check] = &[
     rapid_in_material::CHECK,
     plunge_spindle_off::CHECK,
     spindle_left_on::CHECK,
+    tool_left_down::CHECK,
     feed_missing::CHECK,
     feed_per_turn::CHECK,
     pass_too_deep::CHECK,
@@ -250,7 +252,7 @@ fn place(program: &Machining, motion: &Motion) -> Option<Point> {
 fn each_stretch(
     program: &Machining,
     name: &'static str,
-    wrong: impl Fn(&Motion) -> Option<Wrong>,
+    mut wrong: impl FnMut(&Motion) -> Option<Wrong>,
 ) -> Vec<Finding> {
     let all = program
         .motions

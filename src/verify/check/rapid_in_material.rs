@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! No rapid goes sideways below the surface, or down into it. One that goes sideways less than the
-//! clearance above the surface is a warning.
+//! No rapid goes sideways below the surface, or down into it but for where it was cut before, as in
+//! pecking. One that goes sideways less than the clearance above the surface is a warning.
 //!
 //! # Why
 //!
@@ -11,9 +11,13 @@
 //!
 //! Rapids before the program's first height; clamps and screws, which nobody has told it of.
 
+use rustc_hash::FxHashMap;
+
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
-use crate::geometry::Nm;
+use crate::geometry::{Nm, Point};
+use crate::verify::machining::Machining;
+use crate::verify::report::Finding;
 
 pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -24,27 +28,37 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     advice: Words::of("retract before each rapid, higher than the surface ({safe-z})"),
 };
 
-pub(super) const CHECK: Check = Check {
-    kind: &KIND,
-
-    run: Run::Motion(|program, _, settings| {
-        each_stretch(program, NAME, |motion| wrong(motion, settings.clearance))
-    }),
-};
+pub(super) const CHECK: Check =
+    Check { kind: &KIND, run: Run::Motion(|program, _, settings| check(program, settings.clearance)) };
 
 const NAME: &str = "rapid-in-material";
 
+fn check(program: &Machining, clearance: Nm) -> Vec<Finding> {
+    // How deep it was cut where motions end.
+    let mut cut: FxHashMap<Point, Nm> = FxHashMap::default();
+    each_stretch(program, NAME, |motion| {
+        if motion.way == Way::Rapid {
+            let hollow = motion.to.point().and_then(|p| cut.get(&p)).copied();
+            return wrong(motion, clearance, hollow);
+        }
+        for place in [motion.from, motion.to] {
+            if let Some((p, z)) = place.point().zip(place.z.filter(|z| *z < Nm::ZERO)) {
+                let deepest = cut.entry(p).or_insert(z);
+                *deepest = z.min(*deepest);
+            }
+        }
+        None
+    })
+}
+
 /// Its size is how deep below the surface it runs, or how much too low above it.
-fn wrong(motion: &Motion, clearance: Nm) -> Option<Wrong> {
-    if motion.way != Way::Rapid {
-        return None;
-    }
+fn wrong(motion: &Motion, clearance: Nm, hollow: Option<Nm>) -> Option<Wrong> {
     let (from, to) = (motion.from.z.or(motion.to.z)?, motion.to.z?);
     let sideways = motion.from.point().is_some() && motion.from.point() != motion.to.point();
     let low = from.min(to);
     let (severity, message, size) = if sideways && low < Nm::ZERO {
         (Severity::Error, format!("a rapid goes sideways {:.3} mm below the surface", -low), -low)
-    } else if to < Nm::ZERO && to < from {
+    } else if to < Nm::ZERO && to < from && hollow.is_none_or(|bottom| to < bottom) {
         (Severity::Error, format!("a rapid goes down to {:.3} mm below the surface", -to), -to)
     } else if sideways && low < clearance {
         let message = format!("a rapid goes sideways only {low:.3} mm above the surface");

@@ -20,7 +20,7 @@
 //! Smoothieware (bb41e99), Marlin 2, RepRapFirmware 3.5.3, Klipper (84104bb).
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, often};
-use crate::gcode::read::Coded;
+use crate::gcode::read::{Coded, Tally};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
@@ -100,7 +100,48 @@ fn check(program: &Machining) -> Vec<Finding> {
             ..Finding::new(NAME, Severity::Error, message)
         })
     };
-    program.codes.iter().filter_map(finding).collect()
+    let codes = program.codes.iter().filter_map(finding);
+    codes.chain(lines(program, controller)).collect()
+}
+
+/// Controllers that take a character at once, and those that run one code a line, and none without.
+const AT_ONCE: &[&str] = &["grbl", "grblhal", "fluidnc"];
+const ONE_A_LINE: &[&str] = &["marlin", "klipper"];
+
+/// Lines that are taken otherwise than they read, whatever their codes are.
+fn lines(program: &Machining, controller: &str) -> Vec<Finding> {
+    let mut wrong: Vec<(String, Tally)> = Vec::new();
+    if ONE_A_LINE.contains(&controller) {
+        let bare =
+            program.bare.map(|tally| ("coordinates in a line without a code: {} passes over them", tally));
+        let several =
+            program.several.map(|tally| ("several codes in a line: {} runs the first alone", tally));
+        wrong.extend(bare.into_iter().chain(several).map(|(what, t)| (what.replace("{}", controller), t)));
+    }
+    if AT_ONCE.contains(&controller) {
+        let taken = |&(c, tally): &(char, Tally)| {
+            let does = match c {
+                '!' => "holds the feed",
+                '~' => "goes on where it waits",
+                '\u{18}' => "resets",
+                _ => "changes feed or spindle, or opens the safety door",
+            };
+            (
+                format!(
+                    "`{}`: {controller} takes it at once, in comments, too, and {does}",
+                    c.escape_debug()
+                ),
+                tally,
+            )
+        };
+        wrong.extend(program.at_once.iter().map(taken));
+    }
+    let finding = |(message, Tally { line, count }): (String, Tally)| Finding {
+        program: Some(program.file.clone()),
+        line: Some(line),
+        ..Finding::new(NAME, Severity::Error, message + &often(count, "times"))
+    };
+    wrong.into_iter().map(finding).collect()
 }
 
 impl Rule {

@@ -15,6 +15,7 @@
 //! where that was found from what it cuts.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
+use crate::gcode::read::Coded;
 use crate::geometry::Nm;
 use crate::verify::machining::{Machining, Zero};
 use crate::verify::placement::Placement;
@@ -47,13 +48,39 @@ fn check(programs: &[Machining]) -> Vec<Finding> {
         of(Zero::Given, |program| program.placement.mirror.is_none()),
         of(Zero::Given, |program| program.placement.mirror.is_some()),
     ];
-    let told = among(&of(Zero::Told, |_| true), Nm::ZERO);
-    told.into_iter().chain(found.iter().flat_map(|programs| among(programs, FOUND))).collect()
+    let lies = |programs: &[&Machining], tolerance: Nm| {
+        among(programs, |a, b| lies_elsewhere(a.placement, b.placement, tolerance))
+    };
+    let told = lies(&of(Zero::Told, |_| true), Nm::ZERO);
+    // Of those that are not mirrored nobody knows about which line they would be.
+    let mirrored = of(Zero::Told, |program| program.placement.mirror.is_some());
+    let flipped = among(&mirrored, |a, b| flipped_elsewhere(a.placement, b.placement));
+    let found = found.iter().flat_map(|programs| lies(programs, FOUND));
+    let all: Vec<&Machining> = programs.iter().collect();
+    let systems = among(&all, |a, b| {
+        let (one, other) = (systems(a), systems(b));
+        (one != other).then(|| format!("it counts from {other}, where {one} is that of"))
+    });
+    told.into_iter().chain(flipped).chain(found).chain(systems).collect()
 }
 
-/// Each of `programs` that lies elsewhere than most of them.
-fn among(programs: &[&Machining], tolerance: Nm) -> Vec<Finding> {
-    let differs = |a: &Machining, b: &Machining| differs(a.placement, b.placement, tolerance);
+/// The coordinate systems of a program: G54 is that of controllers when they start.
+fn systems(program: &Machining) -> String {
+    let is_system = |code: &&Coded| code.letter == 'G' && (540..=599).contains(&code.key);
+    let name = |code: &Coded| match code.key % 10 {
+        0 => format!("G{}", code.key / 10),
+        tenth => format!("G59.{tenth}"),
+    };
+    let mut names: Vec<String> = program.codes.iter().filter(is_system).map(name).collect();
+    names.sort_unstable();
+    if names.is_empty() { "G54".to_owned() } else { names.join(", ") }
+}
+
+/// Each of `programs` that differs from most of them, and how.
+fn among(
+    programs: &[&Machining],
+    differs: impl Fn(&Machining, &Machining) -> Option<String>,
+) -> Vec<Finding> {
     let agree = |a: &Machining| programs.iter().filter(|b| differs(a, b).is_none()).count();
     // The first of those that most agree with.
     let Some(usual) = programs.iter().rev().max_by_key(|program| agree(program)) else { return Vec::new() };
@@ -68,16 +95,19 @@ fn among(programs: &[&Machining], tolerance: Nm) -> Vec<Finding> {
 }
 
 /// How the board lies otherwise in the second than in the first; none where it does not.
-fn differs(a: Placement, b: Placement, tolerance: Nm) -> Option<String> {
+fn lies_elsewhere(a: Placement, b: Placement, tolerance: Nm) -> Option<String> {
     let (turned, way) = (b.degrees - a.degrees, b.shift + -a.shift);
-    let flipped = a.mirror.zip(b.mirror).map_or(Nm::ZERO, |(a, b)| b - a);
     if turned.abs() > 1e-6 {
         Some(format!("the board is turned by {turned:.3}° against"))
     } else if way.x.abs().max(way.y.abs()) > tolerance {
         Some(format!("zero lies {:.3}, {:.3} mm away from that of", -way.x, -way.y))
-    } else if flipped != Nm::ZERO {
-        Some(format!("the board is flipped about a line {flipped:.3} mm to the right of that of"))
     } else {
         None
     }
+}
+
+/// The same of the lines about which they are mirrored.
+fn flipped_elsewhere(a: Placement, b: Placement) -> Option<String> {
+    let by = b.mirror? - a.mirror?;
+    (by != Nm::ZERO).then(|| format!("the board is flipped about a line {by:.3} mm to the right of that of"))
 }

@@ -12,8 +12,9 @@ use crate::geometry::Nm;
 
 use super::block::{Block, Word};
 use super::error::ReadError;
+use super::expression::index;
 use super::frame::{Axis, Plane};
-use super::listing::{Listing, Place, Spindle, Stop};
+use super::listing::{Listing, Place, Spindle, Stop, Tally};
 use super::meaning::{Distance, FeedMode, Meaning, Mode, Special, meaning};
 use super::source::Pointer;
 use super::variables::Variables;
@@ -79,6 +80,10 @@ pub(super) struct Machine {
     /// What the last probe found, in nanometres on the board.
     probed: [Option<Nm>; 3],
 }
+
+/// Corners that are rounded by more are not where they are planned, in nanometres. Chosen: what a
+/// hole may be off its place.
+const ROUNDED: f64 = 50_000.0;
 
 /// What a line asks of the flow of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,6 +151,7 @@ impl Machine {
         if orders.change_tool {
             self.tool = self.selected;
         }
+        self.passed_over(run);
         if orders.dwell {
             self.dwell(run)?;
         }
@@ -160,8 +166,9 @@ impl Machine {
             self.variables.set(name.clone(), *value);
         }
         if let Some(waits) = orders.stop {
-            let spinning = waits == Waits::Surely && self.modal.spinning;
-            self.listing.stops.push(Stop { before: self.listing.motions.len(), line: run.line(), spinning });
+            let (before, known) = (self.listing.motions.len(), waits == Waits::Surely);
+            let spinning = known && !orders.change_tool && self.modal.spinning;
+            self.listing.stops.push(Stop { before, line: run.line(), known, spinning });
         }
         if orders.ask == Some(Ask::End) {
             self.listing.end = Some(run.line());
@@ -201,6 +208,12 @@ impl Machine {
         }
         if block.computed {
             self.listing.is_indirect(line, "a parameter or an expression");
+        }
+        let orders = block.orders.len();
+        if orders == 0 && block.first("XYZ").is_some() {
+            Tally::count(&mut self.listing.bare, line);
+        } else if orders > 1 {
+            Tally::count(&mut self.listing.several, line);
         }
         if block.optional {
             self.listing.note(
@@ -245,7 +258,17 @@ impl Machine {
                     self.listing.note(true, run.line(), what);
                     self.modal.spinning = true;
                 }
-                Meaning::ToolChange | Meaning::SetTool => orders.change_tool = true,
+                Meaning::ToolChange => {
+                    orders.change_tool = true;
+                    orders.stop = Some(Waits::Surely);
+                    // NIST RS274/NGC §3.6.3: it stands when the change is complete; what the same
+                    // line says of it comes after (§3.8).
+                    let starts = |key: u32| {
+                        run.block.orders.iter().any(|order| (order.letter, order.key) == ('M', key))
+                    };
+                    self.modal.spinning = starts(30) || starts(40);
+                }
+                Meaning::SetTool => orders.change_tool = true,
                 Meaning::Stop => orders.stop = Some(Waits::Surely),
                 Meaning::End => orders.ask = Some(Ask::End),
                 Meaning::Call => orders.ask = Some(Ask::Call),
@@ -271,6 +294,28 @@ impl Machine {
             orders.motion = orders.motion.or(Some(self.modal.mode));
         }
         Ok(orders)
+    }
+
+    /// Notes codes that change how motions run, and that are not followed.
+    #[expect(clippy::cast_precision_loss, reason = "a small unit")]
+    fn passed_over(&mut self, run: Run<'_>) {
+        let block = run.block;
+        let value = |letter: char| block.get(letter).map(|word| word.value);
+        for order in &block.orders {
+            let what = match ((order.letter, order.key), value('P'), value('S'), value('H')) {
+                (('G', 640), Some(p), ..) if p * self.modal.unit as f64 > ROUNDED => {
+                    format!("G64 P{p} lets the machine round corners by that much")
+                }
+                (('G', 430), .., Some(h)) if self.tool.is_some() && index(h) != self.tool => {
+                    format!("G43 H{h} takes the length of another tool than the one that is in")
+                }
+                (('M', 2200), _, Some(s), _) if (s - 100.0).abs() >= 1.0 => {
+                    format!("M220 S{s}: feeds are {s} % of what they say")
+                }
+                _ => continue,
+            };
+            self.listing.note(true, run.line(), what);
+        }
     }
 
     /// Another coordinate system.

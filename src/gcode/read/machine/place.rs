@@ -119,20 +119,39 @@ impl Machine {
                 }
             }
             Special::Drop { keep } => self.axes.iter_mut().for_each(|axis| axis.drop_shift(keep)),
-            Special::Restore => self.axes.iter_mut().for_each(|axis| axis.restore_shift()),
-            Special::Ignored => {}
+            Special::Restore => {
+                self.listing.note(true, run.line(), "G92.3 moves zero as some program before has left it");
+                self.axes.iter_mut().for_each(|axis| axis.restore_shift());
+            }
+            Special::Ignored => self.length_offset(run)?,
         }
+        Ok(())
+    }
+
+    /// Notes a tool length that shifts all heights: they are taken as they stand.
+    fn length_offset(&mut self, run: Run<'_>) -> Result<(), ReadError> {
+        let sets = run.block.orders.iter().any(|order| (order.letter, order.key) == ('G', 431));
+        let Some(word) = run.block.get('Z').filter(|word| sets && word.value != 0.0) else { return Ok(()) };
+        let by = Nm::new(self.scaled(run, word)?);
+        let what = format!("G43.1 shifts all heights by {by:.3} mm: here they are taken as they stand");
+        self.listing.note(true, run.line(), what);
         Ok(())
     }
 
     /// G92 of an axis.
     fn here(&mut self, run: Run<'_>, axis: usize, value: Nm) {
+        self.zero_by_hand(run, axis, "G92");
+        self.axes[axis].here(self.modal.system, value, false);
+    }
+
+    /// Notes a zero that is set where nobody knows that the tool is.
+    fn zero_by_hand(&mut self, run: Run<'_>, axis: usize, code: &str) {
         if self.axes[axis].at.is_none() && !self.axes[axis].sent {
-            let what =
-                "G92 sets zero by where the tool happens to be: a zero that was set before does not count";
+            let what = format!(
+                "{code} sets zero by where the tool happens to be: a zero that was set before does not count"
+            );
             self.listing.note(true, run.line(), what);
         }
-        self.axes[axis].here(self.modal.system, value, false);
     }
 
     /// G10: L2 sets the zero of a system from the machine's, L20 from where the tool is; L1, L10
@@ -163,10 +182,31 @@ impl Machine {
             if index(kind.value) == Some(2) {
                 self.axes[axis].set_zero(system, value);
             } else {
+                self.zero_by_hand(run, axis, "G10 L20");
+                self.moves_zero(run, axis, system, value);
                 self.axes[axis].here(system, value, true);
             }
         }
         Ok(())
+    }
+
+    /// Notes a zero that is moved for good from where the tool is, unless a probe has found it.
+    fn moves_zero(&mut self, run: Run<'_>, axis: usize, system: usize, value: Nm) {
+        let is_found = self.axes[axis].found;
+        let (at, origin) = (self.axes[axis].at, self.axes[axis].origin(system));
+        if !is_found && at.zip(origin).is_some_and(|(at, origin)| at - value != origin) {
+            let what = "G10 L20 moves zero, for the programs that come after, too";
+            self.listing.note(true, run.line(), what);
+        }
+    }
+
+    /// At the end: notes a zero that G92 has moved, and nothing has moved back.
+    pub(in crate::gcode::read) fn finish(&mut self) {
+        if self.axes.iter().any(|axis| axis.shift() != Nm::ZERO) {
+            let what = "G92 moves zero, and it is not moved back (G92.1) at the end: programs that come after \
+                        lie beside this";
+            self.listing.note(true, self.line, what);
+        }
     }
 
     /// G28 and G30: by the place that the line gives, if any, to one that only the machine knows.
@@ -202,7 +242,12 @@ impl Machine {
 
     /// To places of the machine along some axes: up first.
     pub(super) fn send(&mut self, run: Run<'_>, which: [bool; 3]) -> Result<(), ReadError> {
-        if which[2] && self.axes[2].at.is_some() {
+        // All axes go at once: below the surface that is sideways through it.
+        let is_low = self.axes[2].at.is_some_and(|z| z < Nm::ZERO) && (which[0] || which[1]);
+        if is_low {
+            let [x, y, z] = self.axes.map(|axis| axis.at);
+            self.go(run, Way::Rapid, [x.filter(|_| !which[0]), y.filter(|_| !which[1]), z])?;
+        } else if which[2] && self.axes[2].at.is_some() {
             let [x, y, _] = self.axes.map(|axis| axis.at);
             self.go(run, Way::Rapid, [x, y, None])?;
         }

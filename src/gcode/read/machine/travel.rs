@@ -11,6 +11,10 @@ use super::{Machine, Orders, Run};
 /// How many motions are followed. Chosen: a hundred times as many as a large board has.
 const MOTIONS: usize = 5_000_000;
 
+/// Heights of the machine so far below its top are above all work. Chosen: how far homing pulls
+/// off, and what posts for machines that home to the top write.
+const TOP: Nm = Nm::from_mm(10);
+
 impl Machine {
     /// The motion of a line, if it has one.
     pub(super) fn motion(&mut self, run: Run<'_>, orders: &Orders) -> Result<(), ReadError> {
@@ -84,8 +88,11 @@ impl Machine {
         if !unknown.contains(&true) {
             return self.go(run, way, to);
         }
-        let low = run.block.get('Z').filter(|word| unknown[2] && word.value < 0.0);
-        if low.is_some() {
+        let low = match run.block.get('Z').filter(|_| unknown[2]) {
+            Some(word) => Nm::new(self.scaled(run, word)?) < -TOP,
+            None => false,
+        };
+        if low {
             let what = "G53 with Z below machine zero: its height above the board is unknown";
             self.listing.note(true, run.line(), what);
         } else {
@@ -106,6 +113,10 @@ impl Machine {
     /// the program says.
     fn probe(&mut self, run: Run<'_>) -> Result<(), ReadError> {
         self.listing.is_indirect(run.line(), "a probe");
+        if self.modal.spinning {
+            let what = "it probes while the spindle turns: the tool drills into the plate, or into the board";
+            self.listing.note(true, run.line(), what);
+        }
         let mut to = self.target(run)?;
         let from = self.axes.map(|axis| axis.at);
         let down = to[2] != from[2] && to[2] < Some(Nm::ZERO);
