@@ -154,7 +154,10 @@ impl Draw {
             return self.write(&png::rgb(canvas.ok_or_else(|| no_copper(side))?));
         }
         let area = self.window.map(|Window(rect)| rect);
-        let format = self.format.unwrap_or_else(|| Format::of(&self.output));
+        let format = match self.format {
+            Some(format) => format,
+            None => Format::of(&self.output)?,
+        };
         let rim = if self.stage.shows_frame()
             && settings.options().frame == Some(true)
             && loaded.board.outline.is_none()
@@ -293,13 +296,21 @@ const SIXELS: i64 = 900;
 
 impl Format {
     /// What a file's name asks for; in a terminal, what it can show.
-    fn of(output: &Path) -> Self {
+    fn of(output: &Path) -> Result<Self, Failure> {
         if output == Path::new("-") && std::io::stdout().is_terminal() {
-            if colour::are_wanted() { Self::Blocks } else { Self::Shades }
-        } else if output.extension().is_some_and(|end| end.eq_ignore_ascii_case("svg")) {
-            Self::Svg
-        } else {
-            Self::Png
+            return Ok(if colour::are_wanted() { Self::Blocks } else { Self::Shades });
+        }
+        let end = output.extension().and_then(|end| end.to_str()).map(str::to_ascii_lowercase);
+        match end.as_deref() {
+            Some("svg") => Ok(Self::Svg),
+            Some(other @ ("jpg" | "jpeg" | "bmp" | "gif" | "tif" | "tiff" | "webp" | "pdf")) => {
+                let cause = format!("{}: pictures are not written as .{other}", output.display());
+                Err(Failure::new(
+                    cause,
+                    "name the picture .png or .svg, or choose how it is written with --format",
+                ))
+            }
+            _ => Ok(Self::Png),
         }
     }
 

@@ -269,7 +269,16 @@ impl Verify {
         let Loaded { mut board, sources, .. } =
             stages.run("reading", || import::survey(&self.board, &selection), |_| [])?;
         let files = self.files()?;
-        let mut programs = files.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
+        let read = files.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
+        let is_probe = |program: &Program| verify::declared_probe(&program.text);
+        let (probes, mut programs): (Vec<Program>, Vec<Program>) = read.into_iter().partition(is_probe);
+        for Program { file, .. } in &probes {
+            shared.say(&format!("  {file}: it probes the surface, and mills nothing\n"));
+        }
+        if programs.is_empty() {
+            let hint = "name those that isolate, drill or cut out";
+            return Err(Failure::new("the programs mill nothing: they probe the surface", hint));
+        }
         self.leave_out(&mut board, &programs);
         let usual = verify::Settings::default();
         let settings = verify::Settings {

@@ -116,15 +116,19 @@ pub(super) fn written(
     };
     let mut warnings = settings.machine.restrain(&mut program);
     program.sections[0].tool.number = number;
-    let statistics = measure(&program, &settings.machine);
-    let header = Header {
-        generator: GENERATOR.to_owned(),
-        inputs: art.inputs.clone(),
-        settings: said,
-        seconds: Some(statistics.seconds),
-    };
-    let text = gcode::write(&program, &settings.dialect, &header);
-    warnings.extend(program.check_travel(&settings.machine));
+    let [change, end] = settings.parking();
+    let (statistics, text, warning) = program.while_parking(change, end, |program| {
+        let statistics = measure(program, &settings.machine);
+        let header = Header {
+            generator: GENERATOR.to_owned(),
+            inputs: art.inputs.clone(),
+            settings: said,
+            seconds: Some(statistics.seconds),
+        };
+        let text = gcode::write(program, &settings.dialect, &header);
+        (statistics, text, program.check_travel(&settings.machine))
+    });
+    warnings.extend(warning);
     (OneTool { tag: tag.to_owned(), program, statistics, text }, warnings)
 }
 

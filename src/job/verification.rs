@@ -9,7 +9,8 @@ use super::{Error, Job, Part, Settings, Written};
 impl Job {
     /// Mills its programs on a picture, from their texts, and says what is wrong with them.
     ///
-    /// Of several tiles the first is judged: the others are the same moves elsewhere.
+    /// Of several tiles the first is judged: the others are the same moves elsewhere. That all of
+    /// them lie within the machine is asked of the whole programs.
     ///
     /// The programs say for themselves what tools they are for; how the board lies is told, not
     /// found.
@@ -19,9 +20,26 @@ impl Job {
     /// [`Error::Verify`] where a program cannot be followed.
     pub fn verify(&self, settings: &Settings) -> Result<Report, Error> {
         let programs = self.judged(settings, |_| true);
+        let tiled = self.tiled(&programs);
+        let (judging, travel) = (judging(settings), settings.machine.travel);
+        let judging = verify::Settings { travel: travel.filter(|_| tiled.is_empty()), ..judging };
         let known: Vec<Known<'_>> =
             self.layers.iter().map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
-        Ok(verify(&programs, &self.board, &known, &judging(settings))?)
+        let report = verify(&programs, &self.board, &known, &judging)?;
+        Ok(match travel.filter(|_| !tiled.is_empty()) {
+            Some(travel) => report.with(verify::overtravel(&tiled, travel)?),
+            None => report,
+        })
+    }
+
+    /// Of these programs of one tile, those that mill several, whole.
+    fn tiled(&self, judged: &[Program]) -> Vec<Program> {
+        let whole = |program: &Program| {
+            let written =
+                self.programs.iter().find(|written| written.tile.as_ref() == Some(&program.text))?;
+            Some(Program { text: written.text.clone(), ..program.clone() })
+        };
+        judged.iter().filter_map(whole).collect()
     }
 
     /// What those of its programs mill that run with such a side up, read back from their texts.

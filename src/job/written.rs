@@ -2,7 +2,7 @@
 
 use crate::board::{Side, Warning};
 use crate::gcode::{self, Header};
-use crate::geometry::Point;
+use crate::geometry::{Nm, Point};
 use crate::toolpath::{Program, Statistics, Tiling, measure};
 
 use super::part::Part;
@@ -30,6 +30,19 @@ pub struct Written {
     pub warning: Option<Warning>,
 }
 
+impl Settings {
+    /// Where the tool stands while another is fitted, and at the end: a place if there is one, and
+    /// a height.
+    pub(super) fn parking(&self) -> [(Option<Point>, Nm); 2] {
+        let place = |at: ToolChangeAt| match at {
+            ToolChangeAt::Place(Triple([x, y, z])) => (Some(Point::new(x.nm(), y.nm())), z.nm()),
+            ToolChangeAt::Height(z) => (None, z.nm()),
+        };
+        let end = place(self.asked.park);
+        [self.asked.tool_change_at.map_or(end, place), end]
+    }
+}
+
 impl Written {
     /// `program`, on every tile, in the dialect of `settings`, under `header` with its settings and
     /// the time it takes.
@@ -41,12 +54,7 @@ impl Written {
         tiling: Option<Tiling>,
         settings: &Settings,
     ) -> Self {
-        let place = |at: ToolChangeAt| match at {
-            ToolChangeAt::Place(Triple([x, y, z])) => (Some(Point::new(x.nm(), y.nm())), z.nm()),
-            ToolChangeAt::Height(z) => (None, z.nm()),
-        };
-        let end = place(settings.asked.park);
-        let change = settings.asked.tool_change_at.map_or(end, place);
+        let [change, end] = settings.parking();
         let mut options = settings.options().listed();
         // How the board is turned every program must say, so that it can be judged by itself.
         let turned = |option: &str, value: &str| option == "rotate" && value != "0deg";

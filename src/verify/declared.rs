@@ -80,6 +80,14 @@ pub fn declared_setting(text: &str, setting: &str) -> Option<String> {
     (!parts.is_empty()).then(|| unescaped(&parts.join(" ")))
 }
 
+/// Whether a program says in its title that it probes the surface: it mills nothing.
+#[must_use]
+pub fn declared_probe(text: &str) -> bool {
+    lines(text)
+        .next()
+        .is_some_and(|first| comments(first).iter().any(|title| title.trim().ends_with(" probe")))
+}
+
 /// The texts of a setting that is a list, each of which may have blanks; none where the program
 /// says nothing.
 #[must_use]

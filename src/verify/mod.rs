@@ -84,7 +84,7 @@ use crate::topology::Nets;
 pub use crate::board::Severity;
 pub use asked::Asked;
 pub use cutter::{Cutter, CutterKind, ParseCutterError};
-pub use declared::{declared_list, declared_setting};
+pub use declared::{declared_list, declared_probe, declared_setting};
 pub use diff::{Change, Comparison, Region, Spot, diff};
 pub use placement::Placement;
 pub use register::{Orientation, register};
@@ -157,6 +157,17 @@ pub struct Input {
 #[must_use]
 pub fn revisions(programs: &[Program], inputs: &[Input]) -> Vec<Finding> {
     programs.iter().flat_map(|program| check::inputs(program, inputs)).collect()
+}
+
+/// What in `programs` spans more than the machine can travel; of nothing else they are judged.
+///
+/// # Errors
+///
+/// [`Error::Read`] for a text that cannot be followed.
+pub fn overtravel(programs: &[Program], travel: [Nm; 3]) -> Result<Vec<Finding>, Error> {
+    let found: Vec<Vec<Finding>> =
+        programs.par_iter().map(|program| check::overtravel(program, travel)).collect::<Result<_, _>>()?;
+    Ok(found.into_iter().flatten().collect())
 }
 
 /// What is tolerated.

@@ -90,3 +90,18 @@ fn a_tool_may_touch_its_plate_before_it_cuts() {
         assert!(text.contains("G38.2"), "{command}: it touches");
     }
 }
+
+#[test]
+fn the_tool_parks_where_it_was_asked_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let program = folder.path().join("made.ngc").display().to_string();
+    for (command, tool) in [("carve", "vbit:0.1mm:60deg"), ("pocket", "endmill:0.5mm")] {
+        for (park, ends) in [("30mm", "G0 Z30\nM5\nM2\n"), ("1mm,2mm,40mm", "G0 Z40\nG0 X1 Y2\nM5\nM2\n")] {
+            let parks = ["--park", park, "--tool", tool, "-o", &program];
+            let made = voromill(&[&[command, "fixtures/drawings/strokes.svg"][..], &parks].concat());
+            assert!(made.status.success(), "{}{}", stdout(&made), stderr(&made));
+            let text = std::fs::read_to_string(&program).expect("a program");
+            assert!(text.ends_with(ends), "{command} {park}: {}", &text[text.len() - 60..]);
+        }
+    }
+}

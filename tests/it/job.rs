@@ -264,6 +264,17 @@ fn programs_that_the_machine_cannot_reach_are_named() {
     assert!(warned(&small, "beyond-the-machine"), "60 mm on 50: {:?}", small.warnings);
     let (large, _) = job("regulator", "machine-travel = \"100mm,100mm,40mm\"");
     assert!(!warned(&large, "beyond-the-machine"), "60 mm on 100");
+    let found = |settings: &str| {
+        let (job, settings) = job("regulator", settings);
+        let findings = job.verify(&settings).expect("programs that can be followed").findings;
+        let far = findings.into_iter().filter(|finding| finding.name == "overtravel");
+        far.map(|finding| finding.message).collect::<Vec<_>>()
+    };
+    assert_eq!(found("machine-travel = \"100mm,100mm,40mm\""), [""; 0]);
+    let panel = found("tile = \"2x1\"\nmachine-travel = \"100mm,100mm,40mm\"");
+    assert!(panel.len() > 3, "each program that mills both boards: {panel:?}");
+    assert!(panel.iter().all(|message| message.starts_with("x goes from ")), "{panel:?}");
+    assert_eq!(found("tile = \"2x1\"\nmachine-travel = \"200mm,100mm,40mm\""), [""; 0]);
 }
 
 #[test]

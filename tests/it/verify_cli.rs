@@ -248,3 +248,38 @@ fn nets_that_were_left_out_are_not_missed() {
     let all = judge(&["--ignore", "nothing"]);
     assert_eq!(all.status.code(), Some(1), "all nets: {}", stdout(&all));
 }
+
+/// As it lies beside the others once a board was probed.
+#[test]
+fn a_program_that_probes_is_left_out_and_that_is_said() {
+    let folder = TempDir::new().expect("a folder");
+    let blinker = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker").display().to_string();
+    let done = |arguments: &[&str]| voromill(folder.path(), arguments);
+    assert!(done(&["mill", &blinker, "-o", "out"]).status.success());
+    assert!(done(&["probe", &blinker, "-o", "out/probe.ngc"]).status.success());
+    let judged = done(&["verify", "out", "--board", &blinker]);
+    assert_eq!(judged.status.code(), Some(0), "{}", stderr(&judged));
+    assert!(stdout(&judged).contains("fit to mill"), "{}", stdout(&judged));
+    assert!(
+        stderr(&judged).contains("probe.ngc: it probes the surface, and mills nothing"),
+        "{}",
+        stderr(&judged)
+    );
+    let alone = done(&["verify", "out/probe.ngc", "--board", &blinker]);
+    assert_eq!(alone.status.code(), Some(2), "{}", stdout(&alone));
+    assert!(stderr(&alone).contains("the programs mill nothing"), "{}", stderr(&alone));
+}
+
+#[test]
+fn a_picture_is_not_written_as_something_else_than_its_name_says() {
+    let folder = TempDir::new().expect("a folder");
+    let board = fixture("pads-F_Cu.gbr");
+    for name in ["a.jpg", "a.PDF"] {
+        let refused = voromill(folder.path(), &["draw", &board, "--stage", "copper", "-o", name]);
+        assert_eq!(refused.status.code(), Some(2), "{name}");
+        assert!(stderr(&refused).contains("pictures are not written as"), "{}", stderr(&refused));
+        assert!(!folder.path().join(name).exists(), "{name}");
+    }
+    let chosen = ["draw", &board, "--stage", "copper", "-o", "a.jpg", "--format", "png"];
+    assert!(voromill(folder.path(), &chosen).status.success(), "as it was chosen");
+}

@@ -22,7 +22,9 @@ const KIND: Diagnostic = Diagnostic {
     severity: Severity::Error,
     what: Words::of("a hole that is not drilled"),
     effect: Words::of("a part does not fit, or a via is missing"),
-    advice: Words::of("mill the drill programs too, or name the drill file ({drill})"),
+    advice: Words::of(
+        "mill the drill programs too, name the drill file ({drill}), or add a drill that fits ({drills}, {drill-tolerance})",
+    ),
 };
 
 pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Drilling(check) };

@@ -48,6 +48,7 @@ mod zero_differs;
 pub(super) use feed_missing::KIND as FEED_MISSING;
 pub(super) use feed_per_turn::{KIND as FEED_PER_TURN, too_fast};
 pub use gouge::KIND as GOUGE;
+pub(super) use overtravel::of_text as overtravel;
 pub(super) use pass_too_deep::{KIND as PASS_TOO_DEEP, MOST as MOST_DIAMETERS};
 pub(super) use plunge_spindle_off::KIND as PLUNGE_SPINDLE_OFF;
 pub(super) use rapid_in_material::KIND as RAPID_IN_MATERIAL;

@@ -13,11 +13,11 @@
 //! places that the program does not give are refused by the reader.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
-use crate::gcode::read::{Motion, Way};
+use crate::gcode::read::{self, Motion, Way};
 use crate::geometry::{Arc, Nm};
-use crate::verify::Settings;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
+use crate::verify::{Error, Program, Settings};
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -37,9 +37,24 @@ const NAME: &str = "overtravel";
 type Axis = fn(&Motion) -> Option<(Nm, Nm)>;
 
 fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
-    let Some([x, y, z]) = settings.travel else { return Vec::new() };
+    let Some(travel) = settings.travel else { return Vec::new() };
+    let found = |beyond: Beyond<'_>| Finding {
+        at: beyond.motion.to.point().map(|p| program.placement.undo(p)),
+        ..beyond.finding(&program.file)
+    };
+    all(&program.motions, travel).map(found).collect()
+}
+
+/// The same of a program's text, without places on the board.
+pub(in crate::verify) fn of_text(program: &Program, travel: [Nm; 3]) -> Result<Vec<Finding>, Error> {
+    let failed = |reason| Error::Read { file: program.file.clone(), reason };
+    let listing = read::read(&read::without_own_code(&program.text)).map_err(failed)?;
+    Ok(all(&listing.motions, travel).map(|beyond| beyond.finding(&program.file)).collect())
+}
+
+fn all(motions: &[Motion], [x, y, z]: [Nm; 3]) -> impl Iterator<Item = Beyond<'_>> {
     let axes: [(&str, Nm, Axis); 3] = [("x", x, along_x), ("y", y, along_y), ("z", z, along_z)];
-    axes.into_iter().filter_map(|(name, travel, axis)| beyond(program, name, travel, axis)).collect()
+    axes.into_iter().filter_map(|(name, travel, axis)| beyond(motions, name, travel, axis))
 }
 
 fn along_x(motion: &Motion) -> Option<(Nm, Nm)> {
@@ -61,11 +76,29 @@ fn arc(motion: &Motion) -> Option<Arc> {
     Some(Arc { start: motion.from.point()?, end: motion.to.point()?, center, turn })
 }
 
-/// The motion after which an axis has spanned more than it can.
-fn beyond(program: &Machining, name: &str, travel: Nm, axis: Axis) -> Option<Finding> {
+/// An axis that spans more than it can.
+struct Beyond<'a> {
+    /// After which it does.
+    motion: &'a Motion,
+    by: Nm,
+    message: String,
+}
+
+impl Beyond<'_> {
+    fn finding(self, file: &str) -> Finding {
+        Finding {
+            size: Some(self.by),
+            program: Some(file.to_owned()),
+            line: Some(self.motion.line),
+            ..Finding::new(NAME, Severity::Error, self.message)
+        }
+    }
+}
+
+fn beyond<'a>(motions: &'a [Motion], name: &str, travel: Nm, axis: Axis) -> Option<Beyond<'a>> {
     let mut span: Option<(Nm, Nm)> = None;
     let mut first: Option<&Motion> = None;
-    for motion in &program.motions {
+    for motion in motions {
         let Some(own) = axis(motion) else { continue };
         let (low, high) = span.map_or(own, |(low, high)| (low.min(own.0), high.max(own.1)));
         span = Some((low, high));
@@ -76,11 +109,5 @@ fn beyond(program: &Machining, name: &str, travel: Nm, axis: Axis) -> Option<Fin
     let (motion, (low, high)) = (first?, span?);
     let message =
         format!("{name} goes from {low:.3} to {high:.3} mm, and the machine travels {travel:.3} mm");
-    Some(Finding {
-        at: motion.to.point().map(|p| program.placement.undo(p)),
-        size: Some(high - low - travel),
-        program: Some(program.file.clone()),
-        line: Some(motion.line),
-        ..Finding::new(NAME, Severity::Error, message)
-    })
+    Some(Beyond { motion, by: high - low - travel, message })
 }
