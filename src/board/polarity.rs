@@ -4,7 +4,7 @@ use crate::geometry::{Polygon, RectIndex};
 
 pub(crate) use super::boolean::of_circles;
 pub use super::boolean::{
-    FillRule, clean, difference, effort, filled, intersection, is_tangled, offset, union,
+    FillRule, clean, common, difference, effort, filled, intersection, is_tangled, offset, remainder, union,
 };
 
 use super::boolean::Tangle;

@@ -10,7 +10,7 @@
 
 use rayon::prelude::*;
 
-use crate::board::polarity::{clean, difference, intersection, offset, union};
+use crate::board::polarity::{clean, common, difference, offset, remainder, union};
 use crate::board::{FLATTEN, Feature, Shape};
 use crate::geometry::{Nm, Point, Polygon};
 use crate::topology::NetId;
@@ -101,11 +101,7 @@ impl<'a> Cleared<'a> {
             })
             .collect();
         let wanted = common(&common(&union(&wide), areas), &self.board);
-        let beside = |part: &Polygon| -> Vec<Polygon> {
-            let near = self.slopes.iter().filter(|slope| slope.bounds().touches(part.bounds()));
-            difference(part, &near.cloned().collect::<Vec<_>>())
-        };
-        let wanted: Vec<Polygon> = wanted.par_iter().flat_map_iter(beside).collect();
+        let wanted = if self.slopes.is_empty() { wanted } else { remainder(&wanted, &self.slopes) };
         left(&wanted, &self.swept, 0.0, PITCH)
     }
 
@@ -117,15 +113,6 @@ impl<'a> Cleared<'a> {
 /// How much is allowed for.
 fn slack(asked: &Asked) -> Nm {
     SLACK.max(asked.tolerance * 2)
-}
-
-/// What two sets of areas have in common, each of which has no place twice.
-fn common(some: &[Polygon], others: &[Polygon]) -> Vec<Polygon> {
-    let with = |part: &Polygon| -> Vec<Polygon> {
-        let near = others.iter().filter(|other| other.bounds().touches(part.bounds()));
-        near.flat_map(|other| intersection(part, other)).collect()
-    };
-    some.par_iter().flat_map_iter(with).collect()
 }
 
 /// The board; without an outline the hull of its copper.

@@ -88,6 +88,19 @@ pub fn intersection(a: &Polygon, b: &Polygon) -> Vec<Polygon> {
     operands.overlay(OverlayRule::Intersect)
 }
 
+/// What some polygons and some others both cover; each as for [`union`]. Of many this is one
+/// boolean, where one for each pair takes as long as there are pairs.
+#[must_use]
+pub fn common(some: &[Polygon], others: &[Polygon]) -> Vec<Polygon> {
+    Operands::of(some, others).overlay(OverlayRule::Intersect)
+}
+
+/// What some polygons cover and none of the others does, in one boolean, too.
+#[must_use]
+pub fn remainder(some: &[Polygon], others: &[Polygon]) -> Vec<Polygon> {
+    Operands::of(some, others).overlay(OverlayRule::Difference)
+}
+
 /// `polygon` grown by `by` on every side, with round corners within `tolerance`; shrunk where `by`
 /// is negative. Polygons as for [`union`].
 #[must_use]
@@ -211,6 +224,13 @@ struct Operands {
 impl Operands {
     fn new() -> Self {
         Self { overlay: Overlay::new(0), circles: Vec::new() }
+    }
+
+    fn of(subjects: &[Polygon], clips: &[Polygon]) -> Self {
+        let mut operands = Self::new();
+        subjects.iter().for_each(|polygon| operands.add(polygon, ShapeType::Subject));
+        clips.iter().for_each(|polygon| operands.add(polygon, ShapeType::Clip));
+        operands
     }
 
     fn add(&mut self, polygon: &Polygon, kind: ShapeType) {
