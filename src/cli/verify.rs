@@ -310,7 +310,7 @@ impl Verify {
         let verdict = Verdict::from(&report);
         match self.format {
             Format::Text => {
-                shared.report(&format!("{}{}", verdict.to_text(shared.is_verbose()), verdict.fitness()))
+                shared.report(&format!("{}{}", verdict.to_text(shared.is_verbose()), verdict.fitness(0)))
             }
             Format::Json => super::print(&verdict.to_json()),
             Format::Sarif => super::print(&verdict.to_sarif()),

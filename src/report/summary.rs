@@ -63,7 +63,7 @@ impl Document {
         }
         text.push_str(&warnings(&self.warnings, verbose));
         match &self.verification {
-            Some(verdict) => text.push_str(&verdict.fitness()),
+            Some(verdict) => text.push_str(&verdict.fitness(self.warnings.len())),
             None if self.programs.is_empty() => {}
             None => text.push_str("  not verified: whether it is fit to mill is not known\n"),
         }

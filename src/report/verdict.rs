@@ -167,9 +167,10 @@ impl Verdict {
         format!("  verified {programs}: {found}{pixels}\n")
     }
 
-    /// Whether the board is fit to be milled so, and what to change first where it is not.
+    /// Whether the board is fit to be milled so, and what to change first where it is not; so many
+    /// `others` were warned of before, of files and while planning.
     #[must_use]
-    pub fn fitness(&self) -> String {
+    pub fn fitness(&self, others: usize) -> String {
         let first = |severity: Severity| {
             let worst = self.findings.iter().find(|finding| finding.severity == severity);
             let check = worst.and_then(|finding| check::of(finding.code));
@@ -177,7 +178,7 @@ impl Verdict {
                 format!("; first, about `{}`: {}", check.kind.code, check.kind.advice)
             })
         };
-        match (self.errors, self.warnings) {
+        match (self.errors, self.warnings + others) {
             (0, 0) => "  fit to mill\n".to_owned(),
             (0, warnings) => {
                 let them = if warnings == 1 { "it" } else { "them" };

@@ -283,3 +283,21 @@ fn a_picture_is_not_written_as_something_else_than_its_name_says() {
     let chosen = ["draw", &board, "--stage", "copper", "-o", "a.jpg", "--format", "png"];
     assert!(voromill(folder.path(), &chosen).status.success(), "as it was chosen");
 }
+
+#[test]
+fn what_was_warned_of_before_counts_in_the_last_line() {
+    let folder = TempDir::new().expect("a folder");
+    let blinker = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
+    let last = |arguments: &[&str]| {
+        let done = voromill(folder.path(), arguments);
+        assert_eq!(done.status.code(), Some(0), "{}", stderr(&done));
+        stdout(&done).lines().last().unwrap_or_default().to_owned()
+    };
+    assert_eq!(last(&["mill", &blinker.display().to_string(), "-o", "all"]), "  fit to mill");
+    fs::create_dir(folder.path().join("board")).expect("a folder");
+    for name in ["blinker-B_Cu.gbr", "blinker-Edge_Cuts.gbr"] {
+        fs::copy(blinker.join(name), folder.path().join("board").join(name)).expect("copied");
+    }
+    let accepts = "  fit to mill if you accept 1 warning: look at it first";
+    assert_eq!(last(&["mill", "board", "-o", "undrilled"]), accepts, "pads have no holes");
+}
