@@ -167,6 +167,9 @@ fn arguments() -> clap::Command {
     help::with_all(Cli::command())
 }
 
+/// What options call their values that are numbers.
+const NUMBERS: &[&str] = &["LENGTH", "ANGLE", "SPEED", "RPM", "NUMBER", "TIME", "PERCENT"];
+
 /// The command as its help shows it.
 fn command() -> clap::Command {
     help::shortened(whole())
@@ -181,6 +184,11 @@ fn whole() -> clap::Command {
     scope::hidden(command).mut_subcommands(move |sub| {
         let defaults = defaults.clone();
         sub.mut_args(move |argument| {
+            // What is wrong with a number below zero its option says, and not that `-0` is none.
+            let is_number =
+                |names: &[clap::builder::Str]| matches!(names, [name] if NUMBERS.contains(&name.as_str()));
+            let is_number = argument.get_value_names().is_some_and(is_number);
+            let argument = if is_number { argument.allow_hyphen_values(true) } else { argument };
             let key = given::key_of(argument.get_id());
             let default = defaults.iter().find(|(name, _)| *name == key).map(|(_, value)| value);
             let help = argument.get_help().map(ToString::to_string).unwrap_or_default();

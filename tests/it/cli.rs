@@ -722,3 +722,24 @@ fn files_named_for_what_they_are_need_no_folder_beside_them() {
     assert!(said.contains("back") && !said.contains("drill"), "a back and an outline alone: {said}");
     fails(&folder, &["inspect", "--outline", &outline], &["required"], &[]);
 }
+
+/// Not that `-0` is no option.
+#[test]
+fn a_number_below_zero_is_refused_as_what_it_is() {
+    let board = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker").display().to_string();
+    for (option, value, says) in [
+        ("--width", "-0.5mm", "width"),
+        ("--safe-z", "-1mm", "safe-z"),
+        ("--tabs", "-1", "--tabs"),
+        ("--spindle", "-5", "not a spindle speed"),
+        ("--feed", "-5mm/min", "--feed"),
+    ] {
+        let refused = voromill(Path::new("."), &["mill", &board, "-o", "never", option, value]);
+        let said = stderr(&refused);
+        assert_eq!(refused.status.code(), Some(2), "{option} {value}");
+        assert!(said.contains(says) && said.contains(value), "{option} {value}: {said}");
+        assert!(!said.contains("unexpected argument"), "{option} {value}: {said}");
+    }
+    let forgotten = voromill(Path::new("."), &["mill", &board, "-o", "never", "--width", "--no-html"]);
+    assert!(stderr(&forgotten).contains("'--no-html' for '--width <LENGTH>'"), "{}", stderr(&forgotten));
+}
