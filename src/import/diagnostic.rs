@@ -116,6 +116,12 @@ diagnostics! {
         "`%FS…*%` before the first coordinate",
         "export the file with its number format in the header";
 
+    IDLE_POINTS: Warning =
+        "idle-points",
+        "Coordinates of a Gerber file with decimal points that mean nothing",
+        "whole numbers in the number format: `X6350568`",
+        "export the file anew with another version of the CAD program, or check the size of the board";
+
     LATE_UNITS: Warning =
         "late-units",
         "The unit comes after numbers that need it",

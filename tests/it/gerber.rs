@@ -271,3 +271,27 @@ fn broken_files_end_as_they_should() {
     }
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
+
+/// As EasyEDA 6.5.42 writes them; points that mean something are kept.
+#[test]
+fn whole_numbers_with_a_decimal_point_are_read_by_the_number_format() {
+    let square = |scale: &str, low: &str, high: &str| {
+        let text = format!(
+            "%FSLAX45Y45*%\n%MOMM*%\n%ADD10C,0.1*%\nG36*\nX{low}Y{low}D02*\nG01X{high}D01*\nY{high}D01*\nX{low}D01*\n\
+             Y{low}D01*\nG37*\nM02*\n"
+        );
+        let image = gerber::read("a.gbr", text.as_bytes(), &Options::default()).expect(scale);
+        let codes: Vec<_> = image.warnings.iter().map(|warning| warning.code()).collect();
+        (copper(&image).iter().map(Polygon::area_mm2).sum::<f64>(), codes)
+    };
+    // From 5 µm to 63.5 mm: the first is no length that is beyond any board.
+    let (area, codes) = square("whole numbers", "500.0", "6350000.0");
+    assert!((area - 63.495 * 63.495).abs() < 1e-6, "{area}");
+    assert_eq!(codes, ["idle-points"]);
+    let (area, codes) = square("millimetres", "1.0", "11.0");
+    assert!((area - 100.0).abs() < 1e-6, "{area}");
+    assert_eq!(codes, [""; 0]);
+    let text = b"%FSLAX45Y45*%\n%MOMM*%\n%ADD10C,1*%\nD10*\nX6350000.5Y0D03*\nM02*\n";
+    let error = gerber::read("a.gbr", text, &Options::default()).expect_err("half of what?").to_string();
+    assert!(error.contains("out of range"), "{error}");
+}

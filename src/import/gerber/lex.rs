@@ -178,6 +178,20 @@ impl Number {
         text[length..].iter().all(|&b| is_blank(b)).then_some(number)
     }
 
+    /// Whether there are only zeros behind a point, if there is one.
+    pub(super) fn is_whole(self) -> bool {
+        let power = self.decimals.map_or(Some(1), |decimals| 10_i64.checked_pow(decimals));
+        power.is_some_and(|power| self.mantissa % power == 0)
+    }
+
+    /// A whole number as it is written without a point.
+    pub(super) fn without_point(self) -> Self {
+        let decimals = self.decimals.unwrap_or(0);
+        let power = 10_i64.checked_pow(decimals).unwrap_or(i64::MAX);
+        let digits = self.digits.saturating_sub(decimals);
+        Self { mantissa: self.mantissa / power, digits, decimals: None, beyond: self.beyond }
+    }
+
     /// The value with a point where it is written.
     #[expect(
         clippy::cast_precision_loss,

@@ -24,11 +24,22 @@ pub(super) struct Numbers<'a> {
     is_guessed: bool,
     /// Whether a coordinate was beyond what is handled.
     is_beyond: bool,
+    /// Whether points in coordinates mean nothing; none before the first.
+    idle_points: Option<bool>,
 }
 
 impl<'a> Numbers<'a> {
     pub(super) const fn new(list: Option<&'a ApertureList>, assumed: Option<Unit>) -> Self {
-        Self { list, assumed, format: None, unit: None, by_mode: false, is_guessed: false, is_beyond: false }
+        Self {
+            list,
+            assumed,
+            format: None,
+            unit: None,
+            by_mode: false,
+            is_guessed: false,
+            is_beyond: false,
+            idle_points: None,
+        }
     }
 
     /// FS.
@@ -195,12 +206,41 @@ impl<'a> Numbers<'a> {
         places: (u32, u32),
         here: &mut Here<'_, '_>,
     ) -> Result<Nm, Fault> {
-        let coordinate = format.coordinate(number, places, self.unit(here)?);
+        let unit = self.unit(here)?;
+        let number = if self.has_idle_point(number, unit, here) { number.without_point() } else { number };
+        let coordinate = format.coordinate(number, places, unit);
         self.is_beyond |= coordinate.is_none();
         coordinate.ok_or_else(|| {
             Fault::new("this coordinate is out of range", "coordinates within ±1073.741823 mm")
                 .hint("check the number format and the units of the file")
         })
+    }
+
+    /// Whether the point of a coordinate means nothing: some versions of EasyEDA write whole
+    /// numbers of the number format as `6350568.0`. Then no coordinate has anything but zeros
+    /// behind the point, and as lengths some are beyond any board.
+    fn has_idle_point(&mut self, number: Number, unit: Unit, here: &mut Here<'_, '_>) -> bool {
+        if number.decimals.is_none() {
+            return false;
+        }
+        if let Some(known) = self.idle_points {
+            return known;
+        }
+        let (mut is_whole, mut is_far) = (true, false);
+        let mut look = |number: Number| {
+            is_whole &= number.is_whole();
+            is_far |= unit.length(number).is_none();
+        };
+        look(number);
+        here.ahead.clone().for_each(|block| coordinates(block.text).for_each(&mut look));
+        let idle = is_whole && is_far;
+        if idle {
+            let message = "coordinates are whole numbers with a decimal point, as `6350568.0`: they are read by \
+                           the number format, as if there were none";
+            here.warn(&diagnostic::IDLE_POINTS, message);
+        }
+        self.idle_points = Some(idle);
+        idle
     }
 
     /// A length with its point, zero where it is left out.
@@ -233,6 +273,13 @@ impl<'a> Numbers<'a> {
         let unit = self.unit.map_or_else(unknown, |unit| unit.name().to_owned());
         (unit, self.format.map_or_else(unknown, Format::name))
     }
+}
+
+/// The numbers behind X, Y, I and J in a block that draws; none of other blocks.
+fn coordinates(text: &[u8]) -> impl Iterator<Item = Number> {
+    let draws = matches!(text.first(), Some(b'X' | b'Y' | b'I' | b'J' | b'G'));
+    let starts = text.iter().enumerate().filter(|(_, byte)| matches!(byte, b'X' | b'Y' | b'I' | b'J'));
+    starts.filter(move |_| draws).filter_map(|(at, _)| Some(Number::read(&text[at + 1..])?.0))
 }
 
 #[cfg(test)]
