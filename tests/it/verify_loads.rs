@@ -297,7 +297,7 @@ fn what_a_program_takes_for_granted_of_where_the_machine_stands_is_told() {
     let zero = "G92 sets zero by where the tool happens to be: a zero that was set before does not count";
     let times = |count: u32| format!("{zero} ({count} times)");
     assert_eq!(found("G92 X5 Y5\nG0 Z5\nG0 X0 Y0"), [(Severity::Warning, Some(3), times(2))]);
-    let stays = "G92 moves zero, and it is not moved back (G92.1) at the end: programs that come after lie beside this";
+    let stays = "zero is moved (G92, G52) and not moved back (G92.1) at the end: programs that come after lie beside this";
     assert_eq!(found("G0 Z5\nG0 X0 Y0\nG92 X5 Y5\nG0 X0 Y0\nG92.1"), [], "and back");
     assert_eq!(
         found("G0 Z5\nG0 X0 Y0\nG92 X5 Y5\nG0 X0 Y0"),

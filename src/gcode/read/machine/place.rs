@@ -200,10 +200,10 @@ impl Machine {
         }
     }
 
-    /// At the end: notes a zero that G92 has moved, and nothing has moved back.
+    /// At the end: notes a zero that G92 or G52 has moved, and nothing has moved back.
     pub(in crate::gcode::read) fn finish(&mut self) {
         if self.axes.iter().any(|axis| axis.shift() != Nm::ZERO) {
-            let what = "G92 moves zero, and it is not moved back (G92.1) at the end: programs that come after \
+            let what = "zero is moved (G92, G52) and not moved back (G92.1) at the end: programs that come after \
                         lie beside this";
             self.listing.note(true, self.line, what);
         }
