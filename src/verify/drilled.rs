@@ -1,9 +1,9 @@
 //! What holes, as programs make them, leave of a side's copper as it was designed.
 //!
 //! ```text
-//!    ╭──────╮     ring: the copper round a hole, as wide as a hole may be off its place; looked at in
-//!    │ ╭──╮ ├──   points all round
-//!    │ │  │ │     sound: there is copper at all of them, so that whatever met in the pad still does
+//!    ╭──────╮     ring: the copper round a hole, as wide as a hole may be off its place
+//!    │ ╭──╮ ├──   looked at in points all round it
+//!    │ │  │ │     sound: there is copper at all of them, so what met in the pad still does
 //!    │ ╰──╯ ├──   doubtful: all others, of which the exact shapes are asked
 //!    ╰──────╯
 //! ```
