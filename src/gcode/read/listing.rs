@@ -1,5 +1,7 @@
 //! What a program does: its motions, and what had to be taken for granted to follow them.
 
+use std::fmt;
+
 use crate::geometry::{Nm, Point, Turn};
 
 /// Where the tool is, as far as the program has said so.
@@ -91,6 +93,17 @@ pub struct Coded {
     pub line: u32,
     /// How often it is there.
     pub count: u32,
+}
+
+impl fmt::Display for Coded {
+    /// As it is written: G38.2.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}{}", self.letter, self.key / 10)?;
+        match self.key % 10 {
+            0 => Ok(()),
+            tenth => write!(f, ".{tenth}"),
+        }
+    }
 }
 
 /// Where a program waits for a person, or may.

@@ -18,7 +18,7 @@
 //! Grbl 1.1h, grblHAL (f80fc34), FluidNC 4.0, TinyG (39df38c), g2core (1fb5940), LinuxCNC's manual;
 //! Marlin 2, RepRapFirmware 3.5.3, Klipper (84104bb).
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, often};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found, often};
 use crate::gcode::read::Dwell;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -61,15 +61,9 @@ fn check(program: &Machining) -> Vec<Finding> {
                 MILLISECONDS.contains(&controller) && is_short,
             )
         };
-        wrong.then(|| Finding {
-            program: Some(program.file.clone()),
-            line: Some(line),
-            ..Finding::new(
-                NAME,
-                Severity::Warning,
-                format!("{controller} waits {time}{}", often(count, "times")),
-            )
-        })
+        let message = format!("{controller} waits {time}{}", often(count, "times"));
+        let finding = Wrong { severity: Severity::Warning, message, size: None };
+        wrong.then(|| found(program, NAME, finding, None, line))
     };
     program.dwells.iter().filter_map(finding).collect()
 }

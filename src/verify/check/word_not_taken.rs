@@ -19,7 +19,7 @@
 //! The firmwares: Grbl 1.1h, grblHAL (f80fc34), FluidNC 4.0, TinyG (39df38c), g2core (1fb5940),
 //! Smoothieware (bb41e99), Marlin 2, RepRapFirmware 3.5.3, Klipper (84104bb).
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, often};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found, often};
 use crate::gcode::read::{Coded, Tally};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -91,14 +91,10 @@ fn check(program: &Machining) -> Vec<Finding> {
     let Some(controller) = &program.controller else { return Vec::new() };
     let rules = || RULES.iter().filter(|rule| rule.controllers.contains(&controller.as_str()));
     let finding = |code: &Coded| {
-        let name = name(code);
+        let name = code.to_string();
         let rule = rules().find(|rule| rule.is_for(&name))?;
         let message = format!("{name}: {controller} {}{}", rule.does, often(code.count, "times"));
-        Some(Finding {
-            program: Some(program.file.clone()),
-            line: Some(code.line),
-            ..Finding::new(NAME, Severity::Error, message)
-        })
+        Some(found(program, NAME, Wrong { severity: Severity::Error, message, size: None }, None, code.line))
     };
     let codes = program.codes.iter().filter_map(finding);
     codes.chain(lines(program, controller)).collect()
@@ -136,10 +132,9 @@ fn lines(program: &Machining, controller: &str) -> Vec<Finding> {
         };
         wrong.extend(program.at_once.iter().map(taken));
     }
-    let finding = |(message, Tally { line, count }): (String, Tally)| Finding {
-        program: Some(program.file.clone()),
-        line: Some(line),
-        ..Finding::new(NAME, Severity::Error, message + &often(count, "times"))
+    let finding = |(message, Tally { line, count }): (String, Tally)| {
+        let message = message + &often(count, "times");
+        found(program, NAME, Wrong { severity: Severity::Error, message, size: None }, None, line)
     };
     wrong.into_iter().map(finding).collect()
 }
@@ -151,12 +146,5 @@ impl Rule {
             These(codes) => among(codes),
             AllBut(codes) => !among(codes),
         }
-    }
-}
-
-fn name(code: &Coded) -> String {
-    match code.key % 10 {
-        0 => format!("{}{}", code.letter, code.key / 10),
-        tenth => format!("{}{}.{tenth}", code.letter, code.key / 10),
     }
 }

@@ -67,11 +67,7 @@ fn check(programs: &[Machining]) -> Vec<Finding> {
 /// The coordinate systems of a program: G54 is that of controllers when they start.
 fn systems(program: &Machining) -> String {
     let is_system = |code: &&Coded| code.letter == 'G' && (540..=599).contains(&code.key);
-    let name = |code: &Coded| match code.key % 10 {
-        0 => format!("G{}", code.key / 10),
-        tenth => format!("G59.{tenth}"),
-    };
-    let mut names: Vec<String> = program.codes.iter().filter(is_system).map(name).collect();
+    let mut names: Vec<String> = program.codes.iter().filter(is_system).map(Coded::to_string).collect();
     names.sort_unstable();
     if names.is_empty() { "G54".to_owned() } else { names.join(", ") }
 }
