@@ -11,9 +11,10 @@ use super::boolean::Tangle;
 use super::{FLATTEN, Feature, Shape};
 
 /// Whether an object adds copper or takes away what was drawn before it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Polarity {
     /// Adds copper.
+    #[default]
     Dark,
     /// Erases the copper under it.
     Clear,

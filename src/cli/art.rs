@@ -20,7 +20,7 @@ use voromill::verify::{Finding, Severity};
 use super::config::Config;
 use super::format::Format;
 use super::input::{Colour, Input, dpi};
-use super::output::Output;
+use super::output::{Output, name_of};
 use super::progress::Progress;
 use super::{Failure, Shared};
 
@@ -97,8 +97,8 @@ pub(super) trait Milled {
     /// What is milled, as a PNG so many pixels wide.
     fn picture(&self, width: u32) -> Result<Vec<u8>, job::Error>;
 
-    /// What the programs do, for a person.
-    fn summary(&self) -> String;
+    /// What the programs do, for a person; `files` are what they are called where they are written.
+    fn summary(&self, files: &[String]) -> String;
 
     /// What judging came to, for a person: a line.
     fn verdict(&self, judged: &Self::Judged) -> String;
@@ -173,7 +173,11 @@ impl Work {
             let told = if shared.tells_stages() { stages.list() } else { &[] };
             super::print(&self.to_json((&name, &made), judged.as_ref(), &warnings, told))?;
         } else {
-            let mut summary = if self.output.is_some() { made.summary() } else { String::new() };
+            let name = |output: &PathBuf| {
+                let files = made.programs().iter().map(|one| name_of(&tagged(output, &one.tag)));
+                made.summary(&files.filter(|_| !to_stdout).collect::<Vec<_>>())
+            };
+            let mut summary = self.output.as_ref().map_or(String::new(), name);
             summary.extend(judged.as_ref().map(|judged| made.verdict(judged)));
             let entries: Vec<FindingEntry> = findings.iter().map(FindingEntry::from).collect();
             summary += &FindingEntry::list(&entries, shared.is_verbose());
@@ -306,10 +310,6 @@ impl Shapes {
             (..) => Err(Failure::new("there is nothing to mill", "give a file, or --text and --font")),
         }
     }
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
 
 fn read_text(path: &Path) -> Result<String, Failure> {

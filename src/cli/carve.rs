@@ -147,8 +147,8 @@ impl Milled for Engraving {
         Self::picture(self, width)
     }
 
-    fn summary(&self) -> String {
-        Self::summary(self)
+    fn summary(&self, files: &[String]) -> String {
+        Self::summary(self, files)
     }
 
     fn verdict(&self, judged: &Carved) -> String {

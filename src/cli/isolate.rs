@@ -12,7 +12,7 @@ use voromill::report::stages::Stages;
 use super::config::Config;
 use super::draw::SideName;
 use super::input::Input;
-use super::output::Output;
+use super::output::{Output, name_of};
 use super::progress::Progress;
 use super::{Failure, Shared};
 
@@ -67,7 +67,7 @@ impl Isolate {
         let mut job = job::mill(loaded, &settings)?;
         // No other is written, so no other is told of.
         job.programs.retain(|program| matches!(program.part, Part::Front | Part::Back));
-        let document = job.describe(&settings);
+        let mut document = job.describe(&settings);
         self.input.judge(&document.warnings)?;
         drop(progress);
         stages.extend(&job.stages);
@@ -76,7 +76,11 @@ impl Isolate {
         if job.programs.len() > 1 {
             return Err(several_tools(&settings.dialect, job.programs.len()));
         }
-        if self.output == Path::new("-") {
+        let is_stdout = self.output == Path::new("-");
+        for entry in &mut document.programs {
+            entry.file = if is_stdout { "stdout".to_owned() } else { name_of(&self.output) };
+        }
+        if is_stdout {
             shared.say(&document.summary(shared.is_verbose()));
             return super::print(text);
         }

@@ -154,3 +154,8 @@ impl Drop for Output {
         self.pending().clear();
     }
 }
+
+/// The name of a file alone.
+pub(super) fn name_of(path: &Path) -> String {
+    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
+}

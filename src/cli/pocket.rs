@@ -163,8 +163,8 @@ impl Milled for job::Pocket {
         Self::picture(self, width)
     }
 
-    fn summary(&self) -> String {
-        Self::summary(self)
+    fn summary(&self, files: &[String]) -> String {
+        Self::summary(self, files)
     }
 
     /// How many plunges are needed is known of one tool alone.

@@ -242,6 +242,12 @@ diagnostics! {
         "D01 and D02 between G36 and G37",
         "export the layer again; if a pad is missing, it is this one";
 
+    POLARITY_IN_REGION: Warning =
+        "polarity-in-region",
+        "A polarity that changes within a region",
+        "`%LPD*%` and `%LPC*%` outside of G36 and G37",
+        "look at the region that begins above it: is it copper, or cut out of copper?";
+
     NOTHING_DRAWN: Warning =
         "nothing-drawn",
         "An object without area",

@@ -2,6 +2,7 @@
 //! common.
 
 use crate::board::Warning;
+use crate::board::diagnostic::count;
 use crate::board::polarity::difference;
 use crate::gcode::{self, Header, Input};
 use crate::geometry::{Nm, Point, Polygon, Rect};
@@ -162,15 +163,20 @@ pub(super) fn picture(programs: &[OneTool], areas: &[Polygon], width: u32) -> Re
     Ok(Relief::new(depths, milled.deepest(), (around, pitch), Material::Wood)?.png())
 }
 
-/// What programs do, a line for each.
-pub(super) fn lines(programs: &[OneTool]) -> String {
-    let line = |OneTool { program, statistics, .. }: &OneTool| {
+/// What programs do, a line for each; `files` are what they are called, in the same order, as far
+/// as they are written.
+pub(super) fn lines(programs: &[OneTool], files: &[String]) -> String {
+    let line = |(index, OneTool { program, statistics, .. }): (usize, &OneTool)| {
         let Statistics { cut_length, retracts, seconds, .. } = statistics;
-        let tool = program.sections[0].tool.kind;
+        let file = files.get(index).map_or(String::new(), |file| format!("{file}, "));
+        let (tool, retracts) = (
+            program.sections[0].tool.kind,
+            count(usize::try_from(*retracts).unwrap_or(usize::MAX), "retract"),
+        );
         let time = crate::toolpath::duration(*seconds);
-        format!("  {tool}: {:.1} mm cut, {retracts} retracts, {time}\n", cut_length.to_mm())
+        format!("  {file}{tool}: {:.1} mm cut, {retracts}, {time}\n", cut_length.to_mm())
     };
-    programs.iter().map(line).collect()
+    programs.iter().enumerate().map(line).collect()
 }
 
 /// The tool as the judge sees it.

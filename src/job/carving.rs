@@ -402,9 +402,10 @@ impl Engraving {
         art::picture(&self.programs, &self.areas, width)
     }
 
-    /// What it is, for a person.
+    /// What it is, for a person; `files` are what its programs are called, as far as they are
+    /// written.
     #[must_use]
-    pub fn summary(&self) -> String {
-        format!("{}: carved down to {:.3} mm\n", self.name, self.deepest) + &art::lines(&self.programs)
+    pub fn summary(&self, files: &[String]) -> String {
+        format!("{}: carved down to {:.3} mm\n", self.name, self.deepest) + &art::lines(&self.programs, files)
     }
 }

@@ -458,11 +458,12 @@ impl Pocket {
         art::picture(&self.programs, &self.areas, width)
     }
 
-    /// What it is, for a person.
+    /// What it is, for a person; `files` are what its programs are called, as far as they are
+    /// written.
     #[must_use]
-    pub fn summary(&self) -> String {
+    pub fn summary(&self, files: &[String]) -> String {
         let (areas, entries) = (count(self.areas.len(), "area"), count(self.entries.all, "plunge"));
         format!("{}: {areas} milled {:.3} mm deep, {entries}\n", self.name, self.depth)
-            + &art::lines(&self.programs)
+            + &art::lines(&self.programs, files)
     }
 }

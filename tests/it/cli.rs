@@ -688,7 +688,7 @@ fn gaps_of_the_outline_are_closed_as_far_as_told() {
     assert!(inspect(&[]).contains("[outline-open]"), "0.3 mm are too far: {}", inspect(&[]));
     let closed = inspect(&["--outline-gap", "0.5mm"]);
     assert!(
-        closed.contains("the widest of 0.3") && !closed.contains("outline-open"),
+        closed.contains("a gap of 0.3") && !closed.contains("outline-open"),
         "closed, and said: {closed}"
     );
 }

@@ -97,6 +97,14 @@ fn a_place_of_the_machine_is_a_retract_where_it_can_only_be_one() {
 }
 
 #[test]
+fn printers_home_axes_that_are_named_without_numbers() {
+    let text = "G21 G90 G0 X1 Y2 Z3\nG28 Z\nG0 X5\nG28 X Y\nG0 X0 Y0\nM84 X Y E\n";
+    let ends = [[1.0, 2.0, 3.0], [1.0, 2.0, NOWHERE], [5.0, 2.0, NOWHERE], [NOWHERE; 3], [0.0, 0.0, NOWHERE]];
+    let listing = assert_ends(text, &ends);
+    assert_notes(&listing, &[(false, "assumed to be above all work")]);
+}
+
+#[test]
 fn sideways_before_a_height_is_told() {
     let rest = "G0 X1 Y1\nX2\nG0 Z2\nG0 X3\nG1 Z-0.1 F100\nM2\n";
     let (told, above) = ((true, "before it says how high"), (false, "assumed to be above all work"));

@@ -61,6 +61,7 @@ const CASES: &[Case] = &[
     ("macro_thermal", 3.0 * PI - 2.010_59, 4, &[]),
     ("macro_exposure", 3.0 * PI + 1.0, 2, &[]),
     ("macro_variables", 7.5, 1, &[]),
+    ("macro_empty_statement", 2.0, 2, &[]),
     ("macro_under_erasure", 3.0 * PI + DISC, 2, &[]),
     ("macro_sweep", 11.5, 1, &[]),
     ("arc_multi_quadrant", 7.5 * PI + DISC, 1, &[]),
@@ -106,6 +107,7 @@ const CASES: &[Case] = &[
     ("negative_hole", PI, 1, &["negative-hole"]),
     ("negative_file", LINE, 1, &["negative-file"]),
     ("flash_in_region", 100.0, 1, &["flash-in-region"]),
+    ("polarity_in_region", 96.0, 1, &["polarity-in-region"]),
 ];
 
 fn folder() -> PathBuf {

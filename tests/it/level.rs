@@ -320,6 +320,7 @@ fn programs_that_cannot_be_levelled_say_why_and_where() {
         "travel too low"
     );
     assert!(matches!(error("G68 X0\n"), LevelError::Read(_)), "what the reader refuses");
+    assert!(matches!(error("G21\n(copper)\nG04 P1\n"), LevelError::NoMotion), "a Gerber file");
     assert!(
         matches!(error("G92 X0\n"), LevelError::Indirect { line: 1, .. }),
         "what can only be followed whole"

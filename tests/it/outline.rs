@@ -103,7 +103,7 @@ fn gaps_are_closed_where_the_strokes_touch() {
         (vec![10_000], vec!["outline-gap"]),
         "0.45 mm, drawn 0.5 mm wide"
     );
-    assert!(joined.warnings[0].message.contains("1 gaps"), "{}", joined.warnings[0].message);
+    assert!(joined.warnings[0].message.starts_with("a gap of 0.450 mm"), "{}", joined.warnings[0].message);
     let joined = fixture("strokes_apart.gbr");
     assert_eq!(codes(&joined), ["outline-loose-lines", "outline-open"], "0.55 mm, drawn as wide");
 }

@@ -321,6 +321,11 @@ fn what_a_program_takes_for_granted_of_where_the_machine_stands_is_told() {
             "G43 H4 takes the length of another tool than the one that is in",
         ),
         ("G64 P1\nG0 Z5\nG0 X0 Y0", 3, "G64 P1 lets the machine round corners by that much"),
+        (
+            "G0 Z5\nG0 X0 Y0\nM84 X Y\nG0 X5",
+            5,
+            "M18 and M84 let go of the motors: where the tool is afterwards is not known",
+        ),
         ("M220 S1000\nG0 Z5\nG0 X0 Y0", 3, "M220 S1000: feeds are 1000 % of what they say"),
         (
             "$32=1\nG0 Z5\nG0 X0 Y0",
@@ -340,6 +345,7 @@ fn what_a_program_takes_for_granted_of_where_the_machine_stands_is_told() {
         "T3 M6 M3\nG43 H3\nG64 P0.01\nG0 Z5\nG0 X0 Y0",
         "G53 G0 Z-5\nG0 X0 Y0\nG0 Z5",
         "$X\nM220 S100\nG43.1 Z0\nG0 Z5\nG0 X0 Y0",
+        "M17\nG0 Z5\nG0 X0 Y0\nM84 S60\nG0 X5\nG0 Z5",
     ] {
         assert_eq!(found(lines), [], "{lines}");
     }

@@ -111,6 +111,9 @@ pub enum LevelError {
     /// The program cannot be followed.
     #[error(transparent)]
     Read(#[from] ReadError),
+    /// A text without motions.
+    #[error("no motion in it")]
+    NoMotion,
     /// Its lines cannot be changed one by one.
     #[error("line {line}: {what}: such a program cannot be levelled line by line")]
     Indirect {

@@ -58,13 +58,17 @@ pub struct Levelled {
 ///
 /// # Errors
 ///
-/// [`LevelError`] for a program that cannot be followed, that cuts outside the touched area, that
-/// goes down before it says where, or that travels lower than the surface is high.
+/// [`LevelError`] for a program that cannot be followed or has no motion, that cuts outside the
+/// touched area, that goes down before it says where, or that travels lower than the surface is
+/// high.
 pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Levelled, LevelError> {
     let ours = without_unlevelled(text);
     let listing = read(&ours)?;
     if let Some((line, what)) = listing.indirect {
         return Err(LevelError::Indirect { line, what });
+    }
+    if listing.motions.is_empty() {
+        return Err(LevelError::NoMotion);
     }
     let safe = levelling.safe.unwrap_or_else(|| travel(&listing));
     let [_, (place, height)] = map.extremes();

@@ -30,6 +30,8 @@ pub(super) struct Block {
     pub(super) radius: Option<Word>,
     pub(super) angle: Option<Word>,
     pub(super) assignments: Vec<(Name, f64)>,
+    /// Axes that are named without a number: Marlin's `G28 X Y`.
+    pub(super) named: Vec<char>,
     /// Letters of axes that are not followed, and the extruder.
     pub(super) others: Vec<char>,
     /// Whether a number is not written out: a parameter or an expression.
@@ -86,6 +88,10 @@ impl Block {
         let (column, letter) = (code.column(), char::from(byte));
         code.take(byte);
         let begins = matches!(code.peek(), Some(b'0'..=b'9' | b'.' | b'+' | b'-' | b'#' | b'['));
+        if !begins && self.names_axes() && matches!(letter, 'X' | 'Y' | 'Z' | 'E') {
+            self.named.push(letter);
+            return Ok(true);
+        }
         if !begins && self.shows_text() {
             code.finish();
             return Ok(false);
@@ -150,6 +156,13 @@ impl Block {
         let sum = code.pointer.source.bytes().take(at).fold(0, |sum, byte| sum ^ byte);
         self.checksum = Some(sum == expected);
         Ok(())
+    }
+
+    /// Whether the line is one in which printers' firmware takes axes without numbers: G28, and
+    /// M17, M18 and M84.
+    fn names_axes(&self) -> bool {
+        let order = self.orders.last().map(|order| (order.letter, order.key));
+        matches!(order, Some(('G', 280) | ('M', 170 | 180 | 840)))
     }
 
     /// Whether what follows the words so far is a text for the operator (Marlin's `M0 insert the

@@ -215,7 +215,7 @@ fn of_m(key: u32) -> Meaning {
         610 => Meaning::SetTool,
         // Coolant, overrides, outputs, what Marlin and Grbl say, wait for or switch.
         70..=99
-        | 190
+        | 170..=190
         | 230..=289
         | 480..=539
         | 560

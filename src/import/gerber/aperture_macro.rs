@@ -38,12 +38,14 @@ impl<'a> Macro<'a> {
                 let what = format!("the file ends within the aperture macro `{}`", printable(name));
                 return Err(Fault::new(what, "statements that end with `*`, and a `%` after the last"));
             };
-            let starts = statement.text.first();
-            if !starts.is_some_and(|b| b.is_ascii_digit() || *b == b'$') {
-                break; // the `%` is missing, and the next command begins
+            match statement.text.first() {
+                None => *lexer = ahead, // a `*` too many
+                Some(b) if b.is_ascii_digit() || *b == b'$' => {
+                    *lexer = ahead;
+                    body.push(statement);
+                }
+                Some(_) => break, // the `%` is missing, and the next command begins
             }
-            *lexer = ahead;
-            body.push(statement);
         }
         Ok(Self { name, body })
     }

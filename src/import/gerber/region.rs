@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use crate::board::{FLATTEN, polarity};
+use crate::board::FLATTEN;
+use crate::board::polarity::{self, Polarity};
 use crate::geometry::{Arc, Circle, Point, Polygon};
 
 /// The contour being drawn.
@@ -11,6 +12,8 @@ pub(super) struct Region {
     points: Vec<Point>,
     /// What arcs of it are parts of.
     circles: Vec<Circle>,
+    /// What it began with, which counts for all of it.
+    polarity: Polarity,
     /// Where it began.
     line: u32,
     place: Range<usize>,
@@ -24,6 +27,7 @@ pub(super) struct Contour {
     pub(super) closed: bool,
     /// Whether it crosses itself so often that its area cannot be worked out in reasonable time.
     pub(super) tangled: bool,
+    pub(super) polarity: Polarity,
     /// The line on which it began.
     pub(super) line: u32,
     pub(super) place: Range<usize>,
@@ -31,10 +35,10 @@ pub(super) struct Contour {
 
 impl Region {
     /// Begins the contour at `from`, unless it has begun.
-    pub(super) fn begin(&mut self, from: Point, line: u32, place: &Range<usize>) {
+    pub(super) fn begin(&mut self, from: Point, polarity: Polarity, line: u32, place: &Range<usize>) {
         if self.points.is_empty() {
             self.points.push(from);
-            (self.line, self.place) = (line, place.clone());
+            (self.polarity, self.line, self.place) = (polarity, line, place.clone());
         }
     }
 
@@ -66,7 +70,13 @@ impl Region {
         let tangled = polarity::is_tangled([&points].into_iter());
         let pieces = if points.len() < 3 || tangled { Vec::new() } else { polarity::clean(&[points]) };
         let pieces = polarity::of_circles(pieces, circles);
-        Some(Contour { pieces, closed, tangled, line: self.line, place: self.place.clone() })
+        let (polarity, line, place) = (self.polarity, self.line, self.place.clone());
+        Some(Contour { pieces, closed, tangled, polarity, line, place })
+    }
+
+    /// Whether a contour has begun.
+    pub(super) fn is_open(&self) -> bool {
+        !self.points.is_empty()
     }
 
     /// Whether all points drawn so far satisfy `test`.

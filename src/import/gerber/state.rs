@@ -108,7 +108,13 @@ impl<'a> State<'a> {
                 let step = self.numbers.vector(step, here)?;
                 sink.canvas.open(Frame::Repeat { copies, step })?;
             }
-            Command::Polarity(polarity) => self.polarity = polarity,
+            Command::Polarity(polarity) => {
+                if self.region.as_ref().is_some_and(Region::is_open) && polarity != self.polarity {
+                    let message = "the polarity changes within a contour; it counts from the next one on";
+                    here.warn(&diagnostic::POLARITY_IN_REGION, message);
+                }
+                self.polarity = polarity;
+            }
             Command::Transform(change) => {
                 self.transformation.change(change);
                 self.apertures.forget_form();
@@ -176,7 +182,7 @@ impl<'a> State<'a> {
         };
         let (from, to) = (self.transformation.point(from)?, self.transformation.point(to)?);
         if let Some(region) = &mut self.region {
-            region.begin(from, here.line, &here.place);
+            region.begin(from, self.polarity, here.line, &here.place);
             match arc {
                 None => region.line(to),
                 Some(arc) => {
@@ -240,7 +246,7 @@ impl<'a> State<'a> {
             here.warnings.add(&diagnostic::NOTHING_DRAWN, contour.place, message);
             return Ok(());
         }
-        let ink = self.ink(contour.line, sink);
+        let ink = Ink { polarity: contour.polarity, ..self.ink(contour.line, sink) };
         let shapes = contour.pieces.into_iter().map(Shape::Polygon).collect();
         sink.draw(shapes, Axis::Region, ink).map_err(|refusal| Fault::from(refusal).at(&contour.place))
     }

@@ -115,8 +115,11 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
         edges.retain(|edge| edge.round.is_some() || edge.from != edge.to);
     }
     if let Some((width, at)) = widest {
-        let message =
-            format!("{closed} gaps of the outline are closed, the widest of {:.3} mm", Nm::from_f64(width));
+        let width = Nm::from_f64(width);
+        let message = match closed {
+            1 => format!("a gap of {width:.3} mm in the outline is closed"),
+            _ => format!("{closed} gaps of the outline are closed, the widest of {width:.3} mm"),
+        };
         notes.add(&diagnostic::OUTLINE_GAP, message, Some((at, line_at(edges, at))));
     }
 }

@@ -77,6 +77,8 @@ pub(super) struct Machine {
     /// F with G93, of this line.
     inverse: Option<f64>,
     saved: Option<Modal>,
+    /// The line that first let go of the motors, and how many motions there were before it.
+    released: Option<(u32, usize)>,
     /// What the last probe found, in nanometres on the board.
     probed: [Option<Nm>; 3],
 }
@@ -302,6 +304,9 @@ impl Machine {
         let block = run.block;
         let value = |letter: char| block.get(letter).map(|word| word.value);
         for order in &block.orders {
+            if matches!((order.letter, order.key), ('M', 180 | 840)) && value('S').is_none() {
+                self.released.get_or_insert((run.line(), self.listing.motions.len()));
+            }
             let what = match ((order.letter, order.key), value('P'), value('S'), value('H')) {
                 (('G', 640), Some(p), ..) if p * self.modal.unit as f64 > ROUNDED => {
                     format!("G64 P{p} lets the machine round corners by that much")

@@ -200,8 +200,15 @@ impl Machine {
         }
     }
 
-    /// At the end: notes a zero that G92 or G52 has moved, and nothing has moved back.
+    /// At the end: notes a zero that G92 or G52 has moved, and nothing has moved back; and motions
+    /// after the motors were let go.
     pub(in crate::gcode::read) fn finish(&mut self) {
+        if let Some((line, before)) = self.released
+            && before < self.listing.motions.len()
+        {
+            let what = "M18 and M84 let go of the motors: where the tool is afterwards is not known";
+            self.listing.note(true, line, what);
+        }
         if self.axes.iter().any(|axis| axis.shift() != Nm::ZERO) {
             let what = "zero is moved (G92, G52) and not moved back (G92.1) at the end: programs that come after \
                         lie beside this";
@@ -212,7 +219,7 @@ impl Machine {
     /// G28 and G30: by the place that the line gives, if any, to one that only the machine knows.
     fn home(&mut self, run: Run<'_>) -> Result<(), ReadError> {
         self.listing.is_indirect(run.line(), "a machine position");
-        let named = AXES.map(|letter| run.block.get(letter).is_some());
+        let named = AXES.map(|letter| run.block.get(letter).is_some() || run.block.named.contains(&letter));
         let all = !named.contains(&true);
         let mut by = self.axes.map(|axis| axis.at);
         for (axis, letter) in AXES.into_iter().enumerate() {
