@@ -122,9 +122,8 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     };
     let areas = without_slivers(&areas);
     let (placed, placement) = on_machine(&areas, settings, "carve")?;
-    let flank = tool.kind.flank().min(1.0);
     let pruning = Pruning {
-        loss: settings.tolerance.to_f64() * SHARE * flank,
+        loss: left_out(settings, tool).max(Pruning::CHORDS),
         corner: libm::cos(how.corner.radians()),
     };
     let interiors = Interior::all(&areas);
@@ -199,6 +198,12 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         warnings,
         stages,
     })
+}
+
+/// How far what is left out may reach, in nanometres: without it the cut is off by no more than its
+/// share of the tolerance, in depth and sideways.
+fn left_out(settings: &Settings, tool: &Tool) -> f64 {
+    settings.tolerance.to_f64() * SHARE * tool.kind.flank().min(1.0)
 }
 
 /// The one tool, which must be a V-bit.

@@ -124,6 +124,42 @@ fn an_axis_is_walked_with_few_retracts() {
     }
 }
 
+/// A curve is chords here, a quarter of a micrometre off it: less than any V-bit is to go into the
+/// corner between two of them for, however steep it is.
+#[test]
+fn curves_have_no_spokes_however_steep_the_flanks_are() {
+    let disc = |x: i64| {
+        Polygon::disc(Point::new(Nm::from_um(x), Nm::ZERO), Nm::from_mm(2), Nm::new(250)).expect("a disc")
+    };
+    let between =
+        Rect::new(Point::new(Nm::ZERO, Nm::from_mm(-2)), Point::new(Nm::from_mm(5), Nm::from_mm(2)));
+    let slot = union(&[disc(0), disc(5_000), Polygon::rectangle(between)]);
+    for tool in ["vbit:0.1mm:10deg", "vbit:0.1mm:20deg", "vbit:0.1mm:30deg", "vbit:0.1mm:45deg"] {
+        for (areas, most) in [(vec![disc(0)], 1.0), (slot.clone(), 6.0)] {
+            let made = engraving("round", areas, tool, &HOW);
+            let made_of = &made.programs[0].statistics;
+            assert!(made_of.cut_length.to_mm() < most, "{tool}: {}", made_of.cut_length);
+            assert_eq!(made.verify(Some(Nm::from_um(20))).expect("a program").findings, [], "{tool}");
+        }
+    }
+}
+
+/// What is left out between chords is not what a corner is.
+#[test]
+fn steep_flanks_enter_blunt_corners() {
+    for corners in [4_i32, 6, 12, 40] {
+        let corner = |number: i32| {
+            let angle = std::f64::consts::TAU * f64::from(number) / f64::from(corners);
+            Point::from_f64(2e6 * libm::cos(angle), 2e6 * libm::sin(angle))
+        };
+        let area = Polygon::new(vec![(0..corners).map(corner).collect()]).expect("a regular polygon");
+        let made = engraving("regular", vec![area], "vbit:0mm:20deg", &HOW);
+        let judged = made.verify(Some(Nm::from_um(10))).expect("a program");
+        assert_eq!(judged.findings, [], "{corners} corners");
+        assert!(judged.under < 4_000.0, "{corners} corners: {} nm", judged.under);
+    }
+}
+
 /// What is wider than the V-bit cuts is flat: an end mill clears it, the V-bit the rest.
 #[test]
 fn wide_places_become_flat() {

@@ -6,7 +6,7 @@
 //!   │╲                        ╱│    that follows it, as deep as the disc is wide, mills the area to its edges and no farther.
 //!   │ ●──────────────────────● │
 //!   │╱                        ╲│    Curves are chords here, and between each two of them ends an edge of the diagram: what is
-//!   └──────────────────────────┘    dropped is no deeper than what a cut may be off ([`Pruning`]).
+//!   └──────────────────────────┘    dropped reaches no farther than what a cut may be off ([`Pruning`]).
 //! ```
 //!
 //! The ways are those of the certified [diagram](super::exact) of the area's edges. H. Blum, *A
@@ -23,6 +23,7 @@ mod pruning;
 
 use rayon::prelude::*;
 
+use crate::board::FLATTEN;
 use crate::geometry::{Point, between};
 
 pub use insets::insets;
@@ -39,6 +40,14 @@ pub struct Pruning {
     /// Those that end in a corner at which the edge turns by an angle with a larger cosine than
     /// this; 1 keeps all corners, OpenVoronoi's filter is 0.8.
     pub corner: f64,
+}
+
+impl Pruning {
+    /// The least loss at which a curve has no branch between its chords, in nanometres. Derived: a
+    /// corner between two chords reaches so far beyond the disc that touches both as they are off
+    /// the curve; 37 nm more is how far rounding, and [another attempt](Interior), move the corner,
+    /// and as much the chords.
+    pub const CHORDS: f64 = FLATTEN.to_f64() + 2.0 * 37.0;
 }
 
 /// A place with the radius of the largest disc round it that fits the area, in nanometres.
