@@ -65,7 +65,7 @@ pub struct Pocket {
 
 /// How much nearer to the edge than the tool's radius its middle may be, so that a slot as wide as
 /// the tool is one still. Chosen: rounding is less, and a cut may be off by four times as much.
-const WITHIN: f64 = 500.0;
+const WITHIN: Nm = Nm::new(500);
 
 /// What is off by less than this is right, when a program is judged. Chosen: twice the tolerance of
 /// the cut and what writing rounds.
@@ -237,8 +237,9 @@ fn groove_warning(groove: &Groove) -> Warning {
 /// What a finer tool can clear of areas that a coarser one has cleared as far as it fits.
 fn rest(areas: &[Polygon], coarser: Nm, finer: Nm) -> Vec<Polygon> {
     let opened = |area: &Polygon, radius: Nm| -> Vec<Polygon> {
-        let fits = offset(area, -radius, FLATTEN);
-        union(&fits.iter().flat_map(|fit| offset(fit, radius, FLATTEN)).collect::<Vec<_>>())
+        let reach = radius - WITHIN;
+        let fits = offset(area, -reach, FLATTEN);
+        union(&fits.iter().flat_map(|fit| offset(fit, reach, FLATTEN)).collect::<Vec<_>>())
     };
     let of_area = |area: &Polygon| -> Vec<Polygon> {
         let cleared = opened(area, coarser);
@@ -354,7 +355,7 @@ fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, E
     // Each loop may be off its place by the tolerance.
     let most = diameter.to_f64() / 2.0 - 2.0 * settings.tolerance.to_f64();
     Ok(Levels {
-        wall: diameter.to_f64() / 2.0 - WITHIN,
+        wall: diameter.to_f64() / 2.0 - WITHIN.to_f64(),
         stock: how.stock.to_f64(),
         step: step.to_f64().min(most),
     })
@@ -364,9 +365,7 @@ fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, E
 fn shape_warnings(areas: &[Polygon], tool: &Tool, entries: Entries) -> Vec<Warning> {
     let mut warnings = Vec::new();
     let radius = tool.width_at(Nm::ZERO) / 2;
-    let narrow =
-        areas.iter().filter(|area| offset(area, Nm::from_f64(WITHIN) - radius, Nm::from_um(1)).is_empty());
-    let narrow = narrow.count();
+    let narrow = areas.iter().filter(|area| offset(area, WITHIN - radius, Nm::from_um(1)).is_empty()).count();
     if narrow > 0 {
         let message = format!(
             "{narrow} of {} areas are narrower than `{}`: they are not milled",
@@ -442,6 +441,7 @@ impl Pocket {
             stock: self.how.stock,
             plunges: Some((levels, passes * usize::try_from(self.layers).unwrap_or(1))),
             engagement: self.how.engaging.map(|engaging| engaging.target.part()),
+            within: WITHIN,
             tolerance: TOLERATED,
             pitch,
         };

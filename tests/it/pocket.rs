@@ -155,6 +155,44 @@ fn what_is_just_as_wide_as_the_tool_is_milled() {
     assert_eq!(bore.entries.straight, 0, "many turns round where a helix would fit");
 }
 
+/// Where the middle of the tool fits on a line or a point alone it is asked for still.
+#[test]
+fn what_is_just_as_wide_as_the_tool_and_left_out_is_found() {
+    let square = rectangle([0, 0, 8000, 8000]);
+    let alone = pocketed("square", vec![square.clone()], "endmill:1mm", &how());
+    let program = [("one.ngc", alone.programs[0].text.as_str())];
+    let center = Point::new(Nm::from_mm(12), Nm::from_mm(4));
+    let hole = Polygon::disc(center, Nm::from_um(500), Nm::new(250)).expect("a disc");
+    let quarter = std::f64::consts::FRAC_PI_4;
+    for (what, other, clear) in
+        [("slot", rectangle([10_000, 2000, 19_000, 3000]), 8.0 + quarter), ("hole", hole, quarter)]
+    {
+        let both = pocketed(what, vec![square.clone(), other], "endmill:1mm", &how());
+        let judged = both.verify(PITCH).expect("a program");
+        assert_eq!(judged.findings, [], "{what}");
+        let reachable = 63.0 + quarter + clear;
+        assert!((judged.reachable_mm2 - reachable).abs() < 0.01, "{what}: {} mm²", judged.reachable_mm2);
+        let judged = both.judge(&program, PITCH).expect("a program");
+        let found: Vec<&str> = judged.findings.iter().map(|finding| finding.name).collect();
+        assert_eq!(found, ["pocket-residue"], "{what}");
+        assert!((judged.residue_mm2 - clear).abs() < 0.1, "{what}: {} mm² are left", judged.residue_mm2);
+    }
+}
+
+/// What a coarser tool has milled in its full width is not left for a finer one.
+#[test]
+fn a_slot_just_as_wide_as_the_coarser_tool_is_milled_once() {
+    let slot = vec![rectangle([0, 0, 9000, 1000])];
+    let how = Pocketing { ramp: Angle::from_degrees(45), ..how() };
+    let both = pocketed("slot", slot.clone(), "endmill:1mm,endmill:0.3mm", &how);
+    assert_eq!(both.verify(PITCH).expect("programs").findings, []);
+    assert_eq!(both.programs.len(), 2, "corners are left for the finer");
+    let alone = pocketed("slot", slot, "endmill:0.3mm", &how);
+    let [after, before] =
+        [&both, &alone].map(|made| made.programs.last().expect("a program").statistics.cut_length.to_mm());
+    assert!(after < 0.5 * before, "{after:.1} mm in four corners, {before:.1} mm in all");
+}
+
 #[test]
 fn passes_and_both_orders_end_at_the_same_floor() {
     for (sequence, stock) in [

@@ -11,7 +11,9 @@
 //!
 //! Offsets are exact integer booleans, distances are measured to the edges themselves, and what is
 //! swept is asked of the motions that the text is read back as: no Voronoi diagram, nothing of the
-//! planner.
+//! planner. In a slot just as wide as the mill its middle fits on a line, which is no polygon: so
+//! the strip is narrower than the radius by what the tool may be nearer to an edge
+//! ([`Floor::within`]).
 
 mod engagement;
 
@@ -55,6 +57,9 @@ pub struct Floor<'a> {
     pub plunges: Option<(&'a [f64], usize)>,
     /// The greatest radial engagement of the first tool, as a part of its diameter; none for any.
     pub engagement: Option<f64>,
+    /// How much nearer to an edge than its radius the middle of a tool may be, so that it fits what
+    /// is just as wide.
+    pub within: Nm,
     /// What is less off is right.
     pub tolerance: Nm,
     /// The distance of the rows that are looked at.
@@ -296,15 +301,15 @@ impl Judge<'_> {
     /// What the finest tool could clear and none does.
     fn residue(&mut self, sweeps: &Sweeps) {
         let radius = self.programs.iter().map(|program| program.cutter.tip / 2).min().unwrap_or(Nm::ZERO);
-        let tolerance = self.floor.tolerance;
+        let (reach, tolerance) = (radius - self.floor.within, self.floor.tolerance);
         let fits: Vec<Polygon> =
-            self.floor.areas.iter().flat_map(|area| offset(area, -radius, FLATTEN)).collect();
+            self.floor.areas.iter().flat_map(|area| offset(area, -reach, FLATTEN)).collect();
         let wide = |by: Nm| fits.iter().flat_map(|fit| offset(fit, by, FLATTEN)).collect::<Vec<Polygon>>();
         let area = |polygons: &[Polygon]| polygons.iter().map(Polygon::area_mm2).sum::<f64>();
-        self.pocketed.reachable_mm2 = area(&crate::board::polarity::union(&wide(radius)));
+        self.pocketed.reachable_mm2 = area(&crate::board::polarity::union(&wide(reach)));
         self.pocketed.unreachable_mm2 = area(self.floor.areas) - self.pocketed.reachable_mm2;
         let least = (self.floor.depth - tolerance).to_f64();
-        let wanted = crate::board::polarity::union(&wide(radius - tolerance));
+        let wanted = crate::board::polarity::union(&wide(reach - tolerance));
         let pieces: Vec<Piece> = left(&wanted, sweeps, least, self.floor.pitch.to_f64());
         self.pocketed.residue_mm2 = pieces.iter().fold(0.0, |sum, piece| sum + piece.mm2);
         for piece in pieces.iter().take_while(|piece| piece.mm2 > SPECK).take(MOST_LISTED) {
