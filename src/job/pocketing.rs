@@ -12,7 +12,7 @@ use crate::report::stages::Stages;
 use crate::toolpath::strategy::{self, Clearings, Engaging, Entries, Groove, Levels, Planned, Sequence};
 use crate::toolpath::{Angle, Direction, Heights, Tool, ToolKind};
 use crate::verify::carving::Text;
-use crate::verify::pocketing::{self, Floor, Pocketed};
+use crate::verify::pocketing::{self, Floor, Plunges, Pocketed};
 use crate::voronoi::medial::Interior;
 use crate::voronoi::medial::nest::Nest;
 
@@ -59,8 +59,9 @@ pub struct Pocket {
     pub stages: Stages,
     how: Pocketing,
     levels: Vec<f64>,
-    /// In how many layers places that have no room for arcs are milled in each pass.
-    layers: i64,
+    /// How often more than once in each part the tool comes down in a pass: where there is no room
+    /// for arcs, in layers.
+    layered: usize,
 }
 
 /// How much nearer to the edge than the tool's radius its middle may be, so that a slot as wide as
@@ -100,7 +101,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
         stages: Stages::default(),
         how: how.clone(),
         levels: Vec::new(),
-        layers: 1,
+        layered: 0,
     };
     let mut before: Option<Nm> = None;
     for &(tool, heights) in &mills {
@@ -180,8 +181,8 @@ impl Pocket {
                     format!("an area is milled in loops, in {} layers, and not in arcs", clearings.layers());
                 planning::MILLED_IN_LOOPS.warning(message).at(at)
             }));
-            self.layers =
-                if (0..nest.roots.len()).all(|root| clearings.has(root)) { 1 } else { clearings.layers() };
+            let in_loops = (0..nest.roots.len()).filter(|&root| !clearings.has(root)).count();
+            self.layered = in_loops * usize::try_from(clearings.layers() - 1).unwrap_or(0);
         }
         // Its areas lie round what is left; what is farther off than the tool reaches is cleared.
         let done = left.map_or_else(Vec::new, |left| done(&nest, left, tool.width_at(Nm::ZERO) / 2));
@@ -439,7 +440,7 @@ impl Pocket {
             step: self.how.step,
             steepest: Some(libm::tan(self.how.ramp.radians())),
             stock: self.how.stock,
-            plunges: Some((levels, passes * usize::try_from(self.layers).unwrap_or(1))),
+            plunges: Some(Plunges { levels, layered: self.layered, passes }),
             engagement: self.how.engaging.map(|engaging| engaging.target.part()),
             within: WITHIN,
             tolerance: TOLERATED,

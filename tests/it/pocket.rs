@@ -302,6 +302,17 @@ fn arcs_along_the_axis_bear_no_more_than_they_may() {
 }
 
 /// What a helix cleared above its last turn stands no more, though it was never level.
+/// One area is cleared in arcs at once, the other, just as wide as the tool, in layers.
+#[test]
+fn layers_are_plunges_where_they_are_milled_alone() {
+    let areas = vec![rectangle([0, 0, 9000, 2500]), rectangle([10_000, 0, 19_000, 1000])];
+    let made = pocketed("slots", areas, "endmill:1mm", &engaging("15%", false));
+    let judged = made.verify(PITCH).expect("a program");
+    assert_eq!(judged.findings, []);
+    assert_eq!((judged.plunges, judged.maxima), (made.entries.all, Some(made.entries.all)), "as needed");
+    assert!(made.entries.all > 2, "more than one in each: {}", made.entries.all);
+}
+
 #[test]
 fn a_helix_meets_its_own_turns_and_not_the_wall() {
     let areas = vec![rectangle([0, 0, 14_000, 8000])];

@@ -52,9 +52,8 @@ pub struct Floor<'a> {
     pub steepest: Option<f64>,
     /// What is left for a loop along the wall, so that there is less room before that.
     pub stock: Nm,
-    /// How far from the edge loops of the first tool are, in nanometres and rising, and in how many
-    /// passes they are milled: for how often the tool may come down. None for as often as it likes.
-    pub plunges: Option<(&'a [f64], usize)>,
+    /// What says how often the first tool may come down; none for as often as it likes.
+    pub plunges: Option<Plunges<'a>>,
     /// The greatest radial engagement of the first tool, as a part of its diameter; none for any.
     pub engagement: Option<f64>,
     /// How much nearer to an edge than its radius the middle of a tool may be, so that it fits what
@@ -64,6 +63,18 @@ pub struct Floor<'a> {
     pub tolerance: Nm,
     /// The distance of the rows that are looked at.
     pub pitch: Nm,
+}
+
+/// How often a tool need come down: once in each pass where the areas are widest, and more often
+/// where what a pass takes is milled in layers.
+#[derive(Clone, Copy, Debug)]
+pub struct Plunges<'a> {
+    /// How far from the edge its loops are, in nanometres and rising.
+    pub levels: &'a [f64],
+    /// How often more it comes down in each pass, for layers.
+    pub layered: usize,
+    /// In how many passes it mills.
+    pub passes: usize,
 }
 
 /// What came of it.
@@ -79,8 +90,7 @@ pub struct Pocketed {
     pub overcut: f64,
     /// How often a tool comes down into the material.
     pub plunges: usize,
-    /// How many places there are from which all round it only comes nearer to the edge, times the
-    /// passes; none where nobody asks.
+    /// How often the first tool need come down, in all passes; none where nobody asks.
     pub maxima: Option<usize>,
     /// What the first tool bears; none where nobody asks.
     pub borne: Option<Borne>,
@@ -327,9 +337,10 @@ impl Judge<'_> {
         };
         let count = |listing: &Listing| listing.motions.iter().filter(comes_down).count();
         self.pocketed.plunges = listings.iter().map(|(listing, _)| count(listing)).sum();
-        let Some((levels, passes)) = self.floor.plunges else { return };
+        let Some(Plunges { levels, layered, passes }) = self.floor.plunges else { return };
         let first = listings.first().map_or(0, |(listing, _)| count(listing));
-        let maxima = needed(self.floor.areas, levels, first / passes.max(1)) * passes;
+        let made = (first / passes.max(1)).saturating_sub(layered);
+        let maxima = (needed(self.floor.areas, levels, made) + layered) * passes;
         self.pocketed.maxima = Some(maxima);
         if first > maxima {
             let message = format!(
