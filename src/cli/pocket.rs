@@ -34,7 +34,7 @@ pub(super) struct Pocket {
     work: Work,
 
     /// Distance between neighbouring loops: a length, or a percentage of the diameter of the tool,
-    /// at most half of it
+    /// of 1 % to half of it
     #[arg(long, value_name = "LENGTH|PERCENT", default_value = "40%", help_heading = "Pocketing")]
     stepover: Overlap,
 

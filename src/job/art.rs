@@ -14,7 +14,7 @@ use crate::verify::{Cutter, CutterKind};
 
 use super::pipeline::GENERATOR;
 use super::stock::zero;
-use super::{Error, Settings};
+use super::{Error, Length, Settings};
 
 /// What is milled.
 #[derive(Clone, Debug, Default)]
@@ -40,6 +40,27 @@ pub struct OneTool {
     pub statistics: Statistics,
     /// What the machine reads.
     pub text: String,
+}
+
+/// No pass takes less. Chosen: what machines repeat, and what a cutter takes off that does not rub.
+const THINNEST: Nm = Nm::from_um(10);
+
+/// Fails for passes that take too little.
+///
+/// # Errors
+///
+/// [`Error::Value`] where they do.
+pub(super) fn judge_pass(step: Option<Nm>) -> Result<(), Error> {
+    let Some(step) = step.filter(|&step| step < THINNEST) else { return Ok(()) };
+    let problem = if step <= Nm::ZERO {
+        "a pass depth of zero is invalid: it must be above zero".to_owned()
+    } else {
+        let [step, least] = [step, THINNEST].map(Length);
+        format!(
+            "{step} is less than {least}: so thin a pass rubs and does not cut, and a program of them has no end"
+        )
+    };
+    Err(Error::Value { key: "depth-pass", problem })
 }
 
 /// What lies round the areas in a picture. Chosen: a little of the top.

@@ -10,7 +10,7 @@ use crate::toolpath::{Angle, Heights, Order, Section, Tool, ToolKind};
 use crate::verify::carving::{self, Carved, Ideal, Text};
 use crate::voronoi::medial::{Interior, MedialAxis, Pruning, insets};
 
-use super::art::{self, Art, OneTool, on_machine, round, without_slivers, written};
+use super::art::{self, Art, OneTool, judge_pass, on_machine, round, without_slivers, written};
 use super::{Error, Reach, Settings};
 
 /// How it is carved.
@@ -226,7 +226,7 @@ fn judge(how: &Carving, tool: &Tool) -> Result<(), Error> {
         _ => Ok(()),
     };
     positive("max-depth", how.max_depth)?;
-    positive("depth-pass", how.step)?;
+    judge_pass(how.step)?;
     positive("margin", how.raised)?;
     inlay(how)?;
     if how.corner < Angle::ZERO || how.corner >= Angle::from_degrees(180) {

@@ -16,7 +16,7 @@ use crate::verify::pocketing::{self, Floor, Plunges, Pocketed};
 use crate::voronoi::medial::Interior;
 use crate::voronoi::medial::nest::Nest;
 
-use super::art::{self, Art, OneTool, on_machine, round, without_slivers, written};
+use super::art::{self, Art, OneTool, judge_pass, on_machine, round, without_slivers, written};
 use super::{Cutting, Error, Length, Overlap, Reach, Settings};
 
 /// How pockets are milled.
@@ -24,8 +24,8 @@ use super::{Cutting, Error, Length, Overlap, Reach, Settings};
 pub struct Pocketing {
     /// How much one pass takes; none for all at once.
     pub step: Option<Nm>,
-    /// How far neighbouring loops are apart: a length, or a part of the tool's diameter; at most
-    /// half of it.
+    /// How far neighbouring loops are apart: a length, or a part of the tool's diameter; of a
+    /// hundredth to half of it.
     pub stepover: Overlap,
     /// What is left along the edge for a last loop; zero for none.
     pub stock: Nm,
@@ -305,9 +305,7 @@ fn end_mills(settings: &Settings) -> Result<Vec<(&Tool, Heights)>, Error> {
 /// Fails for what is invalid with any tool.
 fn judge(how: &Pocketing) -> Result<(), Error> {
     let wrong = |key: &'static str, problem: String| Err(Error::Value { key, problem });
-    if how.step.is_some_and(|step| step <= Nm::ZERO) {
-        return wrong("depth-pass", "a pass depth of zero is invalid: it must be above zero".to_owned());
-    }
+    judge_pass(how.step)?;
     if let Some(engaging) = how.engaging
         && how.sequence == Sequence::OutsideIn
     {
@@ -323,6 +321,10 @@ fn judge(how: &Pocketing) -> Result<(), Error> {
     Ok(())
 }
 
+/// Loops are no nearer to each other than this part of the diameter. Chosen: the least engagement
+/// that may be asked for.
+const FINEST_STEP: i64 = 100;
+
 /// How far loops are from the edge.
 fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, Error> {
     let wrong = |key: &'static str, problem: String| Err(Error::Value { key, problem });
@@ -336,6 +338,14 @@ fn levels(tool: &Tool, settings: &Settings, how: &Pocketing) -> Result<Levels, E
                 how.stepover
             ),
         );
+    }
+    if step < diameter / FINEST_STEP {
+        let problem = format!(
+            "`{}` is less than a hundredth of the tool diameter, {}: so near to each other loops rub and do not cut, and there is no end of them",
+            how.stepover,
+            Length(diameter / FINEST_STEP)
+        );
+        return wrong("stepover", problem);
     }
     if how.stock < Nm::ZERO || how.stock > diameter / 2 {
         let problem = format!("{} is not between zero and half the tool diameter", Length(how.stock));

@@ -475,6 +475,8 @@ fn a_layer_is_carved_and_what_makes_no_sense_is_refused() {
         &[
             (&["--tool", "endmill:1mm"], "is not a V-bit"),
             (&["--max-depth", "0mm"], "above zero"),
+            (&["--depth-pass", "0mm"], "above zero"),
+            (&["--depth-pass", "0.009mm"], "less than 0.01mm: so thin a pass"),
             (&["--max-depth", "1mm", "--inlay", "female", "--gap", "0.1mm"], "has no effect"),
             (&["--max-depth", "0.1mm", "--inlay", "male", "--flat", "endmill:1mm"], "less than the depth"),
             (&["--max-depth", "0.1mm", "--inlay", "female"], "in the way of the other half: --flat"),
