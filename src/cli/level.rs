@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
-use voromill::gcode::level::{Frame, HeightMap, LevelError, Levelling, MapError, Outlier, level};
+use voromill::gcode::level::{Frame, HeightMap, LevelError, Levelling, MARK, MapError, Outlier, level};
 use voromill::geometry::Nm;
 use voromill::import::sha256;
 use voromill::job::{Length, Place, Triple};
@@ -89,7 +89,7 @@ impl Level {
             margin: self.margin()?,
             safe: self.safe_z.map(Length::nm),
             note: format!(
-                "levelled by voromill {} to {name} sha256 {} within {}",
+                "{MARK} {} to {name} sha256 {} within {}",
                 env!("CARGO_PKG_VERSION"),
                 &hash[..12],
                 self.tolerance
@@ -209,6 +209,9 @@ fn hint(error: &LevelError) -> &'static str {
             "probe a larger area, allow more with --margin, or move the program to the probed area"
         }
         LevelError::High { .. } => "raise the travel height of the program, or zero Z again and probe again",
+        LevelError::Levelled { .. } => {
+            "level the program as it was made: that without -levelled after its name"
+        }
         LevelError::Nowhere { .. } => "set with --safe-z the height above which nothing is levelled",
         _ => "",
     }

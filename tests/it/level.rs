@@ -493,6 +493,10 @@ fn the_command_levels_a_program_and_says_what_it_did() {
     assert!(text.contains("(front)\n(levelled by voromill") && text.contains("to grbl.log sha256"), "{text}");
     assert!(text.contains("X20 Y10 Z0.05\n"), "up to 0.15 mm: {text}");
     assert!(stdout(&done).contains("front-levelled.nc: 3 motions below 2.000 mm"), "{}", stdout(&done));
+    let twice = voromill(folder.path(), &["level", "front-levelled.nc", "--map", &map.to_string_lossy()]);
+    assert_eq!(twice.status.code(), Some(2), "it follows the surface already");
+    let said = stderr(&twice);
+    assert!(said.contains("line 2: the program is levelled already") && said.contains("hint: "), "{said}");
     let far = voromill(
         folder.path(),
         &["level", "front.nc", "--map", &map.to_string_lossy(), "--map-zero", "0mm,0mm,0mm"],

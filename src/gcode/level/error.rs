@@ -114,6 +114,12 @@ pub enum LevelError {
     /// A text without motions.
     #[error("no motion in it")]
     NoMotion,
+    /// It follows a surface already, and would do so twice.
+    #[error("line {line}: the program is levelled already, and would follow the surface twice")]
+    Levelled {
+        /// From 1.
+        line: usize,
+    },
     /// Its lines cannot be changed one by one.
     #[error("line {line}: {what}: such a program cannot be levelled line by line")]
     Indirect {

@@ -26,9 +26,13 @@ pub struct Levelling {
     /// The height from which on nothing is levelled; none for the height of the program's lowest
     /// level rapid.
     pub safe: Option<Nm>,
-    /// What the program says of it, in a comment before its first word.
+    /// What the program says of it, in a comment before its first word. One that begins with
+    /// [`MARK`] keeps the program from being levelled a second time.
     pub note: String,
 }
+
+/// How the comment of a levelled program begins.
+pub const MARK: &str = "levelled by voromill";
 
 /// 5 µm is a twentieth of a common depth; 2 mm is where a cutter goes that cuts the board out. Both
 /// chosen.
@@ -58,10 +62,13 @@ pub struct Levelled {
 ///
 /// # Errors
 ///
-/// [`LevelError`] for a program that cannot be followed or has no motion, that cuts outside the
-/// touched area, that goes down before it says where, or that travels lower than the surface is
-/// high.
+/// [`LevelError`] for a program that cannot be followed or has no motion, that is levelled already
+/// by a comment with [`MARK`], that cuts outside the touched area, that goes down before it says
+/// where, or that travels lower than the surface is high.
 pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Levelled, LevelError> {
+    if let Some(at) = text.lines().position(is_mark) {
+        return Err(LevelError::Levelled { line: at + 1 });
+    }
     let ours = without_unlevelled(text);
     let listing = read(&ours)?;
     if let Some((line, what)) = listing.indirect {
@@ -91,6 +98,11 @@ pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Level
         out.push_str(end);
     }
     Ok(Levelled { text: out, safe, ..leveller.done })
+}
+
+/// Whether a line is the comment of a levelled program.
+fn is_mark(line: &str) -> bool {
+    line.trim_start().strip_prefix(['(', ';']).is_some_and(|comment| comment.trim_start().starts_with(MARK))
 }
 
 /// The height of the lowest level rapid, or where there is none the highest z.
