@@ -6,10 +6,10 @@ use std::process::ExitCode;
 use clap::Args;
 use serde::Serialize;
 use voromill::board::{Copper, Diagnostic, FLATTEN, Feature, Side, Warning, polarity};
-use voromill::gcode::Input as Origin;
+use voromill::gcode;
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::drawing::Unit;
-use voromill::import::{self, Loaded, diagnostic, text::text};
+use voromill::import::{self, Loaded, Shapes, diagnostic, load_copper, picture, text::text};
 use voromill::job::{self, Art, Length, OneTool, Settings};
 use voromill::report;
 use voromill::report::document::{Figures, ProgramEntry, SCHEMA_VERSION, WarningEntry};
@@ -19,7 +19,7 @@ use voromill::verify::{Finding, Severity};
 
 use super::config::Config;
 use super::format::Format;
-use super::input::{Colour, Input, dpi};
+use super::input::{Colour, Input, area, dpi, pitch, pixels};
 use super::output::{Output, name_of};
 use super::progress::Progress;
 use super::{Failure, Shared};
@@ -28,7 +28,7 @@ use super::{Failure, Shared};
 #[derive(Args)]
 pub(super) struct Work {
     #[command(flatten)]
-    shapes: Shapes,
+    shapes: Source,
 
     /// Program to write; `-` for stdout. Where several tools work, each has a program of its own:
     /// NAME-1, NAME-2 and so on, the widest first; NAME-flat for the end mill of `carve --flat`
@@ -212,6 +212,18 @@ impl Work {
         self.margin.map(Length::nm)
     }
 
+    /// Fails for a margin that nothing is round, since no shapes stand.
+    pub(super) fn judge_margin(&self, standing: &str) -> Result<(), Failure> {
+        let cause = "--margin has no effect without shapes that stand";
+        let hint = format!("add {standing}, or leave it out");
+        if self.margin.is_some() { Err(Failure::new(cause, hint)) } else { Ok(()) }
+    }
+
+    /// Whether the shapes are to stand.
+    pub(super) const fn is_inverted(&self) -> bool {
+        self.invert
+    }
+
     /// Judges the programs that were made, or those to be checked in their place.
     fn judge<M: Milled>(&self, made: &M) -> Result<M::Judged, Failure> {
         Ok(match self.check.as_slice() {
@@ -260,7 +272,7 @@ impl Work {
 
 /// Where the shapes come from.
 #[derive(Args)]
-struct Shapes {
+struct Source {
     /// The file with the shapes: a picture, a drawing (SVG, DXF) or FILE#LAYER for one layer of it,
     /// copper of a board
     #[arg(required_unless_present = "text", conflicts_with = "text", value_name = "PATH")]
@@ -270,13 +282,13 @@ struct Shapes {
     #[arg(long, value_name = "TEXT", requires = "font", help_heading = "Text")]
     text: Option<String>,
 
-    /// Font of --text: a TrueType or OpenType file
+    /// Font of --text, or for the texts of an SVG: a TrueType or OpenType file
     #[arg(long, value_name = "FILE", help_heading = "Text")]
     font: Option<PathBuf>,
 
-    /// Height of capitals of --text
-    #[arg(long, value_name = "LENGTH", default_value = "6mm", help_heading = "Text")]
-    height: Length,
+    /// Height of capitals of --text [default: 6mm]
+    #[arg(long, value_name = "LENGTH", requires = "text", help_heading = "Text")]
+    height: Option<Length>,
 
     /// Resolution of a picture in pixels per inch, even if the file has another
     #[arg(long, value_name = "NUMBER", value_parser = dpi, help_heading = "Pictures")]
@@ -286,9 +298,29 @@ struct Shapes {
     #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
     picture_width: Option<Length>,
 
+    /// Distance of neighbouring pins, such as 2.54mm, instead of --picture-dpi: the resolution is
+    /// found by the grid of the drill dots
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        value_parser = pitch,
+        conflicts_with_all = ["picture_dpi", "picture_width"],
+        help_heading = "Pictures"
+    )]
+    picture_pitch: Option<Length>,
+
     /// Which part of a picture is milled [default: the rarer]
-    #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
+    #[arg(long, visible_alias = "copper", value_enum, value_name = "COLOUR", help_heading = "Pictures")]
     ink: Option<Colour>,
+
+    /// Remove specks and holes of a picture that are smaller than this, in square millimetres; for
+    /// scans
+    #[arg(long, value_name = "MM2", value_parser = area, help_heading = "Pictures")]
+    despeckle: Option<f64>,
+
+    /// Read a part of a picture: left, top, width and height in pixels
+    #[arg(long, value_name = "X,Y,W,H", value_parser = pixels, help_heading = "Pictures")]
+    crop: Option<[u32; 4]>,
 
     /// Length of one unit of a drawing (SVG, DXF), even if the file has another: mm, in, 0.1mm, or
     /// 90dpi for 1/90 inch
@@ -296,20 +328,86 @@ struct Shapes {
     unit: Option<Unit>,
 }
 
-impl Shapes {
+impl Source {
     /// The file, as a board is read.
     fn input(&self) -> Input {
-        Input::artwork(self.path.clone(), self.picture_dpi, self.picture_width, self.ink, self.unit)
+        Input {
+            paths: self.path.iter().cloned().collect(),
+            picture_dpi: self.picture_dpi,
+            picture_width: self.picture_width,
+            picture_pitch: self.picture_pitch,
+            copper: self.ink,
+            despeckle: self.despeckle,
+            crop: self.crop,
+            unit: self.unit,
+            fonts: self.font.iter().cloned().collect(),
+            ..Input::default()
+        }
     }
 
     /// The shapes.
     fn art(&self, input: &Input, settings: &Settings) -> Result<Art, Failure> {
         match (&self.text, &self.font, &self.path) {
-            (Some(words), Some(font), _) => lettering(words, font, self.height.nm()),
-            (_, _, Some(path)) => drawn(path, input, settings),
+            (Some(words), Some(font), _) => {
+                self.judge(Origin::Text)?;
+                lettering(words, font, self.height.map_or(CAPITALS, Length::nm))
+            }
+            (_, _, Some(path)) => self.drawn(path, input, settings),
             (..) => Err(Failure::new("there is nothing to mill", "give a file, or --text and --font")),
         }
     }
+
+    /// Fails for an option that what is read makes nothing of.
+    fn judge(&self, origin: Origin) -> Result<(), Failure> {
+        let pictures = [
+            ("--picture-dpi", self.picture_dpi.is_some()),
+            ("--picture-width", self.picture_width.is_some()),
+            ("--picture-pitch", self.picture_pitch.is_some()),
+            ("--ink", self.ink.is_some()),
+            ("--despeckle", self.despeckle.is_some()),
+            ("--crop", self.crop.is_some()),
+        ];
+        let unit = [("--unit", self.unit.is_some())];
+        let font = [("--font", self.font.is_some())];
+        let (what, idle) = match origin {
+            Origin::Text => ("with --text", [&pictures[..], &unit].concat()),
+            Origin::Drawing => ("on a drawing", pictures.to_vec()),
+            Origin::Picture => ("on a picture", [unit, font].concat()),
+            Origin::Board => ("on a file of a board", [&pictures[..], &unit, &font].concat()),
+        };
+        let Some((option, _)) = idle.into_iter().find(|(_, is_given)| *is_given) else { return Ok(()) };
+        let hint = match option {
+            "--unit" => "leave it out: it is for drawings",
+            "--font" => "leave it out: it is for --text and for texts of an SVG",
+            _ => "leave it out: it is for pictures",
+        };
+        Err(Failure::new(format!("{option} has no effect {what}"), hint))
+    }
+
+    /// The shapes of a file.
+    fn drawn(&self, path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure> {
+        if let Some(shapes) = import::load_shapes(path, &input.drawing()?, settings.outline_gap)? {
+            self.judge(Origin::Drawing)?;
+            let Shapes { name, areas, source, warnings } = shapes;
+            let inputs = vec![gcode::Input { file: source.file, design: source.design }];
+            return Ok(Art { name, areas, inputs, warnings });
+        }
+        self.judge(if is_picture(path)? { Origin::Picture } else { Origin::Board })?;
+        let loaded = if is_board(path) { input.load(settings)? } else { load_copper(path, Side::Front)? };
+        Ok(of_board(loaded))
+    }
+}
+
+/// How high capitals are unless that is said. Chosen.
+const CAPITALS: Nm = Nm::from_mm(6);
+
+/// What shapes are read from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Origin {
+    Text,
+    Drawing,
+    Picture,
+    Board,
 }
 
 fn read_text(path: &Path) -> Result<String, Failure> {
@@ -370,75 +468,49 @@ fn lettering(words: &str, font: &Path, height: Nm) -> Result<Art, Failure> {
     let areas = text(&bytes, &words.replace("\\n", "\n"), height).map_err(|error| {
         Failure::new(format!("{file}: {error}"), "choose another --font, --text or --height")
     })?;
-    let inputs = vec![Origin { file, design: import::sha256(&bytes) }];
+    let inputs = vec![gcode::Input { file, design: import::sha256(&bytes) }];
     // It stands in comments and names no file.
-    let name: String = words.chars().filter(char::is_ascii_alphanumeric).collect();
+    let name: String = words.replace("\\n", "\n").chars().filter(char::is_ascii_alphanumeric).collect();
     let name = if name.is_empty() { "text".to_owned() } else { name };
     Ok(Art { name, areas, inputs, warnings: Vec::new() })
 }
 
-/// Kinds of files that say by themselves what they are; any other is one Gerber layer.
-const BOARDS: [&str; 14] = [
-    "zip",
-    "kicad_pcb",
-    "svg",
-    "dxf",
-    "png",
-    "jpg",
-    "jpeg",
-    "bmp",
-    "gif",
-    "tif",
-    "tiff",
-    "webp",
-    "pnm",
-    "pbm",
-];
+/// Whether a file is a picture.
+fn is_picture(path: &Path) -> Result<bool, Failure> {
+    if !path.is_file() {
+        return Ok(false);
+    }
+    let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
+    Ok(picture::is_picture(path, &bytes))
+}
 
-/// The shapes of a file.
-fn drawn(path: &Path, input: &Input, settings: &Settings) -> Result<Art, Failure> {
+/// Kinds of files but drawings that say by themselves what they are; any other is one Gerber layer.
+const BOARDS: [&str; 12] =
+    ["zip", "kicad_pcb", "png", "jpg", "jpeg", "bmp", "gif", "tif", "tiff", "webp", "pnm", "pbm"];
+
+/// Whether a file is one of these, or a folder of files.
+fn is_board(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-    let is_board = path.is_dir() || ending.as_ref().is_some_and(|ending| BOARDS.contains(&ending.as_str()));
-    let is_drawing = ending.is_some_and(|ending| ["svg", "dxf"].contains(&ending.as_str()));
-    let filled = |loaded: &Loaded| {
-        let copper = [&loaded.board.front, &loaded.board.back].into_iter().find_map(Option::as_ref);
-        copper.map_or_else(Vec::new, areas)
-    };
-    let loaded = if is_board { input.load(settings) } else { Ok(import::load_copper(path, Side::Front)?) };
-    let (loaded, areas) = match loaded {
-        Ok(loaded) => {
-            let areas = filled(&loaded);
-            if areas.is_empty() && is_drawing { enclosed(input, settings)? } else { (loaded, areas) }
-        }
-        Err(failure) if is_drawing => enclosed(input, settings).map_err(|_| failure)?,
-        Err(failure) => return Err(failure),
-    };
+    path.is_dir() || ending.is_some_and(|ending| BOARDS.contains(&ending.as_str()))
+}
+
+/// The copper of the front as shapes, or that of the back where there is no other.
+fn of_board(loaded: Loaded) -> Art {
+    let copper = [&loaded.board.front, &loaded.board.back].into_iter().find_map(Option::as_ref);
+    let areas = copper.map_or_else(Vec::new, areas);
     let inputs = loaded
         .sources
         .iter()
         .filter(|source| !source.role.starts_with("ignored"))
-        .map(|source| Origin { file: source.file.clone(), design: source.design.clone() });
+        .map(|source| gcode::Input { file: source.file.clone(), design: source.design.clone() });
     // What is said of boards and their outlines is of no use here; and what a solder mask calls
     // negative, what it draws, are its openings. Letters may be slanted.
     let is_of_use = |kind: &Diagnostic| {
-        let of_boards = [
-            diagnostic::NEGATIVE_FILE,
-            diagnostic::COPPER_MISSING,
-            diagnostic::PICTURE_SKEWED,
-            diagnostic::DRAWING_GUESSED,
-        ];
+        let of_boards = [diagnostic::NEGATIVE_FILE, diagnostic::COPPER_MISSING, diagnostic::PICTURE_SKEWED];
         !kind.is_of_the_outline() && !of_boards.contains(kind)
     };
     let warnings = loaded.warnings.into_iter().filter(|warning| is_of_use(warning.kind));
-    Ok(Art { name: loaded.board.name, areas, inputs: inputs.collect(), warnings: warnings.collect() })
-}
-
-/// What the lines of a drawing enclose that fills nothing, and what is read so.
-fn enclosed(input: &Input, settings: &Settings) -> Result<(Loaded, Vec<Polygon>), Failure> {
-    let loaded = input.as_outline().survey(settings)?;
-    let outline = loaded.board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
-    let areas = outline.map_or_else(Vec::new, |outline| polarity::clean(outline.contours()));
-    Ok((loaded, areas))
+    Art { name: loaded.board.name, areas, inputs: inputs.collect(), warnings: warnings.collect() }
 }
 
 /// What a layer covers.

@@ -91,6 +91,9 @@ impl Carve {
                 "give it for the plug: --inlay male; the pocket is as deep as --max-depth",
             ));
         }
+        if !self.work.is_inverted() && self.inlay != Some(Half::Male) {
+            self.work.judge_margin("--invert or --inlay male")?;
+        }
         self.work.run(shared, |art, settings, work| Ok(carve(art, settings, &self.how(work)?)?))
     }
 

@@ -22,49 +22,49 @@ pub(super) struct Input {
     /// A folder, a zip archive, the files themselves, a KiCad board (.kicad_pcb), a drawing (SVG,
     /// DXF) or a picture
     #[arg(required_unless_present_any = ["millproject", "front", "back"], value_name = "PATH")]
-    paths: Vec<PathBuf>,
+    pub(super) paths: Vec<PathBuf>,
 
     /// Take options and files over from a millproject of pcb2gcode; options given here win
     #[arg(long, value_name = "FILE")]
-    millproject: Option<PathBuf>,
+    pub(super) millproject: Option<PathBuf>,
 
     /// File with the front copper, if not known by its name
     #[arg(long, value_name = "FILE", help_heading = "Files")]
-    front: Option<PathBuf>,
+    pub(super) front: Option<PathBuf>,
 
     /// File with the back copper, if not known by its name
     #[arg(long, value_name = "FILE", help_heading = "Files")]
-    back: Option<PathBuf>,
+    pub(super) back: Option<PathBuf>,
 
     /// File with the outline of the board, if not known by its name
     #[arg(long, value_name = "FILE", help_heading = "Files")]
-    outline: Option<PathBuf>,
+    pub(super) outline: Option<PathBuf>,
 
     /// File with holes, if not known by its name; may be given several times
     #[arg(long = "drill", value_name = "FILE", help_heading = "Files")]
-    drill_files: Vec<PathBuf>,
+    pub(super) drill_files: Vec<PathBuf>,
 
     /// Ignore this file or folder, by name, or a layer of a KiCad board, such as F.Cu; may be given
     /// several times
     #[arg(long, value_name = "FILE", help_heading = "Files")]
-    skip: Vec<PathBuf>,
+    pub(super) skip: Vec<PathBuf>,
 
     /// Read no drill file: everything but the holes
     #[arg(long, conflicts_with = "drill_files", help_heading = "Files")]
-    no_drill: bool,
+    pub(super) no_drill: bool,
 
     /// Name of the board, and of its output files [default: from the files]
     #[arg(long, value_name = "NAME", help_heading = "Files")]
-    name: Option<String>,
+    pub(super) name: Option<String>,
 
     /// Resolution of a picture in pixels per inch, even if the file has another; --dpi is for files
     /// that have none
     #[arg(long, value_name = "NUMBER", value_parser = dpi, help_heading = "Pictures")]
-    picture_dpi: Option<f64>,
+    pub(super) picture_dpi: Option<f64>,
 
     /// Width of the whole picture, instead of --picture-dpi
     #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
-    picture_width: Option<Length>,
+    pub(super) picture_width: Option<Length>,
 
     /// Distance of neighbouring pins, such as 2.54mm, instead of --picture-dpi: the resolution is
     /// found by the grid of the drill dots
@@ -75,41 +75,41 @@ pub(super) struct Input {
         conflicts_with_all = ["picture_dpi", "picture_width"],
         help_heading = "Pictures"
     )]
-    picture_pitch: Option<Length>,
+    pub(super) picture_pitch: Option<Length>,
 
     /// Turn a scan back, by the directions of its edges; up to 15 degrees
     #[arg(long, help_heading = "Pictures")]
-    straighten: bool,
+    pub(super) straighten: bool,
 
     /// Which part of a picture is copper [default: the rarer]
     #[arg(long, value_enum, value_name = "COLOUR", help_heading = "Pictures")]
-    copper: Option<Colour>,
+    pub(super) copper: Option<Colour>,
 
     /// Swap copper and bare board of a picture
     #[arg(long, help_heading = "Pictures")]
-    invert: bool,
+    pub(super) invert: bool,
 
     /// Remove specks of copper and holes in it that are smaller than this, in square millimetres;
     /// for scans
     #[arg(long, value_name = "MM2", value_parser = area, help_heading = "Pictures")]
-    despeckle: Option<f64>,
+    pub(super) despeckle: Option<f64>,
 
     /// Read a part of a picture: left, top, width and height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = pixels, help_heading = "Pictures")]
-    crop: Option<[u32; 4]>,
+    pub(super) crop: Option<[u32; 4]>,
 
     /// Length of one unit of a drawing (SVG, DXF), even if the file has another: mm, in, 0.1mm, or
     /// 90dpi for 1/90 inch
     #[arg(long, value_name = "UNIT", help_heading = "Drawings")]
-    unit: Option<Unit>,
+    pub(super) unit: Option<Unit>,
 
     /// Font file for the texts of an SVG; may be given several times
     #[arg(long = "font", value_name = "FILE", help_heading = "Drawings")]
-    fonts: Vec<PathBuf>,
+    pub(super) fonts: Vec<PathBuf>,
 
     /// Fail and write nothing if there is any warning; for CI
     #[arg(long, help_heading = "Output")]
-    deny_warnings: bool,
+    pub(super) deny_warnings: bool,
 }
 
 /// Which part of a picture is copper.
@@ -124,49 +124,26 @@ pub(super) fn dpi(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "expected from 10 to 30000 pixels per inch".to_owned())
 }
 
-fn pitch(text: &str) -> Result<Length, String> {
+pub(super) fn pitch(text: &str) -> Result<Length, String> {
     let length: Length = text.parse().map_err(|error: ParseLengthError| error.to_string())?;
     let range = Nm::from_um(100)..=Nm::from_mm(100);
     let is_meant = range.contains(&length.nm());
     is_meant.then_some(length).ok_or_else(|| "expected from 0.1mm to 100mm, such as 2.54mm".to_owned())
 }
 
-fn area(text: &str) -> Result<f64, String> {
+pub(super) fn area(text: &str) -> Result<f64, String> {
     let number = text.trim_end_matches("mm2").trim().parse::<f64>();
     let number = number.ok().filter(|number| (0.0..=1000.0).contains(number));
     number.ok_or_else(|| "expected an area in square millimetres, such as 0.05".to_owned())
 }
 
-fn pixels(text: &str) -> Result<[u32; 4], String> {
+pub(super) fn pixels(text: &str) -> Result<[u32; 4], String> {
     let numbers: Result<Vec<u32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
     numbers.ok_or_else(|| "expected four numbers of pixels: left, top, width, height".to_owned())
 }
 
 impl Input {
-    /// A file that is no board, and what is said of it if it is a picture or a drawing.
-    pub(super) fn artwork(
-        path: Option<PathBuf>,
-        dpi: Option<f64>,
-        width: Option<Length>,
-        ink: Option<Colour>,
-        unit: Option<Unit>,
-    ) -> Self {
-        Self {
-            paths: path.into_iter().collect(),
-            picture_dpi: dpi,
-            picture_width: width,
-            copper: ink,
-            unit,
-            ..Self::default()
-        }
-    }
-
-    /// The same file as an outline alone.
-    pub(super) fn as_outline(&self) -> Self {
-        Self { outline: self.paths.first().cloned(), unit: self.unit, ..Self::default() }
-    }
-
     /// The board to be milled: without copper it is none.
     pub(super) fn load(&self, settings: &Settings) -> Result<Loaded, Failure> {
         self.read(settings, import::load)
@@ -277,7 +254,8 @@ impl Input {
         self.thinned(settings, side)
     }
 
-    fn drawing(&self) -> Result<drawing::Options, Failure> {
+    /// What is said of drawings.
+    pub(super) fn drawing(&self) -> Result<drawing::Options, Failure> {
         let read = |path: &PathBuf| match std::fs::read(path) {
             Ok(bytes) => Ok(Arc::new(bytes)),
             Err(error) => Err(Failure::io("read", path, &error)),

@@ -102,6 +102,9 @@ const MARGIN: Nm = Nm::from_mm(5);
 impl Pocket {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
         self.judge()?;
+        if !self.work.is_inverted() {
+            self.work.judge_margin("--invert")?;
+        }
         self.work.run(shared, |art, settings, work| Ok(job::pocket(art, settings, &self.how(work))?))
     }
 

@@ -72,6 +72,36 @@ diagnostics! {
         "layers named as in KiCad: F.Cu, Edge.Cuts, drill",
         "name one layer behind the file, FILE#LAYER; what it is of a board say {front}, {outline} or {drill}";
 
+    DRAWING_ASIDE: Warning =
+        "drawing-not-milled",
+        "Layers of a drawing that are not milled",
+        "shapes in one layer, or in layers that are not named like those of a board",
+        "name the layer that is meant behind the file: FILE#LAYER";
+
+    DRAWING_GAP: Warning =
+        "drawing-gap",
+        "Gaps between lines of a drawing",
+        "each line to end where the next begins",
+        "close the lines in the drawing program";
+
+    DRAWING_LINES_OPEN: Warning =
+        "drawing-lines-open",
+        "Lines of a drawing that are not closed",
+        "lines that meet at their ends, all round each shape",
+        "if they are part of a shape, close them in the drawing program, or allow wider gaps with {outline-gap}";
+
+    DRAWING_LINES_TOUCH: Warning =
+        "drawing-lines-touch",
+        "Closed lines of a drawing that touch or cross each other",
+        "closed lines that lie apart from each other, or within each other",
+        "unite the shapes in the drawing program, or cut one out of the other";
+
+    DRAWING_LINES_UNFILLED: Warning =
+        "drawing-lines-unfilled",
+        "Lines of a drawing that fill nothing, beside shapes that are filled",
+        "shapes that are all filled, or closed lines alone",
+        "fill the shapes that are meant, or put what belongs together into a layer and name it: FILE#LAYER";
+
     DXF_LEFT_OUT: Warning =
         "dxf-left-out",
         "Entities of a DXF were not read",

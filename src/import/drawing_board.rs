@@ -19,11 +19,11 @@ use crate::geometry::{Nm, Path as Course};
 use crate::import::diagnostic;
 
 /// A drawing that was named.
-struct Named {
-    file: Found,
-    drawing: Drawing,
+pub(super) struct Named {
+    pub(super) file: Found,
+    pub(super) drawing: Drawing,
     /// The layer of it that is meant.
-    layer: Option<String>,
+    pub(super) layer: Option<String>,
     /// What a person said it is.
     role: Option<Role>,
 }
@@ -46,14 +46,14 @@ pub(super) fn load(
     let mut chosen = Vec::new();
     for (slot, role) in slots {
         if let Some(drawing) =
-            slot.as_ref().map(|path| named_as(path, Some(role), selection)).transpose()?.flatten()
+            slot.as_ref().map(|path| named_as(path, Some(role), &selection.drawing)).transpose()?.flatten()
         {
             named.push(drawing);
             chosen.extend(slot.take());
         }
     }
     for path in std::mem::take(&mut rest.drill) {
-        match named_as(&path, Some(Role::Drill), selection)? {
+        match named_as(&path, Some(Role::Drill), &selection.drawing)? {
             Some(drawing) => {
                 named.push(drawing);
                 chosen.push(path);
@@ -63,7 +63,7 @@ pub(super) fn load(
     }
     let mut left = Vec::new();
     for path in paths.iter().filter(|path| !chosen.contains(path)) {
-        match named_as(path, None, selection)? {
+        match named_as(path, None, &selection.drawing)? {
             Some(drawing) => named.push(drawing),
             None => left.push(path.clone()),
         }
@@ -87,7 +87,11 @@ pub(super) fn load(
 }
 
 /// What was named, read, if it is a drawing.
-fn named_as(path: &Path, role: Option<Role>, selection: &Selection) -> Result<Option<Named>, Error> {
+pub(super) fn named_as(
+    path: &Path,
+    role: Option<Role>,
+    options: &drawing::Options,
+) -> Result<Option<Named>, Error> {
     let (file, layer) = split(path);
     if !file.is_file() {
         return Ok(None);
@@ -97,7 +101,7 @@ fn named_as(path: &Path, role: Option<Role>, selection: &Selection) -> Result<Op
         return Ok(None);
     }
     let bytes = read_file(&file, &shown)?;
-    let drawing = drawing::read(&name_of(&file), &bytes, &selection.drawing)?;
+    let drawing = drawing::read(&name_of(&file), &bytes, options)?;
     let file = Found { name: name_of(&file), shown, bytes, kind: Kind::Unknown, named: true };
     Ok(Some(Named { file, drawing, layer, role }))
 }
@@ -206,7 +210,7 @@ fn edge(build: &mut Build, (file, source): (&Found, &Source), figures: Vec<Figur
 }
 
 /// The contours of an area, or the middle of a line, as bare lines.
-fn middles(figure: &Figure) -> Vec<Feature> {
+pub(super) fn middles(figure: &Figure) -> Vec<Feature> {
     let radius = figure.radius();
     let mut features = Vec::new();
     for path in figure.paths() {

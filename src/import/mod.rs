@@ -9,7 +9,8 @@
 //!
 //! [`load()`] takes a folder, an archive or single files and puts a board together; the readers of
 //! the formats stand alone and never touch the file system.
-//! A [`picture`] of copper is a board by itself.
+//! A [`picture`] of copper is a board by itself; of a drawing that is no board [`load_shapes`] has
+//! what is milled.
 
 mod advice;
 mod archive;
@@ -23,6 +24,7 @@ pub mod diagnostic;
 mod digest;
 pub mod drawing;
 mod drawing_board;
+mod drawing_shapes;
 mod error;
 pub mod excellon;
 mod format;
@@ -49,6 +51,7 @@ mod whole_board;
 pub use build::Loaded;
 pub use digest::sha256;
 pub use drawing::{dxf, svg};
+pub use drawing_shapes::{Shapes, load_shapes};
 pub use error::{Diagnosis, Error};
 pub use format::{FORMATS, Format};
 pub use load::{load, load_copper, survey};

@@ -105,3 +105,76 @@ fn the_tool_parks_where_it_was_asked_to() {
         }
     }
 }
+
+/// A text in a font, set by the drawing's own words or by those of the command line.
+#[test]
+fn texts_are_set_in_the_font_that_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let drawing = "<svg xmlns='http://www.w3.org/2000/svg' width='60mm' height='20mm' viewBox='0 0 60 20'>\
+        <text x='2' y='14' font-family='X' font-size='10'>Il</text></svg>";
+    std::fs::write(path("t.svg"), drawing).expect("a drawing");
+    std::fs::write(path("font.ttf"), dejavu::sans::bold()).expect("a font");
+    let (drawing, font, program) = (path("t.svg"), path("font.ttf"), path("made.ngc"));
+    for (command, tool) in [("carve", "vbit:0.1mm:60deg"), ("pocket", "endmill:0.5mm")] {
+        let made = voromill(&[command, &drawing, "--font", &font, "--tool", tool, "-o", &program]);
+        assert!(made.status.success(), "{}{}", stdout(&made), stderr(&made));
+        assert_eq!(stderr(&made), "", "{command}: nothing is left out");
+        let bare = voromill(&[command, &drawing, "--tool", tool, "-o", &program]);
+        assert_eq!(bare.status.code(), Some(2), "{command}: without a font there is nothing");
+        let lines = ["--text", "Il\\nIl", "--font", &font, "--tool", tool, "-o", &program];
+        let made = voromill(&[&[command][..], &lines].concat());
+        assert!(made.status.success(), "{}{}", stdout(&made), stderr(&made));
+        assert!(stdout(&made).starts_with("IlIl"), "{command}: {}", stdout(&made));
+    }
+}
+
+#[test]
+fn what_is_said_of_pictures_helps() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let picture = image::GrayImage::from_fn(60, 60, |x, y| {
+        let is_ink = (10..40).contains(&x) && (10..40).contains(&y) || (x, y) == (50, 50);
+        image::Luma([if is_ink { 0 } else { 255 }])
+    });
+    picture.save(path("logo.png")).expect("a picture");
+    let (logo, program) = (path("logo.png"), path("made.ngc"));
+    let wide = ["pocket", &logo, "--picture-width", "12mm", "--tool", "endmill:1mm", "-o", &program];
+    let told = stderr(&voromill(&wide));
+    assert!(told.contains("--copper dark") && told.contains("--despeckle 0.05"), "{told}");
+    let made = voromill(&[&wide[..], &["--copper", "dark", "--despeckle", "0.05"]].concat());
+    assert!(made.status.success(), "{}{}", stdout(&made), stderr(&made));
+    assert_eq!(stderr(&made), "", "as it was advised");
+}
+
+#[test]
+fn options_that_change_nothing_are_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    image::GrayImage::new(9, 9).save(path("p.png")).expect("a picture");
+    std::fs::write(path("font.ttf"), dejavu::sans::bold()).expect("a font");
+    let (picture, font) = (path("p.png"), path("font.ttf"));
+    let (drawing, layer) = ("fixtures/drawings/strokes.svg", "fixtures/gerber/clear_polarity.gbr");
+    let text = ["--text", "A", "--font", &font];
+    let cases: [(&[&str], &[&str], &str); 9] = [
+        (&[drawing], &["--ink", "dark"], "--ink has no effect on a drawing"),
+        (&[drawing], &["--picture-width", "9mm"], "--picture-width has no effect on a drawing"),
+        (&[drawing], &["--margin", "9mm"], "--margin has no effect without"),
+        (&[drawing], &["--height", "9mm"], "--text <TEXT>"),
+        (&[&picture], &["--unit", "mm"], "--unit has no effect on a picture"),
+        (&[&picture], &["--font", &font], "--font has no effect on a picture"),
+        (&[layer], &["--crop", "0,0,1,1"], "--crop has no effect on a file of a board"),
+        (&text, &["--unit", "mm"], "--unit has no effect with --text"),
+        (&text, &["--picture-dpi", "600"], "--picture-dpi has no effect with --text"),
+    ];
+    for (what, options, expected) in cases {
+        for (command, tool) in [("carve", "vbit:0.1mm:60deg"), ("pocket", "endmill:0.5mm")] {
+            let refused = voromill(&[&[command], what, options, &["--tool", tool, "-o", "-"]].concat());
+            let said = stderr(&refused);
+            assert!(
+                refused.status.code() == Some(2) && said.contains(expected),
+                "{command} {options:?}: {said}"
+            );
+        }
+    }
+}

@@ -63,6 +63,7 @@ mod scans;
 mod seeds;
 mod segments;
 mod sets;
+mod shapes;
 mod snapshot;
 mod strategies;
 mod thinning;

@@ -3,7 +3,8 @@
 
 use super::chords;
 use super::edge::Edge;
-use super::{Notes, nest};
+use super::nest;
+use super::notes::Notes;
 use crate::board::polarity;
 use crate::geometry::{Path, Point, Polygon, RectIndex};
 use crate::import::diagnostic;

@@ -4,10 +4,10 @@
 //! on with the edge that turns most to the right. Each face comes out once; bounded ones run
 //! counter-clockwise, the face around a drawing clockwise. The latter is its contour.
 
+use super::area_mm2;
 use super::edge::Edge;
-use super::{Notes, area_mm2};
+use super::notes::Notes;
 use crate::geometry::{Path, Segment, Vector};
-use crate::import::diagnostic;
 
 /// The contour around each connected part of `edges`, counter-clockwise. No edge may lead nowhere
 /// or cross another, and where more than two meet all must be lines.
@@ -24,8 +24,7 @@ pub(super) fn outermost(edges: &[Edge], notes: &mut Notes<'_>) -> Vec<Path> {
     }
     if bounded > contours.len() {
         let at = walks.first_of_crowd().map(|walk| (walk.from, walk.line));
-        let message = "lines inside the outline touch it; only its outer edge is used";
-        notes.add(&diagnostic::OUTLINE_PARTED, message, at);
+        notes.parted(at);
     }
     contours
 }

@@ -5,10 +5,9 @@ use std::iter::successors;
 
 use rustc_hash::FxHashSet;
 
-use super::Notes;
 use super::edge::Edge;
+use super::notes::Notes;
 use crate::geometry::{Nm, Point, Rect};
-use crate::import::diagnostic;
 
 /// What an end that lies this near to another is not even worth mentioning: the rounding of a
 /// file's last digit.
@@ -115,12 +114,7 @@ pub(super) fn close_gaps(edges: &mut Vec<Edge>, gap: Nm, notes: &mut Notes<'_>) 
         edges.retain(|edge| edge.round.is_some() || edge.from != edge.to);
     }
     if let Some((width, at)) = widest {
-        let width = Nm::from_f64(width);
-        let message = match closed {
-            1 => format!("a gap of {width:.3} mm in the outline is closed"),
-            _ => format!("{closed} gaps of the outline are closed, the widest of {width:.3} mm"),
-        };
-        notes.add(&diagnostic::OUTLINE_GAP, message, Some((at, line_at(edges, at))));
+        notes.closed_gaps(closed, Nm::from_f64(width), (at, line_at(edges, at)));
     }
 }
 
@@ -167,12 +161,7 @@ pub(super) fn join_to_middles(edges: &mut Vec<Edge>) -> Vec<Joint> {
 pub(super) fn note_joints(edges: &[Edge], mut joints: Vec<Joint>, notes: &mut Notes<'_>) {
     joints.retain(|(_, p, _)| edges.iter().any(|edge| edge.from == *p || edge.to == *p));
     let Some(&(widest, at, line)) = joints.iter().max_by(|a, b| a.0.total_cmp(&b.0)) else { return };
-    let message = format!(
-        "{} ends of the outline that nearly touch the middle of another line are joined to it, the farthest by {:.3} mm",
-        joints.len(),
-        Nm::from_f64(widest)
-    );
-    notes.add(&diagnostic::OUTLINE_GAP, message, Some((at, line)));
+    notes.joined_to_middles(joints.len(), Nm::from_f64(widest), (at, line));
 }
 
 /// Whether `end` leaves `other` and is but what a line was drawn too far across it.
@@ -287,14 +276,16 @@ fn cell(p: Point, size: Nm) -> (i64, i64) {
     (p.x.get().div_euclid(size.get()), p.y.get().div_euclid(size.get()))
 }
 
-/// What [`prune`] left out.
-pub(super) struct Loose {
+/// What does not close.
+pub(in crate::import) struct Loose {
     /// Its length in nanometres.
-    pub(super) length: f64,
+    pub(in crate::import) length: f64,
     /// A rectangle that holds it.
     pub(super) bounds: Rect,
-    /// Its first end, and the line that drew it.
-    pub(super) place: (Point, u32),
+    /// The width of the widest line of it.
+    pub(in crate::import) width: Nm,
+    /// Its first end, and the line of the file that drew it.
+    pub(in crate::import) place: (Point, u32),
 }
 
 /// Leaves out edges that lead nowhere, until all that is left closes.
@@ -311,15 +302,11 @@ pub(super) fn prune(edges: &mut Vec<Edge>, notes: &mut Notes<'_>) -> Option<Loos
     let place = left_out().find_map(|edge| Some((loose(edge)?, edge.line)))?;
     // Shorter, it is but a corner that was drawn twice.
     if length >= super::GAP.to_f64() {
-        let message = format!(
-            "{} lines of the outline layer, {:.1} mm in all, belong to no closed contour and are ignored",
-            left_out().count(),
-            Nm::from_f64(length)
-        );
-        notes.add(&diagnostic::OUTLINE_LOOSE_LINES, message, Some(place));
+        notes.left_open(left_out().count(), Nm::from_f64(length), place);
     }
+    let width = left_out().map(|edge| edge.half * 2).max().unwrap_or_default();
     leave_out(edges, dead);
-    Some(Loose { length, bounds, place })
+    Some(Loose { length, bounds, width, place })
 }
 
 /// Leaves out edges that lead nowhere, without a word.

@@ -11,8 +11,13 @@
 //! ```
 //!
 //! Of every connected drawing the outermost boundary is a contour. What lies inside it without
-//! touching it is a contour of its own, a cut-out; what lies inside and touches it, or comes nearer
-//! to it than lines are joined over, is left out with a warning.
+//! touching it is a contour of its own, a cut-out; what lies inside and touches it is left out with
+//! a warning.
+//!
+//! So far goes what any drawing is read by, `enclosed` alone. A board has more rules, since much
+//! else is on its layer ([`join`]): what comes nearer to a contour around it than lines are joined
+//! over is left out, as are letters beside the board and what is too small to be cut; and where
+//! lines are open that reach around all the rest, nothing is the edge.
 
 mod areas;
 mod chords;
@@ -20,15 +25,16 @@ mod edge;
 mod faces;
 mod heal;
 mod nest;
+mod notes;
 
 use std::borrow::Borrow;
 
-use crate::board::Diagnostic;
 use crate::board::{Axis, Feature, Outline, Shape, Warning};
 use crate::geometry::{Nm, Path, Point};
 use crate::import::diagnostic;
-use crate::import::error::{last_line, line, locate};
 use edge::Edge;
+pub(in crate::import) use heal::Loose;
+use notes::{Notes, Reading};
 
 /// How far apart two ends may lie and still be taken for one corner.
 ///
@@ -45,6 +51,17 @@ pub struct Joined {
     pub warnings: Vec<Warning>,
 }
 
+/// What the lines of a drawing enclose, where it is no board: all that closes, however small it is,
+/// near to what is around it or beside, whatever else is drawn.
+pub(in crate::import) struct Enclosed {
+    /// The contours; none where nothing closes.
+    pub(in crate::import) outline: Option<Outline>,
+    /// What does not close; nothing where all lines do.
+    pub(in crate::import) open: Option<Loose>,
+    /// Gaps closed, lines left out.
+    pub(in crate::import) warnings: Vec<Warning>,
+}
+
 /// Joins the axes of `features`, read from the file `file` with content `bytes`, into contours;
 /// ends meet whose strokes touch, and then such as are up to `gap` apart.
 #[must_use]
@@ -54,28 +71,11 @@ pub fn join(
     features: impl IntoIterator<Item = impl Borrow<Feature>>,
     gap: Nm,
 ) -> Joined {
-    let mut notes = Notes { file, bytes, lines: Vec::new(), warnings: Vec::new() };
-    let (mut edges, mut contours) = collect(features, &mut notes);
-    if edges.is_empty() && contours.is_empty() {
+    let mut notes = Notes::new(Reading::Board, file, bytes);
+    let Some(Closed { contours, loose }) = close(features, gap, &mut notes) else {
         notes.add(&diagnostic::OUTLINE_EMPTY, "the outline layer has nothing that can be cut", None);
         return Joined { outline: None, warnings: notes.warnings };
-    }
-    edge::drop_doubles(&mut edges);
-    heal::close_gaps(&mut edges, gap, &mut notes);
-    edges = edge::part_where_they_meet(edges);
-    let joints = heal::join_to_middles(&mut edges);
-    if !joints.is_empty() {
-        edges = edge::part_where_they_meet(edges);
-    }
-    let loose = heal::prune(&mut edges, &mut notes);
-    heal::note_joints(&edges, joints, &mut notes);
-    let is_filled = !contours.is_empty();
-    contours.extend(faces::outermost(&chords::of_crowded(edges), &mut notes));
-    if is_filled {
-        contours = areas::united(contours, &mut notes);
-    }
-    contours.sort_by_cached_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
-    contours.dedup();
+    };
     let contours = nest::without_decoration(contours, &mut notes);
     let contours = nest::without_doubles(contours, gap, &mut notes);
     let closes = |outline: &Outline| !loose.as_ref().is_some_and(|loose| reaches_around(loose, outline));
@@ -87,57 +87,61 @@ pub fn join(
     Joined { outline, warnings: notes.warnings }
 }
 
+/// The same of a drawing that is no board: none of the rules by which a board's edge is told from
+/// what else is on its layer.
+pub(in crate::import) fn enclosed(
+    file: &str,
+    bytes: &[u8],
+    features: impl IntoIterator<Item = impl Borrow<Feature>>,
+    gap: Nm,
+) -> Enclosed {
+    let mut notes = Notes::new(Reading::Drawing, file, bytes);
+    let Closed { contours, loose: open } = close(features, gap, &mut notes).unwrap_or_default();
+    let outline = Outline::new(nest::without_copies(contours));
+    Enclosed { outline, open, warnings: notes.warnings }
+}
+
+/// What of a layer is closed, and what is not.
+#[derive(Default)]
+struct Closed {
+    contours: Vec<Path>,
+    loose: Option<Loose>,
+}
+
+/// Joins axes into contours, by no rule but that they close; none where nothing is drawn.
+fn close(
+    features: impl IntoIterator<Item = impl Borrow<Feature>>,
+    gap: Nm,
+    notes: &mut Notes<'_>,
+) -> Option<Closed> {
+    let (mut edges, mut contours) = collect(features, notes);
+    if edges.is_empty() && contours.is_empty() {
+        return None;
+    }
+    edge::drop_doubles(&mut edges);
+    heal::close_gaps(&mut edges, gap, notes);
+    edges = edge::part_where_they_meet(edges);
+    let joints = heal::join_to_middles(&mut edges);
+    if !joints.is_empty() {
+        edges = edge::part_where_they_meet(edges);
+    }
+    let loose = heal::prune(&mut edges, notes);
+    heal::note_joints(&edges, joints, notes);
+    let is_filled = !contours.is_empty();
+    contours.extend(faces::outermost(&chords::of_crowded(edges), notes));
+    if is_filled {
+        contours = areas::united(contours, notes);
+    }
+    contours.sort_by_cached_key(|contour| (contour.bounds().min(), contour.start, contour.segments.len()));
+    contours.dedup();
+    Some(Closed { contours, loose })
+}
+
 /// Whether what does not close is the board's edge, and what closes but its cut-outs.
-fn reaches_around(loose: &heal::Loose, outline: &Outline) -> bool {
+fn reaches_around(loose: &Loose, outline: &Outline) -> bool {
     let longest = outline.contours().iter().map(Path::length).fold(0.0, f64::max);
     let within = |p: Point| outline.bounds().inflate(GAP).contains(p);
     loose.length > longest && !(within(loose.bounds.min()) && within(loose.bounds.max()))
-}
-
-/// Warnings about one layer.
-pub(in crate::import::outline) struct Notes<'a> {
-    file: &'a str,
-    bytes: &'a [u8],
-    /// The line of the file that drew a point first, by point.
-    lines: Vec<(Point, u32)>,
-    warnings: Vec<Warning>,
-}
-
-impl Notes<'_> {
-    /// Without a place, the file as a whole is meant.
-    fn add(
-        &mut self,
-        diagnostic: &'static Diagnostic,
-        message: impl Into<String>,
-        place: Option<(Point, u32)>,
-    ) {
-        let warning = diagnostic.warning(message);
-        let (warning, bytes) = match place {
-            Some((at, number)) => (warning.at(at), line(self.bytes, number)),
-            None => (warning, last_line(self.bytes)),
-        };
-        self.warnings.push(warning.caused_by(locate(self.file, self.bytes, bytes)));
-    }
-
-    /// Each point that was drawn, in order, with its line.
-    fn drawn(&mut self, lines: Vec<(Point, u32)>) {
-        self.lines = lines;
-        self.lines.sort_by_key(|(p, _)| *p);
-        self.lines.dedup_by_key(|(p, _)| *p);
-    }
-
-    /// Whether `at` is such a point.
-    fn has_drawn(&self, at: Point) -> bool {
-        self.lines.binary_search_by_key(&at, |(p, _)| *p).is_ok()
-    }
-
-    /// `at`, with the line that drew it; a point that crossing lines made is on the line of one
-    /// beside it.
-    fn place(&self, at: Point) -> Option<(Point, u32)> {
-        let next = self.lines.partition_point(|(p, _)| *p < at);
-        let drawn = self.lines.get(next).or_else(|| self.lines.last());
-        drawn.map(|&(_, line)| (at, line))
-    }
 }
 
 /// The axes of drawn features as edges, and the contours of regions, closed as they come.

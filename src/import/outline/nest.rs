@@ -1,6 +1,7 @@
 //! Which contours are the board, and which are lettering beside it or lines drawn twice.
 
-use super::{Notes, area_mm2};
+use super::area_mm2;
+use super::notes::Notes;
 use crate::board::FLATTEN;
 use crate::geometry::{Nm, Path, Point, Polygon, Rect, distance_to_segment};
 use crate::import::diagnostic;
@@ -86,6 +87,32 @@ pub(super) fn without_doubles(contours: Vec<Path>, gap: Nm, notes: &mut Notes<'_
     }
     kept.sort_unstable();
     kept.into_iter().map(|i| contours[i].clone()).collect()
+}
+
+/// How far copies of one contour lie apart. Chosen: what rounding leaves, and nothing that anybody
+/// draws or mills.
+const COPIED: Nm = Nm::from_um(3);
+
+/// The contours, sorted by their lower left corners, without those that are copies of another,
+/// rounded otherwise.
+pub(super) fn without_copies(contours: Vec<Path>) -> Vec<Path> {
+    let mut kept: Vec<(Rect, f64, Path)> = Vec::with_capacity(contours.len());
+    for contour in contours {
+        let (bounds, area) = (contour.bounds(), area_mm2(&contour).abs());
+        let room = 1e-12 * COPIED.to_f64() * contour.length();
+        let mut before = kept.iter().rev().take_while(|(other, ..)| bounds.min().x - other.min().x <= COPIED);
+        let is_copy = before.any(|(other, of, _)| is_same(bounds, *other) && (area - of).abs() <= room);
+        if !is_copy {
+            kept.push((bounds, area, contour));
+        }
+    }
+    kept.into_iter().map(|(.., contour)| contour).collect()
+}
+
+/// Whether two rectangles are no farther apart on any side than copies are.
+fn is_same(a: Rect, b: Rect) -> bool {
+    let off = [a.min() - b.min(), a.max() - b.max()];
+    off.iter().all(|way| way.x.abs().max(way.y.abs()) <= COPIED)
 }
 
 /// How wide what lies between a ring and one inside it is on average, in nanometres.
