@@ -2,14 +2,16 @@
 //!
 //! ```text
 //!  something is filled ───────────────────▶ what is filled, and what strokes paint
-//!  nothing is ─┬─ a wide line is open ────▶ what strokes paint
+//!  nothing is ─┬─ a wide line is open,
+//!              │  or of copper ───────────▶ what strokes paint
 //!              ├─ lines close ────────────▶ what they enclose
 //!              └─ none does ──────────────▶ what strokes paint
 //! ```
 //!
 //! A drawing program gives every line a width, so that of a hairline says nothing: a shape that is
 //! drawn by its edge alone is meant as what it encloses. Letters and traces drawn with a wide pen
-//! are not, and some of their lines are open.
+//! are not: some of their lines are open, or their layer is named like copper of a board, of which
+//! Fritzing draws pads as rings.
 
 use std::path::Path;
 
@@ -52,23 +54,23 @@ pub struct Shapes {
 pub fn load_shapes(path: &Path, options: &drawing::Options, gap: Nm) -> Result<Option<Shapes>, Error> {
     let Some(Named { file, drawing, layer, .. }) = named_as(path, None, options)? else { return Ok(None) };
     let Drawing { artwork, source, mut warnings } = drawing;
-    let figures = match layer {
-        Some(name) => drawing::layer(artwork, &file.shown, &name)?.into_figures(),
+    let artwork = match layer {
+        Some(name) => drawing::layer(artwork, &file.shown, &name)?,
         None => of_one_side(artwork, &file, &mut warnings),
     };
-    let areas = shapes(figures, &file, gap, &mut warnings)?;
+    let areas = shapes(artwork, &file, gap, &mut warnings)?;
     warn_of_size(&areas, &mut warnings);
     let name = naming::whole_board_name(&file.name, &Selection::default());
     Ok(Some(Shapes { name, areas, source, warnings }))
 }
 
-/// All figures, or those of the front alone where layers are named like those of a board, or those
+/// All layers, or those of the front alone where layers are named like those of a board, or those
 /// of the back where there is no front.
-fn of_one_side(artwork: Artwork, file: &Found, warnings: &mut Vec<Warning>) -> Vec<Figure> {
+fn of_one_side(artwork: Artwork, file: &Found, warnings: &mut Vec<Warning>) -> Artwork {
     let has =
         |side: Side| artwork.layers.iter().any(|layer| role_of(&layer.name) == Some(Role::Copper(side)));
     let Some(side) = [Side::Front, Side::Back].into_iter().find(|&side| has(side)) else {
-        return artwork.into_figures();
+        return artwork;
     };
     let is_milled = |layer: &mut Layer| role_of(&layer.name) == Some(Role::Copper(side));
     let mut layers = artwork.layers;
@@ -85,17 +87,20 @@ fn of_one_side(artwork: Artwork, file: &Found, warnings: &mut Vec<Warning>) -> V
         );
         warnings.push(diagnostic::DRAWING_ASIDE.warning(message));
     }
-    Artwork { layers: milled }.into_figures()
+    Artwork { layers: milled }
 }
 
-/// What of the figures is milled.
+/// What of the artwork is milled.
 fn shapes(
-    figures: Vec<Figure>,
+    artwork: Artwork,
     file: &Found,
     gap: Nm,
     warnings: &mut Vec<Warning>,
 ) -> Result<Vec<Polygon>, Error> {
-    if figures.iter().any(is_filled) {
+    let is_copper = artwork.layers.iter().all(|layer| matches!(role_of(&layer.name), Some(Role::Copper(_))));
+    let figures = artwork.into_figures();
+    let is_pad_or_trace = |figure: &Figure| is_copper && figure.radius() > HAIRLINE / 2;
+    if figures.iter().any(|figure| is_filled(figure) || is_pad_or_trace(figure)) {
         warnings.extend(unfilled(&figures, file, gap));
         return painted(figures, file);
     }

@@ -176,6 +176,8 @@ fn layers_that_are_not_milled_are_told() {
     assert!(found.warnings[0].message.ends_with("not what is in `bottom`"), "{}", found.warnings[0].message);
     let back = try_shapes("both.svg", &drawing, "bottom", &Options::default()).expect("a layer");
     assert_eq!(told(&back), (1, 100.0, vec![]), "as asked for");
+    let pad = "<g id='copper1'><path d='M5 5H25V25H5Z' fill='none' stroke='black' stroke-width='1'/></g>";
+    assert_eq!(told(&shapes("pad.svg", &svg(pad))), (1, 80.0, vec![]), "copper is what is painted");
     let neither = svg(&(square("text", 5) + &square("logo", 25)));
     assert_eq!(
         told(&shapes("both.svg", &neither)),
