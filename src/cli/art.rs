@@ -168,6 +168,8 @@ impl Work {
         }
         shared.tell_stages(&stages);
         let findings = judged.as_ref().map_or(&[][..], M::findings);
+        let wrong = findings.iter().filter(|finding| finding.severity == Severity::Error);
+        shared.complain(&FindingEntry::list(&wrong.map(FindingEntry::from).collect::<Vec<_>>(), false));
         let to_stdout = self.output.as_deref() == Some(Path::new("-"));
         if (self.json || self.format == Format::Json) && !to_stdout {
             let told = if shared.tells_stages() { stages.list() } else { &[] };

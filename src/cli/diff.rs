@@ -12,7 +12,8 @@ use voromill::report::png;
 use voromill::verify::{self, Comparison, Cutter, Program, diff};
 
 use super::format::Format;
-use super::output::Output;
+use super::output::{Output, name_of};
+use super::program_files::{programs, without_programs};
 use super::{Failure, Shared};
 
 /// What copper changes between two programs, not which lines
@@ -65,9 +66,6 @@ Examples:
   voromill diff out-main/ out-branch/ -o pictures/
   voromill diff a.nc b.nc --tool endmill:0.2mm --format json";
 
-/// The endings of program files.
-const ENDINGS: [&str; 7] = ["ngc", "nc", "gcode", "gco", "tap", "cnc", "g"];
-
 /// Files of the same name, either of which may be missing.
 type Pair = (String, Option<PathBuf>, Option<PathBuf>);
 
@@ -106,13 +104,12 @@ impl Diff {
             return Err(Failure::new(cause, "name two programs, or two folders"));
         }
         if !before.is_dir() {
-            return Ok(vec![(name(after), Some(before.clone()), Some(after.clone()))]);
+            return Ok(vec![(name_of(after), Some(before.clone()), Some(after.clone()))]);
         }
-        let [old, new] = [programs(before)?, programs(after)?];
+        let [old, new] = [names(before)?, names(after)?];
         let all: BTreeSet<&OsString> = old.union(&new).collect();
         if all.is_empty() {
-            let cause = format!("no program in {} or {}", before.display(), after.display());
-            return Err(Failure::new(cause, format!("programs end in {}", ENDINGS.join(", "))));
+            return Err(without_programs(&[before, after]));
         }
         let path = |folder: &Path, names: &BTreeSet<OsString>, name: &OsString| {
             names.contains(name).then(|| folder.join(name))
@@ -146,20 +143,7 @@ impl Diff {
     }
 }
 
-fn name(path: &Path) -> String {
-    path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
-}
-
 /// The names of the programs in a folder.
-fn programs(folder: &Path) -> Result<BTreeSet<OsString>, Failure> {
-    let failed = |error: &std::io::Error| Failure::io("read", folder, error);
-    let mut names = BTreeSet::new();
-    for entry in std::fs::read_dir(folder).map_err(|error| failed(&error))? {
-        let path = entry.map_err(|error| failed(&error))?.path();
-        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        if path.is_file() && ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str())) {
-            names.extend(path.file_name().map(OsString::from));
-        }
-    }
-    Ok(names)
+fn names(folder: &Path) -> Result<BTreeSet<OsString>, Failure> {
+    Ok(programs(folder)?.iter().filter_map(|path| path.file_name()).map(OsString::from).collect())
 }

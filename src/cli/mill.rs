@@ -153,6 +153,8 @@ impl Mill {
         drop(progress);
         shared.tell_stages(&stages);
         shared.say(&leftovers.to_text(folder));
+        let failing = document.verification.as_ref().map(|verdict| verdict.failing(self.deny));
+        shared.complain(&failing.unwrap_or_default());
         if self.json || self.format == Format::Json {
             if shared.tells_stages() {
                 document.stages = stages.list().to_vec();

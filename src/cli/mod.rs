@@ -24,6 +24,7 @@ mod mill;
 mod output;
 mod pocket;
 mod probe;
+mod program_files;
 mod progress;
 mod reference;
 mod scope;
@@ -245,6 +246,13 @@ impl Shared {
             return print(&colour::on_terminal(text));
         }
         Ok(())
+    }
+
+    /// Prints what is wrong, on stderr, where errors alone are printed.
+    fn complain(self, text: &str) {
+        if self.quiet {
+            let _ = print_to(&mut io::stderr().lock(), text.as_bytes());
+        }
     }
 
     /// Whether progress may be shown.

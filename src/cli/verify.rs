@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use std::str::FromStr;
 
 use clap::{Args, ValueEnum};
-use voromill::board::{Board, Side, Source};
+use voromill::board::diagnostic::planning;
+use voromill::board::{Board, Side, Source, Warning};
 use voromill::gcode::Dialect;
 use voromill::geometry::{Nm, Vector};
 use voromill::import::{self, Loaded, Selection};
@@ -18,6 +19,7 @@ use voromill::topology::Pattern;
 use voromill::verify::{self, Asked, Cutter, Orientation, Placement, Program, Role, Severity};
 
 use super::given::of_word;
+use super::program_files::{programs, without_programs};
 use super::{Failure, Shared};
 
 /// What programs do to a board, before a machine does it
@@ -210,9 +212,6 @@ impl FromStr for Travel {
     }
 }
 
-/// What programs in a folder end in.
-const PROGRAMS: [&str; 8] = ["ngc", "nc", "gcode", "gc", "g", "cnc", "tap", "iso"];
-
 /// A length that a program was made with, as the first that says so says.
 fn length(programs: &[Program], setting: &str) -> Option<Nm> {
     programs.iter().find_map(|program| verify::declared_setting(&program.text, setting)?.parse().ok())
@@ -279,7 +278,7 @@ impl Verify {
             let hint = "name those that isolate, drill or cut out";
             return Err(Failure::new("the programs mill nothing: they probe the surface", hint));
         }
-        self.leave_out(&mut board, &programs);
+        self.leave_out(&mut board, &programs, shared)?;
         let usual = verify::Settings::default();
         let settings = verify::Settings {
             copper: self.copper,
@@ -297,8 +296,12 @@ impl Verify {
             ..usual
         };
         if self.register {
-            for program in &mut programs {
-                self.lay(program, &board, &settings, shared)?;
+            // Those that isolate tell most; holes may fit in several places.
+            let mut likely = Vec::new();
+            let (isolate, others): (Vec<_>, Vec<_>) =
+                programs.iter_mut().partition(|program| verify::is_isolation(program));
+            for program in isolate.into_iter().chain(others) {
+                likely.push(self.lay(program, &board, &likely, &settings, shared)?);
             }
         }
         let input = |source: Source| verify::Input { file: source.file, design: source.design };
@@ -308,6 +311,7 @@ impl Verify {
         shared.tell_stages(&stages);
         let report = report.with(verify::revisions(&programs, &inputs));
         let verdict = Verdict::from(&report);
+        shared.complain(&verdict.failing(self.deny));
         match self.format {
             Format::Text => {
                 shared.report(&format!("{}{}", verdict.to_text(shared.is_verbose()), verdict.fitness(0)))
@@ -321,7 +325,9 @@ impl Verify {
 
     /// Takes the nets out of the copper that were not to be isolated, and widens holes that are for
     /// rivets.
-    fn leave_out(&self, board: &mut Board, programs: &[Program]) {
+    ///
+    /// What is to be cleared must be there: a judge that looks for nothing finds nothing.
+    fn leave_out(&self, board: &mut Board, programs: &[Program], shared: Shared) -> Result<(), Failure> {
         let mut patterns = self.ignore.clone();
         if patterns.is_empty() {
             let declared = programs.iter().flat_map(|program| verify::declared_list(&program.text, "ignore"));
@@ -335,8 +341,18 @@ impl Verify {
         if let Some(wider) = declared.and_then(|length| length.parse().ok()) {
             job::rivet(board, wider);
         }
-        // That a pattern means no net was said when the program was made.
-        let _ = job::ignore(board, &patterns, topology.unwrap_or(Topology::Contact));
+        let topology = topology.unwrap_or(Topology::Contact);
+        if let Some(missed) = self.clearing().misses(board, topology).into_iter().next() {
+            return Err(Failure::new(missed.message.clone(), missed.kind.advice));
+        }
+        let found = job::ignore(board, &patterns, topology);
+        // Of patterns that programs say that was told when they were made.
+        let without =
+            |warning: &&Warning| !self.ignore.is_empty() && warning.is(&planning::PATTERN_WITHOUT_NET);
+        for warning in found.iter().filter(without) {
+            shared.say(&format!("warning: {}\n", warning.message));
+        }
+        Ok(())
     }
 
     /// The programs, those of folders in order of their names.
@@ -347,21 +363,10 @@ impl Verify {
                 files.push(path.clone());
                 continue;
             }
-            let entries = std::fs::read_dir(path).map_err(|error| Failure::io("read", path, &error))?;
-            let mut found = Vec::new();
-            for entry in entries {
-                let file = entry.map_err(|error| Failure::io("read", path, &error))?.path();
-                let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
-                if PROGRAMS.contains(&extension.to_ascii_lowercase().as_str()) && file.is_file() {
-                    found.push(file);
-                }
-            }
+            let found = programs(path)?;
             if found.is_empty() {
-                let cause = format!("{}: no program in this folder", path.display());
-                let hint = "a program ends in .ngc, .nc, .gcode, .gc, .g, .cnc, .tap or .iso; name others one by one";
-                return Err(Failure::new(cause, hint));
+                return Err(without_programs(&[path]));
             }
-            found.sort();
             files.extend(found);
         }
         Ok(files)
@@ -413,11 +418,12 @@ impl Verify {
         &self,
         program: &mut Program,
         board: &Board,
+        likely: &[Placement],
         settings: &verify::Settings,
         shared: Shared,
-    ) -> Result<(), Failure> {
+    ) -> Result<Placement, Failure> {
         let known = Orientation { degrees: self.rotate.map(Angle::degrees), mirror: self.mirror };
-        let found = verify::register(program, board, &known, settings)?;
+        let found = verify::register(program, board, &known, likely, settings)?;
         let mirror = found.mirror.map_or(String::new(), |axis| format!(" --mirror-axis {axis:.3}mm"));
         let turned = if found.degrees.abs() < 1e-9 {
             String::new()
@@ -427,19 +433,23 @@ impl Verify {
         let (x, y) = (found.shift.x, found.shift.y);
         shared.say(&format!("{}: placed as with --offset {x:.4}mm,{y:.4}mm{mirror}{turned}\n", program.file));
         program.placement = Some(found);
-        Ok(())
+        Ok(found)
     }
 
     /// What was to be cleared, if anybody says.
     fn asked(&self) -> Option<Asked> {
-        let clearing = job::Clearing {
+        let asked = self.clearing().asked(self.clear, Nm::ZERO);
+        asked.is_something().then_some(asked)
+    }
+
+    /// Where all was to be cleared.
+    fn clearing(&self) -> job::Clearing {
+        job::Clearing {
             nets: self.clear_nets.clone(),
             areas: self.clear_area.clone(),
             distances: self.distance_for.clone(),
             kept: self.keep_area.clone(),
-        };
-        let asked = clearing.asked(self.clear, Nm::ZERO);
-        asked.is_something().then_some(asked)
+        }
     }
 
     fn program(&self, path: &Path) -> Result<Program, Failure> {

@@ -8,13 +8,14 @@ use super::checked::given;
 use super::options::Complete;
 use super::quantity::{Length, Tiles};
 
-/// Room between tiles, beside the cutter. Chosen: the stock between two boards stays in one piece.
-const BETWEEN_TILES: Nm = Nm::from_mm(2);
+/// What is left between the cuts round two tiles. Chosen: as wide as a usual cutter, and it holds
+/// the tabs of both.
+const BETWEEN_TILES: Nm = Nm::from_mm(1);
 
 /// How often a board is made, and how far its copies are apart.
 pub(super) fn tiles(options: &Complete, cutout_tool: &Tool) -> Result<Option<(Tiles, Nm)>, Error> {
     let spacing = given("tile-spacing", options.tile_spacing)?;
-    let spacing = spacing.unwrap_or(cutout_tool.width_at(Nm::ZERO) + BETWEEN_TILES);
+    let spacing = spacing.unwrap_or(cutout_tool.width_at(Nm::ZERO) * 2 + BETWEEN_TILES);
     Ok(options.tile.filter(|tiles| tiles.columns * tiles.rows > 1).map(|tiles| (tiles, spacing)))
 }
 

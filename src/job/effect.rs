@@ -3,12 +3,13 @@
 use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Warning, Words};
 use crate::toolpath::Section;
-use crate::topology::{NetId, Pattern, called};
+use crate::topology::{self, NetId, Nets, Pattern, called};
 
 use super::by_net::without_net;
 use super::clearing::Clearing;
 use super::need::Need;
-use super::{AreaChoice, Layer, Options, Settings, Sites};
+use super::plain::method;
+use super::{AreaChoice, Options, Settings, Sites, Topology};
 
 impl Settings {
     /// The first of the `given` options that changes nothing beside the other settings, and what to
@@ -42,24 +43,51 @@ impl Settings {
 
 /// A `pattern-without-net` for each pattern that means no net of any layer.
 pub(super) fn patterns<'a>(
-    layers: impl Iterator<Item = (&'a Copper, &'a Layer)> + Clone,
+    layers: impl Iterator<Item = (&'a Copper, &'a Nets)> + Clone,
     settings: &Settings,
 ) -> Vec<Warning> {
-    let means_one = |pattern: &Pattern| {
-        layers.clone().any(|(copper, layer)| {
-            let mut ids = (0..).map(NetId).take(layer.nets.nets().len());
-            ids.any(|id| pattern.matches_any(&called(copper, &layer.nets, id)))
-        })
-    };
     let strategies = settings.asked.strategy_for.iter().map(|own| (&own.nets, "it sets no strategy"));
-    let cleared = settings.clearing.patterns().map(|pattern| (pattern, "nothing is cleared for it"));
-    let without = strategies.chain(cleared).filter(|(pattern, _)| !means_one(pattern));
-    without.map(|(pattern, so)| without_net(pattern, so)).collect()
+    let without = strategies.filter(|(pattern, _)| !means_one(pattern, layers.clone()));
+    let mut warnings: Vec<Warning> = without.map(|(pattern, so)| without_net(pattern, so)).collect();
+    warnings.extend(cleared(layers, &settings.clearing));
+    warnings
+}
+
+/// Such a warning for each pattern of what is to be cleared.
+fn cleared<'a>(
+    layers: impl Iterator<Item = (&'a Copper, &'a Nets)> + Clone,
+    clearing: &Clearing,
+) -> Vec<Warning> {
+    let without = clearing.patterns().filter(|pattern| !means_one(pattern, layers.clone()));
+    without.map(|pattern| without_net(pattern, "nothing is cleared for it")).collect()
+}
+
+fn means_one<'a>(pattern: &Pattern, mut layers: impl Iterator<Item = (&'a Copper, &'a Nets)>) -> bool {
+    layers.any(|(copper, nets)| {
+        let mut ids = (0..).map(NetId).take(nets.nets().len());
+        ids.any(|id| pattern.matches_any(&called(copper, nets, id)))
+    })
+}
+
+impl Clearing {
+    /// What it says of nets and places that a board does not have: `pattern-without-net`,
+    /// `area-off-the-board`.
+    #[must_use]
+    pub fn misses(&self, board: &Board, topology: Topology) -> Vec<Warning> {
+        let mut warnings = areas(board, self);
+        if self.patterns().next().is_some() {
+            let sides = [&board.front, &board.back].into_iter().flatten();
+            let layers: Vec<(&Copper, Nets)> =
+                sides.map(|copper| (copper, topology::recover(copper, method(topology)))).collect();
+            warnings.extend(cleared(layers.iter().map(|(copper, nets)| (*copper, nets)), self));
+        }
+        warnings
+    }
 }
 
 /// An `area-off-the-board` for each area to be cleared or kept that does not touch the board.
-pub(super) fn areas(board: &Board, settings: &Settings) -> Vec<Warning> {
-    let Clearing { areas, kept, .. } = &settings.clearing;
+pub(super) fn areas(board: &Board, clearing: &Clearing) -> Vec<Warning> {
+    let Clearing { areas, kept, .. } = clearing;
     let is_off = |area: &&AreaChoice| board.bounds().is_some_and(|bounds| !bounds.touches(area.bounds()));
     let off = areas.iter().chain(kept).filter(is_off);
     off.map(|area| {

@@ -51,6 +51,7 @@ mod probing;
 mod quantity;
 mod reach;
 mod rivet;
+mod room;
 mod settings;
 mod settings_file;
 mod show;

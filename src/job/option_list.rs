@@ -286,7 +286,8 @@ macro_rules! job_options {
     #[changes(PROGRAMS, TILING)]
     pub tile: Option<Tiles>,
 
-    /// Distance between tiles [default: the diameter of the cutout tool and 2mm]
+    /// Distance between tiles [default: twice the diameter of the cutout tool and
+    /// 1mm, so that a strip is left between the cuts]
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
     #[needs(Tiles)]
@@ -518,8 +519,8 @@ macro_rules! job_options {
     #[changes(CUTOUT, DRILLING, PICTURES)]
     pub cutout_pass: Option<Length>,
 
-    /// Angle at which the cutter ramps down along the contour in each pass, for cutters that cannot
-    /// plunge [default: straight down]
+    /// Angle at which the cutter ramps down along the contour wherever it goes down, for cutters
+    /// that cannot plunge [default: straight down]
     #[arg(long, value_name = "ANGLE")]
     #[serde(with = "text")]
     #[changes(CUTOUT, PICTURES)]

@@ -16,7 +16,7 @@ use crate::topology::{self, Electrical};
 use super::ignore::ignore;
 use super::rivet::rivet;
 use super::stock::{Stock, zero};
-use super::{Error, Layer, Narrow, Part, Settings, Written, effect, numbering, tag};
+use super::{Error, Layer, Narrow, Part, Settings, Written, effect, numbering, room, tag};
 
 /// What made the outputs.
 pub(super) const GENERATOR: &str = concat!("voromill ", env!("CARGO_PKG_VERSION"));
@@ -83,9 +83,9 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         let files = in_files(isolation(layer, sections, &board, settings), settings);
         files.into_iter().map(|program| (Part::of(layer.side), layer.side, program))
     }));
-    let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, layer)));
+    let sides = layers.iter().filter_map(|layer| Some((board.copper(layer.side)?, &layer.nets)));
     warnings.extend(effect::patterns(sides, settings));
-    warnings.extend(effect::areas(&board, settings));
+    warnings.extend(effect::areas(&board, &settings.clearing));
     warnings.extend(idle);
     warnings.extend(layers.iter().flat_map(|layer| layer.warnings.iter().cloned()));
     if !board.holes.is_empty() {
@@ -117,6 +117,7 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
         planned.push((Part::Cutout, side, program));
         warnings.extend(found);
     }
+    room::check(&planned, &stock, settings)?;
     warnings.extend(restrained(planned.iter_mut().map(|(.., program)| program), settings));
     numbering::number(planned.iter_mut().map(|(.., program)| program), &settings.options().tools);
     let tags = tag::tags(&planned, settings);

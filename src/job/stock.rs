@@ -20,8 +20,10 @@ pub(super) struct Stock {
     pub(super) front: Placement,
     /// The line about which the stock is flipped.
     pub(super) axis: Nm,
+    /// The first tile, seen from the front.
+    pub(super) tile: Rect,
     /// All tiles, seen from the front.
-    bounds: Rect,
+    pub(super) bounds: Rect,
     tiling: Option<Tiling>,
 }
 
@@ -35,17 +37,11 @@ impl Stock {
             rows,
             pitch: Vector::new(tile.width() + spacing, tile.height() + spacing),
         });
-        let last = tiling.map_or(Vector::default(), |tiling| {
-            Vector::new(
-                tiling.pitch.x * i64::from(tiling.columns - 1),
-                tiling.pitch.y * i64::from(tiling.rows - 1),
-            )
-        });
-        let bounds = Rect::new(tile.min(), tile.max() + last);
+        let bounds = over_all_tiles(tile, tiling);
         // To the micrometre, so that the header says it exactly.
         let middle = bounds.min().midpoint(bounds.max()).x;
         let middle = Nm::from_um((middle.get() + 500).div_euclid(1000));
-        Self { front, axis: settings.mirror_axis.unwrap_or(middle), bounds, tiling }
+        Self { front, axis: settings.mirror_axis.unwrap_or(middle), tile, bounds, tiling }
     }
 
     /// How the first tile lies when `side` is up.
@@ -58,11 +54,22 @@ impl Stock {
 
     /// All tiles when `side` is up.
     pub(super) fn area(&self, side: Side) -> Rect {
+        self.turned(side, self.bounds)
+    }
+
+    /// What lies in `rect` with `side` up, seen from the front; or with that side up what lies so
+    /// seen from the front.
+    pub(super) fn turned(&self, side: Side, rect: Rect) -> Rect {
         let over = |p: Point| Point::new(self.axis * 2 - p.x, p.y);
         match side {
-            Side::Front => self.bounds,
-            Side::Back => Rect::new(over(self.bounds.min()), over(self.bounds.max())),
+            Side::Front => rect,
+            Side::Back => Rect::new(over(rect.min()), over(rect.max())),
         }
+    }
+
+    /// What holds `rect` of every tile, that of the first being given.
+    pub(super) fn over_all_tiles(&self, rect: Rect) -> Rect {
+        over_all_tiles(rect, self.tiling)
     }
 
     /// The tiles when `side` is up: seen from behind they follow each other to the left.
@@ -76,7 +83,10 @@ impl Stock {
     /// The program for the holes on whose pins the stock is flipped; none where none are asked
     /// for, or nothing is turned.
     pub(super) fn alignment(&self, board: &Board, settings: &Settings) -> Option<(Program, Vec<Warning>)> {
-        let (diameter, margin) = settings.alignment.filter(|_| board.back.is_some())?;
+        let drills_back = !board.holes.is_empty() && settings.drill_side == Side::Back;
+        let cuts_back = board.outline.is_some() && settings.cutout_side == Side::Back;
+        let turns = board.back.is_some() || drills_back || cuts_back;
+        let (diameter, margin) = settings.alignment.filter(|_| turns)?;
         let holes = alignment_holes(self.bounds, self.axis, margin).map(|start| Hole {
             path: Path { start, segments: Vec::new() },
             diameter,
@@ -107,6 +117,13 @@ impl Stock {
         };
         Some((program, warnings))
     }
+}
+
+/// What holds `rect` of every tile, that of the first being given.
+fn over_all_tiles(rect: Rect, tiling: Option<Tiling>) -> Rect {
+    let Some(Tiling { columns, rows, pitch }) = tiling else { return rect };
+    let last = Vector::new(pitch.x * i64::from(columns - 1), pitch.y * i64::from(rows - 1));
+    rect.union(Rect::new(rect.min() + last, rect.max() + last))
 }
 
 /// Where zero is, for whoever sets it.

@@ -145,6 +145,14 @@ impl FindingEntry {
 }
 
 impl Verdict {
+    /// For people who asked for errors alone: the findings that are as bad as `deny`, as
+    /// [`FindingEntry::list`] has them.
+    #[must_use]
+    pub fn failing(&self, deny: Severity) -> String {
+        let failing = self.findings.iter().filter(|finding| finding.severity >= deny);
+        FindingEntry::list(&failing.cloned().collect::<Vec<_>>(), false)
+    }
+
     /// For people: what was found, as [`FindingEntry::list`] has it, and what was judged.
     #[must_use]
     pub fn to_text(&self, verbose: bool) -> String {

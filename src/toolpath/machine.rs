@@ -161,16 +161,19 @@ impl Machine {
             let mut before = None;
             for step in &mut section.moves {
                 let to = step.to();
-                let is_vertical =
-                    before.zip(to).is_some_and(|(a, b): (super::Position, _)| a.point() == b.point());
+                let is_vertical = before
+                    .zip(to)
+                    .is_some_and(|(a, b): (super::Position, super::Position)| a.point() == b.point());
                 if let Move::Feed { feed, .. } | Move::Arc { feed, .. } = step {
                     let (most, way) = if is_vertical { (z, "down") } else { (level, "sideways") };
-                    if *feed > most {
+                    // Up it goes as fast as it can: nobody has asked for a speed.
+                    let rises = before.zip(to).is_some_and(|(a, b)| is_vertical && b.z > a.z);
+                    if *feed > most && !rises {
                         say(format!(
                             "{name} needs a feed of {feed} {way}, but the machine reaches {most}: that is used"
                         ));
-                        *feed = most;
                     }
+                    *feed = (*feed).min(most);
                 }
                 before = to.or(before);
             }

@@ -51,8 +51,12 @@ pub fn measure(program: &Program, machine: &Machine) -> Statistics {
     for (index, run) in program.sections.chunk_by(|a, b| a.tool == b.tool).enumerate() {
         let mut planner = Planner::new(machine);
         let mut cut_length = 0.0;
-        for step in run.iter().flat_map(|section| &section.moves) {
-            let block = planner.step(at, step);
+        for planned in run.iter().flat_map(|section| &section.moves) {
+            if let Some(turn) = descent(at, planned) {
+                total.rapid_length += Nm::from_f64(planner.step(at, &Move::Rapid { to: turn }));
+                at = turn;
+            }
+            let (step, block) = (planned, planner.step(at, planned));
             match step {
                 Move::Rapid { to } if to.z == at.z => total.rapid_length += Nm::from_f64(block),
                 Move::Rapid { to } if to.z == program.safe && at.z < program.safe => total.retracts += 1,
@@ -79,6 +83,15 @@ pub fn measure(program: &Program, machine: &Machine) -> Statistics {
     }
     total.tools = tools.into_values().collect();
     total
+}
+
+/// Where a rapid that is written as two turns: from the height at which a tool was changed the
+/// machine goes there first, and then down.
+fn descent(at: Position, step: &Move) -> Option<Position> {
+    match step {
+        Move::Rapid { to } if to.z < at.z && to.point() != at.point() => Some(Position { z: at.z, ..*to }),
+        _ => None,
+    }
 }
 
 /// A time in seconds as people say it: `1:05 h`, `12:30 min`, `40 s`.

@@ -1,6 +1,6 @@
 //! A planned program: sections of moves by one tool each, valid once built.
 
-use crate::geometry::{Nm, Point, Turn};
+use crate::geometry::{Nm, Point, Rect, Segment, Turn};
 
 use super::feed::Feed;
 use super::tool::Tool;
@@ -93,6 +93,24 @@ pub struct Section {
     pub moves: Vec<Move>,
 }
 
+impl Section {
+    /// The rectangle that holds all that the tool cuts, as wide as it is there.
+    fn milled(&self) -> Option<Rect> {
+        let ends = self.moves.iter().filter(|step| step.to().is_some());
+        let cut = ends.clone().zip(ends.skip(1)).filter_map(|(before, step)| {
+            let (from, to) = (before.to()?, step.to()?);
+            let depth = -from.z.min(to.z);
+            let way = match *step {
+                Move::Arc { center, turn, .. } => Segment::Arc { to: to.point(), center, turn },
+                _ => Segment::Line { to: to.point() },
+            };
+            let cuts = depth > Nm::ZERO;
+            cuts.then(|| way.bounds(from.point()).inflate(self.tool.width_at(depth) / 2))
+        });
+        cut.reduce(Rect::union)
+    }
+}
+
 /// One program for the machine: everything that is done in one clamping of one side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Program {
@@ -107,6 +125,13 @@ pub struct Program {
 }
 
 impl Program {
+    /// The rectangle that holds all that its tools cut, as wide as they are there; none where they
+    /// cut nothing.
+    #[must_use]
+    pub fn milled(&self) -> Option<Rect> {
+        self.sections.iter().filter_map(Section::milled).reduce(Rect::union)
+    }
+
     /// A program for each tool, in the order in which they are first needed.
     #[must_use]
     pub fn by_tool(self) -> Vec<Self> {

@@ -5,7 +5,7 @@ use crate::board::Side;
 use crate::gcode::read::lines;
 use crate::geometry::{Nm, Vector};
 
-use super::{Cutter, Role};
+use super::{Cutter, Program, Role};
 
 /// What the comments of a program say.
 #[derive(Clone, Debug, Default)]
@@ -78,6 +78,13 @@ pub fn declared_setting(text: &str, setting: &str) -> Option<String> {
         |comment: &str| Some(comment.trim().strip_prefix(setting)?.strip_prefix(' ')?.trim().to_owned());
     let parts: Vec<String> = lines(text).take(HEADER).flat_map(comments).filter_map(value).collect();
     (!parts.is_empty()).then(|| unescaped(&parts.join(" ")))
+}
+
+/// Whether a program isolates, as far as anybody or its own title says so.
+#[must_use]
+pub fn is_isolation(program: &Program) -> bool {
+    let role = program.role.or_else(|| Declared::read(&program.text).role);
+    matches!(role, Some(Role::Isolation(_)))
 }
 
 /// Whether a program says in its title that it probes the surface: it mills nothing.

@@ -84,7 +84,7 @@ use crate::topology::Nets;
 pub use crate::board::Severity;
 pub use asked::Asked;
 pub use cutter::{Cutter, CutterKind, ParseCutterError};
-pub use declared::{declared_list, declared_probe, declared_setting};
+pub use declared::{declared_list, declared_probe, declared_setting, is_isolation};
 pub use diff::{Change, Comparison, Region, Spot, diff};
 pub use placement::Placement;
 pub use register::{Orientation, register};

@@ -7,6 +7,7 @@
 //! drills is laid on the holes, what cuts out on the outline.
 
 use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 use rayon::prelude::*;
 
@@ -30,11 +31,49 @@ pub struct Orientation {
     pub mirror: Option<Nm>,
 }
 
+impl Orientation {
+    /// Whether a placement is one of these.
+    fn allows(&self, placement: &Placement) -> bool {
+        self.degrees.is_none_or(|degrees| (degrees - placement.degrees).abs() < 1e-9)
+            && (self.mirror.is_none() || self.mirror == placement.mirror)
+    }
+}
+
 /// A program with the role and the places that are to be laid over the board.
 struct Trial {
     placement: Placement,
     points: Vec<Point>,
     role: Role,
+}
+
+impl Trial {
+    /// Whether, as it lies, it isolates so much that it is worth `least`: what lies off the board
+    /// is near no copper.
+    fn is_beside(&self, board: &Board, least: f64) -> bool {
+        let Role::Isolation(side) = self.role else { return true };
+        let copper = board.copper(side).filter(|copper| !copper.features.is_empty());
+        copper.is_some_and(|copper| Map::new(copper).score(&self.points, Vector::default()) >= least)
+    }
+
+    /// How badly it fits moved by `shift`: how near to copper cuts are, how many plunges are beside
+    /// holes, how far the cutout lies off the board's middle.
+    fn misfit(&self, board: &Board, shift: Vector) -> f64 {
+        /// Places are rounded when they are written. Chosen: above that.
+        const ROUNDING: f64 = 20_000.0;
+        match self.role {
+            Role::Isolation(side) => board
+                .copper(side)
+                .map_or(0.0, |copper| crowding(&Proximity::new(copper), &self.points, shift)),
+            Role::Drilling | Role::Alignment => -on_holes(&self.points, &holes(board), shift),
+            Role::Cutout => {
+                let (own, target) = (Rect::around(self.points.iter().copied()), board.outline.as_ref());
+                own.zip(target).map_or(0.0, |(own, target)| {
+                    let off = middle(own).distance(middle(target.bounds()) + shift);
+                    alike(own, target.bounds()).abs() + (off - ROUNDING).max(0.0)
+                })
+            }
+        }
+    }
 }
 
 /// A shift in the plane of the board, and how well it fits: the larger the better.
@@ -48,7 +87,14 @@ struct Fit {
 /// board.
 const POINTS: usize = 600;
 
-/// Finds how the board lies under `program`; of several tiles, the first.
+/// What part of the best placement's worth one must have that the program's comments tell, and one
+/// that is only likely: what lies off the board has none. Chosen.
+const TOLD: f64 = 0.1;
+const LIKELY: f64 = 0.5;
+
+/// Finds how the board lies under `program`; of several tiles, the first. Where several places fit
+/// as well it is the one that its comments say, or that of the files, and else one of those that
+/// are `likely`: how the board lies under other programs of the same run.
 ///
 /// # Errors
 ///
@@ -58,6 +104,7 @@ pub fn register(
     program: &Program,
     board: &Board,
     known: &Orientation,
+    likely: &[Placement],
     settings: &Settings,
 ) -> Result<Placement, Error> {
     let laid = |degrees: f64| match settings.tiles {
@@ -76,8 +123,23 @@ pub fn register(
         }
     }
     let (fit, placement) = best.ok_or_else(|| Error::Unplaced(program.file.clone()))?;
-    let trial = trial(program, board, placement, settings)?;
-    let fine = refine(&trial, &laid(placement.degrees), fit.shift);
+    let found = trial(program, board, placement, settings)?;
+    let laid_found = laid(placement.degrees);
+    let fine = refine(&found, &laid_found, fit.shift);
+    let least = found.misfit(&laid_found, fine);
+    let declared = Machining::read(program, board, settings)?;
+    let told = if declared.zero.is_some() { TOLD } else { LIKELY };
+    let likely = likely.iter().map(|&likely| (likely, LIKELY));
+    let candidates = [(declared.placement, told)].into_iter().chain(likely);
+    for (placement, share) in candidates.filter(|(candidate, _)| known.allows(candidate)) {
+        let as_likely = trial(program, board, placement, settings)?;
+        let laid = laid(placement.degrees);
+        if as_likely.misfit(&laid, Vector::default()) <= least
+            && as_likely.is_beside(&laid, fit.score * share)
+        {
+            return Ok(placement);
+        }
+    }
     Ok(Placement { shift: whole(turned_by(fine, placement.degrees)), ..placement })
 }
 
@@ -140,10 +202,14 @@ fn lay(trial: &Trial, board: &Board) -> Option<Fit> {
         Role::Drilling | Role::Alignment => lay_holes(&trial.points, board),
         Role::Cutout => {
             let target = board.outline.as_ref()?.bounds();
-            let off = (own.width() - target.width()).abs() + (own.height() - target.height()).abs();
-            Some(Fit { shift: middle(own) - middle(target), score: -off.to_f64() })
+            Some(Fit { shift: middle(own) - middle(target), score: alike(own, target) })
         }
     }
+}
+
+/// How alike two rectangles are in size: the less, the more they differ.
+fn alike(own: Rect, target: Rect) -> f64 {
+    -((own.width() - target.width()).abs() + (own.height() - target.height()).abs()).to_f64()
 }
 
 fn better(a: Fit, b: Fit) -> Fit {
@@ -234,15 +300,21 @@ const HOLE: Nm = Nm::from_um(100);
 /// The shift that lays most plunges on holes: one that lays the first on one of them.
 fn lay_holes(points: &[Point], board: &Board) -> Option<Fit> {
     let first = *points.first()?;
-    let mut holes: Vec<Point> =
-        board.holes.iter().flat_map(|hole| [hole.path.start, hole.path.end()]).collect();
-    holes.sort_unstable();
-    holes.dedup();
-    let fits = |shift: Vector| {
-        let on = points.iter().filter(|&&p| nearest_hole(&holes, p - shift).is_some()).count();
-        Fit { shift, score: f64::from(u32::try_from(on).unwrap_or(u32::MAX)) }
-    };
+    let holes = holes(board);
+    let fits = |shift: Vector| Fit { shift, score: on_holes(points, &holes, shift) };
     holes.iter().map(|&hole| fits(first - hole)).reduce(better)
+}
+
+/// The places of holes, in order.
+fn holes(board: &Board) -> Vec<Point> {
+    let ends = board.holes.iter().flat_map(|hole| [hole.path.start, hole.path.end()]);
+    ends.collect::<BTreeSet<Point>>().into_iter().collect()
+}
+
+/// How many plunges lie on holes.
+fn on_holes(points: &[Point], holes: &[Point], shift: Vector) -> f64 {
+    let on = points.iter().filter(|&&p| nearest_hole(holes, p - shift).is_some()).count();
+    f64::from(u32::try_from(on).unwrap_or(u32::MAX))
 }
 
 /// The hole within [`HOLE`] of a point, of holes in order.

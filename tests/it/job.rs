@@ -6,17 +6,26 @@ use std::path::{Path, PathBuf};
 use voromill::board::Side;
 use voromill::gcode::{dialect, read};
 use voromill::geometry::Nm;
-use voromill::import::{self, Selection};
+use voromill::import::{self, Loaded, Selection};
 use voromill::job::{self, Job, Options, Part, Settings};
 use voromill::verify::Severity;
 
 /// The job on a board of `fixtures/boards`, with settings as a settings file gives them.
 fn job(files: &str, settings: &str) -> (Job, Settings) {
+    let settings = of_file(settings);
+    (job::mill(load(files), &settings).expect("a job"), settings)
+}
+
+/// A board of `fixtures/boards`.
+fn load(files: &str) -> Loaded {
     let path: PathBuf = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards").join(files);
-    let loaded = import::load(&[path], &Selection::default()).expect("a board");
-    let options = Options::from_toml("voromill.toml", settings).expect("settings");
-    let settings = Settings::resolve(options).expect("settings that make sense");
-    (job::mill(loaded, &settings).expect("a job"), settings)
+    import::load(&[path], &Selection::default()).expect("a board")
+}
+
+/// Settings as a settings file gives them.
+fn of_file(text: &str) -> Settings {
+    let options = Options::from_toml("voromill.toml", text).expect("settings");
+    Settings::resolve(options).expect("settings that make sense")
 }
 
 fn warned(job: &Job, code: &str) -> bool {
@@ -256,6 +265,46 @@ fn tiles_lie_beside_each_other_on_both_sides() {
     assert!(xs().all(|x| (-1.0..125.0).contains(&x)), "the back lies where the front lies");
     assert!(xs().any(|x| x < 60.0) && xs().any(|x| x > 64.0), "on all tiles");
     assert!(is_clean(&four, &settings), "and each is isolated");
+}
+
+#[test]
+fn boards_that_lie_too_near_to_each_other_or_to_the_pins_are_refused() {
+    let refused = |text: &str| {
+        let made = job::mill(load("regulator"), &of_file(text));
+        made.err().map(|error| error.to_string())
+    };
+    for (text, words) in [
+        ("tile = \"2x1\"\ntile-spacing = \"0.5mm\"", Some("nothing between the cuts")),
+        ("tile = \"1x2\"\ntile-spacing = \"2mm\"", Some("it must be more than 2mm")),
+        ("tile = \"1x2\"\ntile-spacing = \"2.1mm\"", None),
+        ("tile = \"3x3\"\ncutout-tool = \"endmill:3mm\"", None),
+        ("tile = \"2x1\"\nrotate = \"30deg\"", None),
+        ("alignment-holes = \"3mm\"\nalignment-margin = \"2mm\"", Some("it must be more than 2.5mm")),
+        (
+            "alignment-holes = \"3mm\"\ncutout-tool = \"endmill:4mm\"",
+            Some("the pins stand in what is milled"),
+        ),
+        ("alignment-holes = \"3mm\"\nalignment-margin = \"2.6mm\"\nmirror-axis = \"10mm\"", None),
+    ] {
+        match (refused(text), words) {
+            (None, None) => {}
+            (Some(error), Some(words)) => assert!(error.contains(words), "{text}: {error}"),
+            (error, _) => panic!("{text}: {error:?}"),
+        }
+    }
+}
+
+#[test]
+fn a_board_of_one_side_that_is_turned_has_pins_too() {
+    let first = |text: &str| {
+        let mut loaded = load("regulator");
+        loaded.board.back = None;
+        let settings = of_file(&format!("alignment-holes = \"3mm\"\n{text}"));
+        job::mill(loaded, &settings).expect("programs").programs[0].part
+    };
+    assert_eq!(first(""), Part::Front, "nothing is turned");
+    assert_eq!(first("cutout-side = \"back\""), Part::Alignment, "for the cutout");
+    assert_eq!(first("drill-side = \"back\""), Part::Alignment, "for the holes");
 }
 
 #[test]

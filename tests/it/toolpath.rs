@@ -3,13 +3,13 @@
 use proptest::prelude::*;
 use voromill::board::{Hole, Outline, Plating, Warning};
 use voromill::gcode::{Dialect, Header, write};
-use voromill::geometry::{Arc, Nm, Path, Point, Rect, Turn};
+use voromill::geometry::{Arc, Nm, Path, Point, Rect, Segment, Turn};
 use voromill::toolpath::strategy::{
     Cutout, Drilling, Isolation, Narrow, Role, TabPlaces, Tabs, cutout, drill, isolate,
 };
 use voromill::toolpath::{
-    DrillSpeeds, Heights, Machine, Move, Order, Origin, POINT, Placement, Position, Program, Section, Tiling,
-    Tool, alignment_holes, measure,
+    Angle, DrillSpeeds, Heights, Machine, Move, Order, Origin, POINT, Placement, Position, Program, Section,
+    Tiling, Tool, alignment_holes, measure,
 };
 use voromill::topology::NetId;
 use voromill::voronoi::{Boundaries, Boundary, NodeId, Owner};
@@ -238,6 +238,58 @@ fn tabs_are_really_there() {
     }
 }
 
+/// Where a cutter goes down into what is not cut yet, more steeply than a ramp may be: the deepest
+/// that each place was cut before counts, level ways between places that are looked at too.
+fn plunges(section: &Section, angle: Angle) -> Vec<Position> {
+    const GRID: f64 = 20_000.0;
+    let cell = |p: Point| [p.x, p.y].map(|length| length.get().div_euclid(20_000));
+    let mut cut: std::collections::BTreeMap<[i64; 2], f64> = std::collections::BTreeMap::new();
+    let (mut here, mut plunges) = (Position::default(), Vec::new());
+    for step in &section.moves {
+        let to = step.to().unwrap_or(here);
+        let (from, end) = ([here.x, here.y, here.z].map(Nm::to_f64), [to.x, to.y, to.z].map(Nm::to_f64));
+        let way = match *step {
+            Move::Arc { center, turn, .. } => Segment::Arc { to: to.point(), center, turn },
+            _ => Segment::Line { to: to.point() },
+        };
+        let long = way.length(here.point());
+        let steps = (long / GRID * 4.0).ceil().max(1.0);
+        let slope = if long > 0.0 { (from[2] - end[2]) / long } else { f64::INFINITY };
+        let mut done = 0.0;
+        while done < steps {
+            done += 1.0;
+            let p = way.at(here.point(), done / steps);
+            let z = from[2] + (end[2] - from[2]) * done / steps;
+            let floor = cut.entry(cell(p)).or_insert(0.0);
+            let is_steep = slope > libm::tan(angle.radians()) * 1.01;
+            // A cell is as wide as a ramp goes down by that much.
+            if is_steep && z < *floor - 2.0 * GRID * libm::tan(angle.radians()) - 10.0 {
+                plunges.push(to);
+            }
+            *floor = floor.min(z);
+        }
+        here = to;
+    }
+    plunges
+}
+
+#[test]
+fn a_cutter_that_cannot_plunge_goes_down_ramps_alone() {
+    let (tool, placement) = (tool("endmill:1mm"), Placement::default());
+    let straight = cutout(&outline(), &cutting(&tool, &placement, 4)).0;
+    for degrees in [1, 3, 20] {
+        // At one degree a pass of 0.6 mm is longer than the window is round.
+        let angle = Angle::from_degrees(degrees);
+        assert!(!plunges(&straight, angle).is_empty(), "it plunges, so that this can be seen");
+        for tabs in [0, 1, 4] {
+            let settings = Cutout { ramp: Some(angle), ..cutting(&tool, &placement, tabs) };
+            let (section, _) = cutout(&outline(), &settings);
+            assert_safe(&section, settings.heights);
+            assert_eq!(plunges(&section, angle), [], "{tabs} tabs, {degrees} degrees");
+        }
+    }
+}
+
 #[test]
 fn the_cutter_stays_outside_the_board() {
     let (tool, placement) = (tool("endmill:1mm"), Placement::default());
@@ -380,6 +432,50 @@ fn a_slot_without_a_mill_is_a_chain_of_holes_with_low_ridges() {
         assert!(ridge <= 16_000.0, "a ridge of {ridge} nm");
         assert!(half <= 125_000.0 && half > 100_000.0, "{half} nm");
     }
+}
+
+/// From where a tool is changed the machine goes over the next hole first, and then down.
+#[test]
+fn the_way_back_from_a_tool_change_is_measured() {
+    let at = |x: i64, z: i64| Position { x: Nm::from_mm(x), y: Nm::ZERO, z: Nm::from_mm(z) };
+    let hole = |name: &str, x: i64, number: u32| {
+        let moves = vec![
+            Move::Rapid { to: at(x, 2) },
+            Move::Feed { to: at(x, -1), feed: tool(name).plunge },
+            Move::Rapid { to: at(x, 2) },
+        ];
+        Section { tool: Tool { number, ..tool(name) }, label: String::new(), moves }
+    };
+    let sections = vec![hole("drill:1mm", 10, 1), hole("drill:2mm", 30, 2)];
+    let mut program = Program { title: String::new(), notes: Vec::new(), safe: Nm::from_mm(2), sections };
+    let machine = Machine::default();
+    let near = measure(&program, &machine);
+    let parked = (None, Nm::from_mm(40));
+    let far = program.while_parking(parked, (None, Nm::from_mm(2)), |parked| measure(parked, &machine));
+    assert_eq!(near.rapid_length, Nm::from_mm(30), "from zero to both");
+    assert_eq!(far.rapid_length, near.rapid_length, "above it is as long");
+    let down = 38.0 / (600.0 / 60.0);
+    assert!(far.seconds > near.seconds + 2.0 * down, "up and down: {} and {}", far.seconds, near.seconds);
+}
+
+#[test]
+fn rises_are_as_fast_as_the_machine_without_a_word() {
+    let at = |z: i64| Position { z: Nm::from_um(z), ..Position::default() };
+    let fast: voromill::toolpath::Feed = "600mm/min".parse().expect("a feed");
+    let slow: voromill::toolpath::Feed = "150mm/min".parse().expect("a feed");
+    let machine = Machine { feed: Some([fast, fast, slow]), ..Machine::default() };
+    let told = |to: i64| {
+        let moves = vec![Move::Rapid { to: at(0) }, Move::Feed { to: at(to), feed: fast }];
+        let own = Tool { plunge: slow, ..tool("endmill:1mm") };
+        let section = Section { tool: own, label: String::new(), moves };
+        let mut program =
+            Program { title: String::new(), notes: Vec::new(), safe: Nm::ZERO, sections: vec![section] };
+        let warnings = machine.restrain(&mut program).len();
+        let Move::Feed { feed, .. } = program.sections[0].moves[1] else { panic!("a feed") };
+        (warnings, feed)
+    };
+    assert_eq!(told(1000), (0, slow), "up");
+    assert_eq!(told(-1000), (1, slow), "down");
 }
 
 #[test]

@@ -60,7 +60,8 @@ fn a_mirrored_program_with_modal_words_and_tool_changes_isolates() {
 fn where_a_mirrored_program_lies_is_found() {
     let board = back();
     let mut program = program("pcb2gcode.nc", "endmill:0.2mm", Side::Back);
-    let found = register(&program, &board, &Orientation::default(), &Settings::default()).expect("it fits");
+    let found =
+        register(&program, &board, &Orientation::default(), &[], &Settings::default()).expect("it fits");
     program.placement = Some(found);
     assert_eq!(judge(&board, program), [], "laid as was found: {found:?}");
 }
@@ -132,7 +133,7 @@ fn off_when_found(options: Options, judging: &Settings) -> f64 {
         role: Some(Role::Isolation(Side::Front)),
         ..Program::default()
     };
-    let found = register(&program, &job.board, &Orientation::default(), judging).expect("it fits");
+    let found = register(&program, &job.board, &Orientation::default(), &[], judging).expect("it fits");
     let truth =
         Placement { degrees: job.placement.rotation.degrees(), shift: job.placement.shift, mirror: None };
     let machine = [Point::new(Nm::ZERO, Nm::ZERO), Point::new(Nm::from_mm(8), Nm::from_mm(6))];
@@ -163,7 +164,7 @@ fn a_cutout_of_another_board_does_not_fit_wherever_it_is_laid() {
             Program { file: program.to_owned(), text, role, cutter, placement: None, ..Program::default() };
         let settings = Settings { board: Nm::from_um(thickness), ..Settings::default() };
         let fitted =
-            register(&read, &board, &Orientation::default(), &settings).expect("it is laid somewhere");
+            register(&read, &board, &Orientation::default(), &[], &settings).expect("it is laid somewhere");
         for placement in [None, Some(fitted)] {
             read.placement = placement;
             let found = verify(&[read.clone()], &board, &[], &settings).expect("it can be judged").findings;

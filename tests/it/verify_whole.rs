@@ -5,10 +5,12 @@ use std::path::Path;
 use std::sync::LazyLock;
 
 use voromill::board::{Board, Hole, Outline, Plating, Side};
-use voromill::geometry::{Nm, Path as Way, Point, Segment, Turn};
+use voromill::geometry::{Nm, Path as Way, Point, Segment, Turn, Vector};
 use voromill::import::{self, Loaded, Selection};
 use voromill::job::{self, Job, Options, Part};
-use voromill::verify::{Finding, Orientation, Program, Role, Settings, Severity, register, verify};
+use voromill::verify::{
+    Finding, Orientation, Placement, Program, Role, Settings, Severity, register, verify,
+};
 
 static BLINKER: LazyLock<Job> = LazyLock::new(|| {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
@@ -191,7 +193,8 @@ fn a_program_whose_zero_was_found_elsewhere_is_told() {
                 cutter,
                 ..Program::default()
             };
-            let at = register(&program, &BLINKER.board, &Orientation::default(), &settings).expect("it fits");
+            let at =
+                register(&program, &BLINKER.board, &Orientation::default(), &[], &settings).expect("it fits");
             program.placement = Some(at);
             program
         };
@@ -208,6 +211,30 @@ fn a_program_whose_zero_was_found_elsewhere_is_told() {
     assert_eq!(judge(&drill, &cutout), [""; 0], "as they were made");
     assert_eq!(judge(&each_x(&drill, |x| x + 2.5), &cutout).len(), 1, "one of two that are not mirrored");
     assert_eq!(judge(&drill, &each_x(&cutout, |x| x - 1.0)).len(), 1, "one of two that are not mirrored");
+}
+
+/// One hole fits on each of the board: where comments say nothing, it lies as other programs do.
+#[test]
+fn a_program_that_fits_in_several_places_lies_where_it_is_likely_to() {
+    let (board, known, settings) = (&BLINKER.board, Orientation::default(), Settings::default());
+    let corner = board.bounds().expect("a size").min();
+    let offset = Vector::new(Nm::from_mm(5), Nm::from_mm(3));
+    let as_milled = Placement { shift: Point::default() - corner + offset, ..Placement::default() };
+    let hole = as_milled.apply(board.holes[board.holes.len() / 2].path.start);
+    let drilled = |comment: &str| {
+        let (x, y) = (hole.x.to_mm(), hole.y.to_mm());
+        format!("{comment}G21 G90\nM3 S1000\nG0 Z2\nG0 X{x:.4} Y{y:.4}\nG1 Z-2 F60\nG0 Z2\nM2\n")
+    };
+    let lies = |text: String, likely: &[Placement]| {
+        let (role, cutter) = (Some(Role::Drilling), Some("drill:1mm".parse().expect("a tool")));
+        let program = Program { file: "hole.nc".to_owned(), text, role, cutter, ..Program::default() };
+        register(&program, board, &known, likely, &settings).expect("it fits").shift
+    };
+    assert_ne!(lies(drilled(""), &[]), as_milled.shift, "on any hole");
+    assert_eq!(lies(drilled(""), &[as_milled]), as_milled.shift, "as another program");
+    assert_eq!(lies(drilled("(origin lower-left)\n(offset 5mm,3mm)\n"), &[]), as_milled.shift, "as it says");
+    let off = Placement { shift: as_milled.shift + Vector::new(Nm::from_um(300), Nm::ZERO), ..as_milled };
+    assert_ne!(lies(drilled(""), &[off]), off.shift, "where it does not fit it is not likely");
 }
 
 #[test]

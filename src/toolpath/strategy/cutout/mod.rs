@@ -4,9 +4,11 @@
 //! lines and arcs again: outwards round a board, inwards in a cut-out. Cut-outs go first, while the
 //! board is still held all round. Each contour is cut in passes without a retract, the next one
 //! begun by a plunge or down a ramp; below a tab's top the cutter climbs over the tabs, which are
-//! spread evenly and kept off corners, where they would be hard to file away.
+//! spread evenly and kept off corners, where they would be hard to file away. Of a cutter that
+//! cannot plunge every way down is a ramp, behind each tab, too.
 
 mod boards;
+mod ramp;
 mod ring;
 mod tabs;
 
@@ -14,7 +16,7 @@ use crate::board::diagnostic::{count, planning};
 use crate::board::{FLATTEN, Hole, Outline, Warning, polarity};
 use crate::geometry::{Nm, Path, Point, Polygon, RectIndex};
 use crate::toolpath::head::Head;
-use crate::toolpath::order::{Order, Stretch, arrange};
+use crate::toolpath::order::{self, Order, arrange};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Position, Section, Tool};
 use crate::voronoi;
 
@@ -33,8 +35,8 @@ pub struct Cutout<'a> {
     pub placement: &'a Placement,
     /// What holds the board.
     pub tabs: Tabs<'a>,
-    /// How steeply the cutter goes down along the contour at the beginning of each pass; none for
-    /// straight down.
+    /// How steeply the cutter goes down along the contour wherever it goes down into the board;
+    /// none for straight down.
     pub ramp: Option<Angle>,
     /// Which way round; none for either.
     pub direction: Option<Direction>,
@@ -208,11 +210,20 @@ fn at_places(
     for &place in places {
         let measured = rings.iter().enumerate().map(|(index, ring)| (ring.nearest(place), index));
         let Some(((off, along), index)) = measured.min_by(|a, b| a.0.0.total_cmp(&b.0.0)) else { continue };
-        let taken = |other: &f64| tabs::apart(*other, along, rings[index].length()) < opening(settings);
+        let apart = |other: &f64| tabs::apart(*other, along, rings[index].length());
+        let next = held[index].iter().map(apart).min_by(f64::total_cmp);
+        let taken = next.filter(|next| *next < opening(settings));
         if off > (radius + NEAR).to_f64() {
             let message = format!("a tab is requested {:.1} mm off any contour, and left out", off / 1e6);
             warnings.push(planning::TAB_OFF_THE_OUTLINE.warning(message).at(place));
-        } else if !held[index].iter().any(taken) {
+        } else if let Some(next) = taken {
+            let message = format!(
+                "a tab is requested {:.1} mm from another, where {:.1} mm are needed, and left out",
+                next / 1e6,
+                opening(settings) / 1e6
+            );
+            warnings.push(planning::NO_PLACE_FOR_TABS.warning(message).at(place));
+        } else {
             held[index].push(along);
         }
     }
@@ -228,9 +239,9 @@ fn cut_all(head: &mut Head, rings: &[Ring], held: &[Vec<f64>], settings: &Cutout
         rings.iter().zip(held).map(|(ring, held)| entries(ring, held, settings)).collect();
     let stretch = |(ring, starts): (&Ring, &Vec<f64>)| {
         let entries: Vec<Point> = starts.iter().map(|&start| ring.at(start)).collect();
-        Stretch { from: entries[0], to: entries[0], entries }
+        order::Stretch { from: entries[0], to: entries[0], entries }
     };
-    let stretches: Vec<Stretch> = placed.iter().zip(&starts).map(stretch).collect();
+    let stretches: Vec<order::Stretch> = placed.iter().zip(&starts).map(stretch).collect();
     let start = head.at().map_or(Point::default(), Position::point);
     for leg in arrange(&stretches, start, Order::Improved, 0.0) {
         let (ring, length) = (&placed[leg.stretch], placed[leg.stretch].length());
@@ -256,77 +267,55 @@ fn entries(ring: &Ring, held: &[f64], settings: &Cutout<'_>) -> Vec<f64> {
 
 /// One contour in all its passes, from its start.
 fn cut_ring(head: &mut Head, ring: &Ring, middles: &[f64], settings: &Cutout<'_>) {
-    let heights = settings.heights;
     head.over(ring.path().start);
-    if settings.ramp.is_some() {
-        head.plunge(Nm::ZERO);
-    }
-    let mut before = Nm::ZERO;
-    for depth in heights.passes() {
-        let pass = Pass::new(ring, before, depth, settings.ramp);
-        if settings.ramp.is_none() {
+    if let Some(angle) = settings.ramp {
+        ramp::cut(head, ring, middles, angle, settings);
+    } else {
+        for depth in settings.heights.passes() {
             head.plunge(depth);
+            let tabs = if depth > settings.tabs.top { middles } else { &[] };
+            for stretch in stretched(ring, tabs, settings) {
+                go_to(head, if stretch.is_tab { settings.tabs.top } else { depth }, settings);
+                head.follow(&ring.between(stretch.from, stretch.to), settings.tool.feed);
+            }
         }
-        pass.cut(head, ring.length(), middles, settings);
-        before = depth;
-    }
-    if settings.ramp.is_some() {
-        // The last ramp's wedge is still there.
-        let down = Pass::new(ring, before, before, None);
-        down.cut(head, Pass::new(ring, Nm::ZERO, heights.cut, settings.ramp).ramp, middles, settings);
     }
     head.retract();
 }
 
-/// Once round a contour.
-struct Pass<'a> {
-    ring: &'a Ring,
-    from: Nm,
-    to: Nm,
-    /// The way along which it goes from the one depth to the other.
-    ramp: f64,
+/// Straight up or down where the head is: up as fast as it cuts, down as fast as it plunges.
+fn go_to(head: &mut Head, depth: Nm, settings: &Cutout<'_>) {
+    let at = head.at().expect("the head is on the contour");
+    let speed = if -depth > at.z { settings.tool.feed } else { settings.tool.plunge };
+    head.feed_to(Position { z: -depth, ..at }, speed);
 }
 
-impl<'a> Pass<'a> {
-    fn new(ring: &'a Ring, from: Nm, to: Nm, ramp: Option<Angle>) -> Self {
-        let steep = ramp.map_or(f64::INFINITY, |angle| libm::tan(angle.radians()));
-        let ramp = ((to - from).to_f64() / steep).min(ring.length());
-        Self { ring, from, to, ramp }
-    }
+/// A part of a contour: over a tab, or between two.
+#[derive(Clone, Copy, Debug)]
+struct Stretch {
+    from: f64,
+    to: f64,
+    is_tab: bool,
+}
 
-    /// How deep it is at a distance.
-    fn depth(&self, at: f64) -> Nm {
-        if at >= self.ramp {
-            self.to
-        } else {
-            self.from + Nm::from_f64((self.to - self.from).to_f64() * at / self.ramp)
+/// A contour from its start round to it, in parts, tabs having these `middles`.
+fn stretched(ring: &Ring, middles: &[f64], settings: &Cutout<'_>) -> Vec<Stretch> {
+    let half = opening(settings) / 2.0;
+    let spans: Vec<(f64, f64)> = middles.iter().map(|middle| (middle - half, middle + half)).collect();
+    let mut knots: Vec<f64> = spans.iter().flat_map(|span| [span.0, span.1]).collect();
+    knots.retain(|&knot| knot > 0.0 && knot < ring.length());
+    knots.push(ring.length());
+    knots.sort_by(f64::total_cmp);
+    let mut from = 0.0;
+    let mut stretches = Vec::with_capacity(knots.len());
+    for to in knots {
+        if to - from < 1.0 {
+            continue;
         }
+        let middle = f64::midpoint(from, to);
+        let is_tab = spans.iter().any(|span| span.0 < middle && middle < span.1);
+        stretches.push(Stretch { from, to, is_tab });
+        from = to;
     }
-
-    /// The first `length` of it, no deeper than the top of a tab where there is one.
-    fn cut(&self, head: &mut Head, length: f64, middles: &[f64], settings: &Cutout<'_>) {
-        let top = settings.tabs.top;
-        let half = opening(settings) / 2.0;
-        let spans: Vec<(f64, f64)> = middles.iter().map(|middle| (middle - half, middle + half)).collect();
-        let tabs = spans.iter().filter(|_| self.to > top).flat_map(|span| [span.0, span.1]);
-        let mut knots: Vec<f64> = tabs.chain([self.ramp]).collect();
-        knots.retain(|&knot| knot > 0.0 && knot < length);
-        knots.push(length);
-        knots.sort_by(f64::total_cmp);
-        let mut from = 0.0;
-        for to in knots {
-            if to - from < 1.0 {
-                continue;
-            }
-            let middle = f64::midpoint(from, to);
-            let tab = self.to > top && spans.iter().any(|span| span.0 < middle && middle < span.1);
-            let limit = if tab { top } else { self.to };
-            let (begin, end) = (self.depth(from).min(limit), self.depth(to).min(limit));
-            let at = head.at().expect("the head is on the contour");
-            let speed = if -begin > at.z { settings.tool.feed } else { settings.tool.plunge };
-            head.feed_to(Position { z: -begin, ..at }, speed);
-            head.descend(&self.ring.between(from, to), end, settings.tool.feed);
-            from = to;
-        }
-    }
+    stretches
 }

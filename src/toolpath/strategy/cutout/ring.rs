@@ -1,6 +1,8 @@
 //! A closed path by the distance along it: where tabs begin and end.
 
-use crate::geometry::{Path, Point, Segment};
+use std::f64::consts::TAU;
+
+use crate::geometry::{Nm, Path, Point, Segment};
 
 /// Less of a segment, in nanometres, is nothing where both its ends are one point. Chosen: below
 /// what programs write.
@@ -120,16 +122,31 @@ impl Ring {
 
     /// How far `p` is from the ring, and where along it.
     pub(super) fn nearest(&self, p: Point) -> (f64, f64) {
-        /// Places looked at along a segment; the nearest of them is near enough to say where a tab
-        /// is wanted. Chosen.
-        const PLACES: u32 = 64;
-        let places = (0..self.path.segments.len()).flat_map(|i| {
-            let (begin, end) = (self.distances[i], self.distances[i + 1]);
-            (0..=PLACES).map(move |place| begin + (end - begin) * f64::from(place) / f64::from(PLACES))
+        let measured = self.path.steps().zip(self.distances.windows(2)).map(|((from, segment), ends)| {
+            let share = share_of_nearest(from, segment, p);
+            (segment.at(from, share).distance(p), ends[0] + (ends[1] - ends[0]) * share)
         });
-        let measured = places.map(|distance| (self.at(distance).distance(p), distance));
         measured.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::INFINITY, 0.0))
     }
+}
+
+/// How far along a segment, 0 to 1, its place nearest to `p` is.
+fn share_of_nearest(from: Point, segment: &Segment, p: Point) -> f64 {
+    let Some(arc) = segment.arc(from) else {
+        let (way, to) = (segment.to() - from, p - from);
+        let [wx, wy, tx, ty] = [way.x, way.y, to.x, to.y].map(Nm::to_f64);
+        return ((tx * wx + ty * wy) / (wx * wx + wy * wy).max(1.0)).clamp(0.0, 1.0);
+    };
+    let sweep = arc.sweep();
+    let [a, b] = [arc.start, p].map(|p| p - arc.center).map(|way| (way.x.to_f64(), way.y.to_f64()));
+    let turn = libm::atan2(a.0 * b.1 - a.1 * b.0, a.0 * b.0 + a.1 * b.1);
+    // The other way round where the arc goes so.
+    let share = if turn * sweep < 0.0 { (turn + sweep.signum() * TAU) / sweep } else { turn / sweep };
+    if share <= 1.0 {
+        return share;
+    }
+    let is_end = arc.end.distance(p) < arc.start.distance(p);
+    if is_end { 1.0 } else { 0.0 }
 }
 
 /// The directions in which a segment begins and ends.
@@ -155,7 +172,7 @@ mod tests {
     use std::f64::consts::{FRAC_PI_2, PI};
 
     use super::*;
-    use crate::geometry::{Nm, Turn};
+    use crate::geometry::Turn;
 
     fn at(x: i64, y: i64) -> Point {
         Point::new(Nm::from_mm(x), Nm::from_mm(y))
@@ -202,6 +219,13 @@ mod tests {
     #[test]
     fn the_nearest_place_is_found() {
         let (off, along) = ring().nearest(at(4, -1));
-        assert!((off - 1e6).abs() < 1e4 && (along - 4e6).abs() < 2e5, "{off} at {along}");
+        assert!((off - 1e6).abs() < 1.0 && (along - 4e6).abs() < 1.0, "{off} at {along}");
+        // Beyond the round corner, whose middle is at (8, 8), at 45 degrees.
+        let (off, along) = ring().nearest(at(11, 11));
+        let (far, quarter) = (3e6 * 2_f64.sqrt() - 2e6, 18e6 + 0.5e6 * PI);
+        assert!((off - far).abs() < 2.0 && (along - quarter).abs() < 2.0, "{off} at {along}");
+        // From its middle every place is as near; off the arc it is one of its ends.
+        let (off, along) = ring().nearest(at(7, 9));
+        assert!((off - 1e6).abs() < 2.0 && along > 18e6, "{off} at {along}");
     }
 }

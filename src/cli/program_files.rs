@@ -1,0 +1,31 @@
+//! Which files of a folder are programs.
+
+use std::path::{Path, PathBuf};
+
+use super::Failure;
+
+/// What they end in.
+const ENDINGS: [&str; 9] = ["ngc", "nc", "gcode", "gco", "gc", "g", "cnc", "tap", "iso"];
+
+/// The programs of a folder in order of their names.
+pub(super) fn programs(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+    let failed = |error: &std::io::Error| Failure::io("read", folder, error);
+    let mut found = Vec::new();
+    for entry in std::fs::read_dir(folder).map_err(|error| failed(&error))? {
+        let path = entry.map_err(|error| failed(&error))?.path();
+        let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        if path.is_file() && ending.is_some_and(|ending| ENDINGS.contains(&ending.as_str())) {
+            found.push(path);
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// The failure where none of `folders` has any.
+pub(super) fn without_programs(folders: &[&Path]) -> Failure {
+    let (last, others) = ENDINGS.split_last().expect("several");
+    let names: Vec<String> = folders.iter().map(|folder| folder.display().to_string()).collect();
+    let hint = format!("a program ends in .{} or .{last}; name others one by one", others.join(", ."));
+    Failure::new(format!("{}: no program in this folder", names.join(" and ")), hint)
+}
