@@ -50,6 +50,7 @@ mod whole_board;
 
 pub use build::Loaded;
 pub use digest::sha256;
+pub(crate) use digest::sha256_of;
 pub use drawing::{dxf, svg};
 pub use drawing_shapes::{Shapes, load_shapes};
 pub use error::{Diagnosis, Error};

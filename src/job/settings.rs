@@ -252,6 +252,11 @@ impl Settings {
         &self.options
     }
 
+    /// What the options come to, without them.
+    pub(super) fn without_options(&self) -> Self {
+        Self { options: Options::default(), ..self.clone() }
+    }
+
     /// How holes are drilled on a board that lies so.
     pub(super) fn drilling_at<'a>(&'a self, placement: &'a Placement) -> Drilling<'a> {
         Drilling {

@@ -710,6 +710,97 @@ fn a_cache_key_tells_apart_what_is_written() {
 }
 
 #[test]
+fn a_cache_key_tells_apart_how_files_are_read_and_what_is_in_those_that_settings_name() {
+    let folder = folder();
+    let key = |file: &str, more: &[&str]| {
+        let output = voromill(folder.path(), &[&["mill", file, "--cache-key"], more].concat());
+        assert!(output.status.success(), "{more:?}: {}", stderr(&output));
+        stdout(&output)
+    };
+    let drawn = image::GrayImage::from_fn(300, 200, |x, y| {
+        let is_ink = (20..120).contains(&x) && (20..150).contains(&y) || (180..190).contains(&x);
+        image::Luma([if is_ink { 0 } else { 255 }])
+    });
+    drawn.save(folder.path().join("board.png")).expect("written");
+    let copper = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,1*%\nD10*\nX5000000Y5000000D03*\nX8000000D03*\nM02*\n";
+    fs::write(folder.path().join("amp-F_Cu.gbr"), copper).expect("written");
+    let ways: [&[&str]; 5] = [
+        &["--picture-dpi", "600"],
+        &["--picture-dpi", "1000"],
+        &["--picture-width", "30mm"],
+        &["--picture-dpi", "600", "--invert"],
+        &["--picture-dpi", "600", "--crop", "10,10,200,150"],
+    ];
+    let keys: std::collections::BTreeSet<String> = ways.iter().map(|more| key("board.png", more)).collect();
+    assert_eq!(keys.len(), ways.len(), "each is another board");
+    let areas = |gerber: &str| {
+        fs::write(folder.path().join("areas.gbr"), gerber).expect("written");
+        key("amp-F_Cu.gbr", &["--clear-area", "areas.gbr"])
+    };
+    let first = areas(copper);
+    assert_eq!(first, areas(copper), "the same");
+    assert_ne!(first, areas(&copper.replace("X5000000", "X6000000")), "other areas");
+}
+
+#[test]
+fn errors_of_programs_are_printed_where_errors_alone_are() {
+    let out = folder();
+    let board = fixture("boards/regulator").to_string_lossy().into_owned();
+    for (arguments, code) in [
+        (&["mill", &board, "-o", "out", "-q", "--tool", "endmill:1mm"][..], 1),
+        (&["verify", "out", "--board", &board, "-q"], 1),
+        (&["mill", &board, "-o", "good", "-q"], 0),
+        (&["verify", "good", "--board", &board, "-q"], 0),
+    ] {
+        let done = voromill(out.path(), arguments);
+        let said = stderr(&done);
+        assert_eq!((done.status.code(), stdout(&done).as_str()), (Some(code), ""), "{arguments:?}: {said}");
+        assert_eq!(said.contains("[gouge]"), code == 1, "{arguments:?}: {said}");
+        assert!(!said.contains("warning"), "{arguments:?}: {said}");
+    }
+}
+
+#[test]
+fn what_is_a_program_for_one_command_is_one_for_the_other() {
+    let out = folder();
+    let path = |name: &str| out.path().join(name);
+    for folder in ["old", "new"] {
+        fs::create_dir(path(folder)).expect("made");
+    }
+    for (index, ending) in
+        ["ngc", "nc", "gcode", "gco", "gc", "g", "cnc", "tap", "iso", "NGC"].iter().enumerate()
+    {
+        let text =
+            |x: usize| format!("G21 G90\nM3 S1000\nG0 Z2\nG0 X0 Y0\nG1 Z-0.1 F100\nX{x} F200\nG0 Z2\nM2\n");
+        fs::write(path(&format!("old/x{index}.{ending}")), text(5)).expect("written");
+        fs::write(path(&format!("new/x{index}.{ending}")), text(6)).expect("written");
+    }
+    let compared = voromill(out.path(), &["diff", "old", "new", "--tool", "endmill:0.2mm"]);
+    assert_eq!(stdout(&compared).matches("more cut away").count(), 10, "{}", stdout(&compared));
+    let board = fixture("boards/blinker").to_string_lossy().into_owned();
+    let judged = ["verify", "old", "--board", &board, "--tool", "endmill:0.2mm", "--side", "back"];
+    let judged = voromill(out.path(), &judged);
+    assert!(stdout(&judged).contains("verified 10 programs"), "{}{}", stdout(&judged), stderr(&judged));
+}
+
+#[test]
+fn a_judge_that_is_asked_about_what_is_not_there_says_so() {
+    let out = folder();
+    let board = fixture("boards/blinker").to_string_lossy().into_owned();
+    assert!(voromill(out.path(), &["mill", &board, "-o", "out", "-q"]).status.success());
+    for (option, value, said) in [
+        ("--distance-for", "VINN=2mm", "no net is called `VINN`"),
+        ("--clear-nets", "VINN", "no net is called `VINN`"),
+        ("--clear-area", "500mm,500mm,3mm,3mm", "not on the board"),
+        ("--keep-area", "500mm,500mm,3mm,3mm", "not on the board"),
+    ] {
+        fails(&out, &["verify", "out", "--board", &board, option, value], &[said], &["out"]);
+    }
+    let all = voromill(out.path(), &["verify", "out", "--board", &board, "--ignore", "NOPE"]);
+    assert!(all.status.success() && stderr(&all).contains("no net is called `NOPE`"), "{}", stderr(&all));
+}
+
+#[test]
 fn files_named_for_what_they_are_need_no_folder_beside_them() {
     let folder = TempDir::new().expect("a folder");
     let board = fixture("boards/blinker");
