@@ -20,7 +20,7 @@ use voromill::verify::{Finding, Severity};
 use super::config::Config;
 use super::format::Format;
 use super::input::{Colour, Input, area, dpi, pitch, pixels};
-use super::output::{Output, name_of};
+use super::output::{Output, name_of, refuse_kind};
 use super::progress::Progress;
 use super::{Failure, Shared};
 
@@ -140,6 +140,9 @@ impl Work {
         shared: Shared,
         plan: impl FnOnce(Art, &Settings, &Self) -> Result<M, Failure>,
     ) -> Result<ExitCode, Failure> {
+        if let Some(picture) = &self.picture {
+            refuse_kind(picture, "name the picture .png")?;
+        }
         let input = self.input();
         let settings = self.config.settings(&input)?;
         let progress = Progress::start(shared);

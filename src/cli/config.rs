@@ -92,6 +92,5 @@ fn beside(input: &Path) -> PathBuf {
 
 fn read(path: &Path) -> Result<Options, Failure> {
     let text = std::fs::read_to_string(path).map_err(|error| Failure::io("read", path, &error))?;
-    let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-    Ok(Options::from_toml(&name, &text)?)
+    Ok(Options::from_toml(&path.display().to_string(), &text)?)
 }

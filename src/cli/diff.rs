@@ -12,7 +12,7 @@ use voromill::report::png;
 use voromill::verify::{self, Comparison, Cutter, Program, diff};
 
 use super::format::Format;
-use super::output::{Output, name_of};
+use super::output::{Output, name_of, refuse_kind};
 use super::program_files::{programs, without_programs};
 use super::{Failure, Shared};
 
@@ -133,6 +133,8 @@ impl Diff {
         let folder = self.before.is_dir();
         if folder {
             files.make_folder(output)?;
+        } else {
+            refuse_kind(output, "name the picture .png")?;
         }
         for (name, comparison) in found.iter().filter(|(_, comparison)| !folder || !comparison.is_same()) {
             let canvas = picture(comparison)?;

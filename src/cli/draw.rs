@@ -20,7 +20,7 @@ use voromill::report::{self, Canvas, png, terminal};
 
 use super::config::Config;
 use super::input::Input;
-use super::output::Output;
+use super::output::{Output, refuse_kind};
 use super::{Failure, Shared, colour};
 
 /// A picture of one stage
@@ -301,17 +301,8 @@ impl Format {
             return Ok(if colour::are_wanted() { Self::Blocks } else { Self::Shades });
         }
         let end = output.extension().and_then(|end| end.to_str()).map(str::to_ascii_lowercase);
-        match end.as_deref() {
-            Some("svg") => Ok(Self::Svg),
-            Some(other @ ("jpg" | "jpeg" | "bmp" | "gif" | "tif" | "tiff" | "webp" | "pdf")) => {
-                let cause = format!("{}: pictures are not written as .{other}", output.display());
-                Err(Failure::new(
-                    cause,
-                    "name the picture .png or .svg, or choose how it is written with --format",
-                ))
-            }
-            _ => Ok(Self::Png),
-        }
+        refuse_kind(output, "name the picture .png or .svg, or choose how it is written with --format")?;
+        Ok(if end.as_deref() == Some("svg") { Self::Svg } else { Self::Png })
     }
 
     /// The pixels of a picture of `area`: of `pixel`, or as many as the terminal has room for.

@@ -159,3 +159,16 @@ impl Drop for Output {
 pub(super) fn name_of(path: &Path) -> String {
     path.file_name().unwrap_or(path.as_os_str()).to_string_lossy().into_owned()
 }
+
+/// Refuses a name for a picture that asks for another kind than those that are written.
+pub(super) fn refuse_kind(picture: &Path, hint: &str) -> Result<(), Failure> {
+    const OTHERS: [&str; 8] = ["jpg", "jpeg", "bmp", "gif", "tif", "tiff", "webp", "pdf"];
+    let ending = picture.extension().map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.filter(|ending| OTHERS.contains(&ending.as_str())) {
+        Some(other) => {
+            let cause = format!("{}: pictures are not written as .{other}", picture.display());
+            Err(Failure::new(cause, hint))
+        }
+        None => Ok(()),
+    }
+}

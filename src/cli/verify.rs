@@ -369,6 +369,9 @@ impl Verify {
             }
             files.extend(found);
         }
+        // What is named twice is one program.
+        let mut seen = BTreeSet::new();
+        files.retain(|file| seen.insert(std::fs::canonicalize(file).unwrap_or_else(|_| file.clone())));
         Ok(files)
     }
 

@@ -21,6 +21,10 @@ use super::header::{Header, brief, highest, named};
 ///
 /// It retracts first, has the spindle up to speed before each plunge, and ends retracted with the
 /// spindle off.
+///
+/// # Panics
+///
+/// For a section whose first move that goes anywhere is an arc, which [`Section`] rules out.
 #[must_use]
 pub fn write(program: &Program, dialect: &Dialect, header: &Header) -> String {
     let mut writer = Writer::new(dialect);

@@ -60,13 +60,13 @@ fn shared_head<'a>(a: &'a str, b: &str) -> &'a str {
     if ends(a) && ends(b) {
         return a.get(..shared).unwrap_or_default();
     }
-    let mark = a.as_bytes()[..shared].iter().rposition(|b| !b.is_ascii_alphanumeric()).unwrap_or(0);
-    a.get(..mark).unwrap_or_default()
+    let common = &a[..a.floor_char_boundary(shared)];
+    &common[..common.rfind(|c: char| !c.is_alphanumeric()).unwrap_or(0)]
 }
 
 /// A layer's stem without the part that tells its role: `amp-F_Cu` is the board `amp`.
 fn without_role(stem: &str) -> &str {
-    let mut marks = stem.char_indices().filter(|(_, c)| !c.is_ascii_alphanumeric()).map(|(i, _)| i);
+    let mut marks = stem.char_indices().filter(|(_, c)| !c.is_alphanumeric()).map(|(i, _)| i);
     let mark = marks.find(|&i| layers::role_by_name(&stem[i..], 0).is_some());
     mark.map_or(stem, |i| &stem[..i])
 }
@@ -81,10 +81,13 @@ fn folder_name(path: &Path) -> String {
     whole.as_deref().and_then(Path::parent).map_or(name, name_of)
 }
 
-/// A name that every file system takes.
+/// A name that every file system takes, in any script.
 fn safe(name: &str) -> String {
-    let kept: String =
-        name.chars().map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '_' }).collect();
-    let kept = kept.trim_matches('.').to_owned();
-    if kept.is_empty() { "board".to_owned() } else { kept.chars().take(100).collect() }
+    /// Bytes that leave room for what programs add. Chosen: file systems take 255.
+    const LONGEST: usize = 100;
+    let fitting = |c: char| if c.is_alphanumeric() || "._-".contains(c) { c } else { '_' };
+    let kept: String = name.chars().map(fitting).collect();
+    let kept = kept.trim_matches('.');
+    let kept = &kept[..kept.floor_char_boundary(LONGEST)];
+    if kept.is_empty() { "board".to_owned() } else { kept.to_owned() }
 }

@@ -3,7 +3,7 @@
 use std::ops::RangeInclusive;
 
 use super::Error;
-use super::quantity::Length;
+use super::quantity::{Length, ToolChangeAt, Triple};
 use crate::geometry::Nm;
 use crate::verify;
 
@@ -44,6 +44,19 @@ pub(super) fn travel_height(key: &'static str, height: Length) -> Result<Nm, Err
         return wrong(key, safe, &format!("the tool travels {} above the surface at least", Length(least)));
     }
     Ok(safe)
+}
+
+/// Refuses a place to wait at that is lower than the tool travels.
+pub(super) fn parking_height(key: &'static str, at: Option<ToolChangeAt>, safe: Nm) -> Result<(), Error> {
+    let height = match at {
+        Some(ToolChangeAt::Place(Triple([.., z])) | ToolChangeAt::Height(z)) => z,
+        None => return Ok(()),
+    };
+    if height.nm() < safe {
+        let expected = format!("the tool waits no lower than it travels, at {}", Length(safe));
+        return wrong(key, height.nm(), &expected);
+    }
+    Ok(())
 }
 
 /// How much each of the passes down to `depth` takes.

@@ -357,8 +357,8 @@ macro_rules! job_options {
     #[changes(DRILLING)]
     pub drills: Option<Drills>,
 
-    /// Drill all holes with the thinnest of --drills, or of those in the files, to be drilled to
-    /// size by hand
+    /// Drill all holes that a drill fits with the thinnest of these drills, to be drilled to size
+    /// by hand
     #[arg(
         long,
         value_name = "true|false",

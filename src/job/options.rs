@@ -94,6 +94,16 @@ macro_rules! structure {
                 Complete { $($($name: complete!(self.$name, usual.$name $(, $usual)?),)+)+ tools: self.tools }
             }
 
+            /// Two that are set and say the same in different ways, if there are such.
+            pub(super) fn contradiction(&self) -> Option<[&'static str; 2]> {
+                $($($($(
+                    if !self.$name.is_open() && !self.$other.is_open() {
+                        return Some([stringify!($other), stringify!($name)]);
+                    }
+                )+)?)+)+
+                None
+            }
+
             /// What each option that is set needs, by its key.
             pub(super) fn needs(&self) -> Vec<(&'static str, Need)> {
                 let needs: &[(bool, &[Need])] =

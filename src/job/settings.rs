@@ -154,6 +154,10 @@ impl Settings {
             cutting_out::end_mill("cutout-tool", workshop.fetch("cutout-tool", &options.cutout_tool)?.tool)?;
         let drills = drilling::drills(options.drills.as_ref(), &workshop)?;
         let safe = checked::travel_height("safe-z", options.safe_z)?;
+        // Where nobody says where it waits, it waits no lower than it travels.
+        let park = written.park.filter(|park| Some(*park) != Options::defaults().park);
+        checked::parking_height("park", park, safe)?;
+        checked::parking_height("tool-change-at", written.tool_change_at, safe)?;
         let heights = |cut: Nm, step: Option<Nm>| Heights { safe, approach: APPROACH.min(safe), cut, step };
         let below = Length(thickness + BELOW);
         let cutout_depth = positive("cutout-depth", options.cutout_depth.unwrap_or(below))?;
@@ -304,6 +308,35 @@ mod tests {
 
     fn settings(text: &str) -> Result<Settings, Error> {
         Options::from_toml("voromill.toml", text).and_then(Settings::resolve)
+    }
+
+    #[test]
+    fn the_tool_waits_no_lower_than_it_travels() {
+        for (text, key) in [
+            ("park = \"1mm\"", Some("park")),
+            ("park = \"0mm,0mm,1mm\"", Some("park")),
+            ("tool-change-at = \"-5mm\"", Some("tool-change-at")),
+            ("park = \"2mm\"", None),
+            // The usual height is not what anybody asked for.
+            ("safe-z = \"25mm\"", None),
+        ] {
+            let refused = settings(text).err().map(|error| error.to_string());
+            match (refused, key) {
+                (None, None) => {}
+                (Some(error), Some(key)) => assert!(error.starts_with(key), "{text}: {error}"),
+                (error, _) => panic!("{text}: {error:?}"),
+            }
+        }
+    }
+
+    #[test]
+    fn two_ways_to_say_the_same_in_one_file_are_refused_with_the_line() {
+        let error = settings("depth = \"0.1mm\"\npasses = 3\nwidth = \"1mm\"\n").expect_err("both");
+        assert_eq!(
+            error.to_string(),
+            "settings:3:1: `width` and `passes` are two ways to say the same: set one of them"
+        );
+        assert!(settings("passes = 3").is_ok(), "one of them");
     }
 
     #[test]

@@ -19,14 +19,22 @@ impl Options {
     /// # Errors
     ///
     /// [`Error::Settings`] with line and column for what is not TOML, for unknown keys (naming the
-    /// nearest), and for values that are not what their key takes.
+    /// nearest), for values that are not what their key takes, and for two keys that say the same.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
-        toml::from_str(text).map_err(|error| {
+        let options: Self = toml::from_str(text).map_err(|error| {
             let before = &text[..error.span().map_or(0, |span| span.start).min(text.len())];
             let line = before.matches('\n').count() + 1;
             let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
             Error::Settings { file: file.to_owned(), line, column, problem: problem(error.message()) }
-        })
+        })?;
+        let Some(keys) = options.contradiction() else { return Ok(options) };
+        let [one, other] = keys.map(|key| key.replace('_', "-"));
+        let says = |line: &str| {
+            line.trim_start().strip_prefix(&other).is_some_and(|rest| rest.trim_start().starts_with('='))
+        };
+        let line = text.lines().position(says).map_or(1, |before| before + 1);
+        let problem = format!("`{other}` and `{one}` are two ways to say the same: set one of them");
+        Err(Error::Settings { file: file.to_owned(), line, column: 1, problem })
     }
 
     /// The defaults.

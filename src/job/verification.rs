@@ -1,9 +1,11 @@
 //! The programs of a job, judged by their texts.
 
 use crate::board::Side;
-use crate::toolpath;
-use crate::verify::{self, Known, Placement, Program, Report, Role, Surface, verify};
+use crate::gcode::dialect::Comments;
+use crate::toolpath::{self, ToolKind};
+use crate::verify::{self, Cutter, CutterKind, Known, Placement, Program, Report, Role, Surface, verify};
 
+use super::art::cutter;
 use super::{Error, Job, Part, Settings, Written};
 
 impl Job {
@@ -67,7 +69,7 @@ impl Job {
             file: written.file_name(&self.board.name, settings),
             text: written.tile.as_ref().unwrap_or(&written.text).clone(),
             role: Some(role(written.part)),
-            cutter: None,
+            cutter: unsaid(written, settings),
             placement: Some(self.laid(written)),
             asked: asked.clone(),
             dialect: None,
@@ -82,6 +84,17 @@ impl Job {
         let degrees = rotation.degrees();
         Placement { degrees, shift, mirror }
     }
+}
+
+/// The tool of a program that has no comments to say which it is for; none where there are several.
+fn unsaid(written: &Written, settings: &Settings) -> Option<Cutter> {
+    let mut tools = written.program.sections.iter().map(|section| section.tool.kind);
+    let first = tools.next().filter(|_| settings.dialect.comments == Comments::None)?;
+    let angle = settings.drill_tip_angle.degrees();
+    tools.all(|tool| tool == first).then(|| match first {
+        ToolKind::Drill { diameter } => Cutter { kind: CutterKind::Drill, tip: diameter, degrees: angle },
+        other => cutter(other),
+    })
 }
 
 /// What the judge tolerates: what the settings allow is no finding.

@@ -246,7 +246,7 @@ pub enum Error {
     Grid(#[from] GridError),
     /// There is nothing to isolate on the board.
     #[error(
-        "no copper lies within the board's outline: is the outline from another board, or in other units?"
+        "there is no copper, or none within the board's outline: is the outline from another board, or in other units?"
     )]
     NoCopper,
     /// Boundaries do not go on as they should.

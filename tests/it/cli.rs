@@ -742,6 +742,54 @@ fn a_cache_key_tells_apart_how_files_are_read_and_what_is_in_those_that_settings
     assert_ne!(first, areas(&copper.replace("X5000000", "X6000000")), "other areas");
 }
 
+/// What would be one name for all boards lets one overwrite the other.
+#[test]
+fn names_in_any_script_stay_as_they_are() {
+    let out = folder();
+    let copper = "%FSLAX46Y46*%\n%MOMM*%\n%ADD10C,1*%\nD10*\nX5000000Y5000000D03*\nX8000000D03*\nM02*\n";
+    for name in ["дом", "сад", "基板"] {
+        fs::write(out.path().join(format!("{name}-F_Cu.gbr")), copper).expect("written");
+        let done = voromill(out.path(), &["mill", &format!("{name}-F_Cu.gbr"), "-o", "out", "--no-html"]);
+        assert!(done.status.success(), "{}", stderr(&done));
+        let program = fs::read_to_string(out.path().join(format!("out/{name}-front.ngc"))).expect("its name");
+        assert!(program.is_ascii(), "no controller has to read it: {program}");
+    }
+}
+
+#[test]
+fn a_controller_that_takes_no_comments_is_milled_for() {
+    let out = folder();
+    fs::write(out.path().join("mute.toml"), "name = \"mute\"\nbase = \"grbl\"\ncomments = \"none\"\n")
+        .expect("written");
+    let board = fixture("boards/regulator").to_string_lossy().into_owned();
+    let done = voromill(out.path(), &["mill", &board, "-o", "out", "--dialect", "mute.toml"]);
+    assert!(stdout(&done).contains("nothing found"), "{}{}", stdout(&done), stderr(&done));
+    let program = fs::read_to_string(out.path().join("out/regulator-front.ngc")).expect("a program");
+    assert!(!program.contains(['(', ';']), "{program}");
+}
+
+#[test]
+fn a_file_that_is_named_twice_is_judged_once() {
+    let out = folder();
+    let board = fixture("boards/blinker").to_string_lossy().into_owned();
+    assert!(voromill(out.path(), &["mill", &board, "-o", "out", "-q"]).status.success());
+    let judged = voromill(out.path(), &["verify", "out", "out/blinker-back.ngc", "--board", &board]);
+    assert!(stdout(&judged).contains("verified 7 programs"), "{}", stdout(&judged));
+}
+
+#[test]
+fn pictures_are_not_written_as_what_they_are_not() {
+    let out = folder();
+    for name in ["a.nc", "b.nc"] {
+        fs::write(out.path().join(name), "G21 G90\nG0 Z2\nM2\n").expect("written");
+    }
+    fails(&out, &["diff", "a.nc", "b.nc", "-o", "c.jpg"], &["not written as .jpg"], &["a.nc", "b.nc"]);
+    let plate = fixture("outline/strokes_touch.gbr").to_string_lossy().into_owned();
+    let pocket =
+        ["pocket", &plate, "--tool", "endmill:1mm", "--depth", "1mm", "-o", "p.ngc", "--picture", "p.webp"];
+    fails(&out, &pocket, &["not written as .webp"], &["a.nc", "b.nc"]);
+}
+
 #[test]
 fn errors_of_programs_are_printed_where_errors_alone_are() {
     let out = folder();

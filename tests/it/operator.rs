@@ -135,7 +135,7 @@ fn the_tool_stands_high_and_still_wherever_a_hand_reaches_in() {
             30.0,
             Some((-5.0, 80.0)),
         ),
-        ("park = \"1mm\"", 2.0, None),
+        ("park = \"2mm\"", 2.0, None),
     ] {
         let (job, settings_made) = mill("regulator", settings);
         let drilling = job.programs.iter().find(|program| program.part == Part::Drill).expect("holes");
