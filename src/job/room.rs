@@ -75,10 +75,9 @@ fn tiles(part: Part, beyond: [[Nm; 2]; 2], spacing: Nm) -> Result<(), Error> {
 /// The holes for pins lie above and below everything.
 fn alignment(pins: Rect, milled: Rect, stock: &Stock, settings: &Settings) -> Result<(), Error> {
     let Some((diameter, margin)) = settings.alignment else { return Ok(()) };
-    let inside = (pins.height() / 2 - diameter).max(Nm::ZERO);
     let above = Rect::new(Point::new(pins.min().x, pins.max().y - diameter), pins.max());
     let below = Rect::new(pins.min(), Point::new(pins.max().x, pins.min().y + diameter));
-    if inside > Nm::ZERO && !above.touches(milled) && !below.touches(milled) {
+    if !above.touches(milled) && !below.touches(milled) {
         return Ok(());
     }
     let all = stock.bounds;

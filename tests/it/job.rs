@@ -412,6 +412,14 @@ fn tabs_stand_where_they_are_asked_for() {
     let (job, settings) = job("regulator", "tab-at = [\"110mm,-60mm\", \"150mm,-100mm\", \"100mm,100mm\"]");
     assert!(warned(&job, "tab-off-the-outline"), "far away: {:?}", job.warnings);
     assert!(is_clean(&job, &settings), "the board is cut out");
+    // One of 2 mm needs 3 mm with a cutter of 1 mm, and 1 mm more for a ramp.
+    for (more, warns) in [("", false), ("cutout-ramp = \"3deg\"\n", true)] {
+        let near = format!("{more}tab-at = [\"110mm,-60mm\", \"113.5mm,-60mm\"]");
+        let (job, _) = self::job("regulator", &near);
+        assert_eq!(warned(&job, "no-place-for-tabs"), warns, "{near}: {:?}", job.warnings);
+    }
+    let (job, _) = self::job("regulator", "tab-at = [\"110mm,-60mm\", \"112mm,-60mm\"]");
+    assert!(warned(&job, "no-place-for-tabs"), "one within the other: {:?}", job.warnings);
 }
 
 #[test]

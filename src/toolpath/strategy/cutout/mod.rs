@@ -206,13 +206,16 @@ fn at_places(
     warnings: &mut Vec<Warning>,
 ) -> Vec<Vec<f64>> {
     let mut held = vec![Vec::new(); rings.len()];
-    let radius = settings.tool.width_at(settings.heights.cut) / 2;
+    let width = settings.tool.width_at(settings.heights.cut);
+    let radius = width / 2;
+    // Between two tabs there is room for a ramp.
+    let least = opening(settings) + if settings.ramp.is_some() { width.to_f64() } else { 0.0 };
     for &place in places {
         let measured = rings.iter().enumerate().map(|(index, ring)| (ring.nearest(place), index));
         let Some(((off, along), index)) = measured.min_by(|a, b| a.0.0.total_cmp(&b.0.0)) else { continue };
         let apart = |other: &f64| tabs::apart(*other, along, rings[index].length());
         let next = held[index].iter().map(apart).min_by(f64::total_cmp);
-        let taken = next.filter(|next| *next < opening(settings));
+        let taken = next.filter(|next| *next < least);
         if off > (radius + NEAR).to_f64() {
             let message = format!("a tab is requested {:.1} mm off any contour, and left out", off / 1e6);
             warnings.push(planning::TAB_OFF_THE_OUTLINE.warning(message).at(place));
@@ -220,7 +223,7 @@ fn at_places(
             let message = format!(
                 "a tab is requested {:.1} mm from another, where {:.1} mm are needed, and left out",
                 next / 1e6,
-                opening(settings) / 1e6
+                least / 1e6
             );
             warnings.push(planning::NO_PLACE_FOR_TABS.warning(message).at(place));
         } else {
@@ -257,11 +260,17 @@ fn cut_all(head: &mut Head, rings: &[Ring], held: &[Vec<f64>], settings: &Cutout
 fn entries(ring: &Ring, held: &[f64], settings: &Cutout<'_>) -> Vec<f64> {
     /// Beside the corners, for contours that have none to begin at. Chosen.
     const BETWEEN: u32 = 32;
-    let opening = opening(settings);
     let even = (0..BETWEEN).map(|share| ring.length() * f64::from(share) / f64::from(BETWEEN));
-    let free =
-        |start: &f64| held.iter().all(|middle| tabs::apart(*start, *middle, ring.length()) > opening / 2.0);
-    let found: Vec<f64> = ring.corners().chain(even).filter(free).collect();
+    let from_tab = |start: f64| {
+        let apart = held.iter().map(|middle| tabs::apart(start, *middle, ring.length()));
+        apart.fold(f64::INFINITY, f64::min)
+    };
+    let places: Vec<f64> = ring.corners().chain(even).collect();
+    let at_least = |least: f64| places.iter().copied().filter(|&p| from_tab(p) > least).collect::<Vec<_>>();
+    // A ramp needs room.
+    let opening = opening(settings);
+    let roomy = settings.ramp.map_or_else(Vec::new, |_| at_least(opening));
+    let found = if roomy.is_empty() { at_least(opening / 2.0) } else { roomy };
     if found.is_empty() { vec![0.0] } else { found }
 }
 
