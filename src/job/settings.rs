@@ -334,7 +334,7 @@ mod tests {
         let error = settings("depth = \"0.1mm\"\npasses = 3\nwidth = \"1mm\"\n").expect_err("both");
         assert_eq!(
             error.to_string(),
-            "settings:3:1: `width` and `passes` are two ways to say the same: set one of them"
+            "voromill.toml:3:1: `width` and `passes` are two ways to say the same: set one of them"
         );
         assert!(settings("passes = 3").is_ok(), "one of them");
     }
