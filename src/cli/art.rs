@@ -19,7 +19,7 @@ use voromill::verify::{Finding, Severity};
 
 use super::config::Config;
 use super::format::Format;
-use super::input::{Colour, Input, area, dpi, pitch, pixels};
+use super::input::{Colour, Input, Scan, dpi};
 use super::output::{Output, name_of, refuse_kind};
 use super::progress::Progress;
 use super::{Failure, Shared};
@@ -171,8 +171,8 @@ impl Work {
         }
         shared.tell_stages(&stages);
         let findings = judged.as_ref().map_or(&[][..], M::findings);
-        let wrong = findings.iter().filter(|finding| finding.severity == Severity::Error);
-        shared.complain(&FindingEntry::list(&wrong.map(FindingEntry::from).collect::<Vec<_>>(), false));
+        let entries: Vec<FindingEntry> = findings.iter().map(FindingEntry::from).collect();
+        shared.complain(&FindingEntry::failing(&entries, Severity::Error));
         let to_stdout = self.output.as_deref() == Some(Path::new("-"));
         if (self.json || self.format == Format::Json) && !to_stdout {
             let told = if shared.tells_stages() { stages.list() } else { &[] };
@@ -184,7 +184,6 @@ impl Work {
             };
             let mut summary = self.output.as_ref().map_or(String::new(), name);
             summary.extend(judged.as_ref().map(|judged| made.verdict(judged)));
-            let entries: Vec<FindingEntry> = findings.iter().map(FindingEntry::from).collect();
             summary += &FindingEntry::list(&entries, shared.is_verbose());
             if to_stdout { shared.say(&summary) } else { shared.report(&summary)? }
         }
@@ -303,29 +302,12 @@ struct Source {
     #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
     picture_width: Option<Length>,
 
-    /// Distance of neighbouring pins, such as 2.54mm, instead of --picture-dpi: the resolution is
-    /// found by the grid of the drill dots
-    #[arg(
-        long,
-        value_name = "LENGTH",
-        value_parser = pitch,
-        conflicts_with_all = ["picture_dpi", "picture_width"],
-        help_heading = "Pictures"
-    )]
-    picture_pitch: Option<Length>,
+    #[command(flatten)]
+    scan: Scan,
 
     /// Which part of a picture is milled [default: the rarer]
     #[arg(long, visible_alias = "copper", value_enum, value_name = "COLOUR", help_heading = "Pictures")]
     ink: Option<Colour>,
-
-    /// Remove specks and holes of a picture that are smaller than this, in square millimetres; for
-    /// scans
-    #[arg(long, value_name = "MM2", value_parser = area, help_heading = "Pictures")]
-    despeckle: Option<f64>,
-
-    /// Read a part of a picture: left, top, width and height in pixels
-    #[arg(long, value_name = "X,Y,W,H", value_parser = pixels, help_heading = "Pictures")]
-    crop: Option<[u32; 4]>,
 
     /// Length of one unit of a drawing (SVG, DXF), even if the file has another: mm, in, 0.1mm, or
     /// 90dpi for 1/90 inch
@@ -340,10 +322,8 @@ impl Source {
             paths: self.path.iter().cloned().collect(),
             picture_dpi: self.picture_dpi,
             picture_width: self.picture_width,
-            picture_pitch: self.picture_pitch,
             copper: self.ink,
-            despeckle: self.despeckle,
-            crop: self.crop,
+            scan: self.scan,
             unit: self.unit,
             fonts: self.font.iter().cloned().collect(),
             ..Input::default()
@@ -367,10 +347,10 @@ impl Source {
         let pictures = [
             ("--picture-dpi", self.picture_dpi.is_some()),
             ("--picture-width", self.picture_width.is_some()),
-            ("--picture-pitch", self.picture_pitch.is_some()),
+            ("--picture-pitch", self.scan.picture_pitch.is_some()),
             ("--ink", self.ink.is_some()),
-            ("--despeckle", self.despeckle.is_some()),
-            ("--crop", self.crop.is_some()),
+            ("--despeckle", self.scan.despeckle.is_some()),
+            ("--crop", self.scan.crop.is_some()),
         ];
         let unit = [("--unit", self.unit.is_some())];
         let font = [("--font", self.font.is_some())];
@@ -470,12 +450,13 @@ fn tagged(path: &Path, tag: &str) -> PathBuf {
 fn lettering(words: &str, font: &Path, height: Nm) -> Result<Art, Failure> {
     let bytes = std::fs::read(font).map_err(|error| Failure::io("read", font, &error))?;
     let file = name_of(font);
-    let areas = text(&bytes, &words.replace("\\n", "\n"), height).map_err(|error| {
+    let words = words.replace("\\n", "\n");
+    let areas = text(&bytes, &words, height).map_err(|error| {
         Failure::new(format!("{file}: {error}"), "choose another --font, --text or --height")
     })?;
     let inputs = vec![gcode::Input { file, design: import::sha256(&bytes) }];
     // It stands in comments and names no file.
-    let name: String = words.replace("\\n", "\n").chars().filter(char::is_ascii_alphanumeric).collect();
+    let name: String = words.chars().filter(char::is_ascii_alphanumeric).collect();
     let name = if name.is_empty() { "text".to_owned() } else { name };
     Ok(Art { name, areas, inputs, warnings: Vec::new() })
 }

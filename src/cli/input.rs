@@ -66,16 +66,8 @@ pub(super) struct Input {
     #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
     pub(super) picture_width: Option<Length>,
 
-    /// Distance of neighbouring pins, such as 2.54mm, instead of --picture-dpi: the resolution is
-    /// found by the grid of the drill dots
-    #[arg(
-        long,
-        value_name = "LENGTH",
-        value_parser = pitch,
-        conflicts_with_all = ["picture_dpi", "picture_width"],
-        help_heading = "Pictures"
-    )]
-    pub(super) picture_pitch: Option<Length>,
+    #[command(flatten)]
+    pub(super) scan: Scan,
 
     /// Turn a scan back, by the directions of its edges; up to 15 degrees
     #[arg(long, help_heading = "Pictures")]
@@ -88,15 +80,6 @@ pub(super) struct Input {
     /// Swap copper and bare board of a picture
     #[arg(long, help_heading = "Pictures")]
     pub(super) invert: bool,
-
-    /// Remove specks of copper and holes in it that are smaller than this, in square millimetres;
-    /// for scans
-    #[arg(long, value_name = "MM2", value_parser = area, help_heading = "Pictures")]
-    pub(super) despeckle: Option<f64>,
-
-    /// Read a part of a picture: left, top, width and height in pixels
-    #[arg(long, value_name = "X,Y,W,H", value_parser = pixels, help_heading = "Pictures")]
-    pub(super) crop: Option<[u32; 4]>,
 
     /// Length of one unit of a drawing (SVG, DXF), even if the file has another: mm, in, 0.1mm, or
     /// 90dpi for 1/90 inch
@@ -112,6 +95,30 @@ pub(super) struct Input {
     pub(super) deny_warnings: bool,
 }
 
+/// What pictures of paper need, whatever is made of them.
+#[derive(Args, Clone, Copy, Default)]
+pub(super) struct Scan {
+    /// Distance of neighbouring pins, such as 2.54mm, instead of --picture-dpi: the resolution is
+    /// found by the grid of the drill dots
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        value_parser = pitch,
+        conflicts_with_all = ["picture_dpi", "picture_width"],
+        help_heading = "Pictures"
+    )]
+    pub(super) picture_pitch: Option<Length>,
+
+    /// Remove specks and holes of a picture that are smaller than this, in square millimetres; for
+    /// scans
+    #[arg(long, value_name = "MM2", value_parser = area, help_heading = "Pictures")]
+    pub(super) despeckle: Option<f64>,
+
+    /// Read a part of a picture: left, top, width and height in pixels
+    #[arg(long, value_name = "X,Y,W,H", value_parser = pixels, help_heading = "Pictures")]
+    pub(super) crop: Option<[u32; 4]>,
+}
+
 /// Which part of a picture is copper.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub(super) enum Colour {
@@ -124,20 +131,20 @@ pub(super) fn dpi(text: &str) -> Result<f64, String> {
     number.ok_or_else(|| "expected from 10 to 30000 pixels per inch".to_owned())
 }
 
-pub(super) fn pitch(text: &str) -> Result<Length, String> {
+fn pitch(text: &str) -> Result<Length, String> {
     let length: Length = text.parse().map_err(|error: ParseLengthError| error.to_string())?;
     let range = Nm::from_um(100)..=Nm::from_mm(100);
     let is_meant = range.contains(&length.nm());
     is_meant.then_some(length).ok_or_else(|| "expected from 0.1mm to 100mm, such as 2.54mm".to_owned())
 }
 
-pub(super) fn area(text: &str) -> Result<f64, String> {
+fn area(text: &str) -> Result<f64, String> {
     let number = text.trim_end_matches("mm2").trim().parse::<f64>();
     let number = number.ok().filter(|number| (0.0..=1000.0).contains(number));
     number.ok_or_else(|| "expected an area in square millimetres, such as 0.05".to_owned())
 }
 
-pub(super) fn pixels(text: &str) -> Result<[u32; 4], String> {
+fn pixels(text: &str) -> Result<[u32; 4], String> {
     let numbers: Result<Vec<u32>, _> = text.split(',').map(|part| part.trim().parse()).collect();
     let numbers = numbers.ok().and_then(|numbers| numbers.try_into().ok());
     numbers.ok_or_else(|| "expected four numbers of pixels: left, top, width, height".to_owned())
@@ -199,7 +206,7 @@ impl Input {
             dpi: self.picture_dpi,
             dpi_unless_said: settings.options().dpi.map(f64::from),
             width: self.picture_width.map(Length::nm),
-            pitch: self.picture_pitch.map(Length::nm),
+            pitch: self.scan.picture_pitch.map(Length::nm),
             straighten: self.straighten,
             colour: match self.copper {
                 None => picture::Colour::Rarer,
@@ -207,15 +214,15 @@ impl Input {
                 Some(Colour::Light) => picture::Colour::Light,
             },
             invert: self.invert,
-            despeckle: self.despeckle.unwrap_or(0.0),
-            crop: self.crop,
+            despeckle: self.scan.despeckle.unwrap_or(0.0),
+            crop: self.scan.crop,
             most_pixels: None,
         }
     }
 
     /// The pixels of the picture that shows `side`; none where it is no picture, or is to be
     /// turned.
-    pub(super) fn pixels(&self, settings: &Settings, side: Side) -> Result<Option<Pixels>, Failure> {
+    fn pixels(&self, settings: &Settings, side: Side) -> Result<Option<Pixels>, Failure> {
         let named = match side {
             Side::Front => self.front.as_ref().or(self.paths.first()),
             Side::Back => self.back.as_ref(),

@@ -11,6 +11,7 @@ use voromill::job::{self, Job, Settings};
 use voromill::report::Verdict;
 use voromill::report::document::OutputEntry;
 use voromill::report::stages::Stages;
+use voromill::report::verdict::FindingEntry;
 use voromill::verify::{Report, Severity};
 
 use super::config::Config;
@@ -153,8 +154,8 @@ impl Mill {
         drop(progress);
         shared.tell_stages(&stages);
         shared.say(&leftovers.to_text(folder));
-        let failing = document.verification.as_ref().map(|verdict| verdict.failing(self.deny));
-        shared.complain(&failing.unwrap_or_default());
+        let findings = document.verification.as_ref().map_or(&[][..], |verdict| &verdict.findings);
+        shared.complain(&FindingEntry::failing(findings, self.deny));
         if self.json || self.format == Format::Json {
             if shared.tells_stages() {
                 document.stages = stages.list().to_vec();

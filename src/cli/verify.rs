@@ -14,6 +14,7 @@ use voromill::import::{self, Loaded, Selection};
 use voromill::job::{self, AreaChoice, DistanceFor, Tiles, Topology};
 use voromill::report::Verdict;
 use voromill::report::stages::Stages;
+use voromill::report::verdict::FindingEntry;
 use voromill::toolpath::Angle;
 use voromill::topology::Pattern;
 use voromill::verify::{self, Asked, Cutter, Orientation, Placement, Program, Role, Severity};
@@ -228,6 +229,12 @@ fn diameter(programs: &[Program], usual: Nm) -> Nm {
     length(programs, "drill-tolerance").map_or(usual, |own| own.max(usual))
 }
 
+/// By which rule copper is one net, as the programs say.
+fn topology(programs: &[Program]) -> Topology {
+    let declared = programs.iter().find_map(|program| verify::declared_setting(&program.text, "topology"));
+    declared.and_then(|name| of_word(&name.to_ascii_lowercase()).ok()).unwrap_or(Topology::Contact)
+}
+
 /// How many tabs each board was given, where that is known of all.
 fn tabs(programs: &[Program]) -> Option<u32> {
     let of = |program: &Program| {
@@ -278,7 +285,8 @@ impl Verify {
             let hint = "name those that isolate, drill or cut out";
             return Err(Failure::new("the programs mill nothing: they probe the surface", hint));
         }
-        self.leave_out(&mut board, &programs, shared)?;
+        self.judge_clearing(&board, &programs)?;
+        self.leave_out(&mut board, &programs, shared);
         let usual = verify::Settings::default();
         let settings = verify::Settings {
             copper: self.copper,
@@ -311,7 +319,7 @@ impl Verify {
         shared.tell_stages(&stages);
         let report = report.with(verify::revisions(&programs, &inputs));
         let verdict = Verdict::from(&report);
-        shared.complain(&verdict.failing(self.deny));
+        shared.complain(&FindingEntry::failing(&verdict.findings, self.deny));
         match self.format {
             Format::Text => {
                 shared.report(&format!("{}{}", verdict.to_text(shared.is_verbose()), verdict.fitness(0)))
@@ -325,34 +333,31 @@ impl Verify {
 
     /// Takes the nets out of the copper that were not to be isolated, and widens holes that are for
     /// rivets.
-    ///
-    /// What is to be cleared must be there: a judge that looks for nothing finds nothing.
-    fn leave_out(&self, board: &mut Board, programs: &[Program], shared: Shared) -> Result<(), Failure> {
+    fn leave_out(&self, board: &mut Board, programs: &[Program], shared: Shared) {
         let mut patterns = self.ignore.clone();
         if patterns.is_empty() {
             let declared = programs.iter().flat_map(|program| verify::declared_list(&program.text, "ignore"));
             let all: BTreeSet<String> = declared.collect();
             patterns = all.iter().filter_map(|name| name.parse().ok()).collect();
         }
-        let declared =
-            programs.iter().find_map(|program| verify::declared_setting(&program.text, "topology"));
-        let topology: Option<Topology> = declared.and_then(|name| of_word(&name.to_ascii_lowercase()).ok());
         let declared = programs.iter().find_map(|program| verify::declared_setting(&program.text, "rivet"));
         if let Some(wider) = declared.and_then(|length| length.parse().ok()) {
             job::rivet(board, wider);
         }
-        let topology = topology.unwrap_or(Topology::Contact);
-        if let Some(missed) = self.clearing().misses(board, topology).into_iter().next() {
-            return Err(Failure::new(missed.message.clone(), missed.kind.advice));
-        }
-        let found = job::ignore(board, &patterns, topology);
+        let found = job::ignore(board, &patterns, topology(programs));
         // Of patterns that programs say that was told when they were made.
         let without =
             |warning: &&Warning| !self.ignore.is_empty() && warning.is(&planning::PATTERN_WITHOUT_NET);
         for warning in found.iter().filter(without) {
             shared.say(&format!("warning: {}\n", warning.message));
         }
-        Ok(())
+    }
+
+    /// Fails where something is to be cleared that is not there: a judge that looks for nothing
+    /// finds nothing.
+    fn judge_clearing(&self, board: &Board, programs: &[Program]) -> Result<(), Failure> {
+        let missed = self.clearing().misses(board, topology(programs)).into_iter().next();
+        missed.map_or(Ok(()), |missed| Err(Failure::new(missed.message.clone(), missed.kind.advice)))
     }
 
     /// The programs, those of folders in order of their names.

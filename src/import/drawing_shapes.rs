@@ -1,11 +1,10 @@
 //! A drawing → the shapes of it that are milled, where it is no board.
 //!
 //! ```text
-//!  something is filled ───────────────────▶ what is filled, and what strokes paint
-//!  nothing is ─┬─ a wide line is open,
-//!              │  or of copper ───────────▶ what strokes paint
-//!              ├─ lines close ────────────▶ what they enclose
-//!              └─ none does ──────────────▶ what strokes paint
+//!  something is filled ─────▶ what is filled, and what strokes paint
+//!  nothing ─┬─ a wide line is open, or of copper ─▶ what strokes paint
+//!           ├─ lines close ──▶ what they enclose
+//!           └─ none does ────▶ what strokes paint
 //! ```
 //!
 //! A drawing program gives every line a width, so that of a hairline says nothing: a shape that is

@@ -2,10 +2,10 @@
 //! on which the stock is flipped.
 //!
 //! ```text
-//!   ┌───────┐╴╴╴╴╴┐     ┌╴╴╴╴╴┌───────┐
-//!   │ board │ cut ┊strip┊ cut │ board │      tabs hold the boards to the strip
-//!   └───────┘╴╴╴╴╴┘     └╴╴╴╴╴└───────┘
-//!            ← spacing between tiles →
+//!  ┌──────┐╴╴╴╴┐     ┌╴╴╴╴┌──────┐
+//!  │board │cut ┊strip┊ cut│ board│  tabs hold the boards to the strip
+//!  └──────┘╴╴╴╴┘     └╴╴╴╴└──────┘
+//!          ←     spacing     →
 //! ```
 
 use crate::board::Side;

@@ -142,17 +142,17 @@ impl FindingEntry {
         }
         text
     }
+
+    /// For people who asked for errors alone: those that are as bad as `deny`, as
+    /// [`list`](Self::list) has them.
+    #[must_use]
+    pub fn failing(findings: &[Self], deny: Severity) -> String {
+        let failing = findings.iter().filter(|finding| finding.severity >= deny);
+        Self::list(&failing.cloned().collect::<Vec<_>>(), false)
+    }
 }
 
 impl Verdict {
-    /// For people who asked for errors alone: the findings that are as bad as `deny`, as
-    /// [`FindingEntry::list`] has them.
-    #[must_use]
-    pub fn failing(&self, deny: Severity) -> String {
-        let failing = self.findings.iter().filter(|finding| finding.severity >= deny);
-        FindingEntry::list(&failing.cloned().collect::<Vec<_>>(), false)
-    }
-
     /// For people: what was found, as [`FindingEntry::list`] has it, and what was judged.
     #[must_use]
     pub fn to_text(&self, verbose: bool) -> String {

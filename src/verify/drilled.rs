@@ -1,7 +1,7 @@
 //! What holes, as programs make them, leave of a side's copper as it was designed.
 //!
 //! ```text
-//!    ╭──────╮     ring: the copper round a hole, as wide as a hole may be off its place
+//!    ╭──────╮     ring: the copper round a hole, as wide as it may be off place
 //!    │ ╭──╮ ├──   looked at in points all round it
 //!    │ │  │ │     sound: there is copper at all of them, so what met in the pad still does
 //!    │ ╰──╯ ├──   doubtful: all others, of which the exact shapes are asked

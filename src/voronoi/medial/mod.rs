@@ -2,12 +2,17 @@
 //! their radii.
 //!
 //! ```text
-//!   ┌──────────────────────────┐    A way leads from node to node. Where it ends in a corner the disc shrinks to nothing; a V-bit
-//!   │╲                        ╱│    that follows it, as deep as the disc is wide, mills the area to its edges and no farther.
-//!   │ ●──────────────────────● │
-//!   │╱                        ╲│    Curves are chords here, and between each two of them ends an edge of the diagram: what is
-//!   └──────────────────────────┘    dropped reaches no farther than what a cut may be off ([`Pruning`]).
+//!  ┌──────────┐
+//!  │╲        ╱│
+//!  │ ●──────● │
+//!  │╱        ╲│
+//!  └──────────┘
 //! ```
+//!
+//! A way leads from node to node. Where it ends in a corner the disc shrinks to nothing; a V-bit
+//! that follows it, as deep as the disc is wide, mills the area to its edges and no farther. Curves
+//! are chords here, and between each two of them ends an edge of the diagram: what is dropped
+//! reaches no farther than what a cut may be off ([`Pruning`]).
 //!
 //! The ways are those of the certified [diagram](super::exact) of the area's edges. H. Blum, *A
 //! Transformation for Extracting New Descriptors of Shape*, 1967; the filter by corners is that of

@@ -2,9 +2,9 @@
 //! down a ramp.
 //!
 //! ```text
-//!   ╲                    the surface        ┌─tab─┐  ╱╲
-//!     ╲  turn by turn              ─────────┘     └╱    ╲  to and fro behind a tab,
-//!       ╲  as deep as tabs begin                  ──────────────→  and on
+//!  ╲              the surface  ┌ tab ┐
+//!    ╲  turn by turn     ────────┘     └╱╲  to and fro
+//!      ╲  down to where tabs begin       ────────→  and on
 //! ```
 //!
 //! As far down as tabs begin the contour is cut as a helix. What the last turn leaves of the ramp
@@ -69,7 +69,7 @@ fn turns(head: &mut Head, ring: &Ring, [from, to]: [Nm; 2], slope: f64, settings
                 head.descend(&ring.between(0.0, each), depth, feed);
             }
             go_to(head, depth, settings);
-            head.follow(&ring.between(each.max(0.0), length), feed);
+            head.follow(&ring.between(each, length), feed);
         }
     }
     each
