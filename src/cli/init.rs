@@ -1,6 +1,6 @@
 //! `voromill init`: a commented settings file with every default.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use voromill::job::{DEFAULTS, FILE_NAME};
@@ -10,7 +10,7 @@ use super::{Failure, Shared, output::Output};
 /// Write a commented settings file with every default
 #[derive(Args)]
 pub(super) struct Init {
-    /// Where to write it
+    /// Where to write it; `-` for stdout
     #[arg(default_value = FILE_NAME)]
     path: PathBuf,
 
@@ -21,6 +21,9 @@ pub(super) struct Init {
 
 impl Init {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
+        if self.path == Path::new("-") {
+            return super::print(DEFAULTS);
+        }
         let path = if self.path.is_dir() { self.path.join(FILE_NAME) } else { self.path };
         if path.exists() && !self.force {
             let cause = format!("{} is there already", path.display());

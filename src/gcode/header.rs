@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::geometry::{Arc, Nm, Point, Rect};
 use crate::toolpath::{Move, Program, Tool, duration};
 
-use super::dialect::Dialect;
+use super::dialect::{Dialect, TouchOff};
 
 /// What a program says of itself before it begins: what made it, from what, how. No clock, no path,
 /// no host.
@@ -83,7 +83,7 @@ pub(super) fn brief(program: &Program, dialect: &Dialect, header: &Header) -> Ve
     let mut lines = vec![program.title.clone()];
     lines.extend(tools(program));
     lines.extend(header.seconds.map(|seconds| format!("takes about {}", duration(seconds))));
-    lines.extend(extent(program));
+    lines.extend(extent(program, dialect.touch_off));
     lines.extend(program.notes.iter().cloned());
     lines.extend(dialect.condition.as_deref().map(str::to_owned));
     lines
@@ -118,9 +118,10 @@ pub(super) fn named(tool: &Tool) -> String {
     }
 }
 
-/// How far its moves reach, arcs with all of their bow.
-fn extent(program: &Program) -> Option<String> {
-    let (mut at, mut area, mut lowest): (Option<Point>, Option<Rect>, Option<Nm>) = (None, None, None);
+/// How far its moves reach, arcs with all of their bow, and to the plate that tools touch.
+fn extent(program: &Program, plate: Option<TouchOff>) -> Option<String> {
+    let mut area = plate.map(|plate| Rect::new(plate.at, plate.at));
+    let (mut at, mut lowest): (Option<Point>, Option<Nm>) = (None, None);
     for step in program.sections.iter().flat_map(|section| &section.moves) {
         let Some(to) = step.to() else { continue };
         let own = match (*step, at) {

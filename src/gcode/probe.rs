@@ -3,7 +3,7 @@
 use crate::geometry::{Nm, Point, Rect};
 use crate::toolpath::{Feed, Move, Position, Program};
 
-use super::dialect::{ALL, Dialect, Touches};
+use super::dialect::{ALL, Dialect, ProbesFrom, Touches};
 use super::header::Header;
 use super::write::{Writer, plain};
 
@@ -63,15 +63,15 @@ pub fn write_probe(touching: &Touching, dialect: &Dialect, header: &Header) -> R
         }
         Touches::Logged => format!("the probed points go into {} for voromill level", touching.log),
     };
+    let what = format!(
+        "probes {} by {} points with the spindle off, probe wires on tool and copper",
+        touching.columns, touching.rows
+    );
+    let zero = (dialect.probes_from == ProbesFrom::Machine)
+        .then(|| "set z to zero by G28.3 Z0 or G92 Z0: G38.2 takes no notice of G54".to_owned());
     let program = Program {
         title: touching.title.clone(),
-        notes: vec![
-            format!(
-                "probes {} by {} points with the spindle off, probe wires on tool and copper",
-                touching.columns, touching.rows
-            ),
-            note,
-        ],
+        notes: [what, note].into_iter().chain(zero).collect(),
         safe: touching.safe,
         sections: Vec::new(),
     };
@@ -88,7 +88,11 @@ pub fn write_probe(touching: &Touching, dialect: &Dialect, header: &Header) -> R
             height = touching.clearance;
             writer.step(&Move::Rapid { to: Position::over(point, height) });
         }
-        let (z, feed) = (writer.length(-touching.depth), touching.feed.number());
+        let depth = match dialect.probes_from {
+            ProbesFrom::Work | ProbesFrom::Machine => touching.depth,
+            ProbesFrom::Here => touching.depth + height,
+        };
+        let (z, feed) = (writer.length(-depth), touching.feed.number());
         writer.line(&format!("G38.2 Z{z} F{feed}"));
         writer.retract(height);
     }

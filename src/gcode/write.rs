@@ -127,10 +127,10 @@ impl<'a> Writer<'a> {
                 self.own(|own| &own.at_tool_change);
             }
             self.change(&section.tool, before.is_none());
-            if before.is_some() {
-                if !self.dialect.own.at_tool_change.is_empty() {
-                    self.modes();
-                }
+            if before.is_some() && !self.dialect.own.at_tool_change.is_empty() {
+                self.modes();
+            }
+            if before.is_some() || self.dialect.tool_change == ToolChange::M6 {
                 // Whoever changes the tool may have moved the machine: the next place is written in
                 // full.
                 self.at = None;

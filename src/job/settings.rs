@@ -167,8 +167,8 @@ impl Settings {
         let tiles = cutting_out::tiles(&options, &cutout_tool)?;
         let dialect = controller::dialect(&options, options.dialect.0.clone())?;
         output_name::check(&options.output_name)?;
-        if tabs != Holding::Count(0) && tab_top <= Nm::ZERO {
-            return Err(validate::no_cut_at_tabs(tab_height, cutout_depth, thickness));
+        if tabs != Holding::Count(0) {
+            validate::tabs(tab_height, cutout_depth, thickness)?;
         }
         let machine = profile.map_or_else(Machine::default, |profile| profile.machine());
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;

@@ -22,17 +22,18 @@ impl Options {
     /// nearest), for values that are not what their key takes, and for two keys that say the same.
     pub fn from_toml(file: &str, text: &str) -> Result<Self, Error> {
         let options: Self = toml::from_str(text).map_err(|error| {
-            let before = &text[..error.span().map_or(0, |span| span.start).min(text.len())];
+            let start = error.span().map_or(0, |span| span.start).min(text.len());
+            // Of a table that may be a name instead, only the table's own place is known.
+            let key = unknown_key(error.message()).and_then(|key| place_from(text, key, start));
+            let before = &text[..key.unwrap_or(start)];
             let line = before.matches('\n').count() + 1;
             let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
             Error::Settings { file: file.to_owned(), line, column, problem: problem(error.message()) }
         })?;
         let Some(keys) = options.contradiction() else { return Ok(options) };
         let [one, other] = keys.map(|key| key.replace('_', "-"));
-        let says = |line: &str| {
-            line.trim_start().strip_prefix(&other).is_some_and(|rest| rest.trim_start().starts_with('='))
-        };
-        let line = text.lines().position(says).map_or(1, |before| before + 1);
+        let place = place_from(text, &other, 0).unwrap_or_default();
+        let line = text[..place].matches('\n').count() + 1;
         let problem = format!("`{other}` and `{one}` are two ways to say the same: set one of them");
         Err(Error::Settings { file: file.to_owned(), line, column: 1, problem })
     }
@@ -46,20 +47,43 @@ impl Options {
     }
 }
 
+/// The key that the reader says it does not know.
+fn unknown_key(message: &str) -> Option<&str> {
+    message.strip_prefix("unknown field `")?.split('`').next()
+}
+
+/// Where `key` is set in `text`, in bytes: from the line on in which `start` lies, as far as the
+/// table goes.
+fn place_from(text: &str, key: &str, start: usize) -> Option<usize> {
+    let mut place = text[..start].rfind('\n').map_or(0, |end| end + 1);
+    for line in text[place..].split_inclusive('\n') {
+        let written = line.trim_start();
+        if written.starts_with('[') && place > start {
+            return None;
+        }
+        let is_set = written.strip_prefix(key).is_some_and(|rest| rest.trim_start().starts_with('='));
+        if is_set {
+            return Some(place + line.len() - written.len());
+        }
+        place += line.len();
+    }
+    None
+}
+
 /// What the reader says, in our words where a person can be helped more.
 fn problem(message: &str) -> String {
-    let Some(key) = message.strip_prefix("unknown field `").and_then(|rest| rest.split('`').next()) else {
+    let Some(key) = unknown_key(message) else {
         let message = message.lines().collect::<Vec<_>>().join(" ");
         return match message.strip_suffix("expected u32") {
             Some(what) => format!("{what}expected a whole number"),
             None => message.replace("unknown variant", "it does not take"),
         };
     };
-    let advice = match place_of(key) {
-        Some(place) => format!("it belongs {place};"),
-        None => nearest(key).map_or_else(String::new, |nearest| format!("did you mean `{nearest}`?")),
-    };
-    format!("unknown key `{key}`: {advice} `voromill init` writes a file with all keys")
+    match (place_of(key), nearest(key)) {
+        (Some(place), _) => format!("unknown key `{key}`: it belongs {place}"),
+        (None, Some(nearest)) => format!("unknown key `{key}`: did you mean `{nearest}`?"),
+        (None, None) => format!("unknown key `{key}`"),
+    }
 }
 
 /// Where a key belongs that stands where it is not known.
@@ -108,6 +132,9 @@ mod tests {
         let error = refused("tool = \"endmill:1mm\"\n\nsafez = \"2mm\"\n");
         assert!(error.contains("voromill.toml:3:1"), "{error}");
         assert!(error.contains("`safez`: did you mean `safe-z`"), "{error}");
+        let error = refused("tool = \"endmill:1mm\"\n[machine]\nsetup = \"1s\"\n travle = \"1mm\"\n");
+        assert!(error.contains("voromill.toml:4:2"), "{error}");
+        assert!(error.contains("`travle`: did you mean `travel`"), "{error}");
     }
 
     #[test]

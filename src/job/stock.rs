@@ -131,6 +131,7 @@ pub(super) fn zero(settings: &Settings) -> String {
     let place = match settings.origin {
         Origin::LowerLeft => "the lower left corner of the board",
         Origin::Keep => "where the files have it",
+        Origin::Center if settings.tiles.is_some() => "the middle of the lower left board",
         Origin::Center => "the middle of the board",
     };
     let (x, y) = (settings.offset.x, settings.offset.y);

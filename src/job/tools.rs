@@ -72,7 +72,7 @@ pub struct OwnTool {
 
 impl OwnTool {
     /// A tool of which nothing is known but its shape.
-    const fn of(kind: ToolKind) -> Self {
+    pub(super) const fn of(kind: ToolKind) -> Self {
         Self { kind, number: None, feed: None, plunge: None, spindle: None, depth: None, point: None }
     }
 }

@@ -2,6 +2,7 @@
 
 use crate::geometry::Nm;
 use crate::toolpath::{Feed, ToolKind};
+use crate::verify::THINNEST_TAB;
 
 use super::checked::{given, positive, wrong};
 use super::cutting::COPPER;
@@ -60,12 +61,18 @@ pub(super) fn adaptive_depth(options: &Complete, cuttings: &[Cutting]) -> Result
     }
 }
 
-/// Why tabs as high as a board, or as a cut that does not go through it, cannot be.
-pub(super) fn no_cut_at_tabs(height: Nm, cut: Nm, board: Nm) -> Error {
+/// Fails for tabs that hold nothing, and for those that leave the `cut` or the `board` uncut.
+pub(super) fn tabs(height: Nm, cut: Nm, board: Nm) -> Result<(), Error> {
     let (what, deep) = if cut < board { ("a cut", cut) } else { ("a board", board) };
-    let [tabs, deep] = [height, deep].map(Length);
-    let problem = format!("tabs of {tabs} in {what} of {deep} would leave it uncut");
-    Error::Value { key: "tab-height", problem }
+    let [tabs, limit, least] = [height, deep, THINNEST_TAB].map(Length);
+    let problem = if height >= deep {
+        format!("tabs of {tabs} in {what} of {limit} would leave it uncut")
+    } else if height < THINNEST_TAB {
+        format!("tabs of {tabs} would break when they are looked at: expected {least} or more")
+    } else {
+        return Ok(());
+    };
+    Err(Error::Value { key: "tab-height", problem })
 }
 
 /// How far a cut may be from its place: with more than a fifth of the narrowest it would go

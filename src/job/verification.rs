@@ -3,9 +3,11 @@
 use crate::board::Side;
 use crate::gcode::dialect::Comments;
 use crate::toolpath::{self, ToolKind};
+use crate::topology::Method;
 use crate::verify::{self, Cutter, CutterKind, Known, Placement, Program, Report, Role, Surface, verify};
 
 use super::art::cutter;
+use super::plain::method;
 use super::{Error, Job, Part, Settings, Written};
 
 impl Job {
@@ -25,8 +27,11 @@ impl Job {
         let tiled = self.tiled(&programs);
         let (judging, travel) = (judging(settings), settings.machine.travel);
         let judging = verify::Settings { travel: travel.filter(|_| tiled.is_empty()), ..judging };
+        // What copper touches is no matter of how it was looked for.
+        let are_exact = method(settings.asked.topology) == Method::Contact;
+        let layers = self.layers.iter().filter(|_| are_exact);
         let known: Vec<Known<'_>> =
-            self.layers.iter().map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
+            layers.map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
         let report = verify(&programs, &self.board, &known, &judging)?;
         Ok(match travel.filter(|_| !tiled.is_empty()) {
             Some(travel) => report.with(verify::overtravel(&tiled, travel)?),

@@ -175,7 +175,7 @@ impl<'a> Contours<'a> {
             && settings.tabs != Some(0);
         match stretch.state {
             State::Through | State::Narrow => false,
-            State::Shallow => short && settings.board - stretch.depth >= SKIN,
+            State::Shallow => short && settings.board - stretch.depth >= THINNEST_TAB,
             // Nobody has said that tabs are lower than the board.
             State::Uncut => {
                 let is_gap = stretch.length >= self.half.to_f64() && stretch.left >= stretch.length / 4.0;
@@ -228,7 +228,7 @@ fn widest(settings: &Settings) -> Nm {
 }
 
 /// What is left is no tab where it is thinner than this. Chosen: it breaks when it is looked at.
-const SKIN: Nm = Nm::from_um(100);
+pub const THINNEST_TAB: Nm = Nm::from_um(100);
 
 impl Ring {
     /// How long it is, in nanometres.

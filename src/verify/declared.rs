@@ -1,5 +1,5 @@
 //! What a program says of itself in its comments, where it is one of ours: the tools, what it is
-//! for, how the board lies.
+//! for, how the board lies. Of pcb2gcode's and FlatCAM's programs the tools alone.
 
 use crate::board::Side;
 use crate::gcode::read::lines;
@@ -22,6 +22,10 @@ pub(super) struct Declared {
     pub(super) degrees: f64,
     /// The line about which the board was flipped.
     pub(super) mirror: Option<Nm>,
+    /// Whether FlatCAM's diameters are inches.
+    are_inches: bool,
+    /// The mill with which pcb2gcode mills all holes.
+    mill_head: Option<Cutter>,
 }
 
 impl Declared {
@@ -46,6 +50,9 @@ impl Declared {
         {
             self.cutters.push((line, cutter));
         }
+        if let Some(cutter) = self.foreign(&words) {
+            self.cutters.push((line, cutter));
+        }
         match words.as_slice() {
             ["rotate", angle] => {
                 let degrees = angle.strip_suffix("deg").and_then(|number| number.parse().ok());
@@ -63,6 +70,32 @@ impl Declared {
                 self.mirror = format!("{axis}mm").parse().ok();
             }
             _ => {}
+        }
+    }
+
+    /// The tool that other programs name in these words.
+    fn foreign(&mut self, words: &[&str]) -> Option<Cutter> {
+        let made = |kind: &str, diameter: &str, unit: &str| format!("{kind}:{diameter}{unit}").parse().ok();
+        match words {
+            // FlatCAM, which says the unit once and above.
+            ["Units:", unit] => {
+                self.are_inches = unit.eq_ignore_ascii_case("in");
+                None
+            }
+            ["MSG,", "Change", "to", "Tool", "Dia", "=", diameter, rest @ ..] => {
+                let unit = if self.are_inches { "in" } else { "mm" };
+                let kind = if rest.contains(&"drills") { "drill" } else { "endmill" };
+                made(kind, diameter, unit)
+            }
+            // pcb2gcode, which writes the unit behind the number.
+            ["This", "file", "uses", "a", "mill", "head", "of", diameter, ..] => {
+                self.mill_head = made("endmill", diameter, "");
+                self.mill_head
+            }
+            ["MSG,", "Change", "tool", "bit", "to", "drill", "size", diameter] => {
+                self.mill_head.or_else(|| made("drill", diameter, ""))
+            }
+            _ => None,
         }
     }
 }
@@ -178,6 +211,33 @@ fn comments(line: &str) -> Vec<&str> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tools_of_other_programs_are_understood() {
+        let tools = |text: &str| -> Vec<(u32, String)> {
+            let declared = Declared::read(text);
+            declared.cutters.iter().map(|(line, cutter)| (*line, cutter.to_string())).collect()
+        };
+        let flatcam = "(Units: IN)\n(Tool: 1 -> Dia: 0.04)\nT1\nM6\n\
+                       (MSG, Change to Tool Dia = 0.0400 ||| Total drills for tool T1 = 5)\nM0\n\
+                       (MSG, Change to Tool Dia = 0.1000)\nM0\n";
+        let found = tools(flatcam);
+        assert_eq!(found, [(5, "drill:1.016mm".to_owned()), (7, "endmill:2.54mm".to_owned())], "FlatCAM's");
+        let drilled = "(MSG, Change tool bit to drill size 0.04inch)\nM6\n\
+                       (MSG, Change tool bit to drill size 1.30000mm)\n";
+        let found = tools(drilled);
+        assert_eq!(found, [(1, "drill:1.016mm".to_owned()), (3, "drill:1.3mm".to_owned())], "pcb2gcode's");
+        let milled = "( This file uses a mill head of 0.80000mm to drill the 2 hole sizes. )\n\
+                      (MSG, Change tool bit to drill size 1.00000mm)\n";
+        let found = tools(milled);
+        let mill = "endmill:0.8mm".to_owned();
+        assert_eq!(found, [(1, mill.clone()), (2, mill)], "one mill for all holes");
+        assert_eq!(
+            tools("( This file uses a mill head of 0.03125 to drill the 1bit sizes. )\n"),
+            [],
+            "no unit"
+        );
+    }
 
     #[test]
     fn our_own_comments_are_understood() {

@@ -83,6 +83,7 @@ use crate::topology::Nets;
 
 pub use crate::board::Severity;
 pub use asked::Asked;
+pub use contours::THINNEST_TAB;
 pub use cutter::{Cutter, CutterKind, ParseCutterError};
 pub use declared::{declared_list, declared_probe, declared_setting, is_isolation};
 pub use diff::{Change, Comparison, Region, Spot, diff};

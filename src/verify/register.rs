@@ -15,7 +15,7 @@ use crate::board::{Board, Copper, Shape, Side};
 use crate::geometry::{Nm, Point, Rect, Vector};
 use crate::grid::Grid;
 use crate::raster::{Buffers, Label, Scene, render};
-use crate::topology::{Proximity, surface};
+use crate::topology::{Method, Nets, Proximity, recover, surface};
 
 use super::check::along;
 use super::machining::Machining;
@@ -325,23 +325,84 @@ fn nearest_hole(holes: &[Point], p: Point) -> Option<Point> {
     near.min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
 }
 
-/// A shift made better on the exact shapes.
+/// A shift made better on the exact shapes: the one at which most cuts lie midway between nets, and
+/// else the one at which they are farthest from copper.
 fn refine(trial: &Trial, board: &Board, shift: Vector) -> Vector {
     let Role::Isolation(side) = trial.role else { return shift };
     let Some(copper) = board.copper(side) else { return shift };
     let proximity = Proximity::new(copper);
-    let crowding = |shift: Vector| crowding(&proximity, &trial.points, shift);
-    let (mut at, mut least) = (shift, crowding(shift));
-    let mut step = Nm::from_um(16);
+    let clear = descend(shift, Nm::from_um(16), |shift| crowding(&proximity, &trial.points, shift));
+    Midway::new(copper, &proximity, &trial.points).shift(clear).unwrap_or(clear)
+}
+
+/// The shift near `start` at which `misfit` is least, as far as steps along the axes lead, of which
+/// the first is so long.
+fn descend(start: Vector, first: Nm, misfit: impl Fn(Vector) -> f64) -> Vector {
+    let (mut at, mut least) = (start, misfit(start));
+    let mut step = first;
     while step >= Nm::new(500) {
         let ways = [(step, Nm::ZERO), (-step, Nm::ZERO), (Nm::ZERO, step), (Nm::ZERO, -step)];
-        let tried = ways.map(|(x, y)| at + Vector::new(x, y)).map(|shift| (shift, crowding(shift)));
+        let tried = ways.map(|(x, y)| at + Vector::new(x, y)).map(|shift| (shift, misfit(shift)));
         match tried.into_iter().min_by(|a, b| a.1.total_cmp(&b.1)) {
             Some((shift, now)) if now < least => (at, least) = (shift, now),
             _ => step = step / 2,
         }
     }
     at
+}
+
+/// Cuts that are midway between nets, laid over these: where gaps are wide, nothing is near to
+/// copper wherever it lies.
+struct Midway<'a> {
+    proximity: &'a Proximity,
+    nets: Nets,
+    points: Vec<Point>,
+}
+
+impl<'a> Midway<'a> {
+    /// How far nets are looked for. Chosen: half of the widest gap that is usual.
+    const REACH: Nm = Nm::from_mm(2);
+    /// No point is farther from where it ought to be, in nanometres: the limit of a region is not
+    /// midway. Chosen.
+    const MOST: f64 = 400_000.0;
+    /// What counts as midway, in nanometres. Chosen: as moves are rounded, and arcs are fitted.
+    const NEAR: f64 = 10_000.0;
+
+    /// One of so many cuts must be midway, whatever the others are. Chosen.
+    const LEAST: usize = 10;
+
+    fn new(copper: &Copper, proximity: &'a Proximity, points: &[Point]) -> Self {
+        let points = points.iter().step_by(3).copied().collect();
+        Self { proximity, nets: recover(copper, Method::Contact), points }
+    }
+
+    /// The shift that lays most of the cuts that have nets on both sides midway, near `start`; none
+    /// where few are.
+    fn shift(&self, start: Vector) -> Option<Vector> {
+        let found = descend(start, Nm::from_um(512), |shift| {
+            self.offs(shift).iter().map(|off| off.min(Self::MOST)).sum()
+        });
+        let offs = self.offs(found);
+        let midway = offs.iter().filter(|&&off| off <= Self::NEAR).count();
+        let between = offs.iter().filter(|off| off.is_finite()).count();
+        (midway * 2 > between && midway * Self::LEAST > offs.len()).then_some(found)
+    }
+
+    /// How far each point is from being midway; infinite where there are not two nets.
+    fn offs(&self, shift: Vector) -> Vec<f64> {
+        let off = |&p: &Point| {
+            let spot = Shape::Disc { center: p - shift, radius: Nm::ZERO };
+            let near = self.proximity.near(&spot, Self::REACH);
+            let Some(first) = near.iter().min_by(|a, b| a.width.total_cmp(&b.width)) else {
+                return f64::INFINITY;
+            };
+            let net = self.nets.of(first.feature);
+            let others = near.iter().filter(|other| self.nets.of(other.feature) != net);
+            let second = others.map(|other| other.width).reduce(f64::min);
+            second.map_or(f64::INFINITY, |second| (second - first.width) / 2.0)
+        };
+        self.points.par_iter().map(off).collect()
+    }
 }
 
 /// How far a clearance counts, in nanometres: so much more weighs a third. Chosen: fine beside a

@@ -145,6 +145,29 @@ fn holes_are_drilled_from_the_side_and_bored_with_the_mill_that_the_project_name
 }
 
 #[test]
+fn an_option_that_asks_for_the_front_has_the_last_word() {
+    for (text, side) in [
+        ("drill-front=false\ncut-front=0", Side::Back),
+        ("drill-front=no\ncut-front=no\ndrill-side=front\ncut-side=front", Side::Back),
+        ("drill-side=back\ncut-side=back\ndrill-front=true\ncut-front=1", Side::Front),
+    ] {
+        let made = settings(project(text));
+        assert_eq!((made.drill_side, made.cutout_side), (side, side), "{text}");
+    }
+}
+
+#[test]
+fn speeds_of_the_cutter_count_where_its_diameter_is_not_said() {
+    for text in ["", "cutter-diameter=0\n"] {
+        let made = settings(project(&format!("\u{feff}metric=1\n{text}cut-feed=222\ncut-speed=7777")));
+        let tool = &made.cutout_tool;
+        assert_eq!(tool.kind, ToolKind::EndMill { diameter: um(1000) }, "the usual one");
+        let expected = (Feed::from_mm_per_min(222), Feed::from_mm_per_min(111), 7777);
+        assert_eq!((tool.feed, tool.plunge, tool.spindle), expected, "its speeds, the plunge halved");
+    }
+}
+
+#[test]
 fn corners_names_and_tool_changes_are_as_the_project_says() {
     let made = settings(project("software=linuxcnc\ng64=0.0005"));
     assert_eq!(made.dialect.blend, Some(Blend::Within(Nm::new(12_700))), "half a thousandth");

@@ -257,7 +257,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M2"],
-        touched: Some("G92 Z1.6"),
+        touched: None,
     },
     Rules {
         name: "g2core",
@@ -275,7 +275,7 @@ const TABLE: &[Rules] = &[
         spindle: "M3",
         change: Change::Files,
         end: &["M2"],
-        touched: Some("G92 Z1.6"),
+        touched: None,
     },
 ];
 
@@ -619,6 +619,13 @@ fn tools_are_changed_where_it_waits(case: &Case) -> Vec<String> {
         wrongs.push("two tools in one file".to_owned());
     }
     wrongs.extend(lines(case, "M6 without a tool", |line| line.has("M6") && line.value('T').is_none()));
+    // Whoever fitted the tool may have left it on the copper.
+    let steps: Vec<&Line> =
+        case.lines.iter().filter(|line| ["M6", "M0", "G0"].iter().any(|code| line.has(code))).collect();
+    let sideways = steps
+        .windows(2)
+        .filter(|pair| !pair[0].has("G0") && (pair[1].value('Z').is_none() || pair[1].value('X').is_some()));
+    wrongs.extend(sideways.map(|pair| format!("`{}` after a change of tools", pair[1].text)));
     wrongs
 }
 
@@ -1021,6 +1028,7 @@ fn the_rules_refuse_what_breaks_them() {
         ("marlin", 16, "G4 P3"),
         ("grbl", 17, "M3 S0\nG4 P3"),
         ("grbl", 19, "T2 M6"),
+        ("grblhal", 19, "T1 M6\nG0 X1"),
         ("tinyg", 19, "M0"),
         ("marlin", 21, "M2"),
         ("grbl", 22, "G28"),

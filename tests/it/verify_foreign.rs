@@ -98,7 +98,7 @@ fn a_board_that_was_turned_and_moved_is_found_within_3_um() {
             tool: vec![tool.parse().expect("a tool")],
             ..Options::default()
         };
-        let off = off_when_found(options, &Settings::default());
+        let off = off_when_found(&seven(), Side::Front, options, &Settings::default());
         assert!(off <= 3_000.0, "{rotate} {tool}: {off} nm off");
     }
 }
@@ -115,29 +115,48 @@ fn where_the_first_of_several_tiles_lies_is_found() {
             ..Options::default()
         };
         let tiles = Some(Tiles { columns: 3, rows: 2, spacing });
-        let off = off_when_found(options, &Settings { tiles, ..Settings::default() });
+        let off = off_when_found(&seven(), Side::Front, options, &Settings { tiles, ..Settings::default() });
         assert!(off <= 3_000.0, "{rotate}: {off} nm off");
     }
 }
 
-/// How far from where it lies a board of ours is found, by its front program alone, in nanometres.
-fn off_when_found(options: Options, judging: &Settings) -> f64 {
+/// Where gaps are wide, no cut is near copper wherever the program lies.
+#[test]
+fn cuts_midway_between_nets_far_apart_are_found_within_3_um() {
+    let Some(root) = corpus::boards() else { return };
+    let board = [root.join("visolate_numpres")];
+    let off = off_when_found(&board, Side::Back, Options::default(), &Settings::default());
+    assert!(off <= 3_000.0, "{off} nm off");
+}
+
+/// How far from where it lies a board is found, by its program of one side alone without what it
+/// says of itself, in nanometres.
+fn off_when_found(files: &[PathBuf], side: Side, options: Options, judging: &Settings) -> f64 {
     let settings = job::Settings::resolve(options).expect("settings");
-    let files = [fixture("seven-F_Cu.gbr"), fixture("seven-Edge_Cuts.gbr")];
-    let loaded = import::load(&files, &Selection::default()).expect("a board");
+    let loaded = import::load(files, &Selection::default()).expect("a board");
     let job = job::mill(loaded, &settings).expect("a job");
-    let written = job.programs.iter().find(|written| written.part == Part::Front).expect("a front");
+    let part = if side == Side::Front { Part::Front } else { Part::Back };
+    let written = job.programs.iter().find(|written| written.part == part).expect("its program");
+    let is_code = |line: &&str| !line.starts_with('(');
+    let code: Vec<&str> = written.text.lines().filter(is_code).collect();
     let program = Program {
-        file: "front.ngc".to_owned(),
-        text: written.text.clone(),
-        role: Some(Role::Isolation(Side::Front)),
+        file: "program.ngc".to_owned(),
+        text: code.join("\n"),
+        role: Some(Role::Isolation(side)),
+        cutter: Some(settings.isolation[0].tool.kind.to_string().parse().expect("a tool")),
         ..Program::default()
     };
-    let found = register(&program, &job.board, &Orientation::default(), &[], judging).expect("it fits");
-    let truth =
-        Placement { degrees: job.placement.rotation.degrees(), shift: job.placement.shift, mirror: None };
+    let mirror = (side == Side::Back).then_some(Nm::ZERO);
+    let known = Orientation { degrees: Some(job.placement.rotation.degrees()), mirror };
+    let found = register(&program, &job.board, &known, &[], judging).expect("it fits");
+    let mirror = (side == Side::Back).then_some(job.axis);
+    let truth = Placement { degrees: job.placement.rotation.degrees(), shift: job.placement.shift, mirror };
     let machine = [Point::new(Nm::ZERO, Nm::ZERO), Point::new(Nm::from_mm(8), Nm::from_mm(6))];
     machine.into_iter().map(|place| found.undo(place).distance(truth.undo(place))).fold(0.0, f64::max)
+}
+
+fn seven() -> [PathBuf; 2] {
+    [fixture("seven-F_Cu.gbr"), fixture("seven-Edge_Cuts.gbr")]
 }
 
 /// Other people's cutouts, beside boards they were not made for.

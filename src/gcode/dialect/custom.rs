@@ -111,6 +111,7 @@ impl Dialect {
             coolant: keys.coolant.map(|[on, off]| (Cow::Owned(on), Cow::Owned(off))).or(base.coolant),
             spin_up: keys.spin_up.unwrap_or(base.spin_up),
             touches: keys.touches.unwrap_or(base.touches),
+            probes_from: base.probes_from,
             sets_height: base.sets_height,
             no_probe: base.no_probe,
             touch_off: base.touch_off,

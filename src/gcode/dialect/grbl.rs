@@ -10,8 +10,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
-    ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, ProbesFrom, RAPID,
+    Rapids, SPIN_UP, ToolChange, Touches,
 };
 
 /// In laser mode (`$32=1`) the spindle stops on every rapid.
@@ -42,6 +42,7 @@ pub(super) const GRBL: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Reported,
+    probes_from: ProbesFrom::Work,
     sets_height: Some(Borrowed("G92")),
     no_probe: None,
     touch_off: None,
@@ -74,6 +75,7 @@ pub(super) const GRBLHAL: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Reported,
+    probes_from: ProbesFrom::Work,
     sets_height: Some(Borrowed("G92")),
     no_probe: None,
     touch_off: None,
@@ -106,6 +108,7 @@ pub(super) const FLUIDNC: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Reported,
+    probes_from: ProbesFrom::Work,
     sets_height: Some(Borrowed("G92")),
     no_probe: None,
     touch_off: None,

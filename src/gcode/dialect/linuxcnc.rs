@@ -5,8 +5,8 @@ use std::borrow::Cow::Borrowed;
 use crate::geometry::Nm;
 
 use super::{
-    ArcCheck, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
-    ToolChange, Touches,
+    ArcCheck, Arcs, Blend, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, ProbesFrom, RAPID,
+    Rapids, SPIN_UP, ToolChange, Touches,
 };
 
 /// LinuxCNC. G64 with a tolerance lets it blend corners by at most 5 µm, instead of stopping at
@@ -35,6 +35,7 @@ pub(super) const LINUXCNC: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Logged,
+    probes_from: ProbesFrom::Work,
     sets_height: Some(Borrowed("G10 L20 P0")),
     no_probe: None,
     touch_off: None,

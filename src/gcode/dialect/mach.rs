@@ -3,8 +3,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
-    ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, ProbesFrom, RAPID, Rapids,
+    SPIN_UP, ToolChange, Touches,
 };
 
 /// Why its programs do not probe.
@@ -37,6 +37,7 @@ pub(super) const MACH3: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    probes_from: ProbesFrom::Work,
     sets_height: None,
     no_probe: Some(Borrowed(G31)),
     touch_off: None,
@@ -69,6 +70,7 @@ pub(super) const MACH4: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    probes_from: ProbesFrom::Work,
     sets_height: None,
     no_probe: Some(Borrowed(G31)),
     touch_off: None,

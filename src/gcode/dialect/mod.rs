@@ -70,6 +70,8 @@ pub struct Dialect {
     pub spin_up: u32,
     /// What becomes of the touches of a probe.
     pub touches: Touches,
+    /// What the place that a probe goes to counts from.
+    pub probes_from: ProbesFrom,
     /// The words, before Z, that say how high the tool is once a probe has touched something; none
     /// where no program can say it.
     pub sets_height: Option<Text>,
@@ -225,6 +227,17 @@ pub enum Touches {
     ReportedJson,
     /// They go into a file that the program names: `(PROBEOPEN …)`.
     Logged,
+}
+
+/// What the place that a probe (G38.2) goes to counts from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ProbesFrom {
+    /// The work's zero, as of all moves.
+    Work,
+    /// The machine's zero, whatever G54 and G91 say; G28.3 and G92 move it.
+    Machine,
+    /// Where the tool is, whatever G90 says.
+    Here,
 }
 
 /// Numbers before the lines.

@@ -10,8 +10,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
-    ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, ProbesFrom, RAPID,
+    Rapids, SPIN_UP, ToolChange, Touches,
 };
 
 /// Marlin 2. Its G4 counts milliseconds in P and seconds in S; its M0 shows the text behind it.
@@ -39,6 +39,7 @@ pub(super) const MARLIN: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    probes_from: ProbesFrom::Work,
     sets_height: None,
     no_probe: Some(Borrowed(
         "only some builds of it know G38.2, none reports the probed point, and G10 retracts filament",
@@ -73,6 +74,7 @@ pub(super) const REPRAPFIRMWARE: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    probes_from: ProbesFrom::Work,
     sets_height: None,
     no_probe: Some(Borrowed("it does not report the point that G38.2 probed")),
     touch_off: None,
@@ -105,6 +107,7 @@ pub(super) const KLIPPER: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::None,
+    probes_from: ProbesFrom::Work,
     sets_height: None,
     no_probe: Some(Borrowed("it knows no G38.2")),
     touch_off: None,

@@ -3,8 +3,8 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
-    ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, LineNumbers, Messages, OwnCode, ProbesFrom, RAPID, Rapids,
+    SPIN_UP, ToolChange, Touches,
 };
 
 /// Smoothieware. Its G4 takes P in seconds or milliseconds by a setting, S always in seconds; its
@@ -36,6 +36,7 @@ pub(super) const SMOOTHIEWARE: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::Reported,
+    probes_from: ProbesFrom::Here,
     sets_height: None,
     no_probe: Some(Borrowed("how its programs could set zero after touching off is not known")),
     touch_off: None,

@@ -6,9 +6,12 @@
 use std::borrow::Cow::Borrowed;
 
 use super::{
-    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, RAPID, Rapids, SPIN_UP,
-    ToolChange, Touches,
+    ArcCheck, Arcs, Comments, Dialect, Dwell, FILES, LineNumbers, Messages, OwnCode, ProbesFrom, RAPID,
+    Rapids, SPIN_UP, ToolChange, Touches,
 };
+
+/// Why no tool is touched off (`cycle_probing` of both).
+const MACHINE_ZERO: &str = "its G38.2 counts from the machine's zero, which no program knows";
 
 /// TinyG. It refuses an arc whose radii differ by a thousandth, and only then asks by how much
 /// (plan_arc.c), so it gets a decimal more.
@@ -36,8 +39,9 @@ pub(super) const TINYG: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::ReportedJson,
-    sets_height: Some(Borrowed("G92")),
-    no_probe: None,
+    probes_from: ProbesFrom::Machine,
+    sets_height: None,
+    no_probe: Some(Borrowed(MACHINE_ZERO)),
     touch_off: None,
     condition: None,
     own: OwnCode::NONE,
@@ -68,8 +72,9 @@ pub(super) const G2CORE: Dialect = Dialect {
     coolant: None,
     spin_up: SPIN_UP,
     touches: Touches::ReportedJson,
-    sets_height: Some(Borrowed("G92")),
-    no_probe: None,
+    probes_from: ProbesFrom::Machine,
+    sets_height: None,
+    no_probe: Some(Borrowed(MACHINE_ZERO)),
     touch_off: None,
     condition: None,
     own: OwnCode::NONE,

@@ -6,12 +6,13 @@ use crate::board::diagnostic::planning;
 use crate::board::{Sentence, SourceSpan, Words};
 use crate::gcode::dialect::Blend;
 use crate::geometry::Nm;
+use crate::job::Options;
 use crate::job::choice::{DialectChoice, DrillSide, Origin};
 use crate::job::output_name::OutputName;
 use crate::job::overlap::Overlap;
 use crate::job::part::Part;
 use crate::job::quantity::{DrillChoice, Drills, Length, Place, Tiles, Wait};
-use crate::job::tools::OwnTool;
+use crate::job::tools::{OwnTool, ToolChoice};
 use crate::toolpath::{Direction, ToolKind};
 
 use super::left;
@@ -70,6 +71,8 @@ pub(super) struct Cutting<'a> {
     pub(super) bridges_count: Option<u32>,
     pub(super) zbridges: Option<(Nm, Entry<'a>)>,
     pub(super) side: CutSide,
+    /// The same in an older option, which has the last word.
+    pub(super) front: Option<bool>,
 }
 
 /// How holes are made.
@@ -81,6 +84,8 @@ pub(super) struct Drilling<'a> {
     /// From which diameter on holes are milled.
     pub(super) milled_from: Option<Nm>,
     pub(super) side: CutSide,
+    /// The same in an older option, which has the last word.
+    pub(super) front: Option<bool>,
 }
 
 /// How the surface is touched.
@@ -107,7 +112,6 @@ pub(super) enum CutSide {
 
 impl<'a> Draft<'a> {
     pub(super) fn new(units: Units, file: &'a str) -> Self {
-        let kind = ToolKind::EndMill { diameter: Nm::ZERO };
         Self {
             units,
             file,
@@ -115,20 +119,13 @@ impl<'a> Draft<'a> {
             refused: Vec::new(),
             isolating: Isolating::default(),
             cutting: Cutting {
-                cutter: OwnTool {
-                    kind,
-                    number: None,
-                    feed: None,
-                    plunge: None,
-                    spindle: None,
-                    depth: None,
-                    point: None,
-                },
+                cutter: usual_cutter(),
                 depth: None,
                 bridges: None,
                 bridges_count: None,
                 zbridges: None,
                 side: CutSide::Auto,
+                front: None,
             },
             drilling: Drilling::default(),
             probing: Probing::default(),
@@ -234,8 +231,7 @@ impl<'a> Draft<'a> {
             "cut-speed" => self.cutting.cutter.spindle = self.turns(entry)?,
             "cut-infeed" => self.made.options.cutout_pass = Some(Length(entry.positive(units)?)),
             "cut-side" => cutting.side = side(entry)?,
-            "cut-front" if entry.flag()? => cutting.side = CutSide::Front,
-            "cut-front" => {}
+            "cut-front" => cutting.front = Some(entry.flag()?),
             "bridges" => cutting.bridges = Some(entry.length(units)?),
             "bridgesnum" => cutting.bridges_count = Some(entry.count()?),
             "zbridges" => cutting.zbridges = Some((entry.length(units)?, *entry)),
@@ -258,8 +254,7 @@ impl<'a> Draft<'a> {
             "drills-available" => self.drills(entry)?,
             "onedrill" => options.one_drill = entry.flag()?.then_some(true),
             "drill-side" => drilling.side = side(entry)?,
-            "drill-front" if entry.flag()? => drilling.side = CutSide::Front,
-            "drill-front" => {}
+            "drill-front" => drilling.front = Some(entry.flag()?),
             "milldrill-diameter" => drilling.mill = Some(entry.positive(units)?),
             "milldrill" if entry.flag()? => drilling.milled_from = drilling.milled_from.or(Some(Nm::ZERO)),
             "milldrill" => {}
@@ -464,6 +459,15 @@ fn tiles(entry: &Entry<'_>) -> Result<u32, Wrong> {
     if (1..=100).contains(&count) { Ok(count) } else { Err(entry.wrong("1 to 100")) }
 }
 
+/// The cutter as far as nothing is said of it.
+pub(super) fn usual_cutter() -> OwnTool {
+    let kind = match Options::defaults().cutout_tool {
+        Some(ToolChoice::Kind(kind)) => kind,
+        _ => ToolKind::EndMill { diameter: Nm::ZERO },
+    };
+    OwnTool::of(kind)
+}
+
 fn side(entry: &Entry<'_>) -> Result<CutSide, Wrong> {
     match entry.value.to_ascii_lowercase().as_str() {
         "front" => Ok(CutSide::Front),
@@ -474,13 +478,13 @@ fn side(entry: &Entry<'_>) -> Result<CutSide, Wrong> {
 }
 
 impl CutSide {
-    /// The side that this is of a board with copper on the back alone, or not.
-    pub(super) fn of(self, is_back_alone: bool) -> Option<DrillSide> {
-        match self {
-            Self::Back => Some(DrillSide::Back),
-            Self::Auto if is_back_alone => Some(DrillSide::Back),
-            Self::Auto => None,
-            Self::Front => Some(DrillSide::Front),
+    /// The side that this is of a board with copper on the back alone, or not, unless the option
+    /// that asks whether it is the `front` was given.
+    pub(super) fn of(self, front: Option<bool>, is_back_alone: bool) -> Option<DrillSide> {
+        match (front, self) {
+            (Some(true), _) | (None, Self::Front) => Some(DrillSide::Front),
+            (Some(false), _) | (None, Self::Back) => Some(DrillSide::Back),
+            (None, Self::Auto) => is_back_alone.then_some(DrillSide::Back),
         }
     }
 }

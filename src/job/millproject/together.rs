@@ -10,9 +10,10 @@ use crate::job::overlap::Overlap;
 use crate::job::quantity::{Length, ToolChangeAt};
 use crate::job::tools::{OwnTool, ToolChoice};
 use crate::toolpath::{Feed, Percent, ToolKind};
+use crate::verify::THINNEST_TAB;
 
 use super::MillProject;
-use super::draft::{Draft, Needs};
+use super::draft::{Draft, Needs, usual_cutter};
 use super::value::{Entry, Wrong};
 
 /// How the cutter's table is called.
@@ -160,8 +161,8 @@ impl Draft<'_> {
         }
         let is_back_alone = self.is_back_alone();
         let options = &mut self.made.options;
-        options.cutout_side = self.cutting.side.of(is_back_alone);
-        if self.cutting.cutter.kind.width_at(Nm::ZERO) > Nm::ZERO {
+        options.cutout_side = self.cutting.side.of(self.cutting.front, is_back_alone);
+        if self.cutting.cutter != usual_cutter() {
             options.tools.add(CUTTER, self.cutting.cutter);
             options.cutout_tool = Some(ToolChoice::Named(CUTTER.to_owned()));
         }
@@ -197,7 +198,7 @@ impl Draft<'_> {
         } else if top <= -back {
             format!("bridges below a board of {} hold nothing: tabs of the usual height do", Length(back))
         } else {
-            options.tab_height = Some(Length((top + back).min(back - SCRATCH).max(Nm::new(1))));
+            options.tab_height = Some(Length((top + back).min(back - SCRATCH).max(THINNEST_TAB)));
             return;
         };
         if let Some((_, entry)) = self.cutting.zbridges {
@@ -208,9 +209,9 @@ impl Draft<'_> {
     /// What is drilled, what is bored, and from which side.
     fn holes(&mut self) -> Result<(), Wrong> {
         let is_back_alone = self.is_back_alone();
-        let (cutter, side) = (self.cutting.cutter, self.drilling.side);
+        let cutter = self.cutting.cutter;
         let options = &mut self.made.options;
-        options.drill_side = side.of(is_back_alone);
+        options.drill_side = self.drilling.side.of(self.drilling.front, is_back_alone);
         if let Some(diameter) = self.drilling.mill {
             options.tools.add(BORER, OwnTool { kind: ToolKind::EndMill { diameter }, ..cutter });
         }

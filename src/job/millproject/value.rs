@@ -42,6 +42,8 @@ impl Wrong {
 
 /// The options of a text, without comments.
 pub(super) fn entries(text: &str) -> impl Iterator<Item = Result<Entry<'_>, Wrong>> {
+    // Some editors begin a file with a mark of the order of its bytes.
+    let text = text.trim_start_matches('\u{feff}');
     let lines =
         (1..).zip(text.lines()).map(|(line, text)| (line, text.split('#').next().unwrap_or_default().trim()));
     lines.filter(|(_, text)| !text.is_empty()).map(|(line, text)| {
