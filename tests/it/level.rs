@@ -167,6 +167,61 @@ fn arcs_follow_as_helices_and_a_circle_comes_back() {
     assert!(done.text.contains("(round)"), "the comment stays");
 }
 
+/// The turns of an arc that goes round several times (P) lie on the surface like any other arc; on
+/// a level surface they stay one line.
+#[test]
+fn an_arc_that_goes_round_several_times_follows_the_surface_on_each_turn() {
+    let plane = map(3, 20.0, |x, _| x * 0.01);
+    for (arc, turns, end) in [
+        ("G3 X10 Y10 I5 J5 Z-0.4 P2", 2.0, (10, 10, -400)),
+        ("G2 X20 Y20 I5 J5 Z-0.4 P3 (half a turn more)", 2.5, (20, 20, -400)),
+        ("G91\nG3 X0 Y0 I5 J5 Z-0.3 P2\nG90", 2.0, (10, 10, -400)),
+    ] {
+        let text = format!("G21 G90 G17\nG0 Z2\nG0 X10 Y10\nG1 Z-0.1 F100\n{arc}\nG0 Z2\nM2\n");
+        let done = levelled(&text, &plane);
+        assert!(!done.text.contains(['P', 'R']), "each piece goes round once: {}", done.text);
+        let listing = read(&done.text).unwrap();
+        let arcs: Vec<&Motion> =
+            listing.motions.iter().filter(|motion| matches!(motion.way, Way::Arc { .. })).collect();
+        let sweep: f64 = arcs.iter().map(|arc| length(arc)).sum();
+        let radius = 50_f64.sqrt() * 1e6;
+        let round = sweep / (std::f64::consts::TAU * radius);
+        assert!((round - turns).abs() < 1e-3, "it goes round {round} times: {}", done.text);
+        let (x, y, z) = end;
+        let last = arcs.last().expect("arcs").to;
+        let place = Point::new(Nm::from_mm(x), Nm::from_mm(y));
+        assert_eq!(last.point(), Some(place), "where it ended before: {}", done.text);
+        assert_eq!(last.z, Some(Nm::from_um(z) + plane.over(place)), "as deep: {}", done.text);
+        let mut way = 0.0;
+        for arc in arcs {
+            for (part, (x, y, z)) in along(arc).into_iter().enumerate() {
+                let share = (way + length(arc) * f64::from(u32::try_from(part).unwrap()) / 32.0) / sweep;
+                let off = z + 1e5 + 3e5 * share - plane.over(Point::from_f64(x, y)).to_f64();
+                assert!(off.abs() <= 5_250.0, "line {} is off by {off}: {}", arc.line, done.text);
+            }
+            way += length(arc);
+        }
+        let flat = map(3, 20.0, |_, _| 0.05);
+        let done = levelled(&text, &flat).text;
+        let higher = text.replace("Z-0.1 ", "Z-0.05 ").replace("Z-0.4", "Z-0.35");
+        assert_eq!(done, higher, "one line on a level surface");
+        assert_eq!(levelled(&text, &map(3, 20.0, |_, _| 0.0)).text, text, "the same text");
+    }
+    let tap = "G21 G90\nM3 S100\nG0 Z2\nG0 X10 Y10\nG33.1 Z-1 K1\nG0 Z2\nM2\n";
+    let error = level(tap, &plane, &Levelling::default()).expect_err("there and back in a line");
+    assert!(matches!(error, LevelError::Indirect { line: 5, .. }), "{error}");
+}
+
+/// How long an arc is in the plane, in nanometres.
+fn length(motion: &Motion) -> f64 {
+    let (Way::Arc { center, turn }, Some(start), Some(end)) =
+        (motion.way, motion.from.point(), motion.to.point())
+    else {
+        return 0.0;
+    };
+    Arc { start, end, center, turn }.length()
+}
+
 #[test]
 fn cycles_increments_inches_and_modal_lines_are_levelled_as_they_are_written() {
     let flat = map(3, 30.0, |_, _| 0.254);

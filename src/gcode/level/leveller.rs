@@ -105,6 +105,11 @@ fn is_mark(line: &str) -> bool {
     line.trim_start().strip_prefix(['(', ';']).is_some_and(|comment| comment.trim_start().starts_with(MARK))
 }
 
+/// Whether a motion goes round a centre.
+const fn is_arc(motion: &Motion) -> bool {
+    matches!(motion.way, Way::Arc { .. })
+}
+
 /// The height of the lowest level rapid, or where there is none the highest z.
 fn travel(listing: &Listing) -> Nm {
     let level = |motion: &Motion| {
@@ -153,8 +158,13 @@ impl<'a> Leveller<'a> {
         self.modal.update(&words);
         match motions {
             [] => self.lines.push(pointer.source.to_owned()),
-            [motion] => self.motion(pointer, &words, motion)?,
-            cycle => self.drill(pointer, &words, cycle)?,
+            [_] => self.motion(pointer, &words, motions)?,
+            turns if turns.iter().all(is_arc) => self.motion(pointer, &words, turns)?,
+            cycle if self.modal.cycle => self.drill(pointer, &words, cycle)?,
+            _ => {
+                let what = "several motions of one line that are no drilling cycle";
+                return Err(LevelError::Indirect { line: pointer.line, what });
+            }
         }
         Ok(())
     }
@@ -169,13 +179,22 @@ impl<'a> Leveller<'a> {
         }
     }
 
+    /// One motion, or the turns of an arc that goes round several times (P).
     fn motion(
         &mut self,
         pointer: Pointer<'_>,
         words: &[Word<'_>],
-        motion: &Motion,
+        motions: &[Motion],
     ) -> Result<(), LevelError> {
-        let ends = self.ends(motion)?;
+        let mut ends = Vec::with_capacity(motions.len());
+        for motion in motions {
+            ends.extend(self.ends(motion)?);
+        }
+        let (first, last) = (motions[0], motions[motions.len() - 1]);
+        let motion = &Motion { to: last.to, ..first };
+        if ends.len() == motions.len() && self.rise_alike(motions, &ends) {
+            ends.drain(..ends.len() - 1);
+        }
         if let [end] = ends.as_slice() {
             let z = end.z;
             let value = z.filter(|_| z != motion.to.z || self.at.z != motion.from.z);
@@ -188,6 +207,18 @@ impl<'a> Leveller<'a> {
         }
         self.at = Place { z: ends.last().and_then(|end| end.z), ..motion.to };
         Ok(())
+    }
+
+    /// Whether these motions, each unsplit, are as much higher at all their ends as where they
+    /// begin: then they stay one line. Rounding counts for nothing.
+    fn rise_alike(&self, motions: &[Motion], ends: &[Place]) -> bool {
+        let rise = |before: Place, after: Place| before.z.zip(after.z).map(|(before, after)| after - before);
+        let first = rise(motions[0].from, self.at);
+        let alike = |rise: Option<Nm>| match first.zip(rise) {
+            Some((first, rise)) => (rise - first).abs().get() <= self.modal.digit(),
+            None => first == rise,
+        };
+        motions.iter().zip(ends).all(|(motion, end)| alike(rise(motion.to, *end)))
     }
 
     /// Where the pieces of a motion end, levelled; one alone where it need not be split.
@@ -262,7 +293,11 @@ impl<'a> Leveller<'a> {
         for (index, &end) in ends.iter().enumerate() {
             let coordinates = self.coordinates(end, center);
             self.lines.push(if index == 0 {
-                let moving = |word: &&Word<'_>| matches!(word.letter, 'X' | 'Y' | 'Z' | 'I' | 'J' | 'R');
+                // The P of an arc is how often it goes round, and each piece does so once.
+                let moving = |word: &&Word<'_>| match word.letter {
+                    'X' | 'Y' | 'Z' | 'I' | 'J' | 'R' => true,
+                    letter => letter == 'P' && center.is_some(),
+                };
                 let gone = words.iter().filter(|word| moving(word) || stops(word));
                 without(source, gone, coordinates.trim_start())
             } else if index + 1 == ends.len() {

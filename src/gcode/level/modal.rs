@@ -34,7 +34,7 @@ impl Modal {
                 Some(910) => self.incremental = true,
                 Some(901) => self.absolute_centers = true,
                 Some(911) => self.absolute_centers = false,
-                Some(0 | 10 | 20 | 30 | 800) => self.cycle = false,
+                Some(0 | 10 | 20 | 30 | 330 | 331 | 800) => self.cycle = false,
                 Some(730 | 740 | 810..=890) => self.cycle = true,
                 _ => {}
             }
