@@ -380,6 +380,10 @@ fn programs_that_cannot_be_levelled_say_why_and_where() {
         matches!(error("G92 X0\n"), LevelError::Indirect { line: 1, .. }),
         "what can only be followed whole"
     );
+    // The pieces of a motion would each take as long as all of it.
+    let timed = error("G90\nG0 Z2\nX0 Y0\nG1 Z-1 F1\nG93\nG1 X5 F2\n");
+    assert!(matches!(timed, LevelError::Indirect { line: 6, .. }), "{timed}");
+    assert!(timed.to_string().contains("the time of a motion (G93)"), "{timed}");
     let inside = level("G90\nG0 Z2\nX0 Y0\nG1 Z-1 F1\nX16.9\n", &map, &Levelling::default());
     assert!(inside.is_ok(), "within the margin: {inside:?}");
     assert!(matches!(HeightMap::through(&[]), Err(MapError::Few { columns: 0, rows: 0 })), "nothing touched");

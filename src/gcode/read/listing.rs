@@ -182,7 +182,8 @@ pub struct Listing {
     /// Its lines with several codes.
     pub several: Option<Tally>,
     /// The first line, and why, from which on places are not the numbers of the text one for one (a
-    /// subprogram, an expression, a moved zero); none where the text can be changed line by line.
+    /// subprogram, an expression, a moved zero), or a feed holds for a motion as a whole; none
+    /// where the text can be changed line by line.
     pub indirect: Option<(u32, &'static str)>,
 }
 

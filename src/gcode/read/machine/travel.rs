@@ -155,6 +155,7 @@ impl Machine {
     /// With G93 a motion of this length takes a minute divided by F.
     pub(super) fn inverse_feed(&mut self, run: Run<'_>, length: f64) -> Result<(), ReadError> {
         if self.modal.feed_mode == FeedMode::Inverse {
+            self.listing.is_indirect(run.line(), "a feed that counts the time of a motion (G93)");
             let missing = || run.refuse("with G93 each line that cuts needs an F");
             let feed = self.inverse.ok_or_else(missing)?;
             self.modal.feed = Some(Nm::from_f64(length * feed).get());
