@@ -298,7 +298,17 @@ fn every_format_gives_the_same_map() {
     let zero = Some([-100_000, -80_000, -31_500].map(Nm::from_um));
     let (map, format) =
         HeightMap::read(&text("tinyg.log"), &Frame { zero, ..Frame::default() }).expect("a log");
-    assert_eq!((map, format.name.contains("TinyG")), (first, true), "from the machine's zero");
+    assert_eq!((&map, format.name.contains("TinyG")), (&first, true), "from the machine's zero");
+    // As g2core reports it: the axis that moved, then what it is asked for.
+    let asked: String = text("tinyg.log")
+        .lines()
+        .map(|line| match line.contains("\"e\":1") {
+            true => format!("{{\"prb\":{{\"e\":1, \"z\":-9.000}}}}\n{line}\n"),
+            false => format!("{line}\n"),
+        })
+        .collect();
+    let (map, _) = HeightMap::read(&asked, &Frame { zero, ..Frame::default() }).expect("a log");
+    assert_eq!(map, first, "the answer holds for the report before it");
     let zero = [-100, -80, -31].map(Nm::from_mm);
     let frame = Frame { zero: Some(zero), ..Frame::default() };
     let (moved, _) = HeightMap::read(&text("grbl.log"), &frame).expect("a log");
@@ -327,6 +337,15 @@ fn maps_that_are_none_say_why() {
         (
             "{\"prb\":{\"e\":1,\"x\":1,\"y\":2,\"z\":3}}\n",
             "line 1: the controller reports probed points in machine coordinates",
+        ),
+        // g2core's reports: z alone, or of the second touch alone.
+        (
+            "{\"prb\":{\"e\":1, \"z\":-10}}\n",
+            "line 1: `{\"prb\":{\"e\":1, \"z\":-10}}`: expected x and y, too: g2core",
+        ),
+        (
+            "{\"prb\":{\"e\":0, \"z\":1}}\n{\"prb\":{\"e\":1, \"z\":2}}\n{\"prb\":{\"e\":1, \"z\":3}}\n",
+            "line 2: `{\"prb\":{\"e\":1, \"z\":2}}`: expected x and y, too: g2core",
         ),
         // Numbers with commas, more columns than there are axes, two heights of one place.
         ("0 0 0\n0,5 1,25 -0,03\n", "line 2: `0,5 1,25 -0,03`: expected decimal points in numbers"),
