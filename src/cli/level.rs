@@ -224,6 +224,9 @@ fn map_hint(error: &MapError) -> &'static str {
         }
         MapError::Steep { .. } => "set the unit of the map with --map-unit, or probe that place again",
         MapError::Contradicting { .. } => "leave the wrong one out of the file, or probe that place again",
+        MapError::Beside { .. } => {
+            "leave that line out of the file: the touch by which z was set to zero belongs to no grid"
+        }
         MapError::Missing { .. } | MapError::Count { .. } => {
             "probe what is missing, or the whole board again"
         }

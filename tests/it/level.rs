@@ -361,6 +361,17 @@ fn maps_that_are_none_say_why() {
         ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;0\n", "declares 4 points, but has 2"),
         ("0;0;1;1\n2;2;-1;1\n0;1;1\n0;nan\n0;0\n", "line 4: `0;nan`"),
         (
+            "-9 -5 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n",
+            "line 1: the touch at x = -9.000 mm, y = -5.000 mm lies beside the 2 by 2 grid of all others",
+        ),
+        (
+            "0 0 0\n1 0 0\n2 0 0\n0 1 0\n1 1 0\n2 1 0\n0 5 0\n",
+            "line 7: the touch at x = 0.000 mm, y = 5.000 mm lies beside the 3 by 2 grid of all others",
+        ),
+        // Two of them, or a grid that has a hole beside: nobody can tell.
+        ("-9 -5 0\n-8 -5 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n", "6 points of the 4 by 3 grid were not probed"),
+        ("0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 0 0\n", "1 points of the 3 by 2 grid were not probed"),
+        (
             "0 0 0\n1 0 0\n0 1 0\n1 1 0\n1 0 0.2\n",
             "line 5: the surface is at 0.200 mm at x = 1.000 mm, y = 0.000 mm, and line 2 has it at 0.000 mm",
         ),

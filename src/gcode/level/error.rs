@@ -62,6 +62,22 @@ pub enum MapError {
         /// Where the first is.
         y: Nm,
     },
+    /// A touch beside a grid that all others fill.
+    #[error(
+        "line {line}: the touch at x = {x:.3} mm, y = {y:.3} mm lies beside the {columns} by {rows} grid of all others"
+    )]
+    Beside {
+        /// From 1.
+        line: usize,
+        /// Where.
+        x: Nm,
+        /// Where.
+        y: Nm,
+        /// Columns of the grid without it.
+        columns: usize,
+        /// Its rows.
+        rows: usize,
+    },
     /// Two heights of one place.
     #[error(
         "line {line}: the surface is at {second:.3} mm at x = {x:.3} mm, y = {y:.3} mm, and line {other} has it at {first:.3} mm: expected the same height at the same place"

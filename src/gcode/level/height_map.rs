@@ -5,6 +5,9 @@ use crate::geometry::{Nm, Point, Rect};
 use super::error::MapError;
 use super::touch::Touch;
 
+/// The height of a crossing and the line that tells it, where it was touched.
+type Touched = Option<(f64, usize)>;
+
 /// How high the surface is, touched at the crossings of a grid of lines, bilinear in between.
 ///
 /// ```text
@@ -60,7 +63,7 @@ impl HeightMap {
         if columns.len() < 2 || rows.len() < 2 {
             return Err(MapError::Few { columns: columns.len(), rows: rows.len() });
         }
-        let mut heights: Vec<Option<(f64, usize)>> = vec![None; columns.len() * rows.len()];
+        let mut heights: Vec<Touched> = vec![None; columns.len() * rows.len()];
         for &Touch { line, place: [x, y, z] } in touches {
             let height = &mut heights[nearest(&rows, y) * columns.len() + nearest(&columns, x)];
             if let Some((before, other)) = height.filter(|(before, _)| (z - before).abs() > AGREE) {
@@ -70,6 +73,10 @@ impl HeightMap {
             *height = Some((z, line));
         }
         let missing = heights.iter().filter(|height| height.is_none()).count();
+        // One that is missing is as likely as one too many.
+        if let Some(beside) = beside(&columns, &rows, &heights).filter(|_| missing > 1) {
+            return Err(beside);
+        }
         if let Some(first) = heights.iter().position(Option::is_none) {
             let (x, y) = (columns[first % columns.len()], rows[first / columns.len()]);
             let (x, y) = (Nm::from_f64(x), Nm::from_f64(y));
@@ -197,6 +204,31 @@ fn nearest(lines: &[f64], value: f64) -> usize {
     let after = lines.partition_point(|&line| line < value).min(lines.len() - 1);
     let before = after.saturating_sub(1);
     if value - lines[before] < lines[after] - value { before } else { after }
+}
+
+/// The touch without which the others fill a grid: such is the one by which z was set to zero,
+/// where the same log holds it.
+///
+/// ```text
+///     ┼────┼────┼
+///   ● ┼────┼────┼     alone in its column, in its row, or in both
+/// ```
+fn beside(columns: &[f64], rows: &[f64], heights: &[Touched]) -> Option<MapError> {
+    let wide = columns.len();
+    let is_touched = |index: &usize| heights[*index].is_some();
+    let touched: Vec<usize> = (0..heights.len()).filter(is_touched).collect();
+    let alone = |at: usize, line: fn(usize, usize) -> usize| {
+        touched.iter().filter(|&&other| line(other, wide) == line(at, wide)).count() == 1
+    };
+    touched.iter().find_map(|&at| {
+        let in_column = alone(at, |index, wide| index % wide);
+        let in_row = alone(at, |index, wide| index / wide);
+        let (columns_left, rows_left) = (wide - usize::from(in_column), rows.len() - usize::from(in_row));
+        let fills = touched.len() - 1 == columns_left * rows_left;
+        let (_, line) = heights[at].filter(|_| fills && columns_left > 1 && rows_left > 1)?;
+        let [x, y] = [columns[at % wide], rows[at / wide]].map(Nm::from_f64);
+        Some(MapError::Beside { line, x, y, columns: columns_left, rows: rows_left })
+    })
 }
 
 /// Between which lines a value lies, and how far on; at the edge for what lies beyond.
