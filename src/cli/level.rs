@@ -220,7 +220,7 @@ fn hint(error: &LevelError) -> &'static str {
 fn map_hint(error: &MapError) -> &'static str {
     match error {
         MapError::Zero { .. } => {
-            "set it with --map-zero X,Y,Z (what $# shows for G54), or keep a status report with WCO: in the log"
+            "set it with --map-zero X,Y,Z (what $# shows for G54, plus what it shows for G92 and TLO), or keep a status report with WCO: in the log"
         }
         MapError::Steep { .. } => "set the unit of the map with --map-unit, or probe that place again",
         MapError::Contradicting { .. } => "leave the wrong one out of the file, or probe that place again",
