@@ -8,6 +8,7 @@ use crate::geometry::{Arc, Nm, Point, Vector};
 
 use super::asked::Asked;
 use super::declared::{Declared, declared_setting};
+use super::stream::{Feature, features, taken_at_once};
 use super::{Cutter, CutterKind, Error, Placement, Program, Role, Settings, origin};
 
 /// A program, followed.
@@ -33,10 +34,9 @@ pub(super) struct Machining {
     /// Its codes, and the controller that it is for, where that is known.
     pub(super) codes: Vec<Coded>,
     pub(super) controller: Option<String>,
-    /// Its lines with coordinates and no code, and those with several codes.
-    pub(super) bare: Option<Tally>,
-    pub(super) several: Option<Tally>,
-    /// Characters that controllers take at once, wherever they stand.
+    /// What of its lines some controllers take otherwise than it reads.
+    pub(super) features: Vec<(Feature, Tally)>,
+    /// Characters that its controller takes at once, wherever they stand.
     pub(super) at_once: Vec<(char, Tally)>,
     /// What is cut away, deep enough to part the copper.
     pub(super) swept: Vec<Swept>,
@@ -156,12 +156,14 @@ impl Machining {
             Some(Placement { mirror: declared.mirror, shift: front.shift + declared.offset, ..front })
         });
         let placement = placement.unwrap_or_default();
+        let controller = program.dialect.clone().or_else(|| declared_setting(&program.text, "dialect"));
         let file = program.file.clone();
         let mut machining = Self {
             file,
             role,
             placement,
             zero,
+            features: features(&program.text, &listing),
             motions: listing.motions,
             stops: listing.stops,
             dwells: listing.dwells,
@@ -169,10 +171,8 @@ impl Machining {
             tools,
             notes: listing.notes,
             codes: listing.codes,
-            bare: listing.bare,
-            several: listing.several,
-            at_once: at_once(&program.text),
-            controller: program.dialect.clone().or_else(|| declared_setting(&program.text, "dialect")),
+            at_once: controller.as_ref().map_or_else(Vec::new, |name| taken_at_once(&program.text, name)),
+            controller,
             swept: Vec::new(),
             plunges: Vec::new(),
             kerfs: Vec::new(),
@@ -251,31 +251,6 @@ impl Machining {
         }
         self.plunges.dedup();
     }
-}
-
-/// The characters that Grbl and its kin take out of the stream: to hold the feed, to go on, to
-/// reset, and the overrides, which are bytes of letters with accents.
-fn at_once(text: &str) -> Vec<(char, Tally)> {
-    let is_override = |byte: u8| matches!(byte, 0x84 | 0x85 | 0x90..=0x97 | 0x99..=0x9e | 0xa0 | 0xa1);
-    let is_taken = |c: char| match c {
-        '!' | '~' | '\u{18}' => true,
-        c if c.is_ascii() => false,
-        c => c.encode_utf8(&mut [0; 4]).bytes().any(is_override),
-    };
-    let mut found: Vec<(char, Tally)> = Vec::new();
-    // Most programs have none.
-    if !text.bytes().any(|byte| !byte.is_ascii() || matches!(byte, b'!' | b'~' | 0x18)) {
-        return found;
-    }
-    for (line, text) in (1_u32..).zip(read::lines(text)) {
-        for c in text.chars().filter(|c| is_taken(*c)) {
-            match found.iter_mut().find(|(known, _)| *known == c) {
-                Some((_, tally)) => tally.count += 1,
-                None => found.push((c, Tally { line, count: 1 })),
-            }
-        }
-    }
-    found
 }
 
 /// The tools of a program by line.

@@ -65,6 +65,7 @@ mod ruling;
 mod runs;
 mod sheet;
 mod spans;
+mod stream;
 mod surface;
 mod sweep;
 mod tiles;

@@ -196,6 +196,18 @@ fn codes_that_a_controller_does_not_take_are_told() {
         ("klipper", "G81 X5 Y5 Z-1.8 R1 F60\nG80", "G81: klipper passes over it, and drills no hole"),
         ("reprapfirmware", "M0", "M0: reprapfirmware ends the job there"),
         ("marlin", "G1 X5 F60\nM30", "M30: marlin deletes a file there"),
+        ("smoothieware", "G81 X5 Y5 Z-1.8 R1 F60\nG82 X6 Z-1.8 R1\nG83 X7 Z-1.8 R1 Q0.5\nG80", ""),
+        (
+            "smoothieware",
+            "G85 X5 Y5 Z-1.8 R1 F60\nG80",
+            "G85: smoothieware passes over it, and drills no hole",
+        ),
+        (
+            "reprapfirmware",
+            "G81 X5 Y5 Z-1.8 R1 F60\nG80",
+            "G81: reprapfirmware runs a macro of that name, and drills no hole where there is none",
+        ),
+        ("klipper", "G20", "G20: klipper stops there with an error"),
     ] {
         let findings = told(Some(dialect), codes);
         let expected: Vec<&str> =
@@ -412,4 +424,69 @@ fn lines_that_a_controller_takes_otherwise_are_told() {
     assert_eq!(lines("grbl", "(Ä)"), at_once("Ä", "changes feed or spindle, or opens the safety door"));
     assert_eq!(lines("grbl", "(90°, 5 µm, café?)"), [], "bytes that it throws away");
     assert_eq!(lines("linuxcnc", "(second pass!)\nX5"), []);
+    // grblHAL reads what is printed in parentheses as text, FluidNC decodes UTF-8.
+    assert_eq!(lines("grblhal", "(~ 5 mm, second pass!)"), []);
+    assert_eq!(lines("grblhal", "; ~ 5 mm\n(Ä)").len(), 2, "elsewhere, and letters with accents");
+    assert_eq!(lines("fluidnc", "(Größe — Ä)"), []);
+    assert_eq!(lines("fluidnc", "(cut!\u{a0})").len(), 2, "what holds the feed, and a blank that acts");
+    let queue = "`%`: tinyg takes it at once, in comments, too, and drops the lines that it has not run yet";
+    assert_eq!(lines("tinyg", "(50%)"), [(Some(5), queue.to_owned())]);
+    assert_eq!(lines("g2core", "(50%, Ä!)"), []);
+}
+
+#[test]
+fn a_line_that_a_controller_takes_otherwise_than_it_reads_is_told() {
+    let told = |dialect: &str, codes: &str| {
+        let text = format!("G21\nG90\nM3 S9000\nG0 X0 Y0 Z5\n{codes}\nM5\nM2\n");
+        let found = told("word-not-taken", Some(dialect), &text).into_iter();
+        found
+            .map(|(severity, line, message)| {
+                assert_eq!((severity, line), (Severity::Error, Some(5)), "{dialect}: {message}");
+                message
+            })
+            .collect::<Vec<_>>()
+    };
+    let arc = "G2 X5 Y5 R5 F60";
+    let cases: &[(&[&str], &str, &str)] = &[
+        (&["tinyg", "smoothieware"], "G0 (up) Z20", "code behind a comment in its line: {} passes over it"),
+        (&["tinyg", "smoothieware"], "(on) M3 S9000", "code behind a comment in its line: {} passes over it"),
+        (&["smoothieware"], arc, "an arc with R: {} does not read R, and cuts another arc or none"),
+        (&["klipper"], arc, "an arc with R: {} stops there with an error"),
+        (
+            &["marlin", "klipper"],
+            "G0 Z20 ( retract )",
+            "a comment in parentheses in a line with code: {} takes its letters for words of the code",
+        ),
+        (
+            &["marlin"],
+            "N10 G0 Z20",
+            "a line with a number and no checksum: {} does not take the line, and asks for another",
+        ),
+        (&["grbl"], "#1=2", "a line with a parameter or an expression: {} stops there with an error"),
+        (
+            &["grbl"],
+            "O100 sub\nG4 P0\nO100 endsub",
+            "a line with an O-word: {} stops there with an error (2 times)",
+        ),
+        (&["grbl"], "%", "a line with `%`: {} stops there with an error"),
+        (
+            &["grbl"],
+            "N1000001 G17 G21 G40 G49 G80 G90 G94 G54 G0 X0000.000000000 Y0000.000000000 Z0005.00000000000",
+            "a line of more than 79 characters: {} stops there with an error",
+        ),
+    ];
+    for (dialects, codes, expected) in cases {
+        for dialect in *dialects {
+            assert_eq!(told(dialect, codes), [expected.replace("{}", dialect)], "{dialect}: {codes}");
+        }
+        for dialect in ["linuxcnc", "grblhal", "fluidnc", "mach3"] {
+            assert_eq!(told(dialect, codes), [""; 0], "{dialect} takes {codes}");
+        }
+    }
+    let numbers = "a line whose number is not one more than the last: smoothieware does not take the line, and asks for another";
+    assert_eq!(told("smoothieware", "N4 G0 Z20\nN5 G0 Z19\nG0 Z18"), [""; 0], "numbers that follow");
+    let text = "G21\nG90\nM3 S9000\nN10 G0 X0 Y0 Z5\nN20 G0 Z20\nM5\nM2\n";
+    let found = self::told("word-not-taken", Some("smoothieware"), text);
+    assert_eq!(found, [(Severity::Error, Some(5), numbers.to_owned())], "numbers by tens");
+    assert_eq!(told("g2core", &format!("G0 (up) Z20\n{arc}")), [""; 0], "it reads both");
 }

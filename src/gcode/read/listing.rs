@@ -181,6 +181,8 @@ pub struct Listing {
     pub bare: Option<Tally>,
     /// Its lines with several codes.
     pub several: Option<Tally>,
+    /// Its arcs by R.
+    pub radius: Option<Tally>,
     /// The first line, and why, from which on places are not the numbers of the text one for one (a
     /// subprogram, an expression, a moved zero), or a feed holds for a motion as a whole; none
     /// where the text can be changed line by line.

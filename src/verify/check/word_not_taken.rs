@@ -1,7 +1,8 @@
 //! # What it checks
 //!
 //! A program has no code that its controller stops at, passes over though something depends on it,
-//! or takes for another one.
+//! or takes for another one; no line that it reads otherwise, and no character that it takes out of
+//! the stream at once.
 //!
 //! # Why
 //!
@@ -23,6 +24,7 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found, often}
 use crate::gcode::read::{Coded, Tally};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
+use crate::verify::stream::Feature;
 
 const KIND: Diagnostic = Diagnostic {
     code: NAME,
@@ -61,17 +63,22 @@ const CYCLES: &str = "G73 G74 G81 G82 G83 G84 G85 G86 G89";
 const STOPS: &str = "stops there with an error";
 const PASSES: &str = "passes over it, and does not wait";
 
+const NO_HOLE: &str = "passes over it, and drills no hole";
+
 const RULES: &[Rule] = &[
     Rule { controllers: &["grbl"], codes: AllBut(GRBL), does: STOPS },
     Rule { controllers: &["grblhal", "fluidnc"], codes: These("G90.1"), does: STOPS },
     Rule { controllers: &["fluidnc"], codes: These("G43 G64 G98 G99"), does: STOPS },
     Rule { controllers: &["tinyg"], codes: These("G43 G95"), does: STOPS },
     Rule { controllers: &["fluidnc", "tinyg", "g2core"], codes: These(CYCLES), does: STOPS },
+    Rule { controllers: &["marlin", "klipper"], codes: These(CYCLES), does: NO_HOLE },
+    Rule { controllers: &["smoothieware"], codes: These("G73 G74 G84 G85 G86 G89"), does: NO_HOLE },
     Rule {
-        controllers: &["marlin", "klipper"],
+        controllers: &["reprapfirmware"],
         codes: These(CYCLES),
-        does: "passes over it, and drills no hole",
+        does: "runs a macro of that name, and drills no hole where there is none",
     },
+    Rule { controllers: &["klipper"], codes: These("G20"), does: STOPS },
     Rule { controllers: &["fluidnc", "marlin"], codes: These("M6"), does: PASSES },
     Rule {
         controllers: &["tinyg", "g2core", "smoothieware", "klipper"],
@@ -100,43 +107,104 @@ fn check(program: &Machining) -> Vec<Finding> {
     codes.chain(lines(program, controller)).collect()
 }
 
-/// Controllers that take a character at once, and those that run one code a line, and none without.
-const AT_ONCE: &[&str] = &["grbl", "grblhal", "fluidnc"];
-const ONE_A_LINE: &[&str] = &["marlin", "klipper"];
+/// Lines of some kind that controllers take otherwise than they read, whatever their codes are.
+struct LineRule {
+    controllers: &'static [&'static str],
+    feature: Feature,
+    what: &'static str,
+    /// What they do, behind the name of the controller.
+    does: &'static str,
+}
 
-/// Lines that are taken otherwise than they read, whatever their codes are.
+const NOT_TAKEN: &str = "does not take the line, and asks for another";
+
+const LINES: &[LineRule] = &[
+    LineRule {
+        controllers: &["marlin", "klipper"],
+        feature: Feature::Bare,
+        what: "coordinates in a line without a code",
+        does: "passes over them",
+    },
+    LineRule {
+        controllers: &["marlin", "klipper"],
+        feature: Feature::Several,
+        what: "several codes in a line",
+        does: "runs the first alone",
+    },
+    LineRule {
+        controllers: &["smoothieware"],
+        feature: Feature::Radius,
+        what: "an arc with R",
+        does: "does not read R, and cuts another arc or none",
+    },
+    LineRule { controllers: &["klipper"], feature: Feature::Radius, what: "an arc with R", does: STOPS },
+    LineRule {
+        controllers: &["marlin", "klipper"],
+        feature: Feature::BesideComment,
+        what: "a comment in parentheses in a line with code",
+        does: "takes its letters for words of the code",
+    },
+    LineRule {
+        controllers: &["tinyg", "smoothieware"],
+        feature: Feature::BehindComment,
+        what: "code behind a comment in its line",
+        does: "passes over it",
+    },
+    LineRule {
+        controllers: &["marlin"],
+        feature: Feature::Unchecked,
+        what: "a line with a number and no checksum",
+        does: NOT_TAKEN,
+    },
+    LineRule {
+        controllers: &["marlin", "smoothieware"],
+        feature: Feature::OutOfOrder,
+        what: "a line whose number is not one more than the last",
+        does: NOT_TAKEN,
+    },
+    LineRule {
+        controllers: &["grbl"],
+        feature: Feature::Parameter,
+        what: "a line with a parameter or an expression",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl"],
+        feature: Feature::Subprogram,
+        what: "a line with an O-word",
+        does: STOPS,
+    },
+    LineRule { controllers: &["grbl"], feature: Feature::Percent, what: "a line with `%`", does: STOPS },
+    LineRule {
+        controllers: &["grbl"],
+        feature: Feature::Long,
+        what: "a line of more than 79 characters",
+        does: STOPS,
+    },
+];
+
 fn lines(program: &Machining, controller: &str) -> Vec<Finding> {
-    let mut wrong: Vec<(String, Tally)> = Vec::new();
-    if ONE_A_LINE.contains(&controller) {
-        let bare =
-            program.bare.map(|tally| ("coordinates in a line without a code: {} passes over them", tally));
-        let several =
-            program.several.map(|tally| ("several codes in a line: {} runs the first alone", tally));
-        wrong.extend(bare.into_iter().chain(several).map(|(what, t)| (what.replace("{}", controller), t)));
-    }
-    if AT_ONCE.contains(&controller) {
-        let taken = |&(c, tally): &(char, Tally)| {
-            let does = match c {
-                '!' => "holds the feed",
-                '~' => "goes on where it waits",
-                '\u{18}' => "resets",
-                _ => "changes feed or spindle, or opens the safety door",
-            };
-            (
-                format!(
-                    "`{}`: {controller} takes it at once, in comments, too, and {does}",
-                    c.escape_debug()
-                ),
-                tally,
-            )
+    let rules = LINES.iter().filter(|rule| rule.controllers.contains(&controller));
+    let of_rule = |rule: &LineRule| {
+        let of_it = program.features.iter().find(|(feature, _)| *feature == rule.feature);
+        of_it.map(|(_, tally)| (format!("{}: {controller} {}", rule.what, rule.does), *tally))
+    };
+    let taken = |&(c, tally): &(char, Tally)| {
+        let does = match c {
+            '!' => "holds the feed",
+            '~' => "goes on where it waits",
+            '%' => "drops the lines that it has not run yet",
+            '\u{18}' => "resets",
+            _ => "changes feed or spindle, or opens the safety door",
         };
-        wrong.extend(program.at_once.iter().map(taken));
-    }
+        let c = c.escape_debug();
+        (format!("`{c}`: {controller} takes it at once, in comments, too, and {does}"), tally)
+    };
     let finding = |(message, Tally { line, count }): (String, Tally)| {
         let message = message + &often(count, "times");
         found(program, NAME, Wrong { severity: Severity::Error, message, size: None }, None, line)
     };
-    wrong.into_iter().map(finding).collect()
+    rules.filter_map(of_rule).chain(program.at_once.iter().map(taken)).map(finding).collect()
 }
 
 impl Rule {

@@ -1,0 +1,224 @@
+//! How a program's text reads before its codes count: what its lines look like, and which
+//! characters controllers take out of the stream.
+
+use std::collections::BTreeMap;
+
+use crate::gcode::read::{Listing, Tally, lines, without_own_code};
+
+/// Something about a line that some controllers take otherwise than it reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Feature {
+    /// Coordinates and no code.
+    Bare,
+    /// Several codes.
+    Several,
+    /// An arc by its radius.
+    Radius,
+    /// Code and a comment in parentheses.
+    BesideComment,
+    /// Code behind a comment in parentheses.
+    BehindComment,
+    /// A number without a checksum.
+    Unchecked,
+    /// A number that is not one more than the last.
+    OutOfOrder,
+    /// A parameter or an expression.
+    Parameter,
+    /// An O-word.
+    Subprogram,
+    /// A `%` that begins or ends a tape.
+    Percent,
+    /// More characters than Grbl keeps.
+    Long,
+}
+
+/// So many characters of a line Grbl keeps, blanks and comments not counted (protocol.c of 1.1h).
+const KEPT: usize = 79;
+
+/// What the lines of a program have, the user's own G-code apart, by kind.
+pub(super) fn features(text: &str, listing: &Listing) -> Vec<(Feature, Tally)> {
+    let followed = [
+        (Feature::Bare, listing.bare),
+        (Feature::Several, listing.several),
+        (Feature::Radius, listing.radius),
+    ];
+    let mut found: BTreeMap<Feature, Tally> =
+        followed.into_iter().filter_map(|(feature, tally)| Some((feature, tally?))).collect();
+    let mut last = None;
+    for (line, text) in (1_u32..).zip(lines(&without_own_code(text))) {
+        let text = Text::of(text);
+        for feature in text.features(&mut last) {
+            found.entry(feature).or_insert(Tally { line, count: 0 }).count += 1;
+        }
+    }
+    found.into_iter().collect()
+}
+
+/// A line without blanks and comments, and where its comments in parentheses are.
+#[derive(Default)]
+struct Text {
+    code: String,
+    has_comment: bool,
+    goes_on_behind: bool,
+}
+
+impl Text {
+    /// Comments in comments count as one: some write the name of a tool so.
+    fn of(line: &str) -> Self {
+        let (mut text, mut depth) = (Self::default(), 0_u32);
+        for c in line.chars() {
+            match c {
+                '(' => depth += 1,
+                ')' if depth > 0 => depth -= 1,
+                _ if depth > 0 => {}
+                ';' => break,
+                c if c.is_whitespace() || c.is_control() => {}
+                c => {
+                    text.goes_on_behind |= text.has_comment;
+                    text.code.push(c.to_ascii_uppercase());
+                }
+            }
+            text.has_comment |= depth > 0;
+        }
+        text
+    }
+
+    /// What of it some take otherwise; `last` is the number of the last line that has one.
+    fn features(&self, last: &mut Option<u64>) -> impl Iterator<Item = Feature> {
+        let code = self.code.trim_start_matches('/');
+        let (number, words) = numbered(code);
+        let follows = number.zip(*last).is_none_or(|(number, last)| last.checked_add(1) == Some(number));
+        // M110 sets the number that is counted from, as any number does here.
+        let sets = words.contains("M110");
+        *last = number.or(*last);
+        let here = |is: bool, feature: Feature| is.then_some(feature);
+        let among = [
+            here(self.has_comment && !code.is_empty(), Feature::BesideComment),
+            here(self.goes_on_behind, Feature::BehindComment),
+            here(number.is_some() && !code.contains('*'), Feature::Unchecked),
+            here(!follows && !sets, Feature::OutOfOrder),
+            here(code.contains(['#', '[']) && !code.starts_with('$'), Feature::Parameter),
+            here(words.starts_with('O'), Feature::Subprogram),
+            here(code.starts_with('%'), Feature::Percent),
+            here(code.chars().count() > KEPT, Feature::Long),
+        ];
+        among.into_iter().flatten()
+    }
+}
+
+/// The number of a line, and its words.
+fn numbered(code: &str) -> (Option<u64>, &str) {
+    let Some(rest) = code.strip_prefix('N') else { return (None, code) };
+    let end = rest.find(|c: char| !c.is_ascii_digit()).unwrap_or(rest.len());
+    match rest[..end].parse() {
+        Ok(number) => (Some(number), &rest[end..]),
+        Err(_) => (None, code),
+    }
+}
+
+/// Characters that controllers take out of the stream at once, wherever they stand.
+struct AtOnce {
+    controllers: &'static [&'static str],
+    takes: fn(char) -> bool,
+    /// Whether in comments in parentheses, too.
+    in_parentheses: bool,
+}
+
+const RESET: char = '\u{18}';
+
+/// To hold the feed, to go on, to reset, and the overrides, which are bytes of letters with
+/// accents, or characters where UTF-8 is decoded. TinyG empties its queue at `%`.
+const AT_ONCE: &[AtOnce] = &[
+    AtOnce {
+        controllers: &["grbl"],
+        takes: |c| matches!(c, '!' | '~' | RESET) || is_override(c),
+        in_parentheses: true,
+    },
+    AtOnce { controllers: &["grblhal"], takes: |c| matches!(c, '!' | '~'), in_parentheses: false },
+    AtOnce { controllers: &["grblhal"], takes: |c| c == RESET || is_override(c), in_parentheses: true },
+    AtOnce {
+        controllers: &["fluidnc"],
+        takes: |c| matches!(c, '!' | '~' | RESET | '\u{84}'..='\u{a1}'),
+        in_parentheses: true,
+    },
+    AtOnce { controllers: &["tinyg"], takes: |c| matches!(c, '!' | '~' | '%' | RESET), in_parentheses: true },
+];
+
+/// Whether a character has a byte that Grbl takes for an override.
+fn is_override(c: char) -> bool {
+    let takes = |byte: u8| matches!(byte, 0x84 | 0x85 | 0x90..=0x97 | 0x99..=0x9e | 0xa0 | 0xa1);
+    !c.is_ascii() && c.encode_utf8(&mut [0; 4]).bytes().any(takes)
+}
+
+/// The characters of a program that its controller takes at once, in the order of their first
+/// occurrence.
+pub(super) fn taken_at_once(text: &str, controller: &str) -> Vec<(char, Tally)> {
+    let mut found: Vec<(char, Tally)> = Vec::new();
+    let rules: Vec<&AtOnce> = AT_ONCE.iter().filter(|rule| rule.controllers.contains(&controller)).collect();
+    // Most programs have none.
+    if !text.bytes().any(|byte| !byte.is_ascii() || matches!(byte, b'!' | b'~' | b'%' | 0x18)) {
+        return found;
+    }
+    for (line, text) in (1_u32..).zip(lines(text)) {
+        let mut within = false;
+        for c in text.chars() {
+            within = (within || c == '(') && c != ')';
+            if !rules.iter().any(|rule| (rule.takes)(c) && (rule.in_parentheses || !within)) {
+                continue;
+            }
+            match found.iter_mut().find(|(known, _)| *known == c) {
+                Some((_, tally)) => tally.count += 1,
+                None => found.push((c, Tally { line, count: 1 })),
+            }
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(lines: &str) -> Vec<(Feature, u32, u32)> {
+        let found = features(lines, &Listing::default());
+        found.into_iter().map(|(feature, tally)| (feature, tally.line, tally.count)).collect()
+    }
+
+    #[test]
+    fn comments_lie_beside_code_before_it_or_alone() {
+        assert_eq!(of("(end mill (long))\n; (a)\nG0 X1 ; (b)\n"), [], "alone");
+        assert_eq!(of("G0 X1\nG0 X1 (up)\n"), [(Feature::BesideComment, 2, 1)], "behind the code");
+        assert_eq!(
+            of("(on) M3\nG0 (up) Z2\n"),
+            [(Feature::BesideComment, 1, 2), (Feature::BehindComment, 1, 2)],
+            "before it"
+        );
+    }
+
+    #[test]
+    fn numbers_are_to_be_checked_and_to_follow_each_other() {
+        assert_eq!(of("N1 G21*18\nN2 G90*27\n"), [], "as printers want them");
+        assert_eq!(of("N5 M110*1\nN3 M110*1\nN4 G90*1\n"), [], "a number that is set");
+        assert_eq!(
+            of("N10 G21\nN20 G90\nG0 X1\nN21 M5\n"),
+            [(Feature::Unchecked, 1, 3), (Feature::OutOfOrder, 2, 1)],
+            "as CAM programs number lines"
+        );
+    }
+
+    #[test]
+    fn what_is_no_plain_code_is_seen() {
+        assert_eq!(
+            of("%\nO100 sub\n/N3 G0 Z[#1+3]\n"),
+            [
+                (Feature::Unchecked, 3, 1),
+                (Feature::Parameter, 3, 1),
+                (Feature::Subprogram, 2, 1),
+                (Feature::Percent, 1, 1),
+            ]
+        );
+        let (kept, long) = ("X1 ".repeat(39) + "Y", "X1 ".repeat(39) + "Y1");
+        assert_eq!(of(&kept), [], "79 characters without blanks");
+        assert_eq!(of(&long), [(Feature::Long, 1, 1)], "80 of them");
+    }
+}
