@@ -387,6 +387,24 @@ fn what_is_worth_nothing_is_pruned() {
     assert_eq!((axis.nodes.len(), axis.ways.len()), (2, 1), "no right angle is left");
 }
 
+/// A file may have a circle as any number of chords; each pair of them would look at all others.
+#[test]
+fn a_circle_of_a_thousand_chords_has_as_many_ways_as_one_that_is_flattened() {
+    let corner = |i: u32| {
+        let (sin, cos) = libm::sincos(std::f64::consts::TAU * f64::from(i) / 1_000.0);
+        Point::from_f64(1e6 * cos, 1e6 * sin)
+    };
+    let fine = Polygon::new(vec![(0..1_000).map(corner).collect()]).expect("a ring");
+    let usual = Polygon::disc(Point::default(), Nm::from_mm(1), Nm::new(250)).expect("a circle");
+    let ways = |area: Polygon| {
+        let axis = MedialAxis::new(&Interior::all(&[area]), &Pruning { loss: 0.0, corner: 1.0 });
+        assert_eq!(axis.faults, [], "no flaw");
+        axis.ways.len()
+    };
+    let (fine, usual) = (ways(fine), ways(usual));
+    assert!(fine < 2 * usual, "{fine} ways, {usual} where it is flattened");
+}
+
 /// Circles as drawings have them, flattened into chords: all branches meet all but in one place,
 /// where many corners are tied within picometres. Of one in 500 a branch was lost there in silence.
 #[test]

@@ -6,6 +6,8 @@ use std::sync::OnceLock;
 use crate::geometry::Polygon;
 use crate::voronoi::exact::{Diagram, Generators, Kind, NEAR, Space};
 
+use super::thinning::thinned;
+
 /// An area and the diagram of its inside, which is worked out when it is first asked for.
 pub struct Interior<'a> {
     area: &'a Polygon,
@@ -30,16 +32,18 @@ impl<'a> Interior<'a> {
         self.area
     }
 
-    /// The diagram with the fewest faults: of the area as it is, unless that has any, else of one
-    /// whose points that all but meet are one, shaken a little.
+    /// The diagram with the fewest faults: of the area as it is, but for chords that are finer than
+    /// those of [flattened](crate::board::FLATTEN) curves, unless that has any, else of one whose
+    /// points that all but meet are one, shaken a little.
     pub(super) fn diagram(&self) -> &Diagram {
         self.diagram.get_or_init(|| {
-            let mut best = inside(self.area, 0);
+            let area = thinned(self.area);
+            let mut best = inside(&area, 0);
             for attempt in 1..=WELDED.len() {
                 if best.faults().is_empty() {
                     break;
                 }
-                let other = inside(self.area, attempt);
+                let other = inside(&area, attempt);
                 if other.faults().len() < best.faults().len() {
                     best = other;
                 }

@@ -25,6 +25,7 @@ mod interior;
 mod joining;
 pub mod nest;
 mod pruning;
+mod thinning;
 
 use rayon::prelude::*;
 
