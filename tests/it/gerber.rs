@@ -295,3 +295,22 @@ fn whole_numbers_with_a_decimal_point_are_read_by_the_number_format() {
     let error = gerber::read("a.gbr", text, &Options::default()).expect_err("half of what?").to_string();
     assert!(error.contains("out of range"), "{error}");
 }
+
+/// A star whose thousand edges all cross each other in a few kilobytes took seconds, one of two
+/// thousand a minute.
+#[test]
+fn a_region_of_few_edges_that_all_cross_is_refused() {
+    let star = |points: u32| {
+        let corner = |i: u32| {
+            let turn = f64::from(i % points) * f64::from(points / 2) / f64::from(points);
+            let (sin, cos) = libm::sincos(std::f64::consts::TAU * turn);
+            format!("X{:.0}Y{:.0}D0{}*\n", 5e7 * cos, 5e7 * sin, if i == 0 { 2 } else { 1 })
+        };
+        let corners: String = (0..=points).map(corner).collect();
+        let file = format!("%FSLAX46Y46*%\n%MOMM*%\nG36*\n{corners}G37*\nM02*\n");
+        gerber::read("star.gbr", file.as_bytes(), &Options::default())
+    };
+    assert_eq!(star(101).expect("a star").features.len(), 1, "few crossings are worked out");
+    let error = star(1_001).expect_err("half a million crossings").to_string();
+    assert!(error.contains("crosses itself too often"), "{error}");
+}
