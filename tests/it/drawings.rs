@@ -147,6 +147,20 @@ fn clipping_paths_show_what_lies_in_them() {
     }
 }
 
+/// Of groups with one clipping path, as programs write a page of them, its shapes are worked out
+/// once.
+#[test]
+fn many_groups_share_a_clipping_path_of_many_shapes() {
+    let shapes = |shape: &dyn Fn(i32, i32) -> String| -> String {
+        (0..400).map(|i| shape(i % 20 * 2, i / 20 * 2)).collect()
+    };
+    let circles = shapes(&|x, y| format!("<circle cx='{}' cy='{}' r='1'/>", x + 1, y + 1));
+    let square = |x, y| format!("<g clip-path='url(#c)'><rect x='{x}' y='{y}' width='2' height='2'/></g>");
+    let drawing = drawn(&format!("<defs><clipPath id='c'>{circles}</clipPath></defs>{}", shapes(&square)));
+    let (area, expected) = (area(&drawing, None), 400.0 * std::f64::consts::PI);
+    assert!((area - expected).abs() < 0.1, "{area} mm², expected {expected}");
+}
+
 #[test]
 fn what_lies_inside_a_clipping_path_stays_as_it_is() {
     let clip = "<clipPath id='c'><rect width='40' height='40'/></clipPath>";

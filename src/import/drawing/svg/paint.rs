@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
+use rustc_hash::FxHashMap;
 use usvg::tiny_skia_path::{self, PathSegment};
 use usvg::{
     BlendMode, ClipPath, Group, LineCap, LineJoin, Mask, MaskType, Node, Paint, Path, Transform, Tree,
@@ -48,7 +49,13 @@ pub(super) struct Painted {
     clipped: u64,
     segments: usize,
     effort: Effort,
+    /// Those of clipping paths and masks that are known.
+    windows: FxHashMap<Seen, Option<Rc<Window>>>,
 }
+
+/// What the group of a clipping path or a mask is drawn as: the group, by its place in memory, what
+/// paint does in it, and the bits of the turn.
+type Seen = (usize, Ink, [u32; 6]);
 
 /// Paints all of `tree`.
 pub(super) fn painted(name: &str, tree: &Tree, document: &Document, size: &Size) -> Result<Painted, Error> {
@@ -103,7 +110,7 @@ struct Scope<'a> {
 }
 
 /// What paint does.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Ink {
     /// White erases, all else is copper.
     Copper,
@@ -201,15 +208,23 @@ impl Painted {
         for window in windows {
             let both = match &scope.window {
                 None => window,
-                Some(outer) => outer.and(&window, &mut self.effort).map_err(|error| scope.too_much(error))?,
+                Some(outer) => {
+                    let both = outer.and(&window, &mut self.effort);
+                    Rc::new(both.map_err(|error| scope.too_much(error))?)
+                }
             };
-            scope.window = Some(Rc::new(both));
+            scope.window = Some(both);
         }
         Ok(())
     }
 
     /// The windows of a clipping path and of those set on it.
-    fn clip(&mut self, clip: &ClipPath, scope: &Scope<'_>, windows: &mut Vec<Window>) -> Result<(), Error> {
+    fn clip(
+        &mut self,
+        clip: &ClipPath,
+        scope: &Scope<'_>,
+        windows: &mut Vec<Rc<Window>>,
+    ) -> Result<(), Error> {
         let inner = Scope { turn: scope.turn.pre_concat(clip.transform()), ..scope.clone() };
         windows.extend(self.covered(clip.root(), &inner)?);
         match clip.clip_path() {
@@ -219,7 +234,7 @@ impl Painted {
     }
 
     /// The windows of a mask and of those set on it; false, and none, where one is no area.
-    fn mask(&mut self, mask: &Mask, scope: &Scope<'_>, windows: &mut Vec<Window>) -> Result<bool, Error> {
+    fn mask(&mut self, mask: &Mask, scope: &Scope<'_>, windows: &mut Vec<Rc<Window>>) -> Result<bool, Error> {
         let before = windows.len();
         let mut next = Some(mask);
         while let Some(mask) = next {
@@ -233,14 +248,27 @@ impl Painted {
             let contours = contours(&rect, true, scope.turn, scope)?;
             let area = Area { contours, rule: FillRule::NonZero }.polygons(FLATTEN);
             let window = area.and_then(|pieces| Window::new(pieces, &mut self.effort));
-            windows.push(window.map_err(|error| scope.too_much(error))?);
+            windows.push(Rc::new(window.map_err(|error| scope.too_much(error))?));
             next = mask.mask();
         }
         Ok(true)
     }
 
-    /// What the group of a clipping path or a mask covers; none where that is no area.
-    fn covered(&mut self, root: &Group, scope: &Scope<'_>) -> Result<Option<Window>, Error> {
+    /// What the group of a clipping path or a mask covers; none where that is no area. Of groups
+    /// that are clipped by the same one it is worked out once.
+    fn covered(&mut self, root: &Group, scope: &Scope<'_>) -> Result<Option<Rc<Window>>, Error> {
+        let Transform { sx, kx, ky, sy, tx, ty } = scope.turn;
+        let turn = [sx, kx, ky, sy, tx, ty].map(f32::to_bits);
+        let seen = (std::ptr::from_ref(root).addr(), scope.ink, turn);
+        if let Some(known) = self.windows.get(&seen) {
+            return Ok(known.clone());
+        }
+        let window = self.painted_over(root, scope)?.map(Rc::new);
+        self.windows.insert(seen, window.clone());
+        Ok(window)
+    }
+
+    fn painted_over(&mut self, root: &Group, scope: &Scope<'_>) -> Result<Option<Window>, Error> {
         let mut inner = Self { segments: self.segments, effort: self.effort, ..Self::default() };
         inner.group(root, scope)?;
         (self.segments, self.effort) = (inner.segments, inner.effort);

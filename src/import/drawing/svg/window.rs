@@ -9,25 +9,32 @@
 use crate::artwork::{Area, Drawn, Effort, Figure};
 use crate::board::FLATTEN;
 use crate::board::polarity::{self, FillRule, TooMuch};
-use crate::geometry::{Path, Polygon, Rect};
+use crate::geometry::{Path, Polygon, Rect, RectIndex};
 
 /// The area in which something is seen.
 #[derive(Debug)]
 pub(super) struct Window {
     /// Simple, and apart from each other.
     pieces: Vec<Polygon>,
+    /// The pieces by place.
+    index: RectIndex,
 }
 
 impl Window {
     /// The window of `pieces`, as the booleans of [`polarity`] return them.
     pub(super) fn new(pieces: Vec<Polygon>, effort: &mut Effort) -> Result<Self, TooMuch> {
         effort.spend(pieces.iter().map(vertices).sum())?;
-        Ok(Self { pieces })
+        Ok(Self::of(pieces))
+    }
+
+    fn of(pieces: Vec<Polygon>) -> Self {
+        let index = RectIndex::new(pieces.iter().map(Polygon::bounds));
+        Self { pieces, index }
     }
 
     /// What is seen through both.
     pub(super) fn and(&self, other: &Self, effort: &mut Effort) -> Result<Self, TooMuch> {
-        Ok(Self { pieces: common(&self.pieces, &other.pieces, effort)? })
+        Ok(Self::of(other.part_of(&self.pieces, effort)?))
     }
 
     /// What is seen of `figure`: itself, where it lies inside, so that circles and lines stay such.
@@ -44,7 +51,7 @@ impl Window {
         }
         effort.spend(polarity::effort(parts.iter().flat_map(Polygon::contours)))?;
         let whole = polarity::union(&parts);
-        let seen = common(&whole, &self.pieces, effort)?;
+        let seen = self.part_of(&whole, effort)?;
         if area(&seen) == area(&whole) {
             return Ok(Some(figure));
         }
@@ -52,6 +59,22 @@ impl Window {
         let contours: Vec<Path> = seen.iter().flat_map(Polygon::contours).filter_map(closed).collect();
         let drawn = Drawn::Area(Area { contours, rule: FillRule::EvenOdd });
         Ok((!seen.is_empty()).then_some(Figure { drawn, ..figure }))
+    }
+
+    /// What is seen of polygons; each simple, and apart from each other.
+    fn part_of(&self, polygons: &[Polygon], effort: &mut Effort) -> Result<Vec<Polygon>, TooMuch> {
+        let mut found = Vec::new();
+        for one in polygons {
+            for other in self.index.touching(one.bounds()).into_iter().map(|i| &self.pieces[i]) {
+                let rings = || one.contours().iter().chain(other.contours());
+                effort.spend(polarity::effort(rings()))?;
+                if polarity::is_tangled(rings()) {
+                    return Err(TooMuch);
+                }
+                found.extend(polarity::intersection(one, other));
+            }
+        }
+        Ok(found)
     }
 
     /// Whether it is a rectangle round `bounds`, as that of a page is.
@@ -62,24 +85,6 @@ impl Window {
             && rect.contains(bounds.min())
             && rect.contains(bounds.max())
     }
-}
-
-/// What both cover; each simple and apart from each other.
-fn common(a: &[Polygon], b: &[Polygon], effort: &mut Effort) -> Result<Vec<Polygon>, TooMuch> {
-    let mut found = Vec::new();
-    for one in a {
-        let bounds = one.bounds();
-        effort.spend(b.len() as u64 / 8)?;
-        for other in b.iter().filter(|other| bounds.touches(other.bounds())) {
-            let rings = || one.contours().iter().chain(other.contours());
-            effort.spend(polarity::effort(rings()))?;
-            if polarity::is_tangled(rings()) {
-                return Err(TooMuch);
-            }
-            found.extend(polarity::intersection(one, other));
-        }
-    }
-    Ok(found)
 }
 
 fn vertices(polygon: &Polygon) -> u64 {
