@@ -95,6 +95,11 @@ impl Edges {
         });
         winding
     }
+
+    /// Whether `p` lies inside the contours or on an edge, by the non-zero rule. Exact.
+    pub(crate) fn contains(&self, p: Point) -> bool {
+        self.winding(p) != Some(0)
+    }
 }
 
 #[cfg(test)]

@@ -15,7 +15,7 @@
 use rayon::prelude::*;
 
 use crate::board::{Board, FLATTEN, Hole, Shape};
-use crate::geometry::{Nm, Point, Polygon};
+use crate::geometry::{Edges, Nm, Point, Polygon};
 use crate::topology::{Near, Proximity};
 
 use super::Settings;
@@ -26,6 +26,8 @@ use super::machining::{Machining, Swept};
 pub(super) struct Contours<'a> {
     pub(super) programs: Vec<&'a Machining>,
     pub(super) outline: Polygon,
+    /// The edges of the outline by place.
+    pub(super) edges: Edges,
     pub(super) rings: Vec<Ring>,
     /// Where the cutter reaches into the board: neighbouring pieces together, the deepest of each.
     pub(super) taken: Vec<Taken<'a>>,
@@ -144,6 +146,7 @@ impl<'a> Contours<'a> {
             })
             .collect();
         let edge = Proximity::of(&edges);
+        let edges = Edges::new(&outline);
         let milled = Look::new(&cuts, &edge, half, settings);
         // Cut-outs may be drilled. Holes at the edge of a board are no part of the way round it.
         let has_cut_outs = outline.contours().iter().any(|points| area(points) <= 0);
@@ -157,8 +160,8 @@ impl<'a> Contours<'a> {
             look.ring(points, is_board)
         };
         let rings = outline.contours().iter().map(ring).collect();
-        let taken = taken(&cuts, &outline, &edge, &board.holes, settings);
-        Some(Self { programs: programs.to_vec(), outline, rings, taken, half })
+        let taken = taken(&cuts, &edges, &edge, &board.holes, settings);
+        Some(Self { programs: programs.to_vec(), outline, edges, rings, taken, half })
     }
 
     /// How wide a stretch that is not cut through is in the groove, where it is narrowest: the
@@ -403,7 +406,7 @@ fn area(ring: &[Point]) -> i128 {
 /// What reaches into the board, further than may be.
 fn taken<'a>(
     cuts: &[Cut<'a>],
-    outline: &Polygon,
+    outline: &Edges,
     edge: &Proximity,
     holes: &[Hole],
     settings: &Settings,

@@ -70,7 +70,7 @@ fn hit(contours: &Contours<'_>, board: &Board) -> Vec<BTreeSet<String>> {
             let shape: &Shape = &taken.cut.swept.shape;
             let near = proximity.near(shape, Nm::ZERO).into_iter();
             // Copper that goes on beyond the edge is cut there by anybody.
-            let inside = near.filter(|near| near.width <= 0.0 && contours.outline.contains(near.at));
+            let inside = near.filter(|near| near.width <= 0.0 && contours.edges.contains(near.at));
             let ids: BTreeSet<NetId> = inside.map(|near| nets.of(near.feature)).collect();
             names.extend(ids.into_iter().map(|net| nets.label(net)));
         }
