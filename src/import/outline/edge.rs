@@ -203,15 +203,15 @@ pub(super) fn part_where_they_meet(edges: Vec<Edge>) -> Vec<Edge> {
     if edges.len() > MOST {
         return edges;
     }
-    let bounds: Vec<Rect> = edges.iter().map(|edge| edge.bounds().inflate(Nm::new(2_000))).collect();
-    let mut order: Vec<usize> = (0..edges.len()).collect();
-    order.sort_by_key(|&i| (bounds[i].min().x, i));
+    let mut places: Vec<Place> = edges.iter().enumerate().map(Place::of).collect();
+    places.sort_by_key(|place| (place.bounds.min().x, place.edge));
     let mut cuts: Vec<BTreeSet<Point>> = vec![BTreeSet::new(); edges.len()];
     let mut crossings = 0;
-    for (k, &i) in order.iter().enumerate() {
-        for &j in order[k + 1..].iter().take_while(|&&j| bounds[j].min().x <= bounds[i].max().x) {
-            if bounds[i].touches(bounds[j]) {
-                crossings += meet(&edges, i, j, &mut cuts);
+    for (k, place) in places.iter().enumerate() {
+        let beside = |other: &&Place| other.bounds.min().x <= place.bounds.max().x;
+        for other in places[k + 1..].iter().take_while(beside) {
+            if place.bounds.touches(other.bounds) && !place.only_joins(other) {
+                crossings += meet(&edges, place.edge, other.edge, &mut cuts);
             }
         }
         if crossings > MOST_CROSSINGS {
@@ -222,6 +222,32 @@ pub(super) fn part_where_they_meet(edges: Vec<Edge>) -> Vec<Edge> {
         edges.into_iter().zip(cuts).flat_map(|(edge, cuts)| cut_up(edge, cuts)).collect();
     drop_doubles(&mut parts);
     parts
+}
+
+/// Where an edge lies.
+struct Place {
+    /// It lies within, and so does what is [`ON`] it.
+    bounds: Rect,
+    /// The ends of a line.
+    ends: Option<[Point; 2]>,
+    /// Its number.
+    edge: usize,
+}
+
+impl Place {
+    fn of((number, edge): (usize, &Edge)) -> Self {
+        let ends = edge.round.is_none().then_some([edge.from, edge.to]);
+        Self { bounds: edge.bounds().inflate(Nm::new(2_000)), ends, edge: number }
+    }
+
+    /// Whether both are lines that have an end in common, and each has its other far from the other
+    /// line, so that they meet nowhere else: drawings have thousands of lines through one point.
+    fn only_joins(&self, other: &Self) -> bool {
+        let (Some(some), Some(others)) = (self.ends, other.ends) else { return false };
+        some.iter().any(|p| others.contains(p))
+            && !others.iter().any(|&p| !some.contains(&p) && self.bounds.contains(p))
+            && !some.iter().any(|&p| !others.contains(&p) && other.bounds.contains(p))
+    }
 }
 
 /// Notes where two edges meet; how often they cross.
@@ -269,5 +295,19 @@ mod tests {
         };
         assert_eq!(grid(20), 2 * 20 * 21, "each in as many parts as there are crossings, and one");
         assert_eq!(grid(400), 2 * 400, "none");
+    }
+
+    #[test]
+    fn lines_that_only_have_an_end_in_common_are_told_from_such_as_meet_elsewhere_too() {
+        let at = |x: i64, y: i64| Point::new(Nm::from_um(x), Nm::from_um(y));
+        let line = |from: Point, to: Point| Place::of((0, &Edge::line(from, to, 1)));
+        let one = line(at(0, 0), at(500, 100));
+        assert!(one.only_joins(&line(at(0, 0), at(-500, 100))), "to the other side");
+        assert!(one.only_joins(&line(at(100, 500), at(0, 0))), "steeper");
+        assert!(!one.only_joins(&line(at(0, 0), at(250, 50))), "on it");
+        assert!(!one.only_joins(&line(at(0, 0), at(1_000, 200))), "it lies on that");
+        assert!(!one.only_joins(&line(at(1, 0), at(-500, 100))), "beside its end");
+        let arc = Arc { start: at(0, 0), end: at(10, 10), center: at(0, 10), turn: Turn::CounterClockwise };
+        assert!(!one.only_joins(&Place::of((1, &Edge::arc(arc, 1)))), "an arc may cross it again");
     }
 }

@@ -7,7 +7,7 @@ use rustc_hash::FxHashSet;
 
 use super::edge::Edge;
 use super::notes::Notes;
-use crate::geometry::{Nm, Point, Rect};
+use crate::geometry::{Nm, Point, Rect, RectIndex};
 
 /// What an end that lies this near to another is not even worth mentioning: the rounding of a
 /// file's last digit.
@@ -136,12 +136,13 @@ pub(super) fn join_to_middles(edges: &mut Vec<Edge>) -> Vec<Joint> {
         return Vec::new();
     }
     let widest = edges.iter().map(|edge| edge.half).max().unwrap_or_default();
+    let by_place = RectIndex::new(edges.iter().map(Edge::bounds));
     let (mut joints, mut bridges) = (Vec::new(), Vec::new());
     for (p, index) in ends(edges).into_iter().filter(|(_, end)| end.count == 1).map(|(p, end)| (p, end.edge))
     {
         let end = edges[index];
         let near = Rect::new(p, p).inflate(end.half + widest);
-        let others = edges.iter().filter(|other| near.touches(other.bounds()));
+        let others = by_place.touching(near).into_iter().map(|other| &edges[other]);
         let feet = others.filter_map(|other| {
             let foot = other.foot(p)?;
             let distance = p.distance(foot);
