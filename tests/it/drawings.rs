@@ -158,7 +158,8 @@ fn many_groups_share_a_clipping_path_of_many_shapes() {
     let square = |x, y| format!("<g clip-path='url(#c)'><rect x='{x}' y='{y}' width='2' height='2'/></g>");
     let drawing = drawn(&format!("<defs><clipPath id='c'>{circles}</clipPath></defs>{}", shapes(&square)));
     let (area, expected) = (area(&drawing, None), 400.0 * std::f64::consts::PI);
-    assert!((area - expected).abs() < 0.1, "{area} mm², expected {expected}");
+    // Circles are chords within a quarter of a micrometre.
+    assert!((area - expected).abs() < 0.5, "{area} mm², expected {expected}");
 }
 
 #[test]
