@@ -131,7 +131,8 @@ impl Machining {
     /// Follows `program` on `board`.
     pub(super) fn read(program: &Program, board: &Board, settings: &Settings) -> Result<Self, Error> {
         let failed = |reason| Error::Read { file: program.file.clone(), reason };
-        let listing = read::read(&read::without_own_code(&program.text)).map_err(failed)?;
+        let text = read::without_own_code(&program.text);
+        let listing = read::read(&text).map_err(failed)?;
         if listing.motions.is_empty() {
             return Err(Error::NoMotion(program.file.clone()));
         }
@@ -163,7 +164,7 @@ impl Machining {
             role,
             placement,
             zero,
-            features: features(&program.text, &listing),
+            features: features(&text, &listing),
             motions: listing.motions,
             stops: listing.stops,
             dwells: listing.dwells,

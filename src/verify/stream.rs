@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::gcode::read::{Listing, Tally, lines, without_own_code};
+use crate::gcode::read::{Listing, Tally, lines};
 
 /// Something about a line that some controllers take otherwise than it reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,7 +35,7 @@ pub(super) enum Feature {
 /// So many characters of a line Grbl keeps, blanks and comments not counted (protocol.c of 1.1h).
 const KEPT: usize = 79;
 
-/// What the lines of a program have, the user's own G-code apart, by kind.
+/// What the lines of a program have, without the user's own G-code, by kind.
 pub(super) fn features(text: &str, listing: &Listing) -> Vec<(Feature, Tally)> {
     let followed = [
         (Feature::Bare, listing.bare),
@@ -45,13 +45,18 @@ pub(super) fn features(text: &str, listing: &Listing) -> Vec<(Feature, Tally)> {
     let mut found: BTreeMap<Feature, Tally> =
         followed.into_iter().filter_map(|(feature, tally)| Some((feature, tally?))).collect();
     let mut last = None;
-    for (line, text) in (1_u32..).zip(lines(&without_own_code(text))) {
-        let text = Text::of(text);
-        for feature in text.features(&mut last) {
+    for (line, text) in (1_u32..).zip(lines(text)).filter(|(_, text)| !is_plain(text)) {
+        for feature in Text::of(text).features(&mut last) {
             found.entry(feature).or_insert(Tally { line, count: 0 }).count += 1;
         }
     }
     found.into_iter().collect()
+}
+
+/// Whether a line has no more than words and numbers, none of them its own: most have.
+fn is_plain(line: &str) -> bool {
+    let tells = |byte: u8| matches!(byte, b'#' | b'%' | b'(' | b'[' | b'N' | b'O' | b'n' | b'o');
+    line.len() <= KEPT && !line.bytes().any(tells)
 }
 
 /// A line without blanks and comments, and where its comments in parentheses are.
