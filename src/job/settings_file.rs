@@ -132,7 +132,7 @@ mod tests {
         let error = refused("tool = \"endmill:1mm\"\n\nsafez = \"2mm\"\n");
         assert!(error.contains("voromill.toml:3:1"), "{error}");
         assert!(error.contains("`safez`: did you mean `safe-z`"), "{error}");
-        let error = refused("tool = \"endmill:1mm\"\n[machine]\nsetup = \"1s\"\n travle = \"1mm\"\n");
+        let error = refused("tool = \"endmill:1mm\"\n[machine]\nbase = \"3018\"\n travle = \"1mm\"\n");
         assert!(error.contains("voromill.toml:4:2"), "{error}");
         assert!(error.contains("`travle`: did you mean `travel`"), "{error}");
     }

@@ -92,6 +92,9 @@ impl Declared {
                 self.mill_head = made("endmill", diameter, "");
                 self.mill_head
             }
+            ["MSG,", "Change", "tool", "bit", "to", "cutter" | "mill", "diameter", diameter] => {
+                made("endmill", diameter, "")
+            }
             ["MSG,", "Change", "tool", "bit", "to", "drill", "size", diameter] => {
                 self.mill_head.or_else(|| made("drill", diameter, ""))
             }

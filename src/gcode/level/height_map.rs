@@ -74,7 +74,9 @@ impl HeightMap {
         }
         let missing = heights.iter().filter(|height| height.is_none()).count();
         // One that is missing is as likely as one too many.
-        if let Some(beside) = beside(&columns, &rows, &heights).filter(|_| missing > 1) {
+        if missing > 1
+            && let Some(beside) = beside(&columns, &rows, &heights)
+        {
             return Err(beside);
         }
         if let Some(first) = heights.iter().position(Option::is_none) {
@@ -215,19 +217,19 @@ fn nearest(lines: &[f64], value: f64) -> usize {
 /// ```
 fn beside(columns: &[f64], rows: &[f64], heights: &[Touched]) -> Option<MapError> {
     let wide = columns.len();
-    let is_touched = |index: &usize| heights[*index].is_some();
-    let touched: Vec<usize> = (0..heights.len()).filter(is_touched).collect();
-    let alone = |at: usize, line: fn(usize, usize) -> usize| {
-        touched.iter().filter(|&&other| line(other, wide) == line(at, wide)).count() == 1
-    };
-    touched.iter().find_map(|&at| {
-        let in_column = alone(at, |index, wide| index % wide);
-        let in_row = alone(at, |index, wide| index / wide);
-        let (columns_left, rows_left) = (wide - usize::from(in_column), rows.len() - usize::from(in_row));
-        let fills = touched.len() - 1 == columns_left * rows_left;
-        let (_, line) = heights[at].filter(|_| fills && columns_left > 1 && rows_left > 1)?;
+    let touched = || heights.iter().enumerate().filter_map(|(at, height)| Some((at, (*height)?)));
+    let (mut in_column, mut in_row) = (vec![0_usize; wide], vec![0_usize; rows.len()]);
+    for (at, _) in touched() {
+        in_column[at % wide] += 1;
+        in_row[at / wide] += 1;
+    }
+    let others = touched().count() - 1;
+    touched().find_map(|(at, (_, line))| {
+        let columns_left = wide - usize::from(in_column[at % wide] == 1);
+        let rows_left = rows.len() - usize::from(in_row[at / wide] == 1);
+        let fills = others == columns_left * rows_left && columns_left > 1 && rows_left > 1;
         let [x, y] = [columns[at % wide], rows[at / wide]].map(Nm::from_f64);
-        Some(MapError::Beside { line, x, y, columns: columns_left, rows: rows_left })
+        fills.then_some(MapError::Beside { line, x, y, columns: columns_left, rows: rows_left })
     })
 }
 
