@@ -2,8 +2,8 @@
 //!
 //! ```text
 //!     •─•─•─•─•              ╭───────╮
-//!   •╱         ╲•     →     ╱         ╲       A program has written a circle as thousands of chords: of the finest ones
-//!  •             •         •           •      as many are one as stay so near to all of them as a chord to its curve.
+//!   •╱         ╲•     →     ╱         ╲    a circle of thousands of chords:
+//!  •             •         •           •   as many are one as all lie near it
 //! ```
 //!
 //! All edges of a circle meet in its middle, so that each bisector looks at each edge there. Of a
