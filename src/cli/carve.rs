@@ -24,11 +24,12 @@ use super::{Failure, Shared};
 /// code 1 where that finds something.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
+#[command(mut_arg("tool", |tool| tool.help("The V-bit: vbit:TIP:ANGLE or a name (`voromill tools`)")))]
 pub(super) struct Carve {
     #[command(flatten)]
     work: Work,
 
-    /// Greatest depth: wider places are carved along their medial axis, or cleared by --flat
+    /// Greatest depth: of wider places the walls are cut, and --flat clears what is between
     /// [default: as deep as the shape is wide]
     #[arg(long, value_name = "LENGTH", help_heading = "Carving")]
     max_depth: Option<Length>,

@@ -92,6 +92,10 @@ const BLUNTEST: Nm = Nm::from_um(20);
 /// As deep as any tool. Chosen.
 const BOTTOMLESS: Nm = Nm::from_mm(100);
 
+/// A pass that is deeper is warned of. Chosen: the cone of a V-bit of 60° on a shank of 1/8 in is
+/// 2.7 mm high.
+const DEEP_PASS: Nm = Nm::from_mm(3);
+
 /// The share of the tolerance that what is left out may take. Chosen: lines and arcs have the rest.
 const SHARE: f64 = 0.3;
 
@@ -143,8 +147,13 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     warnings.extend(shape_warnings(&axis, &interiors, tool, how)?);
     let start = how.start();
     let flat = how.flat.as_ref().zip(how.max_depth);
-    let floor = flat.map(|(mill, depth)| {
-        let plan = || strategy::Floor::new(&interiors, &axis, tool, depth - start, mill, settings.tolerance);
+    let is_wide = |depth: Nm| axis.widest() > reach_of(tool, depth - start).to_f64();
+    let floor = how.max_depth.filter(|&depth| flat.is_some() || is_wide(depth)).map(|depth| {
+        let (depth, tolerance) = (depth - start, settings.tolerance);
+        let plan = || match flat {
+            Some((mill, _)) => strategy::Floor::new(&interiors, &axis, tool, depth, mill, tolerance),
+            None => strategy::Floor::walls(&interiors, tool, depth, tolerance),
+        };
         stages.run("floor", plan, |_| [])
     });
     drop(interiors);
@@ -186,6 +195,11 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
     }
     let moves = programs.iter().flat_map(|one| &one.program.sections).flat_map(|section| &section.moves);
     let deepest = -moves.filter_map(|step| step.to()).map(|to| to.z).min().unwrap_or(Nm::ZERO);
+    let pass = Heights { cut: deepest, ..heights }.passes().next().unwrap_or(deepest);
+    if pass > DEEP_PASS {
+        let message = format!("`{}` goes {pass:.3} mm deep in one pass", tool.kind);
+        warnings.push(planning::CARVING_PASS_TOO_DEEP.warning(message));
+    }
     Ok(Engraving {
         name: art.name,
         areas: placed,
@@ -312,7 +326,7 @@ fn shape_warnings(
         return Err(Error::Value { key: "max-depth", problem });
     }
     if let Some(most) = how.max_depth.filter(|_| how.flat.is_none()) {
-        let reach = tool.kind.width_at(most - how.start()) / 2;
+        let reach = reach_of(tool, most - how.start());
         let is_wide = axis.widest() > reach.to_f64();
         let wide = if is_wide { insets(areas, reach) } else { Vec::new() };
         let area: f64 = wide.iter().map(Polygon::area_mm2).sum();
@@ -323,12 +337,17 @@ fn shape_warnings(
         }
         if area > LEAST_WIDE {
             let message = format!(
-                "{area:.2} mm² are farther from the edge than the {reach:.3} mm that the tool cuts to either side at {most:.3} mm: there it follows the medial axis alone"
+                "{area:.2} mm² are farther from the edge than the {reach:.3} mm that the tool cuts to either side at {most:.3} mm: there it cuts the walls alone"
             );
             warnings.push(planning::WIDE_PLACE_LEFT.warning(message));
         }
     }
     Ok(warnings)
+}
+
+/// How far to either side a tool cuts at a depth.
+fn reach_of(tool: &Tool, depth: Nm) -> Nm {
+    tool.kind.width_at(depth) / 2
 }
 
 /// What is wider by less is no flat place, in mm². Chosen.

@@ -1,6 +1,6 @@
 //! Distances to the edges of areas, by an index of boxes.
 
-use static_aabb2d_index::StaticAABB2DIndex;
+use static_aabb2d_index::{Control, StaticAABB2DIndex};
 
 use crate::geometry::{Polygon, between, part_nearest, spanned};
 
@@ -15,7 +15,7 @@ pub(super) struct Edges {
     tree: Option<StaticAABB2DIndex<f64>>,
 }
 
-/// A search begins with this, in nanometres, and doubles. Chosen.
+/// What is nearer is found by a window, in nanometres. Chosen.
 const FIRST: f64 = 50_000.0;
 
 /// Places nearer to each other than this lie side by side, in nanometres. Chosen: the resolution of
@@ -73,14 +73,28 @@ impl Edges {
 
     /// The distance to the nearest edge, and its nearest point.
     pub(super) fn nearest(&self, p: Spot) -> (f64, Spot) {
-        let mut reach = FIRST;
-        loop {
-            match self.nearer(p, reach) {
-                Some(found) => return found,
-                None if reach > FAR => return (f64::INFINITY, p),
-                None => reach *= 2.0,
-            }
+        self.nearer(p, FIRST).unwrap_or_else(|| self.nearest_of_all(p))
+    }
+
+    /// The same, where none is near: of a wide disc a window has all edges, of which few are the
+    /// nearest.
+    fn nearest_of_all(&self, p: Spot) -> (f64, Spot) {
+        let mut best = (f64::INFINITY, p);
+        if let Some(tree) = &self.tree {
+            tree.visit_neighbors(p.0, p.1, &mut |edge: usize, squared: f64| {
+                if squared >= best.0 {
+                    return Control::Break(());
+                }
+                let (a, b) = self.edges[edge];
+                let foot = foot(p, a, b);
+                let (x, y) = (p.0 - foot.0, p.1 - foot.1);
+                if x * x + y * y < best.0 {
+                    best = (x * x + y * y, foot);
+                }
+                Control::Continue
+            });
         }
+        (best.0.sqrt(), best.1)
     }
 
     /// The same of an edge nearer than `reach`, if one is.
@@ -97,14 +111,20 @@ impl Edges {
         best.1.map(|foot| (best.0.sqrt(), foot))
     }
 
-    /// How far one can go from `foot` through `p` while nothing else is nearer than it; as far as
-    /// `p` where that is next to it. `last` is how far that was from a place nearby, and what ended
-    /// it there, which often ends it here.
+    /// How far one can go from `foot` through `p` while nothing else is nearer than it, and no
+    /// farther than `most`; as far as `p` where that is next to it. `last` is how far that was from
+    /// a place nearby, and what ended it there, which often ends it here.
     ///
     /// What is nearer to the centre of a disc through `foot` says how small it must be; that one is
     /// looked at next, until nothing is. J. Ma, S. W. Bae, S. Choi, *3D medial axis point
     /// approximation using nearest neighbors and the normal field*, The Visual Computer 28 (2012).
-    pub(super) fn farthest(&self, p: Spot, distance: f64, foot: Spot, last: &mut Option<(f64, Spot)>) -> f64 {
+    pub(super) fn farthest(
+        &self,
+        p: Spot,
+        (distance, foot): (f64, Spot),
+        most: f64,
+        last: &mut Option<(f64, Spot)>,
+    ) -> f64 {
         if distance < NEXT {
             return distance;
         }
@@ -115,9 +135,9 @@ impl Edges {
             let ahead = way.0 * x + way.1 * y - NEXT;
             if ahead > 0.0 { (x * x + y * y - NEXT * NEXT) / (2.0 * ahead) } else { f64::INFINITY }
         };
-        let (mut far, mut most) = (2.0 * distance, f64::INFINITY);
+        let (mut far, mut most) = (2.0 * distance, most);
         if let Some((before, at)) = *last {
-            (far, most) = (far.max(2.0 * before), largest(at));
+            (far, most) = (far.max(2.0 * before), most.min(largest(at)));
         }
         let mut ended = None;
         loop {
@@ -199,7 +219,7 @@ mod tests {
                     let middle = f64::midpoint(free, blocked);
                     if is_free(middle) { free = middle } else { blocked = middle }
                 }
-                let far = edges.farthest(p, distance, nearest, &mut last);
+                let far = edges.farthest(p, (distance, nearest), f64::INFINITY, &mut last);
                 assert!((far - free).abs() <= 2.0 * NEXT, "at {p:?}: {far}, by halves {free}");
                 looked_at += 1;
             }

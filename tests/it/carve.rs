@@ -243,6 +243,44 @@ fn wide_places_of_random_areas_become_flat() {
     }
 }
 
+/// Of what is wider than the V-bit cuts, the walls are cut all the same: who looks for them finds
+/// them, and misses them where one end of a contour is left out.
+#[test]
+fn walls_of_wide_places_are_cut_without_an_end_mill() {
+    let how = Carving { max_depth: Some(Nm::from_mm(1)), ..HOW };
+    let usual = if cfg!(debug_assertions) { 3 } else { 100 };
+    for seed in seeds(0..usual) {
+        for (scale, tool) in [(1, "vbit:0.2mm:10deg"), (250_000, "vbit:0mm:60deg")] {
+            let made = engraving("walls", random_areas(seed, scale), tool, &how);
+            let judged = made.verify(PITCH).expect("programs");
+            assert_eq!(judged.findings, [], "seed {seed} with {tool}");
+        }
+    }
+    let side = Nm::from_mm(10);
+    let square = vec![Polygon::rectangle(Rect::new(Point::default(), Point::new(side, side)))];
+    let made = engraving("square", square, "vbit:0.1mm:60deg", &how);
+    let judged = made.verify(PITCH).expect("a program");
+    assert_eq!(judged.findings, []);
+    assert!((60.0..90.0).contains(&judged.left_mm2), "the middle of 100 mm² stays: {}", judged.left_mm2);
+    let text = &made.programs[0].text;
+    let corner = text.lines().rfind(|line| line.starts_with("G1 X")).expect("a cut");
+    let spoilt = text.replacen(&format!("{corner}\n"), "", 1);
+    let judged = made.judge(&[("spoilt.ngc", &spoilt)], PITCH).expect("a program");
+    assert!(judged.findings.iter().any(|found| found.name == "carved-too-shallow"), "{:?}", judged.findings);
+}
+
+#[test]
+fn a_deep_pass_is_warned_of() {
+    let side = Nm::from_mm(10);
+    let square = || vec![Polygon::rectangle(Rect::new(Point::default(), Point::new(side, side)))];
+    let codes = |how: &Carving| -> Vec<&str> {
+        let made = engraving("square", square(), "vbit:0.1mm:60deg", how);
+        made.warnings.iter().map(|warning| warning.code()).collect()
+    };
+    assert_eq!(codes(&HOW), ["carving-pass-too-deep"], "8.6 mm at once");
+    assert_eq!(codes(&Carving { step: Some(Nm::from_mm(3)), ..HOW }), [""; 0], "in three passes");
+}
+
 /// Where the end mill has room to a nanometre there is no loop for it, and the V-bit clears.
 #[test]
 fn a_square_as_wide_as_the_end_mill_becomes_flat() {

@@ -63,6 +63,12 @@ diagnostics! {
         "lines become thinner than drawn",
         "check the tool, and where Z is zero";
 
+    CARVING_PASS_TOO_DEEP: Warning =
+        "carving-pass-too-deep",
+        "a pass of the V-bit is deeper than 3 mm",
+        "the V-bit bends or breaks, and its shank may meet the work",
+        "carve in several passes ({depth-pass}), or less deep ({max-depth})";
+
     COPPER_OUTSIDE_BOARD: Warning =
         "copper-outside-board",
         "copper lies outside the outline",
@@ -288,6 +294,6 @@ diagnostics! {
     WIDE_PLACE_LEFT: Warning =
         "wide-place-left",
         "shapes are wider than the V-bit cuts at its greatest depth",
-        "there it follows the medial axis alone, and leaves the rest",
+        "there it cuts the walls, and leaves what is between",
         "allow more ({max-depth}), or clear the rest with an end mill";
 }

@@ -17,12 +17,12 @@ use rayon::prelude::*;
 
 use super::check;
 use super::cutter::{Cone, Cutter};
-use super::edges::{Edges, Spot, length};
+use super::edges::{Edges, Spot};
 use super::report::Finding;
 use super::surface::{self, Surface};
 use super::{Error, ReadError};
 use crate::gcode::read::{self, Listing, Way};
-use crate::geometry::{Nm, Point, Polygon, Rect, between};
+use crate::geometry::{Nm, Point, Polygon, Rect};
 
 /// What should be carved, on the machine.
 #[derive(Clone, Debug)]
@@ -79,9 +79,6 @@ const APART: f64 = 500_000.0;
 
 /// Places nearer than this are the same, in nanometres. Chosen: the resolution of coordinates.
 const SAME: f64 = 0.5;
-
-/// So often a disc is moved away from what is nearest to it until it fits. Chosen.
-const MOVES: u32 = 16;
 
 /// So far beside the areas every place is looked at; beyond, where the tip goes. Chosen: wider than
 /// tools are.
@@ -261,48 +258,30 @@ impl Limits {
     ) -> f64 {
         let way = ((foot.0 - at.0) / distance, (foot.1 - at.1) / distance);
         let beyond = (foot.0 + way.0, foot.1 + way.1);
-        let farthest = edges.farthest(beyond, 1.0, foot, &mut last.way);
+        let farthest = edges.farthest(beyond, (1.0, foot), self.farthest_of(1.0), &mut last.way);
         let centers = [0.0, self.blunt.min(farthest), self.full().min(farthest), farthest];
         centers.map(|radius| self.at(radius, radius + distance)).into_iter().fold(0.0, f64::max)
     }
 
-    /// How deep a tool can mill at a place, at least, and whether that is where it does not reach
-    /// from wall to wall.
-    fn reachable(
-        &self,
-        at: Spot,
-        (distance, foot): (f64, Spot),
-        edges: &Edges,
-        last: &mut Last,
-    ) -> (f64, bool) {
-        let farthest = edges.farthest(at, distance, foot, &mut last.way);
+    /// How deep a tool can mill at a place, at least; where it is wider than the tool cuts and
+    /// nothing else clears it, along the walls.
+    fn reachable(&self, at: Spot, (distance, foot): (f64, Spot), edges: &Edges, last: &mut Last) -> f64 {
         let full = self.full();
-        if self.is_left_out((distance, farthest), at, foot, last) {
-            return (f64::NEG_INFINITY, false);
+        if !self.clears && distance > full {
+            return self.at(full, distance - full);
+        }
+        let most = self.farthest_of(distance);
+        let farthest = edges.farthest(at, (distance, foot), most, &mut last.way);
+        if farthest < most && self.is_left_out((distance, farthest), at, foot, last) {
+            return f64::NEG_INFINITY;
         }
         let centers = [farthest, full.clamp(distance, farthest), (distance + self.blunt).min(farthest)];
-        let best = centers.map(|radius| self.at(radius, radius - distance));
-        (best.into_iter().fold(f64::NEG_INFINITY, f64::max), farthest > full)
+        centers.map(|radius| self.at(radius, radius - distance)).into_iter().fold(f64::NEG_INFINITY, f64::max)
     }
 
-    /// Whether a disc as wide as the tool cuts where it is deepest fits the areas and leaves no
-    /// more between itself and the edge at `foot` than is tolerated: where two chords of a curve
-    /// meet, the way away from one of them ends early.
-    fn is_wide(&self, at: Spot, (distance, foot): (f64, Spot), edges: &Edges) -> bool {
-        let full = self.full();
-        if !full.is_finite() {
-            return false;
-        }
-        let mut center = between(foot, at, full / distance);
-        for _ in 0..MOVES {
-            let (clearance, near) = edges.nearest(center);
-            if clearance >= full {
-                let off = length((center.0 - at.0, center.1 - at.1));
-                return clearance - off >= distance - self.tolerance * self.flank;
-            }
-            center = between(near, center, (full + SAME) / clearance);
-        }
-        false
+    /// The tool need go no farther from an edge to mill a place at a distance from it.
+    fn farthest_of(&self, distance: f64) -> f64 {
+        self.full().max(distance + self.blunt) + SAME
     }
 
     /// Whether the way away from `foot` ends between two edges that meet in a corner which is not
@@ -353,11 +332,9 @@ impl Row {
         let most = (limits.start + distance / limits.flank).min(limits.most);
         let mut error = depth - most;
         if error < 0.0 {
-            let (least, mut is_wide) = limits.reachable(at, (distance, foot), edges, &mut self.last);
-            if !is_wide && depth < least - limits.tolerance {
-                is_wide = limits.is_wide(at, (distance, foot), edges);
-            }
-            if is_wide && !limits.clears && depth < least {
+            let least = limits.reachable(at, (distance, foot), edges, &mut self.last);
+            let is_off = depth < least - limits.tolerance;
+            if !is_off && !limits.clears && distance > limits.full() && error < -limits.tolerance {
                 self.left += 1;
                 return;
             }

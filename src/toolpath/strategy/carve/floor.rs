@@ -1,5 +1,5 @@
 //! Wide places: a flat floor, which an end mill clears and of which the V-bit cuts the walls and
-//! what the end mill does not reach.
+//! what the end mill does not reach. Without an end mill it cuts the walls alone.
 //!
 //! ```text
 //!   ══╲                              ╱══     The floor is where the cone that touches the nearest edge is deeper than asked for. The end
@@ -72,11 +72,11 @@ impl Floor {
         let (ToolKind::VBit { tip, .. }, ToolKind::EndMill { diameter }) = (v_bit.kind, mill.kind) else {
             return Self::default();
         };
-        // Along a wall what is off sideways is off by more in depth.
-        let tolerance = Nm::from_f64(tolerance.to_f64() * v_bit.kind.flank().min(1.0));
+        let walls = Self::walls(areas, v_bit, depth, tolerance);
+        let tolerance = walls.tolerance;
         // Where the floor begins, and how far from the edges either tool goes.
-        let edge = v_bit.width_at(depth) / 2 - tip / 2;
-        let (radius, rim) = (diameter / 2, edge + tip / 2);
+        let rim = v_bit.width_at(depth) / 2;
+        let (radius, edge) = (diameter / 2, rim - tip / 2);
         let step = Nm::from_f64(radius.to_f64() * STEP);
         // A loop of some nanometres is no way, and clears nothing.
         let is_milled =
@@ -102,10 +102,20 @@ impl Floor {
         let along: Vec<Polygon> = strokes.iter().filter_map(|path| hull_of(path, radius)).collect();
         rest = rest.iter().flat_map(|piece| difference(piece, &along)).collect();
         let fine = Nm::from_f64(tip.to_f64() * FINE_STEP);
-        let mut rims = loops(&insets(areas, rim), tolerance);
+        let mut rims = walls.rims;
         rims.extend(fill(areas, axis, &rest, (rim + fine, fine, tip), tolerance));
+        Self { levels, strokes, rims, step: step.to_f64(), ..walls }
+    }
+
+    /// What is to be done where nothing clears what is wide: the V-bit cuts the walls.
+    #[must_use]
+    pub fn walls(areas: &[Interior<'_>], v_bit: &Tool, depth: Nm, tolerance: Nm) -> Self {
+        // Along a wall what is off sideways is off by more in depth.
+        let tolerance = Nm::from_f64(tolerance.to_f64() * v_bit.kind.flank().min(1.0));
+        let rim = v_bit.width_at(depth) / 2;
+        let rims = loops(&insets(areas, rim), tolerance);
         let room = Room::new(&insets(areas, rim - tolerance));
-        Self { levels, strokes, rims, room, step: step.to_f64(), tolerance }
+        Self { rims, room, tolerance, ..Self::default() }
     }
 
     /// The end mill's part.

@@ -48,8 +48,8 @@ pub struct Carving<'a> {
     pub tolerance: Nm,
     /// How deep the edges of the areas lie: zero, or how far the plug of an inlay goes in.
     pub start: Nm,
-    /// What another tool clears, of which the V-bit cuts the rims; none to follow wide places along
-    /// their middle.
+    /// What is wider than the tool cuts at the most depth, of which it cuts the rims; none to
+    /// follow such places along their middle.
     pub floor: Option<&'a Floor>,
 }
 
@@ -62,6 +62,10 @@ const SHARE: f64 = 0.7;
 /// a micrometre sideways, the last digit of a program, is what counts.
 const STEEP: f64 = 0.25;
 const CLOSE: f64 = 350.0;
+
+/// What is wider by so many nanometres than the tool cuts has rims of no length to speak of, and is
+/// followed along its middle, too. Chosen: half the tolerance unless said.
+const WIDER: f64 = 1_000.0;
 
 /// Follows the medial axis; no moves for a tool that is no V-bit.
 pub fn carve(label: impl Into<String>, axis: &MedialAxis, settings: &Carving<'_>) -> Section {
@@ -78,7 +82,7 @@ pub fn carve(label: impl Into<String>, axis: &MedialAxis, settings: &Carving<'_>
 fn passes(axis: &MedialAxis, settings: &Carving<'_>) -> Vec<Pass> {
     let ToolKind::VBit { tip, .. } = settings.tool.kind else { return Vec::new() };
     let (blunt, flank) = (tip.to_f64() / 2.0, settings.tool.kind.flank());
-    let beyond = settings.floor.map(|_| settings.heights.cut.to_f64());
+    let beyond = settings.floor.map(|_| settings.heights.cut.to_f64() + WIDER / flank);
     let start = settings.start.to_f64();
     let whole = Pass { low: 0.0, high: 0.0, blunt, flank, start, beyond };
     let deepest = Nm::from_f64(whole.depth(axis.widest())).min(settings.heights.cut);
@@ -95,7 +99,7 @@ fn passes(axis: &MedialAxis, settings: &Carving<'_>) -> Vec<Pass> {
 struct Line {
     path: Path,
     depths: Vec<Nm>,
-    /// Whether it lies on the floor that is cleared.
+    /// Whether it lies on the floor, as deep as may be.
     on_floor: bool,
 }
 
