@@ -13,11 +13,13 @@ mod effort;
 mod figure;
 mod layer;
 mod round;
+mod union;
 
 pub use effort::Effort;
 pub use figure::{Area, Drawn, Figure, Line};
 pub use layer::Layer;
 pub use round::{diameter, hole};
+pub use union::united;
 
 use crate::board::polarity::{self, TooMuch};
 use crate::geometry::{Nm, Polygon, Rect};

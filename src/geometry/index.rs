@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use super::Rect;
-use super::tree::BoxTree;
+use super::tree::{BoxTree, Met};
 
 /// Rectangles by place: a packed R-tree, filled once.
 #[derive(Debug)]
@@ -68,5 +68,21 @@ impl RectIndex {
         self.tree.visit(&region, |number| {
             if touches(self.rects[number], near) { visit(number) } else { ControlFlow::Continue(()) }
         })
+    }
+
+    /// Calls `enters` with nodes of the index that may have such rectangles, and with the number of
+    /// every such rectangle below those of which it says true.
+    pub(crate) fn visit_entered(&self, window: Rect, mut enters: impl FnMut(Met) -> bool) {
+        let near = packed(window);
+        let region = self.tree.window(near.map(f64::from));
+        self.tree.visit_entered(&region, &mut |met| match met {
+            Met::Box(number) => touches(self.rects[number], near) && enters(met),
+            Met::Node(_) => enters(met),
+        });
+    }
+
+    /// The tree of its rectangles.
+    pub(crate) const fn tree(&self) -> &BoxTree {
+        &self.tree
     }
 }

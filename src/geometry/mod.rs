@@ -41,4 +41,4 @@ pub use point::{Orientation, Point, Rect, Vector, orientation};
 pub use polygon::Polygon;
 pub(crate) use polygon::twice_area;
 pub(crate) use spans::merge;
-pub(crate) use tree::{BoxTree, Region};
+pub(crate) use tree::{BoxTree, Met, Region};

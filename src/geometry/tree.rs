@@ -44,6 +44,15 @@ pub(crate) struct BoxTree {
     leaves: usize,
 }
 
+/// A part of a tree, by its number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Met {
+    /// A node, with all that is below it.
+    Node(usize),
+    /// A box.
+    Box(usize),
+}
+
 /// A region of the plane, as a tree knows it.
 pub(crate) trait Region {
     /// Whether a box of the tree meets it.
@@ -246,6 +255,41 @@ impl BoxTree {
             }
         }
         ControlFlow::Continue(())
+    }
+
+    /// Shows the nodes that meet a region, and the boxes below those of which `enters` says true.
+    pub(crate) fn visit_entered(&self, region: &impl Region, enters: &mut impl FnMut(Met) -> bool) {
+        if let Some(root) = self.nodes.len().checked_sub(1)
+            && enters(Met::Node(root))
+        {
+            self.enter(root, region, enters);
+        }
+    }
+
+    fn enter(&self, number: usize, region: &impl Region, enters: &mut impl FnMut(Met) -> bool) {
+        let node = &self.nodes[number];
+        let mut met = node.meeting(region);
+        while met != 0 {
+            let below = node.below[met.trailing_zeros() as usize / 8] as usize;
+            met &= met - 1;
+            if number < self.leaves {
+                enters(Met::Box(below));
+            } else if enters(Met::Node(below)) {
+                self.enter(below, region, enters);
+            }
+        }
+    }
+
+    /// How many nodes there are.
+    pub(crate) const fn nodes(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// What is below a node.
+    pub(crate) fn below(&self, number: usize) -> impl Iterator<Item = Met> {
+        let node = &self.nodes[number];
+        let met = if number < self.leaves { Met::Box } else { Met::Node };
+        node.below[..node.count.into()].iter().map(move |&below| met(below as usize))
     }
 
     /// Shows the boxes that meet a rectangle: left, bottom, right, top.

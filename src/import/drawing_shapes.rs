@@ -22,7 +22,7 @@ use super::layers::Role;
 use super::outline::{self, Enclosed};
 use super::selection::Selection;
 use super::{diagnostic, naming};
-use crate::artwork::{Area, Artwork, Drawn, Figure, Layer};
+use crate::artwork::{self, Area, Artwork, Drawn, Figure, Layer};
 use crate::board::{FLATTEN, Feature, Outline, Side, Source, Warning, Words, polarity};
 use crate::geometry::{Nm, Path as Course, Polygon, Rect};
 
@@ -140,9 +140,7 @@ fn painted(figures: Vec<Figure>, file: &Found) -> Result<Vec<Polygon>, Error> {
     };
     let features = Layer { name: String::new(), figures }.into_features().map_err(too_much)?;
     let shape = |feature: &Feature| feature.shape.polygon(FLATTEN);
-    let rings: Vec<_> =
-        features.iter().filter_map(shape).flat_map(|polygon| polygon.contours().to_vec()).collect();
-    Ok(polarity::clean(&rings))
+    artwork::united(&features.iter().filter_map(shape).collect::<Vec<_>>()).map_err(too_much)
 }
 
 /// What there is to tell of thin lines beside what is filled or painted, but for those along the

@@ -12,14 +12,12 @@ mod near;
 mod nearest;
 mod sector;
 
-use std::ops::ControlFlow;
-
 use rayon::prelude::*;
 
 use crate::board::{Copper, FLATTEN, Shape};
 
 use super::sets::DisjointSets;
-use crate::geometry::{Nm, RectIndex};
+use crate::geometry::{Met, Nm, RectIndex};
 
 pub(super) use body::{Body, Narrowest};
 
@@ -58,28 +56,116 @@ impl Bodies {
     pub(super) fn join(&self, sets: &DisjointSets) -> DisjointSets {
         let shares = self.index.order().into_par_iter().with_min_len(SHARE);
         let joined = shares.fold(
-            || sets.clone(),
-            |mut sets, feature| {
-                self.join_one(feature, &mut sets);
-                sets
+            || Joining::new(self, sets),
+            |mut joining, feature| {
+                joining.join(feature);
+                joining
             },
         );
+        let joined = joined.map(|joining| joining.sets);
         joined.reduce_with(DisjointSets::merged).unwrap_or_else(|| sets.clone())
+    }
+}
+
+/// A partition that features are added to, one after another.
+struct Joining<'a> {
+    bodies: &'a Bodies,
+    sets: DisjointSets,
+    /// Of each node of the index a member of the one set that all below it are in, if it is known.
+    one: Vec<Option<u32>>,
+    /// The nodes that the feature at hand was looked for in, each before those below it.
+    entered: Vec<usize>,
+}
+
+/// If so many features are met that are joined already it is worth finding out which nodes need
+/// never be entered again. Chosen: more than meet each other on boards.
+const MANY: usize = 64;
+
+impl<'a> Joining<'a> {
+    fn new(bodies: &'a Bodies, sets: &DisjointSets) -> Self {
+        let one = vec![None; bodies.index.tree().nodes()];
+        Self { bodies, sets: sets.clone(), one, entered: Vec::new() }
     }
 
     /// Joins a feature to all that come after it and touch it.
-    fn join_one(&self, feature: usize, sets: &mut DisjointSets) {
-        let body = &self.bodies[feature];
-        let number = |index: usize| u32::try_from(index).expect("fewer than 2³² features");
+    fn join(&mut self, feature: usize) {
+        let Self { bodies: Bodies { bodies, index }, sets, one, entered } = self;
+        let body = &bodies[feature];
         let own = number(feature);
-        let _ = self.index.visit(body.bounds().inflate(JOINED), |other| {
-            if other > feature
-                && sets.find(own) != sets.find(number(other))
-                && body.is_within(&self.bodies[other], JOINED)
-            {
-                sets.union(own, number(other));
+        let mut joined = 0;
+        entered.clear();
+        index.visit_entered(body.bounds().inflate(JOINED), |met| match met {
+            Met::Node(node) => {
+                let is_new = one[node].is_none_or(|member| sets.find(member) != sets.find(own));
+                if is_new {
+                    entered.push(node);
+                }
+                is_new
             }
-            ControlFlow::Continue(())
+            Met::Box(other) => {
+                if sets.find(own) == sets.find(number(other)) {
+                    joined += 1;
+                } else if other > feature && body.is_within(&bodies[other], JOINED) {
+                    sets.union(own, number(other));
+                }
+                true
+            }
         });
+        if joined > MANY {
+            self.mark();
+        }
+    }
+
+    /// Finds out which of the nodes that were entered have one set below them.
+    fn mark(&mut self) {
+        let Self { bodies: Bodies { index, .. }, sets, one, entered } = self;
+        for &node in entered.iter().rev() {
+            let mut members = index.tree().below(node).map(|met| match met {
+                Met::Box(feature) => Some(number(feature)),
+                Met::Node(below) => one[below],
+            });
+            let first = members.next().flatten();
+            let is_one = first.is_some_and(|first| {
+                members.all(|member| member.is_some_and(|member| sets.find(member) == sets.find(first)))
+            });
+            one[node] = first.filter(|_| is_one);
+        }
+    }
+}
+
+fn number(index: usize) -> u32 {
+    u32::try_from(index).expect("fewer than 2³² features")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Point;
+    use crate::topology::random;
+
+    /// Heaps of discs of which most lie on each other, and some that reach from one to the next.
+    #[test]
+    fn heaps_are_joined_as_each_pair_would_be() {
+        let mut random = random();
+        let shapes: Vec<Shape> = (0..3_000)
+            .map(|i| {
+                let heap = Nm::from_um(1_000 * (i % 7));
+                let center = Point::new(heap + Nm::from_um(random(700)), Nm::from_um(random(300)));
+                Shape::Disc { center, radius: Nm::from_um(20 + random(140)) }
+            })
+            .collect();
+        let bodies = Bodies::of(shapes.par_iter());
+        let mut pairs = DisjointSets::new(shapes.len());
+        for (i, one) in bodies.bodies.iter().enumerate() {
+            for (j, other) in bodies.bodies.iter().enumerate().skip(i + 1) {
+                if one.is_within(other, JOINED) {
+                    pairs.union(number(i), number(j));
+                }
+            }
+        }
+        let (joined, pairs) = (bodies.join(&DisjointSets::new(shapes.len())), pairs.representatives());
+        assert_eq!(joined.representatives(), pairs);
+        let nets = pairs.iter().zip(0..).filter(|&(&first, member)| first == member).count();
+        assert!(nets > 1, "not all are one: {nets}");
     }
 }

@@ -465,10 +465,15 @@ const BESIDE_LEVEL: [f64; 2] = [30.0, 300.0];
 
 /// How often the tool need come down, which did so `made` times in a pass.
 fn needed(areas: &[Polygon], levels: &[f64], made: usize) -> usize {
-    // Two ways of counting that agree with the program are enough; else the exact one decides,
-    // unless no program comes down less often.
+    // Each piece that the tool fits into needs one, however often its width rises and falls.
+    let fits = |area: &Polygon| offset(area, -Nm::from_f64(levels[0]), FINE).len();
+    let pieces = if levels.is_empty() { 0 } else { areas.par_iter().map(fits).sum() };
+    if made <= pieces {
+        return pieces;
+    }
+    // Two ways of counting that agree with the program are enough; else the exact one decides.
     let stepped = maxima_by_steps(areas, levels);
-    if stepped == made || made == 0 {
+    if stepped == made {
         return stepped;
     }
     let exact = maxima(areas, levels);
