@@ -182,6 +182,12 @@ enum Format {
     Junit,
 }
 
+/// A text as its bytes: where they are not UTF-8, each is a character, as controllers take it.
+fn text_of(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes)
+        .unwrap_or_else(|error| error.as_bytes().iter().copied().map(char::from).collect())
+}
+
 /// A part of something: from 0 to 1.
 fn part(text: &str) -> Result<f64, String> {
     let part = text.parse().ok().filter(|part| (0.0..=1.0).contains(part));
@@ -300,7 +306,7 @@ impl Verify {
             complete: self.programs.iter().any(|path| path.is_dir()),
             tiles: self.tiles(&programs)?,
             pixel: self.resolution,
-            board: self.thickness(&programs, &board)?,
+            board: self.thickness(&programs, &board, shared)?,
             ..usual
         };
         if self.register {
@@ -381,7 +387,7 @@ impl Verify {
     }
 
     /// How thick the board is.
-    fn thickness(&self, programs: &[Program], board: &Board) -> Result<Nm, Failure> {
+    fn thickness(&self, programs: &[Program], board: &Board, shared: Shared) -> Result<Nm, Failure> {
         if let Some(thickness) = self.thickness {
             return Ok(thickness);
         }
@@ -394,7 +400,15 @@ impl Verify {
             return Ok(board.thickness.unwrap_or(verify::Settings::default().board));
         };
         match declared.iter().find(|(_, other)| *other != thickness) {
-            None => Ok(thickness),
+            None => {
+                if let Some(other) = board.thickness.filter(|other| *other != thickness) {
+                    shared.say(&format!(
+                        "warning: the programs are for a board of {thickness:.3} mm, but its file says {other:.3} mm: \
+                         --thickness says which is right\n"
+                    ));
+                }
+                Ok(thickness)
+            }
             Some((other, otherwise)) => {
                 let cause = format!(
                     "{} is for a board of {thickness:.3} mm, {} for one of {otherwise:.3} mm",
@@ -475,7 +489,7 @@ impl Verify {
         Ok(Program {
             // As it was given: editors and code hosts find the file by it.
             file: path.display().to_string(),
-            text: String::from_utf8_lossy(&bytes).into_owned(),
+            text: text_of(bytes),
             role,
             cutter: self.tool,
             placement: placed.then_some(Placement { degrees, shift, mirror: self.mirror }),

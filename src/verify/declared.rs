@@ -7,11 +7,21 @@ use crate::geometry::{Nm, Vector};
 
 use super::{Cutter, Program, Role};
 
+/// A tool that comments name.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Mounted {
+    /// The line from which on it is in the spindle.
+    pub(super) line: u32,
+    pub(super) cutter: Cutter,
+    /// Its number in the machine's table, where they say that.
+    pub(super) number: Option<u32>,
+}
+
 /// What the comments of a program say.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Declared {
-    /// The tools, each with the line from which it is in the spindle.
-    pub(super) cutters: Vec<(u32, Cutter)>,
+    /// The tools, in the order in which they are mounted.
+    pub(super) mounted: Vec<Mounted>,
     /// What the program is for.
     pub(super) role: Option<Role>,
     /// Where zero is: `lower-left`, `keep`, `center`.
@@ -41,17 +51,19 @@ impl Declared {
     }
 
     fn comment(&mut self, comment: &str, line: u32) {
-        if self.role.is_none() && line == 1 {
+        if self.role.is_none() && line <= TITLE {
             self.role = role(comment);
         }
         let words: Vec<&str> = comment.split_whitespace().collect();
         if comment.contains("tool ")
             && let Some(cutter) = words.iter().rev().find_map(|word| word.parse().ok())
         {
-            self.cutters.push((line, cutter));
+            let number = words.windows(2).filter(|pair| pair[0] == "tool");
+            let number = number.filter_map(|pair| pair[1].strip_suffix(':')?.parse().ok()).next();
+            self.mounted.push(Mounted { line, cutter, number });
         }
         if let Some(cutter) = self.foreign(&words) {
-            self.cutters.push((line, cutter));
+            self.mounted.push(Mounted { line, cutter, number: None });
         }
         match words.as_slice() {
             ["rotate", angle] => {
@@ -126,9 +138,8 @@ pub fn is_isolation(program: &Program) -> bool {
 /// Whether a program says in its title that it probes the surface: it mills nothing.
 #[must_use]
 pub fn declared_probe(text: &str) -> bool {
-    lines(text)
-        .next()
-        .is_some_and(|first| comments(first).iter().any(|title| title.trim().ends_with(" probe")))
+    let probes = |line| comments(line).iter().any(|title| title.trim().ends_with(" probe"));
+    lines(text).take(TITLE as usize).any(probes)
 }
 
 /// The texts of a setting that is a list, each of which may have blanks; none where the program
@@ -172,7 +183,11 @@ pub(super) fn origins(text: &str) -> Vec<(String, String, u32)> {
 /// there are settings.
 const HEADER: usize = 200;
 
-/// The first line names the board and the part.
+/// The title stands in one of so many lines. Chosen: what sends or keeps programs puts some lines
+/// of its own above it.
+const TITLE: u32 = 8;
+
+/// The title names the board and the part.
 fn role(title: &str) -> Option<Role> {
     if title.ends_with(" front isolation") {
         Some(Role::Isolation(Side::Front))
@@ -219,7 +234,7 @@ mod tests {
     fn tools_of_other_programs_are_understood() {
         let tools = |text: &str| -> Vec<(u32, String)> {
             let declared = Declared::read(text);
-            declared.cutters.iter().map(|(line, cutter)| (*line, cutter.to_string())).collect()
+            declared.mounted.iter().map(|tool| (tool.line, tool.cutter.to_string())).collect()
         };
         let flatcam = "(Units: IN)\n(Tool: 1 -> Dia: 0.04)\nT1\nM6\n\
                        (MSG, Change to Tool Dia = 0.0400 ||| Total drills for tool T1 = 5)\nM0\n\
@@ -250,7 +265,7 @@ mod tests {
         assert_eq!(declared.role, Some(Role::Isolation(Side::Back)), "from the title");
         assert_eq!(declared.mirror, Some(Nm::from_um(12_500)), "the axis");
         assert_eq!(declared.origin.as_deref(), Some("lower-left"), "the origin");
-        let lines: Vec<u32> = declared.cutters.iter().map(|(line, _)| *line).collect();
+        let lines: Vec<u32> = declared.mounted.iter().map(|tool| tool.line).collect();
         assert_eq!(lines, [2, 6], "each from its line on");
         assert_eq!(declared_setting(text, "origin").as_deref(), Some("lower-left"), "a setting");
         let long = "(ignore NET-^28D1-K^29 A^2A)\n(ignore gr^C3^B6n)\n(made by x)\n";

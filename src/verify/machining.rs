@@ -3,11 +3,12 @@
 use std::f64::consts::PI;
 
 use crate::board::{Board, Shape, Side};
+use crate::gcode::level;
 use crate::gcode::read::{self, Coded, Dwell, Motion, Note, Stop, Tally, Way};
 use crate::geometry::{Arc, Nm, Point, Vector};
 
 use super::asked::Asked;
-use super::declared::{Declared, declared_setting};
+use super::declared::{Declared, Mounted, declared_setting};
 use super::stream::{Feature, features, taken_at_once};
 use super::{Cutter, CutterKind, Error, Placement, Program, Role, Settings, origin};
 
@@ -16,6 +17,8 @@ use super::{Cutter, CutterKind, Error, Placement, Program, Role, Settings, origi
 pub(super) struct Machining {
     pub(super) file: String,
     pub(super) role: Role,
+    /// Whether it follows the surface as it was probed.
+    pub(super) is_levelled: bool,
     pub(super) placement: Placement,
     /// Who says so; none where nobody does.
     pub(super) zero: Option<Zero>,
@@ -25,6 +28,8 @@ pub(super) struct Machining {
     pub(super) stops: Vec<Stop>,
     /// Its dwells.
     pub(super) dwells: Vec<Dwell>,
+    /// The first line of code behind its end.
+    pub(super) behind_end: Option<u32>,
     /// Whether the spindle turns at its end.
     pub(super) spinning: bool,
     /// With what.
@@ -139,9 +144,9 @@ impl Machining {
         let mut declared = Declared::read(&program.text);
         let point = declared_setting(&program.text, "drill-tip-angle");
         if let Some(degrees) = point.and_then(|angle| angle.strip_suffix("deg")?.parse::<f64>().ok()) {
-            declared.cutters.iter_mut().for_each(|(_, cutter)| *cutter = cutter.pointed(degrees));
+            declared.mounted.iter_mut().for_each(|tool| tool.cutter = tool.cutter.pointed(degrees));
         }
-        let tools = Tools { only: program.cutter, declared: declared.cutters };
+        let tools = Tools { only: program.cutter, declared: declared.mounted };
         let role = match program.role.or(declared.role) {
             Some(role) => role,
             None => {
@@ -162,12 +167,14 @@ impl Machining {
         let mut machining = Self {
             file,
             role,
+            is_levelled: level::is_levelled(&program.text),
             placement,
             zero,
             features: features(&text, &listing),
             motions: listing.motions,
             stops: listing.stops,
             dwells: listing.dwells,
+            behind_end: listing.behind_end,
             spinning: listing.spinning,
             tools,
             notes: listing.notes,
@@ -258,14 +265,29 @@ impl Machining {
 #[derive(Debug)]
 pub(super) struct Tools {
     only: Option<Cutter>,
-    declared: Vec<(u32, Cutter)>,
+    declared: Vec<Mounted>,
 }
 
 impl Tools {
+    /// Whether they are the same in the same order.
+    pub(super) fn are(&self, other: &Self) -> bool {
+        let declared = |tools: &Self| tools.declared.iter().map(|tool| tool.cutter).collect::<Vec<_>>();
+        self.only == other.only && declared(self) == declared(other)
+    }
+
     /// The tool that cuts in `line`.
     pub(super) fn at(&self, line: u32) -> Option<Cutter> {
-        let before = self.declared.partition_point(|(from, _)| *from <= line);
-        self.only.or_else(|| Some(self.declared[before.checked_sub(1)?].1))
+        self.only.or_else(|| Some(self.mounted(line)?.cutter))
+    }
+
+    /// Its number, where comments say it.
+    pub(super) fn number_at(&self, line: u32) -> Option<u32> {
+        self.mounted(line)?.number
+    }
+
+    fn mounted(&self, line: u32) -> Option<&Mounted> {
+        let before = self.declared.partition_point(|tool| tool.line <= line);
+        before.checked_sub(1).map(|last| &self.declared[last])
     }
 }
 

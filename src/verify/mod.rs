@@ -29,6 +29,7 @@
 //!
 //! Checks are listed in [`check::ALL`], a file each.
 
+mod alternatives;
 mod asked;
 mod border;
 mod bores;
@@ -94,6 +95,7 @@ pub use report::{Finding, Judged, Report};
 pub use surface::Surface;
 pub use tiles::Tiles;
 
+use alternatives::Alternatives;
 use bores::Bores;
 use contours::Contours;
 use drilled::Drilled;
@@ -304,7 +306,10 @@ impl Error {
     pub fn hint(&self) -> Words {
         Words::of(match self {
             Self::NoTool { .. } => "set it: {tool} vbit:0.1mm:30deg, or endmill:0.2mm",
-            Self::NoSide(_) | Self::NoCopper { .. } => "set it: {side} front, or back",
+            Self::NoSide(_) => "set it: {side} front, or back",
+            Self::NoCopper { .. } => {
+                "give the board that the program is for, with the copper of that side; if it is for the other side, say so: {side}"
+            }
             Self::Grid(_) => "choose a larger {pixel}",
             Self::Unplaced(_) => "set its placement: {offset}, {mirror-axis}, {rotate}",
             Self::Read { .. } | Self::Range { .. } | Self::NoMotion(_) => "",
@@ -351,26 +356,40 @@ pub fn verify(
         read.par_iter().flat_map_iter(|program| check::motion(program, board, settings)).collect();
     // Nothing else asks for them, and they are as much again as what is cut.
     read.iter_mut().for_each(|machining| machining.motions = Vec::new());
+    for finding in &mut findings {
+        finding.on_machine = on_machine(finding, &read);
+    }
+    let mut report = Report::default();
+    for together in Alternatives::new(read).together() {
+        report.join(judge_together(together, board, known, settings)?);
+    }
+    Ok(report.with(findings))
+}
+
+/// What programs make of a board that are all milled.
+fn judge_together(
+    read: &[Machining],
+    board: &Board,
+    known: &[Known<'_>],
+    settings: &Settings,
+) -> Result<Report, Error> {
     let mut roles: Vec<Role> = read.iter().map(|machining| machining.role).collect();
     roles.sort_unstable();
     roles.dedup();
-    findings.extend(check::whole(&read, board, settings));
+    let mut report = Report { findings: check::whole(read, board, settings), judged: Vec::new() };
     let drills: Vec<&Machining> = read.iter().filter(|machining| machining.role == Role::Drilling).collect();
     let bores = Bores::new(&drills, board);
     let judged: Vec<(Judged, Vec<Finding>)> = roles
         .into_par_iter()
-        .map(|role| judge(role, &read, &bores, board, known, settings))
+        .map(|role| judge(role, read, &bores, board, known, settings))
         .collect::<Result<_, _>>()?;
-    let mut report = Report::default();
     for (judged, found) in judged {
         report.judged.push(judged);
-        findings.extend(found);
+        report.findings.extend(found);
     }
-    for finding in &mut findings {
-        finding.on_machine = on_machine(finding, &read);
+    for finding in &mut report.findings {
+        finding.on_machine = on_machine(finding, read);
     }
-    report.findings = findings;
-    report.sort();
     Ok(report)
 }
 

@@ -41,6 +41,47 @@ fn the_exit_code_of_verify_says_what_was_found() {
     }
 }
 
+/// What sends or keeps programs puts lines of its own above.
+#[test]
+fn the_title_need_not_be_the_first_line() {
+    let folder = TempDir::new().expect("a folder");
+    let text = fs::read_to_string(fixture("loops.nc")).expect("a program");
+    let path = folder.path().join("front.nc").to_string_lossy().into_owned();
+    let board = fixture("pads-F_Cu.gbr");
+    for above in ["", "%\n", "\n(saved by a sender)\nG21\n"] {
+        fs::write(&path, format!("{above}(pads front isolation)\n{text}")).expect("written");
+        let done = voromill(Path::new("."), &["verify", &path, "--board", &board, "--tool", "endmill:0.2mm"]);
+        assert_eq!(done.status.code(), Some(0), "`{above}`: {}{}", stdout(&done), stderr(&done));
+    }
+}
+
+/// One of the two is milled, whichever: what one lacks the other makes up for nowhere.
+#[test]
+fn a_levelled_program_and_its_origin_are_judged_apart() {
+    let folder = TempDir::new().expect("a folder");
+    let text = fs::read_to_string(fixture("loops.nc")).expect("a program");
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::write(&path, text).expect("written");
+        path.to_string_lossy().into_owned()
+    };
+    let levelled = write("front-levelled.nc", &format!("(levelled by voromill 0.1.0)\n{text}"));
+    let shallow = write("front.nc", &text.replace("Z-0.1", "Z-0.01"));
+    let judge = |programs: &[&str]| {
+        let board = fixture("pads-F_Cu.gbr");
+        let fixed = ["--board", &board, "--tool", "endmill:0.2mm", "--side", "front"];
+        let done = voromill(Path::new("."), &[&["verify"], programs, &fixed].concat());
+        (done.status.code(), stdout(&done))
+    };
+    assert_eq!(judge(&[&levelled]).0, Some(0));
+    assert_eq!(judge(&[&shallow]).0, Some(1));
+    let (code, told) = judge(&[&shallow, &levelled]);
+    assert_eq!(code, Some(1), "{told}");
+    assert!(told.contains("[short]"), "{told}");
+    let again = write("again.nc", &text);
+    assert_eq!(judge(&[&again, &levelled]).0, Some(0), "both are good");
+}
+
 #[test]
 fn a_program_says_how_thick_its_board_is_and_a_person_knows_better() {
     let folder = TempDir::new().expect("a folder");

@@ -42,6 +42,9 @@ fn a_feed_that_no_tool_bears_is_told() {
         // A kerf of 0.1 + 2 · 0.1 · tan 15° = 0.1536 mm.
         ("vbit:0.1mm:30deg", "M3 S10000", "1530", "0.1", 0),
         ("vbit:0.1mm:30deg", "M3 S10000", "1540", "0.1", 1),
+        // An eighth of 0.8 mm.
+        ("drill:0.8mm", "M3 S10000", "1000", "0.1", 0),
+        ("drill:0.8mm", "M3 S10000", "1001", "0.1", 1),
         // What nobody tells turns 60 000 times a minute.
         ("endmill:0.8mm", "M3", "24000", "0.1", 0),
         ("endmill:0.8mm", "M3", "24001", "0.1", 1),
@@ -165,6 +168,66 @@ fn a_tool_that_nobody_has_time_to_change_is_told() {
     for change in ["M0\n", "T2 M6\n", "M5\nM0\nM3\n", "T2\nM6\n", "M25\n", "M291 S3\n"] {
         assert_eq!(holes(change), [], "{change}");
     }
+    assert_eq!(holes("T1 M6\n").len(), 2, "the tool that is in, and another number than the comments have");
+    assert_eq!(holes("T3 M6\n").len(), 1, "another number than the comments have");
+}
+
+#[test]
+fn pins_stand_beside_the_board_and_in_what_is_under_it() {
+    let told = |holes: &[(&str, &str, &str)]| {
+        let hole = |(x, y, z): &(&str, &str, &str)| format!("G0 X{x} Y{y}\nG1 Z{z} F60\nG0 Z5\n");
+        let holes: String = holes.iter().map(hole).collect();
+        let text = format!(
+            "(plate alignment)\n(mount tool 1: drill:3mm)\nG21 G90\nM3 S9000\nG0 X9 Y-9\nG0 Z5\n{holes}M5\nM2\n"
+        );
+        let program = Program { file: "pins.ngc".to_owned(), text, ..Program::default() };
+        let report = verify(&[program], &plate(), &[], &Settings::default()).expect("it can be judged");
+        let findings = report.findings.into_iter().filter(|finding| finding.name == "alignment-hole");
+        findings.map(|finding| finding.message).collect::<Vec<_>>()
+    };
+    let other = ("15", "24", "-6");
+    assert_eq!(told(&[("15", "-4", "-6"), other]), [""; 0]);
+    assert_eq!(told(&[("15", "-1.6", "-6"), other]), [""; 0], "a tenth beside the board");
+    assert_eq!(told(&[("15", "-1.4", "-6"), other]), ["an alignment hole reaches into the board"]);
+    assert_eq!(told(&[("15", "9", "-6"), other]), ["an alignment hole reaches into the board"]);
+    assert!(told(&[("15", "-4", "-60"), other])[0].ends_with("into the machine"));
+    assert_eq!(told(&[]), ["it drills no alignment hole"]);
+}
+
+/// Code behind the end is carried out by some controllers; subprograms are where they belong.
+#[test]
+fn code_behind_the_end_is_told() {
+    let behind = |text: &str| {
+        let motions = format!("M3 S10000\nG0 X2 Y2\nG1 Z-1 F60\nG0 Z5\nM5\nM2\n{text}");
+        let found = found("code-after-end", "endmill:0.5mm", &motions);
+        found.iter().map(|finding| finding.line).collect::<Vec<_>>()
+    };
+    // What `found` has behind it retracts.
+    assert_eq!(behind("N9 (a comment)\n%\n"), [Some(12)]);
+    assert_eq!(behind("G0 X5\n"), [Some(9)]);
+    assert_eq!(behind("M30\nM5\n\nO100\nG1 X2\nM99\n"), [], "a subprogram");
+    assert_eq!(behind("o100 sub\nG1 X2\no100 endsub\n"), [], "a subprogram");
+}
+
+#[test]
+fn a_first_rapid_into_the_board_is_told() {
+    let told = |motions: &str| {
+        let text = format!("(plate cutout)\nG21 G90\n{motions}G0 Z5\nM5\nM2\n");
+        let tool = Some("endmill:1mm".parse().expect("a tool"));
+        let program = Program { file: "first.ngc".to_owned(), text, cutter: tool, ..Program::default() };
+        let report = verify(&[program], &plate(), &[], &Settings::default()).expect("it can be judged");
+        let rapids = report.findings.into_iter().filter(|finding| finding.name == "rapid-in-material");
+        rapids.map(|finding| (finding.severity, finding.line)).collect::<Vec<_>>()
+    };
+    let cut = "G1 Z-0.5 F60\nX5\n";
+    assert_eq!(told(&format!("G0 X2 Y2\nG0 Z5\nM3 S9000\n{cut}")), [], "at a height that nobody knows yet");
+    assert_eq!(
+        told(&format!("G0 Z-5\nM3 S9000\nG0 X2 Y2\n{cut}")),
+        [(Severity::Error, Some(3))],
+        "and sideways"
+    );
+    assert_eq!(told(&format!("G0 X2 Y2 Z-0.1\nM3 S9000\n{cut}")), [(Severity::Error, Some(3))]);
+    assert_eq!(told(&format!("G0 Z0.01\nM3 S9000\nG0 X2 Y2\n{cut}")), [(Severity::Warning, Some(5))]);
 }
 
 #[test]
@@ -321,6 +384,11 @@ fn what_a_program_takes_for_granted_of_where_the_machine_stands_is_told() {
     for (lines, line, said) in [
         ("G10 L20 P1 Z0\nG0 Z5\nG0 X0 Y0", 3, by_hand),
         ("G0 Z5\nG0 X0 Y0\nG10 L20 P1 X5", 5, moves),
+        (
+            "G10 L2 P1 Z0\nG0 Z5\nG0 X0 Y0",
+            3,
+            "G10 L2 moves zero, wherever it was set, for the programs that come after, too",
+        ),
         ("G92.3\nG0 Z5\nG0 X0 Y0", 3, "G92.3 moves zero as some program before has left it"),
         (
             "G43.1 Z-5\nG0 Z5\nG0 X0 Y0",

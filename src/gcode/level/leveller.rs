@@ -66,7 +66,7 @@ pub struct Levelled {
 /// by a comment with [`MARK`], that cuts outside the touched area, that goes down before it says
 /// where, or that travels lower than the surface is high.
 pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Levelled, LevelError> {
-    if let Some(at) = text.lines().position(is_mark) {
+    if let Some(at) = lines(text).position(is_mark) {
         return Err(LevelError::Levelled { line: at + 1 });
     }
     let ours = without_unlevelled(text);
@@ -98,6 +98,12 @@ pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Level
         out.push_str(end);
     }
     Ok(Levelled { text: out, safe, ..leveller.done })
+}
+
+/// Whether a program says that it is levelled.
+#[must_use]
+pub fn is_levelled(text: &str) -> bool {
+    lines(text).any(is_mark)
 }
 
 /// Whether a line is the comment of a levelled program.

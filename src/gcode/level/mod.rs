@@ -34,5 +34,5 @@ mod words;
 pub use error::{LevelError, MapError};
 pub use format::{FORMATS, Format, Frame};
 pub use height_map::HeightMap;
-pub use leveller::{Levelled, Levelling, MARK, level};
+pub use leveller::{Levelled, Levelling, MARK, is_levelled, level};
 pub use outlier::Outlier;

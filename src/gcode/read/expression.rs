@@ -72,13 +72,13 @@ impl Parser<'_, '_> {
                 let name = self.name()?;
                 self.scope.parameter(&name).map_err(|reason| before.error(reason))
             }
-            Some(b'-') => {
-                self.code.take(b'-');
-                self.value().map(|value| -value)
-            }
-            Some(b'+') => {
-                self.code.take(b'+');
-                self.value()
+            Some(sign @ (b'-' | b'+')) => {
+                self.code.take(sign);
+                if matches!(self.code.peek(), Some(b'-' | b'+')) {
+                    Err(self.code.error("expected a number behind the sign"))
+                } else {
+                    self.value().map(|value| if sign == b'-' { -value } else { value })
+                }
             }
             Some(b'A'..=b'Z') => self.function(),
             _ => self.number(),

@@ -51,6 +51,7 @@ pub fn read(text: &str) -> Result<Listing, ReadError> {
         }
     }
     flow.finished()?;
+    flow.machine.listing.behind_end = flow.behind_end();
     flow.machine.finish();
     let spinning = flow.machine.is_spinning();
     Ok(Listing { spinning, ..flow.machine.listing })
@@ -446,12 +447,35 @@ impl<'a> Flow<'a> {
     }
 
     /// A text that ends within a subprogram.
+    /// The line of the first code behind the end of the program.
+    fn behind_end(&mut self) -> Option<u32> {
+        let rest = if self.machine.listing.end.is_some() { self.at } else { self.lines.len() };
+        for at in rest..self.lines.len() {
+            let pointer = self.pointer(at);
+            if self.is_over(pointer.source) {
+                return None;
+            }
+            let mut code = Code::new(pointer);
+            if o_word(&mut code).is_some() {
+                return None;
+            }
+            let words = code.take_while(|_| true);
+            if !words.is_empty() && !words.starts_with('%') && !ENDS.contains(&words.as_str()) {
+                return Some(pointer.line);
+            }
+        }
+        None
+    }
+
     fn finished(&self) -> Result<(), ReadError> {
         let open = self.machine.listing.end.is_none() && !self.calls.is_empty();
         let Some(last) = self.lines.len().checked_sub(1).filter(|_| open) else { return Ok(()) };
         Err(self.pointer(last).error(1, "the text ends within a subprogram"))
     }
 }
+
+/// What may stand behind the end: it ends the program once more, or stops what stands already.
+const ENDS: [&str; 7] = ["M0", "M2", "M02", "M5", "M05", "M9", "M30"];
 
 /// Drops the number of a line.
 fn number_of_line(code: &mut Code<'_>) {

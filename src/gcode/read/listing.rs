@@ -115,6 +115,8 @@ pub struct Stop {
     pub line: u32,
     /// Whether that is what its code is for; else nobody here knows it.
     pub known: bool,
+    /// Whether it is to change the tool (M6): for one that is in already controllers do not wait.
+    pub changes: bool,
     /// Whether the spindle turns meanwhile, as far as that is known.
     pub spinning: bool,
 }
@@ -171,6 +173,9 @@ pub struct Listing {
     pub dwells: Vec<Dwell>,
     /// The line that ends it (M2 or M30); none where the text just stops.
     pub end: Option<u32>,
+    /// The line of the first code behind that end, but for what ends it once more and what belongs
+    /// to a subprogram; none where nothing is there.
+    pub behind_end: Option<u32>,
     /// Whether the spindle still turns at the end.
     pub spinning: bool,
     /// What was assumed, in the order of its first occurrence.

@@ -1,8 +1,9 @@
 //! # What it checks
 //!
 //! The holes on whose pins the board is flipped lie beside it, there are at least two of them, and
-//! they go far enough below the board at their full diameter that pins stand in what lies under it.
-//! Flipped about the line that the other programs are mirrored about, each lies on a pin.
+//! they go far enough below the board at their full diameter that pins stand in what lies under it,
+//! and no farther than beds are thick. Flipped about the line that the other programs are mirrored
+//! about, each lies on a pin.
 //!
 //! # Why
 //!
@@ -18,6 +19,7 @@ use crate::board::{Board, FLATTEN};
 use crate::geometry::{Nm, Point, Rect};
 use crate::verify::Settings;
 use crate::verify::cut::Cut;
+use crate::verify::edges::Edges;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
@@ -40,6 +42,10 @@ const NAME: &str = "alignment-hole";
 /// How far a pin stands in what lies under the board, at least. Chosen.
 const STAND: Nm = Nm::from_mm(1);
 
+/// How far below the board a hole goes at most. Chosen: boards to be drilled into are a centimetre
+/// thick or two.
+const DEEP: Nm = Nm::from_mm(15);
+
 /// A hole as it was drilled, or bored.
 struct Drilled<'a> {
     /// What is cut of it, and a place in it.
@@ -48,6 +54,12 @@ struct Drilled<'a> {
     /// How deep it has its full diameter.
     depth: Nm,
     cut: Cut<'a>,
+}
+
+impl Drilled<'_> {
+    fn middle(&self) -> Point {
+        self.around.min().midpoint(self.around.max())
+    }
 }
 
 fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &Settings) -> Vec<Finding> {
@@ -67,11 +79,14 @@ fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &
         }
     }
     let outline = board.outline.as_ref().map(|outline| outline.polygon(FLATTEN));
-    let inside = |at: Point| outline.as_ref().is_some_and(|outline| outline.contains(at));
-    let on_machine = |hole: &Drilled<'_>| {
-        let middle = hole.around.min().midpoint(hole.around.max());
-        hole.cut.program.placement.apply(middle)
+    let edges = Edges::new(outline.as_slice());
+    let inside = |hole: &Drilled<'_>| {
+        let (middle, radius) = (hole.middle(), hole.around.width().to_f64() / 2.0);
+        outline
+            .as_ref()
+            .is_some_and(|outline| outline.contains(middle) || edges.nearest(middle.to_f64()).0 < radius)
     };
+    let on_machine = |hole: &Drilled<'_>| hole.cut.program.placement.apply(hole.middle());
     let pins: Vec<Point> = holes.iter().map(on_machine).collect();
     let mut findings = Vec::new();
     let mut add = |hole: &Drilled<'_>, severity: Severity, message: String, size: Option<Nm>| {
@@ -85,8 +100,8 @@ fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &
     };
     for (hole, pin) in holes.iter().zip(&pins) {
         let below = hole.depth - settings.board;
-        if inside(hole.at) {
-            add(hole, Severity::Error, "an alignment hole lies in the board".to_owned(), None);
+        if inside(hole) {
+            add(hole, Severity::Error, "an alignment hole reaches into the board".to_owned(), None);
         }
         if below < Nm::ZERO {
             let message = "an alignment hole does not go through the board".to_owned();
@@ -94,6 +109,9 @@ fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &
         } else if below < STAND {
             let message = format!("an alignment hole goes {below:.3} mm below the board: a pin falls over");
             add(hole, Severity::Warning, message, Some(below));
+        } else if below > DEEP {
+            let message = format!("an alignment hole goes {below:.3} mm below the board, into the machine");
+            add(hole, Severity::Error, message, Some(below));
         }
         let Some(axis) = mirror else { continue };
         let flipped = Point::new(axis * 2 - pin.x, pin.y);
@@ -106,9 +124,16 @@ fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &
             add(hole, Severity::Error, message, Some(off));
         }
     }
-    if let [only] = holes.as_slice() {
-        let message = "one alignment hole alone does not hold a board that is flipped".to_owned();
-        add(only, Severity::Error, message, None);
+    match holes.as_slice() {
+        [] => findings.extend(programs.iter().map(|program| Finding {
+            program: Some(program.file.clone()),
+            ..Finding::new(NAME, Severity::Error, "it drills no alignment hole".to_owned())
+        })),
+        [only] => {
+            let message = "one alignment hole alone does not hold a board that is flipped".to_owned();
+            add(only, Severity::Error, message, None);
+        }
+        _ => {}
     }
     findings
 }

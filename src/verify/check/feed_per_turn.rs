@@ -1,7 +1,7 @@
 //! # What it checks
 //!
-//! In one turn of the spindle a drill or an end mill goes on by no more than half its width, and a
-//! V-bit by no more than the width that it cuts.
+//! In one turn of the spindle a drill goes on by no more than an eighth of its width, an end mill
+//! by no more than half, and a V-bit by no more than the width that it cuts.
 //!
 //! # Why
 //!
@@ -72,11 +72,13 @@ pub(in crate::verify) fn too_fast(motion: &Motion, cutter: Cutter, depth: Nm) ->
     (step > most(cutter, width)).then(|| (step, message()))
 }
 
-/// How far a tool may go in a turn. Chosen: a cylinder with two teeth takes a quarter of its width
-/// with each, several times what the makers of any allow; in copper V-bits are seen to bear more.
+/// How far a tool may go in a turn. Chosen: an end mill with two teeth takes a quarter of its width
+/// with each, and a drill as a whole an eighth, several times what the makers of any allow; in
+/// copper V-bits are seen to bear more.
 fn most(cutter: Cutter, width: Nm) -> Nm {
     match cutter.kind {
         CutterKind::VBit => width,
-        CutterKind::EndMill | CutterKind::Drill => width / 2,
+        CutterKind::EndMill => width / 2,
+        CutterKind::Drill => width / 8,
     }
 }

@@ -3,6 +3,7 @@
 mod alignment_hole;
 mod board_gouged;
 mod board_left;
+mod code_after_end;
 mod copper_left;
 mod destroyed;
 mod drill_sideways;
@@ -118,6 +119,7 @@ pub const ALL: &[Check] = &[
     pass_too_deep::CHECK,
     drill_sideways::CHECK,
     tool_not_changed::CHECK,
+    code_after_end::CHECK,
     zero_differs::CHECK,
     mirror_image::CHECK,
     outside_stock::CHECK,

@@ -9,12 +9,13 @@
 //!
 //! # What it can miss
 //!
-//! Rapids before the program's first height; clamps and screws, which nobody has told it of.
+//! Rapids at a height that the program has not said; clamps and screws, which nobody has told it
+//! of.
 
 use rustc_hash::FxHashMap;
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
-use crate::gcode::read::{Motion, Way};
+use crate::gcode::read::{Motion, Place, Way};
 use crate::geometry::{Nm, Point};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
@@ -53,12 +54,15 @@ fn check(program: &Machining, clearance: Nm) -> Vec<Finding> {
 
 /// Its size is how deep below the surface it runs, or how much too low above it.
 fn wrong(motion: &Motion, clearance: Nm, hollow: Option<Nm>) -> Option<Wrong> {
-    let (from, to) = (motion.from.z.or(motion.to.z)?, motion.to.z?);
-    let sideways = motion.from.point().is_some() && motion.from.point() != motion.to.point();
-    let low = from.min(to);
+    let to = motion.to.z?;
+    // From a place that nobody knows, or to one, is sideways, and any height below.
+    let across = |place: Place| (place.x, place.y);
+    let sideways = across(motion.from) != across(motion.to);
+    let low = motion.from.z.map_or(to, |from| from.min(to));
+    let goes_down = motion.from.z.is_none_or(|from| to < from);
     let (severity, message, size) = if sideways && low < Nm::ZERO {
         (Severity::Error, format!("a rapid goes sideways {:.3} mm below the surface", -low), -low)
-    } else if to < Nm::ZERO && to < from && hollow.is_none_or(|bottom| to < bottom) {
+    } else if to < Nm::ZERO && goes_down && hollow.is_none_or(|bottom| to < bottom) {
         (Severity::Error, format!("a rapid goes down to {:.3} mm below the surface", -to), -to)
     } else if sideways && low < clearance {
         let message = format!("a rapid goes sideways only {low:.3} mm above the surface");

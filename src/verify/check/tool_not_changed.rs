@@ -1,7 +1,8 @@
 //! # What it checks
 //!
 //! Where a program says in its comments that it goes on with another tool it waits for it (M0), or
-//! changes it (T with M6).
+//! changes it (T with M6), and not for the number of the tool that is in. Where its comments give
+//! the tool a number, too, T has the same.
 //!
 //! # Why
 //!
@@ -39,13 +40,25 @@ fn check(program: &Machining) -> Vec<Finding> {
     let mut last: Option<(Cutter, Option<u32>, usize)> = None;
     for (index, motion) in program.motions.iter().enumerate() {
         let Some(cutter) = cut_depth(motion).and_then(|_| program.tools.at(motion.line)) else { continue };
-        let before = last.replace((cutter, motion.tool, index));
-        let Some((old, number, since)) = before.filter(|(old, ..)| *old != cutter) else { continue };
-        let stops = program.stops.iter().any(|stop| (since + 1..=index).contains(&stop.before));
-        if !stops && number == motion.tool {
-            let message = format!("it goes on with {cutter}, and does not stop for {old} to be taken out");
+        let mut add = |message: String| {
             let wrong = Wrong { severity: Severity::Error, message, size: None };
             findings.push(found(program, NAME, wrong, place(program, motion), motion.line));
+        };
+        let before = last.replace((cutter, motion.tool, index));
+        let since = before.map_or(0, |(.., since)| since + 1);
+        let between = || program.stops.iter().filter(|stop| (since..=index).contains(&stop.before));
+        let told = program.tools.number_at(motion.line).zip(motion.tool);
+        if let Some((told, number)) =
+            told.filter(|(told, number)| told != number && between().any(|stop| stop.changes))
+        {
+            add(format!("its comments say tool {told} for {cutter}, but T{number} is put in"));
+        }
+        let Some((old, number, _)) = before.filter(|(old, ..)| *old != cutter) else { continue };
+        // For the tool that is in already nobody waits.
+        let is_in = number.is_some() && number == motion.tool;
+        let stops = between().any(|stop| !(stop.changes && is_in));
+        if !stops && number == motion.tool {
+            add(format!("it goes on with {cutter}, and does not stop for {old} to be taken out"));
         }
     }
     findings

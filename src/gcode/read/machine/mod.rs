@@ -170,7 +170,8 @@ impl Machine {
         if let Some(waits) = orders.stop {
             let (before, known) = (self.listing.motions.len(), waits == Waits::Surely);
             let spinning = known && !orders.change_tool && self.modal.spinning;
-            self.listing.stops.push(Stop { before, line: run.line(), known, spinning });
+            let changes = orders.change_tool;
+            self.listing.stops.push(Stop { before, line: run.line(), known, changes, spinning });
         }
         if orders.ask == Some(Ask::End) {
             self.listing.end = Some(run.line());

@@ -180,6 +180,8 @@ impl Machine {
             let value = Nm::new(self.scaled(run, word)?);
             self.unit_is_used(run);
             if index(kind.value) == Some(2) {
+                let what = "G10 L2 moves zero, wherever it was set, for the programs that come after, too";
+                self.listing.note(true, run.line(), what);
                 self.axes[axis].set_zero(system, value);
             } else {
                 self.zero_by_hand(run, axis, "G10 L20");
