@@ -5,6 +5,7 @@ use std::process::ExitCode;
 
 use clap::Args;
 use serde::Serialize;
+use voromill::board::diagnostic::planning;
 use voromill::board::{Copper, Diagnostic, FLATTEN, Feature, Side, Warning, polarity};
 use voromill::gcode;
 use voromill::geometry::{Nm, Polygon};
@@ -144,7 +145,7 @@ impl Work {
             refuse_kind(picture, "name the picture .png")?;
         }
         let input = self.input();
-        let settings = self.config.settings(&input)?;
+        let settings = self.config.settings(&input, shared)?;
         let progress = Progress::start(shared);
         let mut stages = Stages::default();
         progress.say("reading");
@@ -164,7 +165,9 @@ impl Work {
         });
         let picture = picture.transpose()?;
         drop(progress);
-        let warnings: Vec<WarningEntry> = made.warnings().iter().map(WarningEntry::from).collect();
+        let stale = self.output.as_deref().and_then(|output| stale(output, made.programs()));
+        let warnings = made.warnings().iter().chain(&stale);
+        let warnings: Vec<WarningEntry> = warnings.map(WarningEntry::from).collect();
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if let Some(output) = &self.output {
             write(output, picture, made.programs())?;
@@ -436,6 +439,21 @@ fn write(output: &Path, picture: Option<(&Path, Vec<u8>)>, programs: &[OneTool])
     staged.commit()
 }
 
+/// What a person must know of programs that are there and not written again: one tool more or less,
+/// and they have other names.
+fn stale(output: &Path, programs: &[OneTool]) -> Option<Warning> {
+    let ours: Vec<PathBuf> = programs.iter().map(|one| tagged(output, &one.tag)).collect();
+    let tags =
+        ["", "flat"].map(str::to_owned).into_iter().chain((1..=MOST_TOOLS).map(|number| number.to_string()));
+    let others = tags.map(|tag| tagged(output, &tag)).filter(|path| !ours.contains(path) && path.is_file());
+    let names: Vec<String> = others.map(|path| name_of(&path)).collect();
+    let message = format!("{} was not written by this run: do not mill it with these", names.join(", "));
+    (!names.is_empty()).then(|| planning::STALE_OUTPUT.warning(message))
+}
+
+/// Programs of so many tools are looked for. Chosen: more than anybody changes for a pocket.
+const MOST_TOOLS: usize = 9;
+
 /// The name with a tag before its ending.
 fn tagged(path: &Path, tag: &str) -> PathBuf {
     if tag.is_empty() {
@@ -463,7 +481,7 @@ fn lettering(words: &str, font: &Path, height: Nm) -> Result<Art, Failure> {
 
 /// Whether a file is a picture.
 fn is_picture(path: &Path) -> Result<bool, Failure> {
-    if !path.is_file() {
+    if path.is_dir() {
         return Ok(false);
     }
     let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;

@@ -6,14 +6,14 @@ use clap::Args;
 use voromill::board::Board;
 use voromill::job::{Error, FILE_NAME, Length, MillProject, Options, Settings, Workbench};
 
-use super::Failure;
 use super::given::{Given, flag};
 use super::input::Input;
+use super::{Failure, Shared};
 
 /// The options of a job, and where to find the rest.
 #[derive(Args)]
 pub(super) struct Config {
-    /// Settings file [default: voromill.toml beside the board, if there]
+    /// Settings file [default: voromill.toml beside the board or else here, if there]
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
 
@@ -22,8 +22,12 @@ pub(super) struct Config {
 }
 
 impl Config {
-    /// The settings for a job: the command line's, then a millproject's, then the file's.
-    pub(super) fn settings(&self, input: &Input) -> Result<Settings, Failure> {
+    /// The settings for a job: the command line's, then a millproject's, then the file's, which is
+    /// named if nobody has named it.
+    pub(super) fn settings(&self, input: &Input, shared: Shared) -> Result<Settings, Failure> {
+        if let Some(found) = Self::unnamed(self.config.as_deref(), &input.paths()) {
+            shared.say(&format!("settings: {}\n", found.display()));
+        }
         self.resolved(input, Options::default())
     }
 
@@ -74,14 +78,18 @@ impl Config {
         })
     }
 
-    /// What the settings file says: the one that was `named`, or one beside `inputs`; nothing where
+    /// What the settings file says: the one that was `named`, or one that is found; nothing where
     /// there is none.
     pub(super) fn found(named: Option<&Path>, inputs: &[PathBuf]) -> Result<Options, Failure> {
-        let file = match named {
-            Some(named) => Some(named.to_path_buf()),
-            None => inputs.iter().map(|input| beside(input)).find(|candidate| candidate.is_file()),
-        };
+        let file = named.map(Path::to_path_buf).or_else(|| Self::unnamed(named, inputs));
         file.map_or_else(|| Ok(Options::default()), |path| read(&path))
+    }
+
+    /// The settings file where none is named: beside `inputs`, or else in the current folder.
+    fn unnamed(named: Option<&Path>, inputs: &[PathBuf]) -> Option<PathBuf> {
+        let beside = inputs.iter().map(|input| beside(input));
+        let mut candidates = beside.chain([PathBuf::from(FILE_NAME)]);
+        candidates.find(|candidate| named.is_none() && candidate.is_file())
     }
 }
 

@@ -144,7 +144,7 @@ impl FromStr for Window {
 
 impl Draw {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
-        let settings = self.config.settings(&self.input)?;
+        let settings = self.config.settings(&self.input, shared)?;
         let loaded = self.input.load(&settings)?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let side = chosen_side(self.side, loaded.board.front.is_some(), loaded.board.back.is_some())?;

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use voromill::job::{DEFAULTS, FILE_NAME};
+use voromill::job::{FILE_NAME, commented_defaults};
 
 use super::{Failure, Shared, output::Output};
 
@@ -21,8 +21,9 @@ pub(super) struct Init {
 
 impl Init {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
+        let text = commented_defaults();
         if self.path == Path::new("-") {
-            return super::print(DEFAULTS);
+            return super::print(&text);
         }
         let path = if self.path.is_dir() { self.path.join(FILE_NAME) } else { self.path };
         if path.exists() && !self.force {
@@ -30,9 +31,9 @@ impl Init {
             return Err(Failure::new(cause, "--force replaces it"));
         }
         let mut output = Output::new();
-        output.stage(&path, DEFAULTS.as_bytes())?;
+        output.stage(&path, text.as_bytes())?;
         output.commit()?;
-        shared.say(&format!("wrote {}: every setting with its default\n", path.display()));
+        shared.say(&format!("wrote {}: every setting with its default, commented out\n", path.display()));
         Ok(())
     }
 }

@@ -55,7 +55,7 @@ pub(super) struct Inspect {
 
 impl Inspect {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
-        let settings = self.config.settings(&self.input)?;
+        let settings = self.config.settings(&self.input, shared)?;
         let loaded = self.input.survey(&settings)?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let mut inspection = inspect(&loaded, &settings);

@@ -44,7 +44,7 @@ pub(super) struct Isolate {
 
 impl Isolate {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
-        let settings = self.config.settings(&self.input)?;
+        let settings = self.config.settings(&self.input, shared)?;
         let progress = Progress::start(shared);
         let mut stages = Stages::default();
         let mut loaded = stages.run("reading", || self.input.load(&settings), |_| [])?;

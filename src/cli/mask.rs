@@ -70,7 +70,7 @@ pub(super) struct Mask {
     #[arg(long, value_name = "NUMBER", value_parser = clap::value_parser!(u32).range(10..=25_400), help_heading = "Mask")]
     dpi: Option<u32>,
 
-    /// Settings file [default: voromill.toml beside the board, if there]
+    /// Settings file [default: voromill.toml beside the board or else here, if there]
     #[arg(long, value_name = "FILE")]
     config: Option<PathBuf>,
 }

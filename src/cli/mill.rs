@@ -26,11 +26,12 @@ use super::{Failure, Shared};
 ///
 /// Reads a folder, a zip archive, single files or a KiCad board, finds the copper of both sides,
 /// the outline and the holes, and writes into OUT, named after the board: NAME-front.ngc and
-/// NAME-back.ngc that isolate the nets (the back mirrored left to right), NAME-drill.ngc,
-/// NAME-cutout.ngc, NAME-front.png and NAME-back.png that show what will be cut, NAME.html to look
-/// at it all in a browser, and NAME.json, which lists them. What an earlier run of the board wrote
-/// there and this one does not is removed. With one copper file alone, that side. The programs are
-/// read back and simulated before anybody mills them: exit code 1 where that finds an error.
+/// NAME-back.ngc that isolate the nets (the back mirrored left to right), NAME-drill.ngc or, where
+/// each tool has a program of its own, NAME-drill-0.8mm.ngc for each, NAME-cutout.ngc,
+/// NAME-front.png and NAME-back.png that show what will be cut, NAME.html to look at it all in a
+/// browser, and NAME.json, which lists them. What an earlier run of the board wrote there and this
+/// one does not is removed. With one copper file alone, that side. The programs are read back and
+/// simulated before anybody mills them: exit code 1 where that finds an error.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Mill {
@@ -46,7 +47,13 @@ pub(super) struct Mill {
     no_verify: bool,
 
     /// Exit code 1 for findings of at least this severity: info, warning or error
-    #[arg(long, value_name = "SEVERITY", default_value = "error", help_heading = "Output")]
+    #[arg(
+        long,
+        value_name = "SEVERITY",
+        default_value = "error",
+        conflicts_with = "no_verify",
+        help_heading = "Output"
+    )]
     deny: Severity,
 
     /// Write NAME-front.svg and NAME-back.svg too: copper, cuts and drills as lines, for documents
@@ -85,7 +92,7 @@ Examples:
 
 impl Mill {
     pub(super) fn run(self, shared: Shared) -> Result<ExitCode, Failure> {
-        let settings = self.config.settings(&self.input)?;
+        let settings = self.config.settings(&self.input, shared)?;
         let progress = Progress::start(shared);
         progress.say("reading");
         let mut stages = Stages::default();

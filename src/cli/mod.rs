@@ -35,6 +35,7 @@ use std::io::{self, IsTerminal, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use voromill::job::Options;
 use voromill::report::stages::Stages;
@@ -130,11 +131,16 @@ pub(crate) fn run() -> ExitCode {
             print_panic(panic);
         }
     }));
+    if let Some(word) = std::env::args().find(|word| ["-out", "-output"].contains(&word.as_str())) {
+        let cause = format!("`{word}` would be read as `-o` with `{}`", &word[2..]);
+        Failure::new(cause, "write -o FOLDER, or --output FOLDER").print();
+        return ExitCode::from(2);
+    }
     // What help says of defaults is worked out where it is shown: most runs show none.
     let read = arguments().try_get_matches().or_else(|_| command().try_get_matches());
     let (cli, matches) = match read.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches))) {
         Ok(read) => read,
-        Err(error) => error.format(&mut command()).exit(),
+        Err(error) => return refuse(error),
     };
     let ready = scope::check(&matches).and_then(|()| cli.shared.start_threads());
     let done = ready.and_then(|()| match cli.command {
@@ -161,6 +167,17 @@ pub(crate) fn run() -> ExitCode {
             ExitCode::from(2)
         }
     }
+}
+
+/// Prints what is wrong with the arguments, or the help that was asked for.
+fn refuse(error: clap::Error) -> ExitCode {
+    let first = std::env::args().nth(1).filter(|first| Path::new(first).exists());
+    if let Some(path) = first.filter(|_| error.kind() == ErrorKind::InvalidSubcommand) {
+        let hint = format!("to mill it: voromill mill {path} -o out; `voromill help` lists the subcommands");
+        Failure::new(format!("`{path}` is a file or a folder, and no subcommand"), hint).print();
+        return ExitCode::from(2);
+    }
+    error.format(&mut command()).exit()
 }
 
 /// The command as it is read: of the subcommands those options are there that one is asked for.

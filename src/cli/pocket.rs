@@ -29,6 +29,7 @@ use super::{Failure, Shared};
 // The strategy of pockets has the name that that of isolation has elsewhere, which means nothing to
 // pockets: it is out of the way.
 #[command(mut_arg("strategy", |isolation| isolation.long("isolation-strategy").hide(true)))]
+#[command(mut_arg("tool", |tool| tool.help(TOOL)))]
 pub(super) struct Pocket {
     #[command(flatten)]
     work: Work,
@@ -88,6 +89,9 @@ enum Strategy {
     Offset,
     Engagement,
 }
+
+const TOOL: &str = "End mill: endmill:DIAMETER or a name (`voromill tools`); of several, between commas, the wider one clears what it \
+                    fits, the finer one the rest [default: none]";
 
 const EXAMPLES: &str = "\
 Examples:

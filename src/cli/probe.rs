@@ -68,7 +68,7 @@ Then, with what the machine has found:
 
 impl Probe {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
-        let settings = self.config.settings(&self.input)?;
+        let settings = self.config.settings(&self.input, shared)?;
         let loaded = self.input.survey(&settings)?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
         let side = Side::from(self.side);

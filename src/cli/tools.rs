@@ -60,7 +60,7 @@ const DEPTHS: [Length; 4] =
 
 impl Tools {
     pub(super) fn run(self, _: Shared) -> Result<(), Failure> {
-        let bench = Workbench::new(Config::found(self.config.as_deref(), &[PathBuf::from(".")])?)?;
+        let bench = Workbench::new(Config::found(self.config.as_deref(), &[])?)?;
         let choices = if self.tools.is_empty() { bench.all() } else { self.tools };
         let depths = if self.depth.is_empty() && self.kerf.is_empty() { DEPTHS.to_vec() } else { self.depth };
         let mut rows = vec![heading(&depths, &self.kerf)];

@@ -12,6 +12,9 @@ pub enum ParseLengthError {
     /// A number without a unit; the hint offers the likely ones.
     #[error("`{0}` has no unit: write `{0}mm`, `{0}mil` or `{0}in`")]
     NoUnit(String),
+    /// A decimal comma.
+    #[error("`{0}` has a decimal comma: write a point, as in `0.2mm`")]
+    Comma(String),
     /// A unit that is not known.
     #[error("`{unit}` is not a unit of length: expected nm, um, mm, cm, mil or in")]
     UnknownUnit {
@@ -52,6 +55,11 @@ pub(crate) fn nanometres(text: &str) -> Result<i64, ParseLengthError> {
         "mil" | "mils" | "thou" => 25_400,
         "in" | "inch" | "\"" => 25_400_000,
         "" => return Err(ParseLengthError::NoUnit(trimmed.to_owned())),
+        other
+            if other.strip_prefix(',').is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit())) =>
+        {
+            return Err(ParseLengthError::Comma(trimmed.to_owned()));
+        }
         other => return Err(ParseLengthError::UnknownUnit { unit: other.to_owned() }),
     };
     let (mantissa, scale) = decimal(number).ok_or_else(|| ParseLengthError::NoNumber(text.to_owned()))?;

@@ -132,7 +132,7 @@ pub(super) fn written(
 ) -> (OneTool, Vec<Warning>) {
     let mut program = Program {
         title: format!("{} {what}", art.name),
-        notes: vec![zero(settings)],
+        notes: vec![zero(settings, "material")],
         safe: settings.safe,
         sections: vec![section],
     };

@@ -2,6 +2,7 @@
 
 use crate::board::diagnostic::planning;
 use crate::board::{Board, Copper, Warning, Words};
+use crate::gcode::dialect::ToolChange;
 use crate::toolpath::Section;
 use crate::topology::{self, NetId, Nets, Pattern, called};
 
@@ -9,7 +10,7 @@ use super::by_net::without_net;
 use super::clearing::Clearing;
 use super::need::Need;
 use super::plain::method;
-use super::{AreaChoice, Options, Settings, Sites, Topology};
+use super::{Options, Settings, Sites, Topology};
 
 impl Settings {
     /// The first of the `given` options that changes nothing beside the other settings, and what to
@@ -37,6 +38,7 @@ impl Settings {
             Need::Tabs => self.tabs.count() != Some(0),
             Need::Frame => self.asked.frame,
             Need::Axes => self.sites != Sites::Copper,
+            Need::Waiting => self.dialect.tool_change != ToolChange::Files,
         }
     }
 }
@@ -88,10 +90,13 @@ impl Clearing {
 /// An `area-off-the-board` for each area to be cleared or kept that does not touch the board.
 pub(super) fn areas(board: &Board, clearing: &Clearing) -> Vec<Warning> {
     let Clearing { areas, kept, .. } = clearing;
-    let is_off = |area: &&AreaChoice| board.bounds().is_some_and(|bounds| !bounds.touches(area.bounds()));
-    let off = areas.iter().chain(kept).filter(is_off);
+    let Some(around) = board.bounds() else { return Vec::new() };
+    let off = areas.iter().chain(kept).filter(|area| !around.touches(area.bounds()));
     off.map(|area| {
-        let message = format!("the area {area} is not on the board");
+        let [(left, bottom), (right, top)] = [around.min(), around.max()].map(|p| (p.x, p.y));
+        let message = format!(
+            "the area {area} is not on the board, which lies in x from {left:.2} to {right:.2} mm, in y from {bottom:.2} to {top:.2} mm"
+        );
         planning::AREA_OFF_THE_BOARD.warning(message).at(area.bounds().min())
     })
     .collect()
@@ -131,6 +136,7 @@ mod tests {
             ("alignment-depth = \"9mm\"", "alignment-holes = \"3mm\""),
             ("tile-spacing = \"3mm\"", "tile = \"2x1\""),
             ("alignment-margin = \"9mm\"", "alignment-holes = \"3mm\""),
+            ("tool-change-at = \"30mm\"", "dialect = \"linuxcnc\""),
         ] {
             let name = alone.split(' ').next();
             assert_eq!(without_effect(alone), name, "{alone}");

@@ -101,7 +101,7 @@ pub use quantity::{
 pub use reach::Reach;
 pub use rivet::rivet;
 pub use settings::Settings;
-pub use settings_file::{DEFAULTS, FILE_NAME};
+pub use settings_file::{DEFAULTS, FILE_NAME, commented_defaults};
 pub use strategy_for::{ParseStrategyForError, StrategyFor};
 pub use tools::{Library, OwnTool, ToolChoice};
 pub use turns::{ParseTurnsError, parse as turns};

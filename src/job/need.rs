@@ -21,6 +21,8 @@ pub(super) enum Need {
     Frame,
     /// Cuts that are midway between axes.
     Axes,
+    /// Programs with several tools.
+    Waiting,
 }
 
 impl Need {
@@ -36,6 +38,7 @@ impl Need {
             Self::Tabs => "set {tabs} too, which is 0 here",
             Self::Frame => "leave {no-frame} out",
             Self::Axes => "set {sites} core too",
+            Self::Waiting => "leave it out: each tool has a file of its own here ({tool-change}, {dialect})",
         }
     }
 }

@@ -332,6 +332,7 @@ macro_rules! job_options {
     /// where it parks]
     #[arg(long, value_name = "X,Y,Z|Z", allow_hyphen_values = true)]
     #[serde(with = "text")]
+    #[needs(Waiting)]
     #[changes(PROGRAMS)]
     pub tool_change_at: Option<ToolChangeAt>,
 

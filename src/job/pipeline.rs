@@ -231,7 +231,7 @@ fn in_files(program: Program, settings: &Settings) -> Vec<Program> {
 fn whole(what: &str, board: &Board, sections: Vec<Section>, settings: &Settings) -> Program {
     Program {
         title: format!("{} {what}", board.name),
-        notes: vec![zero(settings)],
+        notes: vec![zero(settings, "copper")],
         safe: settings.safe,
         sections,
     }

@@ -9,9 +9,19 @@ use super::{Error, Options};
 /// The name it has beside a board.
 pub const FILE_NAME: &str = "voromill.toml";
 
-/// The defaults, as the commented settings file that `voromill init` writes: there is no second
-/// list of them.
+/// The defaults, as a commented settings file: there is no second list of them.
 pub const DEFAULTS: &str = include_str!("defaults.toml");
+
+/// The settings file that `voromill init` writes: the defaults, each behind a `#`, so that it says
+/// nothing until somebody does. What is set wins over what the board or the machine says.
+#[must_use]
+pub fn commented_defaults() -> String {
+    let comment = |line: &str| {
+        let is_set = !line.trim().is_empty() && !line.starts_with('#');
+        if is_set { format!("# {line}\n") } else { format!("{line}\n") }
+    };
+    DEFAULTS.lines().map(comment).collect()
+}
 
 impl Options {
     /// The options that settings text gives. `file` is its name, for errors.
@@ -173,6 +183,18 @@ mod tests {
         for key in Options::keys() {
             assert!(DEFAULTS.contains(&format!("{key} = ")), "`{key}` is missing");
         }
+    }
+
+    #[test]
+    fn what_init_writes_says_nothing_until_a_line_is_uncommented() {
+        let text = commented_defaults();
+        assert_eq!(Options::from_toml("voromill.toml", &text).expect("comments"), Options::default());
+        let is_key = |line: &&str| {
+            line.strip_prefix("# ").is_some_and(|line| DEFAULTS.contains(&format!("\n{line}\n")))
+        };
+        let set: Vec<&str> = text.lines().filter(is_key).map(|line| &line[2..]).collect();
+        let all = Options::from_toml("voromill.toml", &set.join("\n")).expect("lines that were commented");
+        assert_eq!(all, Options::defaults(), "all of them uncommented");
     }
 
     #[test]

@@ -111,7 +111,7 @@ impl Stock {
         let depth = format!("the holes go {below:.1} mm into what lies below the board");
         let program = Program {
             title: format!("{} alignment", board.name),
-            notes: vec![zero(settings), note, depth],
+            notes: vec![zero(settings, "copper"), note, depth],
             safe: settings.drilling.safe,
             sections,
         };
@@ -127,7 +127,7 @@ fn over_all_tiles(rect: Rect, tiling: Option<Tiling>) -> Rect {
 }
 
 /// Where zero is, for whoever sets it.
-pub(super) fn zero(settings: &Settings) -> String {
+pub(super) fn zero(settings: &Settings, top_of: &str) -> String {
     let place = match settings.origin {
         Origin::LowerLeft => "the lower left corner of the board",
         Origin::Keep => "where the files have it",
@@ -140,5 +140,5 @@ pub(super) fn zero(settings: &Settings) -> String {
     } else {
         format!(", less {x:.3} mm and {y:.3} mm")
     };
-    format!("zero: x y {place}{moved}, z the top of the copper")
+    format!("zero: x y {place}{moved}, z the top of the {top_of}")
 }

@@ -3,7 +3,7 @@
 use crate::geometry::{Nm, Point, Rect};
 use crate::grid::{Grid, GridError};
 
-use super::palette::{COPPER, CUT, GROUND, HOLE, INK};
+use super::palette::{COPPER, CUT, GROUND, HOLE, INK, REGION};
 use super::{Canvas, Lettering, picture};
 
 /// Height of a capital as a part of the picture's width, and its limits in pixels. Chosen: legible
@@ -44,7 +44,8 @@ pub fn draw(canvas: &mut Canvas, whole: &Grid, caption: &str) {
     }
     canvas.block([0.0, top, width, height - top], GROUND, 1.0);
     let mut x = letters;
-    for (colour, what) in [(COPPER, "copper"), (CUT, "cut"), (HOLE, "hole")] {
+    let region = (REGION, "clad that stays with its net");
+    for (colour, what) in [(COPPER, "copper"), region, (CUT, "cut"), (HOLE, "hole")] {
         canvas.block([x - 1.0, first - letters - 1.0, letters + 2.0, letters + 2.0], INK, 0.35);
         canvas.block([x, first - letters, letters, letters], colour, 1.0);
         x += letters * 1.7;

@@ -46,6 +46,9 @@ const TINTS: [Rgb; 10] = [
     Rgb(0x4e, 0x5d, 0x70),
 ];
 
+/// What stands in a legend for all of them.
+pub(super) const REGION: Rgb = TINTS[2];
+
 /// A tint for every net of `count`: nets whose regions share a boundary differ.
 #[must_use]
 pub fn tints(count: usize, boundaries: &Boundaries) -> Vec<Rgb> {

@@ -44,7 +44,7 @@ impl PredictionEntry {
             percent => ("shorter", percent),
         };
         format!(
-            "  predicted: Voronoi {:.0} mm, outlines {:.0} mm, {percent:.0} % {way}; the error for Voronoi is {usual:.0} % on half of other boards, {most:.0} % on one in ten\n",
+            "  predicted: Voronoi {:.0} mm, outlines {:.0} mm, {percent:.0} % {way}; for Voronoi off by less than {usual:.0} % on half of other boards, {most:.0} % on nine in ten\n",
             self.voronoi_mm.0.to_mm(),
             self.outline_mm.0.to_mm(),
         )

@@ -18,7 +18,7 @@ pub struct Feed(i64);
 #[non_exhaustive]
 pub enum ParseFeedError {
     /// No `/min` or `/s` after the length.
-    #[error("`{0}` is not a feed: expected a length and a time, such as `200mm/min`")]
+    #[error("`{0}` is not a feed: expected a length and a time, such as `200mm/min` or `8in/min`")]
     NoTime(String),
     /// A time that is not known.
     #[error("`{0}` is not a unit of time: expected min or s")]

@@ -512,9 +512,45 @@ fn init_writes_the_defaults_once() {
     let written = voromill(out.path(), &["init"]);
     assert!(written.status.success(), "{}", stderr(&written));
     let text = fs::read_to_string(out.path().join("voromill.toml")).expect("written");
-    assert_eq!(text, voromill::job::DEFAULTS, "the commented file");
+    assert_eq!(text, voromill::job::commented_defaults(), "the commented file");
     fails(&out, &["init"], &["voromill.toml", "--force"], &["voromill.toml"]);
     assert!(voromill(out.path(), &["init", "--force"]).status.success(), "--force replaces it");
+}
+
+/// The file beside the board comes before that of the folder in which it is run.
+#[test]
+fn the_settings_file_that_was_found_is_named() {
+    let out = folder();
+    fs::create_dir(out.path().join("board")).expect("made");
+    let copper = fs::read(fixture("boards/blinker").join("blinker-B_Cu.gbr")).expect("a fixture");
+    fs::write(out.path().join("board/blinker-B_Cu.gbr"), copper).expect("written");
+    let depth_with = |named: &str| {
+        let done = voromill(out.path(), &["mill", "board", "-o", "out", "--no-verify"]);
+        assert!(done.status.success(), "{}", stderr(&done));
+        let says = stderr(&done).lines().any(|line| line == format!("settings: {named}"));
+        assert_eq!(says, !named.is_empty(), "{}", stderr(&done));
+        let program = fs::read_to_string(out.path().join("out/blinker-back.ngc")).expect("written");
+        program.lines().find(|line| line.starts_with("(depth ")).expect("a depth").to_owned()
+    };
+    assert_eq!(depth_with(""), "(depth 0.1mm)");
+    assert!(voromill(out.path(), &["init"]).status.success());
+    assert_eq!(depth_with("voromill.toml"), "(depth 0.1mm)", "what init writes says nothing");
+    fs::write(out.path().join("voromill.toml"), "depth = \"0.2mm\"\n").expect("written");
+    assert_eq!(depth_with("voromill.toml"), "(depth 0.2mm)");
+    fs::write(out.path().join("board/voromill.toml"), "depth = \"0.15mm\"\n").expect("written");
+    assert_eq!(depth_with("board/voromill.toml"), "(depth 0.15mm)");
+}
+
+#[test]
+fn what_newcomers_type_is_answered_with_what_to_type() {
+    let out = folder();
+    let board = fixture("boards/blinker").to_string_lossy().into_owned();
+    fails(&out, &[&board], &["no subcommand", "voromill mill"], &[]);
+    fails(&out, &["mill", &board, "-out", "x"], &["`-o` with `ut`", "--output"], &[]);
+    let missing = ["carve", "logo.png", "--picture-width", "40mm", "-o", "a.ngc"];
+    fails(&out, &missing, &["logo.png", "no such file"], &[]);
+    let comma = voromill(out.path(), &["mill", &board, "-o", "out", "--depth", "0,1mm"]);
+    assert!(stderr(&comma).contains("decimal comma"), "{}", stderr(&comma));
 }
 
 #[test]
