@@ -12,8 +12,8 @@ use super::effort::Effort;
 use crate::board::polarity::{self, TooMuch};
 use crate::geometry::{Polygon, RectIndex};
 
-/// What one boolean works out whatever it is of, in vertices. Chosen: a second or two.
-const LITTLE: u64 = 1_000_000;
+/// What one boolean works out whatever it is of, in vertices. Chosen: less than a second.
+const LITTLE: u64 = 250_000;
 
 /// What `polygons`, each simple, cover, one for each connected piece: by one boolean, unless edges
 /// that cross are most of a large one.
