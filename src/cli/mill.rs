@@ -47,13 +47,7 @@ pub(super) struct Mill {
     no_verify: bool,
 
     /// Exit code 1 for findings of at least this severity: info, warning or error
-    #[arg(
-        long,
-        value_name = "SEVERITY",
-        default_value = "error",
-        conflicts_with = "no_verify",
-        help_heading = "Output"
-    )]
+    #[arg(long, value_name = "SEVERITY", default_value = "error", help_heading = "Output")]
     deny: Severity,
 
     /// Write NAME-front.svg and NAME-back.svg too: copper, cuts and drills as lines, for documents

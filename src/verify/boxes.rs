@@ -25,11 +25,11 @@ impl<S: Clone> Tree<S> {
     /// Boxes, numbered as they come, each as left, bottom, right and top, with what is known of it;
     /// `both` is what is known of two together. None where there is no box.
     pub(super) fn new(
-        all: impl ExactSizeIterator<Item = ([f64; 4], S)>,
+        all: impl ExactSizeIterator<Item = ([f64; 4], S)> + Clone,
         both: impl Fn(S, S) -> S,
     ) -> Option<Self> {
-        let (bounds, of): (Vec<[f64; 4]>, Vec<S>) = all.unzip();
-        let index = boxes(bounds.into_iter()).filter(|index| index.count() > 0)?;
+        let index = boxes(all.clone().map(|(bounds, _)| bounds)).filter(|index| index.count() > 0)?;
+        let of: Vec<S> = all.map(|(_, of)| of).collect();
         let mut known: Vec<S> = Vec::with_capacity(index.all_boxes().len());
         for (node, &number) in index.all_box_indices().iter().enumerate() {
             let parts = (node >= index.count()).then(|| &known[children(&index, node)]);

@@ -37,8 +37,8 @@ const SPECK: f64 = 1e-4;
 /// spikes of some nanometres at corners with edges as short.
 const SPIKE: Nm = Nm::from_um(1);
 
-/// Arcs become chords within this of them. Chosen: far below what is tolerated.
-const CHORD: Nm = Nm::new(100);
+/// Arcs become chords within this of them. Chosen: a tenth of [`SLACK`].
+const CHORD: Nm = Nm::new(500);
 
 /// What tools can clear of a sheet, and what they do.
 pub(super) struct Cleared<'a> {

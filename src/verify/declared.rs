@@ -94,6 +94,8 @@ impl Declared {
                 self.are_inches = unit.eq_ignore_ascii_case("in");
                 None
             }
+            // What its programs for one tool have, which cuts so wide at its depth.
+            ["TOOL", "DIAMETER:", diameter, unit] => made("endmill", diameter, &unit.to_lowercase()),
             ["MSG,", "Change", "to", "Tool", "Dia", "=", diameter, rest @ ..] => {
                 let unit = if self.are_inches { "in" } else { "mm" };
                 let kind = if rest.contains(&"drills") { "drill" } else { "endmill" };
@@ -241,6 +243,9 @@ mod tests {
                        (MSG, Change to Tool Dia = 0.1000)\nM0\n";
         let found = tools(flatcam);
         assert_eq!(found, [(5, "drill:1.016mm".to_owned()), (7, "endmill:2.54mm".to_owned())], "FlatCAM's");
+        let one = "(Units: MM)\n(TOOL DIAMETER: 0.2155 mm)\n(TOOL DIAMETER: 0.01 IN)\n";
+        let found = tools(one);
+        assert_eq!(found, [(2, "endmill:0.2155mm".to_owned()), (3, "endmill:0.254mm".to_owned())]);
         let drilled = "(MSG, Change tool bit to drill size 0.04inch)\nM6\n\
                        (MSG, Change tool bit to drill size 1.30000mm)\n";
         let found = tools(drilled);

@@ -89,14 +89,23 @@ impl Sweeps {
     pub(super) fn new(mut sweeps: Vec<Sweep>) -> Self {
         sweeps.sort_by(|a, b| b.depth.total_cmp(&a.depth));
         let fewest = FEWEST.max(sweeps.len() / MOST_GROUPS);
-        let mut groups: Vec<Vec<Sweep>> = Vec::new();
+        // Where each group begins.
+        let mut starts: Vec<usize> = Vec::new();
+        let mut next = 0;
         for level in sweeps.chunk_by(|a, b| a.depth.total_cmp(&b.depth).is_eq()) {
-            match groups.last_mut().filter(|group| group.len() < fewest) {
-                Some(group) => group.extend_from_slice(level),
-                None => groups.push(level.to_vec()),
+            if starts.last().is_none_or(|start| next - start >= fewest) {
+                starts.push(next);
             }
+            next += level.len();
         }
-        Self { groups: groups.into_iter().map(Group::new).collect() }
+        let mut groups: Vec<Group> = Vec::with_capacity(starts.len());
+        for start in starts.into_iter().rev() {
+            let mut group = sweeps.split_off(start);
+            group.shrink_to_fit();
+            groups.push(Group::new(group));
+        }
+        groups.reverse();
+        Self { groups }
     }
 
     /// Those of which some are no less deep than `least`.
