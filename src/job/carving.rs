@@ -327,8 +327,10 @@ fn shape_warnings(
     }
     if let Some(most) = how.max_depth.filter(|_| how.flat.is_none()) {
         let reach = reach_of(tool, most - how.start());
-        let is_wide = axis.widest() > reach.to_f64();
-        let wide = if is_wide { insets(areas, reach) } else { Vec::new() };
+        // Along the walls its tip clears as far again as it is wide.
+        let cleared = if how.inlay.is_some() { reach } else { reach + tip / 2 };
+        let is_wide = axis.widest() > cleared.to_f64();
+        let wide = if is_wide { insets(areas, cleared) } else { Vec::new() };
         let area: f64 = wide.iter().map(Polygon::area_mm2).sum();
         if area > LEAST_WIDE && how.inlay.is_some() {
             let left = format!("{area:.2} mm² are farther from the edge than {reach:.3} mm");
@@ -337,7 +339,7 @@ fn shape_warnings(
         }
         if area > LEAST_WIDE {
             let message = format!(
-                "{area:.2} mm² are farther from the edge than the {reach:.3} mm that the tool cuts to either side at {most:.3} mm: there it cuts the walls alone"
+                "{area:.2} mm² are farther from the edge than the {cleared:.3} mm that the tool clears beside it at {most:.3} mm: they are left between the walls"
             );
             warnings.push(planning::WIDE_PLACE_LEFT.warning(message));
         }

@@ -29,7 +29,6 @@
 //!
 //! Checks are listed in [`check::ALL`], a file each.
 
-mod alternatives;
 mod asked;
 mod border;
 mod bores;
@@ -49,6 +48,7 @@ mod exact;
 mod flood;
 mod hit;
 mod interior;
+mod levelled;
 mod loss;
 mod machining;
 mod milled;
@@ -95,7 +95,6 @@ pub use report::{Finding, Judged, Report};
 pub use surface::Surface;
 pub use tiles::Tiles;
 
-use alternatives::Alternatives;
 use bores::Bores;
 use contours::Contours;
 use drilled::Drilled;
@@ -328,7 +327,8 @@ pub struct Known<'a> {
 
 /// Mills `board` with `programs` and says what is wrong with them.
 ///
-/// Programs for the same side are milled one after another, into the same copper.
+/// Programs for the same side are milled one after another, into the same copper. Of one that is
+/// levelled and the one that it was made of the latter is judged.
 ///
 /// # Errors
 ///
@@ -356,40 +356,27 @@ pub fn verify(
         read.par_iter().flat_map_iter(|program| check::motion(program, board, settings)).collect();
     // Nothing else asks for them, and they are as much again as what is cut.
     read.iter_mut().for_each(|machining| machining.motions = Vec::new());
-    for finding in &mut findings {
-        finding.on_machine = on_machine(finding, &read);
-    }
-    let mut report = Report::default();
-    for together in Alternatives::new(read).together() {
-        report.join(judge_together(together, board, known, settings)?);
-    }
-    Ok(report.with(findings))
-}
-
-/// What programs make of a board that are all milled.
-fn judge_together(
-    read: &[Machining],
-    board: &Board,
-    known: &[Known<'_>],
-    settings: &Settings,
-) -> Result<Report, Error> {
+    findings.extend(levelled::set_aside(&mut read, programs));
     let mut roles: Vec<Role> = read.iter().map(|machining| machining.role).collect();
     roles.sort_unstable();
     roles.dedup();
-    let mut report = Report { findings: check::whole(read, board, settings), judged: Vec::new() };
+    findings.extend(check::whole(&read, board, settings));
     let drills: Vec<&Machining> = read.iter().filter(|machining| machining.role == Role::Drilling).collect();
     let bores = Bores::new(&drills, board);
     let judged: Vec<(Judged, Vec<Finding>)> = roles
         .into_par_iter()
-        .map(|role| judge(role, read, &bores, board, known, settings))
+        .map(|role| judge(role, &read, &bores, board, known, settings))
         .collect::<Result<_, _>>()?;
+    let mut report = Report::default();
     for (judged, found) in judged {
         report.judged.push(judged);
-        report.findings.extend(found);
+        findings.extend(found);
     }
-    for finding in &mut report.findings {
-        finding.on_machine = on_machine(finding, read);
+    for finding in &mut findings {
+        finding.on_machine = on_machine(finding, &read);
     }
+    report.findings = findings;
+    report.sort();
     Ok(report)
 }
 

@@ -100,16 +100,6 @@ impl Report {
         self
     }
 
-    /// Takes what `other` has and this lacks.
-    pub(super) fn join(&mut self, other: Self) {
-        let more: Vec<Finding> =
-            other.findings.into_iter().filter(|finding| !self.findings.contains(finding)).collect();
-        self.findings.extend(more);
-        let judged: Vec<Judged> =
-            other.judged.into_iter().filter(|judged| !self.judged.contains(judged)).collect();
-        self.judged.extend(judged);
-    }
-
     /// The worst first, then by name, place and line.
     pub(super) fn sort(&mut self) {
         self.findings.sort_by(|a, b| {

@@ -270,6 +270,21 @@ fn walls_of_wide_places_are_cut_without_an_end_mill() {
 }
 
 #[test]
+fn how_a_program_ends_is_looked_at() {
+    let made = engraving("I", letters("I"), "vbit:0.1mm:60deg", &HOW);
+    let told = |text: &str| -> Vec<&str> {
+        let judged = made.judge(&[("ends.ngc", text)], PITCH).expect("a program");
+        judged.findings.iter().map(|found| found.name).collect()
+    };
+    let text = &made.programs[0].text;
+    assert_eq!(told(text), [""; 0]);
+    assert_eq!(told(&format!("{text}G0 Z-3\n")), ["code-after-end"]);
+    assert_eq!(told(&text.replace("M5\nM2\n", "")), ["spindle-left-on"]);
+    let (cut, _) = text.rsplit_once("G0 Z2\n").expect("a last retract");
+    assert_eq!(told(&format!("{cut}M5\nM2\n")), ["tool-left-down"]);
+}
+
+#[test]
 fn a_deep_pass_is_warned_of() {
     let side = Nm::from_mm(10);
     let square = || vec![Polygon::rectangle(Rect::new(Point::default(), Point::new(side, side)))];

@@ -55,31 +55,32 @@ fn the_title_need_not_be_the_first_line() {
     }
 }
 
-/// One of the two is milled, whichever: what one lacks the other makes up for nowhere.
+/// A levelled program follows a surface that nobody knows here: what it was made of is judged.
 #[test]
-fn a_levelled_program_and_its_origin_are_judged_apart() {
+fn of_a_levelled_program_its_origin_is_judged() {
     let folder = TempDir::new().expect("a folder");
-    let text = fs::read_to_string(fixture("loops.nc")).expect("a program");
+    let text = format!("(loops)\n{}", fs::read_to_string(fixture("loops.nc")).expect("a program"));
     let write = |name: &str, text: &str| {
         let path = folder.path().join(name);
         fs::write(&path, text).expect("written");
         path.to_string_lossy().into_owned()
     };
-    let levelled = write("front-levelled.nc", &format!("(levelled by voromill 0.1.0)\n{text}"));
-    let shallow = write("front.nc", &text.replace("Z-0.1", "Z-0.01"));
     let judge = |programs: &[&str]| {
         let board = fixture("pads-F_Cu.gbr");
         let fixed = ["--board", &board, "--tool", "endmill:0.2mm", "--side", "front"];
         let done = voromill(Path::new("."), &[&["verify"], programs, &fixed].concat());
         (done.status.code(), stdout(&done))
     };
-    assert_eq!(judge(&[&levelled]).0, Some(0));
-    assert_eq!(judge(&[&shallow]).0, Some(1));
-    let (code, told) = judge(&[&shallow, &levelled]);
-    assert_eq!(code, Some(1), "{told}");
-    assert!(told.contains("[short]"), "{told}");
-    let again = write("again.nc", &text);
-    assert_eq!(judge(&[&again, &levelled]).0, Some(0), "both are good");
+    let shallow = text.replace("Z-0.1", "Z-0.01");
+    let (good, bad) = (write("good.nc", &text), write("bad.nc", &shallow));
+    let level = |name: &str, text: &str| write(name, &format!("(levelled by voromill 0.1.0)\n{text}"));
+    let (deep, high) = (level("deep.nc", &text), level("high.nc", &shallow));
+    assert_eq!(judge(&[&good, &high]).0, Some(0), "along a surface that lies lower it is as deep");
+    let (code, told) = judge(&[&bad, &deep]);
+    assert_eq!((code, told.contains("[short]")), (Some(1), true), "what one lacks the other has not: {told}");
+    assert_eq!(judge(&[&high]).0, Some(1), "alone it is judged as along a flat one");
+    let (code, told) = judge(&[&good, &level("old.nc", &text.replace("(loops)", "(other loops)"))]);
+    assert_eq!((code, told.contains("[revision]")), (Some(0), true), "of another program: {told}");
 }
 
 #[test]

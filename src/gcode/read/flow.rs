@@ -475,7 +475,7 @@ impl<'a> Flow<'a> {
 }
 
 /// What may stand behind the end: it ends the program once more, or stops what stands already.
-const ENDS: [&str; 7] = ["M0", "M2", "M02", "M5", "M05", "M9", "M30"];
+const ENDS: [&str; 8] = ["M0", "M2", "M02", "M5", "M05", "M9", "M09", "M30"];
 
 /// Drops the number of a line.
 fn number_of_line(code: &mut Code<'_>) {

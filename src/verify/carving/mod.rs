@@ -170,6 +170,17 @@ fn harm_of(listing: &Listing, cutter: Cutter) -> Vec<Finding> {
             say(&check::FEED_PER_TURN, &message, motion.line, at);
         }
     }
+    if let Some(line) = listing.behind_end {
+        say(&check::CODE_AFTER_END, "it goes on behind its end: what follows was not judged", line, None);
+    }
+    if let Some(last) = listing.motions.last() {
+        if last.to.z.is_some_and(|z| z < Nm::ZERO) {
+            say(&check::TOOL_LEFT_DOWN, "it ends with the tool in the material", last.line, last.to.point());
+        }
+        if listing.spinning {
+            say(&check::SPINDLE_LEFT_ON, "it ends with the spindle on", last.line, None);
+        }
+    }
     findings
 }
 

@@ -42,8 +42,8 @@ const NAME: &str = "alignment-hole";
 /// How far a pin stands in what lies under the board, at least. Chosen.
 const STAND: Nm = Nm::from_mm(1);
 
-/// How far below the board a hole goes at most. Chosen: boards to be drilled into are a centimetre
-/// thick or two.
+/// A hole that goes farther below the board is told. Chosen: boards to be drilled into are one to
+/// two centimetres thick.
 const DEEP: Nm = Nm::from_mm(15);
 
 /// A hole as it was drilled, or bored.
@@ -111,7 +111,7 @@ fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &
             add(hole, Severity::Warning, message, Some(below));
         } else if below > DEEP {
             let message = format!("an alignment hole goes {below:.3} mm below the board, into the machine");
-            add(hole, Severity::Error, message, Some(below));
+            add(hole, Severity::Warning, message, Some(below));
         }
         let Some(axis) = mirror else { continue };
         let flipped = Point::new(axis * 2 - pin.x, pin.y);

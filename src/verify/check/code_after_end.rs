@@ -22,7 +22,7 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
-const KIND: Diagnostic = Diagnostic {
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,

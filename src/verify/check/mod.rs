@@ -46,6 +46,7 @@ mod unclear;
 mod word_not_taken;
 mod zero_differs;
 
+pub(super) use code_after_end::KIND as CODE_AFTER_END;
 pub(super) use feed_missing::KIND as FEED_MISSING;
 pub(super) use feed_per_turn::{KIND as FEED_PER_TURN, too_fast};
 pub use gouge::KIND as GOUGE;
@@ -53,6 +54,9 @@ pub(super) use overtravel::of_text as overtravel;
 pub(super) use pass_too_deep::{KIND as PASS_TOO_DEEP, MOST as MOST_DIAMETERS};
 pub(super) use plunge_spindle_off::KIND as PLUNGE_SPINDLE_OFF;
 pub(super) use rapid_in_material::KIND as RAPID_IN_MATERIAL;
+pub(super) use revision::KIND as REVISION;
+pub(super) use spindle_left_on::KIND as SPINDLE_LEFT_ON;
+pub(super) use tool_left_down::KIND as TOOL_LEFT_DOWN;
 
 use rustc_hash::FxHashMap;
 

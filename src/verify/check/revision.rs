@@ -22,7 +22,7 @@ use crate::verify::declared::origins;
 use crate::verify::report::Finding;
 use crate::verify::{Input, Program};
 
-const KIND: Diagnostic = Diagnostic {
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,

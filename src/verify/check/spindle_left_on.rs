@@ -20,7 +20,7 @@ use crate::gcode::read::{Place, Stop};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
-const KIND: Diagnostic = Diagnostic {
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,

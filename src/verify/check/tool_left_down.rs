@@ -17,7 +17,7 @@ use crate::geometry::Nm;
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 
-const KIND: Diagnostic = Diagnostic {
+pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,

@@ -369,6 +369,10 @@ impl Judge<'_> {
     /// What the first tool bears.
     fn engagement(&mut self, steps: &[Step], swept: &Swept) {
         let (Some(target), Some(first)) = (self.floor.engagement, self.programs.first()) else { return };
+        // A program for somewhere else is wrong whatever the tool bears there.
+        if self.pocketed.overcut > first.cutter.tip.to_f64() {
+            return;
+        }
         let passes = self.floor.step.map_or(1.0, |step| (self.floor.depth.to_f64() / step.to_f64()).ceil());
         let stretch = |step: &Step| {
             let Step { ends, depths, line, order, .. } = *step;
