@@ -347,7 +347,10 @@ impl Judge<'_> {
         let Some(Plunges { levels, layered, passes }) = self.floor.plunges else { return };
         let first = listings.first().map_or(0, |(listing, _)| count(listing));
         let made = (first / passes.max(1)).saturating_sub(layered);
-        let maxima = (needed(self.floor.areas, levels, made) + layered) * passes;
+        // Each piece that the tool fits into needs one, however often its width rises and falls.
+        let pieces = pieces(self.floor.areas, levels);
+        let least = if made <= pieces { pieces } else { needed(self.floor.areas, levels, made) };
+        let maxima = (least + layered) * passes;
         self.pocketed.maxima = Some(maxima);
         if first > maxima {
             let message = format!(
@@ -476,15 +479,10 @@ const BESIDE_LEVEL: [f64; 2] = [30.0, 300.0];
 
 /// How often the tool need come down, which did so `made` times in a pass.
 fn needed(areas: &[Polygon], levels: &[f64], made: usize) -> usize {
-    // Each piece that the tool fits into needs one, however often its width rises and falls.
-    let fits = |area: &Polygon| offset(area, -Nm::from_f64(levels[0]), FINE).len();
-    let pieces = if levels.is_empty() { 0 } else { areas.par_iter().map(fits).sum() };
-    if made <= pieces {
-        return pieces;
-    }
-    // Two ways of counting that agree with the program are enough; else the exact one decides.
+    // Two ways of counting that agree with the program are enough; else the exact one decides,
+    // unless no program comes down less often.
     let stepped = maxima_by_steps(areas, levels);
-    if stepped == made {
+    if stepped == made || made == 0 {
         return stepped;
     }
     let exact = maxima(areas, levels);
@@ -501,6 +499,12 @@ fn needed(areas: &[Polygon], levels: &[f64], made: usize) -> usize {
         }
     }
     exact
+}
+
+/// How many pieces of areas there are at the first level.
+fn pieces(areas: &[Polygon], levels: &[f64]) -> usize {
+    let Some(&first) = levels.first() else { return 0 };
+    areas.par_iter().map(|area| offset(area, -Nm::from_f64(first), FINE).len()).sum()
 }
 
 /// How many pieces of areas, offset inwards to rising levels, have none of the next level in them.
