@@ -131,7 +131,9 @@ pub(crate) fn run() -> ExitCode {
             print_panic(panic);
         }
     }));
-    if let Some(word) = std::env::args().find(|word| ["-out", "-output"].contains(&word.as_str())) {
+    let given: Vec<String> =
+        std::env::args_os().map(|argument| argument.to_string_lossy().into_owned()).collect();
+    if let Some(word) = given.iter().find(|word| ["-out", "-output"].contains(&word.as_str())) {
         let cause = format!("`{word}` would be read as `-o` with `{}`", &word[2..]);
         Failure::new(cause, "write -o FOLDER, or --output FOLDER").print();
         return ExitCode::from(2);
@@ -140,7 +142,7 @@ pub(crate) fn run() -> ExitCode {
     let read = arguments().try_get_matches().or_else(|_| command().try_get_matches());
     let (cli, matches) = match read.and_then(|matches| Ok((Cli::from_arg_matches(&matches)?, matches))) {
         Ok(read) => read,
-        Err(error) => return refuse(error),
+        Err(error) => return refuse(error, given.get(1)),
     };
     let ready = scope::check(&matches).and_then(|()| cli.shared.start_threads());
     let done = ready.and_then(|()| match cli.command {
@@ -170,9 +172,9 @@ pub(crate) fn run() -> ExitCode {
 }
 
 /// Prints what is wrong with the arguments, or the help that was asked for.
-fn refuse(error: clap::Error) -> ExitCode {
-    let first = std::env::args().nth(1).filter(|first| Path::new(first).exists());
-    if let Some(path) = first.filter(|_| error.kind() == ErrorKind::InvalidSubcommand) {
+fn refuse(error: clap::Error, first: Option<&String>) -> ExitCode {
+    let is_path = |first: &&String| Path::new(first).exists();
+    if let Some(path) = first.filter(is_path).filter(|_| error.kind() == ErrorKind::InvalidSubcommand) {
         let hint = format!("to mill it: voromill mill {path} -o out; `voromill help` lists the subcommands");
         Failure::new(format!("`{path}` is a file or a folder, and no subcommand"), hint).print();
         return ExitCode::from(2);

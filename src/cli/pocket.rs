@@ -90,8 +90,9 @@ enum Strategy {
     Engagement,
 }
 
-const TOOL: &str = "End mill: endmill:DIAMETER or a name (`voromill tools`); of several, between commas, the wider one clears what it \
-                    fits, the finer one the rest [default: none]";
+/// Help of the tool: that of isolation speaks of V-bits.
+const TOOL: &str = "End mill: endmill:DIAMETER or a name (`voromill tools`); of several, between commas, the \
+                    wider one clears what it fits, the finer one the rest [default: none]";
 
 const EXAMPLES: &str = "\
 Examples:
