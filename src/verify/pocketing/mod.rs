@@ -21,7 +21,7 @@ use rayon::prelude::*;
 
 use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
-use crate::board::{Diagnostic, Severity};
+use crate::board::{Diagnostic, FLATTEN, Severity};
 use crate::gcode::read::{Listing, Motion};
 use crate::geometry::{Nm, Point, Polygon, coarse};
 
@@ -104,9 +104,9 @@ const SPECK: f64 = 1e-3;
 /// Arcs become chords within this of them. Chosen: a tenth of what is tolerated.
 const CHORD: Nm = Nm::new(400);
 
-/// How far chords of arcs lie from them where it is worked out what a tool reaches: back out from
-/// where it fits all that were made in a corner cross each other. Chosen: a quarter of what is
-/// tolerated.
+/// How far within arcs their chords lie where it is worked out what a tool reaches from where it
+/// fits. Chosen: a quarter of what is tolerated; where it fits is worked out more closely, as necks
+/// as wide as the tool are passed or not.
 const ROUND: Nm = Nm::from_um(1);
 
 /// Heights that differ by less are one, in nanometres: the last digit of a program, and rounding.
@@ -317,11 +317,11 @@ impl Judge<'_> {
     fn residue(&mut self, sweeps: &Sweeps) {
         let radius = self.programs.iter().map(|program| program.cutter.tip / 2).min().unwrap_or(Nm::ZERO);
         let (reach, tolerance) = (radius - self.floor.within, self.floor.tolerance);
-        let offsets = |areas: &[Polygon], by: Nm| -> Vec<Polygon> {
-            areas.par_iter().flat_map_iter(|area| offset(area, by, ROUND)).collect()
+        let offsets = |areas: &[Polygon], by: Nm, chord: Nm| -> Vec<Polygon> {
+            areas.par_iter().flat_map_iter(|area| offset(area, by, chord)).collect()
         };
-        let fits = offsets(self.floor.areas, -reach);
-        let wide = |by: Nm| offsets(&fits, by);
+        let fits = offsets(self.floor.areas, -reach, FLATTEN);
+        let wide = |by: Nm| offsets(&fits, by, ROUND);
         let area = |polygons: &[Polygon]| polygons.iter().map(Polygon::area_mm2).sum::<f64>();
         self.pocketed.reachable_mm2 = area(&crate::board::polarity::union(&wide(reach)));
         self.pocketed.unreachable_mm2 = area(self.floor.areas) - self.pocketed.reachable_mm2;
