@@ -1,9 +1,12 @@
 //! The union of shapes that overlap, in halves by place.
 //!
+//! Of shapes that lie on each other edges cross as often as there are pairs of shapes. What two
+//! halves of them cover has few edges left to cross: those within are gone.
+//!
 //! ```text
-//!  ╭───╮             ╭───╮            Of n shapes that lie on each other as many pairs of edges cross as there are pairs of
-//!  │ ╭─┼─╮   ╭───╮   │   ╰─╮          shapes. What two halves of them cover has few edges left to cross: those within are
-//!  ╰─┼─╯ │ ∪ │ ╭─┼─╮ ╰─╮   │ …        gone.
+//!  ╭───╮             ╭───╮
+//!  │ ╭─┼─╮   ╭───╮   │   ╰─╮
+//!  ╰─┼─╯ │ ∪ │ ╭─┼─╮ ╰─╮   │ …
 //!    ╰───╯   ╰─┼─╯ │   ╰───╯
 //!              ╰───╯
 //! ```
